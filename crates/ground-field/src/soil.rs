@@ -1,0 +1,208 @@
+//! What the ground is made of: elastic layers on a half-space or on rock.
+
+use crate::GroundError;
+use crate::error::checked;
+
+const MODULUS_ALLOWED: &str = "finite and positive";
+const POISSON_ALLOWED: &str = "between 0 and 0.5, both included";
+
+/// An isotropic linear elastic material.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Soil {
+    young_modulus: f64,
+    poisson_ratio: f64,
+}
+
+impl Soil {
+    /// A soil with Young's modulus \[Pa\] and Poisson's ratio.
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::InvalidParameter`] unless the modulus is positive and the ratio in \[0, 0.5\].
+    pub fn new(young_modulus: f64, poisson_ratio: f64) -> Result<Self, GroundError> {
+        Ok(Self {
+            young_modulus: checked("young_modulus", young_modulus, MODULUS_ALLOWED, |v| v > 0.0)?,
+            poisson_ratio: checked("poisson_ratio", poisson_ratio, POISSON_ALLOWED, |v| {
+                (0.0..=0.5).contains(&v)
+            })?,
+        })
+    }
+
+    /// Young's modulus E \[Pa\].
+    pub fn young_modulus(self) -> f64 {
+        self.young_modulus
+    }
+
+    /// Poisson's ratio ν.
+    pub fn poisson_ratio(self) -> f64 {
+        self.poisson_ratio
+    }
+
+    /// Shear modulus μ = E / (2 (1 + ν)) \[Pa\].
+    pub fn shear_modulus(self) -> f64 {
+        self.young_modulus / (2.0 * (1.0 + self.poisson_ratio))
+    }
+}
+
+/// Young's modulus within a layer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Modulus {
+    /// The same everywhere \[Pa\].
+    Uniform(f64),
+    /// Linear in depth from the layer's top to its bottom \[Pa\].
+    Linear {
+        /// At the top of the layer \[Pa\].
+        top: f64,
+        /// At the bottom of the layer \[Pa\].
+        bottom: f64,
+    },
+}
+
+/// A horizontal layer of finite thickness, bonded to its neighbours.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SoilLayer {
+    thickness: f64,
+    modulus: Modulus,
+    poisson_ratio: f64,
+}
+
+impl SoilLayer {
+    /// A layer of uniform soil with `thickness` \[m\].
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::InvalidParameter`] unless the thickness is finite and positive.
+    pub fn uniform(thickness: f64, soil: Soil) -> Result<Self, GroundError> {
+        Self::new(
+            thickness,
+            Modulus::Uniform(soil.young_modulus),
+            soil.poisson_ratio,
+        )
+    }
+
+    /// A layer with `thickness` \[m\], a modulus that may vary with depth, and Poisson's ratio.
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::InvalidParameter`] for a value out of range.
+    pub fn new(thickness: f64, modulus: Modulus, poisson_ratio: f64) -> Result<Self, GroundError> {
+        let thickness = checked("thickness", thickness, "finite and positive", |v| v > 0.0)?;
+        let (top, bottom) = match modulus {
+            Modulus::Uniform(value) => (value, value),
+            Modulus::Linear { top, bottom } => (top, bottom),
+        };
+        Soil::new(top, poisson_ratio)?;
+        Soil::new(bottom, poisson_ratio)?;
+        Ok(Self {
+            thickness,
+            modulus,
+            poisson_ratio,
+        })
+    }
+
+    /// Thickness \[m\].
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// Young's modulus, as given.
+    pub fn modulus(&self) -> Modulus {
+        self.modulus
+    }
+
+    /// Poisson's ratio ν.
+    pub fn poisson_ratio(&self) -> f64 {
+        self.poisson_ratio
+    }
+
+    /// Young's modulus \[Pa\] at `height` \[m\] below the layer's top.
+    pub fn young_modulus_at(&self, height: f64) -> f64 {
+        match self.modulus {
+            Modulus::Uniform(value) => value,
+            Modulus::Linear { top, bottom } => top + (bottom - top) * height / self.thickness,
+        }
+    }
+
+    /// The layer's soil where it is uniform; `None` where the modulus varies with depth.
+    pub fn soil(&self) -> Option<Soil> {
+        match self.modulus {
+            Modulus::Uniform(young_modulus) => Some(Soil {
+                young_modulus,
+                poisson_ratio: self.poisson_ratio,
+            }),
+            Modulus::Linear { top, bottom } if top == bottom => Some(Soil {
+                young_modulus: top,
+                poisson_ratio: self.poisson_ratio,
+            }),
+            Modulus::Linear { .. } => None,
+        }
+    }
+}
+
+/// What lies below the last layer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Base {
+    /// The same soil without end.
+    HalfSpace(Soil),
+    /// Rock that does not move, bonded to the last layer.
+    Rigid,
+}
+
+/// The ground: bonded layers from the surface down, on a half-space or on rock.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SoilProfile {
+    layers: Vec<SoilLayer>,
+    base: Base,
+}
+
+impl SoilProfile {
+    /// `layers` from the surface down, on `base`.
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::Unsupported`] for a rigid base without any layer above it.
+    pub fn new(layers: Vec<SoilLayer>, base: Base) -> Result<Self, GroundError> {
+        if layers.is_empty() && base == Base::Rigid {
+            return Err(GroundError::Unsupported {
+                model: "soil profile",
+                limit: "a rigid base needs at least one layer above it",
+            });
+        }
+        Ok(Self { layers, base })
+    }
+
+    /// One soil everywhere.
+    pub fn half_space(soil: Soil) -> Self {
+        Self {
+            layers: Vec::new(),
+            base: Base::HalfSpace(soil),
+        }
+    }
+
+    /// The layers of finite thickness, from the surface down.
+    pub fn layers(&self) -> &[SoilLayer] {
+        &self.layers
+    }
+
+    /// What lies below them.
+    pub fn base(&self) -> Base {
+        self.base
+    }
+
+    /// Depth \[m\] of the base: the sum of the layers' thicknesses.
+    pub fn base_depth(&self) -> f64 {
+        self.layers.iter().map(SoilLayer::thickness).sum()
+    }
+
+    /// The soil where the ground is one and the same everywhere.
+    pub fn homogeneous(&self) -> Option<Soil> {
+        match self.base {
+            Base::HalfSpace(soil) => self
+                .layers
+                .iter()
+                .all(|layer| layer.soil() == Some(soil))
+                .then_some(soil),
+            Base::Rigid => None,
+        }
+    }
+}

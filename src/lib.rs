@@ -1,0 +1,1 @@
+//! Creepage of power cables in underground ducts under traffic.
