@@ -1,0 +1,286 @@
+//! A vehicle's passage as the cable feels it.
+//!
+//! A cable stuck to its duct all along would move by the *adherent motion* a(ξ): the duct's motion D(ξ), smoothed by the
+//! sheath's shear over the screening length λ,
+//!
+//! (a − D)/γ = EA a″,  discretely  −k (a_{i−1} − 2 a_i + a_{i+1}) = h A_i,  A = (D − a)/γ.
+//!
+//! A(ξ) is the friction that adhesion takes: −EA D″ for Coulomb's law, where a = D. Measured from the adherent motion,
+//! r = u − a and g = f − A, the cable feels the passing vehicle only through the friction bounds, which it shifts,
+//!
+//! −q − A(ξ) ≤ g ≤ q − A(ξ),
+//!
+//! and at ends and clamps. Where g stays within them nothing changes: r and g are the cable's state, and only the
+//! zone where the travelling shift presses g against a bound has to be solved.
+
+use ground_field::{Direction, DuctMotion};
+
+use crate::error::checked;
+use crate::{CableError, DuctedCable, Mesh};
+
+/// Vehicle positions outside the duct are this share of their distance to it apart.
+const APPROACH_GROWTH: f64 = 0.05;
+/// The approach begins this many times the reach of slip away from the duct.
+const APPROACH_REACHES: f64 = 2.0;
+
+/// A field that bends a cable with next to no friction farther away than this is cut off there \[m\].
+const MAX_APPROACH: f64 = 1000.0;
+
+/// Adherent motion and adhesion of one vehicle on the lattice of one mesh.
+///
+/// Depends on the cable, the mesh and the vehicle, not on the cable's state: computed once, used for every pass.
+#[derive(Debug, Clone)]
+pub struct Passage {
+    direction: Direction,
+    /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s.
+    phases: Vec<Phase>,
+    /// Lattice indices before the vehicle's origin.
+    behind: usize,
+    /// Zeros, for when the vehicle has left.
+    rest: Vec<f64>,
+    /// Vehicle positions, in lattice units, from before the duct to past it.
+    positions: Vec<i64>,
+    /// Nodes on either side of the vehicle beyond which adhesion cannot matter.
+    reach: usize,
+    peak: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Phase {
+    adherent: Vec<f64>,
+    adhesion: Vec<f64>,
+}
+
+/// The passage at one vehicle position: node i reads index i + 1, so that both ends have a neighbour outside.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Snapshot<'a> {
+    pub adherent: &'a [f64],
+    pub adhesion: &'a [f64],
+    /// Node nearest to the vehicle; outside the duct, negative or beyond the last; `None` when it has left.
+    pub node: Option<i64>,
+    /// Vehicle position on the lattice.
+    pub position: i64,
+}
+
+impl Passage {
+    /// The passage of a vehicle whose duct motion is `motion` over `cable`, meshed by `mesh`.
+    ///
+    /// `negligible` is the adhesion, as a share of the friction limit, that may be left out of account far from the
+    /// vehicle.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless `negligible` is in (0, 0.1\].
+    pub fn new(
+        cable: &DuctedCable,
+        mesh: &Mesh,
+        motion: &DuctMotion,
+        negligible: f64,
+    ) -> Result<Self, CableError> {
+        // The solver always drives forward; reverse traffic is its mirror image.
+        let direction = if motion.velocity() < 0.0 {
+            Direction::Reverse
+        } else {
+            Direction::Forward
+        };
+        let sign = direction.sign();
+        Self::from_shape(
+            cable,
+            mesh,
+            direction,
+            |xi| sign * motion.longitudinal(sign * xi),
+            motion.half_length(),
+            negligible,
+        )
+    }
+
+    /// The passage of a travelling longitudinal displacement `shape`(ξ) \[m\], ξ positive ahead of the vehicle and the
+    /// displacement positive in its direction of travel; `half_length` \[m\] bounds the loads' distance from ξ = 0.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Passage::new`].
+    pub fn from_shape(
+        cable: &DuctedCable,
+        mesh: &Mesh,
+        direction: Direction,
+        shape: impl Fn(f64) -> f64,
+        half_length: f64,
+        negligible: f64,
+    ) -> Result<Self, CableError> {
+        checked("negligible", negligible, "in (0, 0.1]", |v| v > 0.0 && v <= 0.1)?;
+        let step = mesh.lattice_step();
+        let limit = negligible * cable.friction().limit();
+        let far = approach_distance(cable, &shape, half_length, limit, mesh.spacing());
+        let positions = schedule(mesh, far);
+
+        // Every ξ-index that a node, or the neighbour outside an end, can have; whole phases on both sides.
+        let m = mesh.phases() as i64;
+        let behind = (positions.last().copied().unwrap_or(0) / m + 3) * m;
+        let ahead = -positions.first().copied().unwrap_or(0) + (mesh.elements() as i64 + 3) * m;
+        let count = ((behind + ahead) / m) as usize;
+        let compliance = cable.friction().compliance();
+        let stiffness = cable.axial_stiffness() / mesh.spacing();
+        let phases: Vec<Phase> = (0..m)
+            .map(|phase| {
+                let duct: Vec<f64> = (0..count)
+                    .map(|c| shape(step * (phase - behind + m * c as i64) as f64))
+                    .collect();
+                Phase::new(&duct, compliance * stiffness / mesh.spacing(), stiffness / mesh.spacing())
+            })
+            .collect();
+
+        let peak = phases
+            .iter()
+            .flat_map(|phase| &phase.adherent)
+            .fold(0.0_f64, |peak, a| peak.max(a.abs()));
+        let origin = behind / m;
+        let reach = phases
+            .iter()
+            .flat_map(|phase| phase.adhesion.iter().enumerate())
+            .filter(|(_, adhesion)| adhesion.abs() > limit)
+            .map(|(c, _)| (c as i64 - origin).unsigned_abs() as usize + 1)
+            .max()
+            .unwrap_or(0);
+        Ok(Self {
+            direction,
+            phases,
+            behind: behind as usize,
+            rest: vec![0.0; mesh.nodes() + 2],
+            positions,
+            reach,
+            peak,
+        })
+    }
+
+    /// Which way the vehicle drives.
+    pub fn direction(&self) -> Direction {
+        self.direction
+    }
+
+    /// Vehicle positions of one pass.
+    pub fn steps(&self) -> usize {
+        self.positions.len() + 1
+    }
+
+    pub(super) fn positions(&self) -> &[i64] {
+        &self.positions
+    }
+
+    pub(super) fn reach(&self) -> usize {
+        self.reach
+    }
+
+    /// Largest adherent displacement \[m\].
+    pub(super) fn peak(&self) -> f64 {
+        self.peak
+    }
+
+    /// Number of lattice points in the vehicle's frame.
+    pub(super) fn lattice_len(&self) -> usize {
+        self.phases.len() * self.phases[0].adherent.len()
+    }
+
+    /// Lattice point in the vehicle's frame at which `node` stands.
+    pub(super) fn lattice_index(&self, position: i64, node: usize) -> usize {
+        (self.behind as i64 - position) as usize + node * self.phases.len()
+    }
+
+    /// The passage after the vehicle has left.
+    pub(super) fn gone(&self) -> Snapshot<'_> {
+        Snapshot {
+            adherent: &self.rest,
+            adhesion: &self.rest,
+            node: None,
+            position: 0,
+        }
+    }
+
+    pub(super) fn snapshot(&self, position: i64, nodes: usize) -> Snapshot<'_> {
+        let m = self.phases.len() as i64;
+        // Index of node −1.
+        let index = self.behind as i64 - m - position;
+        let (phase, first) = (index.rem_euclid(m) as usize, index.div_euclid(m) as usize);
+        let range = first..first + nodes + 2;
+        Snapshot {
+            adherent: &self.phases[phase].adherent[range.clone()],
+            adhesion: &self.phases[phase].adhesion[range],
+            node: Some(position.div_euclid(m)),
+            position,
+        }
+    }
+}
+
+impl Phase {
+    /// Adherent motion and adhesion on one lattice of spacing h from the duct's motion there.
+    ///
+    /// `screening` is (λ/h)², `bend` is EA/h². The first and last points take the duct's own motion; any solution
+    /// of the difference equation serves as a frame of reference, so that this choice does not touch the answer.
+    fn new(duct: &[f64], screening: f64, bend: f64) -> Self {
+        let last = duct.len() - 1;
+        let mut adherent = duct.to_vec();
+        if screening > 0.0 {
+            let diagonal = 1.0 + 2.0 * screening;
+            let mut upper = vec![0.0; duct.len()];
+            for i in 1..last {
+                let pivot = diagonal - screening * upper[i - 1];
+                upper[i] = screening / pivot;
+                adherent[i] = (duct[i] + screening * adherent[i - 1]) / pivot;
+            }
+            for i in (1..last).rev() {
+                adherent[i] += upper[i] * adherent[i + 1];
+            }
+        }
+        let mut adhesion = vec![0.0; duct.len()];
+        for i in 1..last {
+            adhesion[i] = -bend * (adherent[i - 1] - 2.0 * adherent[i] + adherent[i + 1]);
+        }
+        Self { adherent, adhesion }
+    }
+}
+
+/// Distance from the duct's end beyond which the vehicle is as good as infinitely far: only the slow tail of its field is
+/// left, along which everything moves one way, so that one step covers it whatever its length.
+fn approach_distance(
+    cable: &DuctedCable,
+    shape: &impl Fn(f64) -> f64,
+    half_length: f64,
+    limit: f64,
+    spacing: f64,
+) -> f64 {
+    let bend = |xi: f64| {
+        let d = 0.1 * xi.abs().max(spacing);
+        let second = (shape(xi - d) - 2.0 * shape(xi) + shape(xi + d)) / (d * d);
+        (cable.axial_stiffness() * second).abs()
+    };
+    // From far inward, as the bend passes through zero where it changes sign.
+    let nearest = half_length + 4.0 * spacing;
+    let mut distance = MAX_APPROACH.max(2.0 * nearest);
+    while distance > nearest && bend(distance) <= limit && bend(-distance) <= limit {
+        distance /= 1.1;
+    }
+    APPROACH_REACHES * distance.max(nearest)
+}
+
+/// Vehicle positions from `far` before the duct to `far` past it: even steps over it, growing steps outside.
+fn schedule(mesh: &Mesh, far: f64) -> Vec<i64> {
+    let step = mesh.lattice_step();
+    let stride = mesh.stride() as i64;
+    let far = (far / step).ceil() as i64;
+    let end = (mesh.elements() * mesh.phases()) as i64;
+    let mut outside = vec![0];
+    let mut distance = 0_i64;
+    while distance < far {
+        let advance = (APPROACH_GROWTH * distance as f64) as i64 / stride * stride;
+        distance += advance.max(stride);
+        outside.push(distance);
+    }
+    let mut positions: Vec<i64> = outside.iter().rev().map(|d| -d).collect();
+    let mut position = stride;
+    while position < end {
+        positions.push(position);
+        position += stride;
+    }
+    positions.extend(outside.iter().map(|d| end + d));
+    positions
+}
