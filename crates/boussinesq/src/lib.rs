@@ -19,6 +19,11 @@
 //! SI (m, N, Pa). `z` points down from the surface, a load presses down; a radial displacement is positive outward, a
 //! vertical one positive down.
 
+#![allow(
+    clippy::doc_markdown,
+    reason = "u_r and k_c in the text are formulas, not code"
+)]
+
 mod disc;
 mod elliptic;
 mod half_space;
