@@ -29,7 +29,7 @@ pub enum CableError {
         "no equilibrium with the vehicle at {vehicle_position} m: {violation:.1e} of the friction limit remains unbalanced"
     )]
     NoConvergence {
-        /// Position of the vehicle's origin along the duct \[m\]; infinite when it has left.
+        /// Position of the vehicle's origin along the duct, from where it enters \[m\].
         vehicle_position: f64,
         /// Largest violation of equilibrium or of the friction law, as a share of the friction limit.
         violation: f64,

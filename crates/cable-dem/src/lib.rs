@@ -22,7 +22,7 @@
 //! let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;
 //! let cable = DuctedCable::new(30.0, 8.01e6, friction)?.with_ends(End::Free, End::Fixed)?;
 //! let mesh = Mesh::new(30.0, 0.1, 0.05)?;
-//! let passage = Passage::from_shape(&cable, &mesh, Direction::Forward, shape, 0.0, 1e-3)?;
+//! let passage = Passage::from_shape(&cable, &mesh, Direction::Forward, shape, 15.0)?;
 //!
 //! let mut solver = QuasiStatic::new(cable, mesh)?;
 //! let mut state = CableState::at_rest(&mesh);

@@ -18,7 +18,6 @@ pub use passage::Passage;
 use ground_field::Direction;
 
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
-use passage::Snapshot;
 use window::Sweeper;
 
 /// Share of the friction limit up to which rounding may blur equilibrium.

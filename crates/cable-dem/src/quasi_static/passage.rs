@@ -15,16 +15,12 @@
 
 use ground_field::{Direction, DuctMotion};
 
+use super::window::NEGLIGIBLE;
 use crate::error::checked;
 use crate::{CableError, DuctedCable, Mesh};
 
 /// Vehicle positions outside the duct are this share of their distance to it apart.
 const APPROACH_GROWTH: f64 = 0.05;
-/// The approach begins this many times the reach of slip away from the duct.
-const APPROACH_REACHES: f64 = 2.0;
-
-/// A field that bends a cable with next to no friction farther away than this is cut off there \[m\].
-const MAX_APPROACH: f64 = 1000.0;
 
 /// Adherent motion and adhesion of one vehicle on the lattice of one mesh.
 ///
@@ -36,8 +32,6 @@ pub struct Passage {
     phases: Vec<Phase>,
     /// Lattice indices before the vehicle's origin.
     behind: usize,
-    /// Zeros, for when the vehicle has left.
-    rest: Vec<f64>,
     /// Vehicle positions, in lattice units, from before the duct to past it.
     positions: Vec<i64>,
     /// Nodes on either side of the vehicle beyond which adhesion cannot matter.
@@ -56,8 +50,8 @@ struct Phase {
 pub(super) struct Snapshot<'a> {
     pub adherent: &'a [f64],
     pub adhesion: &'a [f64],
-    /// Node nearest to the vehicle; outside the duct, negative or beyond the last; `None` when it has left.
-    pub node: Option<i64>,
+    /// Node nearest to the vehicle; outside the duct, negative or beyond the last.
+    pub node: i64,
     /// Vehicle position on the lattice.
     pub position: i64,
 }
@@ -65,17 +59,18 @@ pub(super) struct Snapshot<'a> {
 impl Passage {
     /// The passage of a vehicle whose duct motion is `motion` over `cable`, meshed by `mesh`.
     ///
-    /// `negligible` is the adhesion, as a share of the friction limit, that may be left out of account far from the
-    /// vehicle.
+    /// Its outermost wheels come from and leave to `approach` \[m\] beyond the duct's ends. What the duct does while the
+    /// vehicle is farther away is left out: an endless elastic half-space has a tail ∝ 1/ξ there that real ground, over
+    /// rock at some depth, has not.
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless `negligible` is in (0, 0.1\].
+    /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m.
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,
         motion: &DuctMotion,
-        negligible: f64,
+        approach: f64,
     ) -> Result<Self, CableError> {
         // The solver always drives forward; reverse traffic is its mirror image.
         let direction = if motion.velocity() < 0.0 {
@@ -89,13 +84,13 @@ impl Passage {
             mesh,
             direction,
             |xi| sign * motion.longitudinal(sign * xi),
-            motion.half_length(),
-            negligible,
+            motion.half_length() + approach,
         )
     }
 
     /// The passage of a travelling longitudinal displacement `shape`(ξ) \[m\], ξ positive ahead of the vehicle and the
-    /// displacement positive in its direction of travel; `half_length` \[m\] bounds the loads' distance from ξ = 0.
+    /// displacement positive in its direction of travel; ξ = 0 travels from `approach` \[m\] before the duct to `approach`
+    /// past it.
     ///
     /// # Errors
     ///
@@ -105,14 +100,12 @@ impl Passage {
         mesh: &Mesh,
         direction: Direction,
         shape: impl Fn(f64) -> f64,
-        half_length: f64,
-        negligible: f64,
+        approach: f64,
     ) -> Result<Self, CableError> {
-        checked("negligible", negligible, "in (0, 0.1]", |v| v > 0.0 && v <= 0.1)?;
+        checked("approach", approach, "positive and at most 1e5 m", |v| v > 0.0 && v <= 1e5)?;
         let step = mesh.lattice_step();
-        let limit = negligible * cable.friction().limit();
-        let far = approach_distance(cable, &shape, half_length, limit, mesh.spacing());
-        let positions = schedule(mesh, far);
+        let limit = NEGLIGIBLE * cable.friction().limit();
+        let positions = schedule(mesh, approach);
 
         // Every ξ-index that a node, or the neighbour outside an end, can have; whole phases on both sides.
         let m = mesh.phases() as i64;
@@ -146,7 +139,6 @@ impl Passage {
             direction,
             phases,
             behind: behind as usize,
-            rest: vec![0.0; mesh.nodes() + 2],
             positions,
             reach,
             peak,
@@ -160,7 +152,7 @@ impl Passage {
 
     /// Vehicle positions of one pass.
     pub fn steps(&self) -> usize {
-        self.positions.len() + 1
+        self.positions.len()
     }
 
     pub(super) fn positions(&self) -> &[i64] {
@@ -186,16 +178,6 @@ impl Passage {
         (self.behind as i64 - position) as usize + node * self.phases.len()
     }
 
-    /// The passage after the vehicle has left.
-    pub(super) fn gone(&self) -> Snapshot<'_> {
-        Snapshot {
-            adherent: &self.rest,
-            adhesion: &self.rest,
-            node: None,
-            position: 0,
-        }
-    }
-
     pub(super) fn snapshot(&self, position: i64, nodes: usize) -> Snapshot<'_> {
         let m = self.phases.len() as i64;
         // Index of node −1.
@@ -205,7 +187,7 @@ impl Passage {
         Snapshot {
             adherent: &self.phases[phase].adherent[range.clone()],
             adhesion: &self.phases[phase].adhesion[range],
-            node: Some(position.div_euclid(m)),
+            node: position.div_euclid(m),
             position,
         }
     }
@@ -237,29 +219,6 @@ impl Phase {
         }
         Self { adherent, adhesion }
     }
-}
-
-/// Distance from the duct's end beyond which the vehicle is as good as infinitely far: only the slow tail of its field is
-/// left, along which everything moves one way, so that one step covers it whatever its length.
-fn approach_distance(
-    cable: &DuctedCable,
-    shape: &impl Fn(f64) -> f64,
-    half_length: f64,
-    limit: f64,
-    spacing: f64,
-) -> f64 {
-    let bend = |xi: f64| {
-        let d = 0.1 * xi.abs().max(spacing);
-        let second = (shape(xi - d) - 2.0 * shape(xi) + shape(xi + d)) / (d * d);
-        (cable.axial_stiffness() * second).abs()
-    };
-    // From far inward, as the bend passes through zero where it changes sign.
-    let nearest = half_length + 4.0 * spacing;
-    let mut distance = MAX_APPROACH.max(2.0 * nearest);
-    while distance > nearest && bend(distance) <= limit && bend(-distance) <= limit {
-        distance /= 1.1;
-    }
-    APPROACH_REACHES * distance.max(nearest)
 }
 
 /// Vehicle positions from `far` before the duct to `far` past it: even steps over it, growing steps outside.

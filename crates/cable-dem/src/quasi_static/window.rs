@@ -147,13 +147,9 @@ impl Sweeper {
         let last = self.mesh.elements();
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
-        self.trial.r.copy_from_slice(&self.r);
         self.support_load.fill(0.0);
         self.by_node.fill(Contact::Stuck);
         self.by_xi.resize(passage.lattice_len(), Contact::Stuck);
-        for support in &mut self.supports {
-            support.solved = Forcing::default();
-        }
         let largest = self.r.iter().fold(passage.peak(), |largest, u| largest.max(u.abs()));
         let friction = (FRICTION_ACCURACY * self.chain.limit)
             .max(16.0 * rounding(&self.cable, &self.mesh, largest));
@@ -164,7 +160,9 @@ impl Sweeper {
 
         let mut recorder = Recorder::new(state.end_forces(&self.cable, &self.mesh));
         let mut travelling: Option<Stretch> = None;
-        for &position in passage.positions() {
+        let (&arrival, onward) = passage.positions().split_first().expect("a passage has positions");
+        self.arrive(&passage.snapshot(arrival, last + 1));
+        for &position in onward {
             let snapshot = passage.snapshot(position, last + 1);
             recorder.statistics.steps += 1;
             self.update_supports(&snapshot, false);
@@ -182,24 +180,42 @@ impl Sweeper {
                 self.commit(solved, &snapshot, passage);
             }
             travelling = next;
-            if self.supports.iter().any(|support| support.due) {
+            if self.ends_touched() {
                 recorder.record(self.end_forces(&snapshot));
             }
         }
 
-        // The vehicle is gone: the frame of reference is the duct at rest, and the whole cable is solved.
-        let gone = passage.gone();
-        recorder.statistics.steps += 1;
-        self.update_supports(&gone, true);
+        // Once more, the whole cable: what the windows left out of account is settled here.
+        let &departure = passage.positions().last().expect("a passage has positions");
+        let snapshot = passage.snapshot(departure, last + 1);
+        self.update_supports(&snapshot, true);
         let window = Window {
             stretch: self.free,
             travelling: None,
         };
-        let solved = self.solve(window, &gone, passage, tolerance, &mut recorder)?;
-        self.commit(solved, &gone, passage);
-        state.displacement.copy_from_slice(&self.r);
-        state.friction.copy_from_slice(&self.g);
+        let solved = self.solve(window, &snapshot, passage, tolerance, &mut recorder)?;
+        self.commit(solved, &snapshot, passage);
+        for node in 0..=last {
+            state.displacement[node] = self.r[node] + snapshot.adherent[node + 1];
+            state.friction[node] = self.g[node] + snapshot.adhesion[node + 1];
+        }
         Ok(recorder)
+    }
+
+    /// Takes the state into the adherent frame of the vehicle's first position. The cable does not move by this.
+    fn arrive(&mut self, snapshot: &Snapshot<'_>) {
+        for node in 0..self.r.len() {
+            self.r[node] -= snapshot.adherent[node + 1];
+            self.g[node] -= snapshot.adhesion[node + 1];
+        }
+        self.trial.r.copy_from_slice(&self.r);
+        let last = self.mesh.elements();
+        for index in 0..self.supports.len() {
+            let support = &self.supports[index].support;
+            let forcing = support.forcing(snapshot, self.chain.stiffness, last);
+            self.support_load[support.node] = support.load(forcing);
+            self.supports[index].solved = forcing;
+        }
     }
 
     /// Brings the supports' loads up to date where the vehicle's effect on them has changed, or everywhere if `all`.
@@ -251,7 +267,7 @@ impl Sweeper {
         reach: usize,
         travelling: Option<Stretch>,
     ) -> Option<Stretch> {
-        let node = snapshot.node?;
+        let node = snapshot.node;
         let clamp = |node: i64| node.clamp(self.free.lo as i64, self.free.hi as i64) as usize;
         let (from, to) = (clamp(node - reach as i64), clamp(node + reach as i64));
         let limit = self.chain.limit * (1.0 + NEGLIGIBLE);
@@ -389,9 +405,7 @@ impl Sweeper {
         match attempt(&mut self.trial) {
             Outcome::Solved => Ok(()),
             Outcome::Violated(violation) => Err(CableError::NoConvergence {
-                vehicle_position: snapshot.node.map_or(f64::INFINITY, |_| {
-                    self.mesh.lattice_step() * snapshot.position as f64
-                }),
+                vehicle_position: self.mesh.lattice_step() * snapshot.position as f64,
                 violation,
             }),
         }
@@ -421,16 +435,22 @@ impl Sweeper {
         (lo < hi).then_some(Stretch { lo, hi })
     }
 
+    /// Whether this step may have changed the force on an end.
+    fn ends_touched(&self) -> bool {
+        self.supports.iter().any(|support| support.due)
+            || self.windows.iter().any(|window| {
+                window.stretch.lo <= self.free.lo + self.margin || window.stretch.hi + self.margin >= self.free.hi
+            })
+    }
+
     /// Makes the trial the state.
     fn commit(&mut self, stretch: Stretch, snapshot: &Snapshot<'_>, passage: &Passage) {
         let range = stretch.lo..=stretch.hi;
         self.r[range.clone()].copy_from_slice(&self.trial.r[range.clone()]);
         self.g[range.clone()].copy_from_slice(&self.trial.g[range.clone()]);
         self.by_node[range.clone()].copy_from_slice(&self.trial.contact[range.clone()]);
-        if snapshot.node.is_some() {
-            for i in range {
-                self.by_xi[passage.lattice_index(snapshot.position, i)] = self.trial.contact[i];
-            }
+        for i in range {
+            self.by_xi[passage.lattice_index(snapshot.position, i)] = self.trial.contact[i];
         }
     }
 
