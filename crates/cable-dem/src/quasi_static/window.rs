@@ -16,9 +16,9 @@ const QUIET: f64 = 0.25;
 /// (or one screening length, if longer).
 const SUPPORT_CHANGE: f64 = 0.02;
 /// Accuracy of friction and equilibrium inside the windows, as a share of the friction limit.
-const FRICTION_ACCURACY: f64 = 1e-9;
+const FRICTION_ACCURACY: f64 = 1e-6;
 /// Accuracy of slip, as a share of the largest displacement.
-const SLIP_ACCURACY: f64 = 1e-10;
+const SLIP_ACCURACY: f64 = 1e-7;
 /// Most nodes that a disturbed window grows by at once on each side.
 const MAX_GROWTH: usize = 256;
 
