@@ -1,0 +1,67 @@
+//! The word someone probably meant.
+
+/// The one of `known` nearest to `word`, if any is near enough to be worth suggesting.
+pub(super) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
+    let plain = |text: &str| -> Vec<char> {
+        text.chars()
+            .flat_map(char::to_lowercase)
+            .map(|c| if matches!(c, '_' | ' ') { '-' } else { c })
+            .collect()
+    };
+    let word = plain(word);
+    let mut best = None;
+    for candidate in known {
+        let letters = plain(candidate);
+        let (short, long) = if word.len() < letters.len() {
+            (&word, &letters)
+        } else {
+            (&letters, &word)
+        };
+        let allowed = (long.len() / 3).max(1);
+        let distance = if short.len() >= 3 && long.starts_with(short) {
+            1
+        } else if long.len() - short.len() > allowed {
+            continue;
+        } else {
+            distance(&word, &letters)
+        };
+        // A single letter that differs altogether is no near miss.
+        if distance <= allowed && distance < long.len() && best.is_none_or(|(least, _)| distance < least) {
+            best = Some((distance, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
+}
+
+/// Levenshtein distance: letters to insert, remove or replace.
+fn distance(a: &[char], b: &[char]) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.iter().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(x != y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn near_misses_are_found_and_others_are_not() {
+        let known = ["length", "depth", "lateral_offset"];
+        assert_eq!(nearest("lenght", known), Some("length"));
+        assert_eq!(nearest("Depth", known), Some("depth"));
+        assert_eq!(nearest("lateral-offset", known), Some("lateral_offset"));
+        assert_eq!(nearest("lateral", known), Some("lateral_offset"));
+        assert_eq!(nearest("colour", known), None);
+        assert_eq!(nearest("", known), None);
+        assert_eq!(nearest("z", ["x", "y"]), None);
+        assert_eq!(nearest("長さ", known), None);
+    }
+}

@@ -1,0 +1,416 @@
+//! Reading checked values out of a document.
+//!
+//! A [`Table`] knows its keys when it is opened, so that a misspelt key is reported as such and not as the lack of the
+//! right one. Every error is made here or in the few checks across keys, with the place where the value was written.
+
+use ground_field::GroundError;
+
+use super::document::{Content, Document, Entry, Node, Place};
+use super::keys::SECTIONS;
+use super::nearest::nearest;
+use super::{Dimension, QuantityError, SceneError};
+
+/// A range of values.
+#[derive(Clone, Copy)]
+pub(super) struct Range {
+    /// In words, after "a length".
+    words: &'static str,
+    holds: fn(f64) -> bool,
+}
+
+pub(super) const ANY: Range = Range {
+    words: "of any sign",
+    holds: |_| true,
+};
+pub(super) const POSITIVE: Range = Range {
+    words: "greater than 0",
+    holds: |v| v > 0.0,
+};
+pub(super) const NOT_NEGATIVE: Range = Range {
+    words: "of at least 0",
+    holds: |v| v >= 0.0,
+};
+pub(super) const POISSON: Range = Range {
+    words: "from 0 to 0.5",
+    holds: |v| (0.0..=0.5).contains(&v),
+};
+pub(super) const COEFFICIENT: Range = Range {
+    words: "from 0 to 10",
+    holds: |v| (0.0..=10.0).contains(&v),
+};
+pub(super) const TOLERANCE: Range = Range {
+    words: "greater than 0 and at most 0.5",
+    holds: |v| v > 0.0 && v <= 0.5,
+};
+
+/// A table of the document.
+pub(super) struct Table<'d> {
+    document: &'d Document,
+    /// Its key with those of the tables around it; empty for the document.
+    path: String,
+    place: &'d Place,
+    entries: &'d [Entry],
+}
+
+/// A value of the document.
+#[derive(Clone)]
+pub(super) struct Value<'d> {
+    document: &'d Document,
+    path: String,
+    node: &'d Node,
+}
+
+impl<'d> Table<'d> {
+    /// Opens a table that may hold only the keys `known`.
+    pub fn new(
+        document: &'d Document,
+        path: String,
+        node: &'d Node,
+        known: &'static [&'static str],
+    ) -> Result<Self, SceneError> {
+        let Content::Table(entries) = &node.content else {
+            return Err(SceneError::WrongType {
+                location: document.locate(&node.place),
+                found: document.written(&node.place),
+                key: path,
+                allowed: format!("a table with the keys {}", known.join(", ")),
+            });
+        };
+        if let Some(entry) = entries.iter().find(|entry| !known.contains(&entry.key.as_str())) {
+            let elsewhere = || {
+                SECTIONS
+                    .iter()
+                    .find(|(_, keys)| keys.contains(&entry.key.as_str()))
+                    .map(|(section, _)| format!("{section}.{}", entry.key))
+            };
+            return Err(SceneError::UnknownKey {
+                location: document.locate(&entry.key_place),
+                key: joined(&path, &entry.key),
+                allowed: known.join(", "),
+                suggestion: nearest(&entry.key, known.iter().copied())
+                    .map(str::to_owned)
+                    .or_else(elsewhere),
+            });
+        }
+        Ok(Self {
+            document,
+            path,
+            place: &node.place,
+            entries,
+        })
+    }
+
+    pub fn optional(&self, key: &str) -> Option<Value<'d>> {
+        let entry = self.entries.iter().find(|entry| entry.key == key)?;
+        Some(Value {
+            document: self.document,
+            path: joined(&self.path, key),
+            node: &entry.value,
+        })
+    }
+
+    pub fn required(&self, key: &str, allowed: &str) -> Result<Value<'d>, SceneError> {
+        self.optional(key).ok_or_else(|| SceneError::MissingKey {
+            location: self.document.locate(self.place),
+            key: joined(&self.path, key),
+            allowed: allowed.to_owned(),
+        })
+    }
+
+    /// The required table at `key`.
+    pub fn table(&self, key: &str, known: &'static [&'static str]) -> Result<Table<'d>, SceneError> {
+        self.required(
+            key,
+            &format!("a section [{key}] with the keys {}", known.join(", ")),
+        )?
+        .table(known)
+    }
+
+    /// The required quantity at `key`; `example` shows how to write one.
+    pub fn quantity(
+        &self,
+        key: &str,
+        dimension: Dimension,
+        range: Range,
+        example: &str,
+    ) -> Result<f64, SceneError> {
+        self.required(key, &allowed_quantity(dimension, range, example))?
+            .quantity(dimension, range, example)
+    }
+
+    pub fn optional_quantity(
+        &self,
+        key: &str,
+        dimension: Dimension,
+        range: Range,
+        example: &str,
+    ) -> Result<Option<f64>, SceneError> {
+        self.optional(key)
+            .map(|value| value.quantity(dimension, range, example))
+            .transpose()
+    }
+
+    /// The required dimensionless number at `key`.
+    pub fn number(&self, key: &str, range: Range) -> Result<f64, SceneError> {
+        self.required(key, &allowed_number(range))?.number(range)
+    }
+
+    pub fn optional_number(&self, key: &str, range: Range) -> Result<Option<f64>, SceneError> {
+        self.optional(key).map(|value| value.number(range)).transpose()
+    }
+
+    /// One of the `words` at `key`, or `default`.
+    pub fn word<T: Copy>(&self, key: &str, words: &[(&str, T)], default: T) -> Result<T, SceneError> {
+        self.optional(key).map_or(Ok(default), |value| value.word(words))
+    }
+
+    /// Two keys that exclude each other. Of two that were set at different times the later one stands.
+    pub fn alternatives(&self, first: &str, second: &str) -> Result<[Option<Value<'d>>; 2], SceneError> {
+        match [self.optional(first), self.optional(second)] {
+            [Some(a), Some(b)] => match a.node.place.source.cmp(&b.node.place.source) {
+                std::cmp::Ordering::Greater => Ok([Some(a), None]),
+                std::cmp::Ordering::Less => Ok([None, Some(b)]),
+                std::cmp::Ordering::Equal => {
+                    Err(b.inconsistent(format!("both `{first}` and `{second}`"), "only one of the two"))
+                }
+            },
+            both => Ok(both),
+        }
+    }
+
+    /// Refuses `key`, which has no meaning with what was chosen at the key `choice`. Where the choice was made later, by
+    /// an override, it stands and `key` is left aside.
+    pub fn refuse(&self, key: &str, choice: &str, allowed: &str) -> Result<(), SceneError> {
+        let Some(value) = self.optional(key) else {
+            return Ok(());
+        };
+        let chosen = self.optional(choice);
+        if chosen
+            .as_ref()
+            .is_some_and(|chosen| chosen.node.place.source > value.node.place.source)
+        {
+            return Ok(());
+        }
+        let beside = chosen.map_or_else(
+            || format!("no `{choice}`"),
+            |chosen| format!("`{choice}` = {}", self.document.written(&chosen.node.place)),
+        );
+        Err(value.inconsistent(format!("{} with {beside}", value.written()), allowed))
+    }
+
+    /// The error for what `ground-field` does not accept.
+    pub fn rejected(&self, source: GroundError) -> SceneError {
+        SceneError::Rejected {
+            location: self.document.locate(self.place),
+            key: self.path.clone(),
+            source,
+        }
+    }
+
+    /// The error for a table whose keys contradict each other or another one.
+    pub fn inconsistent(&self, found: impl Into<String>, allowed: impl Into<String>) -> SceneError {
+        SceneError::Inconsistent {
+            location: self.document.locate(self.place),
+            key: self.path.clone(),
+            found: found.into(),
+            allowed: allowed.into(),
+        }
+    }
+}
+
+impl<'d> Value<'d> {
+    pub fn table(&self, known: &'static [&'static str]) -> Result<Table<'d>, SceneError> {
+        Table::new(self.document, self.path.clone(), self.node, known)
+    }
+
+    pub fn is_table(&self) -> bool {
+        matches!(self.node.content, Content::Table(_))
+    }
+
+    /// The items of a list.
+    pub fn items(&self, allowed: &str) -> Result<Vec<Value<'d>>, SceneError> {
+        let Content::Array(items) = &self.node.content else {
+            return Err(self.wrong_type(allowed));
+        };
+        Ok(items
+            .iter()
+            .enumerate()
+            .map(|(index, node)| Value {
+                document: self.document,
+                path: joined(&self.path, &index.to_string()),
+                node,
+            })
+            .collect())
+    }
+
+    /// The items of a list of at least one.
+    pub fn some_items(&self, allowed: &str) -> Result<Vec<Value<'d>>, SceneError> {
+        let items = self.items(allowed)?;
+        if items.is_empty() {
+            return Err(self.inconsistent("an empty list", allowed));
+        }
+        Ok(items)
+    }
+
+    pub fn quantity(&self, dimension: Dimension, range: Range, example: &str) -> Result<f64, SceneError> {
+        let allowed = || allowed_quantity(dimension, range, example);
+        let value = match &self.node.content {
+            Content::Number { value, .. } => *value,
+            Content::Text(text) => dimension
+                .parse(text)
+                .map_err(|error| self.not_a_quantity(error, allowed()))?,
+            _ => return Err(self.wrong_type(allowed())),
+        };
+        self.within(value, range, allowed)
+    }
+
+    pub fn number(&self, range: Range) -> Result<f64, SceneError> {
+        let allowed = || allowed_number(range);
+        let Content::Number { value, .. } = &self.node.content else {
+            return Err(self.wrong_type(allowed()));
+        };
+        self.within(*value, range, allowed)
+    }
+
+    /// A whole number of at least `least`.
+    pub fn integer(&self, least: u64) -> Result<u64, SceneError> {
+        let allowed = format!("a whole number of at least {least}, without quotes");
+        match self.node.content {
+            Content::Number { integer, .. } => integer
+                .and_then(|integer| u64::try_from(integer).ok())
+                .filter(|integer| *integer >= least)
+                .ok_or_else(|| self.out_of_range(allowed)),
+            _ => Err(self.wrong_type(allowed)),
+        }
+    }
+
+    pub fn text(&self, allowed: &str) -> Result<String, SceneError> {
+        match &self.node.content {
+            Content::Text(text) => Ok(text.clone()),
+            _ => Err(self.wrong_type(allowed)),
+        }
+    }
+
+    /// What one of the `words` stands for.
+    pub fn word<T: Copy>(&self, words: &[(&str, T)]) -> Result<T, SceneError> {
+        let list: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
+        self.word_of(words, &list.join(", "))
+    }
+
+    /// What one of the `words` stands for, where `allowed` says more than the words.
+    pub fn word_of<T: Copy>(&self, words: &[(&str, T)], allowed: &str) -> Result<T, SceneError> {
+        let Content::Text(text) = &self.node.content else {
+            return Err(self.wrong_type(allowed));
+        };
+        words
+            .iter()
+            .find(|(word, _)| word == text)
+            .map(|(_, meaning)| *meaning)
+            .ok_or_else(|| SceneError::UnknownWord {
+                location: self.document.locate(&self.node.place),
+                key: self.path.clone(),
+                found: self.written(),
+                allowed: allowed.to_owned(),
+                suggestion: nearest(text, words.iter().map(|(word, _)| *word)).map(str::to_owned),
+            })
+    }
+
+    /// As it was written.
+    pub fn written(&self) -> String {
+        self.document.written(&self.node.place)
+    }
+
+    fn within(&self, value: f64, range: Range, allowed: impl Fn() -> String) -> Result<f64, SceneError> {
+        if value.is_finite() && (range.holds)(value) {
+            Ok(value)
+        } else {
+            Err(self.out_of_range(allowed()))
+        }
+    }
+
+    fn not_a_quantity(&self, error: QuantityError, allowed: String) -> SceneError {
+        let location = self.document.locate(&self.node.place);
+        let key = self.path.clone();
+        let found = self.written();
+        match error {
+            QuantityError::NotANumber => self.wrong_type(allowed),
+            QuantityError::MissingUnit => SceneError::MissingUnit {
+                location,
+                key,
+                found,
+                allowed,
+            },
+            QuantityError::UnknownUnit { unit, nearest } => SceneError::UnknownUnit {
+                location,
+                key,
+                unit,
+                found,
+                allowed,
+                suggestion: nearest.map(str::to_owned),
+            },
+            QuantityError::WrongDimension { dimension, .. } => SceneError::WrongDimension {
+                location,
+                key,
+                found,
+                dimension: dimension.noun(),
+                allowed,
+            },
+        }
+    }
+
+    pub fn wrong_type(&self, allowed: impl Into<String>) -> SceneError {
+        let kind = match self.node.content {
+            Content::Text(_) => "the text ",
+            Content::Number { .. } => "the number ",
+            Content::Other => "",
+            Content::Array(_) => "the list ",
+            Content::Table(_) => "the table ",
+        };
+        SceneError::WrongType {
+            location: self.document.locate(&self.node.place),
+            key: self.path.clone(),
+            found: format!("{kind}{}", self.written()),
+            allowed: allowed.into(),
+        }
+    }
+
+    pub fn out_of_range(&self, allowed: impl Into<String>) -> SceneError {
+        SceneError::OutOfRange {
+            location: self.document.locate(&self.node.place),
+            key: self.path.clone(),
+            found: self.written(),
+            allowed: allowed.into(),
+        }
+    }
+
+    pub fn inconsistent(&self, found: impl Into<String>, allowed: impl Into<String>) -> SceneError {
+        SceneError::Inconsistent {
+            location: self.document.locate(&self.node.place),
+            key: self.path.clone(),
+            found: found.into(),
+            allowed: allowed.into(),
+        }
+    }
+}
+
+fn joined(path: &str, key: &str) -> String {
+    if path.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{path}.{key}")
+    }
+}
+
+fn allowed_quantity(dimension: Dimension, range: Range, example: &str) -> String {
+    let units: Vec<&str> = dimension.units().collect();
+    format!(
+        "{} {}, such as {example} (units: {})",
+        dimension.noun(),
+        range.words,
+        units.join(", ")
+    )
+}
+
+fn allowed_number(range: Range) -> String {
+    format!("a number {}, without quotes or unit", range.words)
+}
