@@ -68,9 +68,9 @@ pub enum GroundModel {
 /// A measured peak displacement of the duct that the ground model is scaled to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum PeakScaling {
-    /// max|D_l| of each vehicle \[m\], positive: each vehicle gets its own factor.
+    /// `max|D_l|` of each vehicle \[m\], positive: each vehicle gets its own factor.
     Longitudinal(f64),
-    /// max|D_v| of the first vehicle \[m\], positive: all vehicles get the factor of the first.
+    /// `max|D_v|` of the first vehicle \[m\], positive: all vehicles get the factor of the first.
     Vertical(f64),
 }
 
@@ -97,7 +97,7 @@ impl Cable {
 pub struct Friction {
     /// How friction follows slip.
     pub law: FrictionLaw,
-    /// Dynamic friction coefficient μ_d, in \[0, 10\].
+    /// Dynamic friction coefficient `μ_d`, in \[0, 10\].
     pub dynamic_coefficient: f64,
 }
 

@@ -97,6 +97,10 @@ impl Document {
         Table::new(self, String::new(), &self.root, known)
     }
 
+    #[expect(
+        clippy::unnecessary_box_returns,
+        reason = "errors hold it boxed, to stay small"
+    )]
     pub fn locate(&self, place: &Place) -> Box<Location> {
         let source = &self.sources[place.source];
         Location::new(&source.name, &source.text, place.span.clone(), place.source == 0)

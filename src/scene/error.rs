@@ -58,7 +58,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A key that is not known.
-    #[error("{location}: found unknown key `{key}`{}; allowed: {allowed}{}", did_you_mean(.suggestion), .location.excerpt())]
+    #[error("{location}: found unknown key `{key}`{}; allowed: {allowed}{}", did_you_mean(.suggestion.as_deref()), .location.excerpt())]
     UnknownKey {
         /// Where.
         location: Box<Location>,
@@ -104,7 +104,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A unit that is not known.
-    #[error("{location}: `{key}`: unknown unit `{unit}`: found {found}{}; allowed: {allowed}{}", did_you_mean(.suggestion), .location.excerpt())]
+    #[error("{location}: `{key}`: unknown unit `{unit}`: found {found}{}; allowed: {allowed}{}", did_you_mean(*.suggestion), .location.excerpt())]
     UnknownUnit {
         /// Where.
         location: Box<Location>,
@@ -117,7 +117,7 @@ pub enum SceneError {
         /// What is allowed.
         allowed: String,
         /// The nearest unit that is allowed.
-        suggestion: Option<String>,
+        suggestion: Option<&'static str>,
     },
     /// A unit of another dimension.
     #[error("{location}: `{key}`: wrong dimension: found {found}, {dimension}; allowed: {allowed}{}", .location.excerpt())]
@@ -146,7 +146,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A word that is not one of the allowed ones.
-    #[error("{location}: `{key}`: found {found}{}; allowed: {allowed}{}", did_you_mean(.suggestion), .location.excerpt())]
+    #[error("{location}: `{key}`: found {found}{}; allowed: {allowed}{}", did_you_mean(.suggestion.as_deref()), .location.excerpt())]
     UnknownWord {
         /// Where.
         location: Box<Location>,
@@ -183,10 +183,8 @@ pub enum SceneError {
     },
 }
 
-fn did_you_mean(suggestion: &Option<String>) -> String {
-    suggestion
-        .as_ref()
-        .map_or_else(String::new, |word| format!("; did you mean `{word}`?"))
+fn did_you_mean(suggestion: Option<&str>) -> String {
+    suggestion.map_or_else(String::new, |word| format!("; did you mean `{word}`?"))
 }
 
 /// A place in a scene file or in an override.
@@ -204,6 +202,10 @@ pub struct Location {
 
 impl Location {
     /// The place of the bytes `span` in `text`. Every span is fine: what lies outside the text is cut off.
+    #[expect(
+        clippy::unnecessary_box_returns,
+        reason = "errors hold it boxed, to stay small"
+    )]
     pub(super) fn new(file: &str, text: &str, span: Range<usize>, numbered: bool) -> Box<Self> {
         let bytes = text.as_bytes();
         let start = span.start.min(bytes.len());
@@ -221,7 +223,7 @@ impl Location {
             .trim_end_matches('\r');
         let start = (start - line_start).min(line.len());
         let end = span.end.saturating_sub(line_start).clamp(start, line.len());
-        let number = 1 + bytes[..line_start].iter().filter(|&&b| b == b'\n').count();
+        let number = 1 + text.get(..line_start).unwrap_or_default().matches('\n').count();
         Box::new(Self {
             file: file.to_owned(),
             line: numbered.then_some(number),

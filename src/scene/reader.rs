@@ -346,7 +346,7 @@ impl<'d> Value<'d> {
                 unit,
                 found,
                 allowed,
-                suggestion: nearest.map(str::to_owned),
+                suggestion: nearest,
             },
             QuantityError::WrongDimension { dimension, .. } => SceneError::WrongDimension {
                 location,

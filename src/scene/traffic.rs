@@ -53,22 +53,18 @@ fn normalise(vehicles: &mut [TrafficVehicle]) {
 fn name(table: &Table, index: usize, others: &[TrafficVehicle]) -> Result<String, SceneError> {
     let allowed = "a name in quotes that no other vehicle has";
     let taken = |name: &str| others.iter().any(|other| other.vehicle.name() == name);
-    match table.optional("name") {
-        Some(value) => {
-            let name = value.text(allowed)?;
-            if name.trim().is_empty() || taken(&name) {
-                return Err(value.inconsistent(value.written(), allowed));
-            }
-            Ok(name)
+    if let Some(value) = table.optional("name") {
+        let name = value.text(allowed)?;
+        if name.trim().is_empty() || taken(&name) {
+            return Err(value.inconsistent(value.written(), allowed));
         }
-        None => {
-            let name = format!("vehicle {}", index + 1);
-            if taken(&name) {
-                return Err(table.inconsistent(format!("no name, where \"{name}\" is taken"), allowed));
-            }
-            Ok(name)
-        }
+        return Ok(name);
     }
+    let name = format!("vehicle {}", index + 1);
+    if taken(&name) {
+        return Err(table.inconsistent(format!("no name, where \"{name}\" is taken"), allowed));
+    }
+    Ok(name)
 }
 
 fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {
