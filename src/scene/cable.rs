@@ -1,6 +1,7 @@
 //! `[duct]`, `[cable]`, `[friction]`, `[ends]`, `[[restraints]]`: what the traffic acts on.
 
-use super::reader::{ANY, COEFFICIENT, POSITIVE, Table, Value};
+use super::range::{ANY, COEFFICIENT, POSITIVE, shown};
+use super::reader::{Table, Value};
 use super::{Cable, Dimension, Duct, End, Ends, Friction, FrictionLaw, Restraint, SceneError, keys};
 
 pub(super) fn duct(root: &Table) -> Result<Duct, SceneError> {
@@ -90,7 +91,7 @@ fn restraint(item: &Value, duct: &Duct) -> Result<Restraint, SceneError> {
     let table = item.table(keys::RESTRAINT)?;
     let position = table.quantity("position", Dimension::Length, ANY, EXAMPLE)?;
     if !(0.0..=duct.length).contains(&position) {
-        let allowed = format!("a position in the duct, from 0 m to {} m", duct.length);
+        let allowed = format!("a position in the duct, from 0 m to {} m", shown(duct.length));
         return Err(table.required("position", &allowed)?.out_of_range(allowed));
     }
     Ok(Restraint {

@@ -2,7 +2,8 @@
 
 use ground_field::{Base, Modulus, Soil, SoilLayer, SoilProfile};
 
-use super::reader::{POISSON, POSITIVE, Table, Value};
+use super::range::{POISSON, POSITIVE, shown};
+use super::reader::{Table, Value};
 use super::{Dimension, Ground, GroundModel, PeakScaling, SceneError, keys};
 
 const MODELS: &[(&str, GroundModel)] = &[
@@ -72,7 +73,10 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
         let depth = value.quantity(Dimension::Length, POSITIVE, "\"12 m\"")?;
         let above: f64 = upper.iter().map(SoilLayer::thickness).sum();
         if depth <= above {
-            return Err(value.out_of_range(format!("a depth below the upper layers, greater than {above} m")));
+            return Err(value.out_of_range(format!(
+                "a depth below the upper layers, greater than {} m",
+                shown(above)
+            )));
         }
         upper.push(last.of_thickness(depth - above)?);
         Base::Rigid

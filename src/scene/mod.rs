@@ -46,6 +46,7 @@ mod keys;
 mod nearest;
 mod overrides;
 mod quantity;
+mod range;
 mod reader;
 mod solver;
 mod traffic;

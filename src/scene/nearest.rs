@@ -18,7 +18,7 @@ pub(super) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) 
             (&letters, &word)
         };
         let allowed = (long.len() / 3).max(1);
-        let distance = if short.len() >= 3 && long.starts_with(short) {
+        let distance = if short.len() >= 3 && short.len() < long.len() && long.starts_with(short) {
             1
         } else if long.len() - short.len() > allowed {
             continue;
@@ -33,19 +33,23 @@ pub(super) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) 
     best.map(|(_, candidate)| candidate)
 }
 
-/// Levenshtein distance: letters to insert, remove or replace.
+/// Letters to insert, remove, replace or exchange with their neighbour (optimal string alignment).
 fn distance(a: &[char], b: &[char]) -> usize {
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.iter().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+    let mut before: Vec<usize> = Vec::new();
+    let mut above: Vec<usize> = (0..=b.len()).collect();
+    for i in 0..a.len() {
+        let mut row = vec![i + 1; b.len() + 1];
+        for j in 0..b.len() {
+            row[j + 1] = (above[j] + usize::from(a[i] != b[j]))
+                .min(above[j + 1] + 1)
+                .min(row[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                row[j + 1] = row[j + 1].min(before[j - 1] + 1);
+            }
         }
+        before = std::mem::replace(&mut above, row);
     }
-    row[b.len()]
+    above[b.len()]
 }
 
 #[cfg(test)]
@@ -59,6 +63,8 @@ mod tests {
         assert_eq!(nearest("Depth", known), Some("depth"));
         assert_eq!(nearest("lateral-offset", known), Some("lateral_offset"));
         assert_eq!(nearest("lateral", known), Some("lateral_offset"));
+        assert_eq!(nearest("lwa", ["low", "law"]), Some("law"));
+        assert_eq!(nearest("Mpa", ["Pa", "MPa"]), Some("MPa"));
         assert_eq!(nearest("colour", known), None);
         assert_eq!(nearest("", known), None);
         assert_eq!(nearest("z", ["x", "y"]), None);

@@ -8,40 +8,8 @@ use ground_field::GroundError;
 use super::document::{Content, Document, Entry, Node, Place};
 use super::keys::SECTIONS;
 use super::nearest::nearest;
+use super::range::{Range, allowed_number, allowed_quantity};
 use super::{Dimension, QuantityError, SceneError};
-
-/// A range of values.
-#[derive(Clone, Copy)]
-pub(super) struct Range {
-    /// In words, after "a length".
-    words: &'static str,
-    holds: fn(f64) -> bool,
-}
-
-pub(super) const ANY: Range = Range {
-    words: "of any sign",
-    holds: |_| true,
-};
-pub(super) const POSITIVE: Range = Range {
-    words: "greater than 0",
-    holds: |v| v > 0.0,
-};
-pub(super) const NOT_NEGATIVE: Range = Range {
-    words: "of at least 0",
-    holds: |v| v >= 0.0,
-};
-pub(super) const POISSON: Range = Range {
-    words: "from 0 to 0.5",
-    holds: |v| (0.0..=0.5).contains(&v),
-};
-pub(super) const COEFFICIENT: Range = Range {
-    words: "from 0 to 10",
-    holds: |v| (0.0..=10.0).contains(&v),
-};
-pub(super) const TOLERANCE: Range = Range {
-    words: "greater than 0 and at most 0.5",
-    holds: |v| v > 0.0 && v <= 0.5,
-};
 
 /// A table of the document.
 pub(super) struct Table<'d> {
@@ -399,18 +367,4 @@ fn joined(path: &str, key: &str) -> String {
     } else {
         format!("{path}.{key}")
     }
-}
-
-fn allowed_quantity(dimension: Dimension, range: Range, example: &str) -> String {
-    let units: Vec<&str> = dimension.units().collect();
-    format!(
-        "{} {}, such as {example} (units: {})",
-        dimension.noun(),
-        range.words,
-        units.join(", ")
-    )
-}
-
-fn allowed_number(range: Range) -> String {
-    format!("a number {}, without quotes or unit", range.words)
 }

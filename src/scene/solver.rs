@@ -1,6 +1,7 @@
 //! `[solver]`: how to compute.
 
-use super::reader::{POSITIVE, TOLERANCE, Table};
+use super::range::{POSITIVE, TOLERANCE, shown};
+use super::reader::Table;
 use super::{Dimension, Duct, SceneError, Solver, SolverMethod, keys};
 
 const METHODS: &[(&str, SolverMethod)] = &[
@@ -36,7 +37,7 @@ pub(super) fn solver(root: &Table, duct: &Duct) -> Result<Solver, SceneError> {
     if let (Some(spacing), Some(value)) = (node_spacing, table.optional("node_spacing"))
         && spacing > duct.length / 2.0
     {
-        let allowed = format!("at most half the duct's length, {} m", duct.length / 2.0);
+        let allowed = format!("at most half the duct's length, {} m", shown(duct.length / 2.0));
         return Err(value.out_of_range(allowed));
     }
     let vehicle_step = table.optional_quantity("vehicle_step", Dimension::Length, POSITIVE, "\"0.1 m\"")?;

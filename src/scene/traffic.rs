@@ -2,7 +2,8 @@
 
 use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
-use super::reader::{ANY, NOT_NEGATIVE, POSITIVE, Table, Value};
+use super::range::{ANY, NOT_NEGATIVE, POSITIVE};
+use super::reader::{Table, Value};
 use super::{Dimension, Order, PeakScaling, SceneError, Traffic, TrafficVehicle, keys};
 
 const DIRECTIONS: &[(&str, Direction)] = &[("forward", Direction::Forward), ("reverse", Direction::Reverse)];
