@@ -1,7 +1,8 @@
 //! `[duct]`, `[cable]`, `[friction]`, `[ends]`, `[[restraints]]`: what the traffic acts on.
 
 use super::range::{ANY, COEFFICIENT, POSITIVE, shown};
-use super::reader::{Table, Value};
+use super::table::Table;
+use super::value::Value;
 use super::{Cable, Dimension, Duct, End, Ends, Friction, FrictionLaw, Restraint, SceneError, keys};
 
 pub(super) fn duct(root: &Table) -> Result<Duct, SceneError> {

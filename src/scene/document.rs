@@ -5,9 +5,8 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::SceneError;
-use super::error::Location;
-use super::reader::Table;
+use super::table::Table;
+use super::{Location, SceneError};
 
 /// Where something was written: which source, which bytes of it.
 #[derive(Debug, Clone, PartialEq, Eq)]

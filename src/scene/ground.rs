@@ -3,7 +3,8 @@
 use ground_field::{Base, Modulus, Soil, SoilLayer, SoilProfile};
 
 use super::range::{POISSON, POSITIVE, shown};
-use super::reader::{Table, Value};
+use super::table::Table;
+use super::value::Value;
 use super::{Dimension, Ground, GroundModel, PeakScaling, SceneError, keys};
 
 const MODELS: &[(&str, GroundModel)] = &[

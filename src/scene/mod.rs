@@ -42,22 +42,27 @@ mod document;
 mod error;
 mod ground;
 mod keys;
-
+mod location;
 mod nearest;
 mod overrides;
 mod quantity;
 mod range;
-mod reader;
 mod solver;
+mod table;
 mod traffic;
+mod units;
+mod value;
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 pub use data::{
     Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Order, PeakScaling, Restraint, Scene,
     Solver, SolverMethod, Traffic, TrafficVehicle,
 };
-pub use error::{Location, SceneError};
+pub use error::SceneError;
+pub use location::Location;
 pub use quantity::{Dimension, QuantityError};
 
 use document::Document;
@@ -86,15 +91,16 @@ impl Scene {
             file: file.clone(),
             source,
         };
-        let size = std::fs::metadata(path).map_err(unreadable)?.len();
-        if size > LARGEST_FILE {
+        let mut bytes = Vec::new();
+        File::open(path)
+            .and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
+            .map_err(unreadable)?;
+        if bytes.len() as u64 > LARGEST_FILE {
             return Err(SceneError::TooLarge {
                 file,
-                found: size,
                 allowed: LARGEST_FILE,
             });
         }
-        let bytes = std::fs::read(path).map_err(unreadable)?;
         let text = String::from_utf8(bytes).map_err(|e| error::not_utf8(&file, &e))?;
         Self::from_toml_with(&file, &text, overrides)
     }

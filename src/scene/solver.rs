@@ -1,7 +1,7 @@
 //! `[solver]`: how to compute.
 
 use super::range::{POSITIVE, TOLERANCE, shown};
-use super::reader::Table;
+use super::table::Table;
 use super::{Dimension, Duct, SceneError, Solver, SolverMethod, keys};
 
 const METHODS: &[(&str, SolverMethod)] = &[

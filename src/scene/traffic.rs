@@ -3,7 +3,8 @@
 use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
 use super::range::{ANY, NOT_NEGATIVE, POSITIVE};
-use super::reader::{Table, Value};
+use super::table::Table;
+use super::value::Value;
 use super::{Dimension, Order, PeakScaling, SceneError, Traffic, TrafficVehicle, keys};
 
 const DIRECTIONS: &[(&str, Direction)] = &[("forward", Direction::Forward), ("reverse", Direction::Reverse)];

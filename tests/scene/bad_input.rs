@@ -380,5 +380,11 @@ fn a_file_that_cannot_be_read_is_named() {
         encoding.contains("sjis.toml, line 2: found text that is not UTF-8"),
         "{encoding}"
     );
+    let endless = folder.join("endless.toml");
+    std::fs::File::create(&endless).unwrap().set_len(1 << 30).unwrap();
+    assert!(matches!(
+        Scene::from_file(&endless),
+        Err(SceneError::TooLarge { .. })
+    ));
     std::fs::remove_dir_all(&folder).unwrap();
 }
