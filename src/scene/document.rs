@@ -102,7 +102,13 @@ impl Document {
     )]
     pub fn locate(&self, place: &Place) -> Box<Location> {
         let source = &self.sources[place.source];
-        Location::new(&source.name, &source.text, place.span.clone(), place.source == 0)
+        let mut location = Location::new(&source.name, &source.text, place.span.clone(), place.source == 0);
+        if *place == self.root.place {
+            // What the top level lacks is not on its last line.
+            location.text.clear();
+            location.marked = 0..0;
+        }
+        location
     }
 
     /// What was written at a place: its first line, without what is too long to repeat.

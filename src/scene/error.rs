@@ -179,7 +179,7 @@ pub enum SceneError {
 }
 
 fn did_you_mean(suggestion: Option<&str>) -> String {
-    suggestion.map_or_else(String::new, |word| format!("; did you mean `{word}`?"))
+    suggestion.map_or_else(String::new, |word| format!(" (did you mean `{word}`?)"))
 }
 
 /// The error for a file whose bytes are not UTF-8.

@@ -15,7 +15,7 @@ pub struct Location {
     pub line: Option<usize>,
     /// The line.
     pub text: String,
-    /// The faulty part of the line \[bytes\]; empty where there is nothing to mark.
+    /// The faulty part of the line \[bytes\].
     pub marked: Range<usize>,
 }
 
@@ -40,8 +40,16 @@ impl Location {
             .get(line_start..line_end)
             .unwrap_or_default()
             .trim_end_matches('\r');
-        let start = (start - line_start).min(line.len());
-        let end = span.end.saturating_sub(line_start).clamp(start, line.len());
+        let mut start = (start - line_start).min(line.len());
+        while !line.is_char_boundary(start) {
+            start -= 1;
+        }
+        // At least one character is marked, or the end of the line.
+        let first = line[start..].chars().next().map_or(0, char::len_utf8);
+        let end = span
+            .end
+            .saturating_sub(line_start)
+            .clamp(start + first, line.len());
         let number = 1 + text.get(..line_start).unwrap_or_default().matches('\n').count();
         Box::new(Self {
             file: file.to_owned(),
@@ -64,8 +72,12 @@ impl Location {
             .unwrap_or_default()
             .chars()
             .count();
-        // A very long line is shown from shortly before the mark.
-        let skipped = before.saturating_sub(LONGEST_EXCERPT / 2);
+        // Of a very long line the part around the mark is shown.
+        let skipped = if before < LONGEST_EXCERPT * 3 / 4 {
+            0
+        } else {
+            before - LONGEST_EXCERPT / 2
+        };
         for (count, (offset, c)) in self.text.char_indices().skip(skipped).enumerate() {
             if count == LONGEST_EXCERPT {
                 shown.push('…');
@@ -79,15 +91,13 @@ impl Location {
             });
             marks.extend(std::iter::repeat_n(mark, columns(c)));
         }
+        if self.marked.start == self.text.len() {
+            marks.push('^');
+        }
         let number = self.line.map_or_else(String::new, |line| line.to_string());
         let margin = " ".repeat(number.len());
         let marks = marks.trim_end();
-        let last = if marks.is_empty() {
-            String::new()
-        } else {
-            format!("\n{margin} | {marks}")
-        };
-        format!("\n{margin} |\n{number} | {shown}{last}")
+        format!("\n{margin} |\n{number} | {shown}\n{margin} | {marks}")
     }
 }
 

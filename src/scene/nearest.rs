@@ -1,5 +1,7 @@
 //! The word someone probably meant.
 
+use std::cmp::Reverse;
+
 /// The one of `known` nearest to `word`, if any is near enough to be worth suggesting.
 pub(super) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let plain = |text: &str| -> Vec<char> {
@@ -26,8 +28,13 @@ pub(super) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) 
             distance(&word, &letters)
         };
         // A single letter that differs altogether is no near miss.
-        if distance <= allowed && distance < long.len() && best.is_none_or(|(least, _)| distance < least) {
-            best = Some((distance, candidate));
+        if distance <= allowed && distance < long.len() {
+            let same = word.iter().zip(&letters).take_while(|(a, b)| a == b).count();
+            // Of equally near words the one that begins alike.
+            let rank = (distance, Reverse(same));
+            if best.is_none_or(|(least, _)| rank < least) {
+                best = Some((rank, candidate));
+            }
         }
     }
     best.map(|(_, candidate)| candidate)
@@ -65,6 +72,7 @@ mod tests {
         assert_eq!(nearest("lateral", known), Some("lateral_offset"));
         assert_eq!(nearest("lwa", ["low", "law"]), Some("law"));
         assert_eq!(nearest("Mpa", ["Pa", "MPa"]), Some("MPa"));
+        assert_eq!(nearest("kg/m", ["kN/m", "kgf/m"]), Some("kgf/m"));
         assert_eq!(nearest("colour", known), None);
         assert_eq!(nearest("", known), None);
         assert_eq!(nearest("z", ["x", "y"]), None);

@@ -324,7 +324,7 @@ fn an_unknown_word_suggests_the_nearest() {
             panic!("{case}")
         };
         let found = new.split_once(" = ").unwrap().1;
-        let start = format!("`{key}`: found {found}; did you mean `{suggestion}`?; allowed: \"");
+        let start = format!("`{key}`: found {found} (did you mean `{suggestion}`?); allowed: \"");
         assert_refused(old, new, new, &[&start, "^"]);
     }
     let allowed = "allowed: \"auto\", \"boussinesq\", \"odemark\", \"burmister\", \"fem\"";
@@ -387,4 +387,17 @@ fn a_file_that_cannot_be_read_is_named() {
         Err(SceneError::TooLarge { .. })
     ));
     std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_message_reads_as_a_whole() {
+    let message = read(&FULL.replace("depth = \"1.2 m\"", "depth = \"1.2 kN\"  # to the cable"));
+    assert_eq!(
+        message.unwrap_err().to_string(),
+        "bad.toml, line 4: `duct.depth`: wrong dimension: found \"1.2 kN\", a force; \
+         allowed: a length greater than 0, such as \"1.2 m\" (units: m, cm, mm, um, nm, km)\n  \
+           |\n\
+         4 | depth = \"1.2 kN\"  # to the cable\n  \
+           |         ^^^^^^^^"
+    );
 }
