@@ -1,1 +1,3 @@
 //! Creepage of power cables in underground ducts under traffic.
+
+pub mod scene;
