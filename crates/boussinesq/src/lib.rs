@@ -1,7 +1,9 @@
 //! Closed forms for elastic ground under a vertical surface load.
 //!
 //! [`HalfSpace`] is Boussinesq's answer for one soil without end: exact, for a point load and for uniform pressure on a
-//! disc, at every point. It implements [`GroundField`](ground_field::GroundField), as does every model of the ground.
+//! disc, at every point.
+//! [`Odemark`] turns layers into an equivalent thickness of one soil: cheap and approximate, its error stated.
+//! Both implement [`GroundField`](ground_field::GroundField), as does every model of the ground.
 //!
 //! ```
 //! use boussinesq::HalfSpace;
@@ -27,7 +29,9 @@
 mod disc;
 mod elliptic;
 mod half_space;
+mod odemark;
 mod point;
 mod shape;
 
 pub use half_space::HalfSpace;
+pub use odemark::Odemark;
