@@ -1,5 +1,6 @@
 //! What a scene holds: plain data in SI.
 
+pub use cable_dem::{End, FrictionLaw, Order, Restraint};
 use ground_field::{SoilProfile, Vehicle};
 
 /// A cable in a duct under traffic, in SI.
@@ -101,23 +102,6 @@ pub struct Friction {
     pub dynamic_coefficient: f64,
 }
 
-/// How friction follows slip.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum FrictionLaw {
-    /// Rigid until it slips.
-    Coulomb,
-    /// Shears elastically, then slips.
-    ElasticPlastic {
-        /// Shape factor b \[1/m\], positive: the slope before slipping is q·b/2.
-        shape_factor: f64,
-    },
-    /// A smooth function of the slip within one step, without memory.
-    Sigmoid {
-        /// Shape factor b \[1/m\], positive: the slope at rest is q·b/2.
-        shape_factor: f64,
-    },
-}
-
 /// What holds the cable's two ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ends {
@@ -125,26 +109,6 @@ pub struct Ends {
     pub upstream: End,
     /// At x = length.
     pub downstream: End,
-}
-
-/// What holds one end of the cable.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum End {
-    /// Nothing.
-    Free,
-    /// It does not move.
-    Fixed,
-    /// A spring to the ground, of this stiffness \[N/m\], positive.
-    Spring(f64),
-}
-
-/// An anti-creepage clamp: a spring between cable and ground.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Restraint {
-    /// Position along the duct \[m\], in \[0, length\].
-    pub position: f64,
-    /// Stiffness \[N/m\], positive.
-    pub stiffness: f64,
 }
 
 /// A vehicle and how often it drives.
@@ -157,27 +121,12 @@ pub struct TrafficVehicle {
 }
 
 /// How many vehicles drive, in which order.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Traffic {
     /// Number of passes, all vehicles together, at least 1.
     pub passes: u64,
     /// Which vehicle drives when.
     pub order: Order,
-}
-
-/// Which vehicle drives when.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub enum Order {
-    /// Interleaved evenly by share.
-    #[default]
-    Interleaved,
-    /// Drawn at random by share.
-    Random {
-        /// Seed of the draw: the same seed gives the same order.
-        seed: u64,
-    },
-    /// This order, as indices into [`Scene::vehicles`], repeated until all passes are done. Not empty.
-    Sequence(Vec<usize>),
 }
 
 /// How to compute. Lengths and times that are `None` are chosen to suit the scene.

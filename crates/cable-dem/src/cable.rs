@@ -72,7 +72,9 @@ impl DuctedCable {
     pub fn with_ends(mut self, upstream: End, downstream: End) -> Result<Self, CableError> {
         for end in [upstream, downstream] {
             if let End::Spring(stiffness) = end {
-                checked("spring stiffness", stiffness, "finite and not negative", |v| v >= 0.0)?;
+                checked("spring stiffness", stiffness, "finite and not negative", |v| {
+                    v >= 0.0
+                })?;
             }
         }
         (self.upstream, self.downstream) = (upstream, downstream);

@@ -66,10 +66,6 @@ pub(crate) fn checked(
     if value.is_finite() && holds(value) {
         Ok(value)
     } else {
-        Err(CableError::InvalidParameter {
-            name,
-            value,
-            allowed,
-        })
+        Err(CableError::InvalidParameter { name, value, allowed })
     }
 }

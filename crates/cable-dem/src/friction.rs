@@ -8,9 +8,11 @@
 //! |---|---|---|
 //! | Coulomb | ±q while slipping, anything between while stuck | Popov, Contact Mechanics and Friction, 2010, §10.2 |
 //! | elastic-plastic | clamp(f + (q b/2) Δs, −q, q) | the sheath shears, then slips: Kashiro et al., Figure 10 |
+//! | sigmoid | q (1 − e^(−bΔs))/(1 + e^(−bΔs)) = q tanh(bΔs/2) | Kashiro et al., Equation (2) |
 //!
-//! The shape factor b \[1/m\] is Kashiro et al.'s (Equation (2)): both this law and their sigmoid
-//! q (1 − e^(−bΔs))/(1 + e^(−bΔs)) start with the slope q b/2. Coulomb's law is the limit b → ∞.
+//! The shape factor b \[1/m\] is Kashiro et al.'s: both of the latter start with the slope q b/2, and Coulomb's law is
+//! the limit b → ∞. The sigmoid has no memory: Δs is the slip within one step of time, so that at rest it is a dashpot
+//! with reference speed 2/(bΔt), stored force leaks away, and the answer depends on Δt.
 
 use crate::CableError;
 use crate::error::checked;
@@ -26,6 +28,11 @@ pub enum FrictionLaw {
         /// b \[1/m\].
         shape_factor: f64,
     },
+    /// A smooth function of the slip within one time step, without memory.
+    Sigmoid {
+        /// b \[1/m\].
+        shape_factor: f64,
+    },
 }
 
 impl FrictionLaw {
@@ -34,7 +41,21 @@ impl FrictionLaw {
         match self {
             Self::Coulomb => "coulomb",
             Self::ElasticPlastic { .. } => "elastic-plastic",
+            Self::Sigmoid { .. } => "sigmoid",
         }
+    }
+
+    /// Shape factor b \[1/m\]; infinite for Coulomb's law.
+    pub fn shape_factor(self) -> f64 {
+        match self {
+            Self::Coulomb => f64::INFINITY,
+            Self::ElasticPlastic { shape_factor } | Self::Sigmoid { shape_factor } => shape_factor,
+        }
+    }
+
+    /// Whether friction remembers earlier slip, so that stored force stays.
+    pub fn has_memory(self) -> bool {
+        !matches!(self, Self::Sigmoid { .. })
     }
 }
 
@@ -53,7 +74,8 @@ impl Friction {
     /// [`CableError::InvalidParameter`] unless the limit is finite and not negative, the shape factor finite and positive.
     pub fn new(law: FrictionLaw, limit: f64) -> Result<Self, CableError> {
         checked("friction limit", limit, "finite and not negative", |v| v >= 0.0)?;
-        if let FrictionLaw::ElasticPlastic { shape_factor } = law {
+        if law != FrictionLaw::Coulomb {
+            let shape_factor = law.shape_factor();
             checked("shape_factor", shape_factor, "finite and positive", |v| v > 0.0)?;
         }
         Ok(Self { law, limit })
@@ -69,12 +91,13 @@ impl Friction {
         self.limit
     }
 
-    /// Shear compliance γ = 2/(q b) \[m²/N\] of the stuck contact: slip per friction. 0 for Coulomb's law.
+    /// Shear compliance γ = 2/(q b) \[m²/N\] of the stuck contact: slip per friction. 0 for Coulomb's law, infinite
+    /// without friction.
     pub fn compliance(self) -> f64 {
-        match self.law {
-            FrictionLaw::Coulomb => 0.0,
-            FrictionLaw::ElasticPlastic { shape_factor } => 2.0 / (self.limit * shape_factor),
+        if self.limit == 0.0 {
+            return f64::INFINITY;
         }
+        2.0 / (self.limit * self.law.shape_factor())
     }
 
     /// Friction after the duct has slipped by `slip` \[m\] past the cable, from `friction` \[N/m\] before.
@@ -88,6 +111,7 @@ impl Friction {
             FrictionLaw::ElasticPlastic { shape_factor } => {
                 (friction + 0.5 * q * shape_factor * slip).clamp(-q, q)
             }
+            FrictionLaw::Sigmoid { shape_factor } => q * (0.5 * shape_factor * slip).tanh(),
         }
     }
 }

@@ -31,11 +31,7 @@ impl CableState {
     }
 
     /// Force in every element \[N\], compression positive: F = −EA u′.
-    pub fn element_forces<'a>(
-        &'a self,
-        cable: &DuctedCable,
-        mesh: &Mesh,
-    ) -> impl Iterator<Item = f64> + 'a {
+    pub fn element_forces<'a>(&'a self, cable: &DuctedCable, mesh: &Mesh) -> impl Iterator<Item = f64> + 'a {
         let stiffness = cable.axial_stiffness() / mesh.spacing();
         self.displacement
             .windows(2)
@@ -57,10 +53,7 @@ impl CableState {
             End::Spring(spring) => spring * u[n],
             End::Fixed => stiffness * (u[n - 1] - u[n]) + mesh.tributary_length(n) * f[n],
         };
-        EndForces {
-            upstream,
-            downstream,
-        }
+        EndForces { upstream, downstream }
     }
 
     pub(crate) fn check(&self, mesh: &Mesh) -> Result<(), CableError> {

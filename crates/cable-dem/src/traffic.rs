@@ -29,7 +29,8 @@ pub struct Traffic {
 }
 
 impl Traffic {
-    /// Traffic of vehicles with `shares` of the passes (any positive weights), in `order`.
+    /// Traffic of vehicles with `shares` of the passes (any positive weights), in `order`; a sequence needs no shares, only
+    /// their number.
     ///
     /// # Errors
     ///
@@ -37,19 +38,26 @@ impl Traffic {
     /// vehicles that exist.
     pub fn new(shares: &[f64], order: Order) -> Result<Self, CableError> {
         checked("vehicles", shares.len() as f64, "at least one", |v| v > 0.0)?;
-        for &share in shares {
-            checked("share", share, "finite and positive", |v| v > 0.0)?;
-        }
         if let Order::Sequence(sequence) = &order {
-            checked("sequence length", sequence.len() as f64, "at least one", |v| v > 0.0)?;
+            checked("sequence length", sequence.len() as f64, "at least one", |v| {
+                v > 0.0
+            })?;
             for &index in sequence {
                 checked("sequence entry", index as f64, "the index of a vehicle", |v| {
                     v < shares.len() as f64
                 })?;
             }
+        } else {
+            for &share in shares {
+                checked("share", share, "finite and positive", |v| v > 0.0)?;
+            }
         }
         let total: f64 = shares.iter().sum();
-        let seed = if let Order::Random { seed } = order { seed } else { 0 };
+        let seed = if let Order::Random { seed } = order {
+            seed
+        } else {
+            0
+        };
         Ok(Self {
             shares: shares.iter().map(|share| share / total).collect(),
             order,
@@ -63,7 +71,13 @@ impl Traffic {
     fn most_overdue(&self) -> usize {
         let due = |index: usize| self.shares[index] * (self.passed + 1) as f64 - self.counts[index] as f64;
         // Shares such as 1/3 leave rounding in what should be equal.
-        (1..self.shares.len()).fold(0, |best, index| if due(index) > due(best) + 1e-9 { index } else { best })
+        (1..self.shares.len()).fold(0, |best, index| {
+            if due(index) > due(best) + 1e-9 {
+                index
+            } else {
+                best
+            }
+        })
     }
 
     fn drawn(&mut self) -> usize {
@@ -109,7 +123,9 @@ mod tests {
     #[test]
     fn random_traffic_repeats_with_its_seed_and_keeps_its_shares() -> Result<(), CableError> {
         let draw = |seed| -> Result<Vec<usize>, CableError> {
-            Ok(Traffic::new(&[3.0, 1.0], Order::Random { seed })?.take(4000).collect())
+            Ok(Traffic::new(&[3.0, 1.0], Order::Random { seed })?
+                .take(4000)
+                .collect())
         };
         assert_eq!(draw(7)?, draw(7)?);
         assert_ne!(draw(7)?, draw(8)?);

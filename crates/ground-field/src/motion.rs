@@ -231,8 +231,7 @@ impl DuctMotion {
                 }
             }
         }
-        self.peak_longitudinal =
-            largest_near(longitudinal.0, step, |xi| self.point(xi).longitudinal.abs());
+        self.peak_longitudinal = largest_near(longitudinal.0, step, |xi| self.point(xi).longitudinal.abs());
         self.peak_vertical = largest_near(vertical.0, step, |xi| self.point(xi).vertical.abs());
     }
 }

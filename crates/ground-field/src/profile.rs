@@ -89,7 +89,9 @@ impl RadialProfile {
             (1e-13..=0.1).contains(&v)
         })?;
         let load = SurfaceLoad::new(1.0, contact_radius)?;
-        let end = reach.max(2.0 * depth).min((SAMPLED_DEPTHS * depth).max(MIN_SAMPLED));
+        let end = reach
+            .max(2.0 * depth)
+            .min((SAMPLED_DEPTHS * depth).max(MIN_SAMPLED));
         let mut sampler = Sampler {
             field,
             load,
@@ -163,7 +165,10 @@ impl RadialProfile {
             let power = (inner / outer).ln() / (1.0 / 0.8_f64).ln();
             (power > 0.5).then_some((outer, power))
         };
-        let (inner, outer) = (self.displacement(0.8 * end), self.displacement(end * (1.0 - 1e-12)));
+        let (inner, outer) = (
+            self.displacement(0.8 * end),
+            self.displacement(end * (1.0 - 1e-12)),
+        );
         Tail {
             radius: end,
             radial: power(inner.radial, outer.radial, self.peak.radial),
@@ -174,8 +179,7 @@ impl RadialProfile {
 
 impl Tail {
     fn at(&self, radius: f64) -> ProfilePoint {
-        let continued =
-            |(value, power): (f64, f64)| (value * (self.radius / radius).powf(power), power);
+        let continued = |(value, power): (f64, f64)| (value * (self.radius / radius).powf(power), power);
         let (radial, power) = self.radial.map_or((0.0, 1.0), continued);
         ProfilePoint {
             ratio: radial / radius,
@@ -321,7 +325,11 @@ fn coefficients(value: impl Fn(usize) -> f64) -> Series {
 fn derivative(series: &Series, scale: f64) -> Series {
     let mut slope = [0.0; NODES];
     for degree in (1..NODES).rev() {
-        let above = if degree + 1 < NODES { slope[degree + 1] } else { 0.0 };
+        let above = if degree + 1 < NODES {
+            slope[degree + 1]
+        } else {
+            0.0
+        };
         slope[degree - 1] = above + 2.0 * degree as f64 * series[degree];
     }
     slope[0] *= 0.5;

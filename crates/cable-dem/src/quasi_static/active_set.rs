@@ -59,13 +59,7 @@ impl Elimination {
     ///
     /// A stuck row reads r + γ g = anchor, a slipping one k⁻¹ times equilibrium with g at its bound. Both are diagonally
     /// dominant, so that elimination needs no pivoting.
-    pub fn solve(
-        &mut self,
-        chain: &Chain,
-        load: &Load<'_>,
-        stretch: Stretch,
-        trial: &mut Trial,
-    ) -> bool {
+    pub fn solve(&mut self, chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) -> bool {
         let Stretch { lo, hi } = stretch;
         let (r, contact) = (&mut trial.r, &trial.contact);
         let per_stiffness = 1.0 / chain.stiffness;

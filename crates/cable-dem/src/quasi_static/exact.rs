@@ -31,12 +31,7 @@ struct Graph {
 /// Sets the trial's contact states on `stretch` to those of the step's one answer.
 ///
 /// With nothing but friction to hold the chain and all of it slipping, the displacement nearest to the anchor is taken.
-pub(crate) fn contacts(
-    chain: &Chain,
-    load: &Load<'_>,
-    stretch: Stretch,
-    trial: &mut Trial,
-) {
+pub(crate) fn contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) {
     let Stretch { lo, hi } = stretch;
     let (r, contact) = (&trial.r, &mut trial.contact);
     let k = chain.stiffness;
@@ -162,7 +157,10 @@ impl Graph {
     /// p at `u`.
     fn force(&self, u: f64) -> f64 {
         let index = self.corners.partition_point(|corner| corner.u < u);
-        match (index.checked_sub(1).map(|i| self.corners[i]), self.corners.get(index)) {
+        match (
+            index.checked_sub(1).map(|i| self.corners[i]),
+            self.corners.get(index),
+        ) {
             (Some(left), Some(right)) if right.u > left.u => {
                 left.p + (right.p - left.p) * (u - left.u) / (right.u - left.u)
             }
@@ -186,8 +184,16 @@ impl Graph {
         let low = self.corners.partition_point(|corner| corner.p < 0.0);
         let high = self.corners.partition_point(|corner| corner.p <= 0.0);
         let last = self.corners.len() - 1;
-        let from = if low == 0 { f64::NEG_INFINITY } else { self.zero_between(low - 1, low.min(last)) };
-        let to = if high > last { f64::INFINITY } else { self.zero_between(high.max(1) - 1, high) };
+        let from = if low == 0 {
+            f64::NEG_INFINITY
+        } else {
+            self.zero_between(low - 1, low.min(last))
+        };
+        let to = if high > last {
+            f64::INFINITY
+        } else {
+            self.zero_between(high.max(1) - 1, high)
+        };
         wanted.max(from).min(to)
     }
 

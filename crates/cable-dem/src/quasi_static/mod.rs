@@ -85,8 +85,17 @@ impl QuasiStatic {
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable.
+    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::UnsupportedLaw`] for a law
+    /// without memory, which has no state of rest.
     pub fn new(cable: DuctedCable, mesh: Mesh) -> Result<Self, CableError> {
+        let law = cable.friction().law();
+        if !law.has_memory() {
+            return Err(CableError::UnsupportedLaw {
+                solver: "quasi-static",
+                law: law.name(),
+                reason: "its friction depends on the time step and fades at rest",
+            });
+        }
         crate::error::checked(
             "mesh length",
             mesh.spacing() * mesh.elements() as f64,

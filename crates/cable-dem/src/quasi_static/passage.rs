@@ -102,7 +102,9 @@ impl Passage {
         shape: impl Fn(f64) -> f64,
         approach: f64,
     ) -> Result<Self, CableError> {
-        checked("approach", approach, "positive and at most 1e5 m", |v| v > 0.0 && v <= 1e5)?;
+        checked("approach", approach, "positive and at most 1e5 m", |v| {
+            v > 0.0 && v <= 1e5
+        })?;
         let step = mesh.lattice_step();
         let limit = NEGLIGIBLE * cable.friction().limit();
         let positions = schedule(mesh, approach);
@@ -119,7 +121,11 @@ impl Passage {
                 let duct: Vec<f64> = (0..count)
                     .map(|c| shape(step * (phase - behind + m * c as i64) as f64))
                     .collect();
-                Phase::new(&duct, compliance * stiffness / mesh.spacing(), stiffness / mesh.spacing())
+                Phase::new(
+                    &duct,
+                    compliance * stiffness / mesh.spacing(),
+                    stiffness / mesh.spacing(),
+                )
             })
             .collect();
 

@@ -26,8 +26,14 @@ impl Support {
     pub fn of(cable: &DuctedCable, mesh: &Mesh) -> Vec<Self> {
         let last = mesh.elements();
         let mut supports = vec![
-            Self { node: 0, stiffness: cable.upstream().stiffness() },
-            Self { node: last, stiffness: cable.downstream().stiffness() },
+            Self {
+                node: 0,
+                stiffness: cable.upstream().stiffness(),
+            },
+            Self {
+                node: last,
+                stiffness: cable.downstream().stiffness(),
+            },
         ];
         for restraint in cable.restraints() {
             let place = (restraint.position / mesh.spacing()).min(last as f64);
@@ -44,7 +50,10 @@ impl Support {
                     Some(support) => {
                         support.stiffness = support.stiffness.map(|already| already + stiffness);
                     }
-                    None => supports.push(Self { node, stiffness: Some(stiffness) }),
+                    None => supports.push(Self {
+                        node,
+                        stiffness: Some(stiffness),
+                    }),
                 }
             }
         }

@@ -150,9 +150,12 @@ impl Sweeper {
         self.support_load.fill(0.0);
         self.by_node.fill(Contact::Stuck);
         self.by_xi.resize(passage.lattice_len(), Contact::Stuck);
-        let largest = self.r.iter().fold(passage.peak(), |largest, u| largest.max(u.abs()));
-        let friction = (FRICTION_ACCURACY * self.chain.limit)
-            .max(16.0 * rounding(&self.cable, &self.mesh, largest));
+        let largest = self
+            .r
+            .iter()
+            .fold(passage.peak(), |largest, u| largest.max(u.abs()));
+        let friction =
+            (FRICTION_ACCURACY * self.chain.limit).max(16.0 * rounding(&self.cable, &self.mesh, largest));
         let tolerance = Tolerance {
             friction,
             slip: SLIP_ACCURACY * largest + self.chain.compliance * friction,
@@ -160,7 +163,10 @@ impl Sweeper {
 
         let mut recorder = Recorder::new(state.end_forces(&self.cable, &self.mesh));
         let mut travelling: Option<Stretch> = None;
-        let (&arrival, onward) = passage.positions().split_first().expect("a passage has positions");
+        let (&arrival, onward) = passage
+            .positions()
+            .split_first()
+            .expect("a passage has positions");
         self.arrive(&passage.snapshot(arrival, last + 1));
         for &position in onward {
             let snapshot = passage.snapshot(position, last + 1);
@@ -224,10 +230,14 @@ impl Sweeper {
         let length = self.mesh.spacing().max(self.cable.screening_length());
         let threshold = SUPPORT_CHANGE * self.chain.limit * length;
         for index in 0..self.supports.len() {
-            let SupportWindow { support, solved, grip, .. } = &self.supports[index];
+            let SupportWindow {
+                support,
+                solved,
+                grip,
+                ..
+            } = &self.supports[index];
             let forcing = support.forcing(snapshot, self.chain.stiffness, last);
-            let change =
-                (forcing.cut - solved.cut).abs() + grip * (forcing.adherent - solved.adherent).abs();
+            let change = (forcing.cut - solved.cut).abs() + grip * (forcing.adherent - solved.adherent).abs();
             let due = all || change > threshold;
             if due {
                 let (node, load) = (support.node, support.load(forcing));
@@ -274,7 +284,10 @@ impl Sweeper {
         let slips = |i: &usize| (self.g[*i] + snapshot.adhesion[i + 1]).abs() > limit;
         let inside = travelling.unwrap_or(Stretch { lo: to + 1, hi: to });
         let first = (from..inside.lo.min(to + 1)).find(slips);
-        let last = (inside.hi.max(from).saturating_add(usize::from(travelling.is_some()))..=to)
+        let last = (inside
+            .hi
+            .max(from)
+            .saturating_add(usize::from(travelling.is_some()))..=to)
             .rev()
             .find(slips);
         let widened = |stretch: Stretch| Stretch {
@@ -283,7 +296,10 @@ impl Sweeper {
         };
         match (travelling, first, last) {
             (Some(stretch), _, _) => Some(widened(stretch)),
-            (None, Some(first), last) => Some(widened(Stretch { lo: first, hi: last.unwrap_or(first) })),
+            (None, Some(first), last) => Some(widened(Stretch {
+                lo: first,
+                hi: last.unwrap_or(first),
+            })),
             (None, None, _) => None,
         }
     }
@@ -341,15 +357,29 @@ impl Sweeper {
                 return Ok(stretch);
             }
             let grown = Stretch {
-                lo: if left { stretch.lo.saturating_sub(growth).max(self.free.lo) } else { stretch.lo },
-                hi: if right { (stretch.hi + growth).min(self.free.hi) } else { stretch.hi },
+                lo: if left {
+                    stretch.lo.saturating_sub(growth).max(self.free.lo)
+                } else {
+                    stretch.lo
+                },
+                hi: if right {
+                    (stretch.hi + growth).min(self.free.hi)
+                } else {
+                    stretch.hi
+                },
             };
             if grown.lo < stretch.lo {
-                let new = Stretch { lo: grown.lo, hi: stretch.lo - 1 };
+                let new = Stretch {
+                    lo: grown.lo,
+                    hi: stretch.lo - 1,
+                };
                 self.prepare(new, None, snapshot, passage);
             }
             if grown.hi > stretch.hi {
-                let new = Stretch { lo: stretch.hi + 1, hi: grown.hi };
+                let new = Stretch {
+                    lo: stretch.hi + 1,
+                    hi: grown.hi,
+                };
                 self.prepare(new, None, snapshot, passage);
             }
             stretch = grown;
@@ -391,8 +421,9 @@ impl Sweeper {
             anchor: &self.anchor,
         };
         let mut attempt = |trial: &mut Trial| {
-            let (outcome, sweeps) =
-                self.elimination.iterate(&self.chain, &load, stretch, tolerance, trial);
+            let (outcome, sweeps) = self
+                .elimination
+                .iterate(&self.chain, &load, stretch, tolerance, trial);
             recorder.statistics.sweeps += sweeps;
             recorder.statistics.node_updates += sweeps * (stretch.hi - stretch.lo + 1);
             outcome
@@ -413,7 +444,9 @@ impl Sweeper {
 
     /// Whether the trial leaves the held node beside the window out of balance.
     fn edge_disturbed(&self, node: usize) -> bool {
-        let balancing = self.chain.balancing_friction(&self.trial.r, &self.support_load, node);
+        let balancing = self
+            .chain
+            .balancing_friction(&self.trial.r, &self.support_load, node);
         (balancing - self.g[node]).abs() > NEGLIGIBLE * self.chain.limit
     }
 
@@ -439,7 +472,8 @@ impl Sweeper {
     fn ends_touched(&self) -> bool {
         self.supports.iter().any(|support| support.due)
             || self.windows.iter().any(|window| {
-                window.stretch.lo <= self.free.lo + self.margin || window.stretch.hi + self.margin >= self.free.hi
+                window.stretch.lo <= self.free.lo + self.margin
+                    || window.stretch.hi + self.margin >= self.free.hi
             })
     }
 
@@ -463,7 +497,8 @@ impl Sweeper {
             crate::End::Spring(stiffness) => outward * stiffness * u(node),
             crate::End::Fixed => {
                 let friction = self.g[node] + snapshot.adhesion[node + 1];
-                outward * (self.chain.stiffness * (u(inner) - u(node)) + self.chain.tributary[node] * friction)
+                outward
+                    * (self.chain.stiffness * (u(inner) - u(node)) + self.chain.tributary[node] * friction)
             }
         };
         EndForces {
