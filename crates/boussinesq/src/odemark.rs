@@ -79,7 +79,16 @@ const MODEL: &str = "odemark";
 /// Largest difference from the exact layered solution, as a share of the component's peak at that depth, for
 /// distances to 20 m; moduli in MPa from the surface down, thicknesses in m:
 ///
-/// TABLE
+/// | moduli (ν), thicknesses, base | u_r | u_z |
+/// |---|---|---|
+/// | 4000 (0.35), 800 (0.35) on 800 (0.40); 0.05, 0.05 | 3 % | 2 % |
+/// | 3000 (0.30), 200 (0.35) on 40 (0.40); 0.15, 0.60 | 19 % | 4 % |
+/// | 5000 (0.35), 200 (0.40) on 50 (0.45); 0.26, 0.50 | 21 % | 7 % |
+/// | 6000 (0.35), 3000 (0.35), 400 (0.30), 120 (0.35) on 45 (0.40); 0.04, 0.12, 0.20, 0.60 | 11 % | 3 % |
+/// | 30000 (0.20), 300 (0.35) on 3 (0.45); 0.20, 0.30 | 21 % | 9 % |
+/// | 200 (0.35), 80 (0.35) on 20 (0.40); 5, 5 | 13 % | 2 % |
+/// | 100 (0.35) on rock; 6 | 7 % | 6 % |
+/// | 4000 (0.35), 800 (0.35), 800 (0.40) on rock; 0.05, 0.05, 5.90 | 9 % | 5 % |
 ///
 /// At depths of 0.6 to 2.0 m the vertical displacement is right within 10 % and the horizontal one within 25 % of their
 /// peaks on all of these; near the surface, and near an interface or the rock, u_r is worse (up to 40 %). The two
