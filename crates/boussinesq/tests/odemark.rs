@@ -211,6 +211,28 @@ fn rigid_base() {
     assert!(near.vertical.abs() < 1e-8 * whole.vertical && near.radial.abs() < 1e-8 * whole.vertical);
 }
 
+/// Ground a million times stiffer than the layers on it is rock.
+#[test]
+fn very_stiff_ground_is_rock() {
+    let layers = [(0.3, soil(200e6, 0.3)), (3.0, soil(60e6, 0.4))];
+    let rock = model(&layers, Base::Rigid);
+    let stiff = model(&layers, Base::HalfSpace(soil(60e12, 0.3)));
+    for contact in [0.0, 0.15] {
+        let load = SurfaceLoad::new(1e5, contact).expect("a valid load");
+        for z in [0.2, 1.0, 2.5] {
+            for r in [0.1, 0.8, 3.0] {
+                let exact = rock.displacement(load, r, z).expect("a regular point");
+                let difference = stiff.displacement(load, r, z).expect("a regular point") - exact;
+                let size = rock.displacement(load, 0.1, z).expect("a regular point").vertical;
+                assert!(
+                    difference.vertical.abs().max(difference.radial.abs()) < 1e-4 * size,
+                    "r {r}, z {z}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn continuous_across_interfaces() {
     let load = SurfaceLoad::new(1e5, 0.15).expect("a valid load");
