@@ -1,0 +1,110 @@
+//! What is left of the layered field once the known closed forms are taken away.
+//!
+//! Subtracted are half-spaces under the same load, each in a depth of its own ("images"):
+//!
+//! - the **base soil** in the equivalent depth of Odemark's rule, z + Σ hᵢ ((Gᵢ/G_b)^{1/3} − 1): it has the layered field's
+//!   limit for m → 0, so the remainder fades faster than the field itself at far points;
+//! - where the point lies in the upper two thirds of the uppermost soil, **that soil** in its true depth: it has the
+//!   limit for m → ∞, so the remainder decays with exp(−m (2h − z)) instead of exp(−m z), which at the surface is
+//!   not at all; and the same soil with opposite sign in depth 2h − z, which restores the limit for m → 0.
+//!
+//! Any choice of images gives the same sum; only the remainder's length and size depend on it.
+
+use ground_field::{Displacement, SurfaceLoad};
+
+use crate::bessel::disc_factor;
+use crate::half_space::HalfSpace;
+use crate::stack::{Ground, Stack};
+
+/// Value of the remainder's transform at one wavenumber.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sample {
+    pub radial: f64,
+    pub vertical: f64,
+    /// Rounding error of either.
+    pub noise: f64,
+}
+
+/// Layered field minus images, at one depth, under one load.
+#[derive(Debug, Clone)]
+pub(crate) struct Remainder {
+    stack: Stack,
+    images: Vec<HalfSpace>,
+    contact_radius: f64,
+    /// The transform decays like exp(−m · decay_length).
+    pub decay_length: f64,
+    /// The ground is one soil: there is no remainder.
+    pub vanishes: bool,
+}
+
+impl Remainder {
+    pub fn new(ground: &Ground, contact_radius: f64, depth: f64) -> Self {
+        let mut images = Vec::with_capacity(3);
+        let mut decay_length = depth;
+        if let (Some((thickness, soil)), false) = (ground.top(), ground.laminae.is_empty()) {
+            if depth < thickness * (2.0 / 3.0) {
+                decay_length = 2.0 * thickness - depth;
+                let image = |weight, depth| HalfSpace { weight, soil, depth };
+                images.push(image(1.0, depth));
+                images.push(image(-1.0, decay_length.max(contact_radius)));
+            }
+        }
+        if let Some(base) = &ground.base {
+            let shift: f64 = ground
+                .laminae
+                .iter()
+                .map(|l| {
+                    let stiffer = l.soil.shear_modulus() / base.soil.shear_modulus();
+                    l.thickness * (stiffer.cbrt() - 1.0)
+                })
+                .sum();
+            images.push(HalfSpace {
+                weight: 1.0,
+                soil: base.soil,
+                depth: (depth + shift).max(decay_length),
+            });
+        }
+        Self {
+            stack: ground.cut(depth),
+            images,
+            contact_radius,
+            decay_length,
+            vanishes: ground.laminae.is_empty(),
+        }
+    }
+
+    /// Transform of the remainder for a load of 2π: the integrand of u_r is `radial` J1(mr), that of u_z `vertical` J0(mr).
+    pub fn sample(&self, wavenumber: f64) -> Sample {
+        let (mut radial, mut vertical) = self.stack.transform(wavenumber);
+        let mut size = radial.abs() + vertical.abs();
+        for image in &self.images {
+            let (r, v) = image.transform(wavenumber);
+            radial -= r;
+            vertical -= v;
+            size += r.abs() + v.abs();
+        }
+        let factor = disc_factor(wavenumber * self.contact_radius);
+        Sample {
+            radial: radial * factor,
+            vertical: vertical * factor,
+            noise: size * factor.abs() * 4.0 * f64::EPSILON,
+        }
+    }
+
+    /// Displacement of the images under `load`; not finite where they are singular.
+    pub fn closed_form(&self, load: SurfaceLoad, radius: f64) -> Displacement {
+        self.images
+            .iter()
+            .fold(Displacement::ZERO, |sum, image| sum + image.displacement(load, radius))
+    }
+
+    /// Rounding error of the closed form.
+    pub fn closed_form_noise(&self, load: SurfaceLoad, radius: f64) -> f64 {
+        let size: f64 = self
+            .images
+            .iter()
+            .map(|image| image.displacement(load, radius).vertical.abs())
+            .sum();
+        size * 4.0 * f64::EPSILON
+    }
+}
