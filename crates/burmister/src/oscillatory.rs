@@ -2,10 +2,10 @@
 //!
 //! With m = c + (t + 1) ω/r, ω = r·(half width), two rules share the work:
 //!
-//! - **Gauss–Legendre** while the Bessel function turns few times. An n-point rule integrates f J exactly up to the Chebyshev
-//!   coefficients of the product beyond 2n − 1. J0(ω(t + const)) is entire of exponential type ω, so on the Bernstein ellipse
-//!   ρ = e^α it is below e^{ω sinh α}; with f of degree d the error is below (64/15) |f| e^{ω sinh α − (2n − d) α}, least at
-//!   cosh α = (2n − d)/ω. That is a bound, not an estimate, and fixes n before anything is evaluated.
+//! - **Gauss–Legendre** while the Bessel function turns few times. J(ω(t + const)) is entire of exponential type ω, so on the
+//!   Bernstein ellipse of parameter e^α it is below e^(ω sinh α), and the series Σ c_k T_k below S(α) = Σ |c_k| e^(kα). An n-point
+//!   rule is then off by at most (64/15) S(α) e^(ω sinh α − 2nα) / (1 − e^(−2α)) for every α (L. N. Trefethen, SIAM Review 50 (2008)
+//!   67–87, theorem 4.5). That is a bound, not an estimate, and fixes n before anything is evaluated.
 //! - **Levin's method** (D. Levin, Math. Comp. 38 (1982) 531–538) when it turns often. Slowly varying p, q with
 //!   (p J0 + q J1)' = f J0 + g J1 obey p' + r q = f, q' − q/m − r p = g. Alternating between the two equations converges
 //!   like a power of 1/ω, and only the ends of the panel are evaluated, however far the point. The first equation is
@@ -59,9 +59,7 @@ pub(crate) struct Prepared<'a> {
 impl<'a> Prepared<'a> {
     pub fn new(panel: &'a Panel, tolerance: (f64, f64)) -> Self {
         let (terms, trimmed) = panel.trimmed(tolerance);
-        let size = panel.size();
-        let digits = (100.0 * (size.0 / tolerance.0).max(size.1 / tolerance.1)).ln().max(0.0);
-        let reach = std::array::from_fn(|class| reach(2 * SIZES[class], terms - 1, digits));
+        let reach = reach(panel, terms, tolerance);
         Self {
             panel,
             terms,
@@ -152,11 +150,10 @@ impl Setting {
     fn antiderivative(&self, f: &Series, g: &Series, tolerance: f64) -> Option<(Series, Series, f64)> {
         let r = self.radius;
         let mut p: Series = g.map(|v| -v / r);
-        let mut q: Series = [0.0; NODES];
         let mut last = f64::INFINITY;
         for _ in 0..MAX_ITERATIONS {
             let slope = self.derivative(&p);
-            q = std::array::from_fn(|i| (f[i] - slope[i]) / r);
+            let q: Series = std::array::from_fn(|i| (f[i] - slope[i]) / r);
             let slope = self.derivative(&q);
             let next: Series = std::array::from_fn(|i| (slope[i] - q[i] / self.wavenumbers[i] - g[i]) / r);
             let lack = next.iter().zip(&p).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
@@ -191,22 +188,23 @@ impl Setting {
     }
 }
 
-/// Largest ω for which the bound of the module's text is below e^(−digits): k (α − tanh α) = digits, ω = k / cosh α.
-fn reach(points_twice: usize, degree: usize, digits: f64) -> f64 {
-    if points_twice <= degree + 1 {
-        return -1.0;
-    }
-    let k = (points_twice - degree) as f64;
-    let target = digits / k;
-    let mut alpha = if target < 0.3 { (3.0 * target).cbrt() } else { target + 1.0 };
-    for _ in 0..8 {
-        let tanh = alpha.tanh();
-        if tanh == 0.0 {
-            break;
+/// For each Gauss size the largest ω for which the bound of the module's text is below `tolerance`: the best over a range of
+/// ellipses. Negative for a size that is too small for the series alone.
+fn reach(panel: &Panel, terms: usize, tolerance: (f64, f64)) -> [f64; SIZES.len()] {
+    const ELLIPSES: i32 = 28;
+    let mut reach = [-1.0_f64; SIZES.len()];
+    for step in 0..ELLIPSES {
+        let alpha = 0.03 * 1.2_f64.powi(step);
+        let growth = alpha.exp();
+        let on_ellipse = |series: &Series| series[..terms].iter().rev().fold(0.0, |sum, c| sum * growth + c.abs());
+        let excess = (on_ellipse(&panel.radial) / tolerance.0).max(on_ellipse(&panel.vertical) / tolerance.1);
+        let excess = (excess * 0.5 * panel.width() * (64.0 / 15.0) / (1.0 - 1.0 / (growth * growth))).ln();
+        let sinh = alpha.sinh();
+        for (reach, size) in reach.iter_mut().zip(SIZES) {
+            *reach = reach.max((2.0 * size as f64 * alpha - excess) / sinh);
         }
-        alpha -= (alpha - tanh - target) / (tanh * tanh);
     }
-    k / alpha.cosh()
+    reach
 }
 
 /// Wavenumbers and weighted transforms of the panel's series at the Gauss nodes of [from, to].
@@ -238,7 +236,7 @@ fn sum(nodes: &[[f64; 3]], radius: f64, tolerance: (f64, f64)) -> Integrals {
         radial,
         vertical,
         // The rule's size was chosen so that its bound is below this.
-        error: (0.1 * tolerance.0, 0.1 * tolerance.1),
+        error: tolerance,
         bessel: nodes.len(),
     }
 }

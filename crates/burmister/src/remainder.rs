@@ -91,20 +91,19 @@ impl Remainder {
         }
     }
 
-    /// Displacement of the images under `load`; not finite where they are singular.
-    pub fn closed_form(&self, load: SurfaceLoad, radius: f64) -> Displacement {
-        self.images
-            .iter()
-            .fold(Displacement::ZERO, |sum, image| sum + image.displacement(load, radius))
+    /// Transform of the layered field itself, for a point load of 2π.
+    pub fn field(&self, wavenumber: f64) -> (f64, f64) {
+        self.stack.transform(wavenumber)
     }
 
-    /// Rounding error of the closed form.
-    pub fn closed_form_noise(&self, load: SurfaceLoad, radius: f64) -> f64 {
-        let size: f64 = self
-            .images
-            .iter()
-            .map(|image| image.displacement(load, radius).vertical.abs())
-            .sum();
-        size * 4.0 * f64::EPSILON
+    /// Displacement of the images under `load`, not finite where they are singular, and its rounding error.
+    pub fn closed_form(&self, load: SurfaceLoad, radius: f64) -> (Displacement, f64) {
+        let (mut sum, mut size) = (Displacement::ZERO, 0.0);
+        for image in &self.images {
+            let part = image.displacement(load, radius);
+            sum += part;
+            size += part.vertical.abs();
+        }
+        (sum, size * 4.0 * f64::EPSILON)
     }
 }

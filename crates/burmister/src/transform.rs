@@ -21,8 +21,10 @@ const ROUNDS: usize = 5;
 const MAX_WAVENUMBERS: usize = 400_000;
 /// Panels one expects; the tolerance is shared among them.
 const EXPECTED_PANELS: f64 = 30.0;
-/// Extensions of the wavenumber range by half.
+/// Extensions of the wavenumber range, by a quarter each.
 const MAX_EXTENSIONS: usize = 12;
+/// Longest range considered at first, in units of 1/(decay length): e^−60 is far below rounding.
+const LONGEST: f64 = 60.0;
 
 /// Displacements of one remainder under one load.
 pub(crate) struct Transform<'a> {
@@ -48,28 +50,30 @@ impl Transform<'_> {
     /// [`GroundError::Singular`] where the field has no finite value, [`GroundError::Accuracy`] where the estimate is not below
     /// the asked accuracy.
     pub fn run(&self, radii: &[f64]) -> Result<(Vec<Displacement>, Statistics), GroundError> {
-        let closed: Vec<Displacement> = radii.iter().map(|&r| self.remainder.closed_form(self.load, r)).collect();
-        for (value, &radius) in closed.iter().zip(radii) {
+        let closed = self.closed_forms(radii);
+        for ((value, _), &radius) in closed.iter().zip(radii) {
             if !value.is_finite() {
                 return Err(self.singular(radius));
             }
         }
         let mut statistics = Statistics::default();
         if self.remainder.vanishes || self.load.force() == 0.0 || radii.is_empty() {
-            return Ok((closed, statistics));
+            return Ok((closed.into_iter().map(|(value, _)| value).collect(), statistics));
         }
 
-        let mut end = ((1.0 / self.accuracy).ln() + 8.0) / self.remainder.decay_length;
+        let mut end = self.first_end();
         let mut panels = Panels::new(self.remainder, end);
         // First a rough picture, from which the peak is read.
         let rough = panels.total(Panel::size);
         panels.refine(self.remainder, (1e-3 * rough.0, 1e-3 * rough.1), MAX_WAVENUMBERS);
         let mut peak = (0.0, 0.0);
         let mut tolerance = (1e-3 * rough.0, 1e-3 * rough.1);
-        let probes = self.evaluate(&panels, (0.0, 0.0), tolerance, &self.probes, &mut statistics);
+        let known = self.closed_forms(&self.probes);
+        let probes = self.evaluate(&panels, (0.0, 0.0), tolerance, (&self.probes, &known), &mut statistics);
         raise(&mut peak, &probes);
 
-        let mut share = 0.3;
+        // Of the error: for the cut series, as much for their integration, the rest for the tail and rounding.
+        let mut share = 0.25;
         let mut worst = (f64::INFINITY, 0.0);
         for _ in 0..ROUNDS {
             let unit = TAU / self.load.force() * self.accuracy;
@@ -81,7 +85,7 @@ impl Transform<'_> {
             let each = share / EXPECTED_PANELS;
             panels.refine(self.remainder, (each * tolerance.0, each * tolerance.1), MAX_WAVENUMBERS);
             let each = share / panels.list.len() as f64;
-            let round = self.evaluate(&panels, tail, (each * tolerance.0, each * tolerance.1), radii, &mut statistics);
+            let round = self.evaluate(&panels, tail, (each * tolerance.0, each * tolerance.1), (radii, &closed), &mut statistics);
             raise(&mut peak, &round);
 
             worst = (0.0, 0.0);
@@ -109,6 +113,11 @@ impl Transform<'_> {
         })
     }
 
+    /// Closed forms at the radii, with their rounding error.
+    fn closed_forms(&self, radii: &[f64]) -> Vec<(Displacement, f64)> {
+        radii.iter().map(|&radius| self.remainder.closed_form(self.load, radius)).collect()
+    }
+
     fn checked(
         &self,
         values: Vec<Displacement>,
@@ -129,6 +138,29 @@ impl Transform<'_> {
         }
     }
 
+    /// A guess where the transform has decayed: compared with its own size near 1/(decay length), for want of the peak.
+    fn first_end(&self) -> f64 {
+        let unit = 1.0 / self.remainder.decay_length;
+        let size = [0.25, 0.5, 1.0, 2.0].iter().fold((0.0, 0.0), |size: (f64, f64), x| {
+            let sample = self.remainder.field(x * unit);
+            (size.0.max(x * unit * sample.0.abs()), size.1.max(x * unit * sample.1.abs()))
+        });
+        let decayed = |x: f64| {
+            let tail = self.tail(x * unit);
+            tail.0 <= 0.02 * self.accuracy * size.0 && tail.1 <= 0.02 * self.accuracy * size.1
+        };
+        let (mut low, mut high) = (1.0, LONGEST);
+        while high - low > 1.0 {
+            let middle = 0.5 * (low + high);
+            if decayed(middle) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        high * unit
+    }
+
     /// Lengthens the range until what lies beyond is below a part of `tolerance`; returns what lies beyond.
     fn extend(&self, panels: &mut Panels, end: &mut f64, tolerance: (f64, f64)) -> (f64, f64) {
         let mut tail = self.tail(*end);
@@ -136,9 +168,9 @@ impl Transform<'_> {
             if tail.0 <= 0.1 * tolerance.0 && tail.1 <= 0.1 * tolerance.1 {
                 break;
             }
-            panels.list.push(Panel::new(self.remainder, *end, 1.5 * *end));
+            panels.list.push(Panel::new(self.remainder, *end, 1.25 * *end));
             panels.solved += crate::panel::NODES;
-            *end *= 1.5;
+            *end *= 1.25;
             tail = self.tail(*end);
         }
         tail
@@ -163,7 +195,7 @@ impl Transform<'_> {
         panels: &Panels,
         tail: (f64, f64),
         tolerance: (f64, f64),
-        radii: &[f64],
+        (radii, closed): (&[f64], &[(Displacement, f64)]),
         statistics: &mut Statistics,
     ) -> Round {
         let mut fixed = panels.total(Panel::cut);
@@ -188,13 +220,12 @@ impl Transform<'_> {
             values: Vec::with_capacity(radii.len()),
             errors: Vec::with_capacity(radii.len()),
         };
-        for (sum, &radius) in sums.iter().zip(radii) {
+        for ((sum, &radius), &(closed, noise)) in sums.iter().zip(radii).zip(closed) {
             let rest = Displacement {
                 radial: if radius == 0.0 { 0.0 } else { sum.radial },
                 vertical: sum.vertical,
             };
-            let noise = self.remainder.closed_form_noise(self.load, radius);
-            round.values.push(self.remainder.closed_form(self.load, radius) + rest * unit);
+            round.values.push(closed + rest * unit);
             round.errors.push((
                 unit * (fixed.0 + sum.error.0) + noise,
                 unit * (fixed.1 + sum.error.1) + noise,
