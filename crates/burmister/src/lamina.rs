@@ -40,6 +40,16 @@ pub(crate) struct Crossing {
     pub impedance: Matrix2,
     /// Displacement at the bottom for a displacement at the top.
     pub descent: Matrix2,
+    /// Size of the terms that were added up: the rounding error of a sum is a share of them.
+    pub terms: Terms,
+}
+
+/// The impedance is a quotient of matrices, traction over displacement; these are the sums of their terms' absolute values,
+/// and the inverse of the denominator.
+pub(crate) struct Terms {
+    pub traction: Matrix2,
+    pub displacement: Matrix2,
+    pub inverse: Matrix2,
 }
 
 /// Impedance of what lies below: a matrix, or rock.
@@ -133,12 +143,25 @@ impl Lamina {
                 Crossing {
                     impedance: (tu + tt * below) * descent,
                     descent,
+                    terms: Terms {
+                        traction: tu.abs() + tt.abs() * below.abs(),
+                        displacement: uu.abs() + ut.abs() * below.abs(),
+                        inverse: descent,
+                    },
                 }
             }
-            Support::Rigid => Crossing {
-                impedance: tt * ut.inverse(),
-                descent: Matrix2::IDENTITY * 0.0,
-            },
+            Support::Rigid => {
+                let inverse = ut.inverse();
+                Crossing {
+                    impedance: tt * inverse,
+                    descent: Matrix2::IDENTITY * 0.0,
+                    terms: Terms {
+                        traction: tt.abs(),
+                        displacement: ut.abs(),
+                        inverse,
+                    },
+                }
+            }
         }
     }
 
@@ -155,6 +178,11 @@ impl Lamina {
         Crossing {
             impedance: (downward + upward * returned) * share,
             descent: (Matrix2::IDENTITY + reflection) * decay * share,
+            terms: Terms {
+                traction: downward.abs() + upward.abs() * returned.abs(),
+                displacement: Matrix2::IDENTITY + returned.abs(),
+                inverse: share,
+            },
         }
     }
 }

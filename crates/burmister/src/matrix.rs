@@ -18,6 +18,15 @@ impl Matrix2 {
         Self { a, b, c, d }
     }
 
+    /// Absolute values, entry by entry.
+    pub fn abs(self) -> Self {
+        Self::new(self.a.abs(), self.b.abs(), self.c.abs(), self.d.abs())
+    }
+
+    pub fn transposed(self) -> Self {
+        Self::new(self.a, self.c, self.b, self.d)
+    }
+
     /// Inverse; not finite where the matrix is singular, which the caller's check of the result catches.
     pub fn inverse(self) -> Self {
         let scale = 1.0 / (self.a * self.d - self.b * self.c);

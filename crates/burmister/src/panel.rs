@@ -23,8 +23,8 @@ pub(crate) struct Panel {
     pub to: f64,
     pub radial: Series,
     pub vertical: Series,
-    /// Largest rounding error of a sample.
-    pub noise: f64,
+    /// Rounding error of the two integrals.
+    pub noise: (f64, f64),
 }
 
 /// Chebyshev nodes of the first kind and the cosines of the discrete transform.
@@ -68,19 +68,16 @@ impl Panel {
         let (middle, half) = (0.5 * (to + from), 0.5 * (to - from));
         let mut radial = [0.0; NODES];
         let mut vertical = [0.0; NODES];
-        let mut noise: f64 = 0.0;
         for (i, node) in basis().nodes.iter().enumerate() {
-            let sample = remainder.sample(middle + half * node);
-            radial[i] = sample.radial;
-            vertical[i] = sample.vertical;
-            noise = noise.max(sample.noise);
+            (radial[i], vertical[i]) = remainder.sample(middle + half * node);
         }
+        let (early, late) = (remainder.rounding(middle - 0.8 * half), remainder.rounding(middle));
         Self {
             from,
             to,
             radial: series_of(&radial),
             vertical: series_of(&vertical),
-            noise,
+            noise: (2.0 * half * early.0.max(late.0), 2.0 * half * early.1.max(late.1)),
         }
     }
 
@@ -147,8 +144,7 @@ impl Panels {
         let mut open = std::mem::take(&mut self.list);
         while let Some(panel) = open.pop() {
             let cut = panel.cut();
-            let noise = panel.noise * panel.width();
-            let good = cut.0 <= tolerance.0.max(noise) && cut.1 <= tolerance.1.max(noise);
+            let good = cut.0 <= tolerance.0.max(panel.noise.0) && cut.1 <= tolerance.1.max(panel.noise.1);
             let middle = 0.5 * (panel.from + panel.to);
             let divisible = panel.from < middle && middle < panel.to;
             if good || !divisible || self.solved + 2 * NODES > limit {

@@ -16,15 +16,6 @@ use crate::bessel::disc_factor;
 use crate::half_space::HalfSpace;
 use crate::stack::{Ground, Stack};
 
-/// Value of the remainder's transform at one wavenumber.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Sample {
-    pub radial: f64,
-    pub vertical: f64,
-    /// Rounding error of either.
-    pub noise: f64,
-}
-
 /// Layered field minus images, at one depth, under one load.
 #[derive(Debug, Clone)]
 pub(crate) struct Remainder {
@@ -73,22 +64,29 @@ impl Remainder {
         }
     }
 
-    /// Transform of the remainder for a load of 2π: the integrand of u_r is `radial` J1(mr), that of u_z `vertical` J0(mr).
-    pub fn sample(&self, wavenumber: f64) -> Sample {
+    /// Transform of the remainder for a load of 2π: the first is the integrand of u_r beside J1(mr), the second that of u_z
+    /// beside J0(mr).
+    pub fn sample(&self, wavenumber: f64) -> (f64, f64) {
         let (mut radial, mut vertical) = self.stack.transform(wavenumber);
-        let mut size = radial.abs() + vertical.abs();
         for image in &self.images {
             let (r, v) = image.transform(wavenumber);
             radial -= r;
             vertical -= v;
-            size += r.abs() + v.abs();
         }
         let factor = disc_factor(wavenumber * self.contact_radius);
-        Sample {
-            radial: radial * factor,
-            vertical: vertical * factor,
-            noise: size * factor.abs() * 4.0 * f64::EPSILON,
+        (radial * factor, vertical * factor)
+    }
+
+    /// Estimated rounding error of [`Remainder::sample`].
+    pub fn rounding(&self, wavenumber: f64) -> (f64, f64) {
+        let (mut radial, mut vertical) = self.stack.rounding(wavenumber);
+        for image in &self.images {
+            let (r, v) = image.transform(wavenumber);
+            radial += 2.0 * f64::EPSILON * r.abs();
+            vertical += 2.0 * f64::EPSILON * v.abs();
         }
+        let factor = disc_factor(wavenumber * self.contact_radius).abs();
+        (radial * factor, vertical * factor)
     }
 
     /// Transform of the layered field itself, for a point load of 2π.
@@ -97,13 +95,14 @@ impl Remainder {
     }
 
     /// Displacement of the images under `load`, not finite where they are singular, and its rounding error.
-    pub fn closed_form(&self, load: SurfaceLoad, radius: f64) -> (Displacement, f64) {
-        let (mut sum, mut size) = (Displacement::ZERO, 0.0);
+    pub fn closed_form(&self, load: SurfaceLoad, radius: f64) -> (Displacement, (f64, f64)) {
+        let (mut sum, mut rounding) = (Displacement::ZERO, (0.0, 0.0));
         for image in &self.images {
             let part = image.displacement(load, radius);
+            let error = image.rounding(load, radius, part);
             sum += part;
-            size += part.vertical.abs();
+            rounding = (rounding.0 + error.0, rounding.1 + error.1);
         }
-        (sum, size * 4.0 * f64::EPSILON)
+        (sum, rounding)
     }
 }

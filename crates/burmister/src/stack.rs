@@ -98,13 +98,7 @@ pub(crate) struct Stack {
 impl Stack {
     /// m times the transform of (u_r, u_z) at the depth under a unit surface pressure [1/Pa], at `wavenumber` > 0.
     pub fn transform(&self, wavenumber: f64) -> (f64, f64) {
-        let (mut support, mut descent) = match &self.base {
-            Some(base) => (
-                Support::Elastic(base.downward_impedance()),
-                base.downward_decay(wavenumber * self.beneath_base),
-            ),
-            None => (Support::Rigid, Matrix2::IDENTITY),
-        };
+        let (mut support, mut descent) = self.bottom(wavenumber);
         for lamina in &self.below {
             support = Support::Elastic(lamina.cross(wavenumber, support).impedance);
         }
@@ -120,6 +114,52 @@ impl Stack {
                 (-response.b, -response.d)
             }
             Support::Rigid => (0.0, 0.0),
+        }
+    }
+
+    /// Estimated rounding error of [`Stack::transform`].
+    ///
+    /// Each crossing rounds a quotient P Q⁻¹ by ε (|P| + |S| |Q|) |Q⁻¹|, with the sizes of the terms that make up P and Q, and
+    /// carries the error δS of what lies below to the top as Dᵀ δS D, D the descent (exact to first order, S being the second
+    /// derivative of an energy). A stiff plate on a soft ground is where this grows: its bending stiffness is a small
+    /// difference of large membrane terms.
+    pub fn rounding(&self, wavenumber: f64) -> (f64, f64) {
+        let (mut support, mut descent) = self.bottom(wavenumber);
+        let mut error = match support {
+            Support::Elastic(impedance) => impedance.abs() * f64::EPSILON,
+            Support::Rigid => Matrix2::IDENTITY * 0.0,
+        };
+        let mut descent_error = descent.abs() * f64::EPSILON;
+        let below = self.below.iter().map(|lamina| (lamina, false));
+        for (lamina, passed) in below.chain(self.above.iter().map(|lamina| (lamina, true))) {
+            let crossing = lamina.cross(wavenumber, support);
+            let terms = &crossing.terms;
+            let inverse = terms.inverse.abs();
+            let down = crossing.descent.abs();
+            error = (terms.traction + crossing.impedance.abs() * terms.displacement) * inverse * f64::EPSILON
+                + down.transposed() * error * down;
+            if passed {
+                descent_error = descent_error * down + descent.abs() * down * terms.displacement * inverse * f64::EPSILON;
+                descent = descent * crossing.descent;
+            }
+            support = Support::Elastic(crossing.impedance);
+        }
+        let Support::Elastic(surface) = support else {
+            return (0.0, 0.0);
+        };
+        let compliance = surface.inverse().abs();
+        let response = (descent.abs() * compliance * error + descent_error) * compliance;
+        (response.b, response.d)
+    }
+
+    /// Impedance of the base and descent from its top to the depth.
+    fn bottom(&self, wavenumber: f64) -> (Support, Matrix2) {
+        match &self.base {
+            Some(base) => (
+                Support::Elastic(base.downward_impedance()),
+                base.downward_decay(wavenumber * self.beneath_base),
+            ),
+            None => (Support::Rigid, Matrix2::IDENTITY),
         }
     }
 }

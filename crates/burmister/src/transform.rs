@@ -36,6 +36,9 @@ pub(crate) struct Transform<'a> {
     pub probes: Vec<f64>,
 }
 
+/// A closed form with its rounding error, radial and vertical.
+type Closed = (Displacement, (f64, f64));
+
 /// Values with their error, radial and vertical.
 struct Round {
     values: Vec<Displacement>,
@@ -114,7 +117,7 @@ impl Transform<'_> {
     }
 
     /// Closed forms at the radii, with their rounding error.
-    fn closed_forms(&self, radii: &[f64]) -> Vec<(Displacement, f64)> {
+    fn closed_forms(&self, radii: &[f64]) -> Vec<Closed> {
         radii.iter().map(|&radius| self.remainder.closed_form(self.load, radius)).collect()
     }
 
@@ -182,10 +185,11 @@ impl Transform<'_> {
         // Three places, lest a zero of the disc's factor passes for decay.
         [1.0, 0.98, 0.95].iter().fold((0.0, 0.0), |(radial, vertical): (f64, f64), part| {
             let sample = self.remainder.sample(part * wavenumber);
+            let noise = self.remainder.rounding(part * wavenumber);
             let scale = 2.0 / self.remainder.decay_length;
             (
-                radial.max(scale * (sample.radial.abs() - sample.noise).max(0.0)),
-                vertical.max(scale * (sample.vertical.abs() - sample.noise).max(0.0)),
+                radial.max(scale * (sample.0.abs() - noise.0).max(0.0)),
+                vertical.max(scale * (sample.1.abs() - noise.1).max(0.0)),
             )
         })
     }
@@ -195,11 +199,11 @@ impl Transform<'_> {
         panels: &Panels,
         tail: (f64, f64),
         tolerance: (f64, f64),
-        (radii, closed): (&[f64], &[(Displacement, f64)]),
+        (radii, closed): (&[f64], &[Closed]),
         statistics: &mut Statistics,
     ) -> Round {
         let mut fixed = panels.total(Panel::cut);
-        let noise = panels.total(|p| (p.noise * p.width(), p.noise * p.width()));
+        let noise = panels.total(|panel| panel.noise);
         fixed = (fixed.0 + noise.0 + tail.0, fixed.1 + noise.1 + tail.1);
         let mut sums = vec![Integrals::default(); radii.len()];
         for panel in &panels.list {
@@ -227,8 +231,8 @@ impl Transform<'_> {
             };
             round.values.push(closed + rest * unit);
             round.errors.push((
-                unit * (fixed.0 + sum.error.0) + noise,
-                unit * (fixed.1 + sum.error.1) + noise,
+                unit * (fixed.0 + sum.error.0) + noise.0,
+                unit * (fixed.1 + sum.error.1) + noise.1,
             ));
         }
         round

@@ -3,7 +3,7 @@
 Needs Python 3 with mpmath (and gmpy2 for speed).  python reference_figures.py > computed_difficult.csv
 
 Method, on purpose a different one from the crate's: for every wavenumber m the state (U, W, tau/m, sigma/m) is carried
-from the base to the surface with the plain transfer matrix exp(-H m h), in 35 digits plus the 2 m H/ln 10 that its
+from the base to the surface with the plain transfer matrix exp(-H m h), in 55 digits plus the 2 m H/ln 10 that its
 growing exponentials lose.  H holds the equations of equilibrium and Hooke's law.  The Hankel integral is a
 Gauss-Legendre sum on panels graded toward m = 0 and no longer than four turns of the Bessel function at the largest radius,
 ended where exp(-m z) < 1e-17.  Radii beyond 50 depths are left out, for the time they take.  At depth 0 (point load only) the uppermost soil's half-space is subtracted, so that the
@@ -16,7 +16,7 @@ Points: radii r_mm; systems below in mm, MPa.  Load: 100 kN on a disc of radius 
 import sys
 from mpmath import mp, mpf, matrix, eye, cosh, sinh, exp, besselj, pi, log, ceil
 
-DIGITS = 35
+DIGITS = 55
 
 SYSTEMS = {
     # name: (thickness, modulus, Poisson's ratio, contact radius, depths, radii); no modulus for the base: rock
@@ -155,7 +155,7 @@ def displacements(system, depth, length=1):
     largest = max(max(radii), a)
     total = [[mpf(0), mpf(0)] for _ in radii]
     rule = gauss(26)
-    start, first = mpf(0), mpf(10) ** -5 / max(ground.total, ground.depth)
+    start, first = mpf(0), mpf(10) ** -9 / max(ground.total, ground.depth)
     while start < end:
         stop = first if start == 0 else start + length * min(start / 2, 8 * pi / largest)
         middle, half = (start + stop) / 2, (stop - start) / 2
