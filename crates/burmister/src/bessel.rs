@@ -7,7 +7,7 @@
 /// Argument from which the asymptotic series has full precision.
 const ASYMPTOTIC: f64 = 32.0;
 
-/// Coefficients a_k(ν) = Π (4ν² − (2j−1)²) / (k! 8^k) with the signs of the series for P (even k) and Q (odd k).
+/// Coefficients `a_k`(ν) = Π (4ν² − (2j−1)²) / (k! 8^k) with the signs of the series for P (even k) and Q (odd k).
 struct Hankel {
     even: [f64; 7],
     odd: [f64; 7],
@@ -44,7 +44,8 @@ pub(crate) fn j0_j1(x: f64) -> (f64, f64) {
     let inverse = 1.0 / x;
     let square = inverse * inverse;
     let series = |c: &[f64; 7]| {
-        c[0] + square * (c[1] + square * (c[2] + square * (c[3] + square * (c[4] + square * (c[5] + square * c[6])))))
+        c[0] + square
+            * (c[1] + square * (c[2] + square * (c[3] + square * (c[4] + square * (c[5] + square * c[6])))))
     };
     let (sine, cosine) = x.sin_cos();
     let (sum, difference) = (sine + cosine, sine - cosine);

@@ -46,7 +46,12 @@ mod tests {
     /// Against the trapezoidal rule, which converges geometrically for a periodic analytic integrand.
     #[test]
     fn agrees_with_the_defining_integral() {
-        for (kc, p, a, b) in [(0.3, 0.5, 1.0, -0.4), (0.9, 2.0, -1.0, 1.0), (0.1, 0.02, 0.7, 1.3), (1.0, 1.0, 1.0, 1.0)] {
+        for (kc, p, a, b) in [
+            (0.3, 0.5, 1.0, -0.4),
+            (0.9, 2.0, -1.0, 1.0),
+            (0.1, 0.02, 0.7, 1.3),
+            (1.0, 1.0, 1.0, 1.0),
+        ] {
             let nodes = 4000;
             let sum: f64 = (0..nodes)
                 .map(|i| {
@@ -57,7 +62,10 @@ mod tests {
                 .sum();
             let direct: f64 = 0.5 * sum * PI / f64::from(nodes);
             let value = complete(kc, p, a, b);
-            assert!((value - direct).abs() < 1e-13 * direct.abs().max(1.0), "{value} {direct}");
+            assert!(
+                (value - direct).abs() < 1e-13 * direct.abs().max(1.0),
+                "{value} {direct}"
+            );
         }
     }
 

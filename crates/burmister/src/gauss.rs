@@ -1,6 +1,6 @@
 //! Gauss–Legendre rules on [−1, 1], of the few sizes the quadrature chooses from.
 //!
-//! Nodes by Newton's iteration on P_n from Tricomi's first guess; made once, kept for the life of the program.
+//! Nodes by Newton's iteration on `P_n` from Tricomi's first guess; made once, kept for the life of the program.
 
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -40,7 +40,7 @@ pub(crate) fn rule(n: usize) -> Rule {
         .collect()
 }
 
-/// P_n(x) and its derivative.
+/// `P_n`(x) and its derivative.
 fn legendre(n: usize, x: f64) -> (f64, f64) {
     let (mut previous, mut current) = (1.0, x);
     for k in 1..n {

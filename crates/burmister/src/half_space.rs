@@ -3,11 +3,13 @@
 //! Transform of a unit surface pressure (times m): (−(1−2ν) + mz, 2(1−ν) + mz) e^{−mz} / 2μ.
 //!
 //! Point load: Boussinesq, as in K. L. Johnson, Contact Mechanics (1985), eq. 3.18. Uniform pressure on a disc: the
-//! Lipschitz–Hankel integrals I(μ, ν; λ) = ∫ J_μ(ma) J_ν(mr) e^{−mz} m^λ dm of G. Eason, B. Noble and I. N. Sneddon, Phil. Trans. R. Soc.
+//! Lipschitz–Hankel integrals I(μ, ν; λ) = ∫ Jμ(ma) Jν(mr) e^{−mz} m^λ dm of G. Eason, B. Noble and I. N. Sneddon, Phil. Trans. R. Soc.
 //! A 247 (1955) 529–551,
 //!
-//!     u_r = P/(2πμa) (−(1−2ν) I(1,1;−1) + z I(1,1;0))
-//!     u_z = P/(2πμa) (2(1−ν) I(1,0;−1) + z I(1,0;0))
+//! ```text
+//! u_r = P/(2πμa) (−(1−2ν) I(1,1;−1) + z I(1,1;0))
+//! u_z = P/(2πμa) (2(1−ν) I(1,0;−1) + z I(1,0;0))
+//! ```
 //!
 //! reduced here to Bulirsch's cel by integrating over the angle between load and field point (see
 //! [`lipschitz_hankel`]), which holds inside, outside and under the edge of the disc. Far from the disc, at distance R, that
@@ -38,15 +40,12 @@ const NEAR_ROUNDING: f64 = 2e-13;
 const FAR_ROUNDING: f64 = 1e-14;
 
 impl HalfSpace {
-    /// m times the transform of (u_r, u_z) under a unit surface pressure, [1/Pa].
+    /// m times the transform of (`u_r`, `u_z`) under a unit surface pressure, \[1/Pa\].
     pub fn transform(&self, wavenumber: f64) -> (f64, f64) {
         let nu = self.soil.poisson_ratio();
         let x = wavenumber * self.depth;
         let scale = self.weight * (-x).exp() / (2.0 * self.soil.shear_modulus());
-        (
-            scale * (x - (1.0 - 2.0 * nu)),
-            scale * (x + 2.0 * (1.0 - nu)),
-        )
+        (scale * (x - (1.0 - 2.0 * nu)), scale * (x + 2.0 * (1.0 - nu)))
     }
 
     /// Displacement under `load`; not finite where it is singular.
@@ -117,7 +116,9 @@ impl HalfSpace {
                 let square = 0.5 * a * a * (1.0 + t);
                 // From the point load to the field point, along the radius.
                 let along = r - square.sqrt() * cosine;
-                let distance = (r * r + square - 2.0 * r * square.sqrt() * cosine).max(0.0).sqrt();
+                let distance = (r * r + square - 2.0 * r * square.sqrt() * cosine)
+                    .max(0.0)
+                    .sqrt();
                 let part = self.under_point(distance);
                 let share = 0.5 * weight / angles as f64;
                 mean.vertical += share * part.vertical;
@@ -165,7 +166,14 @@ fn lipschitz_hankel(a: f64, r: f64, z: f64) -> LipschitzHankel {
     } else {
         // p is (split)²; under the edge its limit p → 0 with b → 0 leaves the first integral only.
         let p = (split * split).max(f64::MIN_POSITIVE);
-        let shadow = |s: f64| scale * z / sum * if split == 0.0 { complete(modulus, 1.0, 1.0, 1.0) } else { complete(modulus, p, 1.0, s) };
+        let shadow = |s: f64| {
+            scale * z / sum
+                * if split == 0.0 {
+                    complete(modulus, 1.0, 1.0, 1.0)
+                } else {
+                    complete(modulus, p, 1.0, s)
+                }
+        };
         (
             step_a - shadow(split),
             step_r - shadow(-split),
@@ -192,7 +200,7 @@ mod tests {
         }
     }
 
-    /// Uniform pressure q on a disc of radius a, on the axis: u_z = (1+ν) q/E · (…), Johnson section 3.4.
+    /// Uniform pressure q on a disc of radius a, on the axis: `u_z` = (1+ν) q/E · (…), Johnson section 3.4.
     #[test]
     fn disc_on_its_axis() {
         let (a, nu) = (0.15, 0.35);
@@ -201,15 +209,18 @@ mod tests {
             let field = unit(nu, z);
             let distance = a.hypot(z);
             let q = load.pressure();
-            let expected = (1.0 + nu) / 1e8 * q
-                * (2.0 * (1.0 - nu) * (distance - z) + z * (1.0 - z / distance));
+            let expected =
+                (1.0 + nu) / 1e8 * q * (2.0 * (1.0 - nu) * (distance - z) + z * (1.0 - z / distance));
             let got = field.displacement(load, 0.0);
-            assert!((got.vertical - expected).abs() < 1e-13 * expected.abs(), "z = {z}");
+            assert!(
+                (got.vertical - expected).abs() < 1e-13 * expected.abs(),
+                "z = {z}"
+            );
             assert!(got.radial.abs() < 1e-14 * expected.abs());
         }
     }
 
-    /// At the edge of the disc on the surface: u_z = 4(1−ν²) q a/(π E), u_r = −(1−2ν)(1+ν) q a/(2E) (Johnson 3.30, 3.33).
+    /// At the edge of the disc on the surface: `u_z` = 4(1−ν²) q a/(π E), `u_r` = −(1−2ν)(1+ν) q a/(2E) (Johnson 3.30, 3.33).
     #[test]
     fn disc_at_its_edge() {
         let (a, nu) = (0.15, 0.35);
@@ -241,11 +252,10 @@ mod tests {
         let point = SurfaceLoad::point(1e4).expect("load");
         for (r, z) in [(0.0, 0.5), (0.3, 0.7), (0.4, 0.5), (0.9, 0.3), (30.0, 1.0)] {
             let field = unit(0.3, z);
-            let (rings, angles) = (60, 240);
+            let angles = 240;
             let (mut radial, mut vertical) = (0.0, 0.0);
             let rule = crate::gauss::rule(64);
-            let _ = rings;
-            for (t, w) in rule.iter() {
+            for (t, w) in &rule {
                 let ring = 0.5 * a * (1.0 + t);
                 for j in 0..angles {
                     let phi = 2.0 * PI * (f64::from(j) + 0.5) / f64::from(angles);
@@ -257,7 +267,10 @@ mod tests {
                 }
             }
             let got = field.displacement(disc, r);
-            assert!((got.vertical - vertical).abs() < 1e-11 * vertical.abs(), "{r} {z}");
+            assert!(
+                (got.vertical - vertical).abs() < 1e-11 * vertical.abs(),
+                "{r} {z}"
+            );
             assert!((got.radial - radial).abs() < 1e-11 * vertical.abs(), "{r} {z}");
         }
     }
@@ -267,7 +280,7 @@ mod tests {
     fn near_and_far_forms_agree() {
         let a = 0.15;
         for nu in [0.0, 0.5] {
-            for angle in [0.0_f64, 0.4, 1.0, 1.5, 1.5707] {
+            for angle in [0.0_f64, 0.4, 1.0, 1.5, 1.57] {
                 let at = |distance: f64| (unit(nu, a * distance * angle.cos()), a * distance * angle.sin());
                 let (field, r) = at(FAR);
                 let i = lipschitz_hankel(a, r, field.depth);
@@ -275,12 +288,24 @@ mod tests {
                 let radial = scale * (i.z_i110 - (1.0 - 2.0 * nu) * i.i11_minus_1);
                 let vertical = scale * (i.z_i100 + 2.0 * (1.0 - nu) * i.i10_minus_1);
                 let mean = field.mean_of_points(8, a, r);
-                assert!((mean.radial - radial).abs() < NEAR_ROUNDING * vertical, "{nu} {angle}");
-                assert!((mean.vertical - vertical).abs() < NEAR_ROUNDING * vertical, "{nu} {angle}");
+                assert!(
+                    (mean.radial - radial).abs() < NEAR_ROUNDING * vertical,
+                    "{nu} {angle}"
+                );
+                assert!(
+                    (mean.vertical - vertical).abs() < NEAR_ROUNDING * vertical,
+                    "{nu} {angle}"
+                );
                 let (field, r) = at(VERY_FAR);
                 let (five, eight) = (field.mean_of_points(5, a, r), field.mean_of_points(8, a, r));
-                assert!((five.radial - eight.radial).abs() < FAR_ROUNDING * eight.vertical, "{nu} {angle}");
-                assert!((five.vertical - eight.vertical).abs() < FAR_ROUNDING * eight.vertical, "{nu} {angle}");
+                assert!(
+                    (five.radial - eight.radial).abs() < FAR_ROUNDING * eight.vertical,
+                    "{nu} {angle}"
+                );
+                assert!(
+                    (five.vertical - eight.vertical).abs() < FAR_ROUNDING * eight.vertical,
+                    "{nu} {angle}"
+                );
             }
         }
     }

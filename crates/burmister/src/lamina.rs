@@ -1,6 +1,6 @@
 //! One uniform layer at one wavenumber: how the impedance of what lies below becomes the impedance at its top.
 //!
-//! With u = (U, W) and t = (τ, σ_z)/m the transformed displacement and traction, everything below a level answers to
+//! With u = (U, W) and t = (τ, `σ_z`)/m the transformed displacement and traction, everything below a level answers to
 //! t = S u with a symmetric, negative definite *impedance* S. A layer of dimensionless thickness x = m h maps the S at its
 //! bottom to the S at its top, and the displacement at its top to the one at its bottom. No single formula for that
 //! map is accurate for every x:

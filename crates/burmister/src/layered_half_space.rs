@@ -13,8 +13,8 @@ pub const DEFAULT_ACCURACY: f64 = 1e-8;
 
 /// Bonded elastic layers on a half-space or on rock, solved exactly up to quadrature (Burmister's problem).
 ///
-/// Every value is met to [`accuracy`](Self::accuracy), a share of the peak over the radius of |u_r| (for u_r) and of |u_z| (for
-/// u_z) at the same depth; where that cannot be had the answer is [`GroundError::Accuracy`].
+/// Every value is met to [`accuracy`](Self::accuracy), a share of the peak over the radius of |`u_r`| (for `u_r`) and of |`u_z`| (for
+/// `u_z`) at the same depth; where that cannot be had the answer is [`GroundError::Accuracy`].
 ///
 /// At and below a rigid base the displacement is zero: rock does not move.
 ///
@@ -113,7 +113,8 @@ impl LayeredHalfSpace {
     }
 
     /// Radii that find the peaks: powers of 3 from half the depth (or contact radius, or a tenth of the top layer) up to
-    /// several hundred times it, past the bending length of any stiff plate, and the axis, unless it is singular.
+    /// several hundred times it, past the bending length of any stiff plate; the edge of the disc, where all of a soft skin's
+    /// motion is; and the axis, unless it is singular.
     fn probes(&self, load: SurfaceLoad, depth: f64) -> Vec<f64> {
         let scale = depth.max(load.contact_radius());
         let start = match self.ground.top() {
@@ -122,7 +123,9 @@ impl LayeredHalfSpace {
             None => 1.0,
         };
         let axis = (scale > 0.0).then_some(0.0);
-        axis.into_iter().chain((0..7).map(|k| start * 3_f64.powi(k))).collect()
+        let edge = (!load.is_point()).then_some(load.contact_radius());
+        let spread = (0..7).map(|k| start * 3_f64.powi(k));
+        axis.into_iter().chain(edge).chain(spread).collect()
     }
 }
 

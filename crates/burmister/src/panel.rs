@@ -30,7 +30,7 @@ pub(crate) struct Panel {
 /// Chebyshev nodes of the first kind and the cosines of the discrete transform.
 pub(crate) struct Basis {
     pub nodes: [f64; NODES],
-    /// `cosines[k][i]` = T_k(node i).
+    /// `cosines[k][i]` = `T_k`(node i).
     pub cosines: [[f64; NODES]; NODES],
 }
 
@@ -71,7 +71,10 @@ impl Panel {
         for (i, node) in basis().nodes.iter().enumerate() {
             (radial[i], vertical[i]) = remainder.sample(middle + half * node);
         }
-        let (early, late) = (remainder.rounding(middle - 0.8 * half), remainder.rounding(middle));
+        let (early, late) = (
+            remainder.rounding(middle - 0.8 * half),
+            remainder.rounding(middle),
+        );
         Self {
             from,
             to,
@@ -88,13 +91,19 @@ impl Panel {
     /// Error of the integrals of (radial J1, vertical J0) over the panel from the cut of the series: |J| ≤ 1.
     pub fn cut(&self) -> (f64, f64) {
         let last = |s: &Series| s[NODES - LAST..].iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        (last(&self.radial) * self.width(), last(&self.vertical) * self.width())
+        (
+            last(&self.radial) * self.width(),
+            last(&self.vertical) * self.width(),
+        )
     }
 
     /// Bound of the integrals' absolute values.
     pub fn size(&self) -> (f64, f64) {
         let sum = |s: &Series| s.iter().map(|c| c.abs()).sum::<f64>();
-        (sum(&self.radial) * self.width(), sum(&self.vertical) * self.width())
+        (
+            sum(&self.radial) * self.width(),
+            sum(&self.vertical) * self.width(),
+        )
     }
 
     /// Number of terms after which the rest of both series adds less than the tolerances to the integrals, and what it adds.
@@ -159,7 +168,10 @@ impl Panels {
 
     /// Sum over the panels.
     pub fn total(&self, of: impl Fn(&Panel) -> (f64, f64)) -> (f64, f64) {
-        self.list.iter().map(of).fold((0.0, 0.0), |s, v| (s.0 + v.0, s.1 + v.1))
+        self.list
+            .iter()
+            .map(of)
+            .fold((0.0, 0.0), |s, v| (s.0 + v.0, s.1 + v.1))
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Subtracted are half-spaces under the same load, each in a depth of its own ("images"):
 //!
-//! - the **base soil** in the equivalent depth of Odemark's rule, z + Σ hᵢ ((Gᵢ/G_b)^{1/3} − 1): it has the layered field's
+//! - the **base soil** in the equivalent depth of Odemark's rule, z + Σ hᵢ ((Gᵢ/`G_b`)^{1/3} − 1): it has the layered field's
 //!   limit for m → 0, so the remainder fades faster than the field itself at far points;
 //! - where the point lies in the upper two thirds of the uppermost soil, **that soil** in its true depth: it has the
 //!   limit for m → ∞, so the remainder decays with exp(−m (2h − z)) instead of exp(−m z), which at the surface is
@@ -22,7 +22,7 @@ pub(crate) struct Remainder {
     stack: Stack,
     images: Vec<HalfSpace>,
     contact_radius: f64,
-    /// The transform decays like exp(−m · decay_length).
+    /// The transform decays like exp(−m · `decay_length`).
     pub decay_length: f64,
     /// The ground is one soil: there is no remainder.
     pub vanishes: bool,
@@ -32,13 +32,14 @@ impl Remainder {
     pub fn new(ground: &Ground, contact_radius: f64, depth: f64) -> Self {
         let mut images = Vec::with_capacity(3);
         let mut decay_length = depth;
-        if let (Some((thickness, soil)), false) = (ground.top(), ground.laminae.is_empty()) {
-            if depth < thickness * (2.0 / 3.0) {
-                decay_length = 2.0 * thickness - depth;
-                let image = |weight, depth| HalfSpace { weight, soil, depth };
-                images.push(image(1.0, depth));
-                images.push(image(-1.0, decay_length.max(contact_radius)));
-            }
+        if let Some((thickness, soil)) = ground.top()
+            && !ground.laminae.is_empty()
+            && depth < thickness * (2.0 / 3.0)
+        {
+            decay_length = 2.0 * thickness - depth;
+            let image = |weight, depth| HalfSpace { weight, soil, depth };
+            images.push(image(1.0, depth));
+            images.push(image(-1.0, decay_length.max(contact_radius)));
         }
         if let Some(base) = &ground.base {
             let shift: f64 = ground
@@ -64,7 +65,7 @@ impl Remainder {
         }
     }
 
-    /// Transform of the remainder for a load of 2π: the first is the integrand of u_r beside J1(mr), the second that of u_z
+    /// Transform of the remainder for a load of 2π: the first is the integrand of `u_r` beside J1(mr), the second that of `u_z`
     /// beside J0(mr).
     pub fn sample(&self, wavenumber: f64) -> (f64, f64) {
         let (mut radial, mut vertical) = self.stack.transform(wavenumber);

@@ -96,7 +96,7 @@ pub(crate) struct Stack {
 }
 
 impl Stack {
-    /// m times the transform of (u_r, u_z) at the depth under a unit surface pressure [1/Pa], at `wavenumber` > 0.
+    /// m times the transform of (`u_r`, `u_z`) at the depth under a unit surface pressure \[1/Pa\], at `wavenumber` > 0.
     pub fn transform(&self, wavenumber: f64) -> (f64, f64) {
         let (mut support, mut descent) = self.bottom(wavenumber);
         for lamina in &self.below {
@@ -139,7 +139,8 @@ impl Stack {
             error = (terms.traction + crossing.impedance.abs() * terms.displacement) * inverse * f64::EPSILON
                 + down.transposed() * error * down;
             if passed {
-                descent_error = descent_error * down + descent.abs() * down * terms.displacement * inverse * f64::EPSILON;
+                descent_error =
+                    descent_error * down + descent.abs() * down * terms.displacement * inverse * f64::EPSILON;
                 descent = descent * crossing.descent;
             }
             support = Support::Elastic(crossing.impedance);

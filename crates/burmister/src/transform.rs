@@ -11,14 +11,14 @@ use ground_field::{Displacement, GroundError, SurfaceLoad};
 
 use crate::MODEL;
 use crate::oscillatory::{Integrals, Prepared};
-use crate::panel::{Panel, Panels};
+use crate::panel::{NODES, Panel, Panels};
 use crate::remainder::Remainder;
 use crate::statistics::Statistics;
 
 /// Rounds of refinement.
 const ROUNDS: usize = 5;
 /// Wavenumbers after which refinement gives up.
-const MAX_WAVENUMBERS: usize = 400_000;
+const MAX_WAVENUMBERS: usize = 100_000;
 /// Panels one expects; the tolerance is shared among them.
 const EXPECTED_PANELS: f64 = 30.0;
 /// Extensions of the wavenumber range, by a quarter each.
@@ -72,7 +72,13 @@ impl Transform<'_> {
         let mut peak = (0.0, 0.0);
         let mut tolerance = (1e-3 * rough.0, 1e-3 * rough.1);
         let known = self.closed_forms(&self.probes);
-        let probes = self.evaluate(&panels, (0.0, 0.0), tolerance, (&self.probes, &known), &mut statistics);
+        let probes = self.evaluate(
+            &panels,
+            (0.0, 0.0),
+            tolerance,
+            (&self.probes, &known),
+            &mut statistics,
+        );
         raise(&mut peak, &probes);
 
         // Of the error: for the cut series, as much for their integration, the rest for the tail and rounding.
@@ -80,22 +86,28 @@ impl Transform<'_> {
         let mut worst = (f64::INFINITY, 0.0);
         for _ in 0..ROUNDS {
             let unit = TAU / self.load.force() * self.accuracy;
-            tolerance = (
-                goal(peak.0 * unit, tolerance.0),
-                goal(peak.1 * unit, tolerance.1),
-            );
+            tolerance = (goal(peak.0 * unit, tolerance.0), goal(peak.1 * unit, tolerance.1));
             let tail = self.extend(&mut panels, &mut end, tolerance);
             let each = share / EXPECTED_PANELS;
-            panels.refine(self.remainder, (each * tolerance.0, each * tolerance.1), MAX_WAVENUMBERS);
+            panels.refine(
+                self.remainder,
+                (each * tolerance.0, each * tolerance.1),
+                MAX_WAVENUMBERS,
+            );
             let each = share / panels.list.len() as f64;
-            let round = self.evaluate(&panels, tail, (each * tolerance.0, each * tolerance.1), (radii, &closed), &mut statistics);
+            let round = self.evaluate(
+                &panels,
+                tail,
+                (each * tolerance.0, each * tolerance.1),
+                (radii, &closed),
+                &mut statistics,
+            );
             raise(&mut peak, &round);
 
             worst = (0.0, 0.0);
             for (error, &radius) in round.errors.iter().zip(radii) {
-                let relative = (error.0 / peak.0).max(error.1 / peak.1);
-                // Not `relative > worst.0`: a NaN must count as the worst.
-                if !(relative <= worst.0) {
+                let relative = share_of(error.0, peak.0).max(share_of(error.1, peak.1));
+                if relative >= worst.0 {
                     worst = (relative, radius);
                 }
             }
@@ -105,6 +117,17 @@ impl Transform<'_> {
             if worst.0 <= self.accuracy {
                 return self.checked(round.values, radii, statistics);
             }
+            if panels.solved + 2 * NODES > MAX_WAVENUMBERS {
+                break;
+            }
+            let again = self.evaluate(
+                &panels,
+                tail,
+                (each * tolerance.0, each * tolerance.1),
+                (&self.probes, &known),
+                &mut statistics,
+            );
+            raise(&mut peak, &again);
             share *= 0.1;
         }
         Err(GroundError::Accuracy {
@@ -118,7 +141,10 @@ impl Transform<'_> {
 
     /// Closed forms at the radii, with their rounding error.
     fn closed_forms(&self, radii: &[f64]) -> Vec<Closed> {
-        radii.iter().map(|&radius| self.remainder.closed_form(self.load, radius)).collect()
+        radii
+            .iter()
+            .map(|&radius| self.remainder.closed_form(self.load, radius))
+            .collect()
     }
 
     fn checked(
@@ -144,10 +170,15 @@ impl Transform<'_> {
     /// A guess where the transform has decayed: compared with its own size near 1/(decay length), for want of the peak.
     fn first_end(&self) -> f64 {
         let unit = 1.0 / self.remainder.decay_length;
-        let size = [0.25, 0.5, 1.0, 2.0].iter().fold((0.0, 0.0), |size: (f64, f64), x| {
-            let sample = self.remainder.field(x * unit);
-            (size.0.max(x * unit * sample.0.abs()), size.1.max(x * unit * sample.1.abs()))
-        });
+        let size = [0.25, 0.5, 1.0, 2.0]
+            .iter()
+            .fold((0.0, 0.0), |size: (f64, f64), x| {
+                let sample = self.remainder.field(x * unit);
+                (
+                    size.0.max(x * unit * sample.0.abs()),
+                    size.1.max(x * unit * sample.1.abs()),
+                )
+            });
         let decayed = |x: f64| {
             let tail = self.tail(x * unit);
             tail.0 <= 0.02 * self.accuracy * size.0 && tail.1 <= 0.02 * self.accuracy * size.1
@@ -172,7 +203,7 @@ impl Transform<'_> {
                 break;
             }
             panels.list.push(Panel::new(self.remainder, *end, 1.25 * *end));
-            panels.solved += crate::panel::NODES;
+            panels.solved += NODES;
             *end *= 1.25;
             tail = self.tail(*end);
         }
@@ -183,15 +214,17 @@ impl Transform<'_> {
     /// rounding, over the decay length, with a factor 2 for the powers of m beside the exponential.
     fn tail(&self, wavenumber: f64) -> (f64, f64) {
         // Three places, lest a zero of the disc's factor passes for decay.
-        [1.0, 0.98, 0.95].iter().fold((0.0, 0.0), |(radial, vertical): (f64, f64), part| {
-            let sample = self.remainder.sample(part * wavenumber);
-            let noise = self.remainder.rounding(part * wavenumber);
-            let scale = 2.0 / self.remainder.decay_length;
-            (
-                radial.max(scale * (sample.0.abs() - noise.0).max(0.0)),
-                vertical.max(scale * (sample.1.abs() - noise.1).max(0.0)),
-            )
-        })
+        [1.0, 0.98, 0.95]
+            .iter()
+            .fold((0.0, 0.0), |(radial, vertical): (f64, f64), part| {
+                let sample = self.remainder.sample(part * wavenumber);
+                let noise = self.remainder.rounding(part * wavenumber);
+                let scale = 2.0 / self.remainder.decay_length;
+                (
+                    radial.max(scale * (sample.0.abs() - noise.0).max(0.0)),
+                    vertical.max(scale * (sample.1.abs() - noise.1).max(0.0)),
+                )
+            })
     }
 
     fn evaluate(
@@ -231,7 +264,12 @@ impl Transform<'_> {
             };
             round.values.push(closed + rest * unit);
             round.errors.push((
-                unit * (fixed.0 + sum.error.0) + noise.0,
+                // On the axis nothing moves aside.
+                if radius == 0.0 {
+                    0.0
+                } else {
+                    unit * (fixed.0 + sum.error.0) + noise.0
+                },
                 unit * (fixed.1 + sum.error.1) + noise.1,
             ));
         }
@@ -244,6 +282,17 @@ fn raise(peak: &mut (f64, f64), round: &Round) {
     for (value, error) in round.values.iter().zip(&round.errors) {
         peak.0 = peak.0.max(value.radial.abs() - error.0);
         peak.1 = peak.1.max(value.vertical.abs() - error.1);
+    }
+}
+
+/// The error as a share of the peak; infinite for what is not a number, or where no peak is certain.
+fn share_of(error: f64, peak: f64) -> f64 {
+    if error == 0.0 {
+        0.0
+    } else if peak > 0.0 && error.is_finite() {
+        error / peak
+    } else {
+        f64::INFINITY
     }
 }
 

@@ -17,10 +17,16 @@ fn meets_its_accuracy(file: &str, alone: (&str, f64)) {
             .unwrap_or_else(|e| panic!("{} z = {}: {e}", row.case, row.depth));
         let (radial, vertical) = error(&row.points, &values);
         if std::env::var_os("BURMISTER_SHOW").is_some() {
-            println!("{:20} z {:5}: u_r {radial:.1e} u_z {vertical:.1e} {statistics:?}", row.case, row.depth);
+            println!(
+                "{:20} z {:5}: u_r {radial:.1e} u_z {vertical:.1e} {statistics:?}",
+                row.case, row.depth
+            );
         }
         if !(radial <= DEFAULT_ACCURACY && vertical <= DEFAULT_ACCURACY) {
-            misses.push(format!("{} z = {}: u_r {radial:.1e}, u_z {vertical:.1e}", row.case, row.depth));
+            misses.push(format!(
+                "{} z = {}: u_r {radial:.1e}, u_z {vertical:.1e}",
+                row.case, row.depth
+            ));
         }
     }
     assert!(misses.is_empty(), "{misses:#?}");

@@ -8,7 +8,7 @@ use std::fs;
 use burmister::LayeredHalfSpace;
 use ground_field::{Base, Displacement, Soil, SoilLayer, SoilProfile, SurfaceLoad};
 
-/// Ground from thicknesses \[mm\], moduli \[MPa\] and Poisson's ratios; without a last soil it stands on rock.
+/// Ground from thicknesses \[mm\], moduli \[`MPa`\] and Poisson's ratios; without a last soil it stands on rock.
 pub fn profile(thickness_mm: &[f64], modulus_mpa: &[f64], poisson_ratio: &[f64]) -> SoilProfile {
     let soil = |i: usize| Soil::new(modulus_mpa[i] * 1e6, poisson_ratio[i]).expect("soil");
     let layers = thickness_mm
@@ -28,10 +28,14 @@ pub fn ground(thickness_mm: &[f64], modulus_mpa: &[f64], poisson_ratio: &[f64]) 
     LayeredHalfSpace::new(&profile(thickness_mm, modulus_mpa, poisson_ratio)).expect("ground")
 }
 
-/// Disc of radius \[mm\] under pressure \[MPa\].
+/// Disc of radius \[mm\] under pressure \[`MPa`\].
 pub fn disc(radius_mm: f64, pressure_mpa: f64) -> SurfaceLoad {
     let radius = radius_mm * 1e-3;
-    SurfaceLoad::new(pressure_mpa * 1e6 * std::f64::consts::PI * radius * radius, radius).expect("load")
+    SurfaceLoad::new(
+        pressure_mpa * 1e6 * std::f64::consts::PI * radius * radius,
+        radius,
+    )
+    .expect("load")
 }
 
 /// Ground and load of a named case of the shared tables.
@@ -95,9 +99,8 @@ pub fn table(file: &str, alone: (&str, f64)) -> Vec<Row> {
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
     let header: Vec<&str> = lines.next().expect("header").split(',').collect();
     let column = |name: &str| header.iter().position(|title| *title == name);
-    let number = |fields: &[&str], name: &str| -> f64 {
-        fields[column(name).expect(name)].parse().expect("number")
-    };
+    let number =
+        |fields: &[&str], name: &str| -> f64 { fields[column(name).expect(name)].parse().expect("number") };
     let mut groups: BTreeMap<(String, u64), Row> = BTreeMap::new();
     for line in lines {
         let fields: Vec<&str> = line.split(',').collect();
@@ -109,7 +112,11 @@ pub fn table(file: &str, alone: (&str, f64)) -> Vec<Row> {
         };
         groups
             .entry((case.clone(), depth.to_bits()))
-            .or_insert_with(|| Row { case, depth, points: Vec::new() })
+            .or_insert_with(|| Row {
+                case,
+                depth,
+                points: Vec::new(),
+            })
             .points
             .push((number(&fields, "r_mm") * 1e-3, value));
     }
