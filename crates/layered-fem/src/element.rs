@@ -130,7 +130,10 @@ impl Quadrilateral {
         let mut out = [[0.0; MAX_NODES]; 3];
         match self {
             Self::Linear4 => {
-                for (k, (sx, se)) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].into_iter().enumerate() {
+                for (k, (sx, se)) in [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+                    .into_iter()
+                    .enumerate()
+                {
                     out[0][k] = 0.25 * (1.0 + sx * xi) * (1.0 + se * eta);
                     out[1][k] = 0.25 * sx * (1.0 + se * eta);
                     out[2][k] = 0.25 * se * (1.0 + sx * xi);
@@ -300,7 +303,11 @@ impl Quadrilateral {
             strain[3] += shape.d_z[k] * u[0] + shape.d_r[k] * u[1];
             u_r += shape.value[k] * u[0];
         }
-        strain[2] = if shape.radius > 0.0 { u_r / shape.radius } else { strain[0] };
+        strain[2] = if shape.radius > 0.0 {
+            u_r / shape.radius
+        } else {
+            strain[0]
+        };
         strain
     }
 }

@@ -5,7 +5,9 @@
 #[non_exhaustive]
 pub enum FemError {
     /// An element has no positive area: its nodes are out of order or on one line.
-    #[error("element {element} has a Jacobian determinant of {determinant:.3e}: its nodes must run round a convex quadrilateral")]
+    #[error(
+        "element {element} has a Jacobian determinant of {determinant:.3e}: its nodes must run round a convex quadrilateral"
+    )]
     Degenerate {
         /// Index of the element.
         element: usize,
@@ -46,11 +48,13 @@ pub enum FemError {
         /// What the factorisation reports.
         reason: &'static str,
     },
-    /// The solution does not satisfy the equations.
-    #[error("the solution leaves a residual of {residual:.1e} of the load where {allowed:.1e} is allowed")]
-    Residual {
-        /// Norm of the residual over the norm of the load.
-        residual: f64,
+    /// The solution does not satisfy the equations: solving for what remains changes it.
+    #[error(
+        "solving for the residual changes the solution by {change:.1e} of itself where {allowed:.1e} is allowed"
+    )]
+    Inaccurate {
+        /// Largest change over the largest displacement.
+        change: f64,
         /// The largest accepted.
         allowed: f64,
     },

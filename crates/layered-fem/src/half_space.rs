@@ -74,7 +74,13 @@ mod tests {
         let soil = HalfSpace::new(80e6, 0.35);
         let (r, z, h) = (0.7, 1.1, 1e-4);
         let slope = |along_z: bool| -> [f64; 2] {
-            let at = |t: f64| if along_z { soil.displacement(r, z + t) } else { soil.displacement(r + t, z) };
+            let at = |t: f64| {
+                if along_z {
+                    soil.displacement(r, z + t)
+                } else {
+                    soil.displacement(r + t, z)
+                }
+            };
             let (plus, minus) = (at(h), at(-h));
             [0, 1].map(|c| (plus[c] - minus[c]) / (2.0 * h))
         };

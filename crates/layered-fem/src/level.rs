@@ -52,7 +52,10 @@ impl Ground {
 
     fn at(&self, layer: usize, depth: f64) -> (f64, f64) {
         match (self.profile.layers().get(layer), self.profile.base()) {
-            (Some(soil), _) => (soil.young_modulus_at(depth - self.tops[layer]), soil.poisson_ratio()),
+            (Some(soil), _) => (
+                soil.young_modulus_at(depth - self.tops[layer]),
+                soil.poisson_ratio(),
+            ),
             (None, Base::HalfSpace(soil)) => (soil.young_modulus(), soil.poisson_ratio()),
             // No row of elements lies in rock.
             (None, Base::Rigid) => (f64::NAN, f64::NAN),
@@ -89,11 +92,6 @@ pub(crate) struct Level {
     far_force: Vec<f64>,
     /// Solutions u* under a unit load by the bits of the contact radius.
     solutions: Mutex<HashMap<u64, Arc<Vec<f64>>>>,
-}
-
-/// What a mesh of these lines needs: its degrees of freedom.
-pub(crate) fn dofs_of(lines: &Lines) -> usize {
-    2 * (2 * lines.radii.len() - 1) * (2 * lines.depths.len() - 1)
 }
 
 impl Level {
@@ -152,7 +150,10 @@ impl Level {
 
     /// Loads solved so far.
     pub(crate) fn solves(&self) -> usize {
-        self.solutions.lock().unwrap_or_else(PoisonError::into_inner).len()
+        self.solutions
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .len()
     }
 
     /// Bytes held: matrix, factor, their indices, mesh and solutions.
@@ -175,7 +176,8 @@ impl Level {
                 Volumetric::Projected,
                 self.ground.near(),
                 |element, _, z| {
-                    let (young_modulus, poisson_ratio) = self.ground.at(self.lines.layer_of_row[element / across], z);
+                    let (young_modulus, poisson_ratio) =
+                        self.ground.at(self.lines.layer_of_row[element / across], z);
                     Elasticity::new(young_modulus, poisson_ratio)
                 },
                 |z| self.ground.at(0, z).0,
@@ -203,7 +205,11 @@ impl Level {
         let in_block = depth < self.lines.depths[self.lines.block_rows] && contact_radius == 0.0;
         let near = self.ground.near();
         let last_column = 2 * self.lines.block_columns;
-        let edge = if in_block { load::edge_displacement(&self.mesh, &self.lines, near) } else { Vec::new() };
+        let edge = if in_block {
+            load::edge_displacement(&self.mesh, &self.lines, near)
+        } else {
+            Vec::new()
+        };
         let values = self
             .columns
             .iter()
@@ -214,7 +220,11 @@ impl Level {
                     for (c, value) in u.iter_mut().enumerate() {
                         let dof = 2 * (column + row * width) + c;
                         // Inside the block the unknown is the difference already; on its edge it is made one.
-                        let known = if in_block && column <= last_column { edge[dof] } else { 0.0 };
+                        let known = if in_block && column <= last_column {
+                            edge[dof]
+                        } else {
+                            0.0
+                        };
                         *value += weight * (solution[dof] - known);
                     }
                 }
@@ -247,11 +257,25 @@ impl Level {
             lines.layer_of_row[row] == lines.layer_of_row[element_row]
                 && (row < lines.block_rows) == (element_row < lines.block_rows)
         };
-        let first = 2 * (0..=element_row).rev().take_while(|&row| same(row)).last().unwrap_or(element_row);
-        let last = 2 * (element_row..lines.layer_of_row.len()).take_while(|&row| same(row)).last().unwrap_or(element_row) + 2;
+        let first = 2
+            * (0..=element_row)
+                .rev()
+                .take_while(|&row| same(row))
+                .last()
+                .unwrap_or(element_row);
+        let last = 2
+            * (element_row..lines.layer_of_row.len())
+                .take_while(|&row| same(row))
+                .last()
+                .unwrap_or(element_row)
+            + 2;
         let count = ROWS_IN_DEPTH.min(last - first + 1);
         let nearest = (first..=last)
-            .min_by(|&a, &b| (self.rows[a] - depth).abs().total_cmp(&(self.rows[b] - depth).abs()))
+            .min_by(|&a, &b| {
+                (self.rows[a] - depth)
+                    .abs()
+                    .total_cmp(&(self.rows[b] - depth).abs())
+            })
             .unwrap_or(first);
         let start = nearest.saturating_sub(count / 2).clamp(first, last + 1 - count);
         (start..start + count)
@@ -268,5 +292,33 @@ impl Level {
     /// Radii of the columns of nodes \[m\].
     pub(crate) fn columns(&self) -> &[f64] {
         &self.columns
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ground_field::Soil;
+
+    #[test]
+    fn whole_model_converges_with_order_three() {
+        let soil = Soil::new(80e6, 0.35).unwrap();
+        let profile = SoilProfile::half_space(soil);
+        let exact = HalfSpace::new(80e6, 0.35);
+        for depth in [0.6, 1.2, 2.0] {
+            let error = |parts: usize| {
+                let level =
+                    Level::new(&profile, Lines::new(&profile, 0.4, parts, usize::MAX).unwrap()).unwrap();
+                let line = level.line(0.0, depth).unwrap();
+                let radii = (0..100).map(|k| 0.1 * f64::from(k));
+                let gap = radii.map(|r| (line.at(r).radial - exact.displacement(r, depth)[0]).abs());
+                gap.fold(0.0, f64::max)
+            };
+            let errors = [1, 2, 4].map(error);
+            for pair in errors.windows(2) {
+                let order = (pair[0] / pair[1]).log2();
+                assert!(order > 2.7, "depth {depth}: order {order} of {errors:?}");
+            }
+        }
     }
 }

@@ -41,7 +41,9 @@ impl DepthLine {
         depth: f64,
     ) -> Self {
         let stretched: Vec<f64> = radii.iter().map(|r| (r / scale).asinh()).collect();
-        let nodes = (0..radii.len()).map(|k| derivatives(&stretched, values, k)).collect();
+        let nodes = (0..radii.len())
+            .map(|k| derivatives(&stretched, values, k))
+            .collect();
         Self {
             stretched,
             scale,
@@ -68,7 +70,8 @@ impl DepthLine {
 
     /// Displacement at radius `r` \[m/N\]; not finite at a point load.
     pub(crate) fn at(&self, r: f64) -> Displacement {
-        let outside = |soil: Option<HalfSpace>| soil.map_or([0.0; 2], |soil| soil.displacement(r, self.depth));
+        let outside =
+            |soil: Option<HalfSpace>| soil.map_or([0.0; 2], |soil| soil.displacement(r, self.depth));
         let value = if r >= self.reach {
             outside(self.far)
         } else {
@@ -82,19 +85,28 @@ impl DepthLine {
     }
 
     fn interpolate(&self, s: f64) -> [f64; 2] {
-        let right = self.stretched.partition_point(|&x| x <= s).clamp(1, self.stretched.len() - 1);
+        let right = self
+            .stretched
+            .partition_point(|&x| x <= s)
+            .clamp(1, self.stretched.len() - 1);
         let (start, end) = (self.stretched[right - 1], self.stretched[right]);
         let h = end - start;
         let t = (s - start) / h;
         // Quintic Hermite basis: value, slope and curvature at the left end; the right end by symmetry.
         let basis = |t: f64| {
             let w = (1.0 - t) * (1.0 - t) * (1.0 - t);
-            [w * (1.0 + 3.0 * t + 6.0 * t * t), w * t * (1.0 + 3.0 * t), 0.5 * w * t * t]
+            [
+                w * (1.0 + 3.0 * t + 6.0 * t * t),
+                w * t * (1.0 + 3.0 * t),
+                0.5 * w * t * t,
+            ]
         };
         let (left, mirrored) = (basis(t), basis(1.0 - t));
         [0, 1].map(|c| {
             let (a, b) = (self.nodes[right - 1][c], self.nodes[right][c]);
-            left[0] * a[0] + mirrored[0] * b[0] + h * (left[1] * a[1] - mirrored[1] * b[1])
+            left[0] * a[0]
+                + mirrored[0] * b[0]
+                + h * (left[1] * a[1] - mirrored[1] * b[1])
                 + h * h * (left[2] * a[2] + mirrored[2] * b[2])
         })
     }
@@ -117,7 +129,11 @@ fn derivatives(s: &[f64], values: &[[f64; 2]], k: usize) -> [[f64; 3]; 2] {
     }
     let weights = fornberg(&places);
     [0, 1].map(|c| {
-        let sum = |order: usize| (0..STENCIL).map(|m| weights[m][order] * samples[m][c]).sum::<f64>();
+        let sum = |order: usize| {
+            (0..STENCIL)
+                .map(|m| weights[m][order] * samples[m][c])
+                .sum::<f64>()
+        };
         [values[k][c], sum(1), sum(2)]
     })
 }
@@ -136,7 +152,11 @@ fn fornberg(places: &[f64; STENCIL]) -> [[f64; 3]; STENCIL] {
             product *= gap;
             if j == i - 1 {
                 for m in (0..3).rev() {
-                    let lower = if m > 0 { m as f64 * weights[i - 1][m - 1] } else { 0.0 };
+                    let lower = if m > 0 {
+                        m as f64 * weights[i - 1][m - 1]
+                    } else {
+                        0.0
+                    };
                     weights[i][m] = previous / product * (lower - places[i - 1] * weights[i - 1][m]);
                 }
             }
@@ -160,7 +180,11 @@ mod tests {
         let places = [-2.1, -1.3, -0.4, 0.0, 0.7, 1.1, 2.6];
         let weights = fornberg(&places);
         let polynomial = |x: f64| 1.0 + x * (2.0 + x * (-1.5 + x * (0.3 + x * x * 0.1)));
-        let sum = |m: usize| (0..STENCIL).map(|i| weights[i][m] * polynomial(places[i])).sum::<f64>();
+        let sum = |m: usize| {
+            (0..STENCIL)
+                .map(|i| weights[i][m] * polynomial(places[i]))
+                .sum::<f64>()
+        };
         assert_relative_eq!(sum(1), 2.0, max_relative = 1e-12);
         assert_relative_eq!(sum(2), -3.0, max_relative = 1e-12);
     }

@@ -169,7 +169,9 @@ fn add_mismatch(
             let stress = near.stress(shape.radius, shape.depth);
             for (k, &at) in mesh.element(element).iter().enumerate() {
                 force[2 * at] += weight
-                    * (stress[0] * shape.d_r[k] + stress[2] * shape.value[k] / shape.radius + stress[3] * shape.d_z[k]);
+                    * (stress[0] * shape.d_r[k]
+                        + stress[2] * shape.value[k] / shape.radius
+                        + stress[3] * shape.d_z[k]);
                 force[2 * at + 1] += weight * (stress[1] * shape.d_z[k] + stress[3] * shape.d_r[k]);
             }
         }

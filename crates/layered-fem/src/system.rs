@@ -1,9 +1,11 @@
 //! The assembled stiffness: sparse, factored once by Cholesky, solved for any number of loads.
 //!
 //! Prescribed degrees of freedom are eliminated; the free ones keep the order of the mesh, and faer's approximate minimum
-//! degree ordering reduces the fill. Only the lower triangle is stored. Every solution is refined once with the residual
-//! and then has to satisfy the equations: the residual is compared with the forces, and a solution that leaves more than
-//! [`LARGEST_RESIDUAL`] is an error, because a factorisation of a nearly singular matrix may pass without one.
+//! degree ordering reduces the fill. Only the lower triangle is stored.
+//!
+//! A factorisation of a nearly singular matrix may pass without an error, so every solution u is checked. The residual
+//! r = f − K u is solved for once more: K⁻¹r is both a correction and an estimate of the error that rounding has left in u.
+//! It is applied twice, and if the second is still more than [`LARGEST_CHANGE`] of u the solution is an error.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
@@ -18,8 +20,10 @@ use crate::element::{ElementMatrix, MAX_DOFS, Volumetric};
 use crate::material::Elasticity;
 use crate::mesh::Mesh;
 
-/// Largest residual of an accepted solution, relative to ‖K‖‖u‖ + ‖f‖ row by row (largest component).
-pub const LARGEST_RESIDUAL: f64 = 1e-9;
+/// Largest change K⁻¹(f − K u) of an accepted solution u, relative to it (largest components).
+pub const LARGEST_CHANGE: f64 = 1e-7;
+/// Corrections applied to a solution.
+const CORRECTIONS: usize = 2;
 
 const FIXED: usize = usize::MAX;
 
@@ -76,12 +80,17 @@ impl System {
         let pattern = pattern(mesh, &unknown, count);
         let mut values = vec![0.0; pattern.row_idx().len()];
         for element in 0..mesh.element_count() {
-            let matrix = mesh.kind().stiffness(element, &mesh.element_nodes(element), volumetric, |r, z| {
-                elasticity(element, r, z)
-            })?;
+            let matrix =
+                mesh.kind()
+                    .stiffness(element, &mesh.element_nodes(element), volumetric, |r, z| {
+                        elasticity(element, r, z)
+                    })?;
             scatter(mesh.element(element), &matrix, &unknown, &pattern, &mut values);
         }
-        let failed = |reason| FemError::Factorisation { unknowns: count, reason };
+        let failed = |reason| FemError::Factorisation {
+            unknowns: count,
+            reason,
+        };
         let symbolic = factorize_symbolic_cholesky(
             pattern.as_ref(),
             Side::Lower,
@@ -128,7 +137,7 @@ impl System {
     ///
     /// # Errors
     ///
-    /// [`FemError::Length`] or [`FemError::Residual`].
+    /// [`FemError::Length`] or [`FemError::Inaccurate`].
     pub fn solve(&self, force: &[f64], displacement: &[f64]) -> Result<Vec<f64>, FemError> {
         check_length("force", force.len(), self.unknown.len())?;
         check_length("displacement", displacement.len(), self.unknown.len())?;
@@ -140,17 +149,19 @@ impl System {
         }
         let mut solution = right.clone();
         self.back_substitute(&mut solution);
-        let mut correction = self.residual(&solution, &right).0;
-        self.back_substitute(&mut correction);
-        for (value, change) in solution.iter_mut().zip(&correction) {
-            *value += change;
+        let mut change = 0.0;
+        for _ in 0..CORRECTIONS {
+            let mut correction = self.residual(&solution, &right);
+            self.back_substitute(&mut correction);
+            for (value, change) in solution.iter_mut().zip(&correction) {
+                *value += change;
+            }
+            change = largest(&correction) / largest(&solution).max(f64::MIN_POSITIVE);
         }
-        let (residual, scale) = self.residual(&solution, &right);
-        let worst = largest(&residual) / scale;
-        if worst.is_nan() || worst > LARGEST_RESIDUAL {
-            return Err(FemError::Residual {
-                residual: worst,
-                allowed: LARGEST_RESIDUAL,
+        if change.is_nan() || change > LARGEST_CHANGE {
+            return Err(FemError::Inaccurate {
+                change,
+                allowed: LARGEST_CHANGE,
             });
         }
         let mut out = displacement.to_vec();
@@ -174,8 +185,8 @@ impl System {
         );
     }
 
-    /// f − K u, and the scale it is judged by: the largest force.
-    fn residual(&self, solution: &[f64], right: &[f64]) -> (Vec<f64>, f64) {
+    /// f − K u.
+    fn residual(&self, solution: &[f64], right: &[f64]) -> Vec<f64> {
         let mut residual = right.to_vec();
         for column in 0..self.pattern.ncols() {
             for k in self.pattern.col_range(column) {
@@ -186,7 +197,7 @@ impl System {
                 }
             }
         }
-        (residual, largest(right).max(f64::MIN_POSITIVE))
+        residual
     }
 }
 
@@ -206,9 +217,11 @@ pub fn prescribed_force(
     check_length("displacement", displacement.len(), mesh.dofs())?;
     let mut force = vec![0.0; mesh.dofs()];
     for element in (0..mesh.element_count()).filter(|&e| touches(e)) {
-        let matrix = mesh.kind().stiffness(element, &mesh.element_nodes(element), volumetric, |r, z| {
-            elasticity(element, r, z)
-        })?;
+        let matrix = mesh
+            .kind()
+            .stiffness(element, &mesh.element_nodes(element), volumetric, |r, z| {
+                elasticity(element, r, z)
+            })?;
         let nodes = mesh.element(element);
         for (a, &node) in nodes.iter().enumerate() {
             for c in 0..2 {
@@ -231,15 +244,23 @@ fn check_length(name: &'static str, given: usize, expected: usize) -> Result<(),
     if given == expected {
         Ok(())
     } else {
-        Err(FemError::Length { name, given, expected })
+        Err(FemError::Length {
+            name,
+            given,
+            expected,
+        })
     }
 }
 
 fn largest(values: &[f64]) -> f64 {
     // `f64::max` would drop a NaN.
-    values
-        .iter()
-        .fold(0.0, |most, value| if value.abs() > most || value.is_nan() { value.abs() } else { most })
+    values.iter().fold(0.0, |most, value| {
+        if value.abs() > most || value.is_nan() {
+            value.abs()
+        } else {
+            most
+        }
+    })
 }
 
 /// Lower triangle of the couplings between unknowns that share an element.
@@ -262,7 +283,9 @@ fn pattern(mesh: &Mesh, unknown: &[usize], count: usize) -> SymbolicSparseColMat
             if column == FIXED {
                 continue;
             }
-            let rows = list.iter().flat_map(|&other| [unknown[2 * other], unknown[2 * other + 1]]);
+            let rows = list
+                .iter()
+                .flat_map(|&other| [unknown[2 * other], unknown[2 * other + 1]]);
             row_idx.extend(rows.filter(|&row| row != FIXED && row >= column));
             col_ptr.push(row_idx.len());
         }
