@@ -1,7 +1,7 @@
 //! Axisymmetric quadrilaterals: shape functions, stiffness, strain.
 //!
-//! The displacement (u_r, u_z) is interpolated from nodes; the strain is ε_r = u_r,r; ε_z = u_z,z; ε_θ = u_r/r;
-//! γ_rz = u_r,z + u_z,r; all integrals are per radian: ∫ … r dr dz. Degrees of freedom run (u_r, u_z) node by node.
+//! The displacement (`u_r`, `u_z`) is interpolated from nodes; the strain is `ε_r` = `u_r,r`; `ε_z` = `u_z,z`; `ε_θ` = `u_r/r`;
+//! `γ_rz` = `u_r,z` + `u_z,r`; all integrals are per radian: ∫ … r dr dz. Degrees of freedom run (`u_r`, `u_z`) node by node.
 //!
 //! [`Quadrilateral::Quadratic9`] is the working element, [`Quadrilateral::Linear4`] the textbook one that published
 //! solutions can be compared with. Nodes run round the corners with a positive Jacobian (r to z), then for the nine-node
@@ -18,6 +18,11 @@
 //! T. J. R. Hughes, *The Finite Element Method* (1987), sections 4.4–4.5; D. Boffi, F. Brezzi, M. Fortin, *Mixed Finite
 //! Element Methods and Applications* (2013), section 8.6; I. M. Smith, D. V. Griffiths, L. Margetts, *Programming the
 //! Finite Element Method*, 5th ed. (2014), section 5.
+
+#![allow(
+    clippy::needless_range_loop,
+    reason = "matrix algebra reads best by its indices"
+)]
 
 use crate::FemError;
 use crate::material::Elasticity;
@@ -290,9 +295,9 @@ impl Quadrilateral {
         }
     }
 
-    /// Strain (ε_r, ε_z, ε_θ, γ_rz) at (ξ, η) from the element's `displacement` (u_r, u_z node by node).
+    /// Strain (`ε_r`, `ε_z`, `ε_θ`, `γ_rz`) at (ξ, η) from the element's `displacement` (`u_r`, `u_z` node by node).
     ///
-    /// On the axis ε_θ = ε_r, its limit.
+    /// On the axis `ε_θ` = `ε_r`, its limit.
     pub fn strain(self, nodes: &[[f64; 2]], displacement: &[f64], xi: f64, eta: f64) -> [f64; 4] {
         let shape = self.shape(nodes, xi, eta);
         let mut strain = [0.0; 4];

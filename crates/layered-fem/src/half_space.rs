@@ -35,7 +35,7 @@ impl HalfSpace {
         self.young_modulus
     }
 
-    /// Displacement (u_r, u_z) \[m/N\]; infinite at the load.
+    /// Displacement (`u_r`, `u_z`) \[m/N\]; infinite at the load.
     pub(crate) fn displacement(self, r: f64, z: f64) -> [f64; 2] {
         let nu = self.poisson_ratio;
         let distance = r.hypot(z);
@@ -48,7 +48,7 @@ impl HalfSpace {
         ]
     }
 
-    /// Stress (σ_r, σ_z, σ_θ, τ_rz) \[1/m²\], tension positive; infinite at the load.
+    /// Stress (`σ_r`, `σ_z`, `σ_θ`, `τ_rz`) \[1/m²\], tension positive; infinite at the load.
     pub(crate) fn stress(self, r: f64, z: f64) -> [f64; 4] {
         let free = 1.0 - 2.0 * self.poisson_ratio;
         let distance = r.hypot(z);

@@ -7,7 +7,7 @@
 //! # Problem
 //!
 //! Static linear elasticity, ∇·σ = 0 with σ = λ(z) (tr ε) I + 2 G(z) ε, under a vertical unit load on the surface; scaled by
-//! the force, since the problem is linear. The weak form is solved for (u_r, u_z) per radian in the half-plane r ≥ 0.
+//! the force, since the problem is linear. The weak form is solved for (`u_r`, `u_z`) per radian in the half-plane r ≥ 0.
 //!
 //! # Method
 //!
@@ -17,7 +17,7 @@
 //! - The point load's singularity is subtracted in a block of elements around it, and only there.
 //! - [`system`]: one sparse Cholesky factorisation a mesh, one solution a contact radius.
 //! - Along r the nodal values are joined with continuous second derivative, because friction on a buried cable follows the
-//!   second difference of u_r.
+//!   second difference of `u_r`.
 //! - Two meshes at a time: their difference is the error estimate, and decides whether a third is needed.
 //!
 //! # Limits

@@ -1,10 +1,10 @@
 //! The displacement along r at one depth, made smooth.
 //!
 //! Finite elements give a continuous field whose slope jumps from element to element, while friction on a buried cable
-//! follows the second difference of u_r along the duct. So the nodal values along the line, where quadratic elements are
+//! follows the second difference of `u_r` along the duct. So the nodal values along the line, where quadratic elements are
 //! most accurate, are joined by a curve with continuous first and second derivatives: a quintic Hermite interpolant in
 //! s = asinh(r/c), the coordinate in which the nodes are nearly even, with the derivatives of the polynomial through the
-//! seven nearest nodes. The axis needs no one-sided stencil, since u_r is odd and u_z even in r.
+//! seven nearest nodes. The axis needs no one-sided stencil, since `u_r` is odd and `u_z` even in r.
 //!
 //! Beyond the mesh the closed form of the base answers (zero above rock).
 
@@ -22,7 +22,7 @@ pub(crate) struct DepthLine {
     stretched: Vec<f64>,
     scale: f64,
     reach: f64,
-    /// Value, first and second derivative in s of u_r and u_z at each node.
+    /// Value, first and second derivative in s of `u_r` and `u_z` at each node.
     nodes: Vec<[[f64; 3]; 2]>,
     /// A closed form to be added to the interpolant.
     near: Option<HalfSpace>,
@@ -31,7 +31,7 @@ pub(crate) struct DepthLine {
 }
 
 impl DepthLine {
-    /// A line through `values` (u_r, u_z) at `radii`, the first of which is the axis.
+    /// A line through `values` (`u_r`, `u_z`) at `radii`, the first of which is the axis.
     pub(crate) fn new(
         radii: &[f64],
         scale: f64,

@@ -3,14 +3,14 @@
 //! # Point load
 //!
 //! The singular field of a point load cannot be meshed. In a block B of whole elements around the load, inside the top
-//! layer, the unknown is therefore the difference w = u − u_B from the half-space closed form u_B with the soil at the
+//! layer, the unknown is therefore the difference w = u − `u_B` from the half-space closed form `u_B` with the soil at the
 //! surface; outside B it is u itself. Adding the weak forms of both parts, with the traction continuous across ∂B:
 //!
 //! ```text
 //! a(u*, v) = a_B(I u_B, v) − ∮_∂B (σ_B n)·v − ∫_B ((E(z) − E₀)/E₀) σ_B : ε(v)
 //! ```
 //!
-//! where u* is w at nodes inside B and u at all others, and I u_B has the nodal values of u_B on ∂B and zero inside. The
+//! where u* is w at nodes inside B and u at all others, and I `u_B` has the nodal values of `u_B` on ∂B and zero inside. The
 //! last term vanishes where the top layer is uniform. Everything in it is smooth on the scale of the block, and the closed
 //! form appears only there: a reference field in the whole ground would have to be cancelled by the mesh wherever the top
 //! layer is much softer than what lies below.
@@ -148,7 +148,7 @@ pub(crate) fn edge_displacement(mesh: &Mesh, lines: &Lines, near: HalfSpace) -> 
     edge
 }
 
-/// −∫ ((E(z) − E₀)/E₀) σ_B : ε(v) over one element, where the modulus is not that of the surface.
+/// −∫ ((E(z) − E₀)/E₀) `σ_B` : ε(v) over one element, where the modulus is not that of the surface.
 fn add_mismatch(
     mesh: &Mesh,
     element: usize,

@@ -1,7 +1,7 @@
 //! Isotropic linear elasticity at a point, in the two moduli the element integrals need.
 //!
 //! Stress σ = 2 G ε + λ (tr ε) I with G = E / (2 (1 + ν)) and λ = 2 G ν / (1 − 2 ν). In axisymmetry without torsion the
-//! components are (r, z, θ, rz) with the engineering shear strain γ_rz = 2 ε_rz.
+//! components are (r, z, θ, rz) with the engineering shear strain `γ_rz` = 2 `ε_rz`.
 //!
 //! # Limit
 //!
@@ -31,7 +31,7 @@ impl Elasticity {
         }
     }
 
-    /// Stress (r, z, θ, rz) \[Pa\] from strain (ε_r, ε_z, ε_θ, γ_rz), tension positive.
+    /// Stress (r, z, θ, rz) \[Pa\] from strain (`ε_r`, `ε_z`, `ε_θ`, `γ_rz`), tension positive.
     pub fn stress(self, strain: [f64; 4]) -> [f64; 4] {
         let pressure = self.lame * (strain[0] + strain[1] + strain[2]);
         let twice = 2.0 * self.shear;

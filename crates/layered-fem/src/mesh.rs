@@ -114,7 +114,7 @@ impl Mesh {
         coordinates
     }
 
-    /// Number of degrees of freedom: two a node, (u_r, u_z).
+    /// Number of degrees of freedom: two a node, (`u_r`, `u_z`).
     pub fn dofs(&self) -> usize {
         2 * self.nodes.len()
     }

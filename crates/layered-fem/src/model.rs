@@ -84,7 +84,7 @@ struct Answer {
 }
 
 impl LayeredFem {
-    /// A model of `profile` with an error of at most `accuracy` of the peak |u_r| and |u_z| at each depth; see
+    /// A model of `profile` with an error of at most `accuracy` of the peak |`u_r`| and |`u_z`| at each depth; see
     /// [`FemOptions::new`].
     ///
     /// # Errors
@@ -216,25 +216,6 @@ impl LayeredFem {
         meshes.factorisations += 1;
         Ok(())
     }
-
-    fn evaluate(
-        &self,
-        line: &DepthLine,
-        load: SurfaceLoad,
-        radius: f64,
-        depth: f64,
-    ) -> Result<Displacement, GroundError> {
-        check("radius", radius)?;
-        let value = line.at(radius) * load.force();
-        if value.is_finite() {
-            return Ok(value);
-        }
-        Err(GroundError::Singular {
-            model: MODEL,
-            radius,
-            depth,
-        })
-    }
 }
 
 impl GroundField for LayeredFem {
@@ -242,7 +223,7 @@ impl GroundField for LayeredFem {
         check("radius", radius)?;
         check("depth", depth)?;
         let answer = self.answer(load.contact_radius(), depth)?;
-        self.evaluate(&answer.line, load, radius, depth)
+        evaluate(&answer.line, load, radius, depth)
     }
 
     fn displacements(
@@ -255,7 +236,7 @@ impl GroundField for LayeredFem {
         let answer = self.answer(load.contact_radius(), depth)?;
         radii
             .iter()
-            .map(|&radius| self.evaluate(&answer.line, load, radius, depth))
+            .map(|&radius| evaluate(&answer.line, load, radius, depth))
             .collect()
     }
 }
@@ -311,6 +292,25 @@ fn compare(coarse: &DepthLine, fine: &DepthLine, radii: &[f64]) -> ErrorEstimate
             difference[1].1
         },
     }
+}
+
+/// The displacement under `load` from the line of a unit load.
+fn evaluate(
+    line: &DepthLine,
+    load: SurfaceLoad,
+    radius: f64,
+    depth: f64,
+) -> Result<Displacement, GroundError> {
+    check("radius", radius)?;
+    let value = line.at(radius) * load.force();
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(GroundError::Singular {
+        model: MODEL,
+        radius,
+        depth,
+    })
 }
 
 fn check(name: &'static str, value: f64) -> Result<(), GroundError> {

@@ -16,7 +16,7 @@ impl FemOptions {
     /// Unknowns allowed unless [`FemOptions::with_max_unknowns`] says otherwise: within a gigabyte and a few seconds.
     pub const DEFAULT_MAX_UNKNOWNS: usize = 500_000;
 
-    /// Options for an error of at most `accuracy`, as a share of the largest |u_r| and of the largest |u_z| at the depth
+    /// Options for an error of at most `accuracy`, as a share of the largest |`u_r`| and of the largest |`u_z`| at the depth
     /// asked for.
     ///
     /// # Errors
@@ -59,9 +59,9 @@ impl FemOptions {
 /// Estimated error of a displacement at one depth, from the difference between two meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ErrorEstimate {
-    /// Largest error of u_r over all radii, as a share of the largest |u_r| at this depth.
+    /// Largest error of `u_r` over all radii, as a share of the largest |`u_r`| at this depth.
     pub radial: f64,
-    /// Largest error of u_z over all radii, as a share of the largest |u_z| at this depth.
+    /// Largest error of `u_z` over all radii, as a share of the largest |`u_z`| at this depth.
     pub vertical: f64,
     /// Radius \[m\] at which the larger of the two occurs.
     pub radius: f64,

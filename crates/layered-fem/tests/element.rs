@@ -1,5 +1,10 @@
 //! The elements on their own: a published solution, patch test, rigid modes, locking, order of convergence.
 
+#![allow(
+    clippy::needless_range_loop,
+    reason = "matrix algebra reads best by its indices"
+)]
+
 use layered_fem::element::{ElementMatrix, Quadrilateral, Volumetric};
 use layered_fem::material::Elasticity;
 use layered_fem::mesh::Mesh;
@@ -79,7 +84,7 @@ fn smith_griffiths_5_17() {
             ]
         })
         .collect();
-    let found = solve(&mesh, Volumetric::Full, &fixed, &vec![0.0; 24], &force, material);
+    let found = solve(&mesh, Volumetric::Full, &fixed, &[0.0; 24], &force, material);
     for (u, row) in found.chunks_exact(2).zip(&node_rows) {
         assert!(
             (u[0] - row[3]).abs() < 1e-9 && (u[1] - row[4]).abs() < 1e-9,

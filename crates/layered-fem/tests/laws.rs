@@ -222,7 +222,7 @@ fn answers_far_away_and_deep_are_the_closed_form() {
     assert_eq!(rock.displacement(load, 1e6, 1.0).unwrap(), Displacement::ZERO);
 }
 
-/// Largest error of the second difference of u_r at `spacing`, as a share of its largest value.
+/// Largest error of the second difference of `u_r` at `spacing`, as a share of its largest value.
 fn second_difference_error(found: &[f64], exact: &[f64]) -> f64 {
     let second = |u: &[f64]| -> Vec<f64> { u.windows(3).map(|w| w[0] - 2.0 * w[1] + w[2]).collect() };
     let (found, exact) = (second(found), second(exact));
@@ -236,16 +236,7 @@ fn second_difference_error(found: &[f64], exact: &[f64]) -> f64 {
 
 #[test]
 fn second_differences_of_the_radial_displacement_are_smooth() {
-    let table = common::read(
-        &include_str!("data/computed_task3_z1200_200pts.csv")
-            .lines()
-            .map(|line| format!("task3,1200,{line}\n"))
-            .collect::<String>()
-            .replacen("task3,1200,r_mm", "case,z_mm,r_mm", 1),
-        ["r_mm", "z_mm", "ur_mm", "uz_mm"],
-        1e-3,
-    );
-    let points = &table["task3"][&1_200_000];
+    let points = common::task3_points();
     let case = common::shared_case("task3").unwrap();
     let ground = LayeredFem::new(&case.profile, ACCURACY).unwrap();
     let places: Vec<f64> = points.iter().map(|point| point.radius).collect();

@@ -13,7 +13,7 @@ pub struct Case {
     pub load: SurfaceLoad,
 }
 
-/// Exact displacement at one point: radius \[m\], u_r \[m\], u_z \[m\].
+/// Exact displacement at one point: radius \[m\], `u_r` \[m\], `u_z` \[m\].
 #[derive(Clone, Copy)]
 pub struct Point {
     pub radius: f64,
@@ -24,17 +24,17 @@ pub struct Point {
 /// Rows of points by case and by depth in micrometres.
 pub type Table = BTreeMap<String, BTreeMap<u64, Vec<Point>>>;
 
-/// Soil from MPa.
+/// Soil from `MPa`.
 pub fn soil(young_modulus: f64, poisson_ratio: f64) -> Soil {
     Soil::new(young_modulus * 1e6, poisson_ratio).unwrap()
 }
 
-/// Uniform layer from metres and MPa.
+/// Uniform layer from metres and `MPa`.
 pub fn layer(thickness: f64, young_modulus: f64, poisson_ratio: f64) -> SoilLayer {
     SoilLayer::uniform(thickness, soil(young_modulus, poisson_ratio)).unwrap()
 }
 
-/// Layer with linear modulus from metres and MPa.
+/// Layer with linear modulus from metres and `MPa`.
 pub fn graded(thickness: f64, top: f64, bottom: f64, poisson_ratio: f64) -> SoilLayer {
     let modulus = Modulus::Linear {
         top: top * 1e6,
@@ -43,7 +43,7 @@ pub fn graded(thickness: f64, top: f64, bottom: f64, poisson_ratio: f64) -> Soil
     SoilLayer::new(thickness, modulus, poisson_ratio).unwrap()
 }
 
-/// Layers on a half-space (MPa).
+/// Layers on a half-space (`MPa`).
 pub fn on_soil(layers: Vec<SoilLayer>, young_modulus: f64, poisson_ratio: f64) -> SoilProfile {
     SoilProfile::new(layers, Base::HalfSpace(soil(young_modulus, poisson_ratio))).unwrap()
 }
@@ -88,7 +88,7 @@ fn five() -> SoilProfile {
     on_soil(layers, 45.0, 0.4)
 }
 
-/// Load of `pressure` \[MPa\] on a disc.
+/// Load of `pressure` \[`MPa`\] on a disc.
 fn disc(radius: f64, pressure: f64) -> SurfaceLoad {
     SurfaceLoad::new(pressure * 1e6 * PI * radius * radius, radius).unwrap()
 }
@@ -197,7 +197,7 @@ pub fn further_case(name: &str) -> Option<Case> {
     Some(Case { profile, load })
 }
 
-/// Reads a table; `names` are its columns for r, z, u_r, u_z and `unit` what one of their units is in metres.
+/// Reads a table; `names` are its columns for r, z, `u_r`, `u_z` and `unit` what one of their units is in metres.
 pub fn read(text: &str, names: [&str; 4], unit: f64) -> Table {
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().unwrap().split(',').collect();
@@ -250,7 +250,7 @@ pub fn further() -> Vec<(String, Case, BTreeMap<u64, Vec<Point>>)> {
         .collect()
 }
 
-/// Largest errors of u_r and u_z within `reach`, as shares of the largest exact values at that depth.
+/// Largest errors of `u_r` and `u_z` within `reach`, as shares of the largest exact values at that depth.
 pub fn errors(found: &[ground_field::Displacement], exact: &[Point], reach: f64) -> [f64; 2] {
     let mut peak = [0.0_f64; 2];
     let mut worst = [0.0_f64; 2];
@@ -264,4 +264,21 @@ pub fn errors(found: &[ground_field::Displacement], exact: &[Point], reach: f64)
         }
     }
     [worst[0] / peak[0], worst[1] / peak[1]]
+}
+
+/// The 200 radii of the road at 1.2 m depth.
+pub fn task3_points() -> Vec<Point> {
+    let text = include_str!("../data/computed_task3_z1200_200pts.csv");
+    text.lines()
+        .skip(1)
+        .map(|line| {
+            let mut values = line.split(',').map(|field| field.parse::<f64>().unwrap() * 1e-3);
+            let mut next = || values.next().unwrap();
+            Point {
+                radius: next(),
+                radial: next(),
+                vertical: next(),
+            }
+        })
+        .collect()
 }
