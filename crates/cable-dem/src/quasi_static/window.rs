@@ -170,7 +170,10 @@ impl Sweeper {
         let mut recorder = Recorder::new(state.end_forces(&self.cable, &self.mesh));
         let memory = self.recall(passage.id());
         let mut travelling: Option<Stretch> = None;
-        let (&arrival, onward) = passage.positions().split_first().expect("a passage has positions");
+        let (&arrival, onward) = passage
+            .positions()
+            .split_first()
+            .expect("a passage has positions");
         self.arrive(&passage.snapshot(arrival, last + 1));
         for (step, &position) in onward.iter().enumerate() {
             let snapshot = passage.snapshot(position, last + 1);
@@ -422,11 +425,17 @@ impl Sweeper {
             let Stretch { lo, hi } = stretch;
             if lo > self.free.lo && self.edge_disturbed(lo - 1) {
                 stretch.lo = lo.saturating_sub(growth).max(self.free.lo);
-                self.anchor_from(Stretch { lo: stretch.lo, hi: lo - 1 });
+                self.anchor_from(Stretch {
+                    lo: stretch.lo,
+                    hi: lo - 1,
+                });
             }
             if hi < self.free.hi && self.edge_disturbed(hi + 1) {
                 stretch.hi = (hi + growth).min(self.free.hi);
-                self.anchor_from(Stretch { lo: hi + 1, hi: stretch.hi });
+                self.anchor_from(Stretch {
+                    lo: hi + 1,
+                    hi: stretch.hi,
+                });
             }
             if stretch == (Stretch { lo, hi }) {
                 return Ok(stretch);
@@ -484,8 +493,7 @@ impl Sweeper {
         let Stretch { mut lo, mut hi } = solved;
         let quiet = |edge: usize, inner: usize| {
             let moved = (self.trial.r[inner] - self.r[inner]).abs();
-            self.chain.stiffness * moved
-                <= QUIET * NEGLIGIBLE * self.chain.limit * self.chain.tributary[edge]
+            self.chain.stiffness * moved <= QUIET * NEGLIGIBLE * self.chain.limit * self.chain.tributary[edge]
         };
         while lo < hi && quiet(lo, lo + 1) {
             lo += 1;
