@@ -59,7 +59,9 @@ struct SupportWindow {
     solved: Forcing,
     /// Whether the forcing has changed since.
     due: bool,
-    /// Force that a held displacement would take, per displacement \[N/m\].
+    /// Adherent displacement up to which a fixed node's own friction has followed \[m\].
+    followed: f64,
+    /// Force on the cable per displacement of the duct \[N/m\].
     grip: f64,
 }
 
@@ -102,8 +104,10 @@ impl Sweeper {
         };
         let screening = compliance * stiffness / mesh.spacing();
         let margin = fading_nodes(screening).min(MAX_GROWTH);
-        // Over one screening length, and at least one element, a held node drags the cable along.
+        // Over one screening length, and at least one element, a held node drags the cable along; where the sheath is
+        // stiffer than that, what holds the node works against the sheath.
         let held_stiffness = stiffness / screening.sqrt().max(1.0);
+        let sheath_stiffness = stiffness / screening.max(screening.sqrt());
         let supports = supports
             .into_iter()
             .map(|support| SupportWindow {
@@ -113,9 +117,10 @@ impl Sweeper {
                 },
                 solved: Forcing::default(),
                 due: false,
+                followed: 0.0,
                 grip: support
                     .stiffness
-                    .map_or(held_stiffness, |s| s * held_stiffness / (s + held_stiffness)),
+                    .map_or(held_stiffness, |s| 1.0 / (1.0 / s + 1.0 / sheath_stiffness)),
                 support,
             })
             .collect();
@@ -221,6 +226,7 @@ impl Sweeper {
             let forcing = support.forcing(snapshot, self.chain.stiffness, last);
             self.support_load[support.node] = support.load(forcing);
             self.supports[index].solved = forcing;
+            self.supports[index].followed = forcing.adherent;
         }
     }
 
@@ -234,17 +240,25 @@ impl Sweeper {
                 support,
                 solved,
                 grip,
+                followed,
                 ..
             } = &self.supports[index];
             let forcing = support.forcing(snapshot, self.chain.stiffness, last);
             let change = (forcing.cut - solved.cut).abs() + grip * (forcing.adherent - solved.adherent).abs();
             let due = all || change > threshold;
+            let (node, fixed, load) = (support.node, support.stiffness.is_none(), support.load(forcing));
+            if fixed {
+                // Its friction turns at slips far smaller than those that matter to its neighbours.
+                let slip = forcing.adherent - followed;
+                self.drag(node, slip, snapshot.adhesion[node + 1]);
+                self.supports[index].followed = forcing.adherent;
+            }
             if due {
-                let (node, load) = (support.node, support.load(forcing));
-                if support.stiffness.is_some() {
-                    self.support_load[node] = load;
+                if fixed {
+                    self.r[node] = -forcing.adherent;
+                    self.trial.r[node] = -forcing.adherent;
                 } else {
-                    self.hold(node, -forcing.adherent, snapshot.adhesion[node + 1]);
+                    self.support_load[node] = load;
                 }
                 self.supports[index].solved = forcing;
             }
@@ -252,9 +266,8 @@ impl Sweeper {
         }
     }
 
-    /// Moves a fixed node, in the adherent frame, to `r`; its friction follows its own slip.
-    fn hold(&mut self, node: usize, r: f64, adhesion: f64) {
-        let slip = self.r[node] - r;
+    /// Friction on a fixed node as the duct slips past it by `slip`.
+    fn drag(&mut self, node: usize, slip: f64, adhesion: f64) {
         let g = if self.chain.compliance > 0.0 {
             self.g[node] + slip / self.chain.compliance
         } else if slip == 0.0 {
@@ -266,8 +279,6 @@ impl Sweeper {
             self.chain.bound(Contact::Backward, adhesion),
             self.chain.bound(Contact::Forward, adhesion),
         );
-        self.r[node] = r;
-        self.trial.r[node] = r;
     }
 
     /// The travelling window of this step: the last one, extended to every node near the vehicle that must slip.
