@@ -9,6 +9,7 @@
 mod active_set;
 mod chain;
 mod exact;
+mod memory;
 mod passage;
 mod support;
 mod window;

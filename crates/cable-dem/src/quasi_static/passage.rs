@@ -13,6 +13,8 @@
 //! and at ends and clamps. Where g stays within them nothing changes: r and g are the cable's state, and only the
 //! zone where the travelling shift presses g against a bound has to be solved.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use ground_field::{Direction, DuctMotion};
 
 use super::window::NEGLIGIBLE;
@@ -22,11 +24,15 @@ use crate::{CableError, DuctedCable, Mesh};
 /// Vehicle positions outside the duct are this share of their distance to it apart.
 const APPROACH_GROWTH: f64 = 0.05;
 
+static NEXT_ID: AtomicU64 = AtomicU64::new(0);
+
 /// Adherent motion and adhesion of one vehicle on the lattice of one mesh.
 ///
 /// Depends on the cable, the mesh and the vehicle, not on the cable's state: computed once, used for every pass.
 #[derive(Debug, Clone)]
 pub struct Passage {
+    /// Tells passages apart, so that a solver can remember the last pass of each.
+    id: u64,
     direction: Direction,
     /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s.
     phases: Vec<Phase>,
@@ -142,6 +148,7 @@ impl Passage {
             .max()
             .unwrap_or(0);
         Ok(Self {
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
             direction,
             phases,
             behind: behind as usize,
@@ -149,6 +156,10 @@ impl Passage {
             reach,
             peak,
         })
+    }
+
+    pub(super) fn id(&self) -> u64 {
+        self.id
     }
 
     /// Which way the vehicle drives.

@@ -2,6 +2,7 @@
 
 use super::active_set::{Elimination, Outcome};
 use super::chain::{Chain, Contact, Load, Stretch, Tolerance, Trial};
+use super::memory::PassMemory;
 use super::passage::{Passage, Snapshot};
 use super::support::{Forcing, Support};
 use super::{Recorder, exact};
@@ -49,6 +50,9 @@ pub(super) struct Sweeper {
     /// Contact states in the vehicle's frame, as last solved: the next node to stand there will most likely share them.
     by_xi: Vec<Contact>,
     windows: Vec<Window>,
+    /// The last pass of each passage, and the one that is being written.
+    memories: Vec<(u64, PassMemory)>,
+    writing: PassMemory,
 }
 
 /// A support, the window around it, and the forcing for which it was last solved.
@@ -69,8 +73,8 @@ struct SupportWindow {
 #[derive(Debug, Clone, Copy)]
 struct Window {
     stretch: Stretch,
-    /// Whether it travels with the vehicle, and which of its nodes do.
-    travelling: Option<Stretch>,
+    /// Whether it travels with the vehicle.
+    travels: bool,
 }
 
 impl Sweeper {
@@ -144,6 +148,8 @@ impl Sweeper {
             by_node: vec![Contact::Stuck; nodes],
             by_xi: Vec::new(),
             windows: Vec::new(),
+            memories: Vec::new(),
+            writing: PassMemory::default(),
         }
     }
 
@@ -167,44 +173,47 @@ impl Sweeper {
         };
 
         let mut recorder = Recorder::new(state.end_forces(&self.cable, &self.mesh));
+        let memory = self.recall(passage.id());
         let mut travelling: Option<Stretch> = None;
-        let (&arrival, onward) = passage
-            .positions()
-            .split_first()
-            .expect("a passage has positions");
+        let (&arrival, onward) = passage.positions().split_first().expect("a passage has positions");
         self.arrive(&passage.snapshot(arrival, last + 1));
-        for &position in onward {
+        for (step, &position) in onward.iter().enumerate() {
             let snapshot = passage.snapshot(position, last + 1);
             recorder.statistics.steps += 1;
             self.update_supports(&snapshot, false);
             travelling = self.disturbed(&snapshot, passage.reach(), travelling);
-            self.collect_windows(travelling);
+            let remembered = memory.recall(step);
+            self.collect_windows(travelling, remembered.map(|(window, _)| window));
             let mut next = None;
             for index in 0..self.windows.len() {
                 let window = self.windows[index];
-                let solved = self.solve(window, &snapshot, passage, tolerance, &mut recorder)?;
-                if window.travelling.is_some() {
+                self.predict(window, &snapshot, passage, remembered);
+                let solved = self.solve(window.stretch, &snapshot, tolerance, &mut recorder)?;
+                if window.travels {
                     next = self.shrink(solved);
                 }
                 recorder.statistics.widest_window =
                     recorder.statistics.widest_window.max(solved.hi - solved.lo + 1);
                 self.commit(solved, &snapshot, passage);
             }
+            self.writing.push(next, &self.trial.contact);
             travelling = next;
             if self.ends_touched() {
                 recorder.record(self.end_forces(&snapshot));
             }
         }
+        self.remember(passage.id(), memory);
 
         // Once more, the whole cable: what the windows left out of account is settled here.
         let &departure = passage.positions().last().expect("a passage has positions");
         let snapshot = passage.snapshot(departure, last + 1);
         self.update_supports(&snapshot, true);
-        let window = Window {
+        let whole = Window {
             stretch: self.free,
-            travelling: None,
+            travels: false,
         };
-        let solved = self.solve(window, &snapshot, passage, tolerance, &mut recorder)?;
+        self.predict(whole, &snapshot, passage, None);
+        let solved = self.solve(whole.stretch, &snapshot, tolerance, &mut recorder)?;
         self.commit(solved, &snapshot, passage);
         for node in 0..=last {
             state.displacement[node] = self.r[node] + snapshot.adherent[node + 1];
@@ -315,12 +324,38 @@ impl Sweeper {
         }
     }
 
-    /// Lists this step's windows, from left to right; those that touch become one.
-    fn collect_windows(&mut self, travelling: Option<Stretch>) {
+    /// Takes out the memory of a passage's last pass; empty for its first.
+    fn recall(&mut self, id: u64) -> PassMemory {
+        self.writing.clear();
+        match self.memories.iter_mut().find(|(known, _)| *known == id) {
+            Some((_, memory)) => std::mem::take(memory),
+            None => PassMemory::default(),
+        }
+    }
+
+    /// Puts the pass just written in its place; `old` becomes the storage of the next one.
+    fn remember(&mut self, id: u64, old: PassMemory) {
+        let written = std::mem::replace(&mut self.writing, old);
+        match self.memories.iter_mut().find(|(known, _)| *known == id) {
+            Some((_, memory)) => *memory = written,
+            None => self.memories.push((id, written)),
+        }
+    }
+
+    /// Lists this step's windows, from left to right; those that touch become one. The travelling window is at least as
+    /// wide as it was in the last pass, which spares it growing again.
+    fn collect_windows(&mut self, travelling: Option<Stretch>, remembered: Option<Stretch>) {
         self.windows.clear();
+        let travelling = match (travelling, remembered) {
+            (Some(a), Some(b)) if a.lo <= b.hi && b.lo <= a.hi => Some(Stretch {
+                lo: a.lo.min(b.lo),
+                hi: a.hi.max(b.hi),
+            }),
+            (travelling, _) => travelling,
+        };
         self.windows.extend(travelling.map(|stretch| Window {
             stretch,
-            travelling: Some(stretch),
+            travels: true,
         }));
         self.windows.extend(
             self.supports
@@ -328,7 +363,7 @@ impl Sweeper {
                 .filter(|support| support.due)
                 .map(|support| Window {
                     stretch: support.stretch,
-                    travelling: None,
+                    travels: false,
                 }),
         );
         self.windows.sort_by_key(|window| window.stretch.lo);
@@ -338,7 +373,7 @@ impl Sweeper {
             let window = &mut self.windows[merged];
             if next.stretch.lo <= window.stretch.hi + 2 {
                 window.stretch.hi = window.stretch.hi.max(next.stretch.hi);
-                window.travelling = window.travelling.or(next.travelling);
+                window.travels |= next.travels;
             } else {
                 merged += 1;
                 self.windows[merged] = next;
@@ -347,73 +382,67 @@ impl Sweeper {
         self.windows.truncate(merged + 1);
     }
 
-    /// Solves one window, growing it until its edges are quiet. The answer is in the trial until it is committed.
-    fn solve(
+    /// Sets anchors and guesses the contact states of a window's nodes: those of the last pass at this vehicle position,
+    /// in the first pass those that a node had where this one now stands relative to the vehicle, and elsewhere those
+    /// that the node itself had.
+    fn predict(
         &mut self,
         window: Window,
         snapshot: &Snapshot<'_>,
         passage: &Passage,
-        tolerance: Tolerance,
-        recorder: &mut Recorder,
-    ) -> Result<Stretch, CableError> {
-        let mut stretch = window.stretch;
-        let mut growth = self.margin;
-        self.prepare(stretch, window.travelling, snapshot, passage);
-        loop {
-            recorder.statistics.windows += 1;
-            self.settle(stretch, snapshot, tolerance, recorder)?;
-            let left = stretch.lo > self.free.lo && self.edge_disturbed(stretch.lo - 1);
-            let right = stretch.hi < self.free.hi && self.edge_disturbed(stretch.hi + 1);
-            if !left && !right {
-                return Ok(stretch);
+        remembered: Option<(Stretch, &[Contact])>,
+    ) {
+        let Stretch { lo, hi } = window.stretch;
+        self.anchor_from(window.stretch);
+        if !window.travels {
+            return;
+        }
+        match remembered {
+            Some((known, contacts)) if lo <= known.lo && known.hi <= hi => {
+                self.trial.contact[known.lo..=known.hi].copy_from_slice(contacts);
             }
-            let grown = Stretch {
-                lo: if left {
-                    stretch.lo.saturating_sub(growth).max(self.free.lo)
-                } else {
-                    stretch.lo
-                },
-                hi: if right {
-                    (stretch.hi + growth).min(self.free.hi)
-                } else {
-                    stretch.hi
-                },
-            };
-            if grown.lo < stretch.lo {
-                let new = Stretch {
-                    lo: grown.lo,
-                    hi: stretch.lo - 1,
-                };
-                self.prepare(new, None, snapshot, passage);
+            _ => {
+                for i in lo..=hi {
+                    self.trial.contact[i] = self.by_xi[passage.lattice_index(snapshot.position, i)];
+                }
             }
-            if grown.hi > stretch.hi {
-                let new = Stretch {
-                    lo: stretch.hi + 1,
-                    hi: grown.hi,
-                };
-                self.prepare(new, None, snapshot, passage);
-            }
-            stretch = grown;
-            growth = (2 * growth).min(MAX_GROWTH);
         }
     }
 
-    /// Anchors and predicted contact states of the nodes in `stretch`.
-    fn prepare(
-        &mut self,
-        stretch: Stretch,
-        travelling: Option<Stretch>,
-        snapshot: &Snapshot<'_>,
-        passage: &Passage,
-    ) {
+    /// Anchors and last contact states of the nodes in `stretch`.
+    fn anchor_from(&mut self, stretch: Stretch) {
         for i in stretch.lo..=stretch.hi {
             self.anchor[i] = self.r[i] + self.chain.compliance * self.g[i];
-            let travels = travelling.is_some_and(|window| (window.lo..=window.hi).contains(&i));
-            self.trial.contact[i] = if travels {
-                self.by_xi[passage.lattice_index(snapshot.position, i)]
-            } else {
-                self.by_node[i]
-            };
+        }
+        let range = stretch.lo..=stretch.hi;
+        self.trial.contact[range.clone()].copy_from_slice(&self.by_node[range]);
+    }
+
+    /// Solves a stretch, growing it until its edges are quiet. The answer is in the trial until it is committed.
+    fn solve(
+        &mut self,
+        mut stretch: Stretch,
+        snapshot: &Snapshot<'_>,
+        tolerance: Tolerance,
+        recorder: &mut Recorder,
+    ) -> Result<Stretch, CableError> {
+        let mut growth = self.margin;
+        loop {
+            recorder.statistics.windows += 1;
+            self.settle(stretch, snapshot, tolerance, recorder)?;
+            let Stretch { lo, hi } = stretch;
+            if lo > self.free.lo && self.edge_disturbed(lo - 1) {
+                stretch.lo = lo.saturating_sub(growth).max(self.free.lo);
+                self.anchor_from(Stretch { lo: stretch.lo, hi: lo - 1 });
+            }
+            if hi < self.free.hi && self.edge_disturbed(hi + 1) {
+                stretch.hi = (hi + growth).min(self.free.hi);
+                self.anchor_from(Stretch { lo: hi + 1, hi: stretch.hi });
+            }
+            if stretch == (Stretch { lo, hi }) {
+                return Ok(stretch);
+            }
+            growth = (2 * growth).min(MAX_GROWTH);
         }
     }
 
@@ -466,9 +495,8 @@ impl Sweeper {
         let Stretch { mut lo, mut hi } = solved;
         let quiet = |edge: usize, inner: usize| {
             let moved = (self.trial.r[inner] - self.r[inner]).abs();
-            self.trial.contact[edge] == Contact::Stuck
-                && self.chain.stiffness * moved
-                    <= QUIET * NEGLIGIBLE * self.chain.limit * self.chain.tributary[edge]
+            self.chain.stiffness * moved
+                <= QUIET * NEGLIGIBLE * self.chain.limit * self.chain.tributary[edge]
         };
         while lo < hi && quiet(lo, lo + 1) {
             lo += 1;
