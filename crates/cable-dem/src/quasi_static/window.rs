@@ -13,9 +13,6 @@ use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 pub(crate) const NEGLIGIBLE: f64 = 1e-3;
 /// A window's edge is quiet when the force its last move put on the next node is below this share of [`NEGLIGIBLE`].
 const QUIET: f64 = 0.25;
-/// A support is solved again when the vehicle's force on it has changed by this share of the friction on one element
-/// (or one screening length, if longer).
-const SUPPORT_CHANGE: f64 = 0.02;
 /// Accuracy of friction and equilibrium inside the windows, as a share of the friction limit.
 const FRICTION_ACCURACY: f64 = 1e-6;
 /// Accuracy of slip, as a share of the largest displacement.
@@ -175,7 +172,10 @@ impl Sweeper {
         let mut recorder = Recorder::new(state.end_forces(&self.cable, &self.mesh));
         let memory = self.recall(passage.id());
         let mut travelling: Option<Stretch> = None;
-        let (&arrival, onward) = passage.positions().split_first().expect("a passage has positions");
+        let (&arrival, onward) = passage
+            .positions()
+            .split_first()
+            .expect("a passage has positions");
         self.arrive(&passage.snapshot(arrival, last + 1));
         for (step, &position) in onward.iter().enumerate() {
             let snapshot = passage.snapshot(position, last + 1);
@@ -242,8 +242,8 @@ impl Sweeper {
     /// Brings the supports' loads up to date where the vehicle's effect on them has changed, or everywhere if `all`.
     fn update_supports(&mut self, snapshot: &Snapshot<'_>, all: bool) {
         let last = self.mesh.elements();
-        let length = self.mesh.spacing().max(self.cable.screening_length());
-        let threshold = SUPPORT_CHANGE * self.chain.limit * length;
+        // A support is solved again when the vehicle's force on it has changed as much as a window's edge may.
+        let threshold = NEGLIGIBLE * self.chain.limit * self.mesh.spacing();
         for index in 0..self.supports.len() {
             let SupportWindow {
                 support,
@@ -433,11 +433,17 @@ impl Sweeper {
             let Stretch { lo, hi } = stretch;
             if lo > self.free.lo && self.edge_disturbed(lo - 1) {
                 stretch.lo = lo.saturating_sub(growth).max(self.free.lo);
-                self.anchor_from(Stretch { lo: stretch.lo, hi: lo - 1 });
+                self.anchor_from(Stretch {
+                    lo: stretch.lo,
+                    hi: lo - 1,
+                });
             }
             if hi < self.free.hi && self.edge_disturbed(hi + 1) {
                 stretch.hi = (hi + growth).min(self.free.hi);
-                self.anchor_from(Stretch { lo: hi + 1, hi: stretch.hi });
+                self.anchor_from(Stretch {
+                    lo: hi + 1,
+                    hi: stretch.hi,
+                });
             }
             if stretch == (Stretch { lo, hi }) {
                 return Ok(stretch);
@@ -495,8 +501,7 @@ impl Sweeper {
         let Stretch { mut lo, mut hi } = solved;
         let quiet = |edge: usize, inner: usize| {
             let moved = (self.trial.r[inner] - self.r[inner]).abs();
-            self.chain.stiffness * moved
-                <= QUIET * NEGLIGIBLE * self.chain.limit * self.chain.tributary[edge]
+            self.chain.stiffness * moved <= QUIET * NEGLIGIBLE * self.chain.limit * self.chain.tributary[edge]
         };
         while lo < hi && quiet(lo, lo + 1) {
             lo += 1;
