@@ -13,9 +13,6 @@ use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 pub(crate) const NEGLIGIBLE: f64 = 1e-3;
 /// A window's edge is quiet when the force its last move put on the next node is below this share of [`NEGLIGIBLE`].
 const QUIET: f64 = 0.25;
-/// A support is solved again when the vehicle's force on it has changed by this share of the friction on one element
-/// (or one screening length, if longer).
-const SUPPORT_CHANGE: f64 = 0.02;
 /// Accuracy of friction and equilibrium inside the windows, as a share of the friction limit.
 const FRICTION_ACCURACY: f64 = 1e-6;
 /// Accuracy of slip, as a share of the largest displacement.
@@ -63,7 +60,9 @@ struct SupportWindow {
     solved: Forcing,
     /// Whether the forcing has changed since.
     due: bool,
-    /// Force that a held displacement would take, per displacement \[N/m\].
+    /// Adherent displacement up to which a fixed node's own friction has followed \[m\].
+    followed: f64,
+    /// Force on the cable per displacement of the duct \[N/m\].
     grip: f64,
 }
 
@@ -106,8 +105,10 @@ impl Sweeper {
         };
         let screening = compliance * stiffness / mesh.spacing();
         let margin = fading_nodes(screening).min(MAX_GROWTH);
-        // Over one screening length, and at least one element, a held node drags the cable along.
+        // Over one screening length, and at least one element, a held node drags the cable along; where the sheath is
+        // stiffer than that, what holds the node works against the sheath.
         let held_stiffness = stiffness / screening.sqrt().max(1.0);
+        let sheath_stiffness = stiffness / screening.max(screening.sqrt());
         let supports = supports
             .into_iter()
             .map(|support| SupportWindow {
@@ -117,9 +118,10 @@ impl Sweeper {
                 },
                 solved: Forcing::default(),
                 due: false,
+                followed: 0.0,
                 grip: support
                     .stiffness
-                    .map_or(held_stiffness, |s| s * held_stiffness / (s + held_stiffness)),
+                    .map_or(held_stiffness, |s| 1.0 / (1.0 / s + 1.0 / sheath_stiffness)),
                 support,
             })
             .collect();
@@ -233,30 +235,39 @@ impl Sweeper {
             let forcing = support.forcing(snapshot, self.chain.stiffness, last);
             self.support_load[support.node] = support.load(forcing);
             self.supports[index].solved = forcing;
+            self.supports[index].followed = forcing.adherent;
         }
     }
 
     /// Brings the supports' loads up to date where the vehicle's effect on them has changed, or everywhere if `all`.
     fn update_supports(&mut self, snapshot: &Snapshot<'_>, all: bool) {
         let last = self.mesh.elements();
-        let length = self.mesh.spacing().max(self.cable.screening_length());
-        let threshold = SUPPORT_CHANGE * self.chain.limit * length;
+        // A support is solved again when the vehicle's force on it has changed as much as a window's edge may.
+        let threshold = NEGLIGIBLE * self.chain.limit * self.mesh.spacing();
         for index in 0..self.supports.len() {
             let SupportWindow {
                 support,
                 solved,
                 grip,
+                followed,
                 ..
             } = &self.supports[index];
             let forcing = support.forcing(snapshot, self.chain.stiffness, last);
             let change = (forcing.cut - solved.cut).abs() + grip * (forcing.adherent - solved.adherent).abs();
             let due = all || change > threshold;
+            let (node, fixed, load) = (support.node, support.stiffness.is_none(), support.load(forcing));
+            if fixed {
+                // Its friction turns at slips far smaller than those that matter to its neighbours.
+                let slip = forcing.adherent - followed;
+                self.drag(node, slip, snapshot.adhesion[node + 1]);
+                self.supports[index].followed = forcing.adherent;
+            }
             if due {
-                let (node, load) = (support.node, support.load(forcing));
-                if support.stiffness.is_some() {
-                    self.support_load[node] = load;
+                if fixed {
+                    self.r[node] = -forcing.adherent;
+                    self.trial.r[node] = -forcing.adherent;
                 } else {
-                    self.hold(node, -forcing.adherent, snapshot.adhesion[node + 1]);
+                    self.support_load[node] = load;
                 }
                 self.supports[index].solved = forcing;
             }
@@ -264,9 +275,8 @@ impl Sweeper {
         }
     }
 
-    /// Moves a fixed node, in the adherent frame, to `r`; its friction follows its own slip.
-    fn hold(&mut self, node: usize, r: f64, adhesion: f64) {
-        let slip = self.r[node] - r;
+    /// Friction on a fixed node as the duct slips past it by `slip`.
+    fn drag(&mut self, node: usize, slip: f64, adhesion: f64) {
         let g = if self.chain.compliance > 0.0 {
             self.g[node] + slip / self.chain.compliance
         } else if slip == 0.0 {
@@ -278,8 +288,6 @@ impl Sweeper {
             self.chain.bound(Contact::Backward, adhesion),
             self.chain.bound(Contact::Forward, adhesion),
         );
-        self.r[node] = r;
-        self.trial.r[node] = r;
     }
 
     /// The travelling window of this step: the last one, extended to every node near the vehicle that must slip.
