@@ -30,6 +30,10 @@ static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 pub struct Passage {
     /// Tells passages apart, so that a solver can remember the last pass of each.
     id: u64,
+    mesh: Mesh,
+    /// EA \[N\] and γ \[m²/N\], on which the adherent motion depends.
+    stiffness: f64,
+    compliance: f64,
     direction: Direction,
     /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s.
     phases: Vec<Phase>,
@@ -147,6 +151,9 @@ impl Passage {
             .unwrap_or(0);
         Ok(Self {
             id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            mesh: *mesh,
+            stiffness: cable.axial_stiffness(),
+            compliance,
             direction,
             phases,
             behind: behind as usize,
@@ -154,6 +161,13 @@ impl Passage {
             reach,
             peak,
         })
+    }
+
+    /// Whether this passage was made for this cable's stiffness and friction on this mesh.
+    pub(super) fn is_for(&self, cable: &DuctedCable, mesh: &Mesh) -> bool {
+        self.mesh == *mesh
+            && self.stiffness == cable.axial_stiffness()
+            && self.compliance == cable.friction().compliance()
     }
 
     pub(super) fn id(&self) -> u64 {

@@ -47,6 +47,8 @@ pub(super) struct Sweeper {
     /// Contact states in the vehicle's frame, as last solved: the next node to stand there will most likely share them.
     by_xi: Vec<Contact>,
     windows: Vec<Window>,
+    /// Work turned into heat by slip in this pass so far \[J\].
+    dissipated: f64,
     /// The last pass of each passage, and the one that is being written.
     memories: Vec<(u64, PassMemory)>,
     writing: PassMemory,
@@ -145,17 +147,24 @@ impl Sweeper {
             by_node: vec![Contact::Stuck; nodes],
             by_xi: Vec::new(),
             windows: Vec::new(),
+            dissipated: 0.0,
             memories: Vec::new(),
             writing: PassMemory::default(),
         }
     }
 
-    /// Drives the vehicle over the cable in `state`, which is changed only on success.
-    pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<Recorder, CableError> {
+    /// Drives the vehicle over the cable in `state`, which is changed only on success; `observe` sees every step.
+    pub fn pass(
+        &mut self,
+        passage: &Passage,
+        state: &mut CableState,
+        mut observe: impl FnMut(&Self, Snapshot<'_>),
+    ) -> Result<Recorder, CableError> {
         let last = self.mesh.elements();
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
         self.support_load.fill(0.0);
+        self.dissipated = 0.0;
         self.by_node.fill(Contact::Stuck);
         self.by_xi.resize(passage.lattice_len(), Contact::Stuck);
         let largest = self
@@ -201,6 +210,7 @@ impl Sweeper {
             if self.ends_touched() {
                 recorder.record(self.end_forces(&snapshot));
             }
+            observe(self, snapshot);
         }
         self.remember(passage.id(), memory);
 
@@ -216,10 +226,33 @@ impl Sweeper {
         let solved = self.solve(whole.stretch, &snapshot, tolerance, &mut recorder)?;
         self.commit(solved, &snapshot, passage);
         for node in 0..=last {
-            state.displacement[node] = self.r[node] + snapshot.adherent[node + 1];
-            state.friction[node] = self.g[node] + snapshot.adhesion[node + 1];
+            state.displacement[node] = self.displacement(node, &snapshot);
+            state.friction[node] = self.friction(node, &snapshot);
         }
+        recorder.dissipated = self.dissipated;
         Ok(recorder)
+    }
+
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    pub fn stiffness(&self) -> f64 {
+        self.chain.stiffness
+    }
+
+    pub fn limit(&self) -> f64 {
+        self.chain.limit
+    }
+
+    /// Displacement u of a node \[m\].
+    pub fn displacement(&self, node: usize, snapshot: &Snapshot<'_>) -> f64 {
+        self.r[node] + snapshot.adherent[node + 1]
+    }
+
+    /// Friction f on a node \[N/m\].
+    pub fn friction(&self, node: usize, snapshot: &Snapshot<'_>) -> f64 {
+        self.g[node] + snapshot.adhesion[node + 1]
     }
 
     /// Takes the state into the adherent frame of the vehicle's first position. The cable does not move by this.
@@ -284,10 +317,13 @@ impl Sweeper {
         } else {
             f64::INFINITY.copysign(slip)
         };
-        self.g[node] = g.clamp(
+        let g = g.clamp(
             self.chain.bound(Contact::Backward, adhesion),
             self.chain.bound(Contact::Forward, adhesion),
         );
+        let elastic = self.chain.compliance * (g - self.g[node]);
+        self.dissipated += self.chain.tributary[node] * (g + adhesion) * (slip - elastic);
+        self.g[node] = g;
     }
 
     /// The travelling window of this step: the last one, extended to every node near the vehicle that must slip.
@@ -524,6 +560,12 @@ impl Sweeper {
     /// Makes the trial the state.
     fn commit(&mut self, stretch: Stretch, snapshot: &Snapshot<'_>, passage: &Passage) {
         let range = stretch.lo..=stretch.hi;
+        for i in range.clone() {
+            if self.trial.contact[i] != Contact::Stuck {
+                let slip = self.anchor[i] - self.trial.r[i] - self.chain.compliance * self.trial.g[i];
+                self.dissipated += self.chain.tributary[i] * self.chain.limit * slip.abs();
+            }
+        }
         self.r[range.clone()].copy_from_slice(&self.trial.r[range.clone()]);
         self.g[range.clone()].copy_from_slice(&self.trial.g[range.clone()]);
         self.by_node[range.clone()].copy_from_slice(&self.trial.contact[range.clone()]);
@@ -535,12 +577,12 @@ impl Sweeper {
     /// Force on each end \[N\] with the vehicle at the snapshot's position, compression positive.
     fn end_forces(&self, snapshot: &Snapshot<'_>) -> EndForces {
         let last = self.mesh.elements();
-        let u = |i: usize| self.r[i] + snapshot.adherent[i + 1];
+        let u = |i: usize| self.displacement(i, snapshot);
         let force = |node: usize, inner: usize, outward: f64, end: crate::End| match end {
             crate::End::Free => 0.0,
             crate::End::Spring(stiffness) => outward * stiffness * u(node),
             crate::End::Fixed => {
-                let friction = self.g[node] + snapshot.adhesion[node + 1];
+                let friction = self.friction(node, snapshot);
                 outward
                     * (self.chain.stiffness * (u(inner) - u(node)) + self.chain.tributary[node] * friction)
             }
