@@ -2,26 +2,24 @@
 //!
 //! Transform of a unit surface pressure (times m): (−(1−2ν) + mz, 2(1−ν) + mz) e^{−mz} / 2μ.
 //!
-//! Point load: Boussinesq, as in K. L. Johnson, Contact Mechanics (1985), eq. 3.18. Uniform pressure on a disc: the
-//! Lipschitz–Hankel integrals I(μ, ν; λ) = ∫ Jμ(ma) Jν(mr) e^{−mz} m^λ dm of G. Eason, B. Noble and I. N. Sneddon, Phil. Trans. R. Soc.
-//! A 247 (1955) 529–551,
+//! Point load: Boussinesq, as in K. L. Johnson, Contact Mechanics (1985), eq. 3.18. Uniform pressure on a disc of radius a,
+//! with the integrals I(μ, ν; λ) of [`lipschitz_hankel`]:
 //!
 //! ```text
 //! u_r = P/(2πμa) (−(1−2ν) I(1,1;−1) + z I(1,1;0))
 //! u_z = P/(2πμa) (2(1−ν) I(1,0;−1) + z I(1,0;0))
 //! ```
 //!
-//! reduced here to Bulirsch's cel by integrating over the angle between load and field point (see
-//! [`lipschitz_hankel`]), which holds inside, outside and under the edge of the disc. Far from the disc, at distance R, that
-//! difference of large terms loses (R/a)² in digits; there the mean of point loads over the disc replaces it, with an angular
-//! rule of n and a radial rule of 4 points, whose error is of the order (a/R)^n.
+//! Far from the disc, at distance R, these are differences of large terms that lose (R/a)² in digits; there the mean of
+//! point loads over the disc replaces them, with an angular rule of n and a radial rule of 4 points, whose error is of the
+//! order (a/R)^n.
 
 use std::f64::consts::{FRAC_1_PI, PI};
 
 use ground_field::{Displacement, Soil, SurfaceLoad};
 
-use crate::elliptic::complete;
 use crate::gauss::rule_of_class;
+use crate::lipschitz_hankel::lipschitz_hankel;
 
 /// A half-space of one soil, looked at in one depth, with a weight.
 #[derive(Debug, Clone, Copy)]
@@ -103,9 +101,7 @@ impl HalfSpace {
             vertical: scale * (i.z_i100 + 2.0 * (1.0 - nu) * i.i10_minus_1),
         }
     }
-}
 
-impl HalfSpace {
     /// Mean over the disc of point loads at twice `angles` angles and 4 radii: midpoint rule in the angle, Gauss–Legendre
     /// in the square of the radius.
     fn mean_of_points(&self, angles: usize, a: f64, r: f64) -> Displacement {
@@ -128,63 +124,6 @@ impl HalfSpace {
             }
         }
         mean
-    }
-}
-
-struct LipschitzHankel {
-    /// z I(1,1;0)
-    z_i110: f64,
-    /// z I(1,0;0)
-    z_i100: f64,
-    /// I(1,1;−1)
-    i11_minus_1: f64,
-    /// I(1,0;−1)
-    i10_minus_1: f64,
-}
-
-/// With ρ² = a² + r² − 2ar cos φ and R² = ρ² + z², Neumann's addition theorem gives
-/// I(0,0;0) = ⟨1/R⟩, I(1,1;0) = ⟨cos φ/R⟩ and I(1,0;0) = ⟨(a − r cos φ)/ρ² · (1 − z/R)⟩, means over φ. The integrals with
-/// λ = −1 follow because they are homogeneous in (a, r, z) of degree 0 (Euler):
-/// I(1,0;−1) = a I(0,0;0) − r I(1,1;0) − z I(1,0;0) and 2 I(1,1;−1) = a I(0,1;0) + r I(1,0;0) − z I(1,1;0).
-fn lipschitz_hankel(a: f64, r: f64, z: f64) -> LipschitzHankel {
-    let sum = a + r;
-    let far = sum.hypot(z);
-    let modulus = (a - r).hypot(z) / far;
-    let scale = 2.0 * FRAC_1_PI / far;
-    let split = (a - r) / sum;
-
-    // a I(0,0;0) − r I(1,1;0); finite under the edge of the disc too.
-    let near = scale * complete(modulus, 1.0, sum, a - r);
-    // ⟨(1 − z/R)(a − r cos φ)/ρ²⟩ and the same with a and r exchanged.
-    let (step_a, step_r) = match r.total_cmp(&a) {
-        std::cmp::Ordering::Less => (1.0 / a, 0.0),
-        std::cmp::Ordering::Equal => (0.5 / a, 0.5 / a),
-        std::cmp::Ordering::Greater => (0.0, 1.0 / r),
-    };
-    let (i100, i010, i110) = if z == 0.0 {
-        (step_a, step_r, 0.0)
-    } else {
-        // p is (split)²; under the edge its limit p → 0 with b → 0 leaves the first integral only.
-        let p = (split * split).max(f64::MIN_POSITIVE);
-        let shadow = |s: f64| {
-            scale * z / sum
-                * if split == 0.0 {
-                    complete(modulus, 1.0, 1.0, 1.0)
-                } else {
-                    complete(modulus, p, 1.0, s)
-                }
-        };
-        (
-            step_a - shadow(split),
-            step_r - shadow(-split),
-            scale * complete(modulus, 1.0, -1.0, 1.0),
-        )
-    };
-    LipschitzHankel {
-        z_i110: z * i110,
-        z_i100: z * i100,
-        i11_minus_1: 0.5 * (a * i010 + r * i100 - z * i110),
-        i10_minus_1: near - z * i100,
     }
 }
 

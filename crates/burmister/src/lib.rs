@@ -56,6 +56,8 @@ mod gauss;
 mod half_space;
 mod lamina;
 mod layered_half_space;
+mod levin;
+mod lipschitz_hankel;
 mod matrix;
 mod oscillatory;
 mod panel;
