@@ -1,0 +1,121 @@
+//! The homogeneous half-space as a model of the ground.
+
+use std::f64::consts::TAU;
+
+use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad};
+
+use crate::{disc, point};
+
+const MODEL: &str = "boussinesq half-space";
+
+/// One isotropic elastic soil without end below a flat surface.
+///
+/// - **Point load**: K. L. Johnson, *Contact Mechanics* (1985), eq. 3.18; exact to rounding.
+/// - **Uniform pressure on a disc**: the same integrated over the disc, everywhere: inside and outside, on the rim, on the
+///   surface and below. Exact up to rounding, below 1e-12 of the peak of the component at that depth; far from the disc
+///   the error is that small relative to the value itself. As the contact radius goes to 0 the disc's field goes over
+///   into the point load's smoothly.
+///
+/// Poisson's ratio 0.5 (incompressible) is included.
+///
+/// # At the load itself
+///
+/// The displacement under a point load grows as 1/R. At R = 0 there is none, and [`GroundError::Singular`] says so, as it
+/// does where the value would exceed the largest number. A disc has no such point: its displacement is finite and
+/// continuous everywhere, the rim included. A load of force 0 displaces nothing anywhere.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HalfSpace {
+    soil: Soil,
+    /// (1+ν)/(2πE) \[1/Pa\].
+    compliance: f64,
+}
+
+impl HalfSpace {
+    /// A half-space of `soil`.
+    pub fn new(soil: Soil) -> Self {
+        Self {
+            soil,
+            compliance: (1.0 + soil.poisson_ratio()) / (TAU * soil.young_modulus()),
+        }
+    }
+
+    /// The soil.
+    pub fn soil(self) -> Soil {
+        self.soil
+    }
+
+    /// ∂u_r/∂r under a point load of `force` \[N\] at horizontal distance `radius` and `depth` \[m\]: the horizontal strain
+    /// along a line through the load's axis, positive in extension.
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::InvalidParameter`] unless all three are finite and not negative; [`GroundError::Singular`] at the
+    /// load.
+    pub fn point_radial_strain(self, force: f64, radius: f64, depth: f64) -> Result<f64, GroundError> {
+        let load = SurfaceLoad::point(force)?;
+        check_place(radius, depth)?;
+        if load.force() == 0.0 {
+            return Ok(0.0);
+        }
+        let distance = point::distance(radius, depth);
+        if distance == 0.0 {
+            return Err(singular(radius, depth));
+        }
+        let shape = point::radial_strain_shape(radius, depth, distance, self.soil.poisson_ratio());
+        let strain = self.compliance * force / distance / distance * shape;
+        if strain.is_finite() {
+            Ok(strain)
+        } else {
+            Err(singular(radius, depth))
+        }
+    }
+}
+
+impl GroundField for HalfSpace {
+    fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
+        check_place(radius, depth)?;
+        if load.force() == 0.0 {
+            return Ok(Displacement::ZERO);
+        }
+        let distance = point::distance(radius, depth);
+        let (shape, length) = if load.is_point() {
+            if distance == 0.0 {
+                return Err(singular(radius, depth));
+            }
+            (point::shape(radius, depth, distance), distance)
+        } else {
+            disc::shape(radius, depth, distance, load.contact_radius())
+        };
+        let scale = self.compliance * load.force() / length;
+        let displacement = shape.displacement(scale, self.soil.poisson_ratio());
+        if displacement.is_finite() {
+            Ok(displacement)
+        } else {
+            Err(singular(radius, depth))
+        }
+    }
+}
+
+/// Both coordinates finite and not negative.
+#[inline]
+pub(crate) fn check_place(radius: f64, depth: f64) -> Result<(), GroundError> {
+    for (name, value) in [("radius", radius), ("depth", depth)] {
+        if !(value.is_finite() && value >= 0.0) {
+            return Err(GroundError::InvalidParameter {
+                name,
+                value,
+                allowed: "finite and not negative",
+            });
+        }
+    }
+    Ok(())
+}
+
+#[cold]
+fn singular(radius: f64, depth: f64) -> GroundError {
+    GroundError::Singular {
+        model: MODEL,
+        radius,
+        depth,
+    }
+}

@@ -1,0 +1,52 @@
+//! Point load on a half-space.
+//!
+//! Boussinesq's solution as in K. L. Johnson, *Contact Mechanics* (1985), eq. 3.18, with R² = r² + z²:
+//!
+//! ```text
+//! u_r = (1+ν)P/(2πE) · [ r z/R³ − (1−2ν) r/(R(R+z)) ]
+//! u_z = (1+ν)P/(2πE) · [ z²/R³ + 2(1−ν)/R ]
+//! ```
+//!
+//! Written in sin θ = r/R and cos θ = z/R, each bracket is 1/R times a number of order one, so nothing but the answer
+//! itself can overflow. The displacement grows as 1/R toward the load and has no value at R = 0.
+
+use crate::shape::Shape;
+
+/// Distance from the load, safe against overflow and underflow of the squares.
+#[inline]
+pub(crate) fn distance(radius: f64, depth: f64) -> f64 {
+    let squares = radius * radius + depth * depth;
+    // Within these bounds neither square has lost digits that matter.
+    if (1e-200..1e200).contains(&squares) {
+        squares.sqrt()
+    } else {
+        radius.hypot(depth)
+    }
+}
+
+/// The shape at a point `distance` > 0 from the load, with `distance` as its length.
+#[inline]
+pub(crate) fn shape(radius: f64, depth: f64, distance: f64) -> Shape {
+    let sine = radius / distance;
+    let cosine = depth / distance;
+    Shape {
+        shear_radial: sine * cosine,
+        surface_radial: sine / (1.0 + cosine),
+        shear_vertical: cosine * cosine,
+        surface_vertical: 1.0,
+    }
+}
+
+/// ∂u_r/∂r · 2πE/((1+ν)P) · R², the radial strain of the same solution:
+///
+/// ```text
+/// ∂/∂r (r z/R³) = z/R³ − 3 r² z/R⁵,     ∂/∂r (r/(R(R+z))) = z/R³ − 1/(R(R+z))
+/// ```
+///
+/// the second because r/(R(R+z)) = 1/r − z/(rR).
+#[inline]
+pub(crate) fn radial_strain_shape(radius: f64, depth: f64, distance: f64, poisson_ratio: f64) -> f64 {
+    let sine = radius / distance;
+    let cosine = depth / distance;
+    cosine * (1.0 - 3.0 * sine * sine) - (1.0 - 2.0 * poisson_ratio) * (cosine - 1.0 / (1.0 + cosine))
+}

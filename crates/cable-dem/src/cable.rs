@@ -1,0 +1,151 @@
+//! The cable in its duct: length, stiffness, friction, and what holds it.
+
+use crate::error::checked;
+use crate::{CableError, Friction};
+
+/// What holds an end of the cable.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum End {
+    /// Nothing.
+    #[default]
+    Free,
+    /// A joint that does not move; its reaction is the force on a load cell there.
+    Fixed,
+    /// A spring to the ground with this stiffness \[N/m\].
+    Spring(f64),
+}
+
+impl End {
+    /// Stiffness \[N/m\] of a sprung end, 0 for a free one; `None` for a fixed one.
+    pub fn stiffness(self) -> Option<f64> {
+        match self {
+            Self::Free => Some(0.0),
+            Self::Fixed => None,
+            Self::Spring(stiffness) => Some(stiffness),
+        }
+    }
+}
+
+/// A clamp somewhere along the duct: a spring between cable and ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Restraint {
+    /// Position along the duct \[m\].
+    pub position: f64,
+    /// Stiffness \[N/m\].
+    pub stiffness: f64,
+}
+
+/// A straight cable in a duct from x = 0 (upstream) to x = length (downstream).
+#[derive(Debug, Clone, PartialEq)]
+pub struct DuctedCable {
+    length: f64,
+    axial_stiffness: f64,
+    friction: Friction,
+    upstream: End,
+    downstream: End,
+    restraints: Vec<Restraint>,
+}
+
+impl DuctedCable {
+    /// A cable of `length` \[m\] and `axial_stiffness` EA \[N\] with `friction` against its duct; both ends free.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless length and stiffness are finite and positive.
+    pub fn new(length: f64, axial_stiffness: f64, friction: Friction) -> Result<Self, CableError> {
+        let allowed = "finite and positive";
+        Ok(Self {
+            length: checked("length", length, allowed, |v| v > 0.0)?,
+            axial_stiffness: checked("axial_stiffness", axial_stiffness, allowed, |v| v > 0.0)?,
+            friction,
+            upstream: End::Free,
+            downstream: End::Free,
+            restraints: Vec::new(),
+        })
+    }
+
+    /// The same cable with its ends held.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless spring stiffnesses are finite and not negative.
+    pub fn with_ends(mut self, upstream: End, downstream: End) -> Result<Self, CableError> {
+        for end in [upstream, downstream] {
+            if let End::Spring(stiffness) = end {
+                checked("spring stiffness", stiffness, "finite and not negative", |v| {
+                    v >= 0.0
+                })?;
+            }
+        }
+        (self.upstream, self.downstream) = (upstream, downstream);
+        Ok(self)
+    }
+
+    /// The same cable with clamps along it.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless positions lie on the duct and stiffnesses are finite and not negative.
+    pub fn with_restraints(mut self, restraints: Vec<Restraint>) -> Result<Self, CableError> {
+        for restraint in &restraints {
+            checked("restraint position", restraint.position, "on the duct", |v| {
+                (0.0..=self.length).contains(&v)
+            })?;
+            checked(
+                "restraint stiffness",
+                restraint.stiffness,
+                "finite and not negative",
+                |v| v >= 0.0,
+            )?;
+        }
+        self.restraints = restraints;
+        Ok(self)
+    }
+
+    /// The cable seen in a mirror across the duct's middle.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let mut mirrored = self.clone();
+        std::mem::swap(&mut mirrored.upstream, &mut mirrored.downstream);
+        for restraint in &mut mirrored.restraints {
+            restraint.position = self.length - restraint.position;
+        }
+        mirrored
+    }
+
+    /// Length \[m\].
+    pub fn length(&self) -> f64 {
+        self.length
+    }
+
+    /// EA \[N\].
+    pub fn axial_stiffness(&self) -> f64 {
+        self.axial_stiffness
+    }
+
+    /// Friction against the duct.
+    pub fn friction(&self) -> Friction {
+        self.friction
+    }
+
+    /// What holds the end at x = 0.
+    pub fn upstream(&self) -> End {
+        self.upstream
+    }
+
+    /// What holds the end at x = length.
+    pub fn downstream(&self) -> End {
+        self.downstream
+    }
+
+    /// Clamps along the cable.
+    pub fn restraints(&self) -> &[Restraint] {
+        &self.restraints
+    }
+
+    /// Length \[m\] over which a stuck cable smooths the motion of its duct: λ = √(EA γ), with γ the shear compliance
+    /// of the contact ([`Friction::compliance`]). 0 for Coulomb's law.
+    pub fn screening_length(&self) -> f64 {
+        (self.axial_stiffness * self.friction.compliance()).sqrt()
+    }
+}

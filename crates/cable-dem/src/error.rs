@@ -1,0 +1,71 @@
+//! What can go wrong in the cable.
+
+/// Error of a cable model or of a solver.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CableError {
+    /// A parameter is outside its range, or not a number.
+    #[error("{name} = {value}: must be {allowed}")]
+    InvalidParameter {
+        /// The parameter's name.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// The allowed range, in words.
+        allowed: &'static str,
+    },
+    /// The solver does not handle this friction law.
+    #[error("the {solver} solver does not handle the {law} law: {reason}")]
+    UnsupportedLaw {
+        /// The solver.
+        solver: &'static str,
+        /// The friction law.
+        law: &'static str,
+        /// Why not.
+        reason: &'static str,
+    },
+    /// A step did not reach equilibrium within the friction bounds; no state is returned in its place.
+    #[error(
+        "no equilibrium with the vehicle at {vehicle_position} m: {violation:.1e} of the friction limit remains unbalanced"
+    )]
+    NoConvergence {
+        /// Position of the vehicle's origin along the duct, from where it enters \[m\].
+        vehicle_position: f64,
+        /// Largest violation of equilibrium or of the friction law, as a share of the friction limit.
+        violation: f64,
+    },
+    /// Rounding is too large beside the friction limit for the answer to mean anything.
+    #[error(
+        "rounding of the elastic forces reaches {share:.1e} of the friction limit: axial stiffness {axial_stiffness} N at a node spacing of {spacing} m is too stiff for this friction"
+    )]
+    Precision {
+        /// Rounding error as a share of the friction limit.
+        share: f64,
+        /// EA \[N\].
+        axial_stiffness: f64,
+        /// Node spacing \[m\].
+        spacing: f64,
+    },
+    /// The state belongs to another mesh.
+    #[error("the state has {found} nodes where the mesh has {expected}")]
+    StateMismatch {
+        /// Nodes of the state.
+        found: usize,
+        /// Nodes of the mesh.
+        expected: usize,
+    },
+}
+
+/// `value` if it is a number for which `holds`, or the error that says what is allowed.
+pub(crate) fn checked(
+    name: &'static str,
+    value: f64,
+    allowed: &'static str,
+    holds: impl Fn(f64) -> bool,
+) -> Result<f64, CableError> {
+    if value.is_finite() && holds(value) {
+        Ok(value)
+    } else {
+        Err(CableError::InvalidParameter { name, value, allowed })
+    }
+}

@@ -1,0 +1,49 @@
+//! A power cable in a duct that moves: friction, ends and clamps, pass after pass.
+//!
+//! The duct moves with the ground under each vehicle (`ground_field::DuctMotion`), friction drags the cable along, and
+//! as the duct's forward motion is long and slow and its backward motion short and fast, the cable gains a little at
+//! every pass (K. Kashiro et al., Furukawa Review; Equations (2) and (3) there). In equilibrium
+//!
+//! EA u″ + f = 0,  |f| ≤ q = μ_d N′,
+//!
+//! with u the cable's displacement, EA its axial stiffness and f the friction per metre, which follows the slip between
+//! duct and cable by a [`FrictionLaw`]. Inertia is left out: the cable's wave speed √(EA/m′), near 850 m/s, is far above
+//! any vehicle's.
+//!
+//! SI units throughout; forces in the cable are positive in compression.
+//!
+//! ```
+//! use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
+//! use ground_field::Direction;
+//!
+//! // A bump of 15 µm that draws the duct away from the vehicle on both sides, as ground does under a wheel.
+//! let shape = |xi: f64| 40e-6 * xi / (1.0 + xi * xi).powf(1.5);
+//!
+//! let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;
+//! let cable = DuctedCable::new(30.0, 8.01e6, friction)?.with_ends(End::Free, End::Fixed)?;
+//! let mesh = Mesh::new(30.0, 0.1, 0.05)?;
+//! let passage = Passage::from_shape(&cable, &mesh, Direction::Forward, shape, 15.0)?;
+//!
+//! let mut solver = QuasiStatic::new(cable, mesh)?;
+//! let mut state = CableState::at_rest(&mesh);
+//! let first = solver.pass(&passage, &mut state)?.force.downstream;
+//! let second = solver.pass(&passage, &mut state)?.force.downstream;
+//! assert!(first > 50.0 && second > 1.5 * first);
+//! # Ok::<(), cable_dem::CableError>(())
+//! ```
+
+mod cable;
+mod error;
+mod friction;
+mod mesh;
+mod quasi_static;
+mod state;
+mod traffic;
+
+pub use cable::{DuctedCable, End, Restraint};
+pub use error::CableError;
+pub use friction::{Friction, FrictionLaw};
+pub use mesh::Mesh;
+pub use quasi_static::{PassOutcome, Passage, QuasiStatic, Statistics};
+pub use state::{CableState, EndForces};
+pub use traffic::{Order, Traffic};

@@ -1,0 +1,102 @@
+//! The cable cut into equal elements, and the lattice the vehicle moves on.
+
+use crate::CableError;
+use crate::error::checked;
+
+/// Most nodes a mesh may have: 1e7 nodes take about 1 GB.
+const MAX_NODES: f64 = 1e7;
+
+/// Equally spaced nodes 0..=n along the cable, and the vehicle's advance per step.
+///
+/// The advance is a whole fraction or a whole multiple of the spacing: then the nodes seen from the vehicle always
+/// fall on the same few lattices, and the duct's motion is evaluated once, not at every step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mesh {
+    elements: usize,
+    spacing: f64,
+    steps_per_spacing: usize,
+    spacings_per_step: usize,
+}
+
+impl Mesh {
+    /// A mesh of a cable of `length` \[m\] with nodes at most `node_spacing` \[m\] and vehicle positions at most
+    /// `vehicle_step` \[m\] apart.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless all are finite and positive, the spacing is at most half the length and
+    /// there are at most 1e7 nodes.
+    pub fn new(length: f64, node_spacing: f64, vehicle_step: f64) -> Result<Self, CableError> {
+        checked("length", length, "finite and positive", |v| v > 0.0)?;
+        checked(
+            "node_spacing",
+            node_spacing,
+            "positive, at most half the duct's length and at least its 1e-7th part",
+            |v| v > 0.0 && v <= 0.5 * length && length / v <= MAX_NODES,
+        )?;
+        checked(
+            "vehicle_step",
+            vehicle_step,
+            "positive and at least a 1e-7th part of the duct's length",
+            |v| v > 0.0 && length / v <= MAX_NODES,
+        )?;
+        // A spacing that divides the length to rounding is taken as it is.
+        let elements = ((length / node_spacing) * (1.0 - 1e-12)).ceil() as usize;
+        let spacing = length / elements as f64;
+        let (steps_per_spacing, spacings_per_step) = if vehicle_step < spacing * (1.0 - 1e-12) {
+            (((spacing / vehicle_step) * (1.0 - 1e-12)).ceil() as usize, 1)
+        } else {
+            (1, ((vehicle_step / spacing) * (1.0 + 1e-12)).floor() as usize)
+        };
+        Ok(Self {
+            elements,
+            spacing,
+            steps_per_spacing,
+            spacings_per_step,
+        })
+    }
+
+    /// Number of elements n; there are n + 1 nodes.
+    pub fn elements(&self) -> usize {
+        self.elements
+    }
+
+    /// Number of nodes.
+    pub fn nodes(&self) -> usize {
+        self.elements + 1
+    }
+
+    /// Distance h between nodes \[m\].
+    pub fn spacing(&self) -> f64 {
+        self.spacing
+    }
+
+    /// Advance of the vehicle per step \[m\].
+    pub fn vehicle_step(&self) -> f64 {
+        self.lattice_step() * self.spacings_per_step as f64
+    }
+
+    /// Length of cable \[m\] whose friction acts at `node`: h, and half of it at the ends.
+    pub fn tributary_length(&self, node: usize) -> f64 {
+        if node == 0 || node == self.elements {
+            0.5 * self.spacing
+        } else {
+            self.spacing
+        }
+    }
+
+    /// Distance between the points of the lattice on which both nodes and vehicle positions lie \[m\].
+    pub(crate) fn lattice_step(&self) -> f64 {
+        self.spacing / self.steps_per_spacing as f64
+    }
+
+    /// Lattice points from one node to the next.
+    pub(crate) fn phases(&self) -> usize {
+        self.steps_per_spacing
+    }
+
+    /// Lattice points from one vehicle position to the next.
+    pub(crate) fn stride(&self) -> usize {
+        self.spacings_per_step
+    }
+}

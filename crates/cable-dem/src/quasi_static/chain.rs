@@ -1,0 +1,94 @@
+//! One implicit step on a stretch of the chain: the problem, and the check that an answer solves it.
+//!
+//! Unknown are the displacements r (in the adherent frame, see [`super::passage`]) of the nodes of one stretch. With K
+//! the chain's stiffness, s the supports' and p their loads, the step minimises the strictly convex energy
+//!
+//! ½ rᵀ(K + s) r − pᵀr + Σ w_i Φ_i(r_i),
+//!
+//! where −Φ′ = g = clamp((anchor − r)/γ, lower, upper) is the friction. Each node is in one of three [`Contact`] states,
+//! and once these are known r follows from a linear system. An answer is right exactly when every stuck node's friction
+//! lies within its bounds and every slipping node has slipped the way its friction points.
+
+/// State of the contact between one node and the duct.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Contact {
+    /// Friction within its bounds, slip elastic.
+    Stuck,
+    /// The duct slips forward past the cable: friction at its upper bound.
+    Forward,
+    /// The duct slips backward past the cable: friction at its lower bound.
+    Backward,
+}
+
+/// The constant part: one cable on one mesh.
+#[derive(Debug, Clone)]
+pub(crate) struct Chain {
+    /// k = EA/h \[N/m\].
+    pub stiffness: f64,
+    /// Diagonal of K + s in units of k.
+    pub diagonal: Vec<f64>,
+    /// Tributary lengths w \[m\].
+    pub tributary: Vec<f64>,
+    /// γ k / w: shear compliance of a node's contact beside the chain's.
+    pub softness: Vec<f64>,
+    /// Shear compliance γ \[m²/N\]; 0 for Coulomb's law.
+    pub compliance: f64,
+    /// Friction limit q \[N/m\].
+    pub limit: f64,
+}
+
+/// A stretch lo..=hi of unknown nodes between neighbours that are held.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Stretch {
+    pub lo: usize,
+    pub hi: usize,
+}
+
+/// What the step is given, as slices over all nodes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Load<'a> {
+    /// Adhesion A \[N/m\], which shifts the friction bounds.
+    pub adhesion: &'a [f64],
+    /// Loads p of the supports in the adherent frame \[N\]; zero away from them.
+    pub support: &'a [f64],
+    /// r + γ g before the step: where the duct holds the sheath \[m\].
+    pub anchor: &'a [f64],
+}
+
+/// A trial answer, over all nodes; outside the stretch being solved `r` holds the neighbours' values.
+#[derive(Debug, Clone)]
+pub(crate) struct Trial {
+    /// Displacement in the adherent frame \[m\].
+    pub r: Vec<f64>,
+    /// Friction in the adherent frame \[N/m\].
+    pub g: Vec<f64>,
+    /// Contact states.
+    pub contact: Vec<Contact>,
+}
+
+/// How exactly a step's answer must hold.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Tolerance {
+    /// On friction and equilibrium \[N/m\].
+    pub friction: f64,
+    /// On slip \[m\].
+    pub slip: f64,
+}
+
+impl Chain {
+    /// Bound of the friction g in the slipping state `contact` \[N/m\].
+    pub fn bound(&self, contact: Contact, adhesion: f64) -> f64 {
+        match contact {
+            Contact::Forward => self.limit - adhesion,
+            Contact::Backward => -self.limit - adhesion,
+            Contact::Stuck => 0.0,
+        }
+    }
+
+    /// Friction per metre \[N/m\] that balances node i: (K r + s r − p)/w.
+    pub fn balancing_friction(&self, r: &[f64], support: &[f64], i: usize) -> f64 {
+        let left = if i > 0 { r[i - 1] } else { 0.0 };
+        let right = r.get(i + 1).copied().unwrap_or(0.0);
+        (self.stiffness * (self.diagonal[i] * r[i] - left - right) - support[i]) / self.tributary[i]
+    }
+}

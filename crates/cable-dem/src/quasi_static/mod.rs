@@ -1,0 +1,223 @@
+//! Quasi-static passes: inertia left out, every step an equilibrium.
+//!
+//! The vehicle advances in steps; each is one implicit step of a rate-independent system, which is exact as long as no
+//! node reverses its slip within the step. Work is done only where something moves: in a window that travels with the
+//! vehicle (see [`passage`]) and in small ones at ends and clamps, which are solved again when the vehicle's effect on them
+//! has changed. A window grows when its edge is disturbed and shrinks when it is quiet. After each pass the whole cable
+//! is solved once more, so that the state it leaves is in equilibrium and within the friction bounds everywhere.
+
+mod active_set;
+mod chain;
+mod exact;
+mod memory;
+mod passage;
+mod support;
+mod window;
+
+pub use passage::Passage;
+
+use ground_field::Direction;
+
+use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
+use window::Sweeper;
+
+/// Share of the friction limit up to which rounding may blur equilibrium.
+const MAX_ROUNDING: f64 = 1e-3;
+
+/// Quasi-static solver for one cable on one mesh.
+#[derive(Debug, Clone)]
+pub struct QuasiStatic {
+    cable: DuctedCable,
+    mesh: Mesh,
+    forward: Sweeper,
+    /// The cable seen in the mirror, for reverse traffic; made when first needed.
+    reverse: Option<Sweeper>,
+}
+
+/// What one pass did.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PassOutcome {
+    /// Force on each end after the pass \[N\], compression positive.
+    pub force: EndForces,
+    /// Largest force on each end during the pass \[N\].
+    pub peak: EndForces,
+    /// Smallest force on each end during the pass \[N\]: the largest tension where it is negative.
+    pub lowest: EndForces,
+    /// Largest compression along the cable after the pass \[N\].
+    pub max_compression: f64,
+    /// Displacement at x = 0 after the pass \[m\].
+    pub upstream_displacement: f64,
+    /// Displacement at x = length after the pass \[m\].
+    pub downstream_displacement: f64,
+    /// What the pass cost.
+    pub statistics: Statistics,
+}
+
+/// Counts of work that do not depend on the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Statistics {
+    /// Vehicle positions.
+    pub steps: usize,
+    /// Windows solved.
+    pub windows: usize,
+    /// Linear solves over a window.
+    pub sweeps: usize,
+    /// Nodes eliminated in these.
+    pub node_updates: usize,
+    /// Windows for which the iteration gave up and the exact step was taken.
+    pub exact_steps: usize,
+    /// Most nodes in one window before the vehicle had left.
+    pub widest_window: usize,
+}
+
+impl std::ops::AddAssign for Statistics {
+    fn add_assign(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.windows += other.windows;
+        self.sweeps += other.sweeps;
+        self.node_updates += other.node_updates;
+        self.exact_steps += other.exact_steps;
+        self.widest_window = self.widest_window.max(other.widest_window);
+    }
+}
+
+impl QuasiStatic {
+    /// A solver for `cable` on `mesh`.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::UnsupportedLaw`] for a law
+    /// without memory, which has no state of rest.
+    pub fn new(cable: DuctedCable, mesh: Mesh) -> Result<Self, CableError> {
+        let law = cable.friction().law();
+        if !law.has_memory() {
+            return Err(CableError::UnsupportedLaw {
+                solver: "quasi-static",
+                law: law.name(),
+                reason: "its friction depends on the time step and fades at rest",
+            });
+        }
+        crate::error::checked(
+            "mesh length",
+            mesh.spacing() * mesh.elements() as f64,
+            "the cable's length",
+            |v| (v / cable.length() - 1.0).abs() < 1e-9,
+        )?;
+        Ok(Self {
+            forward: Sweeper::new(&cable, &mesh),
+            reverse: None,
+            cable,
+            mesh,
+        })
+    }
+
+    /// The mesh.
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    /// The cable.
+    pub fn cable(&self) -> &DuctedCable {
+        &self.cable
+    }
+
+    /// Lets one vehicle pass and carries `state` on. When it fails, `state` is as it was.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::StateMismatch`] for a state of another mesh, [`CableError::Precision`] where rounding would blur
+    /// the answer, [`CableError::NoConvergence`] where a step found no equilibrium.
+    pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<PassOutcome, CableError> {
+        state.check(&self.mesh)?;
+        if self.cable.friction().limit() == 0.0 {
+            // Nothing drags the cable.
+            return Ok(self.outcome(state, Recorder::new(state.end_forces(&self.cable, &self.mesh))));
+        }
+        self.check_precision(passage, state)?;
+        let mirrored = passage.direction() == Direction::Reverse;
+        let sweeper = if mirrored {
+            self.reverse
+                .get_or_insert_with(|| Sweeper::new(&self.cable.mirrored(), &self.mesh))
+        } else {
+            &mut self.forward
+        };
+        let mut after = state.clone();
+        if mirrored {
+            after.mirror();
+        }
+        let mut recorder = sweeper.pass(passage, &mut after)?;
+        if mirrored {
+            after.mirror();
+            recorder.mirror();
+        }
+        *state = after;
+        Ok(self.outcome(state, recorder))
+    }
+
+    fn outcome(&self, state: &CableState, mut recorder: Recorder) -> PassOutcome {
+        let force = state.end_forces(&self.cable, &self.mesh);
+        recorder.record(force);
+        let max_compression = state
+            .element_forces(&self.cable, &self.mesh)
+            .chain([force.upstream, force.downstream])
+            .fold(f64::NEG_INFINITY, f64::max);
+        PassOutcome {
+            force,
+            peak: recorder.peak,
+            lowest: recorder.lowest,
+            max_compression,
+            upstream_displacement: state.displacement()[0],
+            downstream_displacement: state.displacement()[self.mesh.elements()],
+            statistics: recorder.statistics,
+        }
+    }
+
+    /// Rounding of k (2 u_i − u_{i−1} − u_{i+1}) beside the friction on one element.
+    fn check_precision(&self, passage: &Passage, state: &CableState) -> Result<(), CableError> {
+        let largest = state
+            .displacement()
+            .iter()
+            .fold(passage.peak(), |largest, u| largest.max(u.abs()));
+        let share = window::rounding(&self.cable, &self.mesh, largest) / self.cable.friction().limit();
+        if share <= MAX_ROUNDING {
+            Ok(())
+        } else {
+            Err(CableError::Precision {
+                share,
+                axial_stiffness: self.cable.axial_stiffness(),
+                spacing: self.mesh.spacing(),
+            })
+        }
+    }
+}
+
+/// End forces as the vehicle passes.
+#[derive(Debug, Clone, Copy)]
+struct Recorder {
+    peak: EndForces,
+    lowest: EndForces,
+    statistics: Statistics,
+}
+
+impl Recorder {
+    fn new(start: EndForces) -> Self {
+        Self {
+            peak: start,
+            lowest: start,
+            statistics: Statistics::default(),
+        }
+    }
+
+    fn record(&mut self, force: EndForces) {
+        self.peak.upstream = self.peak.upstream.max(force.upstream);
+        self.peak.downstream = self.peak.downstream.max(force.downstream);
+        self.lowest.upstream = self.lowest.upstream.min(force.upstream);
+        self.lowest.downstream = self.lowest.downstream.min(force.downstream);
+    }
+
+    /// Seen in the mirror the ends change places; compression stays compression.
+    fn mirror(&mut self) {
+        std::mem::swap(&mut self.peak.upstream, &mut self.peak.downstream);
+        std::mem::swap(&mut self.lowest.upstream, &mut self.lowest.downstream);
+    }
+}

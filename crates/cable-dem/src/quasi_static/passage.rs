@@ -1,0 +1,246 @@
+//! A vehicle's passage as the cable feels it.
+//!
+//! A cable stuck to its duct all along would move by the *adherent motion* a(ξ): the duct's motion D(ξ), smoothed by the
+//! sheath's shear over the screening length λ,
+//!
+//! (a − D)/γ = EA a″,  discretely  −k (a_{i−1} − 2 a_i + a_{i+1}) = h A_i,  A = (D − a)/γ.
+//!
+//! A(ξ) is the friction that adhesion takes: −EA D″ for Coulomb's law, where a = D. Measured from the adherent motion,
+//! r = u − a and g = f − A, the cable feels the passing vehicle only through the friction bounds, which it shifts,
+//!
+//! −q − A(ξ) ≤ g ≤ q − A(ξ),
+//!
+//! and at ends and clamps. Where g stays within them nothing changes: r and g are the cable's state, and only the
+//! zone where the travelling shift presses g against a bound has to be solved.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use ground_field::{Direction, DuctMotion};
+
+use super::window::NEGLIGIBLE;
+use crate::error::checked;
+use crate::{CableError, DuctedCable, Mesh};
+
+static NEXT_ID: AtomicU64 = AtomicU64::new(0);
+
+/// Adherent motion and adhesion of one vehicle on the lattice of one mesh.
+///
+/// Depends on the cable, the mesh and the vehicle, not on the cable's state: computed once, used for every pass.
+#[derive(Debug, Clone)]
+pub struct Passage {
+    /// Tells passages apart, so that a solver can remember the last pass of each.
+    id: u64,
+    direction: Direction,
+    /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s.
+    phases: Vec<Phase>,
+    /// Lattice indices before the vehicle's origin.
+    behind: usize,
+    /// Vehicle positions, in lattice units, from before the duct to past it.
+    positions: Vec<i64>,
+    /// Nodes on either side of the vehicle beyond which adhesion cannot matter.
+    reach: usize,
+    peak: f64,
+}
+
+#[derive(Debug, Clone)]
+struct Phase {
+    adherent: Vec<f64>,
+    adhesion: Vec<f64>,
+}
+
+/// The passage at one vehicle position: node i reads index i + 1, so that both ends have a neighbour outside.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Snapshot<'a> {
+    pub adherent: &'a [f64],
+    pub adhesion: &'a [f64],
+    /// Node nearest to the vehicle; outside the duct, negative or beyond the last.
+    pub node: i64,
+    /// Vehicle position on the lattice.
+    pub position: i64,
+}
+
+impl Passage {
+    /// The passage of a vehicle whose duct motion is `motion` over `cable`, meshed by `mesh`.
+    ///
+    /// Its origin comes from and leaves to `approach` \[m\] beyond the duct's ends, far enough for the field of every
+    /// wheel to be past its turning points there. What the duct does while the
+    /// vehicle is farther away is left out: an endless elastic half-space has a tail ∝ 1/ξ there that real ground, over
+    /// rock at some depth, has not.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m.
+    pub fn new(
+        cable: &DuctedCable,
+        mesh: &Mesh,
+        motion: &DuctMotion,
+        approach: f64,
+    ) -> Result<Self, CableError> {
+        // The solver always drives forward; reverse traffic is its mirror image.
+        let direction = if motion.velocity() < 0.0 {
+            Direction::Reverse
+        } else {
+            Direction::Forward
+        };
+        let sign = direction.sign();
+        Self::from_shape(
+            cable,
+            mesh,
+            direction,
+            |xi| sign * motion.longitudinal(sign * xi),
+            approach,
+        )
+    }
+
+    /// The passage of a travelling longitudinal displacement `shape`(ξ) \[m\], ξ positive ahead of the vehicle and the
+    /// displacement positive in its direction of travel; ξ = 0 travels from `approach` \[m\] before the duct to `approach`
+    /// past it.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Passage::new`].
+    pub fn from_shape(
+        cable: &DuctedCable,
+        mesh: &Mesh,
+        direction: Direction,
+        shape: impl Fn(f64) -> f64,
+        approach: f64,
+    ) -> Result<Self, CableError> {
+        checked("approach", approach, "positive and at most 1e5 m", |v| {
+            v > 0.0 && v <= 1e5
+        })?;
+        let step = mesh.lattice_step();
+        let limit = NEGLIGIBLE * cable.friction().limit();
+        let positions = schedule(mesh, approach);
+
+        // Every ξ-index that a node, or the neighbour outside an end, can have; whole phases on both sides.
+        let m = mesh.phases() as i64;
+        let behind = (positions.last().copied().unwrap_or(0) / m + 3) * m;
+        let ahead = -positions.first().copied().unwrap_or(0) + (mesh.elements() as i64 + 3) * m;
+        let count = ((behind + ahead) / m) as usize;
+        let compliance = cable.friction().compliance();
+        let stiffness = cable.axial_stiffness() / mesh.spacing();
+        let phases: Vec<Phase> = (0..m)
+            .map(|phase| {
+                let duct: Vec<f64> = (0..count)
+                    .map(|c| shape(step * (phase - behind + m * c as i64) as f64))
+                    .collect();
+                Phase::new(
+                    &duct,
+                    compliance * stiffness / mesh.spacing(),
+                    stiffness / mesh.spacing(),
+                )
+            })
+            .collect();
+
+        let peak = phases
+            .iter()
+            .flat_map(|phase| &phase.adherent)
+            .fold(0.0_f64, |peak, a| peak.max(a.abs()));
+        let origin = behind / m;
+        let reach = phases
+            .iter()
+            .flat_map(|phase| phase.adhesion.iter().enumerate())
+            .filter(|(_, adhesion)| adhesion.abs() > limit)
+            .map(|(c, _)| (c as i64 - origin).unsigned_abs() as usize + 1)
+            .max()
+            .unwrap_or(0);
+        Ok(Self {
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            direction,
+            phases,
+            behind: behind as usize,
+            positions,
+            reach,
+            peak,
+        })
+    }
+
+    pub(super) fn id(&self) -> u64 {
+        self.id
+    }
+
+    /// Which way the vehicle drives.
+    pub fn direction(&self) -> Direction {
+        self.direction
+    }
+
+    /// Vehicle positions of one pass.
+    pub fn steps(&self) -> usize {
+        self.positions.len()
+    }
+
+    pub(super) fn positions(&self) -> &[i64] {
+        &self.positions
+    }
+
+    pub(super) fn reach(&self) -> usize {
+        self.reach
+    }
+
+    /// Largest adherent displacement \[m\].
+    pub(super) fn peak(&self) -> f64 {
+        self.peak
+    }
+
+    /// Number of lattice points in the vehicle's frame.
+    pub(super) fn lattice_len(&self) -> usize {
+        self.phases.len() * self.phases[0].adherent.len()
+    }
+
+    /// Lattice point in the vehicle's frame at which `node` stands.
+    pub(super) fn lattice_index(&self, position: i64, node: usize) -> usize {
+        (self.behind as i64 - position) as usize + node * self.phases.len()
+    }
+
+    pub(super) fn snapshot(&self, position: i64, nodes: usize) -> Snapshot<'_> {
+        let m = self.phases.len() as i64;
+        // Index of node −1.
+        let index = self.behind as i64 - m - position;
+        let (phase, first) = (index.rem_euclid(m) as usize, index.div_euclid(m) as usize);
+        let range = first..first + nodes + 2;
+        Snapshot {
+            adherent: &self.phases[phase].adherent[range.clone()],
+            adhesion: &self.phases[phase].adhesion[range],
+            node: position.div_euclid(m),
+            position,
+        }
+    }
+}
+
+impl Phase {
+    /// Adherent motion and adhesion on one lattice of spacing h from the duct's motion there.
+    ///
+    /// `screening` is (λ/h)², `bend` is EA/h². The first and last points take the duct's own motion; any solution
+    /// of the difference equation serves as a frame of reference, so that this choice does not touch the answer.
+    fn new(duct: &[f64], screening: f64, bend: f64) -> Self {
+        let last = duct.len() - 1;
+        let mut adherent = duct.to_vec();
+        if screening > 0.0 {
+            let diagonal = 1.0 + 2.0 * screening;
+            let mut upper = vec![0.0; duct.len()];
+            for i in 1..last {
+                let pivot = diagonal - screening * upper[i - 1];
+                upper[i] = screening / pivot;
+                adherent[i] = (duct[i] + screening * adherent[i - 1]) / pivot;
+            }
+            for i in (1..last).rev() {
+                adherent[i] += upper[i] * adherent[i + 1];
+            }
+        }
+        let mut adhesion = vec![0.0; duct.len()];
+        for i in 1..last {
+            adhesion[i] = -bend * (adherent[i - 1] - 2.0 * adherent[i] + adherent[i + 1]);
+        }
+        Self { adherent, adhesion }
+    }
+}
+
+/// Vehicle positions, a step apart, from `approach` before the duct to `approach` past it.
+fn schedule(mesh: &Mesh, approach: f64) -> Vec<i64> {
+    let stride = mesh.stride() as i64;
+    let steps = (approach / mesh.vehicle_step()).ceil() as i64;
+    let end = (mesh.elements() * mesh.phases()) as i64;
+    let last = (end + stride - 1) / stride + steps;
+    (-steps..=last).map(|step| step * stride).collect()
+}

@@ -1,0 +1,88 @@
+//! What the cable keeps from one pass to the next.
+
+use crate::{CableError, DuctedCable, End, Mesh};
+
+/// The cable at rest: displacement and friction of every node, with no vehicle near.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CableState {
+    /// Displacement u \[m\], positive toward growing x.
+    pub(crate) displacement: Vec<f64>,
+    /// Friction f on the cable per metre \[N/m\], positive toward growing x.
+    pub(crate) friction: Vec<f64>,
+}
+
+impl CableState {
+    /// A cable as laid: no displacement, no friction.
+    pub fn at_rest(mesh: &Mesh) -> Self {
+        Self {
+            displacement: vec![0.0; mesh.nodes()],
+            friction: vec![0.0; mesh.nodes()],
+        }
+    }
+
+    /// Displacement u of every node \[m\].
+    pub fn displacement(&self) -> &[f64] {
+        &self.displacement
+    }
+
+    /// Friction f on the cable at every node \[N/m\].
+    pub fn friction(&self) -> &[f64] {
+        &self.friction
+    }
+
+    /// Force in every element \[N\], compression positive: F = −EA u′.
+    pub fn element_forces<'a>(&'a self, cable: &DuctedCable, mesh: &Mesh) -> impl Iterator<Item = f64> + 'a {
+        let stiffness = cable.axial_stiffness() / mesh.spacing();
+        self.displacement
+            .windows(2)
+            .map(move |pair| stiffness * (pair[0] - pair[1]))
+    }
+
+    /// Force \[N\] on what holds each end, compression positive: the reading of a load cell there.
+    pub fn end_forces(&self, cable: &DuctedCable, mesh: &Mesh) -> EndForces {
+        let n = mesh.elements();
+        let stiffness = cable.axial_stiffness() / mesh.spacing();
+        let (u, f) = (&self.displacement, &self.friction);
+        let upstream = match cable.upstream() {
+            End::Free => 0.0,
+            End::Spring(spring) => -spring * u[0],
+            End::Fixed => stiffness * (u[0] - u[1]) - mesh.tributary_length(0) * f[0],
+        };
+        let downstream = match cable.downstream() {
+            End::Free => 0.0,
+            End::Spring(spring) => spring * u[n],
+            End::Fixed => stiffness * (u[n - 1] - u[n]) + mesh.tributary_length(n) * f[n],
+        };
+        EndForces { upstream, downstream }
+    }
+
+    pub(crate) fn check(&self, mesh: &Mesh) -> Result<(), CableError> {
+        if self.displacement.len() == mesh.nodes() && self.friction.len() == mesh.nodes() {
+            Ok(())
+        } else {
+            Err(CableError::StateMismatch {
+                found: self.displacement.len(),
+                expected: mesh.nodes(),
+            })
+        }
+    }
+
+    /// The same state seen in a mirror across the duct's middle.
+    pub(crate) fn mirror(&mut self) {
+        for values in [&mut self.displacement, &mut self.friction] {
+            values.reverse();
+            for value in values.iter_mut() {
+                *value = -*value;
+            }
+        }
+    }
+}
+
+/// Forces at both ends \[N\], compression positive.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct EndForces {
+    /// At x = 0.
+    pub upstream: f64,
+    /// At x = length.
+    pub downstream: f64,
+}

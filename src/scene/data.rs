@@ -1,0 +1,163 @@
+//! What a scene holds: plain data in SI.
+
+pub use cable_dem::{End, FrictionLaw, Order, Restraint};
+use ground_field::{SoilProfile, Vehicle};
+
+/// A cable in a duct under traffic, in SI.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    /// Title; the file's name where the file gives none.
+    pub title: String,
+    /// Where the duct lies.
+    pub duct: Duct,
+    /// The ground around it.
+    pub ground: Ground,
+    /// The cable in it.
+    pub cable: Cable,
+    /// Friction between cable and duct.
+    pub friction: Friction,
+    /// What holds the cable's ends.
+    pub ends: Ends,
+    /// Clamps along the cable, as the file lists them.
+    pub restraints: Vec<Restraint>,
+    /// Vehicles, at least one; their shares sum to 1.
+    pub vehicles: Vec<TrafficVehicle>,
+    /// How many of them drive, in which order.
+    pub traffic: Traffic,
+    /// How to compute.
+    pub solver: Solver,
+}
+
+/// A straight duct at constant depth, from x = 0 to x = `length`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Duct {
+    /// Length \[m\], positive.
+    pub length: f64,
+    /// Depth of the cable below the road surface \[m\], positive.
+    pub depth: f64,
+    /// Horizontal distance from the duct's axis to the wheel path's \[m\].
+    pub lateral_offset: f64,
+}
+
+/// The ground and how to model it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ground {
+    /// Which model of the ground to use.
+    pub model: GroundModel,
+    /// Layers from the surface down. On a rigid base the last layer reaches down to it.
+    pub profile: SoilProfile,
+    /// Scales the computed displacements to a measured peak.
+    pub scaling: Option<PeakScaling>,
+}
+
+/// Model of the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum GroundModel {
+    /// The cheapest that is accurate enough.
+    #[default]
+    Auto,
+    /// Homogeneous half-space, closed form.
+    Boussinesq,
+    /// Layers by equivalent thickness, closed form.
+    Odemark,
+    /// Layers by Hankel transform.
+    Burmister,
+    /// Layers by axisymmetric finite elements.
+    FiniteElements,
+}
+
+/// A measured peak displacement of the duct that the ground model is scaled to.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PeakScaling {
+    /// `max|D_l|` of each vehicle \[m\], positive: each vehicle gets its own factor.
+    Longitudinal(f64),
+    /// `max|D_v|` of the first vehicle \[m\], positive: all vehicles get the factor of the first.
+    Vertical(f64),
+}
+
+/// The cable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cable {
+    /// Weight per length \[N/m\], positive.
+    pub weight: f64,
+    /// Axial stiffness EA \[N\], positive.
+    pub axial_stiffness: f64,
+    /// Normal force on the duct as a multiple of the weight, positive.
+    pub normal_load_factor: f64,
+}
+
+impl Cable {
+    /// Normal force between cable and duct per length N' \[N/m\].
+    pub fn normal_load(&self) -> f64 {
+        self.normal_load_factor * self.weight
+    }
+}
+
+/// Friction between cable and duct.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Friction {
+    /// How friction follows slip.
+    pub law: FrictionLaw,
+    /// Dynamic friction coefficient `μ_d`, in \[0, 10\].
+    pub dynamic_coefficient: f64,
+}
+
+/// What holds the cable's two ends.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ends {
+    /// At x = 0.
+    pub upstream: End,
+    /// At x = length.
+    pub downstream: End,
+}
+
+/// A vehicle and how often it drives.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrafficVehicle {
+    /// The vehicle: wheels, speed, direction and a name of its own.
+    pub vehicle: Vehicle,
+    /// Its share of the passes; all shares sum to 1. With [`Order::Sequence`], its share of the sequence, which may be 0.
+    pub share: f64,
+}
+
+/// How many vehicles drive, in which order.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Traffic {
+    /// Number of passes, all vehicles together, at least 1.
+    pub passes: u64,
+    /// Which vehicle drives when.
+    pub order: Order,
+}
+
+/// How to compute. Lengths and times that are `None` are chosen to suit the scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solver {
+    /// How the passes are computed.
+    pub method: SolverMethod,
+    /// Wanted relative accuracy of the force, in (0, 0.5\].
+    pub tolerance: f64,
+    /// Distance of the cable's nodes \[m\], positive, at most half the duct's length.
+    pub node_spacing: Option<f64>,
+    /// Advance of the vehicle per implicit step \[m\], positive.
+    pub vehicle_step: Option<f64>,
+    /// Time step of the explicit method \[s\], positive.
+    pub time_step: Option<f64>,
+    /// How far beyond the duct's ends vehicles come from and leave to \[m\], positive.
+    pub approach: Option<f64>,
+}
+
+/// How the passes are computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum SolverMethod {
+    /// The cheapest that is accurate enough.
+    #[default]
+    Auto,
+    /// Implicit, without inertia.
+    QuasiStatic,
+    /// Implicit, with inertia.
+    Dynamic,
+    /// Explicit time steps, with inertia.
+    Explicit,
+    /// The homogenised law for many passes.
+    PassLaw,
+}

@@ -1,0 +1,184 @@
+//! A TOML document as a tree in which every key and value knows where it was written.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::table::Table;
+use super::{Location, SceneError};
+
+/// Where something was written: which source, which bytes of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Place {
+    /// 0 is the file, then the overrides in turn: what has the larger number was set later.
+    pub source: usize,
+    pub span: Range<usize>,
+}
+
+/// A value and its place.
+#[derive(Debug, Clone)]
+pub(super) struct Node {
+    pub place: Place,
+    pub content: Content,
+}
+
+#[derive(Debug, Clone)]
+pub(super) enum Content {
+    Text(String),
+    /// A number; `integer` where it is a whole number that fits.
+    Number {
+        value: f64,
+        integer: Option<i64>,
+    },
+    /// Something that no scene holds: a truth value, a date.
+    Other,
+    Array(Vec<Node>),
+    /// In the order of the file.
+    Table(Vec<Entry>),
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Entry {
+    pub key: String,
+    pub key_place: Place,
+    pub value: Node,
+}
+
+/// A file or an override.
+#[derive(Debug)]
+struct Source {
+    name: String,
+    text: String,
+}
+
+/// A scene file with its overrides.
+#[derive(Debug)]
+pub(super) struct Document {
+    sources: Vec<Source>,
+    pub root: Node,
+}
+
+impl Document {
+    pub fn parse(name: &str, text: &str) -> Result<Self, SceneError> {
+        let table = DeTable::parse(text).map_err(|error| SceneError::Syntax {
+            location: Location::new(name, text, error.span().unwrap_or(0..0), true),
+            message: error.message().to_owned(),
+        })?;
+        let end = text.trim_end().len();
+        Ok(Self {
+            sources: vec![Source {
+                name: name.to_owned(),
+                text: text.to_owned(),
+            }],
+            root: Node {
+                // What the top level lacks would be added at the end.
+                place: Place {
+                    source: 0,
+                    span: end..end,
+                },
+                content: Content::Table(entries(table.get_ref(), 0, 0)),
+            },
+        })
+    }
+
+    /// Adds an override as a source and returns its number.
+    pub fn add_source(&mut self, text: &str) -> usize {
+        self.sources.push(Source {
+            name: format!("--set {text}"),
+            text: text.to_owned(),
+        });
+        self.sources.len() - 1
+    }
+
+    /// The whole document as a table that may hold only the keys `known`.
+    pub fn table(&self, known: &'static [&'static str]) -> Result<Table<'_>, SceneError> {
+        Table::new(self, String::new(), &self.root, known)
+    }
+
+    #[expect(
+        clippy::unnecessary_box_returns,
+        reason = "errors hold it boxed, to stay small"
+    )]
+    pub fn locate(&self, place: &Place) -> Box<Location> {
+        let source = &self.sources[place.source];
+        let mut location = Location::new(&source.name, &source.text, place.span.clone(), place.source == 0);
+        if *place == self.root.place {
+            // What the top level lacks is not on its last line.
+            location.text.clear();
+            location.marked = 0..0;
+        }
+        location
+    }
+
+    /// What was written at a place: its first line, without what is too long to repeat.
+    pub fn written(&self, place: &Place) -> String {
+        const LONGEST: usize = 60;
+        let text = self.sources[place.source]
+            .text
+            .get(place.span.clone())
+            .unwrap_or_default();
+        let line = text.lines().next().unwrap_or_default();
+        let shown: String = line.chars().take(LONGEST).collect();
+        if shown.len() < text.len() {
+            shown + "…"
+        } else {
+            shown
+        }
+    }
+}
+
+/// The value as a tree; `offset` is where its text begins in the source.
+pub(super) fn node(value: &Spanned<DeValue>, source: usize, offset: usize) -> Node {
+    let content = match value.get_ref() {
+        DeValue::String(text) => Content::Text(text.clone().into_owned()),
+        DeValue::Integer(number) => {
+            let integer = i128::from_str_radix(number.as_str(), number.radix()).ok();
+            Content::Number {
+                // Whole numbers are needed exactly only where they are small: elsewhere this is a quantity in SI.
+                value: integer.map_or(f64::INFINITY, |i| i as f64),
+                integer: integer.and_then(|i| i64::try_from(i).ok()),
+            }
+        }
+        DeValue::Float(number) => number.as_str().parse().map_or(Content::Other, self::number),
+        DeValue::Boolean(_) | DeValue::Datetime(_) => Content::Other,
+        DeValue::Array(items) => {
+            Content::Array(items.iter().map(|item| node(item, source, offset)).collect())
+        }
+        DeValue::Table(table) => Content::Table(entries(table, source, offset)),
+    };
+    Node {
+        place: place(value.span(), source, offset),
+        content,
+    }
+}
+
+/// A number that may be whole: `1e6` passes are as good as `1000000`.
+pub(super) fn number(value: f64) -> Content {
+    const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
+    let whole = value.fract() == 0.0 && value.abs() <= LARGEST_EXACT;
+    Content::Number {
+        value,
+        integer: whole.then_some(value as i64),
+    }
+}
+
+fn entries(table: &DeTable, source: usize, offset: usize) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = table
+        .iter()
+        .map(|(key, value)| Entry {
+            key: key.get_ref().clone().into_owned(),
+            key_place: place(key.span(), source, offset),
+            value: node(value, source, offset),
+        })
+        .collect();
+    entries.sort_by_key(|entry| entry.key_place.span.start);
+    entries
+}
+
+fn place(span: Range<usize>, source: usize, offset: usize) -> Place {
+    Place {
+        source,
+        span: span.start + offset..span.end + offset,
+    }
+}

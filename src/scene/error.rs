@@ -1,0 +1,214 @@
+//! What can be wrong with a scene.
+
+use std::string::FromUtf8Error;
+
+use ground_field::GroundError;
+
+use super::Location;
+
+/// What is wrong with a scene. The message ends with the faulty line, marked.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// The file cannot be read.
+    #[error("{file}: cannot be read: {source}")]
+    Unreadable {
+        /// The file.
+        file: String,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The file is far larger than any scene.
+    #[error("{file}: found more than {allowed} bytes; allowed: a scene file of at most {allowed} bytes")]
+    TooLarge {
+        /// The file.
+        file: String,
+        /// Largest size allowed \[bytes\].
+        allowed: u64,
+    },
+    /// The file is not UTF-8 text.
+    #[error("{location}: found text that is not UTF-8; allowed: UTF-8, with or without byte order mark{}", .location.excerpt())]
+    NotUtf8 {
+        /// Where.
+        location: Box<Location>,
+    },
+    /// The file is not TOML.
+    #[error("{location}: not valid TOML: {message}{}", .location.excerpt())]
+    Syntax {
+        /// Where.
+        location: Box<Location>,
+        /// What is wrong.
+        message: String,
+    },
+    /// An override is not `KEY=VALUE`, or there is nothing at its key.
+    #[error("{location}: `{key}`: found {found}; allowed: {allowed}{}", .location.excerpt())]
+    Override {
+        /// Where.
+        location: Box<Location>,
+        /// The key that it meant to set.
+        key: String,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A key that is not known.
+    #[error("{location}: found unknown key `{key}`{}; allowed: {allowed}{}", did_you_mean(.suggestion.as_deref()), .location.excerpt())]
+    UnknownKey {
+        /// Where.
+        location: Box<Location>,
+        /// The key, with its section.
+        key: String,
+        /// The known keys.
+        allowed: String,
+        /// The nearest known key.
+        suggestion: Option<String>,
+    },
+    /// A required key is not there.
+    #[error("{location}: key `{key}` is missing; allowed: {allowed}{}", .location.excerpt())]
+    MissingKey {
+        /// The section that lacks it.
+        location: Box<Location>,
+        /// The key, with its section.
+        key: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A value of the wrong kind, such as a text where a list belongs.
+    #[error("{location}: `{key}`: found {found}; allowed: {allowed}{}", .location.excerpt())]
+    WrongType {
+        /// Where.
+        location: Box<Location>,
+        /// The key, with its section.
+        key: String,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A number in quotes without a unit.
+    #[error("{location}: `{key}`: missing unit: found {found}; allowed: {allowed}{}", .location.excerpt())]
+    MissingUnit {
+        /// Where.
+        location: Box<Location>,
+        /// The key, with its section.
+        key: String,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A unit that is not known.
+    #[error("{location}: `{key}`: unknown unit `{unit}`: found {found}{}; allowed: {allowed}{}", did_you_mean(*.suggestion), .location.excerpt())]
+    UnknownUnit {
+        /// Where.
+        location: Box<Location>,
+        /// The key, with its section.
+        key: String,
+        /// The unit as written.
+        unit: String,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+        /// The nearest unit that is allowed.
+        suggestion: Option<&'static str>,
+    },
+    /// A unit of another dimension.
+    #[error("{location}: `{key}`: wrong dimension: found {found}, {dimension}; allowed: {allowed}{}", .location.excerpt())]
+    WrongDimension {
+        /// Where.
+        location: Box<Location>,
+        /// The key, with its section.
+        key: String,
+        /// What was found.
+        found: String,
+        /// The dimension that was found, in words.
+        dimension: &'static str,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A value outside its range, or not a finite number.
+    #[error("{location}: `{key}`: out of range: found {found}; allowed: {allowed}{}", .location.excerpt())]
+    OutOfRange {
+        /// Where.
+        location: Box<Location>,
+        /// The key, with its section.
+        key: String,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// A word that is not one of the allowed ones.
+    #[error("{location}: `{key}`: found {found}{}; allowed: {allowed}{}", did_you_mean(.suggestion.as_deref()), .location.excerpt())]
+    UnknownWord {
+        /// Where.
+        location: Box<Location>,
+        /// The key, with its section.
+        key: String,
+        /// What was found.
+        found: String,
+        /// The allowed words.
+        allowed: String,
+        /// The nearest of them.
+        suggestion: Option<String>,
+    },
+    /// A value that contradicts another one.
+    #[error("{location}: `{key}`: found {found}; allowed: {allowed}{}", .location.excerpt())]
+    Inconsistent {
+        /// Where.
+        location: Box<Location>,
+        /// The key, with its section.
+        key: String,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// The ground or a vehicle cannot be built from these values.
+    #[error("{location}: `{key}`: {source}{}", .location.excerpt())]
+    Rejected {
+        /// Where.
+        location: Box<Location>,
+        /// The key, with its section.
+        key: String,
+        /// Why.
+        source: GroundError,
+    },
+}
+
+fn did_you_mean(suggestion: Option<&str>) -> String {
+    suggestion.map_or_else(String::new, |word| format!(" (did you mean `{word}`?)"))
+}
+
+/// The error for a file whose bytes are not UTF-8.
+pub(super) fn not_utf8(file: &str, error: &FromUtf8Error) -> SceneError {
+    let valid = error.utf8_error().valid_up_to();
+    let text = String::from_utf8_lossy(error.as_bytes());
+    SceneError::NotUtf8 {
+        location: Location::new(file, &text, valid..valid, true),
+    }
+}
+
+impl SceneError {
+    /// Where the scene is wrong; `None` if its file cannot be read at all.
+    pub fn location(&self) -> Option<&Location> {
+        match self {
+            Self::Unreadable { .. } | Self::TooLarge { .. } => None,
+            Self::NotUtf8 { location }
+            | Self::Syntax { location, .. }
+            | Self::Override { location, .. }
+            | Self::UnknownKey { location, .. }
+            | Self::MissingKey { location, .. }
+            | Self::WrongType { location, .. }
+            | Self::MissingUnit { location, .. }
+            | Self::UnknownUnit { location, .. }
+            | Self::WrongDimension { location, .. }
+            | Self::OutOfRange { location, .. }
+            | Self::UnknownWord { location, .. }
+            | Self::Inconsistent { location, .. }
+            | Self::Rejected { location, .. } => Some(location),
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! `[ground]`: layers, base, scaling.
+
+use ground_field::{Base, Modulus, Soil, SoilLayer, SoilProfile};
+
+use super::range::{POISSON, POSITIVE, shown};
+use super::table::Table;
+use super::value::Value;
+use super::{Dimension, Ground, GroundModel, PeakScaling, SceneError, keys};
+
+const MODELS: &[(&str, GroundModel)] = &[
+    ("auto", GroundModel::Auto),
+    ("boussinesq", GroundModel::Boussinesq),
+    ("odemark", GroundModel::Odemark),
+    ("burmister", GroundModel::Burmister),
+    ("fem", GroundModel::FiniteElements),
+];
+
+pub(super) fn ground(root: &Table) -> Result<Ground, SceneError> {
+    let table = root.table("ground", keys::GROUND)?;
+    Ok(Ground {
+        model: table.word("model", MODELS, GroundModel::Auto)?,
+        scaling: scaling(&table)?,
+        profile: profile(&table)?,
+    })
+}
+
+fn scaling(table: &Table) -> Result<Option<PeakScaling>, SceneError> {
+    let peak = |value: &Value, example| value.quantity(Dimension::Length, POSITIVE, example);
+    Ok(match table.alternatives("longitudinal_peak", "vertical_peak")? {
+        [Some(value), _] => Some(PeakScaling::Longitudinal(peak(&value, "\"35.7 um\"")?)),
+        [None, Some(value)] => Some(PeakScaling::Vertical(peak(&value, "\"90 um\"")?)),
+        [None, None] => None,
+    })
+}
+
+/// A layer as the file has it.
+struct Layer<'d> {
+    table: Table<'d>,
+    thickness: Option<f64>,
+    modulus: Modulus,
+    poisson_ratio: f64,
+}
+
+impl Layer<'_> {
+    fn of_thickness(&self, thickness: f64) -> Result<SoilLayer, SceneError> {
+        SoilLayer::new(thickness, self.modulus, self.poisson_ratio).map_err(|e| self.table.rejected(e))
+    }
+}
+
+fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
+    let allowed = "one [[ground.layers]] or more, from the top down";
+    let mut layers = table
+        .required("layers", allowed)?
+        .some_items(allowed)?
+        .iter()
+        .map(layer)
+        .collect::<Result<Vec<_>, _>>()?;
+    let Some(last) = layers.pop() else {
+        return Err(table.inconsistent("an empty list", allowed));
+    };
+    let mut upper = Vec::with_capacity(layers.len() + 1);
+    for layer in &layers {
+        let thickness = layer
+            .table
+            .quantity("thickness", Dimension::Length, POSITIVE, "\"50 mm\"")?;
+        upper.push(layer.of_thickness(thickness)?);
+    }
+    if let (Some(_), Some(value)) = (last.thickness, last.table.optional("thickness")) {
+        let allowed =
+            "no thickness in the last layer: it goes down to ground.rigid_base_depth, or without end";
+        return Err(value.inconsistent(value.written(), allowed));
+    }
+    let base = if let Some(value) = table.optional("rigid_base_depth") {
+        let depth = value.quantity(Dimension::Length, POSITIVE, "\"12 m\"")?;
+        let above: f64 = upper.iter().map(SoilLayer::thickness).sum();
+        if depth <= above {
+            return Err(value.out_of_range(format!(
+                "a depth below the upper layers, greater than {} m",
+                shown(above)
+            )));
+        }
+        upper.push(last.of_thickness(depth - above)?);
+        Base::Rigid
+    } else {
+        let Modulus::Uniform(modulus) = last.modulus else {
+            let allowed =
+                "one value in the last layer, which goes down without end; or set ground.rigid_base_depth";
+            let value = last.table.required("young_modulus", allowed)?;
+            return Err(value.inconsistent("a modulus that varies with depth", allowed));
+        };
+        Base::HalfSpace(Soil::new(modulus, last.poisson_ratio).map_err(|e| last.table.rejected(e))?)
+    };
+    SoilProfile::new(upper, base).map_err(|e| table.rejected(e))
+}
+
+fn layer<'d>(value: &Value<'d>) -> Result<Layer<'d>, SceneError> {
+    let table = value.table(keys::LAYER)?;
+    Ok(Layer {
+        thickness: table.optional_quantity("thickness", Dimension::Length, POSITIVE, "\"50 mm\"")?,
+        modulus: modulus(&table)?,
+        poisson_ratio: table.number("poisson_ratio", POISSON)?,
+        table,
+    })
+}
+
+fn modulus(table: &Table) -> Result<Modulus, SceneError> {
+    const EXAMPLE: &str =
+        "\"800 MPa\", or { top = \"60 MPa\", bottom = \"200 MPa\" } where it varies with depth";
+    match table.optional("young_modulus").filter(Value::is_table) {
+        Some(value) => {
+            let graded = value.table(keys::GRADED)?;
+            let end = |key| graded.quantity(key, Dimension::Pressure, POSITIVE, "\"60 MPa\"");
+            Ok(Modulus::Linear {
+                top: end("top")?,
+                bottom: end("bottom")?,
+            })
+        }
+        None => table
+            .quantity("young_modulus", Dimension::Pressure, POSITIVE, EXAMPLE)
+            .map(Modulus::Uniform),
+    }
+}

@@ -1,0 +1,159 @@
+//! The scene: everything a run needs to know, read from one TOML file.
+//!
+//! A scene says what lies where ([`Duct`], [`Ground`], [`Cable`]), what holds the cable ([`Friction`], [`Ends`],
+//! [`Restraint`]), who drives above it ([`TrafficVehicle`], [`Traffic`]) and, if wanted, how to compute ([`Solver`]). It
+//! is plain data in SI: units are converted here, once, and nowhere else.
+//!
+//! # Rules of the file
+//!
+//! - A quantity is a string with its unit, `"1.2 m"`, or a bare number in SI. The units are those of
+//!   [`Dimension::units`]. A dimensionless value is a bare number; `tolerance` may also be a percentage, `"1 %"`.
+//! - Young's modulus of a layer may grow with depth: `young_modulus = { top = "60 MPa", bottom = "200 MPa" }`, linear
+//!   from the layer's top to its bottom.
+//! - Every section but `[[restraints]]` and `[solver]` is required. A key that is not known is an error, as is a value
+//!   out of its range: the first one found is reported with file, line, key, what was found and what is allowed
+//!   ([`SceneError`]).
+//!
+//! # Overrides
+//!
+//! `KEY=VALUE` sets one key on top of the file: `friction.dynamic_coefficient=0.3`, `vehicles.0.speed=30 km/h`,
+//! `ends.downstream={ spring = "3 MN/m" }`. The value is TOML; what is not valid TOML is taken as a string, so that
+//! quotes can be left out. An empty value removes the key. Where two keys exclude each other, the one that was set later
+//! wins over the file: `friction.law=coulomb` drops the file's `shape_factor`.
+//!
+//! # Example
+//!
+//! ```
+//! use creepage::scene::{End, Scene};
+//!
+//! let text = std::fs::read_to_string("examples/scenes/full-scale-upper.toml")?;
+//! let scene = Scene::from_toml("full-scale-upper.toml", &text)?;
+//! assert_eq!(scene.duct.length, 30.0);
+//! assert_eq!(scene.ends.downstream, End::Fixed);
+//!
+//! let error = Scene::from_toml("my.toml", &text.replace("1.2 m", "1.2 kN")).unwrap_err();
+//! assert!(error.to_string().contains("found \"1.2 kN\""));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod cable;
+mod data;
+mod document;
+mod error;
+mod ground;
+mod keys;
+mod location;
+mod nearest;
+mod overrides;
+mod quantity;
+mod range;
+mod solver;
+mod table;
+mod traffic;
+mod units;
+mod value;
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+pub use data::{
+    Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Order, PeakScaling, Restraint, Scene,
+    Solver, SolverMethod, Traffic, TrafficVehicle,
+};
+pub use error::SceneError;
+pub use location::Location;
+pub use quantity::{Dimension, QuantityError};
+
+use document::Document;
+
+/// A scene file larger than this \[bytes\] is not a scene file.
+const LARGEST_FILE: u64 = 16 << 20;
+
+impl Scene {
+    /// Reads the scene file at `path`.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] with the first thing that is wrong, and where.
+    pub fn from_file(path: &Path) -> Result<Self, SceneError> {
+        Self::from_file_with(path, &[])
+    }
+
+    /// Reads the scene file at `path`, then sets each `KEY=VALUE` of `overrides` in turn.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Scene::from_file`]; a value from an override is located as `--set KEY=VALUE`.
+    pub fn from_file_with(path: &Path, overrides: &[String]) -> Result<Self, SceneError> {
+        let file = path.display().to_string();
+        let unreadable = |source| SceneError::Unreadable {
+            file: file.clone(),
+            source,
+        };
+        let mut bytes = Vec::new();
+        File::open(path)
+            .and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
+            .map_err(unreadable)?;
+        if bytes.len() as u64 > LARGEST_FILE {
+            return Err(SceneError::TooLarge {
+                file,
+                allowed: LARGEST_FILE,
+            });
+        }
+        let text = String::from_utf8(bytes).map_err(|e| error::not_utf8(&file, &e))?;
+        Self::from_toml_with(&file, &text, overrides)
+    }
+
+    /// Reads a scene from TOML `text`; `name` stands for the file in error messages.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Scene::from_file`].
+    pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
+        Self::from_toml_with(name, text, &[])
+    }
+
+    /// Reads a scene from TOML `text`, then sets each `KEY=VALUE` of `overrides` in turn.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Scene::from_file_with`].
+    pub fn from_toml_with(name: &str, text: &str, overrides: &[String]) -> Result<Self, SceneError> {
+        let mut document = Document::parse(name, text)?;
+        for text in overrides {
+            overrides::apply(&mut document, text)?;
+        }
+        read(name, &document)
+    }
+}
+
+fn read(name: &str, document: &Document) -> Result<Scene, SceneError> {
+    let root = document.table(keys::SCENE)?;
+    let title = match root.optional("title") {
+        Some(value) => value.text("a text in quotes")?,
+        None => Path::new(name)
+            .file_stem()
+            .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
+    };
+    let duct = cable::duct(&root)?;
+    let ground = ground::ground(&root)?;
+    let cable = cable::cable(&root)?;
+    let friction = cable::friction(&root)?;
+    let ends = cable::ends(&root)?;
+    let restraints = cable::restraints(&root, &duct)?;
+    let (vehicles, traffic) = traffic::traffic(&root, ground.scaling)?;
+    let solver = solver::solver(&root, &duct)?;
+    Ok(Scene {
+        title,
+        duct,
+        ground,
+        cable,
+        friction,
+        ends,
+        restraints,
+        vehicles,
+        traffic,
+        solver,
+    })
+}

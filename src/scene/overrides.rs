@@ -1,0 +1,144 @@
+//! `KEY=VALUE` on top of a scene file.
+
+use toml::de::DeValue;
+
+use super::SceneError;
+use super::document::{Content, Document, Entry, Node, Place, node, number};
+
+/// No key of a scene is deeper: `vehicles.0.wheels.0.contact_radius`.
+const DEEPEST: usize = 8;
+
+/// Sets one key of the document, or removes it where the value is empty.
+pub(super) fn apply(document: &mut Document, text: &str) -> Result<(), SceneError> {
+    let source = document.add_source(text);
+    let error =
+        |document: &Document, place: Place, key: &str, found: String, allowed: &str| SceneError::Override {
+            location: document.locate(&place),
+            key: key.to_owned(),
+            found,
+            allowed: allowed.to_owned(),
+        };
+    let place = |start, end| Place {
+        source,
+        span: start..end,
+    };
+    let Some((key, written)) = text.split_once('=') else {
+        let allowed = "KEY=VALUE, such as friction.dynamic_coefficient=0.3";
+        let found = format!("`{text}`, without `=`");
+        return Err(error(document, place(0, text.len()), text.trim(), found, allowed));
+    };
+    let key_place = place(0, key.len());
+    let key = key.trim();
+    let segments: Vec<&str> = key.split('.').map(str::trim).collect();
+    if segments.len() > DEEPEST || segments.iter().any(|segment| segment.is_empty()) {
+        let allowed = "a key such as duct.length or vehicles.0.speed";
+        return Err(error(document, key_place, key, format!("`{key}`"), allowed));
+    }
+    let value = value(written, source, text.len() - written.len());
+    descend(&mut document.root, &segments, value, &key_place)
+        .map_err(|Missing { found, allowed }| error(document, key_place, key, found, &allowed))
+}
+
+/// There is nothing at the key.
+struct Missing {
+    found: String,
+    allowed: String,
+}
+
+/// The value as TOML, or as a text where it is not TOML; `None` where it is empty.
+fn value(written: &str, source: usize, offset: usize) -> Option<Node> {
+    let trimmed = written.trim();
+    if trimmed.is_empty() {
+        return None;
+    }
+    let start = offset + written.len() - written.trim_start().len();
+    if let Ok(value) = DeValue::parse(trimmed) {
+        return Some(node(&value, source, start));
+    }
+    // Numbers that TOML does not write so: `.5`, `5.`
+    let numeric = trimmed.starts_with(|c: char| matches!(c, '0'..='9' | '.' | '+' | '-'));
+    let content = match trimmed.parse() {
+        Ok(value) if numeric => number(value),
+        _ => Content::Text(trimmed.to_owned()),
+    };
+    Some(Node {
+        place: Place {
+            source,
+            span: start..start + trimmed.len(),
+        },
+        content,
+    })
+}
+
+fn descend(
+    node: &mut Node,
+    segments: &[&str],
+    value: Option<Node>,
+    key_place: &Place,
+) -> Result<(), Missing> {
+    let Some((segment, rest)) = segments.split_first() else {
+        if let Some(value) = value {
+            *node = value;
+        }
+        return Ok(());
+    };
+    if let Content::Array(items) = &mut node.content {
+        let count = items.len();
+        let index = segment.parse().ok().filter(|&index: &usize| index < count);
+        let Some(index) = index else {
+            return Err(Missing {
+                found: format!("`{segment}`"),
+                allowed: match count {
+                    0 => "nothing: the list is empty".to_owned(),
+                    1 => "the index 0, for the only item of the list".to_owned(),
+                    _ => format!("an index from 0 to {} of the list", count - 1),
+                },
+            });
+        };
+        if rest.is_empty() && value.is_none() {
+            items.remove(index);
+            return Ok(());
+        }
+        return descend(&mut items[index], rest, value, key_place);
+    }
+    if !matches!(node.content, Content::Table(_)) {
+        // `ends.downstream.spring=…` on `downstream = "fixed"`
+        *node = Node {
+            place: key_place.clone(),
+            content: Content::Table(Vec::new()),
+        };
+    }
+    let Content::Table(entries) = &mut node.content else {
+        return Ok(());
+    };
+    let found = entries.iter().position(|entry| entry.key == *segment);
+    let index = match (found, &value) {
+        (Some(index), None) if rest.is_empty() => {
+            entries.remove(index);
+            return Ok(());
+        }
+        (Some(index), _) => index,
+        (None, None) => {
+            return Err(Missing {
+                found: "an empty value, which removes the key".to_owned(),
+                allowed: "a value, or a key that the scene holds".to_owned(),
+            });
+        }
+        (None, Some(_)) => {
+            entries.push(Entry {
+                key: (*segment).to_owned(),
+                key_place: key_place.clone(),
+                value: Node {
+                    place: key_place.clone(),
+                    content: Content::Table(Vec::new()),
+                },
+            });
+            entries.len() - 1
+        }
+    };
+    let entry = &mut entries[index];
+    if rest.is_empty() {
+        entry.key_place = key_place.clone();
+    }
+    descend(&mut entry.value, rest, value, key_place)
+}

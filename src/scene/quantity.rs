@@ -1,0 +1,336 @@
+//! Quantities with units, turned into SI.
+//!
+//! A unit is a power of ten times a factor. The power of ten goes into the decimal exponent before the digits become a
+//! binary number, so that `"35.7 um"` is exactly the number written `35.7e-6`.
+
+use super::nearest::nearest;
+use super::units::{UNITS, normalised};
+
+/// Physical dimension of a quantity in a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Dimension {
+    /// Length \[m\].
+    Length,
+    /// Force \[N\].
+    Force,
+    /// Pressure or modulus \[Pa\].
+    Pressure,
+    /// Stiffness, or weight per length \[N/m\].
+    ForcePerLength,
+    /// Inverse length \[1/m\].
+    InverseLength,
+    /// Speed \[m/s\].
+    Speed,
+    /// Time \[s\].
+    Time,
+    /// A ratio, as a percentage.
+    Ratio,
+}
+
+/// Why a text is not a quantity of the wanted dimension.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum QuantityError {
+    /// The text does not begin with a number.
+    #[error("not a number with a unit")]
+    NotANumber,
+    /// There is a number but no unit.
+    #[error("the unit is missing")]
+    MissingUnit,
+    /// The unit is not known.
+    #[error("`{unit}` is not a known unit")]
+    UnknownUnit {
+        /// The unit as written.
+        unit: String,
+        /// The nearest unit of the wanted dimension, if one is near.
+        nearest: Option<&'static str>,
+    },
+    /// The unit belongs to another dimension.
+    #[error("`{unit}` is the unit of {}", .dimension.noun())]
+    WrongDimension {
+        /// The unit as written.
+        unit: String,
+        /// Its dimension.
+        dimension: Dimension,
+    },
+}
+
+impl Dimension {
+    /// The symbols of this dimension's units, the SI unit first.
+    ///
+    /// Written variants are accepted too: `µm` and `μm` for `um`, `N/mm²` and `N/mm^2` for `N/mm2`, `/m` and `m^-1` for
+    /// `1/m`.
+    pub fn units(self) -> impl Iterator<Item = &'static str> {
+        UNITS
+            .iter()
+            .filter(move |unit| unit.dimension == self)
+            .map(|unit| unit.symbol)
+    }
+
+    /// The dimension in words, with its article: "a length".
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Length => "a length",
+            Self::Force => "a force",
+            Self::Pressure => "a pressure or modulus",
+            Self::ForcePerLength => "a force per length",
+            Self::InverseLength => "an inverse length",
+            Self::Speed => "a speed",
+            Self::Time => "a time",
+            Self::Ratio => "a ratio",
+        }
+    }
+
+    /// The SI value of `text`, a number followed by one of this dimension's [units](Self::units).
+    ///
+    /// The value may be infinite or NaN where the text says so or is too large for a number: check its range.
+    ///
+    /// # Errors
+    ///
+    /// [`QuantityError`] if the text is anything else, a number without a unit included.
+    ///
+    /// # Example
+    ///
+    /// ```
+    /// use creepage::scene::Dimension;
+    ///
+    /// assert_eq!(Dimension::Force.parse("20 tf"), Ok(196_133.0));
+    /// assert!(Dimension::Force.parse("20 m").is_err());
+    /// ```
+    pub fn parse(self, text: &str) -> Result<f64, QuantityError> {
+        let (number, rest) = split(text.trim()).ok_or(QuantityError::NotANumber)?;
+        let written = rest.trim();
+        if written.is_empty() {
+            return Err(QuantityError::MissingUnit);
+        }
+        let symbol = normalised(written);
+        let Some(unit) = UNITS.iter().find(|unit| unit.symbol == symbol) else {
+            return Err(QuantityError::UnknownUnit {
+                unit: written.to_owned(),
+                nearest: nearest(&symbol, self.units()),
+            });
+        };
+        if unit.dimension != self {
+            return Err(QuantityError::WrongDimension {
+                unit: written.to_owned(),
+                dimension: unit.dimension,
+            });
+        }
+        let value = number.shifted(unit.exponent).ok_or(QuantityError::NotANumber)?;
+        Ok(value * unit.factor / unit.divisor)
+    }
+
+    /// As [`Dimension::parse`], but a number without a unit is taken as SI: for values typed on a command line.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Dimension::parse`], [`QuantityError::MissingUnit`] excepted.
+    pub fn parse_argument(self, text: &str) -> Result<f64, QuantityError> {
+        match (self.parse(text), text.trim().parse()) {
+            (Err(QuantityError::MissingUnit), Ok(value)) => Ok(value),
+            (parsed, _) => parsed,
+        }
+    }
+}
+
+/// The digits of a decimal number and its exponent, or a word for a value that is not finite.
+struct Number<'t> {
+    digits: &'t str,
+    exponent: i32,
+}
+
+impl Number<'_> {
+    fn shifted(&self, exponent: i32) -> Option<f64> {
+        if self.digits.ends_with(|c: char| c.is_ascii_alphabetic()) {
+            return self.digits.parse().ok();
+        }
+        format!("{}e{}", self.digits, self.exponent.saturating_add(exponent))
+            .parse()
+            .ok()
+    }
+}
+
+/// Splits a text into the number it begins with and the rest.
+fn split(text: &str) -> Option<(Number<'_>, &str)> {
+    let bytes = text.as_bytes();
+    let digits_from = |start: usize| bytes[start..].iter().take_while(|b| b.is_ascii_digit()).count();
+    let sign = usize::from(bytes.first().is_some_and(|b| matches!(b, b'+' | b'-')));
+    for word in ["infinity", "inf", "nan"] {
+        let end = sign + word.len();
+        let found = text
+            .get(sign..end)
+            .is_some_and(|found| found.eq_ignore_ascii_case(word));
+        if found && !text[end..].starts_with(|c: char| c.is_alphanumeric()) {
+            return Some((
+                Number {
+                    digits: &text[..end],
+                    exponent: 0,
+                },
+                &text[end..],
+            ));
+        }
+    }
+    let whole = digits_from(sign);
+    let mut end = sign + whole;
+    let mut fraction = 0;
+    if bytes.get(end) == Some(&b'.') {
+        fraction = digits_from(end + 1);
+        end += 1 + fraction;
+    }
+    if whole + fraction == 0 {
+        return None;
+    }
+    let digits = &text[..end];
+    let mut exponent = 0;
+    if bytes.get(end).is_some_and(|b| matches!(b, b'e' | b'E')) {
+        let sign = usize::from(bytes.get(end + 1).is_some_and(|b| matches!(b, b'+' | b'-')));
+        let count = digits_from((end + 1 + sign).min(bytes.len()));
+        if count > 0 {
+            let written = &text[end + 1..end + 1 + sign + count];
+            // An exponent too large for its type is far beyond any number: its sign decides.
+            let extreme = if written.starts_with('-') {
+                i32::MIN
+            } else {
+                i32::MAX
+            };
+            exponent = written.parse().unwrap_or(extreme);
+            end += 1 + sign + count;
+        }
+    }
+    // A decimal comma, a second point, a digit separator: not a number in this notation.
+    if text[end..].starts_with([',', '.', '_', '+', '-']) {
+        return None;
+    }
+    Some((Number { digits, exponent }, &text[end..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_unit_becomes_si() {
+        let cases = [
+            (Dimension::Length, "1.2 m", 1.2),
+            (Dimension::Length, "50mm", 0.05),
+            (Dimension::Length, " 35.7  um ", 35.7e-6),
+            (Dimension::Length, "35.7 µm", 35.7e-6),
+            (Dimension::Length, "35.7 μm", 35.7e-6),
+            (Dimension::Length, "-3 cm", -0.03),
+            (Dimension::Length, "0.3 km", 300.0),
+            (Dimension::Length, ".5 m", 0.5),
+            (Dimension::Length, "5. m", 5.0),
+            (Dimension::Force, "196 kN", 196e3),
+            (Dimension::Force, "8.01e6 N", 8.01e6),
+            (Dimension::Force, "8.01 MN", 8.01e6),
+            (Dimension::Force, "8.01E-3GN", 8.01e6),
+            (Dimension::Force, "20 tf", 20.0 * 9806.65),
+            (Dimension::Force, "1 tf", 9806.65),
+            (Dimension::Force, "1 kgf", 9.80665),
+            (Dimension::Force, "1 lbf", 4.4482216152605),
+            (Dimension::Pressure, "4000 MPa", 4e9),
+            (Dimension::Pressure, "10 GPa", 1e10),
+            (Dimension::Pressure, "1 kPa", 1e3),
+            (Dimension::Pressure, "1 Pa", 1.0),
+            (Dimension::Pressure, "1 N/mm2", 1e6),
+            (Dimension::Pressure, "1 N/mm²", 1e6),
+            (Dimension::Pressure, "1 N/mm^2", 1e6),
+            (Dimension::Pressure, "1 kgf/cm2", 98066.5),
+            (Dimension::ForcePerLength, "108.8 N/m", 108.8),
+            (Dimension::ForcePerLength, "3 MN/m", 3e6),
+            (Dimension::ForcePerLength, "3 kN/m", 3e3),
+            (Dimension::ForcePerLength, "3 GN / m", 3e9),
+            (Dimension::ForcePerLength, "3 N/mm", 3e3),
+            (Dimension::ForcePerLength, "1 kgf/m", 9.80665),
+            (Dimension::ForcePerLength, "1 tf/m", 9806.65),
+            (Dimension::InverseLength, "2e7 1/m", 2e7),
+            (Dimension::InverseLength, "2e7/m", 2e7),
+            (Dimension::InverseLength, "20 1/um", 2e7),
+            (Dimension::InverseLength, "2 1/mm", 2e3),
+            (Dimension::InverseLength, "2 m^-1", 2.0),
+            (Dimension::InverseLength, "2 m⁻¹", 2.0),
+            (Dimension::Speed, "36 km/h", 10.0),
+            (Dimension::Speed, "40 km/h", 40.0 / 3.6),
+            (Dimension::Speed, "11 m/s", 11.0),
+            (Dimension::Speed, "11 mm/s", 0.011),
+            (Dimension::Time, "0.1 ms", 1e-4),
+            (Dimension::Time, "3 s", 3.0),
+            (Dimension::Time, "3 us", 3e-6),
+            (Dimension::Time, "2 min", 120.0),
+            (Dimension::Time, "2 h", 7200.0),
+            (Dimension::Ratio, "1 %", 0.01),
+        ];
+        for (dimension, text, value) in cases {
+            assert_eq!(dimension.parse(text), Ok(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn extreme_values_are_told_by_their_value() {
+        let length = |text| Dimension::Length.parse(text).unwrap();
+        assert_eq!(length("1e400 m"), f64::INFINITY);
+        assert_eq!(length("1e99999999999999 m"), f64::INFINITY);
+        assert_eq!(length("1e-99999999999999 m"), 0.0);
+        assert_eq!(length("-inf m"), f64::NEG_INFINITY);
+        assert!(length("NaN m").is_nan());
+    }
+
+    #[test]
+    fn what_is_no_quantity_is_refused() {
+        let length = |text| Dimension::Length.parse(text).unwrap_err();
+        for text in [
+            "", "m", "abc", "1,2 m", "1.2.3 m", "1_000 m", "--1 m", "+", ".", "１ m", "e5 m", "nano m",
+        ] {
+            assert_eq!(length(text), QuantityError::NotANumber, "{text}");
+        }
+        for text in ["1.2", "1e3", "-4 ", "inf"] {
+            assert_eq!(length(text), QuantityError::MissingUnit, "{text}");
+        }
+        for (text, unit, nearest) in [
+            ("1 M", "M", Some("m")),
+            ("1 MM", "MM", Some("mm")),
+            ("1 mE", "mE", Some("m")),
+            ("1 furlong", "furlong", None),
+            ("1e", "e", None),
+            ("1 2 m", "2 m", Some("m")),
+        ] {
+            let unit = unit.to_owned();
+            assert_eq!(
+                length(text),
+                QuantityError::UnknownUnit { unit, nearest },
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn no_unit_passes_for_another_dimension() {
+        for unit in UNITS {
+            let text = format!("1 {}", unit.symbol);
+            for other in UNITS {
+                let parsed = other.dimension.parse(&text);
+                if other.dimension == unit.dimension {
+                    assert!(parsed.is_ok(), "{text}");
+                } else {
+                    let unit_symbol = unit.symbol.to_owned();
+                    let dimension = unit.dimension;
+                    assert_eq!(
+                        parsed,
+                        Err(QuantityError::WrongDimension {
+                            unit: unit_symbol,
+                            dimension
+                        })
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_argument_may_leave_the_unit_out() {
+        assert_eq!(Dimension::Force.parse_argument("500"), Ok(500.0));
+        assert_eq!(Dimension::Force.parse_argument("0.5 kN"), Ok(500.0));
+        assert!(Dimension::Force.parse_argument("0.5 m").is_err());
+        assert!(Dimension::Force.parse_argument("much").is_err());
+    }
+}

@@ -1,0 +1,106 @@
+//! The units of scene files.
+
+use super::Dimension;
+
+/// Standard gravity \[m/s²\]: 1 kgf = 9.80665 N by definition.
+const STANDARD_GRAVITY: f64 = 9.80665;
+/// International pound-force \[N\].
+const POUND_FORCE: f64 = 4.4482216152605;
+
+/// A unit: one of it is `factor / divisor · 10^exponent` in SI.
+pub(super) struct Unit {
+    pub symbol: &'static str,
+    pub dimension: Dimension,
+    pub exponent: i32,
+    pub factor: f64,
+    pub divisor: f64,
+}
+
+const fn unit(symbol: &'static str, dimension: Dimension, exponent: i32, factor: f64) -> Unit {
+    Unit {
+        symbol,
+        dimension,
+        exponent,
+        factor,
+        divisor: 1.0,
+    }
+}
+
+/// Every unit of a scene file, the SI unit of each dimension first.
+pub(super) const UNITS: &[Unit] = &[
+    unit("m", Dimension::Length, 0, 1.0),
+    unit("cm", Dimension::Length, -2, 1.0),
+    unit("mm", Dimension::Length, -3, 1.0),
+    unit("um", Dimension::Length, -6, 1.0),
+    unit("nm", Dimension::Length, -9, 1.0),
+    unit("km", Dimension::Length, 3, 1.0),
+    unit("N", Dimension::Force, 0, 1.0),
+    unit("kN", Dimension::Force, 3, 1.0),
+    unit("MN", Dimension::Force, 6, 1.0),
+    unit("GN", Dimension::Force, 9, 1.0),
+    unit("kgf", Dimension::Force, 0, STANDARD_GRAVITY),
+    unit("tf", Dimension::Force, 3, STANDARD_GRAVITY),
+    unit("lbf", Dimension::Force, 0, POUND_FORCE),
+    unit("Pa", Dimension::Pressure, 0, 1.0),
+    unit("kPa", Dimension::Pressure, 3, 1.0),
+    unit("MPa", Dimension::Pressure, 6, 1.0),
+    unit("GPa", Dimension::Pressure, 9, 1.0),
+    unit("N/m2", Dimension::Pressure, 0, 1.0),
+    unit("kN/m2", Dimension::Pressure, 3, 1.0),
+    unit("MN/m2", Dimension::Pressure, 6, 1.0),
+    unit("N/mm2", Dimension::Pressure, 6, 1.0),
+    unit("kgf/cm2", Dimension::Pressure, 4, STANDARD_GRAVITY),
+    unit("tf/m2", Dimension::Pressure, 3, STANDARD_GRAVITY),
+    unit("N/m", Dimension::ForcePerLength, 0, 1.0),
+    unit("kN/m", Dimension::ForcePerLength, 3, 1.0),
+    unit("MN/m", Dimension::ForcePerLength, 6, 1.0),
+    unit("GN/m", Dimension::ForcePerLength, 9, 1.0),
+    unit("N/mm", Dimension::ForcePerLength, 3, 1.0),
+    unit("kN/mm", Dimension::ForcePerLength, 6, 1.0),
+    unit("kgf/m", Dimension::ForcePerLength, 0, STANDARD_GRAVITY),
+    unit("tf/m", Dimension::ForcePerLength, 3, STANDARD_GRAVITY),
+    unit("1/m", Dimension::InverseLength, 0, 1.0),
+    unit("1/cm", Dimension::InverseLength, 2, 1.0),
+    unit("1/mm", Dimension::InverseLength, 3, 1.0),
+    unit("1/um", Dimension::InverseLength, 6, 1.0),
+    unit("m/s", Dimension::Speed, 0, 1.0),
+    unit("cm/s", Dimension::Speed, -2, 1.0),
+    unit("mm/s", Dimension::Speed, -3, 1.0),
+    Unit {
+        symbol: "km/h",
+        dimension: Dimension::Speed,
+        exponent: 0,
+        factor: 1.0,
+        divisor: 3.6,
+    },
+    unit("s", Dimension::Time, 0, 1.0),
+    unit("ms", Dimension::Time, -3, 1.0),
+    unit("us", Dimension::Time, -6, 1.0),
+    unit("ns", Dimension::Time, -9, 1.0),
+    unit("min", Dimension::Time, 0, 60.0),
+    unit("h", Dimension::Time, 0, 3600.0),
+    unit("%", Dimension::Ratio, -2, 1.0),
+];
+
+/// The unit in the spelling of [`UNITS`].
+pub(super) fn normalised(unit: &str) -> String {
+    let plain: String = unit
+        .chars()
+        .filter(|c| !c.is_whitespace() && *c != '^')
+        .map(|c| match c {
+            'µ' | 'μ' => 'u',
+            '²' => '2',
+            '⁻' => '-',
+            '¹' => '1',
+            '％' => '%',
+            c => c,
+        })
+        .collect();
+    match plain.as_str() {
+        "/m" | "m-1" => "1/m".to_owned(),
+        "/cm" | "cm-1" => "1/cm".to_owned(),
+        "/mm" | "mm-1" => "1/mm".to_owned(),
+        "/um" | "um-1" => "1/um".to_owned(),
+        _ => plain,
+    }
+}

@@ -1,0 +1,403 @@
+//! Each kind of bad input is refused with file, line, key, what was found and what is allowed.
+
+use creepage::scene::{Scene, SceneError};
+
+use super::{FULL, assert_refused, read};
+
+// Keys
+
+#[test]
+fn an_unknown_key_suggests_the_nearest() {
+    assert_refused(
+        "length = \"30 m\"",
+        "lenght = \"30 m\"",
+        "lenght",
+        &[
+            "unknown key `duct.lenght`",
+            "did you mean `length`?",
+            "allowed: length, depth, lateral_offset",
+            "^^^^^^",
+        ],
+    );
+    assert_refused(
+        "[cable]",
+        "[cabel]",
+        "[cabel]",
+        &["unknown key `cabel`", "did you mean `cable`?"],
+    );
+    assert_refused(
+        "share = 3",
+        "shares = 3",
+        "shares",
+        &["unknown key `vehicles.0.shares`", "did you mean `share`?"],
+    );
+    assert_refused(
+        "{ spring = ",
+        "{ sprung = ",
+        "sprung",
+        &["`ends.downstream.sprung`", "`spring`?"],
+    );
+    assert_refused(
+        "x = \"0 m\", y",
+        "x = \"0 m\", z",
+        "z =",
+        &["`vehicles.1.wheels.0.z`", "allowed: x, y, load, contact_radius"],
+    );
+}
+
+#[test]
+fn a_misplaced_key_is_told_its_section() {
+    assert_refused(
+        "passes = 60",
+        "passes = 60\nshape_factor = 1",
+        "shape_factor = 1",
+        &[
+            "unknown key `traffic.shape_factor`",
+            "did you mean `friction.shape_factor`?",
+        ],
+    );
+}
+
+#[test]
+fn a_missing_key_is_named_at_its_section() {
+    let missing = "key `duct.depth` is missing; allowed: a length greater than 0, such as \"1.2 m\"";
+    assert_refused("depth = \"1.2 m\"", "", "[duct]", &[missing]);
+    let missing = "key `friction.dynamic_coefficient` is missing; allowed: a number from 0 to 10";
+    assert_refused("dynamic_coefficient = 0.25", "", "[friction]", &[missing]);
+    assert_refused(
+        "passes = 60",
+        "",
+        "[traffic]",
+        &["key `traffic.passes` is missing; allowed: a whole number"],
+    );
+    let missing = "key `ends.upstream` is missing; allowed: \"free\", \"fixed\" or { spring";
+    assert_refused("upstream = \"free\"", "", "[ends]", &[missing]);
+}
+
+#[test]
+fn a_missing_section_is_named() {
+    for section in [
+        "duct", "ground", "cable", "friction", "ends", "vehicles", "traffic",
+    ] {
+        let others: Vec<String> = FULL
+            .split("\n[")
+            .filter(|part| !part.trim_start_matches('[').starts_with(section))
+            .map(str::to_owned)
+            .collect();
+        let message = read(&others.join("\n[")).unwrap_err().to_string();
+        let missing = format!("key `{section}` is missing; allowed: ");
+        assert!(message.contains(&missing), "{message}");
+        assert!(message.starts_with("bad.toml, line "), "{message}");
+    }
+}
+
+// Quantities
+
+#[test]
+fn a_wrong_dimension_is_refused() {
+    assert_refused(
+        "depth = \"1.2 m\"",
+        "depth = \"1.2 kN\"",
+        "1.2 kN",
+        &[
+            "`duct.depth`: wrong dimension",
+            "found \"1.2 kN\", a force",
+            "allowed: a length greater than 0",
+            "      ^^^^^^^^",
+        ],
+    );
+    assert_refused(
+        "speed = \"36 km/h\"",
+        "speed = \"36 km\"",
+        "36 km",
+        &["`vehicles.0.speed`", "a length", "km/h"],
+    );
+    assert_refused(
+        "stiffness = \"1 MN/m\"",
+        "stiffness = \"1 MN\"",
+        "\"1 MN\"",
+        &["`restraints.0.stiffness`"],
+    );
+}
+
+#[test]
+fn a_missing_unit_is_refused() {
+    assert_refused(
+        "depth = \"1.2 m\"",
+        "depth = \"1.2\"",
+        "depth",
+        &[
+            "`duct.depth`",
+            "missing unit",
+            "found \"1.2\"",
+            "units: m, cm, mm",
+        ],
+    );
+}
+
+#[test]
+fn an_unknown_unit_is_refused() {
+    assert_refused(
+        "young_modulus = \"800 MPa\"",
+        "young_modulus = \"800 Mpa\"",
+        "800 Mpa",
+        &[
+            "`ground.layers.2.young_modulus`",
+            "unknown unit `Mpa`",
+            "found \"800 Mpa\"",
+            "did you mean `MPa`?",
+        ],
+    );
+}
+
+#[test]
+fn what_is_no_number_is_refused() {
+    assert_refused(
+        "depth = \"1.2 m\"",
+        "depth = \"1,2 m\"",
+        "1,2",
+        &["`duct.depth`", "found the text \"1,2 m\"", "allowed: a length"],
+    );
+    assert_refused(
+        "depth = \"1.2 m\"",
+        "depth = true",
+        "true",
+        &["found true", "allowed: a length"],
+    );
+    assert_refused(
+        "depth = \"1.2 m\"",
+        "depth = [1]",
+        "[1]",
+        &["found the list [1]", "allowed: a length"],
+    );
+    assert_refused(
+        "depth = \"1.2 m\"",
+        "depth = {}",
+        "{}",
+        &["found the table {}", "allowed: a length"],
+    );
+    assert_refused(
+        "depth = \"1.2 m\"",
+        "depth = 1979-05-27",
+        "1979",
+        &["found 1979-05-27"],
+    );
+}
+
+/// Line of the scene → what stands in its place | key | part of what is allowed
+const OUT_OF_RANGE: &str = r#"
+depth = "1.2 m" → depth = 0 | duct.depth | a length greater than 0
+length = "30 m" → length = "-30 m" | duct.length | a length greater than 0
+length = "30 m" → length = nan | duct.length | a length greater than 0
+length = "30 m" → length = "NaN m" | duct.length | a length greater than 0
+length = "30 m" → length = inf | duct.length | a length greater than 0
+length = "30 m" → length = 1e999 | duct.length | a length greater than 0
+lateral_offset = "-0.5 m" → lateral_offset = "inf m" | duct.lateral_offset | a length of any sign
+longitudinal_peak = "35.7 um" → longitudinal_peak = 0 | ground.longitudinal_peak | greater than 0
+rigid_base_depth = "12 m" → rigid_base_depth = -1 | ground.rigid_base_depth | greater than 0
+rigid_base_depth = "12 m" → rigid_base_depth = "1.05 m" | ground.rigid_base_depth | below the upper layers, greater than 1.05 m
+thickness = "50 mm" → thickness = 0 | ground.layers.0.thickness | greater than 0
+poisson_ratio = 0.35 → poisson_ratio = 0.51 | ground.layers.0.poisson_ratio | from 0 to 0.5
+poisson_ratio = 0.35 → poisson_ratio = -0.1 | ground.layers.0.poisson_ratio | from 0 to 0.5
+young_modulus = "800 MPa" → young_modulus = 0 | ground.layers.2.young_modulus | greater than 0
+top = "60 MPa" → top = 0 | ground.layers.1.young_modulus.top | greater than 0
+weight = "108.8 N/m" → weight = -1 | cable.weight | a force per length greater than 0
+axial_stiffness = 8.01e6 → axial_stiffness = 0 | cable.axial_stiffness | a force greater than 0
+normal_load_factor = 1.5 → normal_load_factor = 0 | cable.normal_load_factor | a number greater than 0
+dynamic_coefficient = 0.25 → dynamic_coefficient = -0.1 | friction.dynamic_coefficient | from 0 to 10
+dynamic_coefficient = 0.25 → dynamic_coefficient = 25 | friction.dynamic_coefficient | from 0 to 10
+dynamic_coefficient = 0.25 → dynamic_coefficient = nan | friction.dynamic_coefficient | from 0 to 10
+shape_factor = "2e7 1/m" → shape_factor = 0 | friction.shape_factor | an inverse length greater than 0
+spring = "3 MN/m" → spring = "0 MN/m" | ends.downstream.spring | greater than 0
+position = "20 m" → position = "31 m" | restraints.0.position | a position in the duct, from 0 m to 30 m
+position = "20 m" → position = "-1 m" | restraints.0.position | a position in the duct, from 0 m to 30 m
+stiffness = "1 MN/m" → stiffness = 0 | restraints.0.stiffness | greater than 0
+speed = "36 km/h" → speed = "0 km/h" | vehicles.0.speed | a speed greater than 0
+load = "20 tf" → load = "-20 tf" | vehicles.0.load | a force of at least 0
+load = "7 kN" → load = -7 | vehicles.1.wheels.1.load | a force of at least 0
+contact_radius = "0.15 m" → contact_radius = -1 | vehicles.1.wheels.0.contact_radius | of at least 0
+share = 3 → share = 0 | vehicles.0.share | a number greater than 0
+share = 3 → share = -1 | vehicles.0.share | a number greater than 0
+passes = 60 → passes = 0 | traffic.passes | a whole number of at least 1
+passes = 60 → passes = -60 | traffic.passes | a whole number of at least 1
+passes = 60 → passes = 60.5 | traffic.passes | a whole number of at least 1
+passes = 60 → passes = 1e30 | traffic.passes | a whole number of at least 1
+seed = 7 → seed = -7 | traffic.seed | a whole number of at least 0
+tolerance = "2 %" → tolerance = 0 | solver.tolerance | greater than 0 and at most 0.5
+tolerance = "2 %" → tolerance = "51 %" | solver.tolerance | greater than 0 and at most 0.5
+node_spacing = "0.1 m" → node_spacing = 0 | solver.node_spacing | greater than 0
+node_spacing = "0.1 m" → node_spacing = "15.1 m" | solver.node_spacing | at most half the duct's length, 15 m
+vehicle_step = "5 cm" → vehicle_step = 0 | solver.vehicle_step | greater than 0
+time_step = "0.1 ms" → time_step = 0 | solver.time_step | a time greater than 0
+"#;
+
+#[test]
+fn values_out_of_range_are_refused() {
+    for case in OUT_OF_RANGE.lines().filter(|line| !line.is_empty()) {
+        let (old, case) = case.split_once(" → ").unwrap();
+        let [new, key, allowed] = case.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("{case}")
+        };
+        let found = new.split_once(" = ").unwrap().1;
+        let start = format!("`{key}`: out of range: found {found}; allowed: ");
+        assert_refused(old, new, new, &[&start, allowed, "^"]);
+    }
+}
+
+// Kinds of values
+
+#[test]
+fn a_number_in_quotes_is_refused_where_there_is_no_unit() {
+    assert_refused(
+        "dynamic_coefficient = 0.25",
+        "dynamic_coefficient = \"0.25\"",
+        "0.25",
+        &[
+            "`friction.dynamic_coefficient`",
+            "the text \"0.25\"",
+            "without quotes",
+        ],
+    );
+    assert_refused(
+        "passes = 60",
+        "passes = \"60\"",
+        "passes",
+        &["`traffic.passes`", "without quotes"],
+    );
+}
+
+#[test]
+fn a_value_of_the_wrong_kind_is_refused() {
+    assert_refused(
+        "title = \"Everything\"",
+        "title = 3",
+        "title",
+        &["`title`: found the number 3", "a text"],
+    );
+    assert_refused(
+        "name = \"van\"",
+        "name = 3",
+        "name = 3",
+        &["`vehicles.1.name`: found the number 3"],
+    );
+    assert_refused(
+        "upstream = \"free\"",
+        "upstream = 3",
+        "upstream",
+        &["found the number 3", "\"free\", \"fixed\" or"],
+    );
+    assert_refused(
+        "[[restraints]]",
+        "[restraints]",
+        "[restraints]",
+        &["`restraints`", "a list of [[restraints]]"],
+    );
+    assert_refused(
+        "[cable]",
+        "[[cable]]",
+        "[[cable]]",
+        &["`cable`", "a table with the keys weight"],
+    );
+    assert_refused(
+        "  { x = \"-2.5 m\", y = \"-0.9 m\", load = \"7 kN\" },",
+        "  \"rear\",",
+        "rear",
+        &["`vehicles.1.wheels.1`", "\"rear\"", "a table with the keys x, y"],
+    );
+}
+
+/// Line of the scene → what stands in its place | key | suggestion
+const UNKNOWN_WORDS: &str = r#"
+law = "sigmoid" → law = "couloumb" | friction.law | coulomb
+model = "fem" → model = "Burmeister" | ground.model | burmister
+upstream = "free" → upstream = "fre" | ends.upstream | free
+direction = "reverse" → direction = "reversed" | vehicles.1.direction | reverse
+order = "random" → order = "randam" | traffic.order | random
+method = "dynamic" → method = "quasi_static" | solver.method | quasi-static
+"#;
+
+#[test]
+fn an_unknown_word_suggests_the_nearest() {
+    for case in UNKNOWN_WORDS.lines().filter(|line| !line.is_empty()) {
+        let (old, case) = case.split_once(" → ").unwrap();
+        let [new, key, suggestion] = case.split(" | ").collect::<Vec<_>>()[..] else {
+            panic!("{case}")
+        };
+        let found = new.split_once(" = ").unwrap().1;
+        let start = format!("`{key}`: found {found} (did you mean `{suggestion}`?); allowed: \"");
+        assert_refused(old, new, new, &[&start, "^"]);
+    }
+    let allowed = "allowed: \"auto\", \"boussinesq\", \"odemark\", \"burmister\", \"fem\"";
+    assert_refused("model = \"fem\"", "model = \"winkler\"", "winkler", &[allowed]);
+}
+
+// The file
+
+#[test]
+fn what_is_not_toml_is_located() {
+    for (text, line) in [
+        ("[duct]\nlength = 1.2 m\n", 2),
+        ("[duct\n", 1),
+        ("a = 1\na = 2\n", 2),
+        ("\n\na = \"x\n", 3),
+        ("a = 1\r\nb = = 2\r\n", 2),
+    ] {
+        let error = read(text).unwrap_err();
+        assert!(matches!(error, SceneError::Syntax { .. }), "{error}");
+        assert_eq!(error.location().unwrap().line, Some(line), "{error}");
+        assert!(
+            error
+                .to_string()
+                .starts_with(&format!("bad.toml, line {line}: not valid TOML: ")),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn an_empty_file_lacks_a_duct() {
+    for text in ["", "\n\n", "# nothing"] {
+        let message = read(text).unwrap_err().to_string();
+        assert!(message.contains("key `duct` is missing"), "{message}");
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_read_is_named() {
+    let folder = std::env::temp_dir().join(format!("creepage-scene-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let missing = Scene::from_file(&folder.join("none.toml")).unwrap_err();
+    assert!(matches!(missing, SceneError::Unreadable { .. }));
+    assert!(
+        missing.to_string().contains("none.toml: cannot be read"),
+        "{missing}"
+    );
+    assert!(Scene::from_file(&folder).is_err());
+    let shift_jis = folder.join("sjis.toml");
+    std::fs::write(&shift_jis, b"[duct]\n# \x92\xb7\x82\xb3\nlength = 30\n").unwrap();
+    let encoding = Scene::from_file(&shift_jis).unwrap_err().to_string();
+    assert!(
+        encoding.contains("sjis.toml, line 2: found text that is not UTF-8"),
+        "{encoding}"
+    );
+    let endless = folder.join("endless.toml");
+    std::fs::File::create(&endless).unwrap().set_len(1 << 30).unwrap();
+    assert!(matches!(
+        Scene::from_file(&endless),
+        Err(SceneError::TooLarge { .. })
+    ));
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn a_message_reads_as_a_whole() {
+    let message = read(&FULL.replace("depth = \"1.2 m\"", "depth = \"1.2 kN\"  # to the cable"));
+    assert_eq!(
+        message.unwrap_err().to_string(),
+        "bad.toml, line 4: `duct.depth`: wrong dimension: found \"1.2 kN\", a force; \
+         allowed: a length greater than 0, such as \"1.2 m\" (units: m, cm, mm, um, nm, km)\n  \
+           |\n\
+         4 | depth = \"1.2 kN\"  # to the cable\n  \
+           |         ^^^^^^^^"
+    );
+}

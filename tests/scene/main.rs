@@ -1,0 +1,289 @@
+//! Scene files: what is read from them, and what is said about each kind of bad input.
+
+mod any_input;
+mod bad_input;
+mod contradictions;
+mod overrides;
+
+use std::path::Path;
+
+use approx::assert_relative_eq;
+use creepage::scene::{
+    End, FrictionLaw, GroundModel, Order, PeakScaling, Restraint, Scene, SceneError, Solver, SolverMethod,
+};
+use ground_field::{Base, Direction, Modulus};
+
+/// A scene that uses every key.
+const FULL: &str = r#"title = "Everything"
+[duct]
+length = "30 m"
+depth = "1.2 m"
+lateral_offset = "-0.5 m"
+[ground]
+model = "fem"
+rigid_base_depth = "12 m"
+longitudinal_peak = "35.7 um"
+[[ground.layers]]
+thickness = "50 mm"
+young_modulus = "4000 MPa"
+poisson_ratio = 0.35
+[[ground.layers]]
+thickness = 1
+young_modulus = { top = "60 MPa", bottom = "200 MPa" }
+poisson_ratio = 0.4
+[[ground.layers]]
+young_modulus = "800 MPa"
+poisson_ratio = 0.5
+[cable]
+weight = "108.8 N/m"
+axial_stiffness = 8.01e6
+normal_load_factor = 1.5
+[friction]
+law = "sigmoid"
+dynamic_coefficient = 0.25
+shape_factor = "2e7 1/m"
+[ends]
+upstream = "free"
+downstream = { spring = "3 MN/m" }
+[[restraints]]
+position = "20 m"
+stiffness = "1 MN/m"
+[[vehicles]]
+name = "truck"
+speed = "36 km/h"
+load = "20 tf"
+share = 3
+[[vehicles]]
+name = "van"
+speed = 5
+wheels = [
+  { x = "0 m", y = "0.9 m", load = "5 kN", contact_radius = "0.15 m" },
+  { x = "-2.5 m", y = "-0.9 m", load = "7 kN" },
+]
+direction = "reverse"
+[traffic]
+passes = 60
+order = "random"
+seed = 7
+[solver]
+method = "dynamic"
+tolerance = "2 %"
+node_spacing = "0.1 m"
+vehicle_step = "5 cm"
+time_step = "0.1 ms"
+"#;
+
+fn read(text: &str) -> Result<Scene, SceneError> {
+    Scene::from_toml("bad.toml", text)
+}
+
+fn read_with(overrides: &[&str]) -> Result<Scene, SceneError> {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Scene::from_toml_with("bad.toml", FULL, &overrides)
+}
+
+/// Replaces one line of the full scene (or removes it where `new` is empty) and asserts that the error names the line
+/// that contains `at` and contains all of `parts`.
+#[track_caller]
+fn assert_refused(old: &str, new: &str, at: &str, parts: &[&str]) {
+    assert_eq!(
+        FULL.matches(old).count(),
+        1,
+        "{old} is not one place of the scene"
+    );
+    let text = if new.is_empty() {
+        FULL.replace(&format!("{old}\n"), "")
+    } else {
+        FULL.replace(old, new)
+    };
+    let message = read(&text).expect_err("the scene is wrong").to_string();
+    let line = 1 + text
+        .lines()
+        .position(|line| line.contains(at))
+        .expect("the line to be named");
+    let place = format!("bad.toml, line {line}: ");
+    assert!(message.starts_with(&place), "{place} is not in\n{message}");
+    assert!(
+        message.contains(text.lines().nth(line - 1).unwrap()),
+        "the line is not in\n{message}"
+    );
+    for part in parts {
+        assert!(message.contains(part), "{part} is not in\n{message}");
+    }
+}
+
+#[track_caller]
+fn assert_override_refused(overrides: &[&str], parts: &[&str]) {
+    let message = read_with(overrides)
+        .expect_err("the override is wrong")
+        .to_string();
+    for part in parts {
+        assert!(message.contains(part), "{part} is not in\n{message}");
+    }
+}
+
+#[test]
+fn every_key_is_read() {
+    let scene = read(FULL).unwrap();
+    assert_eq!(scene.title, "Everything");
+    assert_eq!(
+        (scene.duct.length, scene.duct.depth, scene.duct.lateral_offset),
+        (30.0, 1.2, -0.5)
+    );
+    assert_eq!(scene.ground.model, GroundModel::FiniteElements);
+    assert_eq!(scene.ground.scaling, Some(PeakScaling::Longitudinal(35.7e-6)));
+    let layers = scene.ground.profile.layers();
+    assert_eq!(layers.len(), 3);
+    assert_eq!(layers[0].modulus(), Modulus::Uniform(4e9));
+    assert_eq!(layers[0].thickness(), 0.05);
+    assert_eq!(
+        layers[1].modulus(),
+        Modulus::Linear {
+            top: 60e6,
+            bottom: 200e6
+        }
+    );
+    assert_eq!(scene.ground.profile.base(), Base::Rigid);
+    assert_relative_eq!(scene.ground.profile.base_depth(), 12.0, epsilon = 1e-12);
+    assert_eq!(layers[2].poisson_ratio(), 0.5);
+    assert_eq!((scene.cable.weight, scene.cable.axial_stiffness), (108.8, 8.01e6));
+    assert_relative_eq!(scene.cable.normal_load(), 163.2, epsilon = 1e-12);
+    assert_eq!(scene.friction.law, FrictionLaw::Sigmoid { shape_factor: 2e7 });
+    assert_eq!(scene.friction.dynamic_coefficient, 0.25);
+    assert_eq!(
+        (scene.ends.upstream, scene.ends.downstream),
+        (End::Free, End::Spring(3e6))
+    );
+    let clamp = Restraint {
+        position: 20.0,
+        stiffness: 1e6,
+    };
+    assert_eq!(scene.restraints, [clamp]);
+    let [truck, van] = &scene.vehicles[..] else {
+        panic!("two vehicles")
+    };
+    assert_eq!((truck.share, van.share), (0.75, 0.25));
+    assert_eq!(
+        (
+            truck.vehicle.name(),
+            truck.vehicle.speed(),
+            truck.vehicle.weight()
+        ),
+        ("truck", 10.0, 196_133.0)
+    );
+    assert_eq!(
+        (van.vehicle.direction(), van.vehicle.velocity()),
+        (Direction::Reverse, -5.0)
+    );
+    let wheels = van.vehicle.wheels();
+    assert_eq!(
+        (wheels[0].y, wheels[0].load.contact_radius(), wheels[1].x),
+        (0.9, 0.15, -2.5)
+    );
+    assert!(wheels[1].load.is_point());
+    assert_eq!(scene.traffic.passes, 60);
+    assert_eq!(scene.traffic.order, Order::Random { seed: 7 });
+    assert_eq!(
+        scene.solver,
+        Solver {
+            method: SolverMethod::Dynamic,
+            tolerance: 0.02,
+            node_spacing: Some(0.1),
+            vehicle_step: Some(0.05),
+            time_step: Some(1e-4),
+        }
+    );
+}
+
+#[test]
+fn what_may_be_left_out_has_a_default() {
+    let text = r#"
+        duct = { length = 30, depth = 1.2 }
+        cable = { weight = 108.8, axial_stiffness = 8.01e6 }
+        friction = { dynamic_coefficient = 0, shape_factor = 2e7 }
+        ends = { upstream = "free", downstream = "fixed" }
+        vehicles = [{ speed = 10, load = 2e5 }, { speed = 10, load = 1e5 }]
+        traffic.passes = 1e3
+        ground.layers = [{ young_modulus = 8e8, poisson_ratio = 0 }]
+    "#;
+    let scene = Scene::from_toml("somewhere/short.toml", text).unwrap();
+    assert_eq!(scene.title, "short");
+    assert_eq!(scene.duct.lateral_offset, 0.0);
+    assert_eq!(
+        (scene.ground.model, scene.ground.scaling),
+        (GroundModel::Auto, None)
+    );
+    assert_eq!(scene.ground.profile.homogeneous().unwrap().young_modulus(), 8e8);
+    assert_eq!(scene.cable.normal_load_factor, 1.0);
+    assert_eq!(
+        scene.friction.law,
+        FrictionLaw::ElasticPlastic { shape_factor: 2e7 }
+    );
+    assert!(scene.restraints.is_empty());
+    assert_eq!(scene.vehicles[1].vehicle.name(), "vehicle 2");
+    assert_eq!(scene.vehicles[1].vehicle.direction(), Direction::Forward);
+    assert_eq!(scene.vehicles[1].share, 0.5);
+    assert_eq!(
+        (scene.traffic.passes, scene.traffic.order),
+        (1000, Order::Interleaved)
+    );
+    assert_eq!(scene.solver, Solver::default());
+}
+
+#[test]
+fn the_example_scenes_have_the_same_slope_before_slipping() {
+    for (name, coefficient, normal_load) in [("upper", 0.25, 108.8), ("lower", 0.27, 163.2)] {
+        let path = format!(
+            "{}/examples/scenes/full-scale-{name}.toml",
+            env!("CARGO_MANIFEST_DIR")
+        );
+        let scene = Scene::from_file(Path::new(&path)).unwrap();
+        assert_eq!(scene.title, format!("Full-scale experiment, {name} phase"));
+        assert_eq!(scene.friction.dynamic_coefficient, coefficient);
+        assert_relative_eq!(scene.cable.normal_load(), normal_load, max_relative = 1e-12);
+        let FrictionLaw::ElasticPlastic { shape_factor } = scene.friction.law else {
+            panic!("elastic-plastic")
+        };
+        assert_relative_eq!(
+            coefficient * normal_load * shape_factor / 2.0,
+            1e8,
+            max_relative = 1e-6
+        );
+        let soil = scene.ground.profile.homogeneous().unwrap();
+        assert_eq!((soil.young_modulus(), soil.poisson_ratio()), (8e8, 0.4));
+        assert_eq!(
+            (scene.duct.length, scene.duct.depth, scene.traffic.passes),
+            (30.0, 1.2, 200)
+        );
+        assert_eq!(
+            (scene.ends.upstream, scene.ends.downstream),
+            (End::Free, End::Fixed)
+        );
+        assert_relative_eq!(scene.vehicles[0].vehicle.weight(), 196_133.0);
+        assert_relative_eq!(scene.vehicles[0].vehicle.velocity(), 40.0 / 3.6);
+    }
+}
+
+#[test]
+fn a_sequence_names_vehicles_and_makes_their_shares() {
+    let scene = read_with(&["traffic.sequence=['van', 'truck', 'van', 'van']"]).unwrap();
+    assert_eq!(scene.traffic.order, Order::Sequence(vec![1, 0, 1, 1]));
+    assert_eq!((scene.vehicles[0].share, scene.vehicles[1].share), (0.25, 0.75));
+}
+
+#[test]
+fn a_random_order_has_a_seed_of_its_own() {
+    let scene = read(&FULL.replace("seed = 7\n", "")).unwrap();
+    assert_eq!(scene.traffic.order, Order::Random { seed: 1 });
+}
+
+#[test]
+fn a_byte_order_mark_and_carriage_returns_change_nothing() {
+    let text = format!("\u{feff}{}", FULL.replace('\n', "\r\n"));
+    assert_eq!(read(&text).unwrap(), read(FULL).unwrap());
+    let message = read(&text.replace("\"1.2 m\"", "\"1.2 kN\""))
+        .unwrap_err()
+        .to_string();
+    let start = "bad.toml, line 4: `duct.depth`: wrong dimension: found \"1.2 kN\", a force";
+    assert!(message.starts_with(start), "{message}");
+}

@@ -1,0 +1,123 @@
+//! `KEY=VALUE` on top of a scene.
+
+use creepage::scene::{End, FrictionLaw, Order, PeakScaling, Scene, SolverMethod};
+use ground_field::{Base, Modulus};
+
+use super::{FULL, assert_override_refused, read_with};
+
+#[test]
+fn overrides_set_any_key() {
+    let scene = read_with(&[
+        "friction.dynamic_coefficient=0.3",
+        "vehicles.0.speed = 72 km/h",
+        "vehicles.1.wheels.0.load=\"9 kN\"",
+        "ground.layers.2.young_modulus=100 MPa",
+        "ends.upstream={ spring = \"2 MN/m\" }",
+        "ends.downstream=fixed",
+        "duct.lateral_offset=.5",
+        "restraints=[]",
+        "solver.tolerance=5 %",
+        "title=Two = words",
+    ])
+    .unwrap();
+    assert_eq!(scene.friction.dynamic_coefficient, 0.3);
+    assert_eq!(scene.vehicles[0].vehicle.speed(), 20.0);
+    assert_eq!(scene.vehicles[1].vehicle.weight(), 16e3);
+    assert_eq!(scene.ground.profile.layers()[2].modulus(), Modulus::Uniform(1e8));
+    assert_eq!(
+        (scene.ends.upstream, scene.ends.downstream),
+        (End::Spring(2e6), End::Fixed)
+    );
+    assert_eq!(scene.duct.lateral_offset, 0.5);
+    assert!(scene.restraints.is_empty());
+    assert_eq!(scene.solver.tolerance, 0.05);
+    assert_eq!(scene.title, "Two = words");
+}
+
+#[test]
+fn overrides_make_what_is_not_there() {
+    let text = FULL.split("[solver]").next().unwrap();
+    let overrides = [
+        "solver.method=explicit",
+        "ends.upstream.spring=5",
+        "solver.method=auto",
+    ]
+    .map(str::to_owned);
+    let scene = Scene::from_toml_with("bad.toml", text, &overrides).unwrap();
+    assert_eq!(scene.solver.method, SolverMethod::Auto);
+    assert_eq!(scene.ends.upstream, End::Spring(5.0));
+}
+
+#[test]
+fn an_empty_override_removes_the_key() {
+    let scene = read_with(&["ground.rigid_base_depth=", "restraints.0=", "vehicles.0="]).unwrap();
+    assert!(matches!(scene.ground.profile.base(), Base::HalfSpace(_)));
+    assert!(scene.restraints.is_empty());
+    assert_eq!(scene.vehicles.len(), 1);
+    assert_override_refused(
+        &["duct.lenght="],
+        &["--set duct.lenght=: `duct.lenght`", "a key that the scene holds"],
+    );
+}
+
+#[test]
+fn an_override_beats_a_key_of_the_file_that_excludes_it() {
+    assert_eq!(
+        read_with(&["friction.law=coulomb"]).unwrap().friction.law,
+        FrictionLaw::Coulomb
+    );
+    let vertical = read_with(&["ground.vertical_peak=90 um"]).unwrap();
+    assert_eq!(vertical.ground.scaling, Some(PeakScaling::Vertical(90e-6)));
+    let wheels = read_with(&["vehicles.0.wheels=[{ load = 1 }, { x = 3, load = 2 }]"]).unwrap();
+    assert_eq!(wheels.vehicles[0].vehicle.weight(), 3.0);
+    let ordered = read_with(&["traffic.order=interleaved"]).unwrap();
+    assert_eq!(ordered.traffic.order, Order::Interleaved);
+    assert_eq!(
+        read_with(&["solver.method=pass-law"]).unwrap().solver.time_step,
+        None
+    );
+    // But what has no meaning in the scene is still refused, as are two overrides at odds with each other.
+    assert_override_refused(
+        &["friction.law=coulomb", "friction.shape_factor=1"],
+        &["--set friction.shape_factor=1: ", "with `law` = coulomb"],
+    );
+}
+
+#[test]
+fn errors_in_overrides_name_the_override() {
+    assert_override_refused(
+        &["ground.model=foo"],
+        &[
+            "--set ground.model=foo: `ground.model`: found foo; allowed: \"auto\"",
+            "ground.model=foo\n |              ^^^",
+        ],
+    );
+    assert_override_refused(
+        &["duct.depth=1.2 kN"],
+        &["--set duct.depth=1.2 kN: `duct.depth`: wrong dimension"],
+    );
+    assert_override_refused(
+        &["duct.depth=-1"],
+        &["--set duct.depth=-1: `duct.depth`: out of range: found -1"],
+    );
+    assert_override_refused(
+        &["frction.law=coulomb"],
+        &["unknown key `frction`", "did you mean `friction`?"],
+    );
+    assert_override_refused(
+        &["friction.lwa=coulomb"],
+        &["unknown key `friction.lwa`", "did you mean `law`?"],
+    );
+    assert_override_refused(&["ends={}"], &["--set ends={}: key `ends.upstream` is missing"]);
+    assert_override_refused(&["friction.law"], &["--set friction.law: ", "KEY=VALUE"]);
+    assert_override_refused(&["=3"], &["--set =3: ", "a key such as"]);
+    assert_override_refused(&["duct..length=3"], &["--set duct..length=3: "]);
+    assert_override_refused(&["vehicles.2.speed=3"], &["found `2`", "an index from 0 to 1"]);
+    assert_override_refused(
+        &["vehicles.truck.speed=3"],
+        &["found `truck`", "an index from 0 to 1"],
+    );
+    assert_override_refused(&["restraints.1.position=3"], &["the index 0"]);
+    let deep = format!("{}x=1", "x.".repeat(100_000));
+    assert!(read_with(&[&deep]).is_err());
+}
