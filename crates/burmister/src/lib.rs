@@ -19,7 +19,7 @@
 //!    surface and back to the depth, without growing exponentials and without cancellation in thin layers (`lamina`, `stack`).
 //! 2. **Closed form first**: half-spaces with known fields are subtracted, chosen so that the remainder vanishes for m → 0 and
 //!    decays fast for m → ∞; far points keep their relative accuracy, and the surface needs no slowly converging integral
-//!    (`half_space`, `remainder`).
+//!    (`image`, `remainder`).
 //! 3. **Panels**: the remainder is represented by Chebyshev series on intervals that halve themselves until they suffice. That
 //!    costs a few hundred wavenumbers, whatever the number of radii (`panel`).
 //! 4. **Per radius** each panel is integrated against the Bessel functions by a Gauss rule whose size follows from an error bound,
@@ -46,16 +46,15 @@
 //! - D. M. Burmister, The general theory of stresses and displacements in layered soil systems, J. Appl. Phys. 16 (1945)
 //!   89–94, 126–127, 296–302.
 //! - K. L. Johnson, Contact Mechanics, Cambridge University Press (1985), chapter 3.
-//! - G. Eason, B. Noble, I. N. Sneddon, On certain integrals of Lipschitz–Hankel type, Phil. Trans. R. Soc. A 247 (1955) 529–551.
 //! - D. Levin, Procedures for computing one- and two-dimensional integrals of functions with rapid irregular
 //!   oscillations, Math. Comp. 38 (1982) 531–538.
 
 mod bessel;
-mod elliptic;
 mod gauss;
-mod half_space;
+mod image;
 mod lamina;
 mod layered_half_space;
+mod levin;
 mod matrix;
 mod oscillatory;
 mod panel;

@@ -6,20 +6,17 @@
 //!   Bernstein ellipse of parameter e^α it is below e^(ω sinh α), and the series Σ `c_k` `T_k` below S(α) = Σ |`c_k`| e^(kα). An n-point
 //!   rule is then off by at most (64/15) S(α) e^(ω sinh α − 2nα) / (1 − e^(−2α)) for every α (L. N. Trefethen, SIAM Review 50 (2008)
 //!   67–87, theorem 4.5). That is a bound, not an estimate, and fixes n before anything is evaluated.
-//! - **Levin's method** (D. Levin, Math. Comp. 38 (1982) 531–538) when it turns often. Slowly varying p, q with
-//!   (p J0 + q J1)' = f J0 + g J1 obey p' + r q = f, q' − q/m − r p = g. Alternating between the two equations converges
-//!   like a power of 1/ω, and only the ends of the panel are evaluated, however far the point. The first equation is
-//!   met exactly; what the second one still lacks bounds the error.
+//! - **Levin's method** when it turns often (`levin`): only the ends of the panel are evaluated, however far the point.
 //!
 //! A panel for which neither serves (Levin's method cannot start at m = 0) is halved.
 
 use crate::bessel::j0_j1;
 use crate::gauss::{SIZES, rule_of_class};
-use crate::panel::{NODES, Panel, Series, basis, evaluate, series_of};
+use crate::levin::Setting;
+use crate::panel::{NODES, Panel, Series, basis, dot, evaluate};
 
 /// Halvings of one panel for one radius; 2^60 turns are beyond any float's phase accuracy.
 const MAX_HALVINGS: usize = 60;
-const MAX_ITERATIONS: usize = 40;
 
 /// The integrals over one panel, or a sum of them, for one radius.
 #[derive(Debug, Clone, Copy, Default)]
@@ -131,69 +128,14 @@ impl<'a> Prepared<'a> {
         let (j0_to, j1_to) = j0_j1(to * radius);
         let (j0_from, j1_from) = j0_j1(from * radius);
         let ends = |p: &Series, q: &Series| {
-            evaluate(p, 1.0) * j0_to + evaluate(q, 1.0) * j1_to
-                - evaluate(p, -1.0) * j0_from
-                - evaluate(q, -1.0) * j1_from
+            let [first, last] = &basis().ends;
+            dot(p, last) * j0_to + dot(q, last) * j1_to - dot(p, first) * j0_from - dot(q, first) * j1_from
         };
         Some(Integrals {
             radial: ends(&p_r, &q_r),
             vertical: ends(&p_v, &q_v),
             error: (error_r, error_v),
             bessel: 2,
-        })
-    }
-}
-
-/// An interval and a radius for Levin's method.
-struct Setting {
-    radius: f64,
-    half: f64,
-    wavenumbers: Series,
-}
-
-impl Setting {
-    /// Series of p and q with (p J0 + q J1)' = f J0 + g J1, and a bound of the integral's error; `None` where the
-    /// alternation does not reach `tolerance`.
-    fn antiderivative(&self, f: &Series, g: &Series, tolerance: f64) -> Option<(Series, Series, f64)> {
-        let r = self.radius;
-        let mut p: Series = g.map(|v| -v / r);
-        let mut last = f64::INFINITY;
-        for _ in 0..MAX_ITERATIONS {
-            let slope = self.derivative(&p);
-            let q: Series = std::array::from_fn(|i| (f[i] - slope[i]) / r);
-            let slope = self.derivative(&q);
-            let next: Series = std::array::from_fn(|i| (slope[i] - q[i] / self.wavenumbers[i] - g[i]) / r);
-            let lack = next
-                .iter()
-                .zip(&p)
-                .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-            // Twice the half width, |J| ≤ 1; another factor for values between the nodes.
-            let error = 4.0 * lack * r * self.half;
-            if error <= 0.1 * tolerance {
-                return Some((series_of(&p), series_of(&q), error));
-            }
-            if error > 2.0 * last || !error.is_finite() {
-                return None;
-            }
-            last = error;
-            p = next;
-        }
-        None
-    }
-
-    /// d/dm of the polynomial with these values at the nodes, at the nodes.
-    fn derivative(&self, values: &Series) -> Series {
-        let series = series_of(values);
-        let mut slope = [0.0; NODES];
-        for k in (1..NODES).rev() {
-            let above = if k + 1 < NODES { slope[k + 1] } else { 0.0 };
-            slope[k - 1] = above + 2.0 * k as f64 * series[k];
-        }
-        slope[0] *= 0.5;
-        let basis = basis();
-        std::array::from_fn(|i| {
-            let sum: f64 = slope.iter().zip(&basis.cosines).map(|(s, c)| s * c[i]).sum();
-            sum / self.half
         })
     }
 }
@@ -259,6 +201,7 @@ fn sum(nodes: &[[f64; 3]], radius: f64, tolerance: (f64, f64)) -> Integrals {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::panel::series_of;
 
     /// f(m) = e^(−m/2) cos m in both components.
     fn panel(from: f64, to: f64) -> Panel {

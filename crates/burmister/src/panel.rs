@@ -27,31 +27,63 @@ pub(crate) struct Panel {
     pub noise: (f64, f64),
 }
 
-/// Chebyshev nodes of the first kind and the cosines of the discrete transform.
+/// Chebyshev nodes of the first kind and what is linear in the values there.
 pub(crate) struct Basis {
     pub nodes: [f64; NODES],
-    /// `cosines[k][i]` = `T_k`(node i).
+    /// `cosines[k][i]` = `T_k`(node i): the discrete transform.
     pub cosines: [[f64; NODES]; NODES],
+    /// Derivative of the interpolating polynomial at the nodes: the sum of column j times value j (column by column, so that
+    /// the inner loop has no chain of additions).
+    pub derivative: [[f64; NODES]; NODES],
+    /// Value of the interpolating polynomial at −1 and at 1.
+    pub ends: [[f64; NODES]; 2],
 }
 
 pub(crate) fn basis() -> &'static Basis {
     static BASIS: OnceLock<Basis> = OnceLock::new();
     BASIS.get_or_init(|| {
         let angle = |i: usize| std::f64::consts::PI * (i as f64 + 0.5) / NODES as f64;
+        let cosines: [[f64; NODES]; NODES] =
+            std::array::from_fn(|k| std::array::from_fn(|i| (k as f64 * angle(i)).cos()));
+        // Weights of term k in the series of the values: with T_k' = k sin(kθ)/sin θ they give the derivative, with
+        // T_k(±1) = (±1)^k the ends.
+        let share = |k: usize| if k == 0 { 1.0 } else { 2.0 } / NODES as f64;
+        let slope = |k: usize, i: usize| k as f64 * (k as f64 * angle(i)).sin() / angle(i).sin();
+        let sum = |of: &dyn Fn(usize) -> f64| (0..NODES).map(of).sum::<f64>();
         Basis {
-            nodes: std::array::from_fn(|i| angle(i).cos()),
-            cosines: std::array::from_fn(|k| std::array::from_fn(|i| (k as f64 * angle(i)).cos())),
+            nodes: cosines[1],
+            cosines,
+            derivative: std::array::from_fn(|j| {
+                std::array::from_fn(|i| sum(&|k| share(k) * cosines[k][j] * slope(k, i)))
+            }),
+            ends: std::array::from_fn(|end| {
+                let sign = |k: usize| if end == 0 && k % 2 == 1 { -1.0 } else { 1.0 };
+                std::array::from_fn(|j| sum(&|k| share(k) * cosines[k][j] * sign(k)))
+            }),
         }
     })
+}
+
+/// d/dt of the polynomial with these values at the nodes, at the nodes.
+pub(crate) fn derivative_of(values: &Series) -> Series {
+    let mut slope = [0.0; NODES];
+    for (column, value) in basis().derivative.iter().zip(values) {
+        for (slope, weight) in slope.iter_mut().zip(column) {
+            *slope += weight * value;
+        }
+    }
+    slope
+}
+
+/// Scalar product.
+pub(crate) fn dot(one: &Series, other: &Series) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
 }
 
 /// Series of the polynomial with these values at the nodes.
 pub(crate) fn series_of(values: &Series) -> Series {
     let basis = basis();
-    std::array::from_fn(|k| {
-        let sum: f64 = values.iter().zip(&basis.cosines[k]).map(|(v, c)| v * c).sum();
-        sum * if k == 0 { 1.0 } else { 2.0 } / NODES as f64
-    })
+    std::array::from_fn(|k| dot(values, &basis.cosines[k]) * if k == 0 { 1.0 } else { 2.0 } / NODES as f64)
 }
 
 /// Value of the first `terms` terms at `t` in [−1, 1], by Clenshaw's recurrence.
@@ -186,5 +218,10 @@ mod tests {
         for t in [-1.0_f64, -0.3, 0.0, 0.71, 1.0] {
             assert!((evaluate(&series, t) - t.exp()).abs() < 1e-14);
         }
+        for (slope, value) in derivative_of(&values).iter().zip(values) {
+            assert!((slope - value).abs() < 1e-12);
+        }
+        assert!((dot(&basis().ends[0], &values) - (-1.0_f64).exp()).abs() < 1e-14);
+        assert!((dot(&basis().ends[1], &values) - 1.0_f64.exp()).abs() < 1e-14);
     }
 }

@@ -10,17 +10,17 @@
 //!
 //! Any choice of images gives the same sum; only the remainder's length and size depend on it.
 
-use ground_field::{Displacement, SurfaceLoad};
+use ground_field::{Displacement, GroundError, SurfaceLoad};
 
 use crate::bessel::disc_factor;
-use crate::half_space::HalfSpace;
+use crate::image::Image;
 use crate::stack::{Ground, Stack};
 
 /// Layered field minus images, at one depth, under one load.
 #[derive(Debug, Clone)]
 pub(crate) struct Remainder {
     stack: Stack,
-    images: Vec<HalfSpace>,
+    images: Vec<Image>,
     contact_radius: f64,
     /// The transform decays like exp(−m · `decay_length`).
     pub decay_length: f64,
@@ -37,9 +37,8 @@ impl Remainder {
             && depth < thickness * (2.0 / 3.0)
         {
             decay_length = 2.0 * thickness - depth;
-            let image = |weight, depth| HalfSpace { weight, soil, depth };
-            images.push(image(1.0, depth));
-            images.push(image(-1.0, decay_length.max(contact_radius)));
+            images.push(Image::new(1.0, soil, depth));
+            images.push(Image::new(-1.0, soil, decay_length.max(contact_radius)));
         }
         if let Some(base) = &ground.base {
             let shift: f64 = ground
@@ -50,11 +49,7 @@ impl Remainder {
                     l.thickness * (stiffer.cbrt() - 1.0)
                 })
                 .sum();
-            images.push(HalfSpace {
-                weight: 1.0,
-                soil: base.soil,
-                depth: (depth + shift).max(decay_length),
-            });
+            images.push(Image::new(1.0, base.soil, (depth + shift).max(decay_length)));
         }
         Self {
             stack: ground.cut(depth),
@@ -95,15 +90,22 @@ impl Remainder {
         self.stack.transform(wavenumber)
     }
 
-    /// Displacement of the images under `load`, not finite where they are singular, and its rounding error.
-    pub fn closed_form(&self, load: SurfaceLoad, radius: f64) -> (Displacement, (f64, f64)) {
+    /// Displacement of the images under `load`, and its rounding error.
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::Singular`] where it has no finite value.
+    pub fn closed_form(
+        &self,
+        load: SurfaceLoad,
+        radius: f64,
+    ) -> Result<(Displacement, (f64, f64)), GroundError> {
         let (mut sum, mut rounding) = (Displacement::ZERO, (0.0, 0.0));
         for image in &self.images {
-            let part = image.displacement(load, radius);
-            let error = image.rounding(load, radius, part);
+            let (part, error) = image.displacement(load, radius)?;
             sum += part;
             rounding = (rounding.0 + error.0, rounding.1 + error.1);
         }
-        (sum, rounding)
+        Ok((sum, rounding))
     }
 }

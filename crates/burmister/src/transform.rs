@@ -53,12 +53,7 @@ impl Transform<'_> {
     /// [`GroundError::Singular`] where the field has no finite value, [`GroundError::Accuracy`] where the estimate is not below
     /// the asked accuracy.
     pub fn run(&self, radii: &[f64]) -> Result<(Vec<Displacement>, Statistics), GroundError> {
-        let closed = self.closed_forms(radii);
-        for ((value, _), &radius) in closed.iter().zip(radii) {
-            if !value.is_finite() {
-                return Err(self.singular(radius));
-            }
-        }
+        let closed = self.closed_forms(radii)?;
         let mut statistics = Statistics::default();
         if self.remainder.vanishes || self.load.force() == 0.0 || radii.is_empty() {
             return Ok((closed.into_iter().map(|(value, _)| value).collect(), statistics));
@@ -71,7 +66,7 @@ impl Transform<'_> {
         panels.refine(self.remainder, (1e-3 * rough.0, 1e-3 * rough.1), MAX_WAVENUMBERS);
         let mut peak = (0.0, 0.0);
         let mut tolerance = (1e-3 * rough.0, 1e-3 * rough.1);
-        let known = self.closed_forms(&self.probes);
+        let known = self.closed_forms(&self.probes)?;
         let probes = self.evaluate(
             &panels,
             (0.0, 0.0),
@@ -140,11 +135,12 @@ impl Transform<'_> {
     }
 
     /// Closed forms at the radii, with their rounding error.
-    fn closed_forms(&self, radii: &[f64]) -> Vec<Closed> {
-        radii
-            .iter()
-            .map(|&radius| self.remainder.closed_form(self.load, radius))
-            .collect()
+    fn closed_forms(&self, radii: &[f64]) -> Result<Vec<Closed>, GroundError> {
+        let closed = |&radius: &f64| match self.remainder.closed_form(self.load, radius) {
+            Ok(closed) if closed.0.is_finite() => Ok(closed),
+            _ => Err(self.singular(radius)),
+        };
+        radii.iter().map(closed).collect()
     }
 
     fn checked(

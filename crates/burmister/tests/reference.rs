@@ -1,4 +1,4 @@
-//! Every case of the shared reference tables, to the default accuracy of 1e-8 of the peak at each depth.
+//! Every case of the reference tables, to the default accuracy of 1e-8 of the peak at each depth.
 
 mod common;
 

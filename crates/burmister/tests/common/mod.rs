@@ -38,7 +38,7 @@ pub fn disc(radius_mm: f64, pressure_mpa: f64) -> SurfaceLoad {
     .expect("load")
 }
 
-/// Ground and load of a named case of the shared tables.
+/// Ground and load of a named case of the tables.
 pub fn case(name: &str) -> (LayeredHalfSpace, SurfaceLoad) {
     let task3_pressure = 2.77471435141713;
     let point = || SurfaceLoad::point(196_133.0).expect("load");
