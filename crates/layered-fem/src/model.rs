@@ -5,7 +5,8 @@
 //! Every answer is computed on two meshes whose spacing ratio is ρ = 2, the outer boundary of the finer one being
 //! ρ times as far away. The error of discretisation falls with ρ³ and more, the boundary's with ρ²; that it falls at least
 //! three times is assumed, and then half the difference bounds the finer answer's error. (Just below the edge of a disc it
-//! falls more slowly, and twice the difference is taken.) Where the estimate exceeds the accuracy asked, a finer mesh is made, up to the unknowns allowed; beyond, the answer is an error.
+//! falls more slowly, and twice the difference is taken.) On the coarse meshes of a loose accuracy the estimate may fall short
+//! of the truth by half. Where the estimate exceeds the accuracy asked, a finer mesh is made, up to the unknowns allowed; beyond, the answer is an error.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
