@@ -17,6 +17,11 @@ const QUIET: f64 = 0.25;
 const FRICTION_ACCURACY: f64 = 1e-6;
 /// Accuracy of slip, as a share of the largest displacement.
 const SLIP_ACCURACY: f64 = 1e-7;
+/// Softnesses γ k/h through which a step is led that does not converge from its first guess: from the first down to the
+/// real one, or to the last, which is as good as rigid.
+const SOFTEST: f64 = 100.0;
+const HARDEST: f64 = 1e-6;
+const SOFTENING: f64 = 0.1;
 /// Most nodes that a disturbed window grows by at once on each side.
 const MAX_GROWTH: usize = 256;
 
@@ -31,6 +36,9 @@ pub(super) struct Sweeper {
     cable: DuctedCable,
     mesh: Mesh,
     chain: Chain,
+    /// The same chain with a softer sheath.
+    softened: Chain,
+    soft_anchor: Vec<f64>,
     supports: Vec<SupportWindow>,
     /// Unknown nodes: all but fixed ends.
     free: Stretch,
@@ -130,6 +138,8 @@ impl Sweeper {
         Self {
             cable: cable.clone(),
             mesh: *mesh,
+            softened: chain.clone(),
+            soft_anchor: vec![0.0; nodes],
             chain,
             supports,
             free,
@@ -502,20 +512,38 @@ impl Sweeper {
             support: &self.support_load,
             anchor: &self.anchor,
         };
-        let mut attempt = |trial: &mut Trial| {
-            let (outcome, sweeps) = self
-                .elimination
-                .iterate(&self.chain, &load, stretch, tolerance, trial);
+        let mut attempt = |chain: &Chain, load: &Load<'_>, trial: &mut Trial| {
+            let (outcome, sweeps) = self.elimination.iterate(chain, load, stretch, tolerance, trial);
             recorder.statistics.sweeps += sweeps;
             recorder.statistics.node_updates += sweeps * (stretch.hi - stretch.lo + 1);
             outcome
         };
-        if attempt(&mut self.trial) == Outcome::Solved {
+        if attempt(&self.chain, &load, &mut self.trial) == Outcome::Solved {
+            return Ok(());
+        }
+        // A softer sheath has a smoother energy: its contact states lead to those of the real one.
+        let mut softness = SOFTEST;
+        let real = self.chain.compliance * self.chain.stiffness / self.mesh.spacing();
+        self.trial.contact[stretch.lo..=stretch.hi].fill(Contact::Stuck);
+        while softness > real.max(HARDEST) {
+            self.softened
+                .soften(softness * self.mesh.spacing() / self.chain.stiffness);
+            for i in stretch.lo..=stretch.hi {
+                self.soft_anchor[i] = self.r[i] + self.softened.compliance * self.g[i];
+            }
+            let soft_load = Load {
+                anchor: &self.soft_anchor,
+                ..load
+            };
+            attempt(&self.softened, &soft_load, &mut self.trial);
+            softness *= SOFTENING;
+        }
+        if attempt(&self.chain, &load, &mut self.trial) == Outcome::Solved {
             return Ok(());
         }
         exact::contacts(&self.chain, &load, stretch, &mut self.trial);
         recorder.statistics.exact_steps += 1;
-        match attempt(&mut self.trial) {
+        match attempt(&self.chain, &load, &mut self.trial) {
             Outcome::Solved => Ok(()),
             Outcome::Violated(violation) => Err(CableError::NoConvergence {
                 vehicle_position: self.mesh.lattice_step() * snapshot.position as f64,
