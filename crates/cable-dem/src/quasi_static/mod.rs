@@ -125,10 +125,14 @@ impl QuasiStatic {
     ///
     /// # Errors
     ///
-    /// [`CableError::StateMismatch`] for a state of another mesh, [`CableError::Precision`] where rounding would blur
+    /// [`CableError::StateMismatch`] for a state of another mesh, [`CableError::PassageMismatch`] for a passage computed for
+    /// another mesh, axial stiffness or friction, [`CableError::Precision`] where rounding would blur
     /// the answer, [`CableError::NoConvergence`] where a step found no equilibrium.
     pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<PassOutcome, CableError> {
         state.check(&self.mesh)?;
+        if !passage.fits(&self.cable, &self.mesh) {
+            return Err(CableError::PassageMismatch);
+        }
         if self.cable.friction().limit() == 0.0 {
             // Nothing drags the cable.
             return Ok(self.outcome(state, Recorder::new(state.end_forces(&self.cable, &self.mesh))));
