@@ -129,8 +129,8 @@ impl QuasiStatic {
     ///
     /// # Errors
     ///
-    /// [`CableError::StateMismatch`] and [`CableError::PassageMismatch`] for a state or a passage of another mesh or cable,
-    /// [`CableError::Precision`] where rounding would blur
+    /// [`CableError::StateMismatch`] for a state of another mesh, [`CableError::PassageMismatch`] for a passage computed for
+    /// another mesh, axial stiffness or friction, [`CableError::Precision`] where rounding would blur
     /// the answer, [`CableError::NoConvergence`] where a step found no equilibrium.
     pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<PassOutcome, CableError> {
         self.pass_observed(passage, state, |_| {})
@@ -148,7 +148,7 @@ impl QuasiStatic {
         mut observe: impl FnMut(StepView<'_>),
     ) -> Result<PassOutcome, CableError> {
         state.check(&self.mesh)?;
-        if !passage.is_for(&self.cable, &self.mesh) {
+        if !passage.fits(&self.cable, &self.mesh) {
             return Err(CableError::PassageMismatch);
         }
         if self.cable.friction().limit() == 0.0 {
