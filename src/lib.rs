@@ -16,7 +16,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `cable-dem` (the cable).
+//! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `burmister` (layers by
+//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable).
 
 mod analysis;
 #[cfg(feature = "cli")]

@@ -1,7 +1,8 @@
 //! All passes of a scene on one mesh.
 
 use cable_dem::{
-    CableState, DuctedCable, Friction, Mesh, PassOutcome, Passage, QuasiStatic, Statistics, Traffic,
+    CableState, DuctedCable, Friction, Mesh, PassOutcome, Passage, QuasiStatic, SlipLengths, Statistics,
+    Traffic,
 };
 use ground_field::DuctMotion;
 
@@ -9,9 +10,13 @@ use super::motion::approach;
 use crate::Error;
 use crate::scene::Scene;
 
-/// Every pass's outcome, and what they cost together.
+/// Every pass's outcome, how the cable is left, and what they cost together.
 pub struct Passes {
     pub outcomes: Vec<PassOutcome>,
+    pub cable: DuctedCable,
+    pub state: CableState,
+    /// With the vehicle over the duct's middle in the last pass.
+    pub slip: SlipLengths,
     pub statistics: Statistics,
 }
 
@@ -44,11 +49,30 @@ pub fn simulate(
     let mut state = CableState::at_rest(&mesh);
     let mut statistics = Statistics::default();
     let mut outcomes = Vec::new();
-    for vehicle in traffic.take(usize::try_from(scene.traffic.passes).unwrap_or(usize::MAX)) {
-        let outcome = solver.pass(&passages[vehicle], &mut state)?;
+    let count = usize::try_from(scene.traffic.passes).unwrap_or(usize::MAX);
+    let mut slip = SlipLengths::default();
+    for (index, vehicle) in traffic.take(count).enumerate() {
+        let outcome = if index + 1 == count {
+            let mut nearest = f64::INFINITY;
+            solver.pass_observed(&passages[vehicle], &mut state, |view| {
+                let distance = (view.vehicle_position() - 0.5 * scene.duct.length).abs();
+                if distance < nearest {
+                    nearest = distance;
+                    slip = view.slip_lengths();
+                }
+            })?
+        } else {
+            solver.pass(&passages[vehicle], &mut state)?
+        };
         statistics += outcome.statistics;
         outcomes.push(outcome);
         passed();
     }
-    Ok(Passes { outcomes, statistics })
+    Ok(Passes {
+        outcomes,
+        cable: solver.cable().clone(),
+        state,
+        slip,
+        statistics,
+    })
 }

@@ -10,7 +10,10 @@ use cable_dem::{Mesh, PassOutcome, QuasiStatic};
 use ground_field::DuctMotion;
 
 use super::passes::{Passes, cable, simulate};
-use super::result::{Cost, DuctMotionSummary, ErrorEstimate, PassRecord, PlanSummary, Run};
+use super::result::{
+    Cost, DuctMotionSummary, ErrorEstimate, ForceProfile, PassRecord, PlanSummary, RestraintRecord, Run,
+    SlipRecord,
+};
 use super::saturation::saturation;
 use super::{ground, motion};
 use crate::scene::{End, SolverMethod};
@@ -22,8 +25,12 @@ const NODES_PER_DEPTH: f64 = 12.0;
 const STEPS_PER_SPACING: f64 = 2.0;
 /// Share of the difference to the mesh twice as coarse that counts as error. Second order leaves a third of it.
 const ERROR_SHARE: f64 = 0.5;
-/// Halvings of the mesh after which a run gives its best answer with a warning.
+/// Halvings of the mesh after which a run gives its best answer with a warning, and nodes eliminated in all passes beyond
+/// which it halves no more: about half a minute.
 const MAX_HALVINGS: usize = 4;
+const MAX_NODE_UPDATES: usize = 2_000_000_000;
+/// A mesh half as coarse takes about this many times the node updates.
+const HALVING_COST: usize = 4;
 /// Passes up to which every one is listed.
 const ALL_LISTED: u64 = 10_000;
 /// Forces below this share of the largest transient count as nothing when errors are compared.
@@ -70,7 +77,7 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
             reasons: vec![
                 format!("ground {}: {}", ground.name, ground.reason),
                 "cable quasi-static: the cable's wave speed is far above the vehicle's".into(),
-                solved.reason,
+                solved.reason.clone(),
             ],
         },
         duct_motion: DuctMotionSummary {
@@ -79,7 +86,13 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
         },
         passes: listed(passes),
         saturation: saturation(&series, scale),
-        error_estimate: solved.error,
+        force_profile: force_profile(&solved),
+        restraints: restraints(&solved),
+        slip_lengths: SlipRecord {
+            forward_m: solved.passes.slip.forward,
+            backward_m: solved.passes.slip.backward,
+        },
+        error_estimate: solved.error.clone(),
         cost: Cost::new(&solved.passes.statistics),
         warnings,
     })
@@ -146,7 +159,8 @@ fn solve(
             .as_ref()
             .map(|coarse| ERROR_SHARE * difference(&passes, coarse));
         let enough = estimate.is_none_or(|estimate| estimate <= tolerance);
-        if enough || chosen || halvings == MAX_HALVINGS {
+        let costly = HALVING_COST.saturating_mul(passes.statistics.node_updates) > MAX_NODE_UPDATES;
+        if enough || chosen || costly || halvings == MAX_HALVINGS {
             if !enough {
                 let estimate = 100.0 * estimate.unwrap_or(f64::NAN);
                 warnings.push(format!(
@@ -327,6 +341,32 @@ fn force_series(scene: &Scene, outcomes: &[PassOutcome]) -> (Vec<f64>, f64) {
             }
         }
     }
+}
+
+fn force_profile(solved: &Solved) -> ForceProfile {
+    let Passes { state, cable, .. } = &solved.passes;
+    let force_n: Vec<f64> = state.element_forces(cable, &solved.mesh).collect();
+    ForceProfile {
+        positions_m: (0..force_n.len())
+            .map(|i| solved.mesh.spacing() * (i as f64 + 0.5))
+            .collect(),
+        force_n,
+    }
+}
+
+fn restraints(solved: &Solved) -> Vec<RestraintRecord> {
+    let Passes { state, cable, .. } = &solved.passes;
+    let forces = state.restraint_forces(cable, &solved.mesh);
+    cable
+        .restraints()
+        .iter()
+        .zip(forces)
+        .map(|(restraint, force_n)| RestraintRecord {
+            position_m: restraint.position,
+            stiffness_n_per_m: restraint.stiffness,
+            force_n,
+        })
+        .collect()
 }
 
 /// All passes, or of very many the first ones and then evenly growing numbers, the last among them.

@@ -50,6 +50,20 @@ pub fn run(run: &Run) -> Result<(), Failure> {
         )?,
         None => writeln!(out, "saturation: not reached within these passes")?,
     }
+    for restraint in &run.restraints {
+        writeln!(
+            out,
+            "clamp at {} m: {:.1} N, moved {:.4} mm",
+            restraint.position_m,
+            restraint.force_n,
+            1e3 * restraint.force_n / restraint.stiffness_n_per_m
+        )?;
+    }
+    writeln!(
+        out,
+        "slipping as the vehicle passes the middle: {:.2} m forward, {:.2} m backward",
+        run.slip_lengths.forward_m, run.slip_lengths.backward_m
+    )?;
     writeln!(
         out,
         "estimated error: {:.2} % ({})",

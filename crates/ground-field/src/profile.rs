@@ -100,7 +100,7 @@ impl RadialProfile {
             peak: Displacement::ZERO,
             samples: 0,
         };
-        let found = sampler.refine(initial_edges(depth, end))?;
+        let found = sampler.refine(&initial_edges(depth, end))?;
 
         let mut edges: Vec<f64> = found.iter().map(|(start, _, _)| *start).collect();
         edges.push(end);
@@ -202,7 +202,7 @@ struct Sampler<'a> {
 impl Sampler<'_> {
     /// Bisects the cells between `edges` until all are accurate; returns them in order with their ends.
     /// All new radii of one round go to the model in one call, which may share work among them.
-    fn refine(&mut self, edges: Vec<f64>) -> Result<Vec<(f64, f64, Cell)>, GroundError> {
+    fn refine(&mut self, edges: &[f64]) -> Result<Vec<(f64, f64, Cell)>, GroundError> {
         let mut pending: Vec<(f64, f64)> = edges.windows(2).map(|pair| (pair[0], pair[1])).collect();
         let mut done = Vec::new();
         for level in 0..=MAX_LEVEL {
