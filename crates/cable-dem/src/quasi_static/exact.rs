@@ -312,7 +312,8 @@ mod tests {
                 }
             }
             for pivot in 0..n {
-                let best = (pivot..n).max_by(|&a, &b| rows[a][pivot].abs().total_cmp(&rows[b][pivot].abs()))?;
+                let best =
+                    (pivot..n).max_by(|&a, &b| rows[a][pivot].abs().total_cmp(&rows[b][pivot].abs()))?;
                 rows.swap(pivot, best);
                 if rows[pivot][pivot].abs() < 1e-11 {
                     return None;
@@ -376,9 +377,8 @@ mod tests {
     fn step() -> impl Strategy<Value = Step> {
         // Whole and half numbers meet at corners of the graphs, where ties are.
         let tied = |low: i32, high: i32| (low..=high).prop_map(|v| f64::from(v) * 0.5);
-        let value = move |size: i32| {
-            prop_oneof![tied(-size, size), -0.5 * f64::from(size)..0.5 * f64::from(size)]
-        };
+        let value =
+            move |size: i32| prop_oneof![tied(-size, size), -0.5 * f64::from(size)..0.5 * f64::from(size)];
         let support = prop_oneof![3 => Just(0.0), 1 => 0.01..100.0_f64, 1 => Just(1e6)];
         let node = (value(8), value(5), support, prop_oneof![Just(0.0), value(6)]);
         let compliance = prop_oneof![Just(0.0), Just(1.0), 1e-6..10.0_f64];
