@@ -17,6 +17,11 @@ const QUIET: f64 = 0.25;
 const FRICTION_ACCURACY: f64 = 1e-6;
 /// Accuracy of slip, as a share of the largest displacement.
 const SLIP_ACCURACY: f64 = 1e-7;
+/// Softnesses γ k/h through which a step is led that does not converge from its first guess: from the first down to the
+/// real one, or to the last, which is as good as rigid.
+const SOFTEST: f64 = 100.0;
+const HARDEST: f64 = 1e-6;
+const SOFTENING: f64 = 0.1;
 /// Most nodes that a disturbed window grows by at once on each side.
 const MAX_GROWTH: usize = 256;
 
@@ -31,6 +36,9 @@ pub(super) struct Sweeper {
     cable: DuctedCable,
     mesh: Mesh,
     chain: Chain,
+    /// The same chain with a softer sheath.
+    softened: Chain,
+    soft_anchor: Vec<f64>,
     supports: Vec<SupportWindow>,
     /// Unknown nodes: all but fixed ends.
     free: Stretch,
@@ -47,6 +55,8 @@ pub(super) struct Sweeper {
     /// Contact states in the vehicle's frame, as last solved: the next node to stand there will most likely share them.
     by_xi: Vec<Contact>,
     windows: Vec<Window>,
+    /// Work turned into heat by slip in this pass so far \[J\].
+    dissipated: f64,
     /// The last pass of each passage, and the one that is being written.
     memories: Vec<(u64, PassMemory)>,
     writing: PassMemory,
@@ -128,6 +138,8 @@ impl Sweeper {
         Self {
             cable: cable.clone(),
             mesh: *mesh,
+            softened: chain.clone(),
+            soft_anchor: vec![0.0; nodes],
             chain,
             supports,
             free,
@@ -145,17 +157,24 @@ impl Sweeper {
             by_node: vec![Contact::Stuck; nodes],
             by_xi: Vec::new(),
             windows: Vec::new(),
+            dissipated: 0.0,
             memories: Vec::new(),
             writing: PassMemory::default(),
         }
     }
 
-    /// Drives the vehicle over the cable in `state`, which is changed only on success.
-    pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<Recorder, CableError> {
+    /// Drives the vehicle over the cable in `state`, which is changed only on success; `observe` sees every step.
+    pub fn pass(
+        &mut self,
+        passage: &Passage,
+        state: &mut CableState,
+        mut observe: impl FnMut(&Self, Snapshot<'_>),
+    ) -> Result<Recorder, CableError> {
         let last = self.mesh.elements();
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
         self.support_load.fill(0.0);
+        self.dissipated = 0.0;
         self.by_node.fill(Contact::Stuck);
         self.by_xi.resize(passage.lattice_len(), Contact::Stuck);
         let largest = self
@@ -201,6 +220,7 @@ impl Sweeper {
             if self.ends_touched() {
                 recorder.record(self.end_forces(&snapshot));
             }
+            observe(self, snapshot);
         }
         self.remember(passage.id(), memory);
 
@@ -216,10 +236,33 @@ impl Sweeper {
         let solved = self.solve(whole.stretch, &snapshot, tolerance, &mut recorder)?;
         self.commit(solved, &snapshot, passage);
         for node in 0..=last {
-            state.displacement[node] = self.r[node] + snapshot.adherent[node + 1];
-            state.friction[node] = self.g[node] + snapshot.adhesion[node + 1];
+            state.displacement[node] = self.displacement(node, &snapshot);
+            state.friction[node] = self.friction(node, &snapshot);
         }
+        recorder.dissipated = self.dissipated;
         Ok(recorder)
+    }
+
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    pub fn stiffness(&self) -> f64 {
+        self.chain.stiffness
+    }
+
+    pub fn limit(&self) -> f64 {
+        self.chain.limit
+    }
+
+    /// Displacement u of a node \[m\].
+    pub fn displacement(&self, node: usize, snapshot: &Snapshot<'_>) -> f64 {
+        self.r[node] + snapshot.adherent[node + 1]
+    }
+
+    /// Friction f on a node \[N/m\].
+    pub fn friction(&self, node: usize, snapshot: &Snapshot<'_>) -> f64 {
+        self.g[node] + snapshot.adhesion[node + 1]
     }
 
     /// Takes the state into the adherent frame of the vehicle's first position. The cable does not move by this.
@@ -284,10 +327,13 @@ impl Sweeper {
         } else {
             f64::INFINITY.copysign(slip)
         };
-        self.g[node] = g.clamp(
+        let g = g.clamp(
             self.chain.bound(Contact::Backward, adhesion),
             self.chain.bound(Contact::Forward, adhesion),
         );
+        let elastic = self.chain.compliance * (g - self.g[node]);
+        self.dissipated += self.chain.tributary[node] * (g + adhesion) * (slip - elastic);
+        self.g[node] = g;
     }
 
     /// The travelling window of this step: the last one, extended to every node near the vehicle that must slip.
@@ -466,20 +512,38 @@ impl Sweeper {
             support: &self.support_load,
             anchor: &self.anchor,
         };
-        let mut attempt = |trial: &mut Trial| {
-            let (outcome, sweeps) = self
-                .elimination
-                .iterate(&self.chain, &load, stretch, tolerance, trial);
+        let mut attempt = |chain: &Chain, load: &Load<'_>, trial: &mut Trial| {
+            let (outcome, sweeps) = self.elimination.iterate(chain, load, stretch, tolerance, trial);
             recorder.statistics.sweeps += sweeps;
             recorder.statistics.node_updates += sweeps * (stretch.hi - stretch.lo + 1);
             outcome
         };
-        if attempt(&mut self.trial) == Outcome::Solved {
+        if attempt(&self.chain, &load, &mut self.trial) == Outcome::Solved {
+            return Ok(());
+        }
+        // A softer sheath has a smoother energy: its contact states lead to those of the real one.
+        let mut softness = SOFTEST;
+        let real = self.chain.compliance * self.chain.stiffness / self.mesh.spacing();
+        self.trial.contact[stretch.lo..=stretch.hi].fill(Contact::Stuck);
+        while softness > real.max(HARDEST) {
+            self.softened
+                .soften(softness * self.mesh.spacing() / self.chain.stiffness);
+            for i in stretch.lo..=stretch.hi {
+                self.soft_anchor[i] = self.r[i] + self.softened.compliance * self.g[i];
+            }
+            let soft_load = Load {
+                anchor: &self.soft_anchor,
+                ..load
+            };
+            attempt(&self.softened, &soft_load, &mut self.trial);
+            softness *= SOFTENING;
+        }
+        if attempt(&self.chain, &load, &mut self.trial) == Outcome::Solved {
             return Ok(());
         }
         exact::contacts(&self.chain, &load, stretch, &mut self.trial);
         recorder.statistics.exact_steps += 1;
-        match attempt(&mut self.trial) {
+        match attempt(&self.chain, &load, &mut self.trial) {
             Outcome::Solved => Ok(()),
             Outcome::Violated(violation) => Err(CableError::NoConvergence {
                 vehicle_position: self.mesh.lattice_step() * snapshot.position as f64,
@@ -524,6 +588,12 @@ impl Sweeper {
     /// Makes the trial the state.
     fn commit(&mut self, stretch: Stretch, snapshot: &Snapshot<'_>, passage: &Passage) {
         let range = stretch.lo..=stretch.hi;
+        for i in range.clone() {
+            if self.trial.contact[i] != Contact::Stuck {
+                let slip = self.anchor[i] - self.trial.r[i] - self.chain.compliance * self.trial.g[i];
+                self.dissipated += self.chain.tributary[i] * self.chain.limit * slip.abs();
+            }
+        }
         self.r[range.clone()].copy_from_slice(&self.trial.r[range.clone()]);
         self.g[range.clone()].copy_from_slice(&self.trial.g[range.clone()]);
         self.by_node[range.clone()].copy_from_slice(&self.trial.contact[range.clone()]);
@@ -535,12 +605,12 @@ impl Sweeper {
     /// Force on each end \[N\] with the vehicle at the snapshot's position, compression positive.
     fn end_forces(&self, snapshot: &Snapshot<'_>) -> EndForces {
         let last = self.mesh.elements();
-        let u = |i: usize| self.r[i] + snapshot.adherent[i + 1];
+        let u = |i: usize| self.displacement(i, snapshot);
         let force = |node: usize, inner: usize, outward: f64, end: crate::End| match end {
             crate::End::Free => 0.0,
             crate::End::Spring(stiffness) => outward * stiffness * u(node),
             crate::End::Fixed => {
-                let friction = self.g[node] + snapshot.adhesion[node + 1];
+                let friction = self.friction(node, snapshot);
                 outward
                     * (self.chain.stiffness * (u(inner) - u(node)) + self.chain.tributary[node] * friction)
             }
