@@ -140,7 +140,7 @@ fn differences(scene: &Scene) -> Differences {
         let approach = 10.0 * scene.depth;
         let passage = Passage::new(&cable, &mesh, &motion, approach).expect("a valid passage");
         run.pass(&passage);
-        let distances = vehicle_distances(&mesh, approach + motion.half_length());
+        let distances = vehicle_distances(&mesh, approach);
         assert_eq!(distances.len(), passage.steps(), "both drive the same way");
         oracle.pass(&distances, direction, |xi| motion.longitudinal(xi));
     }
