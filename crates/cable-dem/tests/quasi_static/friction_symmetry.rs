@@ -48,7 +48,6 @@ proptest! {
         prop_assert!(after.abs() <= friction.limit());
         prop_assert_eq!(friction.after_slip(-before, -slip), -after);
         prop_assert!(friction.after_slip(before, slip + more) >= after);
-        prop_assert!(after * slip >= before * slip || friction.law().has_memory() == (slip == 0.0) || !friction.law().has_memory());
     }
 
     /// Work done against friction is never less than what it has stored as shear: f²/(q b).
@@ -357,15 +356,11 @@ fn equal_opposing_traffic_between_fixed_ends_creeps_nowhere_on_average() {
         let mut both = Run::new(cable, mesh);
         let mut creep = 0.0;
         for _ in 0..40 {
-            let there = both.pass(&forward);
+            both.pass(&forward);
             creep = mean(&both);
-            let back = both.pass(&reverse);
+            both.pass(&reverse);
             creep += mean(&both);
-            if both.state.displacement()[1] == f64::INFINITY {
-                println!("{there:?} {back:?}");
-            }
         }
-        println!("creep {creep:e} one way {:e}", mean(&one_way));
         assert!(
             creep.abs() < 1e-3 * mean(&one_way),
             "{creep} m of {} m",

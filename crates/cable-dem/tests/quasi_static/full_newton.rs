@@ -215,24 +215,12 @@ impl FullChain {
     }
 }
 
-/// Where the crate stops a vehicle that comes from and leaves to `far` beyond the duct: even steps over the duct, outside
-/// it steps that grow with the distance by a twentieth.
-pub fn vehicle_distances(mesh: &Mesh, far: f64) -> Vec<f64> {
-    let lattice = mesh.spacing().min(mesh.vehicle_step());
-    let stride = (mesh.vehicle_step() / lattice).round() as i64;
-    let end = (mesh.spacing() * mesh.elements() as f64 / lattice).round() as i64;
-    let far = (far / lattice).ceil() as i64;
-    let mut outside = vec![0];
-    while outside[outside.len() - 1] < far {
-        let distance = outside[outside.len() - 1];
-        outside.push(distance + (distance / 20 / stride * stride).max(stride));
-    }
-    let before = outside.iter().rev().map(|d| -d);
-    let over = (1..).map(|n| n * stride).take_while(|&p| p < end);
-    let after = outside.iter().map(|d| end + d);
-    before
-        .chain(over)
-        .chain(after)
-        .map(|p| p as f64 * lattice)
-        .collect()
+/// Where the crate stops a vehicle that comes from and leaves to `approach` beyond the duct: a step apart, on the duct's
+/// start, over its end.
+pub fn vehicle_distances(mesh: &Mesh, approach: f64) -> Vec<f64> {
+    let step = mesh.vehicle_step();
+    let length = mesh.spacing() * mesh.elements() as f64;
+    let outside = (approach / step).ceil() as i64;
+    let over = (length / step * (1.0 - 1e-9)).ceil() as i64;
+    (-outside..=over + outside).map(|n| n as f64 * step).collect()
 }
