@@ -1,33 +1,44 @@
 //! Motion of the duct under each of a scene's vehicles.
 
-use ground_field::{DuctLine, DuctMotion, GroundField};
+use ground_field::{DuctLine, DuctMotion};
 
+use super::ground::ChosenGround;
 use crate::Error;
 use crate::scene::{PeakScaling, Scene};
 
-/// Accuracy of the duct's motion as a share of its peak. The cable feels its second derivative, and the closed forms
-/// give it away for a few hundred evaluations.
-const ACCURACY: f64 = 1e-9;
-/// Vehicles come from and leave to this far beyond the duct's ends \[m\], and at least this many depths: behind that,
-/// the duct's motion no longer turns, and only the slow tail is left, which real ground over rock has not.
+/// Vehicles come from and leave to this far beyond the duct's ends \[m\]: behind that, the duct's motion no longer turns,
+/// and only the slow tail is left, which real ground over rock has not.
 const APPROACH: f64 = 15.0;
-const APPROACH_DEPTHS: f64 = 8.0;
+/// Every wheel passes this many depths beyond the ends at least, in deep ducts and with long vehicles.
+const APPROACH_DEPTHS: f64 = 6.0;
 
-/// How far beyond the duct's ends the outermost wheels come from \[m\].
+/// How far beyond the duct's ends the vehicles' origins come from \[m\].
 pub fn approach(scene: &Scene) -> f64 {
+    let farthest = scene
+        .vehicles
+        .iter()
+        .flat_map(|traffic| traffic.vehicle.wheels())
+        .map(|wheel| wheel.x.abs())
+        .fold(0.0, f64::max);
     scene
         .solver
         .approach
-        .unwrap_or(APPROACH.max(APPROACH_DEPTHS * scene.duct.depth))
+        .unwrap_or(APPROACH.max(farthest + APPROACH_DEPTHS * scene.duct.depth))
 }
 
 /// The motion under every vehicle, scaled to a measured peak where the scene has one.
-pub fn motions(scene: &Scene, field: &dyn GroundField) -> Result<Vec<DuctMotion>, Error> {
+pub fn motions(scene: &Scene, ground: &ChosenGround) -> Result<Vec<DuctMotion>, Error> {
     let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
     let reach = scene.duct.length + 2.0 * approach(scene);
     let mut motions = Vec::new();
     for traffic in &scene.vehicles {
-        motions.push(DuctMotion::new(field, &traffic.vehicle, line, reach, ACCURACY)?);
+        motions.push(DuctMotion::new(
+            &*ground.field,
+            &traffic.vehicle,
+            line,
+            reach,
+            ground.accuracy,
+        )?);
     }
     scale(scene, motions)
 }

@@ -38,8 +38,8 @@ pub fn profile(scene: &Scene) -> Result<Profile, Error> {
 ///
 /// As for [`profile`].
 pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
-    let ground = ground::choose(&scene.ground)?;
-    let motions = motion::motions(scene, &*ground.field)?;
+    let ground = ground::choose(scene)?;
+    let motions = motion::motions(scene, &ground)?;
     let first = &motions[0];
     Ok(Profile {
         ground: ground.name.into(),

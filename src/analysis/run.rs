@@ -54,8 +54,8 @@ pub fn run(scene: &Scene) -> Result<Run, Error> {
 /// As for [`run`].
 pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
     check_method(scene)?;
-    let ground = ground::choose(&scene.ground)?;
-    let motions = motion::motions(scene, &*ground.field)?;
+    let ground = ground::choose(scene)?;
+    let motions = motion::motions(scene, &ground)?;
     let mut warnings = Vec::new();
     let solved = solve(scene, &motions, options, &mut warnings)?;
     let passes = &solved.passes.outcomes;
@@ -92,7 +92,7 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
 /// As for [`run`].
 pub fn check(scene: &Scene) -> Result<(), Error> {
     check_method(scene)?;
-    ground::choose(&scene.ground)?;
+    ground::choose(scene)?;
     let cable = cable(scene)?;
     QuasiStatic::new(cable, first_mesh(scene)?)?;
     Ok(())

@@ -46,6 +46,9 @@ pub enum CableError {
         /// Node spacing \[m\].
         spacing: f64,
     },
+    /// The passage belongs to another mesh, or to a cable of other stiffness or friction.
+    #[error("the passage was made for another mesh or another cable")]
+    PassageMismatch,
     /// The state belongs to another mesh.
     #[error("the state has {found} nodes where the mesh has {expected}")]
     StateMismatch {

@@ -44,6 +44,6 @@ pub use cable::{DuctedCable, End, Restraint};
 pub use error::CableError;
 pub use friction::{Friction, FrictionLaw};
 pub use mesh::Mesh;
-pub use quasi_static::{PassOutcome, Passage, QuasiStatic, Statistics};
+pub use quasi_static::{PassOutcome, Passage, QuasiStatic, SlipLengths, Statistics, StepView};
 pub use state::{CableState, EndForces};
 pub use traffic::{Order, Traffic};

@@ -12,9 +12,11 @@ mod exact;
 mod memory;
 mod passage;
 mod support;
+mod view;
 mod window;
 
 pub use passage::Passage;
+pub use view::{SlipLengths, StepView};
 
 use ground_field::Direction;
 
@@ -49,6 +51,8 @@ pub struct PassOutcome {
     pub upstream_displacement: f64,
     /// Displacement at x = length after the pass \[m\].
     pub downstream_displacement: f64,
+    /// Work that slip has turned into heat \[J\].
+    pub dissipated: f64,
     /// What the pass cost.
     pub statistics: Statistics,
 }
@@ -125,10 +129,28 @@ impl QuasiStatic {
     ///
     /// # Errors
     ///
-    /// [`CableError::StateMismatch`] for a state of another mesh, [`CableError::Precision`] where rounding would blur
+    /// [`CableError::StateMismatch`] and [`CableError::PassageMismatch`] for a state or a passage of another mesh or cable,
+    /// [`CableError::Precision`] where rounding would blur
     /// the answer, [`CableError::NoConvergence`] where a step found no equilibrium.
     pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<PassOutcome, CableError> {
+        self.pass_observed(passage, state, |_| {})
+    }
+
+    /// As [`QuasiStatic::pass`]; `observe` looks at the cable at every vehicle position.
+    ///
+    /// # Errors
+    ///
+    /// As for [`QuasiStatic::pass`].
+    pub fn pass_observed(
+        &mut self,
+        passage: &Passage,
+        state: &mut CableState,
+        mut observe: impl FnMut(StepView<'_>),
+    ) -> Result<PassOutcome, CableError> {
         state.check(&self.mesh)?;
+        if !passage.is_for(&self.cable, &self.mesh) {
+            return Err(CableError::PassageMismatch);
+        }
         if self.cable.friction().limit() == 0.0 {
             // Nothing drags the cable.
             return Ok(self.outcome(state, Recorder::new(state.end_forces(&self.cable, &self.mesh))));
@@ -145,7 +167,13 @@ impl QuasiStatic {
         if mirrored {
             after.mirror();
         }
-        let mut recorder = sweeper.pass(passage, &mut after)?;
+        let mut recorder = sweeper.pass(passage, &mut after, |sweeper, snapshot| {
+            observe(StepView {
+                sweeper,
+                snapshot,
+                mirrored,
+            });
+        })?;
         if mirrored {
             after.mirror();
             recorder.mirror();
@@ -168,6 +196,7 @@ impl QuasiStatic {
             max_compression,
             upstream_displacement: state.displacement()[0],
             downstream_displacement: state.displacement()[self.mesh.elements()],
+            dissipated: recorder.dissipated,
             statistics: recorder.statistics,
         }
     }
@@ -196,6 +225,7 @@ impl QuasiStatic {
 struct Recorder {
     peak: EndForces,
     lowest: EndForces,
+    dissipated: f64,
     statistics: Statistics,
 }
 
@@ -204,6 +234,7 @@ impl Recorder {
         Self {
             peak: start,
             lowest: start,
+            dissipated: 0.0,
             statistics: Statistics::default(),
         }
     }

@@ -21,9 +21,6 @@ use super::window::NEGLIGIBLE;
 use crate::error::checked;
 use crate::{CableError, DuctedCable, Mesh};
 
-/// Vehicle positions outside the duct are this share of their distance to it apart.
-const APPROACH_GROWTH: f64 = 0.05;
-
 static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 
 /// Adherent motion and adhesion of one vehicle on the lattice of one mesh.
@@ -33,6 +30,10 @@ static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 pub struct Passage {
     /// Tells passages apart, so that a solver can remember the last pass of each.
     id: u64,
+    mesh: Mesh,
+    /// EA \[N\] and γ \[m²/N\], on which the adherent motion depends.
+    stiffness: f64,
+    compliance: f64,
     direction: Direction,
     /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s.
     phases: Vec<Phase>,
@@ -65,7 +66,8 @@ pub(super) struct Snapshot<'a> {
 impl Passage {
     /// The passage of a vehicle whose duct motion is `motion` over `cable`, meshed by `mesh`.
     ///
-    /// Its outermost wheels come from and leave to `approach` \[m\] beyond the duct's ends. What the duct does while the
+    /// Its origin comes from and leaves to `approach` \[m\] beyond the duct's ends, far enough for the field of every
+    /// wheel to be past its turning points there. What the duct does while the
     /// vehicle is farther away is left out: an endless elastic half-space has a tail ∝ 1/ξ there that real ground, over
     /// rock at some depth, has not.
     ///
@@ -90,7 +92,7 @@ impl Passage {
             mesh,
             direction,
             |xi| sign * motion.longitudinal(sign * xi),
-            motion.half_length() + approach,
+            approach,
         )
     }
 
@@ -149,6 +151,9 @@ impl Passage {
             .unwrap_or(0);
         Ok(Self {
             id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            mesh: *mesh,
+            stiffness: cable.axial_stiffness(),
+            compliance,
             direction,
             phases,
             behind: behind as usize,
@@ -156,6 +161,13 @@ impl Passage {
             reach,
             peak,
         })
+    }
+
+    /// Whether this passage was made for this cable's stiffness and friction on this mesh.
+    pub(super) fn is_for(&self, cable: &DuctedCable, mesh: &Mesh) -> bool {
+        self.mesh == *mesh
+            && self.stiffness == cable.axial_stiffness()
+            && self.compliance == cable.friction().compliance()
     }
 
     pub(super) fn id(&self) -> u64 {
@@ -238,25 +250,11 @@ impl Phase {
     }
 }
 
-/// Vehicle positions from `far` before the duct to `far` past it: even steps over it, growing steps outside.
-fn schedule(mesh: &Mesh, far: f64) -> Vec<i64> {
-    let step = mesh.lattice_step();
+/// Vehicle positions, a step apart, from `approach` before the duct to `approach` past it.
+fn schedule(mesh: &Mesh, approach: f64) -> Vec<i64> {
     let stride = mesh.stride() as i64;
-    let far = (far / step).ceil() as i64;
+    let steps = (approach / mesh.vehicle_step()).ceil() as i64;
     let end = (mesh.elements() * mesh.phases()) as i64;
-    let mut outside = vec![0];
-    let mut distance = 0_i64;
-    while distance < far {
-        let advance = (APPROACH_GROWTH * distance as f64) as i64 / stride * stride;
-        distance += advance.max(stride);
-        outside.push(distance);
-    }
-    let mut positions: Vec<i64> = outside.iter().rev().map(|d| -d).collect();
-    let mut position = stride;
-    while position < end {
-        positions.push(position);
-        position += stride;
-    }
-    positions.extend(outside.iter().map(|d| end + d));
-    positions
+    let last = (end + stride - 1) / stride + steps;
+    (-steps..=last).map(|step| step * stride).collect()
 }

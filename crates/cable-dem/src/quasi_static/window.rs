@@ -13,9 +13,6 @@ use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 pub(crate) const NEGLIGIBLE: f64 = 1e-3;
 /// A window's edge is quiet when the force its last move put on the next node is below this share of [`NEGLIGIBLE`].
 const QUIET: f64 = 0.25;
-/// A support is solved again when the vehicle's force on it has changed by this share of the friction on one element
-/// (or one screening length, if longer).
-const SUPPORT_CHANGE: f64 = 0.02;
 /// Accuracy of friction and equilibrium inside the windows, as a share of the friction limit.
 const FRICTION_ACCURACY: f64 = 1e-6;
 /// Accuracy of slip, as a share of the largest displacement.
@@ -50,6 +47,8 @@ pub(super) struct Sweeper {
     /// Contact states in the vehicle's frame, as last solved: the next node to stand there will most likely share them.
     by_xi: Vec<Contact>,
     windows: Vec<Window>,
+    /// Work turned into heat by slip in this pass so far \[J\].
+    dissipated: f64,
     /// The last pass of each passage, and the one that is being written.
     memories: Vec<(u64, PassMemory)>,
     writing: PassMemory,
@@ -63,7 +62,9 @@ struct SupportWindow {
     solved: Forcing,
     /// Whether the forcing has changed since.
     due: bool,
-    /// Force that a held displacement would take, per displacement \[N/m\].
+    /// Adherent displacement up to which a fixed node's own friction has followed \[m\].
+    followed: f64,
+    /// Force on the cable per displacement of the duct \[N/m\].
     grip: f64,
 }
 
@@ -106,8 +107,10 @@ impl Sweeper {
         };
         let screening = compliance * stiffness / mesh.spacing();
         let margin = fading_nodes(screening).min(MAX_GROWTH);
-        // Over one screening length, and at least one element, a held node drags the cable along.
+        // Over one screening length, and at least one element, a held node drags the cable along; where the sheath is
+        // stiffer than that, what holds the node works against the sheath.
         let held_stiffness = stiffness / screening.sqrt().max(1.0);
+        let sheath_stiffness = stiffness / screening.max(screening.sqrt());
         let supports = supports
             .into_iter()
             .map(|support| SupportWindow {
@@ -117,9 +120,10 @@ impl Sweeper {
                 },
                 solved: Forcing::default(),
                 due: false,
+                followed: 0.0,
                 grip: support
                     .stiffness
-                    .map_or(held_stiffness, |s| s * held_stiffness / (s + held_stiffness)),
+                    .map_or(held_stiffness, |s| 1.0 / (1.0 / s + 1.0 / sheath_stiffness)),
                 support,
             })
             .collect();
@@ -143,17 +147,24 @@ impl Sweeper {
             by_node: vec![Contact::Stuck; nodes],
             by_xi: Vec::new(),
             windows: Vec::new(),
+            dissipated: 0.0,
             memories: Vec::new(),
             writing: PassMemory::default(),
         }
     }
 
-    /// Drives the vehicle over the cable in `state`, which is changed only on success.
-    pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<Recorder, CableError> {
+    /// Drives the vehicle over the cable in `state`, which is changed only on success; `observe` sees every step.
+    pub fn pass(
+        &mut self,
+        passage: &Passage,
+        state: &mut CableState,
+        mut observe: impl FnMut(&Self, Snapshot<'_>),
+    ) -> Result<Recorder, CableError> {
         let last = self.mesh.elements();
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
         self.support_load.fill(0.0);
+        self.dissipated = 0.0;
         self.by_node.fill(Contact::Stuck);
         self.by_xi.resize(passage.lattice_len(), Contact::Stuck);
         let largest = self
@@ -170,7 +181,10 @@ impl Sweeper {
         let mut recorder = Recorder::new(state.end_forces(&self.cable, &self.mesh));
         let memory = self.recall(passage.id());
         let mut travelling: Option<Stretch> = None;
-        let (&arrival, onward) = passage.positions().split_first().expect("a passage has positions");
+        let (&arrival, onward) = passage
+            .positions()
+            .split_first()
+            .expect("a passage has positions");
         self.arrive(&passage.snapshot(arrival, last + 1));
         for (step, &position) in onward.iter().enumerate() {
             let snapshot = passage.snapshot(position, last + 1);
@@ -196,6 +210,7 @@ impl Sweeper {
             if self.ends_touched() {
                 recorder.record(self.end_forces(&snapshot));
             }
+            observe(self, snapshot);
         }
         self.remember(passage.id(), memory);
 
@@ -211,10 +226,33 @@ impl Sweeper {
         let solved = self.solve(whole.stretch, &snapshot, tolerance, &mut recorder)?;
         self.commit(solved, &snapshot, passage);
         for node in 0..=last {
-            state.displacement[node] = self.r[node] + snapshot.adherent[node + 1];
-            state.friction[node] = self.g[node] + snapshot.adhesion[node + 1];
+            state.displacement[node] = self.displacement(node, &snapshot);
+            state.friction[node] = self.friction(node, &snapshot);
         }
+        recorder.dissipated = self.dissipated;
         Ok(recorder)
+    }
+
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    pub fn stiffness(&self) -> f64 {
+        self.chain.stiffness
+    }
+
+    pub fn limit(&self) -> f64 {
+        self.chain.limit
+    }
+
+    /// Displacement u of a node \[m\].
+    pub fn displacement(&self, node: usize, snapshot: &Snapshot<'_>) -> f64 {
+        self.r[node] + snapshot.adherent[node + 1]
+    }
+
+    /// Friction f on a node \[N/m\].
+    pub fn friction(&self, node: usize, snapshot: &Snapshot<'_>) -> f64 {
+        self.g[node] + snapshot.adhesion[node + 1]
     }
 
     /// Takes the state into the adherent frame of the vehicle's first position. The cable does not move by this.
@@ -230,30 +268,39 @@ impl Sweeper {
             let forcing = support.forcing(snapshot, self.chain.stiffness, last);
             self.support_load[support.node] = support.load(forcing);
             self.supports[index].solved = forcing;
+            self.supports[index].followed = forcing.adherent;
         }
     }
 
     /// Brings the supports' loads up to date where the vehicle's effect on them has changed, or everywhere if `all`.
     fn update_supports(&mut self, snapshot: &Snapshot<'_>, all: bool) {
         let last = self.mesh.elements();
-        let length = self.mesh.spacing().max(self.cable.screening_length());
-        let threshold = SUPPORT_CHANGE * self.chain.limit * length;
+        // A support is solved again when the vehicle's force on it has changed as much as a window's edge may.
+        let threshold = NEGLIGIBLE * self.chain.limit * self.mesh.spacing();
         for index in 0..self.supports.len() {
             let SupportWindow {
                 support,
                 solved,
                 grip,
+                followed,
                 ..
             } = &self.supports[index];
             let forcing = support.forcing(snapshot, self.chain.stiffness, last);
             let change = (forcing.cut - solved.cut).abs() + grip * (forcing.adherent - solved.adherent).abs();
             let due = all || change > threshold;
+            let (node, fixed, load) = (support.node, support.stiffness.is_none(), support.load(forcing));
+            if fixed {
+                // Its friction turns at slips far smaller than those that matter to its neighbours.
+                let slip = forcing.adherent - followed;
+                self.drag(node, slip, snapshot.adhesion[node + 1]);
+                self.supports[index].followed = forcing.adherent;
+            }
             if due {
-                let (node, load) = (support.node, support.load(forcing));
-                if support.stiffness.is_some() {
-                    self.support_load[node] = load;
+                if fixed {
+                    self.r[node] = -forcing.adherent;
+                    self.trial.r[node] = -forcing.adherent;
                 } else {
-                    self.hold(node, -forcing.adherent, snapshot.adhesion[node + 1]);
+                    self.support_load[node] = load;
                 }
                 self.supports[index].solved = forcing;
             }
@@ -261,9 +308,8 @@ impl Sweeper {
         }
     }
 
-    /// Moves a fixed node, in the adherent frame, to `r`; its friction follows its own slip.
-    fn hold(&mut self, node: usize, r: f64, adhesion: f64) {
-        let slip = self.r[node] - r;
+    /// Friction on a fixed node as the duct slips past it by `slip`.
+    fn drag(&mut self, node: usize, slip: f64, adhesion: f64) {
         let g = if self.chain.compliance > 0.0 {
             self.g[node] + slip / self.chain.compliance
         } else if slip == 0.0 {
@@ -271,12 +317,13 @@ impl Sweeper {
         } else {
             f64::INFINITY.copysign(slip)
         };
-        self.g[node] = g.clamp(
+        let g = g.clamp(
             self.chain.bound(Contact::Backward, adhesion),
             self.chain.bound(Contact::Forward, adhesion),
         );
-        self.r[node] = r;
-        self.trial.r[node] = r;
+        let elastic = self.chain.compliance * (g - self.g[node]);
+        self.dissipated += self.chain.tributary[node] * (g + adhesion) * (slip - elastic);
+        self.g[node] = g;
     }
 
     /// The travelling window of this step: the last one, extended to every node near the vehicle that must slip.
@@ -422,11 +469,17 @@ impl Sweeper {
             let Stretch { lo, hi } = stretch;
             if lo > self.free.lo && self.edge_disturbed(lo - 1) {
                 stretch.lo = lo.saturating_sub(growth).max(self.free.lo);
-                self.anchor_from(Stretch { lo: stretch.lo, hi: lo - 1 });
+                self.anchor_from(Stretch {
+                    lo: stretch.lo,
+                    hi: lo - 1,
+                });
             }
             if hi < self.free.hi && self.edge_disturbed(hi + 1) {
                 stretch.hi = (hi + growth).min(self.free.hi);
-                self.anchor_from(Stretch { lo: hi + 1, hi: stretch.hi });
+                self.anchor_from(Stretch {
+                    lo: hi + 1,
+                    hi: stretch.hi,
+                });
             }
             if stretch == (Stretch { lo, hi }) {
                 return Ok(stretch);
@@ -484,8 +537,7 @@ impl Sweeper {
         let Stretch { mut lo, mut hi } = solved;
         let quiet = |edge: usize, inner: usize| {
             let moved = (self.trial.r[inner] - self.r[inner]).abs();
-            self.chain.stiffness * moved
-                <= QUIET * NEGLIGIBLE * self.chain.limit * self.chain.tributary[edge]
+            self.chain.stiffness * moved <= QUIET * NEGLIGIBLE * self.chain.limit * self.chain.tributary[edge]
         };
         while lo < hi && quiet(lo, lo + 1) {
             lo += 1;
@@ -508,6 +560,12 @@ impl Sweeper {
     /// Makes the trial the state.
     fn commit(&mut self, stretch: Stretch, snapshot: &Snapshot<'_>, passage: &Passage) {
         let range = stretch.lo..=stretch.hi;
+        for i in range.clone() {
+            if self.trial.contact[i] != Contact::Stuck {
+                let slip = self.anchor[i] - self.trial.r[i] - self.chain.compliance * self.trial.g[i];
+                self.dissipated += self.chain.tributary[i] * self.chain.limit * slip.abs();
+            }
+        }
         self.r[range.clone()].copy_from_slice(&self.trial.r[range.clone()]);
         self.g[range.clone()].copy_from_slice(&self.trial.g[range.clone()]);
         self.by_node[range.clone()].copy_from_slice(&self.trial.contact[range.clone()]);
@@ -519,12 +577,12 @@ impl Sweeper {
     /// Force on each end \[N\] with the vehicle at the snapshot's position, compression positive.
     fn end_forces(&self, snapshot: &Snapshot<'_>) -> EndForces {
         let last = self.mesh.elements();
-        let u = |i: usize| self.r[i] + snapshot.adherent[i + 1];
+        let u = |i: usize| self.displacement(i, snapshot);
         let force = |node: usize, inner: usize, outward: f64, end: crate::End| match end {
             crate::End::Free => 0.0,
             crate::End::Spring(stiffness) => outward * stiffness * u(node),
             crate::End::Fixed => {
-                let friction = self.g[node] + snapshot.adhesion[node + 1];
+                let friction = self.friction(node, snapshot);
                 outward
                     * (self.chain.stiffness * (u(inner) - u(node)) + self.chain.tributary[node] * friction)
             }
