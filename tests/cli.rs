@@ -316,7 +316,7 @@ fn verify_measures_the_error_and_leaves_the_forces() {
         &format!("solver.node_spacing={}", half("node_spacing_m")),
         &format!("solver.vehicle_step={}", half("vehicle_step_m")),
     ]);
-    let difference = (last_force(&verified) / last_force(&finer) - 1.0).abs();
+    let difference = (last_force(&finer) / last_force(&verified) - 1.0).abs();
     assert!(
         difference <= measured * 1.0001,
         "{difference} where {measured} was measured"
