@@ -32,3 +32,8 @@ pub use analysis::result::{
 pub use analysis::run::{RunOptions, check, run, run_with};
 pub use error::Error;
 pub use scene::{Scene, SceneError};
+
+/// The README's example is a test too.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

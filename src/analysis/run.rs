@@ -62,7 +62,7 @@ pub fn run(scene: &Scene) -> Result<Run, Error> {
 pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
     check_method(scene)?;
     let ground = ground::choose(scene)?;
-    let motions = motion::motions(scene, &ground)?;
+    let motions = motion::motions(scene, &ground, motion::reach(scene))?;
     let mut warnings = Vec::new();
     let solved = solve(scene, &motions, options, &mut warnings)?;
     let passes = &solved.passes.outcomes;

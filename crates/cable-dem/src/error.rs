@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum CableError {
     /// A parameter is outside its range, or not a number.
-    #[error("{name} = {value}: must be {allowed}")]
+    #[error("{name} = {value:?}: must be {allowed}")]
     InvalidParameter {
         /// The parameter's name.
         name: &'static str,
@@ -36,7 +36,7 @@ pub enum CableError {
     },
     /// Rounding is too large beside the friction limit for the answer to mean anything.
     #[error(
-        "rounding of the elastic forces reaches {share:.1e} of the friction limit: axial stiffness {axial_stiffness} N at a node spacing of {spacing} m is too stiff for this friction"
+        "rounding of the elastic forces reaches {share:.1e} of the friction limit: axial stiffness {axial_stiffness:?} N at a node spacing of {spacing:?} m is too stiff for this friction"
     )]
     Precision {
         /// Rounding error as a share of the friction limit.

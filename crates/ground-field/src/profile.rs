@@ -18,10 +18,6 @@ const NODES: usize = 9;
 const CHECKS: [f64; 2] = [-0.939_692_620_785_908_4, 0.939_692_620_785_908_4];
 /// Bisections after which a cell counts as not smooth.
 const MAX_LEVEL: usize = 24;
-/// Beyond this many depths, or [`MIN_SAMPLED`], the profile continues as a power of the radius.
-const SAMPLED_DEPTHS: f64 = 40.0;
-/// Smallest radius up to which a far-reaching profile is sampled \[m\].
-const MIN_SAMPLED: f64 = 50.0;
 
 type Series = [f64; NODES];
 
@@ -70,7 +66,7 @@ impl RadialProfile {
     /// Samples `field` under a unit load (1 N) on a disc of `contact_radius` \[m\] at `depth` \[m\], for radii up to
     /// `reach` \[m\], to `accuracy` as a share of the largest |u_r| and |u_z| at that depth.
     ///
-    /// Far out (beyond 40 depths and 50 m) the profile continues by the power of the radius it has there.
+    /// Beyond `reach`, and at least two depths, the profile continues by the power of the radius it has there.
     ///
     /// # Errors
     ///
@@ -89,9 +85,7 @@ impl RadialProfile {
             (1e-13..=0.1).contains(&v)
         })?;
         let load = SurfaceLoad::new(1.0, contact_radius)?;
-        let end = reach
-            .max(2.0 * depth)
-            .min((SAMPLED_DEPTHS * depth).max(MIN_SAMPLED));
+        let end = reach.max(2.0 * depth);
         let mut sampler = Sampler {
             field,
             load,
