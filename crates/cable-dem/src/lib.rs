@@ -33,17 +33,23 @@
 //! ```
 
 mod cable;
+mod dynamic;
 mod error;
+mod explicit;
 mod friction;
 mod mesh;
 mod quasi_static;
 mod state;
 mod traffic;
+mod transient;
 
 pub use cable::{DuctedCable, End, Restraint};
+pub use dynamic::Dynamic;
 pub use error::CableError;
+pub use explicit::{Explicit, ExplicitOptions, StepLimit, StepLimits};
 pub use friction::{Friction, FrictionLaw};
 pub use mesh::Mesh;
 pub use quasi_static::{PassOutcome, Passage, QuasiStatic, Statistics};
 pub use state::{CableState, EndForces};
 pub use traffic::{Order, Traffic};
+pub use transient::{EnergyBalance, MovingDuct, SigmoidLeak, TransientOutcome, inertia_ratio};

@@ -1,0 +1,116 @@
+//! The longest time step of the explicit scheme.
+//!
+//! With the stiffness row sums Σ_j |K_ij| (Gershgorin) the highest elastic frequency is at most ω_e,
+//! ω_e² = max_i Σ_j |K_ij|/m_i, which is 4 EA/(m′h²) without springs. Linearised about stuck contact,
+//!
+//! | law | stuck node | stable while |
+//! |---|---|---|
+//! | elastic-plastic | ü + (ω_e² + q b/(2m′)) u = 0 | Δt² ω_e²/4 + Δt² q b/(8 m′) < 1 |
+//! | sigmoid | ü + (q b Δt/(2m′)) u̇ + ω_e² u = 0, drag lagging by half a step | Δt² ω_e²/4 + Δt² q b/(4 m′) < 1 |
+//! | Coulomb | friction found together with the velocity, by projection | Δt² ω_e²/4 < 1 |
+//!
+//! (roots of the central difference's characteristic polynomial at z = −1). Each left side is a sum of two terms: the
+//! *elastic limit* Δt_e = 2/ω_e and the *friction limit* Δt_f are the steps that each would bear alone, and together
+//!
+//! 1/Δt² = 1/Δt_e² + 1/Δt_f²,
+//!
+//! a little shorter than the smaller of both. For the sigmoid Δt_f is where Δt·q/(m′ v_b) = 2 with v_b = 2/(b Δt).
+
+use std::fmt;
+
+use crate::FrictionLaw;
+use crate::transient::Lumped;
+
+/// One limit of the time step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepLimit {
+    /// Longest stable step \[s\]; infinite where nothing limits it.
+    pub time_step: f64,
+    /// The formula it comes from.
+    pub formula: &'static str,
+}
+
+/// Limits of the explicit scheme's time step for one cable on one mesh.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepLimits {
+    /// From the cable's and its supports' springs.
+    pub elastic: StepLimit,
+    /// From the slope of the friction law.
+    pub friction: StepLimit,
+}
+
+impl StepLimits {
+    pub(super) fn new(lumped: &Lumped) -> Self {
+        let last = lumped.mesh.elements();
+        let row = |node: usize, spring: f64| {
+            let neighbours = if node == 0 || node == last { 2.0 } else { 4.0 };
+            (neighbours * lumped.stiffness + spring) / lumped.mass(node)
+        };
+        // The clamp's part of a fixed end's node does not matter, as that node does not move.
+        let fastest = lumped
+            .springs
+            .iter()
+            .filter(|(node, _)| !(lumped.fixed[0] && *node == 0 || lumped.fixed[1] && *node == last))
+            .fold(row(1, 0.0), |most, &(node, spring)| most.max(row(node, spring)));
+
+        let friction = lumped.cable.friction();
+        let per_mass = friction.limit() * friction.law().shape_factor() / lumped.mass_per_metre;
+        let friction = match friction.law() {
+            FrictionLaw::Coulomb => StepLimit {
+                time_step: f64::INFINITY,
+                formula: "none: Coulomb friction by projection",
+            },
+            FrictionLaw::ElasticPlastic { .. } => StepLimit {
+                time_step: (8.0 / per_mass).sqrt(),
+                formula: "√(8 m′/(q b))",
+            },
+            FrictionLaw::Sigmoid { .. } => StepLimit {
+                time_step: (4.0 / per_mass).sqrt(),
+                formula: "√(4 m′/(q b))",
+            },
+        };
+        Self {
+            elastic: StepLimit {
+                time_step: 2.0 / fastest.sqrt(),
+                formula: "2/√(max Σ|K_ij|/m_i)",
+            },
+            friction,
+        }
+    }
+
+    /// Longest stable step \[s\]: both limits together.
+    pub fn together(&self) -> f64 {
+        1.0 / (1.0 / self.elastic.time_step).hypot(1.0 / self.friction.time_step)
+    }
+
+    /// The smaller of both limits.
+    pub fn governing(&self) -> StepLimit {
+        if self.friction.time_step < self.elastic.time_step {
+            self.friction
+        } else {
+            self.elastic
+        }
+    }
+
+    /// How many times `time_step` \[s\] fits into both limits together; stable above 1.
+    pub fn margin(&self, time_step: f64) -> f64 {
+        self.together() / time_step
+    }
+}
+
+impl fmt::Display for StepLimits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let together = self.together();
+        write!(
+            f,
+            "elastic limit {} = {:.3e} s, friction limit {} = {:.3e} s, together {together:.3e} s; margins of a step at 0.9 \
+             of that: {:.2} and {:.2}",
+            self.elastic.formula,
+            self.elastic.time_step,
+            self.friction.formula,
+            self.friction.time_step,
+            self.elastic.time_step / (0.9 * together),
+            self.friction.time_step / (0.9 * together),
+        )
+    }
+}
