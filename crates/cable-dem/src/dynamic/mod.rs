@@ -18,6 +18,7 @@
 //! loses at rest comes with every outcome ([`SigmoidLeak`]).
 
 mod history;
+mod prediction;
 mod sigmoid;
 
 use crate::transient::{
@@ -25,6 +26,7 @@ use crate::transient::{
 };
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 use history::History;
+use prediction::Prediction;
 use sigmoid::SigmoidSolver;
 
 /// Dynamic implicit solver for one cable on one mesh.
@@ -32,6 +34,7 @@ use sigmoid::SigmoidSolver;
 pub struct Dynamic {
     lumped: Lumped,
     history: History,
+    prediction: Prediction,
     friction: Vec<f64>,
     before: Vec<f64>,
     duct: Vec<f64>,
@@ -59,6 +62,7 @@ impl Dynamic {
         let zeros = || vec![0.0; mesh.nodes()];
         Ok(Self {
             history: History::new(mesh.nodes()),
+            prediction: Prediction::default(),
             friction: zeros(),
             before: zeros(),
             duct: zeros(),
@@ -86,12 +90,7 @@ impl Dynamic {
 
     /// What a law without memory loses in a pass of `duct`; `None` for the others.
     pub fn leak(&self, duct: &MovingDuct) -> Option<SigmoidLeak> {
-        SigmoidLeak::new(
-            &self.lumped.cable,
-            self.time_step(duct),
-            duct.duration(),
-            duct.peak_velocity(),
-        )
+        SigmoidLeak::new(&self.lumped.cable, self.time_step(duct), duct)
     }
 
     fn steps(&self, duct: &MovingDuct) -> f64 {
@@ -106,7 +105,11 @@ impl Dynamic {
     /// [`CableError::StateMismatch`] for a state or a duct of another mesh, [`CableError::Precision`] where rounding would
     /// blur the answer, [`CableError::NoConvergence`] where a step found no solution,
     /// [`CableError::EnergyNotConserved`] where a pass created energy.
-    pub fn pass(&mut self, duct: &MovingDuct, state: &mut CableState) -> Result<TransientOutcome, CableError> {
+    pub fn pass(
+        &mut self,
+        duct: &MovingDuct,
+        state: &mut CableState,
+    ) -> Result<TransientOutcome, CableError> {
         state.check(&self.lumped.mesh)?;
         duct.check(&self.lumped.mesh)?;
         let time_step = self.time_step(duct);
@@ -150,7 +153,11 @@ impl Dynamic {
 
     /// Has a solver for this time step ready.
     fn prepare(&mut self, time_step: f64) {
-        if self.solver.as_ref().is_some_and(|(made_for, _)| *made_for == time_step) {
+        if self
+            .solver
+            .as_ref()
+            .is_some_and(|(made_for, _)| *made_for == time_step)
+        {
             return;
         }
         let inertia = 9.0 / (4.0 * time_step * time_step);
@@ -175,6 +182,7 @@ impl Dynamic {
         let largest = state.displacement.iter().fold(duct.peak(), |l, u| l.max(u.abs()));
         let tolerance = tolerance(&self.lumped, largest);
         self.history.start(&state.displacement);
+        self.prediction.start(&self.lumped.mesh, duct.direction(), steps);
         self.friction.copy_from_slice(&state.friction);
         self.duct.fill(0.0);
         duct.at(0.0, nodes).advance(&mut self.duct, &mut self.increment);
@@ -182,12 +190,14 @@ impl Dynamic {
         let stored = self.lumped.stored_energy(&state.friction);
         let mut energy = EnergyBalance {
             initial: elastic + stored,
+            reference: self.lumped.reference_work(duct.peak()),
             ..EnergyBalance::default()
         };
         for step in 1..=steps {
             let t = time_step * step as f64;
             duct.at(t, nodes).advance(&mut self.duct, &mut self.increment);
             self.before.copy_from_slice(&self.friction);
+            self.prediction.advance();
             self.step(time_step, tolerance, record)
                 .map_err(|violation| CableError::NoConvergence {
                     vehicle_position: duct.vehicle_position(t),
@@ -213,6 +223,7 @@ impl Dynamic {
         let Self {
             lumped,
             history,
+            prediction,
             solver,
             friction,
             increment,
@@ -226,7 +237,10 @@ impl Dynamic {
             Solver::Memory(solver) => {
                 solver.load_elastic(lumped, &history.displacement);
                 history.load_inertia(lumped, time_step, &mut solver.load);
-                solver.solve(lumped, tolerance, increment, friction, statistics)?
+                prediction.read(solver.contacts());
+                solver.solve(lumped, tolerance, increment, friction, statistics)?;
+                prediction.write(solver.contacts());
+                solver.increments()
             }
             Solver::Sigmoid(solver) => {
                 solver.inner.load_elastic(lumped, &history.displacement);
@@ -248,10 +262,14 @@ impl Dynamic {
         } else {
             (0.0, 0.0)
         };
-        let (f, before, duct, moved) = (&self.friction, &self.before, &self.increment, &self.history.increment);
+        let (f, before, duct, moved) = (
+            &self.friction,
+            &self.before,
+            &self.increment,
+            &self.history.increment,
+        );
         let acting = |i: usize| (1.0 - share) * f[i] + share * before[i];
-        let heat =
-            |i: usize| acting(i) * (duct[i] - moved[i] - compliance * (f[i] - before[i]));
+        let heat = |i: usize| acting(i) * (duct[i] - moved[i] - compliance * (f[i] - before[i]));
         let nodes = f.len();
         energy.duct_work += self.lumped.weighted(nodes, |i| acting(i) * duct[i]);
         energy.dissipated += self.lumped.weighted(nodes, heat);

@@ -80,11 +80,11 @@ impl SigmoidSolver {
         let mut outcome = self.newton(lumped, tolerance, duct, NEWTON_STEPS[0], statistics);
         if outcome.is_err() {
             self.clamped.fill(0.0);
-            if let Ok(start) = self
+            let start = self
                 .inner
-                .solve(lumped, tolerance, duct, &mut self.clamped, statistics)
-            {
-                self.r.copy_from_slice(start);
+                .solve(lumped, tolerance, duct, &mut self.clamped, statistics);
+            if start.is_ok() {
+                self.r.copy_from_slice(self.inner.increments());
             }
             outcome = self.newton(lumped, tolerance, duct, NEWTON_STEPS[1], statistics);
         }
@@ -119,8 +119,7 @@ impl SigmoidSolver {
             statistics.sweeps += 1;
             statistics.node_updates += nodes;
             let descent: f64 = (0..nodes).map(|i| self.residual[i] * self.direction[i]).sum();
-            // Written so that NaN ends the search.
-            if !(descent < 0.0) {
+            if descent >= 0.0 || descent.is_nan() {
                 break;
             }
             let mut share = 1.0;
@@ -140,7 +139,11 @@ impl SigmoidSolver {
         if worst <= tolerance.friction {
             Ok(())
         } else {
-            Err(if worst.is_nan() { f64::INFINITY } else { worst / self.limit })
+            Err(if worst.is_nan() {
+                f64::INFINITY
+            } else {
+                worst / self.limit
+            })
         }
     }
 
@@ -150,11 +153,18 @@ impl SigmoidSolver {
         let last = nodes - 1;
         let k = lumped.stiffness;
         for i in 0..nodes {
-            let d = if share == 0.0 { 0.0 } else { share * self.direction[i] };
+            let d = if share == 0.0 {
+                0.0
+            } else {
+                share * self.direction[i]
+            };
             self.tried[i] = self.r[i] + d;
         }
-        let mut result = Evaluation { worst: 0.0, along: 0.0 };
-        for i in 0..nodes {
+        let mut result = Evaluation {
+            worst: 0.0,
+            along: 0.0,
+        };
+        for (i, &moved) in duct.iter().enumerate() {
             if (i == 0 && lumped.fixed[0]) || (i == last && lumped.fixed[1]) {
                 self.residual[i] = 0.0;
                 self.slope[i] = 0.0;
@@ -164,16 +174,18 @@ impl SigmoidSolver {
             let left = if i > 0 { self.tried[i - 1] } else { 0.0 };
             let right = if i < last { self.tried[i + 1] } else { 0.0 };
             let w = lumped.mesh.tributary_length(i);
-            let tanh = (self.half_shape * (duct[i] - r)).tanh();
+            let tanh = (self.half_shape * (moved - r)).tanh();
             let residual =
                 self.diagonal[i] * r - k * (left + right) - self.inner.load[i] - w * self.limit * tanh;
             self.residual[i] = residual;
             self.slope[i] = w * self.limit * self.half_shape * (1.0 - tanh * tanh);
             let violation = residual.abs() / w;
-            // Written so that NaN counts as a violation.
-            if !(violation <= result.worst) {
-                result.worst = if violation.is_nan() { f64::INFINITY } else { violation };
-            }
+            // What is not a number is a violation too.
+            result.worst = result.worst.max(if violation.is_nan() {
+                f64::INFINITY
+            } else {
+                violation
+            });
             result.along += residual * self.direction[i];
         }
         result

@@ -26,6 +26,8 @@ pub(super) struct Lanes {
     pub duct: Vec<f64>,
     /// ΔD of the current step.
     pub increment: Vec<f64>,
+    /// ΔD of the step before.
+    earlier: Vec<f64>,
     /// Slip of the current step.
     slip: Vec<f64>,
     /// Plastic slip of the step before.
@@ -46,6 +48,7 @@ impl Lanes {
             before: zeros(),
             duct: zeros(),
             increment: zeros(),
+            earlier: zeros(),
             slip: zeros(),
             plastic: zeros(),
             heat: zeros(),
@@ -63,6 +66,7 @@ impl Lanes {
             &mut self.gross,
             &mut self.work,
             &mut self.duct,
+            &mut self.earlier,
         ] {
             lane.fill(0.0);
         }
@@ -86,7 +90,13 @@ impl Lanes {
             self.velocity[node] -= time_step * spring / lumped.mass(node) * self.displacement[node + 1];
         }
         std::mem::swap(&mut self.friction, &mut self.before);
-        rub(&mut self.velocity, &mut self.friction, &self.before, &self.increment, law);
+        rub(
+            &mut self.velocity,
+            &mut self.friction,
+            &self.before,
+            &self.increment,
+            law,
+        );
         self.hold_ends(lumped);
         advance(
             &mut self.displacement[1..=n],
@@ -95,15 +105,13 @@ impl Lanes {
             &mut self.slip,
             time_step,
         );
-        account_heat::<L>(
-            &mut self.heat,
-            &mut self.gross,
-            &mut self.plastic,
-            &self.slip,
-            (&self.before, &self.friction),
-            compliance,
-        );
-        account_work::<L>(&mut self.work, &self.increment, &self.before, &self.friction);
+        let acting = if L::LAGS { &self.before } else { &self.friction };
+        account_work(&mut self.work, acting, &self.earlier, &self.increment);
+        // Slip minus its elastic part is plastic.
+        unload(&mut self.slip, &self.before, &self.friction, compliance);
+        account_heat(&mut self.heat, &mut self.gross, acting, &self.plastic, &self.slip);
+        std::mem::swap(&mut self.plastic, &mut self.slip);
+        std::mem::swap(&mut self.earlier, &mut self.increment);
     }
 
     /// Fixed ends do not move; their friction follows their own slip.
@@ -152,6 +160,7 @@ impl Lanes {
             returned: 0.5 * (sum(&self.gross) - dissipated),
             peak_kinetic,
             initial: elastic + stored,
+            reference: 0.0,
         }
     }
 }
@@ -186,43 +195,35 @@ fn advance(u: &mut [f64], v: &[f64], increment: &[f64], slip: &mut [f64], time_s
     }
 }
 
-/// Heat f Δp. Friction that lags acts around the instant between two steps: on half the plastic slip of each.
+/// slip ← slip − γ Δf.
 #[inline]
-fn account_heat<L: ContactLaw>(
-    heat: &mut [f64],
-    gross: &mut [f64],
-    plastic: &mut [f64],
-    slip: &[f64],
-    friction: (&[f64], &[f64]),
-    compliance: f64,
-) {
-    let n = heat.len();
-    let (gross, plastic, slip) = (&mut gross[..n], &mut plastic[..n], &slip[..n]);
-    let (before, after) = (&friction.0[..n], &friction.1[..n]);
+fn unload(slip: &mut [f64], before: &[f64], after: &[f64], compliance: f64) {
+    let n = slip.len();
+    let (before, after) = (&before[..n], &after[..n]);
     for i in 0..n {
-        let p = slip[i] - compliance * (after[i] - before[i]);
-        let q = if L::LAGS {
-            0.5 * before[i] * (plastic[i] + p)
-        } else {
-            after[i] * p
-        };
-        heat[i] += q;
-        gross[i] += q.abs();
-        plastic[i] = p;
+        slip[i] -= compliance * (after[i] - before[i]);
     }
 }
 
-/// Work f ΔD.
+/// Heat f Δp. Friction acts from one half step to the next: on half the slip of either step.
 #[inline]
-fn account_work<L: ContactLaw>(work: &mut [f64], increment: &[f64], before: &[f64], after: &[f64]) {
-    let n = work.len();
-    let (increment, before, after) = (&increment[..n], &before[..n], &after[..n]);
+fn account_heat(heat: &mut [f64], gross: &mut [f64], friction: &[f64], earlier: &[f64], now: &[f64]) {
+    let n = heat.len();
+    let (gross, friction) = (&mut gross[..n], &friction[..n]);
+    let (earlier, now) = (&earlier[..n], &now[..n]);
     for i in 0..n {
-        let f = if L::LAGS {
-            0.5 * (before[i] + after[i])
-        } else {
-            after[i]
-        };
-        work[i] += f * increment[i];
+        let q = 0.5 * friction[i] * (earlier[i] + now[i]);
+        heat[i] += q;
+        gross[i] += q.abs();
+    }
+}
+
+/// Work f ΔD, with the same halves.
+#[inline]
+fn account_work(work: &mut [f64], friction: &[f64], earlier: &[f64], now: &[f64]) {
+    let n = work.len();
+    let (friction, earlier, now) = (&friction[..n], &earlier[..n], &now[..n]);
+    for i in 0..n {
+        work[i] += 0.5 * friction[i] * (earlier[i] + now[i]);
     }
 }

@@ -59,7 +59,12 @@ impl ContactLaw for ElasticPlastic {
 
     #[inline]
     fn step(self, velocity: f64, duct: f64, friction: f64) -> (f64, f64) {
-        let Constants { limit, time_step, per_mass, factor } = self.0;
+        let Constants {
+            limit,
+            time_step,
+            per_mass,
+            factor,
+        } = self.0;
         let velocity = velocity + per_mass * friction;
         let trial = friction + factor * (duct - time_step * velocity);
         (velocity, trial.max(-limit).min(limit))
@@ -71,7 +76,12 @@ impl ContactLaw for Sigmoid {
 
     #[inline]
     fn step(self, velocity: f64, duct: f64, friction: f64) -> (f64, f64) {
-        let Constants { limit, time_step, per_mass, factor } = self.0;
+        let Constants {
+            limit,
+            time_step,
+            per_mass,
+            factor,
+        } = self.0;
         let velocity = velocity + per_mass * friction;
         (velocity, limit * tanh(factor * (duct - time_step * velocity)))
     }
@@ -82,7 +92,12 @@ impl ContactLaw for Coulomb {
 
     #[inline]
     fn step(self, velocity: f64, duct: f64, _: f64) -> (f64, f64) {
-        let Constants { limit, per_mass, factor, .. } = self.0;
+        let Constants {
+            limit,
+            per_mass,
+            factor,
+            ..
+        } = self.0;
         let stopping = (duct * factor - velocity) / per_mass;
         let friction = stopping.max(-limit).min(limit);
         (velocity + per_mass * friction, friction)

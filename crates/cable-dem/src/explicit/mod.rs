@@ -23,20 +23,20 @@ mod tanh;
 pub use limits::{StepLimit, StepLimits};
 
 use crate::error::checked;
-use crate::transient::{Lumped, MovingDuct, Record, Settler, SigmoidLeak, TransientOutcome, tolerance};
+use crate::transient::{
+    EnergyBalance, Lumped, MovingDuct, Record, Settler, SigmoidLeak, TransientOutcome, tolerance,
+};
 use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh};
 use lanes::Lanes;
 use law::{Constants, ContactLaw, Coulomb, ElasticPlastic, Sigmoid};
 
-/// The default step as a share of its limit.
-const SHARE_OF_LIMIT: f64 = 0.9;
 /// Steps between two looks at the kinetic energy.
 const LOOK: usize = 32;
 
 /// How the explicit solver steps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ExplicitOptions {
-    /// Time step \[s\]; by default 0.9 of its limit, and short enough for the vehicle to advance no more than the mesh's
+    /// Time step \[s\]; by default [`StepLimits::advised`], and short enough for the vehicle to advance no more than the mesh's
     /// vehicle step.
     pub time_step: Option<f64>,
     /// Whether a step beyond the limit is refused. Without the limit the energy balance still is watched: that is what
@@ -83,11 +83,16 @@ impl Explicit {
     ) -> Result<Self, CableError> {
         let lumped = Lumped::new(cable, mesh, mass_per_metre)?;
         let limits = StepLimits::new(&lumped);
-        checked("max_node_updates", options.max_node_updates, "finite and positive", |v| v > 0.0)?;
+        checked(
+            "max_node_updates",
+            options.max_node_updates,
+            "finite and positive",
+            |v| v > 0.0,
+        )?;
         if let Some(time_step) = options.time_step {
             checked("time_step", time_step, "finite and positive", |v| v > 0.0)?;
-            // Written so that NaN counts as beyond the limit.
-            if options.check_limits && !(limits.margin(time_step) >= 1.0) {
+            let margin = limits.margin(time_step);
+            if options.check_limits && (margin < 1.0 || margin.is_nan()) {
                 return Err(CableError::UnstableStep {
                     time_step,
                     limit: limits.together(),
@@ -126,18 +131,15 @@ impl Explicit {
 
     /// What a law without memory loses in a pass of `duct`; `None` for the others.
     pub fn leak(&self, duct: &MovingDuct) -> Option<SigmoidLeak> {
-        SigmoidLeak::new(
-            &self.lumped.cable,
-            self.time_step(duct),
-            duct.duration(),
-            duct.peak_velocity(),
-        )
+        SigmoidLeak::new(&self.lumped.cable, self.time_step(duct), duct)
     }
 
     fn steps(&self, duct: &MovingDuct) -> f64 {
         let advance = self.lumped.mesh.vehicle_step() / duct.speed();
-        let longest = (SHARE_OF_LIMIT * self.limits.together()).min(advance);
-        (duct.duration() / self.options.time_step.unwrap_or(longest)).ceil().max(1.0)
+        let longest = self.limits.advised().min(advance);
+        (duct.duration() / self.options.time_step.unwrap_or(longest))
+            .ceil()
+            .max(1.0)
     }
 
     /// Lets one vehicle pass and carries `state` on. When it fails, `state` is as it was.
@@ -148,7 +150,11 @@ impl Explicit {
     /// blur the answer, [`CableError::TooManySteps`] where the pass would take more work than allowed,
     /// [`CableError::EnergyNotConserved`] where the energy balance shows that the step was too long,
     /// [`CableError::NoConvergence`] where the cable found no rest.
-    pub fn pass(&mut self, duct: &MovingDuct, state: &mut CableState) -> Result<TransientOutcome, CableError> {
+    pub fn pass(
+        &mut self,
+        duct: &MovingDuct,
+        state: &mut CableState,
+    ) -> Result<TransientOutcome, CableError> {
         state.check(&self.lumped.mesh)?;
         duct.check(&self.lumped.mesh)?;
         let steps = self.steps(duct);
@@ -171,7 +177,11 @@ impl Explicit {
                 allowed: self.options.max_node_updates,
             });
         }
-        let constants = Constants::new(self.lumped.cable.friction(), self.lumped.mass_per_metre, time_step);
+        let constants = Constants::new(
+            self.lumped.cable.friction(),
+            self.lumped.mass_per_metre,
+            time_step,
+        );
         match self.lumped.cable.friction().law() {
             FrictionLaw::Coulomb => self.run(duct, state, Coulomb(constants), steps as usize),
             FrictionLaw::ElasticPlastic { .. } => {
@@ -217,8 +227,11 @@ impl Explicit {
                 peak_kinetic = peak_kinetic.max(kinetic);
             }
         }
-        let energy = lanes.energy(lumped, state, peak_kinetic);
-        energy.check(L::LAGS)?;
+        let energy = EnergyBalance {
+            reference: lumped.reference_work(duct.peak()),
+            ..lanes.energy(lumped, state, peak_kinetic)
+        };
+        energy.check(true)?;
 
         record.statistics.steps = steps;
         record.statistics.node_updates = steps * nodes;

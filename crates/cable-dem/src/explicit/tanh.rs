@@ -45,7 +45,10 @@ mod tests {
         while x < 1e3 {
             for x in [x, -x] {
                 let (found, expected) = (super::tanh(x), x.tanh());
-                assert!((found - expected).abs() <= 6e-16 * expected.abs(), "{x}: {found} {expected}");
+                assert!(
+                    (found - expected).abs() <= 6e-16 * expected.abs(),
+                    "{x}: {found} {expected}"
+                );
             }
             x *= 1.003;
         }

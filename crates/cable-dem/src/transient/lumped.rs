@@ -28,7 +28,9 @@ pub(crate) struct Lumped {
 
 impl Lumped {
     pub fn new(cable: DuctedCable, mesh: Mesh, mass_per_metre: f64) -> Result<Self, CableError> {
-        checked("mass_per_metre", mass_per_metre, "finite and positive", |v| v > 0.0)?;
+        checked("mass_per_metre", mass_per_metre, "finite and positive", |v| {
+            v > 0.0
+        })?;
         let length = mesh.spacing() * mesh.elements() as f64;
         checked("mesh length", length, "the cable's length", |v| {
             (v / cable.length() - 1.0).abs() < 1e-9
@@ -73,6 +75,11 @@ impl Lumped {
             return 0.0;
         }
         0.5 * friction.compliance() * self.weighted(f.len(), |i| f[i] * f[i])
+    }
+
+    /// q·D·L \[J\]: work of friction at its limit over a displacement `peak` of the duct.
+    pub fn reference_work(&self, peak: f64) -> f64 {
+        self.cable.friction().limit() * self.cable.length() * peak
     }
 
     /// Σ w_i value(i).

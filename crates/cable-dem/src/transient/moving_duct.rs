@@ -128,8 +128,7 @@ impl MovingDuct {
         for &value in &values {
             checked("duct displacement", value, "finite", |_| true)?;
         }
-        let slope =
-            |j: usize| (8.0 * (values[j + 3] - values[j + 1]) - (values[j + 4] - values[j])) / 12.0;
+        let slope = |j: usize| (8.0 * (values[j + 3] - values[j + 1]) - (values[j + 4] - values[j])) / 12.0;
         let steepest = (0..phases * per_row).fold(0.0_f64, |most, j| most.max(slope(j).abs())) / step;
         let rows = (0..phases)
             .map(|p| {
@@ -177,6 +176,16 @@ impl MovingDuct {
     /// Largest velocity of the duct along itself \[m/s\].
     pub fn peak_velocity(&self) -> f64 {
         self.steepest * self.speed
+    }
+
+    /// Length \[m\] over which the duct's displacement changes: its largest value over its steepest slope. 0 for a duct at
+    /// rest.
+    pub fn natural_length(&self) -> f64 {
+        if self.steepest > 0.0 {
+            self.peak / self.steepest
+        } else {
+            0.0
+        }
     }
 
     /// Whether this duct was tabulated for `mesh`.

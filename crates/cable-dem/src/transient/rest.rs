@@ -26,7 +26,6 @@ pub(crate) struct StepSolver {
     chain: Chain,
     free: Stretch,
     elimination: Elimination,
-    /// Contact states before the current step, for the second attempt.
     trial: Trial,
     anchor: Vec<f64>,
     adhesion: Vec<f64>,
@@ -86,7 +85,7 @@ impl StepSolver {
     }
 
     /// Solves one step: from friction `f`, with duct increments `duct` and the loads set before. `f` becomes the new
-    /// friction; the increments are returned. On failure, the largest violation as a share of the friction limit.
+    /// friction, [`Self::increments`] the answer. On failure, the largest violation as a share of the friction limit.
     pub fn solve(
         &mut self,
         lumped: &Lumped,
@@ -94,7 +93,7 @@ impl StepSolver {
         duct: &[f64],
         f: &mut [f64],
         statistics: &mut Statistics,
-    ) -> Result<&[f64], f64> {
+    ) -> Result<(), f64> {
         let compliance = self.chain.compliance;
         for i in 0..f.len() {
             self.anchor[i] = duct[i] + if compliance > 0.0 { compliance * f[i] } else { 0.0 };
@@ -136,7 +135,17 @@ impl StepSolver {
                 f[node] = friction.after_slip(f[node], duct[node]);
             }
         }
-        Ok(&self.trial.r)
+        Ok(())
+    }
+
+    /// Increments r of the last step \[m\].
+    pub fn increments(&self) -> &[f64] {
+        &self.trial.r
+    }
+
+    /// Contact states: those of the last step, or a prediction of the next.
+    pub fn contacts(&mut self) -> &mut [Contact] {
+        &mut self.trial.contact
     }
 
     /// Sets the loads to the elastic forces that displacements `u` put on the nodes, −(K + S) u \[N\].
@@ -179,14 +188,13 @@ impl Settler {
         statistics: &mut Statistics,
     ) -> Result<(), CableError> {
         self.solver.load_elastic(lumped, &state.displacement);
-        let r = self
-            .solver
+        self.solver
             .solve(lumped, tolerance, &self.still, &mut state.friction, statistics)
             .map_err(|violation| CableError::NoConvergence {
                 vehicle_position,
                 violation,
             })?;
-        for (u, r) in state.displacement.iter_mut().zip(r) {
+        for (u, r) in state.displacement.iter_mut().zip(self.solver.increments()) {
             *u += r;
         }
         Ok(())
