@@ -1,3 +1,33 @@
-//! Creepage of power cables in underground ducts under traffic.
+//! Creepage of power cables in underground ducts under traffic (cable surf-riding, ケーブル波乗り現象).
+//!
+//! The ground bends under each vehicle, the duct moves some ten micrometres back and forth, friction drags the cable a little
+//! further forward than back, and after thousands of passes hundreds of newtons press on a joint. A [`Scene`] says
+//! what lies where and who drives above it; [`run`] computes the force after every pass:
+//!
+//! ```
+//! use creepage::Scene;
+//!
+//! let text = std::fs::read_to_string("examples/scenes/full-scale-upper.toml")?;
+//! let mut scene = Scene::from_toml("full-scale-upper.toml", &text)?;
+//! scene.traffic.passes = 5;
+//! let run = creepage::run(&scene)?;
+//! let force = run.passes[4].downstream_force_n;
+//! assert!((force / 223.3 - 1.0).abs() < 0.01, "{force} N");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `cable-dem` (the cable).
 
+mod analysis;
+#[cfg(feature = "cli")]
+pub mod cli;
+mod error;
 pub mod scene;
+
+pub use analysis::profile::{Profile, profile, profile_at};
+pub use analysis::result::{
+    Cost, DuctMotionSummary, ErrorEstimate, PassRecord, PlanSummary, Run, Saturation,
+};
+pub use analysis::run::{RunOptions, check, run, run_with};
+pub use error::Error;
+pub use scene::{Scene, SceneError};

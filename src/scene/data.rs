@@ -142,6 +142,8 @@ pub struct Solver {
     pub vehicle_step: Option<f64>,
     /// Time step of the explicit method \[s\], positive.
     pub time_step: Option<f64>,
+    /// How far beyond the duct's ends vehicles come from and leave to \[m\], positive.
+    pub approach: Option<f64>,
 }
 
 /// How the passes are computed.

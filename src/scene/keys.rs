@@ -44,7 +44,14 @@ pub(super) const WHEEL: &[&str] = &["x", "y", "load", "contact_radius"];
 /// `[traffic]`
 pub(super) const TRAFFIC: &[&str] = &["passes", "order", "seed", "sequence"];
 /// `[solver]`
-pub(super) const SOLVER: &[&str] = &["method", "tolerance", "node_spacing", "vehicle_step", "time_step"];
+pub(super) const SOLVER: &[&str] = &[
+    "method",
+    "tolerance",
+    "node_spacing",
+    "vehicle_step",
+    "time_step",
+    "approach",
+];
 
 /// Sections and their keys, to find where a misplaced key belongs.
 pub(super) const SECTIONS: &[(&str, &[&str])] = &[

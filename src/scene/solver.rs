@@ -22,6 +22,7 @@ impl Default for Solver {
             node_spacing: None,
             vehicle_step: None,
             time_step: None,
+            approach: None,
         }
     }
 }
@@ -47,11 +48,13 @@ pub(super) fn solver(root: &Table, duct: &Duct) -> Result<Solver, SceneError> {
         table.refuse("time_step", "method", allowed)?;
         time_step = None;
     }
+    let approach = table.optional_quantity("approach", Dimension::Length, POSITIVE, "\"15 m\"")?;
     Ok(Solver {
         method,
         tolerance: tolerance.unwrap_or(DEFAULT_TOLERANCE),
         node_spacing,
         vehicle_step,
         time_step,
+        approach,
     })
 }

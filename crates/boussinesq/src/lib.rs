@@ -26,6 +26,10 @@
     reason = "u_r and k_c in the text are formulas, not code"
 )]
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;
+
 mod disc;
 mod elliptic;
 mod half_space;

@@ -18,13 +18,15 @@ const MODEL: &str = "odemark";
 /// Seen from layer k, the layers above it act like a thickness of layer k's own soil that bends alike:
 ///
 /// ```text
-/// h_e,k = Σ_{i<k} f_i h_i [ E_i (1−ν_k²) / (E_k (1−ν_i²)) ]^{1/3},   f_i = 0.8 + 0.2 √min(ρ_i, 1/ρ_i)
+/// h_e,k = Σ_{i<k} f_i h_i max(1, ρ_i)^{1/3},   ρ_i = E_i (1−ν_k²) / (E_k (1−ν_i²)),   f_i = 0.8 + 0.2 √min(ρ_i, 1/ρ_i)
 /// ```
 ///
-/// with ρ_i the bracket (N. Odemark, *Undersökning av elasticitetsegenskaperna hos olika jordarter*, Statens Väginstitut,
-/// Meddelande 77, Stockholm 1949; P. Ullidtz, *Pavement Analysis*, 1987, with f = 0.8 to 1). A factor f below 1 is
+/// (N. Odemark, *Undersökning av elasticitetsegenskaperna hos olika jordarter*, Statens Väginstitut, Meddelande 77,
+/// Stockholm 1949; P. Ullidtz, *Pavement Analysis*, 1987, with f = 0.8 to 1.) A factor f below 1 is
 /// what plate theory asks for: Hogg's stiff plate on a half-space settles as if f were
 /// 3√3/(2π) 48^{−1/3} (3−2ν_k)/(1−ν_k) = 0.80 to 0.91 for ν_k from 0.35 to 0.5. It must be 1 where the moduli are equal.
+/// A layer softer than layer k (ρ < 1) is not thinned further, as the cube root would have it: on stiff ground the
+/// load spreads as far as the soft layer lets it.
 ///
 /// # Vertical displacement
 ///
@@ -79,12 +81,28 @@ const MODEL: &str = "odemark";
 /// Largest difference from the exact layered solution, as a share of the component's peak at that depth, for
 /// distances to 20 m; moduli in MPa from the surface down, thicknesses in m:
 ///
-/// TABLE
+/// | moduli (ν), thicknesses, base | u_r | u_z |
+/// |---|---|---|
+/// | 4000 (0.35), 800 (0.35) on 800 (0.40); 0.05, 0.05 | 3 % | 2 % |
+/// | 3000 (0.30), 200 (0.35) on 40 (0.40); 0.15, 0.60 | 19 % | 4 % |
+/// | 5000 (0.35), 200 (0.40) on 50 (0.45); 0.26, 0.50 | 21 % | 7 % |
+/// | 6000 (0.35), 3000 (0.35), 400 (0.30), 120 (0.35) on 45 (0.40); 0.04, 0.12, 0.20, 0.60 | 11 % | 3 % |
+/// | 30000 (0.20), 300 (0.35) on 3 (0.45); 0.20, 0.30 | 21 % | 9 % |
+/// | 200 (0.35), 80 (0.35) on 20 (0.40); 5, 5 | 13 % | 2 % |
+/// | 100 (0.35) on rock; 6 | 7 % | 6 % |
+/// | 4000 (0.35), 800 (0.35), 800 (0.40) on rock; 0.05, 0.05, 5.90 | 9 % | 5 % |
 ///
 /// At depths of 0.6 to 2.0 m the vertical displacement is right within 10 % and the horizontal one within 25 % of their
-/// peaks on all of these; near the surface, and near an interface or the rock, u_r is worse (up to 40 %). The two
-/// numbers 1.25 and the form of f were chosen on these same systems, so a system unlike them may do worse. They all
-/// have moduli that fall with depth, or rock below: soft ground over much stiffer ground is not among them.
+/// peaks on all of these; near the surface, and near an interface or the rock, u_r is worse (up to 40 %). The form of f and the
+/// number 1.25 were chosen on these same systems. On random ones instead (120 of each kind, one to three layers of 0.05 to
+/// 0.55 m, moduli that change by a factor of 1 to 10 from layer to layer, disc of 0.15 m, the same depths):
+///
+/// | moduli with depth | u_r median, 90 %, worst | u_z median, 90 %, worst |
+/// |---|---|---|
+/// | falling, one layer | 4 %, 15 %, 25 % | 2 %, 3 %, 5 % |
+/// | falling | 15 %, 29 %, 37 % | 3 %, 6 %, 8 % |
+/// | rising | 15 %, 38 %, 46 % | 7 %, 13 %, 16 % |
+/// | up and down | 15 %, 41 %, 82 % | 5 %, 12 %, 26 % |
 ///
 /// # Limits
 ///

@@ -65,11 +65,11 @@ fn system(name: &str) -> Odemark {
 /// The table in the documentation of [`Odemark`]: largest error of u_r and u_z as a share of the peak at that depth.
 const STATED: [(&str, f64, f64); 8] = [
     ("asphalt_on_soil", 0.03, 0.02),
-    ("three_layers", 0.12, 0.04),
-    ("pavement", 0.15, 0.07),
-    ("road", 0.12, 0.03),
+    ("three_layers", 0.19, 0.04),
+    ("pavement", 0.21, 0.07),
+    ("road", 0.11, 0.03),
     ("contrast_1e4", 0.21, 0.09),
-    ("thick_layers", 0.06, 0.02),
+    ("thick_layers", 0.13, 0.02),
     ("soil_on_rock", 0.07, 0.06),
     ("asphalt_on_rock", 0.09, 0.05),
 ];
@@ -113,7 +113,6 @@ fn error_is_as_stated() {
             worst[0] = worst[0].max((value.radial - row[4]).abs() / peak(4));
             worst[1] = worst[1].max((value.vertical - row[5]).abs() / peak(5));
         }
-        eprintln!("{name} {worst:?}");
         assert!(
             worst[0] <= radial_bound,
             "{name}: u_r off by {:.3} of the peak",
@@ -123,6 +122,42 @@ fn error_is_as_stated() {
             worst[1] <= vertical_bound,
             "{name}: u_z off by {:.3} of the peak",
             worst[1]
+        );
+    }
+}
+
+/// A system that had no part in choosing the model's numbers: the settlement on the axis printed for the program KENPAVE
+/// in the validation of the project PyMastic. Thicknesses 6 and 10 in on a half-space, 500, 40 and 10 ksi, ν = 0.35,
+/// 0.40 and 0.45, 100 psi on a radius of 5.99 in.
+#[test]
+fn settlement_printed_for_kenpave() {
+    const INCH: f64 = 0.0254;
+    const PSI: f64 = 6894.757;
+    let ground = model(
+        &[
+            (6.0 * INCH, soil(500e3 * PSI, 0.35)),
+            (10.0 * INCH, soil(40e3 * PSI, 0.40)),
+        ],
+        Base::HalfSpace(soil(10e3 * PSI, 0.45)),
+    );
+    let radius = 5.99 * INCH;
+    let load =
+        SurfaceLoad::new(100.0 * PSI * std::f64::consts::PI * radius * radius, radius).expect("a valid load");
+    for (depth, printed) in [
+        (1.0, 0.02247),
+        (6.0, 0.02186),
+        (10.0, 0.01991),
+        (16.0, 0.01774),
+        (28.0, 0.0131),
+    ] {
+        let value = ground
+            .displacement(load, 0.0, depth * INCH)
+            .expect("a regular point")
+            .vertical
+            / INCH;
+        assert!(
+            (value / printed - 1.0).abs() < 0.1,
+            "depth {depth} in: {value} for {printed}"
         );
     }
 }
@@ -174,6 +209,28 @@ fn rigid_base() {
         .displacement(load, 0.8, 5.3 - 1e-9)
         .expect("a regular point");
     assert!(near.vertical.abs() < 1e-8 * whole.vertical && near.radial.abs() < 1e-8 * whole.vertical);
+}
+
+/// Ground a million times stiffer than the layers on it is rock.
+#[test]
+fn very_stiff_ground_is_rock() {
+    let layers = [(0.3, soil(200e6, 0.3)), (3.0, soil(60e6, 0.4))];
+    let rock = model(&layers, Base::Rigid);
+    let stiff = model(&layers, Base::HalfSpace(soil(60e12, 0.3)));
+    for contact in [0.0, 0.15] {
+        let load = SurfaceLoad::new(1e5, contact).expect("a valid load");
+        for z in [0.2, 1.0, 2.5] {
+            for r in [0.1, 0.8, 3.0] {
+                let exact = rock.displacement(load, r, z).expect("a regular point");
+                let difference = stiff.displacement(load, r, z).expect("a regular point") - exact;
+                let size = rock.displacement(load, 0.1, z).expect("a regular point").vertical;
+                assert!(
+                    difference.vertical.abs().max(difference.radial.abs()) < 1e-4 * size,
+                    "r {r}, z {z}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

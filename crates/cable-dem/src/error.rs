@@ -46,6 +46,9 @@ pub enum CableError {
         /// Node spacing \[m\].
         spacing: f64,
     },
+    /// The passage was computed for another cable or mesh.
+    #[error("the passage was computed for another mesh, axial stiffness or friction than the solver's")]
+    PassageMismatch,
     /// The state belongs to another mesh.
     #[error("the state has {found} nodes where the mesh has {expected}")]
     StateMismatch {

@@ -51,7 +51,7 @@ pub use error::CableError;
 pub use explicit::{Explicit, ExplicitOptions, StepLimit, StepLimits};
 pub use friction::{Friction, FrictionLaw};
 pub use mesh::Mesh;
-pub use quasi_static::{PassOutcome, Passage, QuasiStatic, Statistics};
+pub use quasi_static::{PassOutcome, Passage, QuasiStatic, SlipLengths, Statistics, StepView};
 pub use state::{CableState, EndForces};
 pub use traffic::{Order, Traffic};
 pub use transient::{EnergyBalance, MovingDuct, SigmoidLeak, TransientOutcome, inertia_ratio};

@@ -85,6 +85,13 @@ impl Mesh {
         }
     }
 
+    /// The node before `position` \[m\], and how far on to the next it lies, as a share of the spacing.
+    pub(crate) fn place(&self, position: f64) -> (usize, f64) {
+        let place = (position / self.spacing).clamp(0.0, self.elements as f64);
+        let left = (place.floor() as usize).min(self.elements - 1);
+        (left, place - left as f64)
+    }
+
     /// Distance between the points of the lattice on which both nodes and vehicle positions lie \[m\].
     pub(crate) fn lattice_step(&self) -> f64 {
         self.spacing / self.steps_per_spacing as f64

@@ -4,6 +4,7 @@ use crate::{CableError, DuctedCable, End, Mesh};
 
 /// The cable at rest: displacement and friction of every node, with no vehicle near.
 #[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct CableState {
     /// Displacement u \[m\], positive toward growing x.
     pub(crate) displacement: Vec<f64>,
@@ -54,6 +55,20 @@ impl CableState {
             End::Fixed => stiffness * (u[n - 1] - u[n]) + mesh.tributary_length(n) * f[n],
         };
         EndForces { upstream, downstream }
+    }
+
+    /// Force \[N\] of the cable on each of its clamps, positive toward growing x, in the order of
+    /// [`DuctedCable::restraints`].
+    pub fn restraint_forces(&self, cable: &DuctedCable, mesh: &Mesh) -> Vec<f64> {
+        cable
+            .restraints()
+            .iter()
+            .map(|restraint| {
+                let (left, share) = mesh.place(restraint.position);
+                let u = (1.0 - share) * self.displacement[left] + share * self.displacement[left + 1];
+                restraint.stiffness * u
+            })
+            .collect()
     }
 
     pub(crate) fn check(&self, mesh: &Mesh) -> Result<(), CableError> {

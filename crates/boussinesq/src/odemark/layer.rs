@@ -46,7 +46,8 @@ impl Layer {
             let ratio = plane_modulus(upper) / plane_modulus(soil);
             let contrast = ratio.min(1.0 / ratio);
             let factor = LARGE_CONTRAST + (1.0 - LARGE_CONTRAST) * contrast.sqrt();
-            equivalent += factor * height * ratio.cbrt();
+            // A softer layer spreads the load over its own thickness, however stiff what lies below.
+            equivalent += factor * height * ratio.max(1.0).cbrt();
             let stiffer = (ratio - 1.0).max(0.0) * height;
             excess += stiffer;
             moment += stiffer * (top + 0.5 * height);

@@ -9,11 +9,14 @@
 mod active_set;
 mod chain;
 mod exact;
+mod memory;
 mod passage;
 mod support;
+mod view;
 mod window;
 
 pub use passage::Passage;
+pub use view::{SlipLengths, StepView};
 
 // The solvers with inertia take the same step on the whole cable.
 pub(crate) use active_set::{Elimination, Outcome};
@@ -54,6 +57,8 @@ pub struct PassOutcome {
     pub upstream_displacement: f64,
     /// Displacement at x = length after the pass \[m\].
     pub downstream_displacement: f64,
+    /// Work that slip has turned into heat \[J\].
+    pub dissipated: f64,
     /// What the pass cost.
     pub statistics: Statistics,
 }
@@ -130,10 +135,28 @@ impl QuasiStatic {
     ///
     /// # Errors
     ///
-    /// [`CableError::StateMismatch`] for a state of another mesh, [`CableError::Precision`] where rounding would blur
+    /// [`CableError::StateMismatch`] for a state of another mesh, [`CableError::PassageMismatch`] for a passage computed for
+    /// another mesh, axial stiffness or friction, [`CableError::Precision`] where rounding would blur
     /// the answer, [`CableError::NoConvergence`] where a step found no equilibrium.
     pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<PassOutcome, CableError> {
+        self.pass_observed(passage, state, |_| {})
+    }
+
+    /// As [`QuasiStatic::pass`]; `observe` looks at the cable at every vehicle position.
+    ///
+    /// # Errors
+    ///
+    /// As for [`QuasiStatic::pass`].
+    pub fn pass_observed(
+        &mut self,
+        passage: &Passage,
+        state: &mut CableState,
+        mut observe: impl FnMut(StepView<'_>),
+    ) -> Result<PassOutcome, CableError> {
         state.check(&self.mesh)?;
+        if !passage.fits(&self.cable, &self.mesh) {
+            return Err(CableError::PassageMismatch);
+        }
         if self.cable.friction().limit() == 0.0 {
             // Nothing drags the cable.
             return Ok(self.outcome(state, Recorder::new(state.end_forces(&self.cable, &self.mesh))));
@@ -150,7 +173,13 @@ impl QuasiStatic {
         if mirrored {
             after.mirror();
         }
-        let mut recorder = sweeper.pass(passage, &mut after)?;
+        let mut recorder = sweeper.pass(passage, &mut after, |sweeper, snapshot| {
+            observe(StepView {
+                sweeper,
+                snapshot,
+                mirrored,
+            });
+        })?;
         if mirrored {
             after.mirror();
             recorder.mirror();
@@ -173,6 +202,7 @@ impl QuasiStatic {
             max_compression,
             upstream_displacement: state.displacement()[0],
             downstream_displacement: state.displacement()[self.mesh.elements()],
+            dissipated: recorder.dissipated,
             statistics: recorder.statistics,
         }
     }
@@ -201,6 +231,7 @@ impl QuasiStatic {
 struct Recorder {
     peak: EndForces,
     lowest: EndForces,
+    dissipated: f64,
     statistics: Statistics,
 }
 
@@ -209,6 +240,7 @@ impl Recorder {
         Self {
             peak: start,
             lowest: start,
+            dissipated: 0.0,
             statistics: Statistics::default(),
         }
     }

@@ -13,20 +13,27 @@
 //! and at ends and clamps. Where g stays within them nothing changes: r and g are the cable's state, and only the
 //! zone where the travelling shift presses g against a bound has to be solved.
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use ground_field::{Direction, DuctMotion};
 
 use super::window::NEGLIGIBLE;
 use crate::error::checked;
-use crate::{CableError, DuctedCable, Mesh};
+use crate::{CableError, DuctedCable, Friction, Mesh};
 
-/// Vehicle positions outside the duct are this share of their distance to it apart.
-const APPROACH_GROWTH: f64 = 0.05;
+static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 
 /// Adherent motion and adhesion of one vehicle on the lattice of one mesh.
 ///
 /// Depends on the cable, the mesh and the vehicle, not on the cable's state: computed once, used for every pass.
 #[derive(Debug, Clone)]
 pub struct Passage {
+    /// Tells passages apart, so that a solver can remember the last pass of each.
+    id: u64,
+    /// What it was computed for.
+    mesh: Mesh,
+    axial_stiffness: f64,
+    friction: Friction,
     direction: Direction,
     /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s.
     phases: Vec<Phase>,
@@ -59,7 +66,8 @@ pub(super) struct Snapshot<'a> {
 impl Passage {
     /// The passage of a vehicle whose duct motion is `motion` over `cable`, meshed by `mesh`.
     ///
-    /// Its outermost wheels come from and leave to `approach` \[m\] beyond the duct's ends. What the duct does while the
+    /// Its origin comes from and leaves to `approach` \[m\] beyond the duct's ends, far enough for the field of every
+    /// wheel to be past its turning points there. What the duct does while the
     /// vehicle is farther away is left out: an endless elastic half-space has a tail ∝ 1/ξ there that real ground, over
     /// rock at some depth, has not.
     ///
@@ -84,7 +92,7 @@ impl Passage {
             mesh,
             direction,
             |xi| sign * motion.longitudinal(sign * xi),
-            motion.half_length() + approach,
+            approach,
         )
     }
 
@@ -94,7 +102,7 @@ impl Passage {
     ///
     /// # Errors
     ///
-    /// As for [`Passage::new`].
+    /// As for [`Passage::new`], and [`CableError::InvalidParameter`] where `shape` is not finite.
     pub fn from_shape(
         cable: &DuctedCable,
         mesh: &Mesh,
@@ -116,18 +124,21 @@ impl Passage {
         let count = ((behind + ahead) / m) as usize;
         let compliance = cable.friction().compliance();
         let stiffness = cable.axial_stiffness() / mesh.spacing();
-        let phases: Vec<Phase> = (0..m)
+        let phases = (0..m)
             .map(|phase| {
-                let duct: Vec<f64> = (0..count)
-                    .map(|c| shape(step * (phase - behind + m * c as i64) as f64))
-                    .collect();
-                Phase::new(
+                let duct = (0..count)
+                    .map(|c| {
+                        let displacement = shape(step * (phase - behind + m * c as i64) as f64);
+                        checked("displacement of the duct", displacement, "finite", |_| true)
+                    })
+                    .collect::<Result<Vec<f64>, _>>()?;
+                Ok(Phase::new(
                     &duct,
                     compliance * stiffness / mesh.spacing(),
                     stiffness / mesh.spacing(),
-                )
+                ))
             })
-            .collect();
+            .collect::<Result<Vec<Phase>, CableError>>()?;
 
         let peak = phases
             .iter()
@@ -142,6 +153,10 @@ impl Passage {
             .max()
             .unwrap_or(0);
         Ok(Self {
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            mesh: *mesh,
+            axial_stiffness: cable.axial_stiffness(),
+            friction: cable.friction(),
             direction,
             phases,
             behind: behind as usize,
@@ -149,6 +164,17 @@ impl Passage {
             reach,
             peak,
         })
+    }
+
+    /// Whether it was computed for a cable of the same stiffness and friction on the same mesh.
+    pub(super) fn fits(&self, cable: &DuctedCable, mesh: &Mesh) -> bool {
+        self.mesh == *mesh
+            && self.axial_stiffness == cable.axial_stiffness()
+            && self.friction == cable.friction()
+    }
+
+    pub(super) fn id(&self) -> u64 {
+        self.id
     }
 
     /// Which way the vehicle drives.
@@ -227,25 +253,11 @@ impl Phase {
     }
 }
 
-/// Vehicle positions from `far` before the duct to `far` past it: even steps over it, growing steps outside.
-fn schedule(mesh: &Mesh, far: f64) -> Vec<i64> {
-    let step = mesh.lattice_step();
+/// Vehicle positions, a step apart, from `approach` before the duct to `approach` past it.
+fn schedule(mesh: &Mesh, approach: f64) -> Vec<i64> {
     let stride = mesh.stride() as i64;
-    let far = (far / step).ceil() as i64;
+    let steps = (approach / mesh.vehicle_step()).ceil() as i64;
     let end = (mesh.elements() * mesh.phases()) as i64;
-    let mut outside = vec![0];
-    let mut distance = 0_i64;
-    while distance < far {
-        let advance = (APPROACH_GROWTH * distance as f64) as i64 / stride * stride;
-        distance += advance.max(stride);
-        outside.push(distance);
-    }
-    let mut positions: Vec<i64> = outside.iter().rev().map(|d| -d).collect();
-    let mut position = stride;
-    while position < end {
-        positions.push(position);
-        position += stride;
-    }
-    positions.extend(outside.iter().map(|d| end + d));
-    positions
+    let last = (end + stride - 1) / stride + steps;
+    (-steps..=last).map(|step| step * stride).collect()
 }

@@ -36,9 +36,7 @@ impl Support {
             },
         ];
         for restraint in cable.restraints() {
-            let place = (restraint.position / mesh.spacing()).min(last as f64);
-            let left = (place.floor() as usize).min(last - 1);
-            let share = place - left as f64;
+            let (left, share) = mesh.place(restraint.position);
             for (node, stiffness) in [
                 (left, (1.0 - share) * restraint.stiffness),
                 (left + 1, share * restraint.stiffness),

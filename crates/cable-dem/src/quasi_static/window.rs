@@ -2,6 +2,7 @@
 
 use super::active_set::{Elimination, Outcome};
 use super::chain::{Chain, Contact, Load, Stretch, Tolerance, Trial};
+use super::memory::PassMemory;
 use super::passage::{Passage, Snapshot};
 use super::support::{Forcing, Support};
 use super::{Recorder, exact};
@@ -12,13 +13,15 @@ use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 pub(crate) const NEGLIGIBLE: f64 = 1e-3;
 /// A window's edge is quiet when the force its last move put on the next node is below this share of [`NEGLIGIBLE`].
 const QUIET: f64 = 0.25;
-/// A support is solved again when the vehicle's force on it has changed by this share of the friction on one element
-/// (or one screening length, if longer).
-const SUPPORT_CHANGE: f64 = 0.02;
 /// Accuracy of friction and equilibrium inside the windows, as a share of the friction limit.
 const FRICTION_ACCURACY: f64 = 1e-6;
 /// Accuracy of slip, as a share of the largest displacement.
 const SLIP_ACCURACY: f64 = 1e-7;
+/// Softnesses γ k/h through which a step is led that does not converge from its first guess: from the first down to the
+/// real one, or to the last, which is as good as rigid.
+const SOFTEST: f64 = 100.0;
+const HARDEST: f64 = 1e-6;
+const SOFTENING: f64 = 0.1;
 /// Most nodes that a disturbed window grows by at once on each side.
 const MAX_GROWTH: usize = 256;
 
@@ -33,6 +36,9 @@ pub(super) struct Sweeper {
     cable: DuctedCable,
     mesh: Mesh,
     chain: Chain,
+    /// The same chain with a softer sheath.
+    softened: Chain,
+    soft_anchor: Vec<f64>,
     supports: Vec<SupportWindow>,
     /// Unknown nodes: all but fixed ends.
     free: Stretch,
@@ -49,6 +55,11 @@ pub(super) struct Sweeper {
     /// Contact states in the vehicle's frame, as last solved: the next node to stand there will most likely share them.
     by_xi: Vec<Contact>,
     windows: Vec<Window>,
+    /// Work turned into heat by slip in this pass so far \[J\].
+    dissipated: f64,
+    /// The last pass of each passage, and the one that is being written.
+    memories: Vec<(u64, PassMemory)>,
+    writing: PassMemory,
 }
 
 /// A support, the window around it, and the forcing for which it was last solved.
@@ -59,7 +70,9 @@ struct SupportWindow {
     solved: Forcing,
     /// Whether the forcing has changed since.
     due: bool,
-    /// Force that a held displacement would take, per displacement \[N/m\].
+    /// Adherent displacement up to which a fixed node's own friction has followed \[m\].
+    followed: f64,
+    /// Force on the cable per displacement of the duct \[N/m\].
     grip: f64,
 }
 
@@ -67,8 +80,8 @@ struct SupportWindow {
 #[derive(Debug, Clone, Copy)]
 struct Window {
     stretch: Stretch,
-    /// Whether it travels with the vehicle, and which of its nodes do.
-    travelling: Option<Stretch>,
+    /// Whether it travels with the vehicle.
+    travels: bool,
 }
 
 impl Sweeper {
@@ -102,8 +115,10 @@ impl Sweeper {
         };
         let screening = compliance * stiffness / mesh.spacing();
         let margin = fading_nodes(screening).min(MAX_GROWTH);
-        // Over one screening length, and at least one element, a held node drags the cable along.
+        // Over one screening length, and at least one element, a held node drags the cable along; where the sheath is
+        // stiffer than that, what holds the node works against the sheath.
         let held_stiffness = stiffness / screening.sqrt().max(1.0);
+        let sheath_stiffness = stiffness / screening.max(screening.sqrt());
         let supports = supports
             .into_iter()
             .map(|support| SupportWindow {
@@ -113,15 +128,18 @@ impl Sweeper {
                 },
                 solved: Forcing::default(),
                 due: false,
+                followed: 0.0,
                 grip: support
                     .stiffness
-                    .map_or(held_stiffness, |s| s * held_stiffness / (s + held_stiffness)),
+                    .map_or(held_stiffness, |s| 1.0 / (1.0 / s + 1.0 / sheath_stiffness)),
                 support,
             })
             .collect();
         Self {
             cable: cable.clone(),
             mesh: *mesh,
+            softened: chain.clone(),
+            soft_anchor: vec![0.0; nodes],
             chain,
             supports,
             free,
@@ -139,15 +157,24 @@ impl Sweeper {
             by_node: vec![Contact::Stuck; nodes],
             by_xi: Vec::new(),
             windows: Vec::new(),
+            dissipated: 0.0,
+            memories: Vec::new(),
+            writing: PassMemory::default(),
         }
     }
 
-    /// Drives the vehicle over the cable in `state`, which is changed only on success.
-    pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<Recorder, CableError> {
+    /// Drives the vehicle over the cable in `state`, which is changed only on success; `observe` sees every step.
+    pub fn pass(
+        &mut self,
+        passage: &Passage,
+        state: &mut CableState,
+        mut observe: impl FnMut(&Self, Snapshot<'_>),
+    ) -> Result<Recorder, CableError> {
         let last = self.mesh.elements();
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
         self.support_load.fill(0.0);
+        self.dissipated = 0.0;
         self.by_node.fill(Contact::Stuck);
         self.by_xi.resize(passage.lattice_len(), Contact::Stuck);
         let largest = self
@@ -162,50 +189,80 @@ impl Sweeper {
         };
 
         let mut recorder = Recorder::new(state.end_forces(&self.cable, &self.mesh));
+        let memory = self.recall(passage.id());
         let mut travelling: Option<Stretch> = None;
         let (&arrival, onward) = passage
             .positions()
             .split_first()
             .expect("a passage has positions");
         self.arrive(&passage.snapshot(arrival, last + 1));
-        for &position in onward {
+        for (step, &position) in onward.iter().enumerate() {
             let snapshot = passage.snapshot(position, last + 1);
             recorder.statistics.steps += 1;
             self.update_supports(&snapshot, false);
             travelling = self.disturbed(&snapshot, passage.reach(), travelling);
-            self.collect_windows(travelling);
+            let remembered = memory.recall(step);
+            self.collect_windows(travelling, remembered.map(|(window, _)| window));
             let mut next = None;
             for index in 0..self.windows.len() {
                 let window = self.windows[index];
-                let solved = self.solve(window, &snapshot, passage, tolerance, &mut recorder)?;
-                if window.travelling.is_some() {
+                self.predict(window, &snapshot, passage, remembered);
+                let solved = self.solve(window.stretch, &snapshot, tolerance, &mut recorder)?;
+                if window.travels {
                     next = self.shrink(solved);
                 }
                 recorder.statistics.widest_window =
                     recorder.statistics.widest_window.max(solved.hi - solved.lo + 1);
                 self.commit(solved, &snapshot, passage);
             }
+            self.writing.push(next, &self.trial.contact);
             travelling = next;
             if self.ends_touched() {
                 recorder.record(self.end_forces(&snapshot));
             }
+            observe(self, snapshot);
         }
+        self.remember(passage.id(), memory);
 
         // Once more, the whole cable: what the windows left out of account is settled here.
         let &departure = passage.positions().last().expect("a passage has positions");
         let snapshot = passage.snapshot(departure, last + 1);
         self.update_supports(&snapshot, true);
-        let window = Window {
+        let whole = Window {
             stretch: self.free,
-            travelling: None,
+            travels: false,
         };
-        let solved = self.solve(window, &snapshot, passage, tolerance, &mut recorder)?;
+        self.predict(whole, &snapshot, passage, None);
+        let solved = self.solve(whole.stretch, &snapshot, tolerance, &mut recorder)?;
         self.commit(solved, &snapshot, passage);
         for node in 0..=last {
-            state.displacement[node] = self.r[node] + snapshot.adherent[node + 1];
-            state.friction[node] = self.g[node] + snapshot.adhesion[node + 1];
+            state.displacement[node] = self.displacement(node, &snapshot);
+            state.friction[node] = self.friction(node, &snapshot);
         }
+        recorder.dissipated = self.dissipated;
         Ok(recorder)
+    }
+
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    pub fn stiffness(&self) -> f64 {
+        self.chain.stiffness
+    }
+
+    pub fn limit(&self) -> f64 {
+        self.chain.limit
+    }
+
+    /// Displacement u of a node \[m\].
+    pub fn displacement(&self, node: usize, snapshot: &Snapshot<'_>) -> f64 {
+        self.r[node] + snapshot.adherent[node + 1]
+    }
+
+    /// Friction f on a node \[N/m\].
+    pub fn friction(&self, node: usize, snapshot: &Snapshot<'_>) -> f64 {
+        self.g[node] + snapshot.adhesion[node + 1]
     }
 
     /// Takes the state into the adherent frame of the vehicle's first position. The cable does not move by this.
@@ -221,30 +278,39 @@ impl Sweeper {
             let forcing = support.forcing(snapshot, self.chain.stiffness, last);
             self.support_load[support.node] = support.load(forcing);
             self.supports[index].solved = forcing;
+            self.supports[index].followed = forcing.adherent;
         }
     }
 
     /// Brings the supports' loads up to date where the vehicle's effect on them has changed, or everywhere if `all`.
     fn update_supports(&mut self, snapshot: &Snapshot<'_>, all: bool) {
         let last = self.mesh.elements();
-        let length = self.mesh.spacing().max(self.cable.screening_length());
-        let threshold = SUPPORT_CHANGE * self.chain.limit * length;
+        // A support is solved again when the vehicle's force on it has changed as much as a window's edge may.
+        let threshold = NEGLIGIBLE * self.chain.limit * self.mesh.spacing();
         for index in 0..self.supports.len() {
             let SupportWindow {
                 support,
                 solved,
                 grip,
+                followed,
                 ..
             } = &self.supports[index];
             let forcing = support.forcing(snapshot, self.chain.stiffness, last);
             let change = (forcing.cut - solved.cut).abs() + grip * (forcing.adherent - solved.adherent).abs();
             let due = all || change > threshold;
+            let (node, fixed, load) = (support.node, support.stiffness.is_none(), support.load(forcing));
+            if fixed {
+                // Its friction turns at slips far smaller than those that matter to its neighbours.
+                let slip = forcing.adherent - followed;
+                self.drag(node, slip, snapshot.adhesion[node + 1]);
+                self.supports[index].followed = forcing.adherent;
+            }
             if due {
-                let (node, load) = (support.node, support.load(forcing));
-                if support.stiffness.is_some() {
-                    self.support_load[node] = load;
+                if fixed {
+                    self.r[node] = -forcing.adherent;
+                    self.trial.r[node] = -forcing.adherent;
                 } else {
-                    self.hold(node, -forcing.adherent, snapshot.adhesion[node + 1]);
+                    self.support_load[node] = load;
                 }
                 self.supports[index].solved = forcing;
             }
@@ -252,9 +318,8 @@ impl Sweeper {
         }
     }
 
-    /// Moves a fixed node, in the adherent frame, to `r`; its friction follows its own slip.
-    fn hold(&mut self, node: usize, r: f64, adhesion: f64) {
-        let slip = self.r[node] - r;
+    /// Friction on a fixed node as the duct slips past it by `slip`.
+    fn drag(&mut self, node: usize, slip: f64, adhesion: f64) {
         let g = if self.chain.compliance > 0.0 {
             self.g[node] + slip / self.chain.compliance
         } else if slip == 0.0 {
@@ -262,12 +327,13 @@ impl Sweeper {
         } else {
             f64::INFINITY.copysign(slip)
         };
-        self.g[node] = g.clamp(
+        let g = g.clamp(
             self.chain.bound(Contact::Backward, adhesion),
             self.chain.bound(Contact::Forward, adhesion),
         );
-        self.r[node] = r;
-        self.trial.r[node] = r;
+        let elastic = self.chain.compliance * (g - self.g[node]);
+        self.dissipated += self.chain.tributary[node] * (g + adhesion) * (slip - elastic);
+        self.g[node] = g;
     }
 
     /// The travelling window of this step: the last one, extended to every node near the vehicle that must slip.
@@ -304,12 +370,38 @@ impl Sweeper {
         }
     }
 
-    /// Lists this step's windows, from left to right; those that touch become one.
-    fn collect_windows(&mut self, travelling: Option<Stretch>) {
+    /// Takes out the memory of a passage's last pass; empty for its first.
+    fn recall(&mut self, id: u64) -> PassMemory {
+        self.writing.clear();
+        match self.memories.iter_mut().find(|(known, _)| *known == id) {
+            Some((_, memory)) => std::mem::take(memory),
+            None => PassMemory::default(),
+        }
+    }
+
+    /// Puts the pass just written in its place; `old` becomes the storage of the next one.
+    fn remember(&mut self, id: u64, old: PassMemory) {
+        let written = std::mem::replace(&mut self.writing, old);
+        match self.memories.iter_mut().find(|(known, _)| *known == id) {
+            Some((_, memory)) => *memory = written,
+            None => self.memories.push((id, written)),
+        }
+    }
+
+    /// Lists this step's windows, from left to right; those that touch become one. The travelling window is at least as
+    /// wide as it was in the last pass, which spares it growing again.
+    fn collect_windows(&mut self, travelling: Option<Stretch>, remembered: Option<Stretch>) {
         self.windows.clear();
+        let travelling = match (travelling, remembered) {
+            (Some(a), Some(b)) if a.lo <= b.hi && b.lo <= a.hi => Some(Stretch {
+                lo: a.lo.min(b.lo),
+                hi: a.hi.max(b.hi),
+            }),
+            (travelling, _) => travelling,
+        };
         self.windows.extend(travelling.map(|stretch| Window {
             stretch,
-            travelling: Some(stretch),
+            travels: true,
         }));
         self.windows.extend(
             self.supports
@@ -317,7 +409,7 @@ impl Sweeper {
                 .filter(|support| support.due)
                 .map(|support| Window {
                     stretch: support.stretch,
-                    travelling: None,
+                    travels: false,
                 }),
         );
         self.windows.sort_by_key(|window| window.stretch.lo);
@@ -327,7 +419,7 @@ impl Sweeper {
             let window = &mut self.windows[merged];
             if next.stretch.lo <= window.stretch.hi + 2 {
                 window.stretch.hi = window.stretch.hi.max(next.stretch.hi);
-                window.travelling = window.travelling.or(next.travelling);
+                window.travels |= next.travels;
             } else {
                 merged += 1;
                 self.windows[merged] = next;
@@ -336,73 +428,73 @@ impl Sweeper {
         self.windows.truncate(merged + 1);
     }
 
-    /// Solves one window, growing it until its edges are quiet. The answer is in the trial until it is committed.
-    fn solve(
+    /// Sets anchors and guesses the contact states of a window's nodes: those of the last pass at this vehicle position,
+    /// in the first pass those that a node had where this one now stands relative to the vehicle, and elsewhere those
+    /// that the node itself had.
+    fn predict(
         &mut self,
         window: Window,
         snapshot: &Snapshot<'_>,
         passage: &Passage,
-        tolerance: Tolerance,
-        recorder: &mut Recorder,
-    ) -> Result<Stretch, CableError> {
-        let mut stretch = window.stretch;
-        let mut growth = self.margin;
-        self.prepare(stretch, window.travelling, snapshot, passage);
-        loop {
-            recorder.statistics.windows += 1;
-            self.settle(stretch, snapshot, tolerance, recorder)?;
-            let left = stretch.lo > self.free.lo && self.edge_disturbed(stretch.lo - 1);
-            let right = stretch.hi < self.free.hi && self.edge_disturbed(stretch.hi + 1);
-            if !left && !right {
-                return Ok(stretch);
+        remembered: Option<(Stretch, &[Contact])>,
+    ) {
+        let Stretch { lo, hi } = window.stretch;
+        self.anchor_from(window.stretch);
+        if !window.travels {
+            return;
+        }
+        match remembered {
+            Some((known, contacts)) if lo <= known.lo && known.hi <= hi => {
+                self.trial.contact[known.lo..=known.hi].copy_from_slice(contacts);
             }
-            let grown = Stretch {
-                lo: if left {
-                    stretch.lo.saturating_sub(growth).max(self.free.lo)
-                } else {
-                    stretch.lo
-                },
-                hi: if right {
-                    (stretch.hi + growth).min(self.free.hi)
-                } else {
-                    stretch.hi
-                },
-            };
-            if grown.lo < stretch.lo {
-                let new = Stretch {
-                    lo: grown.lo,
-                    hi: stretch.lo - 1,
-                };
-                self.prepare(new, None, snapshot, passage);
+            _ => {
+                for i in lo..=hi {
+                    self.trial.contact[i] = self.by_xi[passage.lattice_index(snapshot.position, i)];
+                }
             }
-            if grown.hi > stretch.hi {
-                let new = Stretch {
-                    lo: stretch.hi + 1,
-                    hi: grown.hi,
-                };
-                self.prepare(new, None, snapshot, passage);
-            }
-            stretch = grown;
-            growth = (2 * growth).min(MAX_GROWTH);
         }
     }
 
-    /// Anchors and predicted contact states of the nodes in `stretch`.
-    fn prepare(
-        &mut self,
-        stretch: Stretch,
-        travelling: Option<Stretch>,
-        snapshot: &Snapshot<'_>,
-        passage: &Passage,
-    ) {
+    /// Anchors and last contact states of the nodes in `stretch`.
+    fn anchor_from(&mut self, stretch: Stretch) {
         for i in stretch.lo..=stretch.hi {
             self.anchor[i] = self.r[i] + self.chain.compliance * self.g[i];
-            let travels = travelling.is_some_and(|window| (window.lo..=window.hi).contains(&i));
-            self.trial.contact[i] = if travels {
-                self.by_xi[passage.lattice_index(snapshot.position, i)]
-            } else {
-                self.by_node[i]
-            };
+        }
+        let range = stretch.lo..=stretch.hi;
+        self.trial.contact[range.clone()].copy_from_slice(&self.by_node[range]);
+    }
+
+    /// Solves a stretch, growing it until its edges are quiet. The answer is in the trial until it is committed.
+    fn solve(
+        &mut self,
+        mut stretch: Stretch,
+        snapshot: &Snapshot<'_>,
+        tolerance: Tolerance,
+        recorder: &mut Recorder,
+    ) -> Result<Stretch, CableError> {
+        let mut growth = self.margin;
+        loop {
+            recorder.statistics.windows += 1;
+            self.settle(stretch, snapshot, tolerance, recorder)?;
+            let Stretch { lo, hi } = stretch;
+            if lo > self.free.lo && self.edge_disturbed(lo - 1) {
+                stretch.lo = lo.saturating_sub(growth).max(self.free.lo);
+                self.anchor_from(Stretch {
+                    lo: stretch.lo,
+                    hi: lo - 1,
+                });
+            }
+            if hi < self.free.hi && self.edge_disturbed(hi + 1) {
+                stretch.hi = (hi + growth).min(self.free.hi);
+                self.anchor_from(Stretch {
+                    lo: hi + 1,
+                    hi: stretch.hi,
+                });
+            }
+            if stretch == (Stretch { lo, hi }) {
+                return Ok(stretch);
+            }
+            growth = (2 * growth).min(MAX_GROWTH);
         }
     }
 
@@ -420,20 +512,38 @@ impl Sweeper {
             support: &self.support_load,
             anchor: &self.anchor,
         };
-        let mut attempt = |trial: &mut Trial| {
-            let (outcome, sweeps) = self
-                .elimination
-                .iterate(&self.chain, &load, stretch, tolerance, trial);
+        let mut attempt = |chain: &Chain, load: &Load<'_>, trial: &mut Trial| {
+            let (outcome, sweeps) = self.elimination.iterate(chain, load, stretch, tolerance, trial);
             recorder.statistics.sweeps += sweeps;
             recorder.statistics.node_updates += sweeps * (stretch.hi - stretch.lo + 1);
             outcome
         };
-        if attempt(&mut self.trial) == Outcome::Solved {
+        if attempt(&self.chain, &load, &mut self.trial) == Outcome::Solved {
+            return Ok(());
+        }
+        // A softer sheath has a smoother energy: its contact states lead to those of the real one.
+        let mut softness = SOFTEST;
+        let real = self.chain.compliance * self.chain.stiffness / self.mesh.spacing();
+        self.trial.contact[stretch.lo..=stretch.hi].fill(Contact::Stuck);
+        while softness > real.max(HARDEST) {
+            self.softened
+                .soften(softness * self.mesh.spacing() / self.chain.stiffness);
+            for i in stretch.lo..=stretch.hi {
+                self.soft_anchor[i] = self.r[i] + self.softened.compliance * self.g[i];
+            }
+            let soft_load = Load {
+                anchor: &self.soft_anchor,
+                ..load
+            };
+            attempt(&self.softened, &soft_load, &mut self.trial);
+            softness *= SOFTENING;
+        }
+        if attempt(&self.chain, &load, &mut self.trial) == Outcome::Solved {
             return Ok(());
         }
         exact::contacts(&self.chain, &load, stretch, &mut self.trial);
         recorder.statistics.exact_steps += 1;
-        match attempt(&mut self.trial) {
+        match attempt(&self.chain, &load, &mut self.trial) {
             Outcome::Solved => Ok(()),
             Outcome::Violated(violation) => Err(CableError::NoConvergence {
                 vehicle_position: self.mesh.lattice_step() * snapshot.position as f64,
@@ -455,9 +565,7 @@ impl Sweeper {
         let Stretch { mut lo, mut hi } = solved;
         let quiet = |edge: usize, inner: usize| {
             let moved = (self.trial.r[inner] - self.r[inner]).abs();
-            self.trial.contact[edge] == Contact::Stuck
-                && self.chain.stiffness * moved
-                    <= QUIET * NEGLIGIBLE * self.chain.limit * self.chain.tributary[edge]
+            self.chain.stiffness * moved <= QUIET * NEGLIGIBLE * self.chain.limit * self.chain.tributary[edge]
         };
         while lo < hi && quiet(lo, lo + 1) {
             lo += 1;
@@ -480,6 +588,12 @@ impl Sweeper {
     /// Makes the trial the state.
     fn commit(&mut self, stretch: Stretch, snapshot: &Snapshot<'_>, passage: &Passage) {
         let range = stretch.lo..=stretch.hi;
+        for i in range.clone() {
+            if self.trial.contact[i] != Contact::Stuck {
+                let slip = self.anchor[i] - self.trial.r[i] - self.chain.compliance * self.trial.g[i];
+                self.dissipated += self.chain.tributary[i] * self.chain.limit * slip.abs();
+            }
+        }
         self.r[range.clone()].copy_from_slice(&self.trial.r[range.clone()]);
         self.g[range.clone()].copy_from_slice(&self.trial.g[range.clone()]);
         self.by_node[range.clone()].copy_from_slice(&self.trial.contact[range.clone()]);
@@ -491,12 +605,12 @@ impl Sweeper {
     /// Force on each end \[N\] with the vehicle at the snapshot's position, compression positive.
     fn end_forces(&self, snapshot: &Snapshot<'_>) -> EndForces {
         let last = self.mesh.elements();
-        let u = |i: usize| self.r[i] + snapshot.adherent[i + 1];
+        let u = |i: usize| self.displacement(i, snapshot);
         let force = |node: usize, inner: usize, outward: f64, end: crate::End| match end {
             crate::End::Free => 0.0,
             crate::End::Spring(stiffness) => outward * stiffness * u(node),
             crate::End::Fixed => {
-                let friction = self.g[node] + snapshot.adhesion[node + 1];
+                let friction = self.friction(node, snapshot);
                 outward
                     * (self.chain.stiffness * (u(inner) - u(node)) + self.chain.tributary[node] * friction)
             }

@@ -1,0 +1,160 @@
+//! The ground model: a layered half-space with its accuracy.
+
+use ground_field::{Displacement, GroundError, GroundField, SoilProfile, SurfaceLoad};
+
+use crate::MODEL;
+use crate::remainder::Remainder;
+use crate::stack::Ground;
+use crate::statistics::Statistics;
+use crate::transform::Transform;
+
+/// Error, as a share of the peak displacement at the same depth, that is met unless another one is asked.
+pub const DEFAULT_ACCURACY: f64 = 1e-8;
+
+/// Bonded elastic layers on a half-space or on rock, solved exactly up to quadrature (Burmister's problem).
+///
+/// Every value is met to [`accuracy`](Self::accuracy), a share of the peak over the radius of |`u_r`| (for `u_r`) and of |`u_z`| (for
+/// `u_z`) at the same depth; where that cannot be had the answer is [`GroundError::Accuracy`].
+///
+/// At and below a rigid base the displacement is zero: rock does not move.
+///
+/// # Example
+///
+/// ```
+/// use burmister::LayeredHalfSpace;
+/// use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
+///
+/// let asphalt = SoilLayer::uniform(0.05, Soil::new(4e9, 0.35)?)?;
+/// let gravel = SoilLayer::uniform(0.05, Soil::new(8e8, 0.35)?)?;
+/// let subgrade = Soil::new(8e8, 0.40)?;
+/// let profile = SoilProfile::new(vec![asphalt, gravel], Base::HalfSpace(subgrade))?;
+///
+/// let ground = LayeredHalfSpace::new(&profile)?;
+/// let wheel = SurfaceLoad::new(196_133.0, 0.15)?;
+/// let below = ground.displacement(wheel, 0.0, 1.2)?;
+/// assert!((below.vertical - 9.764215707520e-5).abs() < 1e-8 * below.vertical);
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct LayeredHalfSpace {
+    ground: Ground,
+    accuracy: f64,
+}
+
+impl LayeredHalfSpace {
+    /// The layered half-space of `profile`, with the [`DEFAULT_ACCURACY`].
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::Unsupported`] where a layer's modulus varies with depth.
+    pub fn new(profile: &SoilProfile) -> Result<Self, GroundError> {
+        Ok(Self {
+            ground: Ground::new(profile)?,
+            accuracy: DEFAULT_ACCURACY,
+        })
+    }
+
+    /// The same ground, with every value met to `accuracy`, a share of the peak displacement at its depth.
+    ///
+    /// Double precision ends near 1e-12 for usual grounds; what is asked beyond is answered with
+    /// [`GroundError::Accuracy`].
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::InvalidParameter`] unless it lies between 1e-15 and 0.1.
+    pub fn with_accuracy(mut self, accuracy: f64) -> Result<Self, GroundError> {
+        self.accuracy = checked("accuracy", accuracy, "between 1e-15 and 0.1", |v| {
+            (1e-15..=0.1).contains(&v)
+        })?;
+        Ok(self)
+    }
+
+    /// The accuracy that is met, as a share of the peak displacement at the same depth.
+    pub fn accuracy(&self) -> f64 {
+        self.accuracy
+    }
+
+    /// Displacements at many `radii` \[m\] and one `depth` \[m\], in the order of the radii, with what they cost.
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::InvalidParameter`] unless radii and depth are finite and not negative; [`GroundError::Singular`] at a
+    /// point load; [`GroundError::Accuracy`] where the accuracy is not reached.
+    pub fn displacements_with_statistics(
+        &self,
+        load: SurfaceLoad,
+        radii: &[f64],
+        depth: f64,
+    ) -> Result<(Vec<Displacement>, Statistics), GroundError> {
+        let allowed = "finite and not negative";
+        checked("depth", depth, allowed, |v| v >= 0.0)?;
+        for &radius in radii {
+            checked("radius", radius, allowed, |v| v >= 0.0)?;
+        }
+        if self.ground.base.is_none() && depth >= self.ground.base_depth() {
+            return Ok((vec![Displacement::ZERO; radii.len()], Statistics::default()));
+        }
+        if load.is_point() && depth == 0.0 && radii.contains(&0.0) {
+            return Err(GroundError::Singular {
+                model: MODEL,
+                radius: 0.0,
+                depth,
+            });
+        }
+        let remainder = Remainder::new(&self.ground, load.contact_radius(), depth);
+        Transform {
+            remainder: &remainder,
+            load,
+            depth,
+            accuracy: self.accuracy,
+            probes: self.probes(load, depth),
+        }
+        .run(radii)
+    }
+
+    /// Radii that find the peaks: powers of 3 from half the depth (or contact radius, or a tenth of the top layer) up to
+    /// several hundred times it, past the bending length of any stiff plate; the edge of the disc, where all of a soft skin's
+    /// motion is; and the axis, unless it is singular.
+    fn probes(&self, load: SurfaceLoad, depth: f64) -> Vec<f64> {
+        let scale = depth.max(load.contact_radius());
+        let start = match self.ground.top() {
+            _ if scale > 0.0 => 0.5 * scale,
+            Some((thickness, _)) => 0.1 * thickness,
+            None => 1.0,
+        };
+        let axis = (scale > 0.0).then_some(0.0);
+        let edge = (!load.is_point()).then_some(load.contact_radius());
+        let spread = (0..7).map(|k| start * 3_f64.powi(k));
+        axis.into_iter().chain(edge).chain(spread).collect()
+    }
+}
+
+impl GroundField for LayeredHalfSpace {
+    fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
+        let (values, _) = self.displacements_with_statistics(load, &[radius], depth)?;
+        Ok(values.first().copied().unwrap_or_default())
+    }
+
+    fn displacements(
+        &self,
+        load: SurfaceLoad,
+        radii: &[f64],
+        depth: f64,
+    ) -> Result<Vec<Displacement>, GroundError> {
+        Ok(self.displacements_with_statistics(load, radii, depth)?.0)
+    }
+}
+
+/// `value` if it is finite and `holds`, or the error that says what is allowed.
+fn checked(
+    name: &'static str,
+    value: f64,
+    allowed: &'static str,
+    holds: impl Fn(f64) -> bool,
+) -> Result<f64, GroundError> {
+    if value.is_finite() && holds(value) {
+        Ok(value)
+    } else {
+        Err(GroundError::InvalidParameter { name, value, allowed })
+    }
+}

@@ -1,0 +1,111 @@
+//! What is left of the layered field once the known closed forms are taken away.
+//!
+//! Subtracted are half-spaces under the same load, each in a depth of its own ("images"):
+//!
+//! - the **base soil** in the equivalent depth of Odemark's rule, z + Σ hᵢ ((Gᵢ/`G_b`)^{1/3} − 1): it has the layered field's
+//!   limit for m → 0, so the remainder fades faster than the field itself at far points;
+//! - where the point lies in the upper two thirds of the uppermost soil, **that soil** in its true depth: it has the
+//!   limit for m → ∞, so the remainder decays with exp(−m (2h − z)) instead of exp(−m z), which at the surface is
+//!   not at all; and the same soil with opposite sign in depth 2h − z, which restores the limit for m → 0.
+//!
+//! Any choice of images gives the same sum; only the remainder's length and size depend on it.
+
+use ground_field::{Displacement, GroundError, SurfaceLoad};
+
+use crate::bessel::disc_factor;
+use crate::image::Image;
+use crate::stack::{Ground, Stack};
+
+/// Layered field minus images, at one depth, under one load.
+#[derive(Debug, Clone)]
+pub(crate) struct Remainder {
+    stack: Stack,
+    images: Vec<Image>,
+    contact_radius: f64,
+    /// The transform decays like exp(−m · `decay_length`).
+    pub decay_length: f64,
+    /// The ground is one soil: there is no remainder.
+    pub vanishes: bool,
+}
+
+impl Remainder {
+    pub fn new(ground: &Ground, contact_radius: f64, depth: f64) -> Self {
+        let mut images = Vec::with_capacity(3);
+        let mut decay_length = depth;
+        if let Some((thickness, soil)) = ground.top()
+            && !ground.laminae.is_empty()
+            && depth < thickness * (2.0 / 3.0)
+        {
+            decay_length = 2.0 * thickness - depth;
+            images.push(Image::new(1.0, soil, depth));
+            images.push(Image::new(-1.0, soil, decay_length.max(contact_radius)));
+        }
+        if let Some(base) = &ground.base {
+            let shift: f64 = ground
+                .laminae
+                .iter()
+                .map(|l| {
+                    let stiffer = l.soil.shear_modulus() / base.soil.shear_modulus();
+                    l.thickness * (stiffer.cbrt() - 1.0)
+                })
+                .sum();
+            images.push(Image::new(1.0, base.soil, (depth + shift).max(decay_length)));
+        }
+        Self {
+            stack: ground.cut(depth),
+            images,
+            contact_radius,
+            decay_length,
+            vanishes: ground.laminae.is_empty(),
+        }
+    }
+
+    /// Transform of the remainder for a load of 2π: the first is the integrand of `u_r` beside J1(mr), the second that of `u_z`
+    /// beside J0(mr).
+    pub fn sample(&self, wavenumber: f64) -> (f64, f64) {
+        let (mut radial, mut vertical) = self.stack.transform(wavenumber);
+        for image in &self.images {
+            let (r, v) = image.transform(wavenumber);
+            radial -= r;
+            vertical -= v;
+        }
+        let factor = disc_factor(wavenumber * self.contact_radius);
+        (radial * factor, vertical * factor)
+    }
+
+    /// Estimated rounding error of [`Remainder::sample`].
+    pub fn rounding(&self, wavenumber: f64) -> (f64, f64) {
+        let (mut radial, mut vertical) = self.stack.rounding(wavenumber);
+        for image in &self.images {
+            let (r, v) = image.transform(wavenumber);
+            radial += 2.0 * f64::EPSILON * r.abs();
+            vertical += 2.0 * f64::EPSILON * v.abs();
+        }
+        let factor = disc_factor(wavenumber * self.contact_radius).abs();
+        (radial * factor, vertical * factor)
+    }
+
+    /// Transform of the layered field itself, for a point load of 2π.
+    pub fn field(&self, wavenumber: f64) -> (f64, f64) {
+        self.stack.transform(wavenumber)
+    }
+
+    /// Displacement of the images under `load`, and its rounding error.
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::Singular`] where it has no finite value.
+    pub fn closed_form(
+        &self,
+        load: SurfaceLoad,
+        radius: f64,
+    ) -> Result<(Displacement, (f64, f64)), GroundError> {
+        let (mut sum, mut rounding) = (Displacement::ZERO, (0.0, 0.0));
+        for image in &self.images {
+            let (part, error) = image.displacement(load, radius)?;
+            sum += part;
+            rounding = (rounding.0 + error.0, rounding.1 + error.1);
+        }
+        Ok((sum, rounding))
+    }
+}

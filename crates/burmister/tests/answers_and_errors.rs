@@ -1,0 +1,161 @@
+//! Every input has a finite answer or an error that says why not; and the work stays within bounds.
+
+mod common;
+
+use burmister::LayeredHalfSpace;
+use common::{case, ground, profile};
+use ground_field::{
+    Base, Displacement, GroundError, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad,
+};
+use proptest::prelude::*;
+
+#[test]
+fn a_graded_layer_is_unsupported() {
+    let modulus = Modulus::Linear {
+        top: 1e7,
+        bottom: 2e7,
+    };
+    let layer = SoilLayer::new(1.0, modulus, 0.3).expect("layer");
+    let profile = SoilProfile::new(vec![layer], Base::Rigid).expect("profile");
+    assert!(matches!(
+        LayeredHalfSpace::new(&profile),
+        Err(GroundError::Unsupported { .. })
+    ));
+}
+
+#[test]
+fn a_point_load_is_singular_in_its_own_point_only() {
+    for ground in [
+        ground(&[100.0], &[5e3, 50.0], &[0.3, 0.4]),
+        ground(&[], &[50.0], &[0.4]),
+    ] {
+        let point = SurfaceLoad::point(1e5).expect("load");
+        let disc = SurfaceLoad::new(1e5, 0.1).expect("load");
+        assert!(matches!(
+            ground.displacement(point, 0.0, 0.0),
+            Err(GroundError::Singular { .. })
+        ));
+        assert!(ground.displacement(point, 0.01, 0.0).is_ok());
+        assert!(ground.displacement(point, 0.0, 0.01).is_ok());
+        for radius in [0.0, 0.1, 3.0] {
+            assert!(ground.displacement(disc, radius, 0.0).is_ok());
+        }
+    }
+}
+
+#[test]
+fn arguments_out_of_range_are_named() {
+    let (ground, load) = case("task3");
+    for (radius, depth) in [
+        (-1.0, 1.0),
+        (f64::NAN, 1.0),
+        (f64::INFINITY, 1.0),
+        (1.0, -1.0),
+        (1.0, f64::NAN),
+    ] {
+        let outcome = ground.displacement(load, radius, depth);
+        assert!(
+            matches!(outcome, Err(GroundError::InvalidParameter { .. })),
+            "{radius} {depth}"
+        );
+    }
+    for accuracy in [0.0, -1.0, f64::NAN, 0.2, 1e-16] {
+        assert!(ground.clone().with_accuracy(accuracy).is_err(), "{accuracy}");
+    }
+}
+
+/// What double precision cannot show is an error, with the accuracy that was reached.
+#[test]
+fn too_much_accuracy_is_refused() {
+    let (ground, load) = case("five");
+    let ground = ground.with_accuracy(1e-15).expect("accuracy");
+    let Err(GroundError::Accuracy { asked, reached, .. }) = ground.displacement(load, 1.0, 1.2) else {
+        panic!("1e-15 cannot be had");
+    };
+    assert!(asked == 1e-15 && reached > asked && reached < 1e-10);
+}
+
+#[test]
+fn rock_does_not_move() {
+    let ground = ground(&[300.0], &[50.0], &[0.3]);
+    let load = SurfaceLoad::new(1e5, 0.1).expect("load");
+    for depth in [0.3, 0.31, 100.0] {
+        assert_eq!(
+            ground.displacement(load, 0.2, depth).expect("rock"),
+            Displacement::ZERO
+        );
+    }
+    assert!(ground.displacement(load, 0.2, 0.299).expect("soil").vertical > 0.0);
+}
+
+#[test]
+fn no_radii_and_no_force_are_answered() {
+    let (ground, load) = case("task3");
+    assert!(ground.displacements(load, &[], 1.2).expect("none").is_empty());
+    let nothing = SurfaceLoad::point(0.0).expect("load");
+    assert_eq!(
+        ground.displacement(nothing, 1.0, 1.2).expect("zero"),
+        Displacement::ZERO
+    );
+}
+
+/// Layers of one soil are joined: no integral is done for them, and splitting costs nothing.
+#[test]
+fn equal_neighbours_are_joined() {
+    let load = SurfaceLoad::new(1e5, 0.1).expect("load");
+    let same = ground(&[100.0, 200.0], &[50.0, 50.0, 50.0], &[0.4, 0.4, 0.4]);
+    let (_, statistics) = same
+        .displacements_with_statistics(load, &[0.0, 1.0], 0.2)
+        .expect("same");
+    assert_eq!((statistics.wavenumbers, statistics.bessel_pairs), (0, 0));
+}
+
+/// The work of the 200-radius task, of one far point and of twenty layers, pinned from above.
+#[test]
+fn the_work_stays_within_bounds() {
+    let (task3, load) = case("task3");
+    let radii: Vec<f64> = (0..200).map(|i| 20.0 * f64::from(i) / 199.0).collect();
+    let (_, many) = task3
+        .displacements_with_statistics(load, &radii, 1.2)
+        .expect("many");
+    assert!(many.wavenumbers <= 160 && many.bessel_pairs <= 26_000, "{many:?}");
+    assert!(many.estimated_error <= 1e-8);
+    for depth in [0.0, 1.2] {
+        let (_, far) = task3
+            .displacements_with_statistics(load, &[1e7], depth)
+            .expect("far");
+        assert!(far.wavenumbers <= 400 && far.bessel_pairs <= 2_000, "{far:?}");
+    }
+    let thickness: Vec<f64> = (0..20).map(|i| 10.0 * f64::from(1 + i * i)).collect();
+    let modulus: Vec<f64> = (0..21).map(|i| if i % 2 == 0 { 1000.0 } else { 10.0 }).collect();
+    let twenty = LayeredHalfSpace::new(&profile(&thickness, &modulus, &[0.35; 21])).expect("ground");
+    let (_, deep) = twenty
+        .displacements_with_statistics(load, &radii, 1.2)
+        .expect("deep");
+    assert!(deep.wavenumbers <= 800 && deep.bessel_pairs <= 60_000, "{deep:?}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// Far outside any ground there is: an answer that is finite, or an error; never a panic, never for ever.
+    #[test]
+    fn wild_inputs_are_answered(
+        thickness in prop::collection::vec(-8.0..6.0_f64, 0..5), modulus in prop::collection::vec(-3.0..15.0_f64, 6),
+        ratio in prop::collection::vec(prop_oneof![Just(0.0), Just(0.5), 0.0..0.5_f64], 6), rock in any::<bool>(),
+        contact in prop_oneof![Just(0.0), (-6.0..3.0_f64).prop_map(|e| 10.0_f64.powf(e))],
+        radius in prop_oneof![Just(0.0), (-9.0..12.0_f64).prop_map(|e| 10.0_f64.powf(e))],
+        depth in prop_oneof![Just(0.0), (-9.0..9.0_f64).prop_map(|e| 10.0_f64.powf(e))],
+    ) {
+        let soil = |i: usize| Soil::new(10.0_f64.powf(modulus[i]), ratio[i]).expect("soil");
+        let layers: Vec<SoilLayer> = thickness.iter().enumerate()
+            .map(|(i, e)| SoilLayer::uniform(10.0_f64.powf(*e), soil(i)).expect("layer"))
+            .collect();
+        let base = if rock && !layers.is_empty() { Base::Rigid } else { Base::HalfSpace(soil(5)) };
+        let ground = LayeredHalfSpace::new(&SoilProfile::new(layers, base).expect("profile")).expect("ground");
+        let load = SurfaceLoad::new(1e5, contact).expect("load");
+        if let Ok(value) = ground.displacement(load, radius, depth) {
+            prop_assert!(value.is_finite());
+        }
+    }
+}

@@ -1,0 +1,197 @@
+//! Physical laws on random grounds: moduli over four decades, layers of 2 mm to 10 m, ν from 0 to 0.5, half-space or rock below.
+
+use std::f64::consts::PI;
+
+use burmister::LayeredHalfSpace;
+use ground_field::{Base, Displacement, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
+use proptest::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
+
+const ACCURACY: f64 = 1e-8;
+
+fn logarithmic(from: f64, to: f64) -> impl Strategy<Value = f64> {
+    (from.ln()..to.ln()).prop_map(f64::exp)
+}
+
+fn soil() -> impl Strategy<Value = Soil> {
+    let ratio = prop_oneof![4 => 0.0..0.5, 1 => Just(0.5)];
+    (logarithmic(1e6, 1e10), ratio).prop_map(|(modulus, ratio)| Soil::new(modulus, ratio).expect("soil"))
+}
+
+fn layers() -> impl Strategy<Value = Vec<(f64, Soil)>> {
+    prop::collection::vec((logarithmic(0.002, 10.0), soil()), 1..6)
+}
+
+fn base() -> impl Strategy<Value = Base> {
+    prop_oneof![3 => soil().prop_map(Base::HalfSpace), 1 => Just(Base::Rigid)]
+}
+
+fn ground(layers: &[(f64, Soil)], base: Base) -> LayeredHalfSpace {
+    let layers = layers
+        .iter()
+        .map(|&(thickness, soil)| SoilLayer::uniform(thickness, soil).expect("layer"))
+        .collect();
+    let profile = SoilProfile::new(layers, base).expect("profile");
+    LayeredHalfSpace::new(&profile).expect("ground")
+}
+
+fn load(contact: f64) -> SurfaceLoad {
+    SurfaceLoad::new(5e4, contact).expect("load")
+}
+
+fn largest(values: &[Displacement], of: impl Fn(&Displacement) -> f64) -> f64 {
+    values.iter().map(|value| of(value).abs()).fold(0.0, f64::max)
+}
+
+/// Both fields at all radii, equal to `share` of the peak.
+fn same(one: &[Displacement], other: &[Displacement], share: f64) -> Result<(), TestCaseError> {
+    let peak_r = largest(one, |v| v.radial);
+    let peak_z = largest(one, |v| v.vertical);
+    for (a, b) in one.iter().zip(other) {
+        prop_assert!((a.radial - b.radial).abs() <= share * peak_r, "{a:?} {b:?}");
+        prop_assert!((a.vertical - b.vertical).abs() <= share * peak_z, "{a:?} {b:?}");
+    }
+    Ok(())
+}
+
+/// Radii that include the neighbourhood of both peaks.
+fn radii(depth: f64) -> Vec<f64> {
+    (0..30)
+        .map(|k| 0.05 * depth * 1.35_f64.powi(k))
+        .chain([0.0])
+        .collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 48, failure_persistence: Some(Box::new(FileFailurePersistence::Direct("tests/laws.proptest-regressions"))), ..ProptestConfig::default() })]
+
+    /// One layer is Boussinesq, whatever its thickness. The base is stiffer by 1e-13, so that nothing is joined and the
+    /// integrals are really done.
+    #[test]
+    fn one_layer_is_boussinesq(soil in soil(), thickness in logarithmic(0.002, 10.0), depth in logarithmic(0.05, 20.0)) {
+        let nearly = Soil::new(soil.young_modulus() * (1.0 + 1e-13), soil.poisson_ratio()).expect("soil");
+        let layered = ground(&[(thickness, soil)], Base::HalfSpace(nearly));
+        let radii = radii(depth);
+        let values = layered.displacements(load(0.0), &radii, depth).expect("layered");
+        let (e, nu) = (soil.young_modulus(), soil.poisson_ratio());
+        let scale = (1.0 + nu) * 5e4 / (2.0 * PI * e);
+        let exact: Vec<Displacement> = radii.iter().map(|&r| {
+            let d = r.hypot(depth);
+            Displacement {
+                radial: scale * (r * depth / d.powi(3) - (1.0 - 2.0 * nu) * r / (d * (d + depth))),
+                vertical: scale * (depth * depth / d.powi(3) + 2.0 * (1.0 - nu) / d),
+            }
+        }).collect();
+        same(&exact, &values, ACCURACY)?;
+    }
+
+    /// A layer in two parts is the layer. The lower part is stiffer by 1e-13, so that nothing is joined.
+    #[test]
+    fn splitting_a_layer_changes_nothing(
+        layers in layers(), base in base(), which in 0_usize..5, at in 0.05..0.95_f64, depth in logarithmic(0.05, 5.0),
+        contact in prop_oneof![Just(0.0), 0.05..0.4_f64],
+    ) {
+        let whole = ground(&layers, base);
+        let mut split = layers.clone();
+        let which = which % layers.len();
+        let (thickness, soil) = layers[which];
+        let nearly = Soil::new(soil.young_modulus() * (1.0 + 1e-13), soil.poisson_ratio()).expect("soil");
+        split[which] = (thickness * at, soil);
+        split.insert(which + 1, (thickness * (1.0 - at), nearly));
+        let split = ground(&split, base);
+        let radii = radii(depth);
+        let one = whole.displacements(load(contact), &radii, depth).expect("whole");
+        let two = split.displacements(load(contact), &radii, depth).expect("split");
+        same(&one, &two, 2.0 * ACCURACY)?;
+    }
+
+    /// A disc is the superposition of point loads on it.
+    #[test]
+    fn a_disc_is_a_sum_of_points(layers in layers(), base in base(), depth in logarithmic(0.2, 5.0), share in 0.1..0.5_f64) {
+        let ground = ground(&layers, base);
+        let contact = share * depth;
+        let all = radii(depth);
+        let disc = ground.displacements(load(contact), &all, depth).expect("disc");
+        // Midpoint in the angle, Gauss-Legendre with 8 points in the square of the radius: geometric convergence.
+        let rule = [
+            (0.1834346424956498_f64, 0.362683783378362), (0.525532409916329, 0.3137066458778873),
+            (0.7966664774136267, 0.2223810344533745), (0.9602898564975363, 0.1012285362903763),
+        ];
+        let mut distances = Vec::new();
+        let mut parts = Vec::new();
+        for (index, &r) in all.iter().enumerate() {
+            for j in 0..16 {
+                let (sine, cosine) = (PI * (f64::from(j) + 0.5) / 16.0).sin_cos();
+                for (t, weight) in rule.iter().flat_map(|&(t, w)| [(t, w), (-t, w)]) {
+                    let ring = contact * f64::sqrt(0.5 * (1.0 + t));
+                    let (x, y) = (r - ring * cosine, ring * sine);
+                    distances.push(x.hypot(y));
+                    parts.push((index, 0.5 * weight / 16.0, x / x.hypot(y)));
+                }
+            }
+        }
+        let points = ground.displacements(load(0.0), &distances, depth).expect("points");
+        let mut sums = vec![Displacement::ZERO; all.len()];
+        for (value, (index, weight, direction)) in points.iter().zip(parts) {
+            sums[index] += Displacement { radial: value.radial * direction, vertical: value.vertical } * weight;
+        }
+        same(&disc, &sums, 3.0 * ACCURACY)?;
+    }
+
+    /// Maxwell and Betti on the surface: the work of one disc on the settlement under another is mutual.
+    #[test]
+    fn two_discs_do_the_same_work_on_each_other(
+        layers in layers(), base in base(), one in 0.05..0.15_f64, two in 0.05..0.15_f64, gap in 1.0..3.0_f64,
+    ) {
+        let ground = ground(&layers, base);
+        let distance = one + two + gap;
+        let work = |source: f64, target: f64| {
+            let mut distances = Vec::new();
+            for j in 0..12 {
+                let cosine = (PI * (f64::from(j) + 0.5) / 12.0).cos();
+                for t in [0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970263_f64] {
+                    let ring = target * t.sqrt();
+                    distances.push((distance * distance + ring * ring - 2.0 * distance * ring * cosine).sqrt());
+                }
+            }
+            let weights = [0.17392742256872692, 0.32607257743127305, 0.32607257743127305, 0.17392742256872692];
+            let values = ground.displacements(load(source), &distances, 0.0).expect("surface");
+            let mean: f64 = values.iter().zip(weights.iter().cycle()).map(|(v, w)| v.vertical * w / 12.0).sum();
+            mean
+        };
+        let peak = ground.displacement(load(one), 0.0, 0.0).expect("peak").vertical
+            .max(ground.displacement(load(two), 0.0, 0.0).expect("peak").vertical);
+        // The rules are off by some (radius / (radius + gap))^16 < 1e-14.
+        prop_assert!((work(one, two) - work(two, one)).abs() <= 2.0 * ACCURACY * peak);
+    }
+
+    /// Lengths times s and moduli times k: displacements over k s.
+    #[test]
+    fn lengths_and_moduli_scale(layers in layers(), base in base(), depth in logarithmic(0.05, 5.0), s in 0.1..10.0_f64, k in 0.1..10.0_f64) {
+        let scaled = |soil: Soil| Soil::new(k * soil.young_modulus(), soil.poisson_ratio()).expect("soil");
+        let larger: Vec<_> = layers.iter().map(|&(thickness, soil)| (s * thickness, scaled(soil))).collect();
+        let stiffer = match base { Base::HalfSpace(soil) => Base::HalfSpace(scaled(soil)), Base::Rigid => Base::Rigid };
+        let radii = radii(depth);
+        let far: Vec<f64> = radii.iter().map(|r| s * r).collect();
+        let one = ground(&layers, base).displacements(load(0.1), &radii, depth).expect("one");
+        let two = ground(&larger, stiffer).displacements(load(s * 0.1), &far, s * depth).expect("two");
+        let two: Vec<Displacement> = two.into_iter().map(|value| value * (k * s)).collect();
+        same(&one, &two, 2.0 * ACCURACY)?;
+    }
+
+    /// A coarse answer is as good as it says, many radii at once are what each is alone, and all is linear in the force.
+    #[test]
+    fn what_is_asked_is_met(layers in layers(), base in base(), depth in logarithmic(0.02, 5.0), digits in 1..9_i32) {
+        let ground = ground(&layers, base);
+        let radii = radii(depth);
+        let coarse = 10.0_f64.powi(-digits);
+        let fine = ground.clone().with_accuracy(1e-9).expect("accuracy").displacements(load(0.1), &radii, depth).expect("fine");
+        let ground = ground.with_accuracy(coarse).expect("accuracy");
+        let together = ground.displacements(load(0.1), &radii, depth).expect("together");
+        same(&fine, &together, coarse + 1e-9)?;
+        let alone: Vec<Displacement> = radii.iter()
+            .map(|&r| ground.displacement(SurfaceLoad::new(1e5, 0.1).expect("load"), r, depth).expect("alone") * 0.5)
+            .collect();
+        same(&fine, &alone, coarse + 1e-9)?;
+    }
+}

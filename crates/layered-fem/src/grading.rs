@@ -1,0 +1,182 @@
+//! Where the lines of the mesh lie.
+//!
+//! Every field of the problem varies over the distance R to the load, so the spacing grows with it: h = α √(x² + c²), which
+//! is x = c sinh(α i), for r and z alike. `α` sets the accuracy and the cost; `c` is the size of the block in the top layer
+//! in which the load's singularity is taken out (see [`crate::load`]). In depth the same spacing is fitted between the
+//! layers' interfaces, each layer having at least two elements on the
+//! coarsest mesh: a soft layer between stiff ones shears and squeezes over its own thickness.
+
+use ground_field::{Base, SoilLayer, SoilProfile};
+
+use crate::FemError;
+
+/// Largest size of the block around the load \[m\].
+const LARGEST_BLOCK: f64 = 0.3;
+/// Least number of elements in a layer.
+const LEAST_ELEMENTS: usize = 2;
+/// Least length over which the spacing is even \[m\]: a top layer still thinner is not resolved around the load, which is
+/// felt at depths of its own order only.
+const SMALLEST_SCALE: f64 = 0.002;
+/// Spacing ratio at which the outer boundary has its ordinary distance. It moves out as the spacing falls, so that two meshes
+/// differ in everything that can be wrong with them.
+const ORDINARY_ALPHA: f64 = 0.4;
+/// Ordinary distance of the outer boundary in units of the ground's own length.
+const REACH_HALF_SPACE: f64 = 50.0;
+const REACH_MEMBRANE: f64 = 15.0;
+const REACH_RIGID: f64 = 10.0;
+/// The ground's own length is taken at least this large \[m\].
+const LEAST_LENGTH: f64 = 5.0;
+
+/// The lines of one mesh.
+#[derive(Debug, Clone)]
+pub(crate) struct Lines {
+    /// Radii of the vertical lines \[m\].
+    pub(crate) radii: Vec<f64>,
+    /// Depths of the horizontal lines \[m\].
+    pub(crate) depths: Vec<f64>,
+    /// Layer of each row of elements; the number of layers for the base.
+    pub(crate) layer_of_row: Vec<usize>,
+    /// Columns of elements in the block around the load.
+    pub(crate) block_columns: usize,
+    /// Rows of elements in the block around the load.
+    pub(crate) block_rows: usize,
+    /// Length c over which the spacing is even \[m\].
+    pub(crate) scale: f64,
+}
+
+/// Depth \[m\] of the block around the load: within the top layer, and where its modulus has not changed much.
+fn block_depth(profile: &SoilProfile) -> f64 {
+    let Some(top) = profile.layers().first() else {
+        return LARGEST_BLOCK;
+    };
+    let thickness = top.thickness();
+    let (first, last) = (top.young_modulus_at(0.0), top.young_modulus_at(thickness));
+    let change = (last - first).abs() / first.min(last);
+    LARGEST_BLOCK.min(thickness).min(thickness / change.max(1.0))
+}
+
+/// Distance of the outer boundary \[m\].
+///
+/// A layer stiffer than the soil below spreads the load: as a plate over (E₁/E₂)^(1/3) of its thickness on a half-space, and
+/// over (E₁/E₂)^(1/2) on a soft layer above rock. It also holds back the horizontal displacement, as a membrane, over E₁/E₂
+/// of its thickness.
+fn reach(profile: &SoilProfile) -> f64 {
+    let ends = |layer: &SoilLayer| {
+        [
+            layer.young_modulus_at(0.0),
+            layer.young_modulus_at(layer.thickness()),
+        ]
+    };
+    let stiffest = profile.layers().iter().flat_map(ends).fold(0.0, f64::max);
+    let depth = profile.base_depth();
+    match profile.base() {
+        Base::HalfSpace(soil) => {
+            let base = soil.young_modulus();
+            let plate = depth * (stiffest / base).max(1.0).cbrt();
+            let membrane: f64 = profile
+                .layers()
+                .iter()
+                .map(|layer| layer.thickness() * ends(layer)[0].max(ends(layer)[1]) / base)
+                .sum();
+            (REACH_HALF_SPACE * plate.max(LEAST_LENGTH)).max(REACH_MEMBRANE * membrane)
+        }
+        Base::Rigid => {
+            let softest = profile
+                .layers()
+                .iter()
+                .flat_map(ends)
+                .fold(f64::INFINITY, f64::min);
+            REACH_RIGID * (depth * (stiffest / softest).sqrt()).max(LEAST_LENGTH)
+        }
+    }
+}
+
+impl Lines {
+    /// Lines for `profile` with the spacing ratio `alpha`, every interval cut into `parts`.
+    ///
+    /// # Errors
+    ///
+    /// [`FemError::TooLarge`] beyond `max_unknowns`.
+    pub(crate) fn new(
+        profile: &SoilProfile,
+        alpha: f64,
+        parts: usize,
+        max_unknowns: usize,
+    ) -> Result<Self, FemError> {
+        let block = block_depth(profile);
+        let scale = (0.5 * block).max(SMALLEST_SCALE);
+        let stretch = ORDINARY_ALPHA / alpha * parts as f64;
+        let reach = stretch * reach(profile).max(50.0 * scale);
+        let grade = Grade {
+            scale,
+            alpha,
+            parts,
+            max_unknowns,
+        };
+        let mut depths = vec![0.0];
+        let mut layer_of_row = Vec::new();
+        let block_rows = grade.fill(block, &mut depths)?;
+        layer_of_row.extend(std::iter::repeat_n(0, block_rows));
+        let mut bottom = 0.0;
+        for (index, layer) in profile.layers().iter().enumerate() {
+            bottom += layer.thickness();
+            let rows = grade.fill(bottom, &mut depths)?;
+            layer_of_row.extend(std::iter::repeat_n(index, rows));
+        }
+        if matches!(profile.base(), Base::HalfSpace(_)) {
+            let rows = grade.fill(bottom.max(block) + reach, &mut depths)?;
+            layer_of_row.extend(std::iter::repeat_n(profile.layers().len(), rows));
+        }
+        let mut radii = vec![0.0];
+        let block_columns = grade.fill(block, &mut radii)?;
+        grade.fill(block + reach, &mut radii)?;
+        let needed = 2 * (2 * radii.len() - 1) * (2 * depths.len() - 1);
+        if needed > max_unknowns {
+            return Err(FemError::TooLarge {
+                needed,
+                allowed: max_unknowns,
+            });
+        }
+        Ok(Self {
+            radii,
+            depths,
+            layer_of_row,
+            block_columns,
+            block_rows,
+            scale,
+        })
+    }
+}
+
+/// How lines are spaced.
+struct Grade {
+    scale: f64,
+    alpha: f64,
+    parts: usize,
+    max_unknowns: usize,
+}
+
+impl Grade {
+    /// Continues `lines` to `end` and returns the number of intervals added: none if `end` is there already.
+    fn fill(&self, end: f64, lines: &mut Vec<f64>) -> Result<usize, FemError> {
+        let start = lines.last().copied().unwrap_or(0.0);
+        if end <= start {
+            return Ok(0);
+        }
+        let (first, last) = ((start / self.scale).asinh(), (end / self.scale).asinh());
+        let count = (((last - first) / self.alpha).round() as usize)
+            .max(LEAST_ELEMENTS)
+            .saturating_mul(self.parts);
+        if count.saturating_add(lines.len()) > self.max_unknowns {
+            return Err(FemError::TooLarge {
+                needed: count.saturating_add(lines.len()),
+                allowed: self.max_unknowns,
+            });
+        }
+        for k in 1..count {
+            lines.push(self.scale * (first + (last - first) * k as f64 / count as f64).sinh());
+        }
+        lines.push(end);
+        Ok(count)
+    }
+}

@@ -1,0 +1,342 @@
+//! The ground model: meshes, answers and their error.
+//!
+//! # Error estimate
+//!
+//! Every answer is computed on two meshes whose spacing ratio is ρ = 2, the outer boundary of the finer one being
+//! ρ times as far away. The error of discretisation falls with ρ³ and more, the boundary's with ρ²; that it falls at least
+//! three times is assumed, and then half the difference bounds the finer answer's error. (Just below the edge of a disc it
+//! falls more slowly, and twice the difference is taken.) On the coarse meshes of a loose accuracy the estimate may fall short
+//! of the truth by half. Where the estimate exceeds the accuracy asked, a finer mesh is made, up to the unknowns allowed; beyond, the answer is an error.
+
+use std::collections::HashMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use ground_field::{Displacement, GroundError, GroundField, SoilProfile, SurfaceLoad};
+
+use crate::FemError;
+use crate::grading::Lines;
+use crate::level::Level;
+use crate::line::DepthLine;
+use crate::options::{ErrorEstimate, FemOptions, FemStatistics};
+
+/// Name in errors.
+const MODEL: &str = "layered finite elements";
+/// Spacing of the first coarse mesh at the accuracy below (as a share of the distance to the load), and its bounds.
+const ALPHA: f64 = 0.4;
+const ALPHA_ACCURACY: f64 = 5e-3;
+const ALPHA_RANGE: (f64, f64) = (0.1, 0.5);
+/// Spacing ratio ρ from one mesh to the next. Every element is halved, so that the difference of two meshes cannot be small
+/// by the chance of where their lines fall.
+const RATIO: usize = 2;
+/// The error falls at least by this factor from one mesh to the next.
+const LEAST_GAIN: f64 = 3.0;
+/// The same next to the edge of a disc, where the slope of `u_r` is infinite, and the depth in contact radii down to which it
+/// is taken.
+const LEAST_GAIN_AT_EDGE: f64 = 1.5;
+const DEPTH_OF_EDGE: f64 = 0.2;
+/// Order beyond which it is not hoped to fall: where even that would need too large a mesh, none is tried.
+const BEST_ORDER: f64 = 4.0;
+/// Least share of the peak of `u_z` that the peak of `u_r` is taken for, where `u_r` vanishes (incompressible soil's surface).
+const LEAST_RADIAL: f64 = 0.01;
+/// Depth lines kept.
+const MOST_ANSWERS: usize = 512;
+
+/// Axisymmetric finite elements of a layered ground.
+///
+/// Mesh and factorisation are made at construction; each contact radius then costs one solution, each further depth an
+/// interpolation, each further point a few operations. The field is smooth along r (continuous second derivative).
+///
+/// ```
+/// use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
+/// use layered_fem::LayeredFem;
+///
+/// let road = SoilLayer::uniform(0.2, Soil::new(3e9, 0.35)?)?;
+/// let profile = SoilProfile::new(vec![road], Base::HalfSpace(Soil::new(80e6, 0.4)?))?;
+/// let ground = LayeredFem::new(&profile, 5e-3)?;
+/// let wheel = SurfaceLoad::new(50e3, 0.15)?;
+/// let u = ground.displacement(wheel, 0.8, 1.2)?;
+/// assert!(u.radial > 0.0 && u.vertical > 0.0);
+/// assert!(ground.error_estimate(wheel, 1.2)?.largest() < 5e-3);
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
+#[derive(Debug)]
+pub struct LayeredFem {
+    profile: SoilProfile,
+    options: FemOptions,
+    meshes: Mutex<Meshes>,
+    /// Accepted answers by the bits of contact radius and depth.
+    answers: Mutex<HashMap<(u64, u64), Arc<Answer>>>,
+}
+
+#[derive(Debug)]
+struct Meshes {
+    /// Spacing of the first mesh.
+    alpha: f64,
+    coarse: Step,
+    fine: Step,
+    factorisations: usize,
+}
+
+#[derive(Debug)]
+struct Step {
+    /// Parts into which the first mesh's intervals are cut.
+    parts: usize,
+    level: Level,
+}
+
+#[derive(Debug)]
+struct Answer {
+    line: DepthLine,
+    estimate: ErrorEstimate,
+}
+
+impl LayeredFem {
+    /// A model of `profile` with an error of at most `accuracy` of the peak |`u_r`| and |`u_z`| at each depth; see
+    /// [`FemOptions::new`].
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::InvalidParameter`] for an accuracy out of range; [`GroundError::Model`] with a [`FemError`] where the
+    /// mesh cannot be made or factored.
+    pub fn new(profile: &SoilProfile, accuracy: f64) -> Result<Self, GroundError> {
+        Self::with_options(profile, FemOptions::new(accuracy)?)
+    }
+
+    /// A model of `profile` with explicit options.
+    ///
+    /// # Errors
+    ///
+    /// As for [`LayeredFem::new`].
+    pub fn with_options(profile: &SoilProfile, options: FemOptions) -> Result<Self, GroundError> {
+        let (least, most) = ALPHA_RANGE;
+        let mut alpha = (ALPHA * (options.accuracy() / ALPHA_ACCURACY).cbrt()).clamp(least, most);
+        // Where the mesh that is likely to be needed is too large, a larger spacing may still prove accurate enough.
+        while alpha < most && Lines::new(profile, alpha, RATIO, options.max_unknowns()).is_err() {
+            alpha *= 1.2;
+        }
+        let make = |parts| Step::new(profile, alpha, parts, options.max_unknowns()).map_err(in_model);
+        let meshes = Meshes {
+            alpha,
+            coarse: make(1)?,
+            fine: make(RATIO)?,
+            factorisations: 2,
+        };
+        Ok(Self {
+            profile: profile.clone(),
+            options,
+            meshes: Mutex::new(meshes),
+            answers: Mutex::default(),
+        })
+    }
+
+    /// The ground.
+    pub fn profile(&self) -> &SoilProfile {
+        &self.profile
+    }
+
+    /// The options.
+    pub fn options(&self) -> FemOptions {
+        self.options
+    }
+
+    /// Estimated error of the displacements under `load` at `depth`; at most the accuracy asked.
+    ///
+    /// # Errors
+    ///
+    /// As for [`GroundField::displacement`].
+    pub fn error_estimate(&self, load: SurfaceLoad, depth: f64) -> Result<ErrorEstimate, GroundError> {
+        check("depth", depth)?;
+        Ok(self.answer(load.contact_radius(), depth)?.estimate)
+    }
+
+    /// Work done and memory held so far.
+    pub fn statistics(&self) -> FemStatistics {
+        let meshes = self.meshes();
+        let (coarse, fine) = (&meshes.coarse.level, &meshes.fine.level);
+        let size = fine.size();
+        FemStatistics {
+            unknowns: size.unknowns,
+            matrix_entries: size.matrix_entries,
+            factor_entries: size.factor_entries,
+            factorisations: meshes.factorisations,
+            solves: coarse.solves() + fine.solves(),
+            bytes: coarse.bytes() + fine.bytes(),
+        }
+    }
+
+    fn meshes(&self) -> MutexGuard<'_, Meshes> {
+        self.meshes.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn answers(&self) -> MutexGuard<'_, HashMap<(u64, u64), Arc<Answer>>> {
+        self.answers.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The line at `depth` under a unit load, accepted by the estimate.
+    fn answer(&self, contact_radius: f64, depth: f64) -> Result<Arc<Answer>, GroundError> {
+        let key = (contact_radius.to_bits(), depth.to_bits());
+        if let Some(found) = self.answers().get(&key) {
+            return Ok(Arc::clone(found));
+        }
+        let at_edge = depth < DEPTH_OF_EDGE * contact_radius;
+        let gain = if at_edge { LEAST_GAIN_AT_EDGE } else { LEAST_GAIN };
+        let mut meshes = self.meshes();
+        loop {
+            let coarse = meshes
+                .coarse
+                .level
+                .line(contact_radius, depth)
+                .map_err(in_model)?;
+            let fine = meshes.fine.level.line(contact_radius, depth).map_err(in_model)?;
+            let estimate = compare(&coarse, &fine, meshes.fine.level.columns(), gain);
+            if estimate.largest() <= self.options.accuracy() {
+                let answer = Arc::new(Answer { line: fine, estimate });
+                let mut answers = self.answers();
+                if answers.len() >= MOST_ANSWERS {
+                    answers.clear();
+                }
+                answers.insert(key, Arc::clone(&answer));
+                return Ok(answer);
+            }
+            self.refine(&mut meshes, estimate, depth)?;
+        }
+    }
+
+    /// Puts a finer mesh in place of the coarse one, or says that the accuracy is out of reach.
+    fn refine(&self, meshes: &mut Meshes, estimate: ErrorEstimate, depth: f64) -> Result<(), GroundError> {
+        let excess = estimate.largest() / self.options.accuracy();
+        let next = RATIO * meshes.fine.parts;
+        // What the accuracy needs at least, should the error fall as fast as it can.
+        let wanted = meshes.fine.parts as f64 * excess.powf(1.0 / BEST_ORDER);
+        let fits =
+            |parts| Lines::new(&self.profile, meshes.alpha, parts, self.options.max_unknowns()).is_ok();
+        if excess.is_nan() || !fits(next) || !fits(wanted as usize) {
+            return Err(GroundError::Accuracy {
+                model: MODEL,
+                asked: self.options.accuracy(),
+                reached: estimate.largest(),
+                radius: estimate.radius,
+                depth,
+            });
+        }
+        let finer =
+            Step::new(&self.profile, meshes.alpha, next, self.options.max_unknowns()).map_err(in_model)?;
+        meshes.coarse = std::mem::replace(&mut meshes.fine, finer);
+        meshes.factorisations += 1;
+        Ok(())
+    }
+}
+
+impl GroundField for LayeredFem {
+    fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
+        check("radius", radius)?;
+        check("depth", depth)?;
+        let answer = self.answer(load.contact_radius(), depth)?;
+        evaluate(&answer.line, load, radius, depth)
+    }
+
+    fn displacements(
+        &self,
+        load: SurfaceLoad,
+        radii: &[f64],
+        depth: f64,
+    ) -> Result<Vec<Displacement>, GroundError> {
+        check("depth", depth)?;
+        let answer = self.answer(load.contact_radius(), depth)?;
+        radii
+            .iter()
+            .map(|&radius| evaluate(&answer.line, load, radius, depth))
+            .collect()
+    }
+}
+
+impl Step {
+    fn new(profile: &SoilProfile, alpha: f64, parts: usize, max_unknowns: usize) -> Result<Self, FemError> {
+        let lines = Lines::new(profile, alpha, parts, max_unknowns)?;
+        Ok(Self {
+            parts,
+            level: Level::new(profile, lines)?,
+        })
+    }
+}
+
+/// Estimated error of `fine` from its difference to `coarse`, whose error is at least `gain` times as large.
+fn compare(coarse: &DepthLine, fine: &DepthLine, radii: &[f64], gain: f64) -> ErrorEstimate {
+    let mut peak = Displacement::ZERO;
+    let mut difference = [(0.0_f64, 0.0_f64); 2];
+    for &r in radii {
+        let (u, other) = (fine.at(r), coarse.at(r));
+        // The singular point of a point load has no value to compare.
+        if !u.is_finite() && r == 0.0 {
+            continue;
+        }
+        peak.radial = peak.radial.max(u.radial.abs());
+        peak.vertical = peak.vertical.max(u.vertical.abs());
+        for (worst, gap) in difference
+            .iter_mut()
+            .zip([u.radial - other.radial, u.vertical - other.vertical])
+        {
+            if gap.abs() > worst.0 || gap.is_nan() {
+                *worst = (gap.abs(), r);
+            }
+        }
+    }
+    let share = |worst: f64, peak: f64| {
+        if worst == 0.0 {
+            0.0
+        } else {
+            worst / peak / (gain - 1.0)
+        }
+    };
+    let (radial, vertical) = (
+        share(difference[0].0, peak.radial.max(LEAST_RADIAL * peak.vertical)),
+        share(difference[1].0, peak.vertical),
+    );
+    ErrorEstimate {
+        radial,
+        vertical,
+        radius: if radial >= vertical {
+            difference[0].1
+        } else {
+            difference[1].1
+        },
+    }
+}
+
+/// The displacement under `load` from the line of a unit load.
+fn evaluate(
+    line: &DepthLine,
+    load: SurfaceLoad,
+    radius: f64,
+    depth: f64,
+) -> Result<Displacement, GroundError> {
+    check("radius", radius)?;
+    let value = line.at(radius) * load.force();
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(GroundError::Singular {
+        model: MODEL,
+        radius,
+        depth,
+    })
+}
+
+fn check(name: &'static str, value: f64) -> Result<(), GroundError> {
+    if value.is_finite() && value >= 0.0 {
+        Ok(())
+    } else {
+        Err(GroundError::InvalidParameter {
+            name,
+            value,
+            allowed: "finite and not negative",
+        })
+    }
+}
+
+fn in_model(error: FemError) -> GroundError {
+    GroundError::Model {
+        model: MODEL,
+        source: Box::new(error),
+    }
+}

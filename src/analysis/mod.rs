@@ -1,0 +1,9 @@
+//! From a scene to its answer: ground, motion of the duct, cable, passes, and how wrong they may be.
+
+pub mod ground;
+pub mod motion;
+pub mod passes;
+pub mod profile;
+pub mod result;
+pub mod run;
+pub mod saturation;

@@ -1,0 +1,73 @@
+//! Motion of the duct under each of a scene's vehicles.
+
+use ground_field::{DuctLine, DuctMotion};
+
+use super::ground::ChosenGround;
+use crate::Error;
+use crate::scene::{PeakScaling, Scene};
+
+/// Vehicles come from and leave to this far beyond the duct's ends \[m\]: behind that, the duct's motion no longer turns,
+/// and only the slow tail is left, which real ground over rock has not.
+const APPROACH: f64 = 15.0;
+/// Every wheel passes this many depths beyond the ends at least, in deep ducts and with long vehicles.
+const APPROACH_DEPTHS: f64 = 6.0;
+
+/// How far beyond the duct's ends the vehicles' origins come from \[m\].
+pub fn approach(scene: &Scene) -> f64 {
+    let farthest = scene
+        .vehicles
+        .iter()
+        .flat_map(|traffic| traffic.vehicle.wheels())
+        .map(|wheel| wheel.x.abs())
+        .fold(0.0, f64::max);
+    scene
+        .solver
+        .approach
+        .unwrap_or(APPROACH.max(farthest + APPROACH_DEPTHS * scene.duct.depth))
+}
+
+/// The motion under every vehicle, scaled to a measured peak where the scene has one.
+pub fn motions(scene: &Scene, ground: &ChosenGround) -> Result<Vec<DuctMotion>, Error> {
+    let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
+    let reach = scene.duct.length + 2.0 * approach(scene);
+    let mut motions = Vec::new();
+    for traffic in &scene.vehicles {
+        motions.push(DuctMotion::new(
+            &*ground.field,
+            &traffic.vehicle,
+            line,
+            reach,
+            ground.accuracy,
+        )?);
+    }
+    scale(scene, motions)
+}
+
+fn scale(scene: &Scene, motions: Vec<DuctMotion>) -> Result<Vec<DuctMotion>, Error> {
+    let factor = |wanted: f64, peak: f64, key: &'static str| {
+        let factor = wanted / peak;
+        if factor.is_finite() {
+            Ok(factor)
+        } else {
+            Err(Error::Unfit {
+                key,
+                found: "a peak",
+                reason: "the vehicle does not move the duct, so there is nothing to scale",
+            })
+        }
+    };
+    match scene.ground.scaling {
+        None => Ok(motions),
+        Some(PeakScaling::Longitudinal(wanted)) => motions
+            .into_iter()
+            .map(|motion| {
+                let factor = factor(wanted, motion.peak_longitudinal(), "ground.longitudinal_peak")?;
+                Ok(motion.scaled(factor))
+            })
+            .collect(),
+        Some(PeakScaling::Vertical(wanted)) => {
+            let factor = factor(wanted, motions[0].peak_vertical(), "ground.vertical_peak")?;
+            Ok(motions.into_iter().map(|motion| motion.scaled(factor)).collect())
+        }
+    }
+}

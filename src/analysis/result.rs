@@ -1,0 +1,124 @@
+//! What a run answers. The names of the fields are those of the JSON document, units included.
+
+use cable_dem::{PassOutcome, Statistics};
+use serde::Serialize;
+
+/// Answer of a run.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Run {
+    /// The scene's title.
+    pub title: String,
+    /// How it was computed.
+    pub plan: PlanSummary,
+    /// Motion of the duct under the first vehicle.
+    pub duct_motion: DuctMotionSummary,
+    /// Force and movement after the passes, ascending; of very long traffic some, the first and the last among them.
+    pub passes: Vec<PassRecord>,
+    /// Where the force levels off, if it does.
+    pub saturation: Option<Saturation>,
+    /// How wrong the forces may be.
+    pub error_estimate: ErrorEstimate,
+    /// What the answer cost, in counts that do not depend on the machine.
+    pub cost: Cost,
+    /// What the user should know before trusting the answer.
+    pub warnings: Vec<String>,
+}
+
+/// Which models and steps were used, and why.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct PlanSummary {
+    /// Ground model.
+    pub ground: String,
+    /// Cable solver.
+    pub cable: String,
+    /// Distance between nodes \[m\].
+    pub node_spacing_m: f64,
+    /// Advance of the vehicle per step \[m\].
+    pub vehicle_step_m: f64,
+    /// Why these.
+    pub reasons: Vec<String>,
+}
+
+/// Peaks of the duct's motion.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct DuctMotionSummary {
+    /// max |D_l| \[m\].
+    pub peak_longitudinal_m: f64,
+    /// max |D_v| \[m\].
+    pub peak_vertical_m: f64,
+}
+
+/// Force and movement after one pass; forces in N, compression positive.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PassRecord {
+    /// Number of the pass, from 1.
+    pub pass: u64,
+    /// Force on the downstream end after the pass.
+    pub downstream_force_n: f64,
+    /// Largest force on the downstream end during the pass.
+    pub downstream_peak_n: f64,
+    /// Force on the upstream end after the pass.
+    pub upstream_force_n: f64,
+    /// Largest force on the upstream end during the pass.
+    pub upstream_peak_n: f64,
+    /// Largest compression along the cable after the pass.
+    pub max_compression_n: f64,
+    /// Displacement of the cable at the upstream end \[m\].
+    pub upstream_displacement_m: f64,
+    /// Displacement of the cable at the downstream end \[m\].
+    pub downstream_displacement_m: f64,
+}
+
+/// Where the force levels off.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Saturation {
+    /// The force in the end \[N\].
+    pub force_n: f64,
+    /// Passes to 95 % of it.
+    pub passes_to_95_percent: u64,
+}
+
+/// Work of the cable solver for the passes as listed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct Cost {
+    /// Vehicle positions.
+    pub steps: u64,
+    /// Linear solves.
+    pub sweeps: u64,
+    /// Nodes eliminated in these.
+    pub node_updates: u64,
+}
+
+/// How wrong the forces may be, discretisation alone.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ErrorEstimate {
+    /// Largest error of a force as a share of it.
+    pub relative: f64,
+    /// How that was found.
+    pub method: String,
+}
+
+impl Cost {
+    pub(crate) fn new(statistics: &Statistics) -> Self {
+        Self {
+            steps: statistics.steps as u64,
+            sweeps: statistics.sweeps as u64,
+            node_updates: statistics.node_updates as u64,
+        }
+    }
+}
+
+impl PassRecord {
+    pub(crate) fn new(pass: u64, outcome: &PassOutcome) -> Self {
+        Self {
+            pass,
+            downstream_force_n: outcome.force.downstream,
+            downstream_peak_n: outcome.peak.downstream,
+            upstream_force_n: outcome.force.upstream,
+            upstream_peak_n: outcome.peak.upstream,
+            max_compression_n: outcome.max_compression,
+            upstream_displacement_m: outcome.upstream_displacement,
+            downstream_displacement_m: outcome.downstream_displacement,
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! Answers for the reader at a terminal.
+
+use std::io::{self, Write};
+
+use super::Failure;
+use crate::{PassRecord, Profile, Run, Scene};
+
+/// Rows of a table that is read on a terminal.
+const ROWS: usize = 16;
+
+pub fn run(run: &Run) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    writeln!(out, "{}", run.title)?;
+    writeln!(
+        out,
+        "duct motion: {:.2} µm along, {:.1} µm down",
+        1e6 * run.duct_motion.peak_longitudinal_m,
+        1e6 * run.duct_motion.peak_vertical_m
+    )?;
+    writeln!(out)?;
+    writeln!(
+        out,
+        "{:>9} {:>23} {:>23} {:>12}",
+        "", "force after pass, N", "end moved, mm", "largest"
+    )?;
+    writeln!(
+        out,
+        "{:>9} {:>11} {:>11} {:>11} {:>11} {:>12}",
+        "pass", "upstream", "downstream", "upstream", "downstream", "in cable, N"
+    )?;
+    for record in selected(&run.passes) {
+        writeln!(
+            out,
+            "{:>9} {:>11.1} {:>11.1} {:>11.4} {:>11.4} {:>12.1}",
+            record.pass,
+            // Rounding must not print −0.
+            record.upstream_force_n + 0.0,
+            record.downstream_force_n + 0.0,
+            1e3 * record.upstream_displacement_m,
+            1e3 * record.downstream_displacement_m,
+            record.max_compression_n
+        )?;
+    }
+    writeln!(out)?;
+    match &run.saturation {
+        Some(saturation) => writeln!(
+            out,
+            "saturation: {:.1} N, 95 % of it after {} passes",
+            saturation.force_n, saturation.passes_to_95_percent
+        )?,
+        None => writeln!(out, "saturation: not reached within these passes")?,
+    }
+    writeln!(
+        out,
+        "estimated error: {:.2} % ({})",
+        100.0 * run.error_estimate.relative,
+        run.error_estimate.method
+    )?;
+    writeln!(
+        out,
+        "plan: ground {}, cable {}, node spacing {:.3} m, vehicle step {:.3} m",
+        run.plan.ground, run.plan.cable, run.plan.node_spacing_m, run.plan.vehicle_step_m
+    )?;
+    for reason in &run.plan.reasons {
+        writeln!(out, "  {reason}")?;
+    }
+    Ok(())
+}
+
+/// The first passes, then about evenly growing numbers, and the last.
+fn selected(passes: &[PassRecord]) -> Vec<&PassRecord> {
+    if passes.len() <= ROWS {
+        return passes.iter().collect();
+    }
+    const STEPS: [u64; 3] = [1, 2, 5];
+    let last = passes.len() - 1;
+    passes
+        .iter()
+        .enumerate()
+        .filter(|(index, record)| {
+            let leading = record.pass / 10_u64.pow(record.pass.ilog10());
+            let round = record.pass.is_multiple_of(10_u64.pow(record.pass.ilog10()));
+            *index == last || (round && STEPS.contains(&leading))
+        })
+        .map(|(_, record)| record)
+        .collect()
+}
+
+pub fn profile(profile: &Profile) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    writeln!(out, "ground: {}", profile.ground)?;
+    writeln!(
+        out,
+        "{:>10} {:>12} {:>12} {:>14}",
+        "ξ, m", "D_l, µm", "D_v, µm", "V_l, µm/s"
+    )?;
+    for i in 0..profile.positions_m.len() {
+        writeln!(
+            out,
+            "{:>10.3} {:>12.4} {:>12.4} {:>14.3}",
+            profile.positions_m[i],
+            1e6 * profile.longitudinal_m[i],
+            1e6 * profile.vertical_m[i],
+            1e6 * profile.longitudinal_velocity_m_per_s[i]
+        )?;
+    }
+    Ok(())
+}
+
+pub fn checked(scene: &Scene) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    writeln!(
+        out,
+        "{}: valid; {} passes over a duct of {} m at {} m depth",
+        scene.title, scene.traffic.passes, scene.duct.length, scene.duct.depth
+    )?;
+    Ok(())
+}

@@ -1,0 +1,59 @@
+//! Answers as JSON and CSV.
+
+use std::io::Write;
+use std::path::Path;
+
+use serde::Serialize;
+
+use super::Failure;
+use crate::{PassRecord, Profile};
+
+/// One JSON document on standard output.
+pub fn json<T: Serialize>(answer: &T) -> Result<(), Failure> {
+    let mut out = std::io::stdout().lock();
+    // Through a string, so that a document is written whole or not at all.
+    let text = serde_json::to_string_pretty(answer)?;
+    writeln!(out, "{text}")?;
+    Ok(())
+}
+
+/// One row a pass.
+pub fn passes(file: &Path, passes: &[PassRecord]) -> Result<(), Failure> {
+    rows(file, passes.iter())
+}
+
+#[derive(Serialize)]
+struct ProfileRow {
+    position_m: f64,
+    longitudinal_m: f64,
+    vertical_m: f64,
+    longitudinal_velocity_m_per_s: f64,
+}
+
+/// One row a position.
+pub fn profile(file: &Path, profile: &Profile) -> Result<(), Failure> {
+    rows(
+        file,
+        (0..profile.positions_m.len()).map(|i| ProfileRow {
+            position_m: profile.positions_m[i],
+            longitudinal_m: profile.longitudinal_m[i],
+            vertical_m: profile.vertical_m[i],
+            longitudinal_velocity_m_per_s: profile.longitudinal_velocity_m_per_s[i],
+        }),
+    )
+}
+
+fn rows<T: Serialize>(file: &Path, rows: impl Iterator<Item = T>) -> Result<(), Failure> {
+    let write = || -> Result<(), csv::Error> {
+        let mut writer = csv::Writer::from_path(file)?;
+        for row in rows {
+            writer.serialize(row)?;
+        }
+        writer.flush()?;
+        Ok(())
+    };
+    write().map_err(|source| Failure::Write {
+        file: file.display().to_string(),
+        source,
+    })
+}

@@ -1,0 +1,44 @@
+//! What can go wrong in an analysis.
+
+use cable_dem::CableError;
+use ground_field::GroundError;
+
+use crate::SceneError;
+
+/// Error of an analysis.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The scene is wrong.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// The ground could not be computed.
+    #[error(transparent)]
+    Ground(#[from] GroundError),
+    /// The cable could not be computed.
+    #[error(transparent)]
+    Cable(#[from] CableError),
+    /// The scene asks for something that does not fit the rest of it.
+    #[error("{key}: {found} does not fit this scene: {reason}")]
+    Unfit {
+        /// The scene's key.
+        key: &'static str,
+        /// What it asks for.
+        found: &'static str,
+        /// Why it does not fit.
+        reason: &'static str,
+    },
+}
+
+impl Error {
+    /// Whether the input is at fault, not the computation.
+    pub fn is_bad_input(&self) -> bool {
+        matches!(
+            self,
+            Self::Scene(_)
+                | Self::Unfit { .. }
+                | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
+                | Self::Cable(CableError::InvalidParameter { .. } | CableError::UnsupportedLaw { .. })
+        )
+    }
+}
