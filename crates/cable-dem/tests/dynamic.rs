@@ -162,6 +162,36 @@ fn the_sigmoid_tends_to_coulombs_law_and_says_when_it_has_not() -> Outcome {
     Ok(())
 }
 
+/// The law contains the time step: only b Δt counts, and half the step halves what friction holds on to.
+#[test]
+fn the_sigmoid_depends_on_the_time_step_through_the_product_with_b() -> Outcome {
+    let motion = truck(40.0)?;
+    let force = |shape_factor: f64, vehicle_step: f64| -> Result<f64, cable_dem::CableError> {
+        let law = (FrictionLaw::Sigmoid { shape_factor }, LIMIT);
+        let scene = Scene::new(law, EA, End::Fixed, (30.0, 0.2, vehicle_step), &motion)?;
+        Ok(scene.dynamic(2)?.pass.force.downstream)
+    };
+    let mut forces = Vec::new();
+    for vehicle_step in [0.2, 0.1, 0.05, 0.025] {
+        let found = force(1e8, vehicle_step)?;
+        let same_product = force(1e8 * vehicle_step / 0.025, 0.025)?;
+        println!(
+            "Δt = {:.2} ms: {found:.1} N, {same_product:.1} N",
+            vehicle_step * 90.0
+        );
+        assert!(
+            relative(found, same_product).abs() < 0.01,
+            "{found} {same_product}"
+        );
+        forces.push(found);
+    }
+    assert!(
+        forces.windows(2).all(|pair| pair[1] < 0.95 * pair[0]),
+        "{forces:?}"
+    );
+    Ok(())
+}
+
 #[test]
 fn a_law_with_memory_has_no_leak() -> Outcome {
     let cable = DuctedCable::new(30.0, EA, Friction::new(STIFF_SHEATH, LIMIT)?)?;

@@ -5,13 +5,16 @@ mod common;
 use cable_dem::{CableError, End, ExplicitOptions, FrictionLaw};
 use common::{EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, relative, truck};
 
+/// Force and peak, or what went wrong.
+type Answer = Result<(f64, f64), CableError>;
+
 /// Runs two passes with all solvers; those that answer must agree. Returns how many answered.
 ///
-/// The quasi-static solver takes steps that grow with the vehicle's distance and leaves out small changes at its supports,
-/// which is worth up to 2 % here; its peaks are its own tests' matter. Friction on a fixed end's own half element decides ±q h/2 of its force, and Coulomb's law turns it over with the least
-/// backward slip of the duct's fading motion: that much is the mesh's resolution, and solvers may differ by q h.
+/// Peaks are compared between the two solvers with inertia: under hardly any friction they are ringing, which the third
+/// leaves out. Friction on one element is the mesh's resolution: half of it hangs on a fixed end's own node, which under Coulomb's law
+/// turns over with the least backward slip of the duct's fading motion.
 fn judge(name: &str, scene: &Scene) -> usize {
-    let answers: Vec<(&str, Result<(f64, f64), CableError>)> = vec![
+    let answers: [(&str, Answer); 3] = [
         (
             "quasi-static",
             scene
@@ -59,7 +62,7 @@ fn judge(name: &str, scene: &Scene) -> usize {
     for (solver, force, peak) in &right {
         let (other, expected, expected_peak) = right[right.len() - 1];
         let resolution = scene.cable.friction().limit() * scene.mesh.spacing();
-        let bound = (0.02 + inertia) * expected.abs().max(expected_peak.abs()) + resolution;
+        let bound = (0.01 + inertia) * expected.abs().max(expected_peak.abs()) + 0.5 * resolution;
         assert!(
             (force - expected).abs() <= bound
                 && (*solver == "quasi-static" || (peak - expected_peak).abs() <= bound),

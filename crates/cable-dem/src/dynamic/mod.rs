@@ -24,7 +24,7 @@ mod sigmoid;
 use crate::transient::{
     EnergyBalance, Lumped, MovingDuct, Record, Settler, SigmoidLeak, StepSolver, TransientOutcome, tolerance,
 };
-use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
+use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome};
 use history::History;
 use prediction::Prediction;
 use sigmoid::SigmoidSolver;
@@ -102,7 +102,8 @@ impl Dynamic {
     ///
     /// # Errors
     ///
-    /// [`CableError::StateMismatch`] for a state or a duct of another mesh, [`CableError::Precision`] where rounding would
+    /// [`CableError::StateMismatch`] and [`CableError::PassageMismatch`] for a state and a duct of another mesh,
+    /// [`CableError::Precision`] where rounding would
     /// blur the answer, [`CableError::NoConvergence`] where a step found no solution,
     /// [`CableError::EnergyNotConserved`] where a pass created energy.
     pub fn pass(
@@ -143,7 +144,10 @@ impl Dynamic {
         }
         *state = after;
         Ok(TransientOutcome {
-            pass: record.outcome(&self.lumped, state),
+            pass: PassOutcome {
+                dissipated: energy.dissipated,
+                ..record.outcome(&self.lumped, state)
+            },
             time_step,
             energy,
             force_before_rest,

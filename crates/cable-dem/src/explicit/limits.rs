@@ -14,11 +14,13 @@
 //!
 //! 1/Δt² = 1/Δt_e² + 1/Δt_f²,
 //!
-//! a little shorter than the smaller of both. That is stability, not accuracy: stuck nodes that swing on their contact near the
-//! friction limit slip in the wrong places (3 % of the force at 0.9 Δt_f and b = 3e9 1/m, where friction returns
-//! 0.5 % of its heat), while at half of it the answer no longer depends on the step. A node
-//! that swings on an end spring does the same. The wave limit of the plain chain does no such harm. The advised step is
-//! therefore 0.9 of what Δt_e and Δt_f/2 allow together, springs counted four times in Δt_e. For the sigmoid Δt_f is where Δt·q/(m′ v_b) = 2 with v_b = 2/(b Δt).
+//! a little shorter than the smaller of both. For the sigmoid Δt_f is where Δt·q/(m′ v_b) = 2 with v_b = 2/(b Δt).
+//!
+//! That is stability, not accuracy: stuck nodes that swing on their contact near the friction limit slip in the wrong
+//! places (3 % of the force at 0.9 Δt_f and b = 3e9 1/m, where friction returns 0.5 % of its heat), while at half of it the
+//! answer no longer depends on the step. A node that swings on an end spring does the same; the waves of the plain chain
+//! do no such harm. The advised step is therefore 0.9 of what Δt_e and Δt_f/2 allow together, springs counted four times in
+//! Δt_e.
 
 use std::fmt;
 

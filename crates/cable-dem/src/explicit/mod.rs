@@ -26,7 +26,7 @@ use crate::error::checked;
 use crate::transient::{
     EnergyBalance, Lumped, MovingDuct, Record, Settler, SigmoidLeak, TransientOutcome, tolerance,
 };
-use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh};
+use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, PassOutcome};
 use lanes::Lanes;
 use law::{Constants, ContactLaw, Coulomb, ElasticPlastic, Sigmoid};
 
@@ -146,7 +146,8 @@ impl Explicit {
     ///
     /// # Errors
     ///
-    /// [`CableError::StateMismatch`] for a state or a duct of another mesh, [`CableError::Precision`] where rounding would
+    /// [`CableError::StateMismatch`] and [`CableError::PassageMismatch`] for a state and a duct of another mesh,
+    /// [`CableError::Precision`] where rounding would
     /// blur the answer, [`CableError::TooManySteps`] where the pass would take more work than allowed,
     /// [`CableError::EnergyNotConserved`] where the energy balance shows that the step was too long,
     /// [`CableError::NoConvergence`] where the cable found no rest.
@@ -248,7 +249,10 @@ impl Explicit {
         }
         *state = after;
         Ok(TransientOutcome {
-            pass: record.outcome(&self.lumped, state),
+            pass: PassOutcome {
+                dissipated: energy.dissipated,
+                ..record.outcome(&self.lumped, state)
+            },
             time_step,
             energy,
             force_before_rest,

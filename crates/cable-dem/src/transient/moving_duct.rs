@@ -25,7 +25,7 @@ const MAX_POINTS: f64 = 4e7;
 pub struct MovingDuct {
     direction: Direction,
     speed: f64,
-    nodes: usize,
+    mesh: Mesh,
     /// Length of the duct \[m\].
     length: f64,
     approach: f64,
@@ -142,7 +142,7 @@ impl MovingDuct {
         Ok(Self {
             direction,
             speed,
-            nodes: mesh.nodes(),
+            mesh: *mesh,
             length,
             approach,
             rows,
@@ -190,13 +190,10 @@ impl MovingDuct {
 
     /// Whether this duct was tabulated for `mesh`.
     pub(crate) fn check(&self, mesh: &Mesh) -> Result<(), CableError> {
-        if self.nodes == mesh.nodes() {
+        if self.mesh == *mesh {
             Ok(())
         } else {
-            Err(CableError::StateMismatch {
-                found: self.nodes,
-                expected: mesh.nodes(),
-            })
+            Err(CableError::PassageMismatch)
         }
     }
 

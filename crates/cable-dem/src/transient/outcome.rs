@@ -72,6 +72,7 @@ impl Record {
                 .fold(f64::NEG_INFINITY, f64::max),
             upstream_displacement: state.displacement()[0],
             downstream_displacement: state.displacement()[lumped.mesh.elements()],
+            dissipated: 0.0,
             statistics: self.statistics,
         }
     }

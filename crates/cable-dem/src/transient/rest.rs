@@ -5,7 +5,8 @@
 //! (K + S + c) r = p + w f_new,  f_new from the slip ΔD − r by the friction law:
 //!
 //! the quasi-static step's convex problem (see `quasi_static::chain`) with more on the diagonal. It is solved by the
-//! same active set, and by the same dynamic programming where that cycles.
+//! same active set; where that cycles it is led to the answer from that of a softer sheath, and last of all the dynamic
+//! programming takes over.
 //!
 //! **At rest.** Stuck nodes of an elastic contact swing on it undamped when a vehicle has gone. The state that a
 //! vibrating cable comes to, however weakly it is damped, is the equilibrium with the same anchors u + γ f: one step with
@@ -19,11 +20,16 @@ use crate::{CableError, CableState, Statistics};
 const FRICTION_ACCURACY: f64 = 1e-6;
 /// Accuracy of slip, as a share of the largest displacement.
 const SLIP_ACCURACY: f64 = 1e-7;
+/// Softnesses γ k/h through which a step is led that does not converge from its first guess.
+const SOFTNESSES: [f64; 9] = [100.0, 10.0, 1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 /// Solver of implicit steps over the whole cable, for laws with memory and a given mass term.
 #[derive(Debug, Clone)]
 pub(crate) struct StepSolver {
     chain: Chain,
+    /// The same chain with a softer sheath.
+    softened: Chain,
+    soft_anchor: Vec<f64>,
     free: Stretch,
     elimination: Elimination,
     trial: Trial,
@@ -59,15 +65,18 @@ impl StepSolver {
         }
         let compliance = lumped.cable.friction().compliance();
         let tributary: Vec<f64> = (0..nodes).map(|i| lumped.mesh.tributary_length(i)).collect();
+        let chain = Chain {
+            stiffness: k,
+            diagonal,
+            softness: tributary.iter().map(|w| compliance * k / w).collect(),
+            tributary,
+            compliance,
+            limit: lumped.cable.friction().limit(),
+        };
         Self {
-            chain: Chain {
-                stiffness: k,
-                diagonal,
-                softness: tributary.iter().map(|w| compliance * k / w).collect(),
-                tributary,
-                compliance,
-                limit: lumped.cable.friction().limit(),
-            },
+            softened: chain.clone(),
+            soft_anchor: vec![0.0; nodes],
+            chain,
             free: Stretch {
                 lo: usize::from(lumped.fixed[0]),
                 hi: last - usize::from(lumped.fixed[1]),
@@ -94,37 +103,23 @@ impl StepSolver {
         f: &mut [f64],
         statistics: &mut Statistics,
     ) -> Result<(), f64> {
-        let compliance = self.chain.compliance;
-        for i in 0..f.len() {
-            self.anchor[i] = duct[i] + if compliance > 0.0 { compliance * f[i] } else { 0.0 };
+        anchor(&mut self.anchor, duct, f, self.chain.compliance);
+        let mut outcome = self.attempt(tolerance, statistics);
+        if outcome != Outcome::Solved {
+            self.soften(lumped, tolerance, duct, f, statistics);
+            outcome = self.attempt(tolerance, statistics);
         }
-        let load = Load {
-            adhesion: &self.adhesion,
-            support: &self.load,
-            anchor: &self.anchor,
-        };
-        let width = self.free.hi + 1 - self.free.lo;
-        let mut solved = false;
-        let mut violation = f64::INFINITY;
-        for exact in [false, true] {
-            if exact {
-                contacts(&self.chain, &load, self.free, &mut self.trial);
-                statistics.exact_steps += 1;
-            }
-            let (outcome, sweeps) =
-                self.elimination
-                    .iterate(&self.chain, &load, self.free, tolerance, &mut self.trial);
-            statistics.sweeps += sweeps;
-            statistics.node_updates += sweeps * width;
-            match outcome {
-                Outcome::Solved => {
-                    solved = true;
-                    break;
-                }
-                Outcome::Violated(by) => violation = by,
-            }
+        if outcome != Outcome::Solved {
+            let load = Load {
+                adhesion: &self.adhesion,
+                support: &self.load,
+                anchor: &self.anchor,
+            };
+            contacts(&self.chain, &load, self.free, &mut self.trial);
+            statistics.exact_steps += 1;
+            outcome = self.attempt(tolerance, statistics);
         }
-        if !solved {
+        if let Outcome::Violated(violation) = outcome {
             self.trial.contact.fill(Contact::Stuck);
             return Err(violation);
         }
@@ -136,6 +131,48 @@ impl StepSolver {
             }
         }
         Ok(())
+    }
+
+    /// Runs the active set from the trial's contact states.
+    fn attempt(&mut self, tolerance: Tolerance, statistics: &mut Statistics) -> Outcome {
+        let load = Load {
+            adhesion: &self.adhesion,
+            support: &self.load,
+            anchor: &self.anchor,
+        };
+        let (outcome, sweeps) =
+            self.elimination
+                .iterate(&self.chain, &load, self.free, tolerance, &mut self.trial);
+        statistics.sweeps += sweeps;
+        statistics.node_updates += sweeps * (self.free.hi + 1 - self.free.lo);
+        outcome
+    }
+
+    /// Leads the contact states from those of a softer sheath, whose energy is smoother, to those of the real one.
+    fn soften(
+        &mut self,
+        lumped: &Lumped,
+        tolerance: Tolerance,
+        duct: &[f64],
+        f: &[f64],
+        statistics: &mut Statistics,
+    ) {
+        self.trial.contact.fill(Contact::Stuck);
+        let scale = lumped.mesh.spacing() / lumped.stiffness;
+        for softness in SOFTNESSES {
+            let compliance = softness * scale;
+            if compliance <= self.chain.compliance {
+                break;
+            }
+            self.softened.soften(compliance);
+            anchor(&mut self.soft_anchor, duct, f, compliance);
+            // The real chain's place is lent to the softer one for the attempt.
+            std::mem::swap(&mut self.chain, &mut self.softened);
+            std::mem::swap(&mut self.anchor, &mut self.soft_anchor);
+            self.attempt(tolerance, statistics);
+            std::mem::swap(&mut self.chain, &mut self.softened);
+            std::mem::swap(&mut self.anchor, &mut self.soft_anchor);
+        }
     }
 
     /// Increments r of the last step \[m\].
@@ -160,6 +197,14 @@ impl StepSolver {
         for &(node, spring) in &lumped.springs {
             self.load[node] -= spring * u[node];
         }
+    }
+}
+
+/// Where the duct holds the sheath after its increment, ΔD + γ f, measured from u.
+fn anchor(anchor: &mut [f64], duct: &[f64], f: &[f64], compliance: f64) {
+    for (anchor, (duct, f)) in anchor.iter_mut().zip(duct.iter().zip(f)) {
+        // Without shear the friction does not count, whatever it is.
+        *anchor = duct + if compliance > 0.0 { compliance * f } else { 0.0 };
     }
 }
 
