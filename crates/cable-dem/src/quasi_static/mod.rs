@@ -11,7 +11,9 @@ mod chain;
 mod exact;
 mod memory;
 mod passage;
+mod settle;
 mod support;
+mod sweeper;
 mod view;
 mod window;
 
@@ -27,7 +29,7 @@ pub(crate) use support::Support;
 use ground_field::Direction;
 
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
-use window::Sweeper;
+use sweeper::Sweeper;
 
 /// Share of the friction limit up to which rounding may blur equilibrium.
 const MAX_ROUNDING: f64 = 1e-3;
@@ -213,7 +215,7 @@ impl QuasiStatic {
             .displacement()
             .iter()
             .fold(passage.peak(), |largest, u| largest.max(u.abs()));
-        let share = window::rounding(&self.cable, &self.mesh, largest) / self.cable.friction().limit();
+        let share = sweeper::rounding(&self.cable, &self.mesh, largest) / self.cable.friction().limit();
         if share <= MAX_ROUNDING {
             Ok(())
         } else {
