@@ -57,6 +57,42 @@ pub enum CableError {
         /// Nodes of the mesh.
         expected: usize,
     },
+    /// A time step beyond what the explicit scheme bears.
+    #[error(
+        "a time step of {time_step:.3e} s is beyond the explicit scheme's limit of {limit:.3e} s ({formula})"
+    )]
+    UnstableStep {
+        /// The step asked for \[s\].
+        time_step: f64,
+        /// The longest stable step \[s\].
+        limit: f64,
+        /// The limit that governs.
+        formula: &'static str,
+    },
+    /// A pass would take more work than allowed.
+    #[error(
+        "a pass takes {node_updates:.2e} node updates ({steps:.2e} steps of {time_step:.2e} s); {allowed:.2e} are allowed"
+    )]
+    TooManySteps {
+        /// Steps of one pass.
+        steps: f64,
+        /// Duration of a step \[s\].
+        time_step: f64,
+        /// Steps times nodes.
+        node_updates: f64,
+        /// Largest number of node updates allowed.
+        allowed: f64,
+    },
+    /// The energy of a pass does not balance: the answer is one of the scheme, not of the cable.
+    #[error(
+        "energy is not conserved: {unbalanced:.1e} of it is unaccounted for, and friction returned {returned:.1e} of its heat: the time step is too long"
+    )]
+    EnergyNotConserved {
+        /// Energy out of balance, as a share of all that took part.
+        unbalanced: f64,
+        /// Work that friction returned, as a share of its heat.
+        returned: f64,
+    },
 }
 
 /// `value` if it is a number for which `holds`, or the error that says what is allowed.

@@ -20,6 +20,12 @@ mod window;
 pub use passage::Passage;
 pub use view::{SlipLengths, StepView};
 
+// The solvers with inertia take the same step on the whole cable.
+pub(crate) use active_set::{Elimination, Outcome};
+pub(crate) use chain::{Chain, Contact, Load, Stretch, Tolerance, Trial};
+pub(crate) use exact::contacts;
+pub(crate) use support::Support;
+
 use ground_field::Direction;
 
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
