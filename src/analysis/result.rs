@@ -20,8 +20,9 @@ pub struct Run {
     pub force_profile: ForceProfile,
     /// What each clamp carries after the last pass.
     pub restraints: Vec<RestraintRecord>,
-    /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure 7).
-    pub slip_lengths: SlipRecord,
+    /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure 7); not from solvers
+    /// with inertia.
+    pub slip_lengths: Option<SlipRecord>,
     /// How wrong the forces may be.
     pub error_estimate: ErrorEstimate,
     /// What the answer cost, in counts that do not depend on the machine.

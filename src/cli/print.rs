@@ -59,11 +59,13 @@ pub fn run(run: &Run) -> Result<(), Failure> {
             1e3 * restraint.force_n / restraint.stiffness_n_per_m
         )?;
     }
-    writeln!(
-        out,
-        "slipping as the vehicle passes the middle: {:.2} m forward, {:.2} m backward",
-        run.slip_lengths.forward_m, run.slip_lengths.backward_m
-    )?;
+    if let Some(slip) = &run.slip_lengths {
+        writeln!(
+            out,
+            "slipping as the vehicle passes the middle: {:.2} m forward, {:.2} m backward",
+            slip.forward_m, slip.backward_m
+        )?;
+    }
     writeln!(
         out,
         "estimated error: {:.2} % ({})",

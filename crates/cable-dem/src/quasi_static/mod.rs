@@ -160,7 +160,8 @@ impl QuasiStatic {
             return Err(CableError::PassageMismatch);
         }
         if self.cable.friction().limit() == 0.0 {
-            // Nothing drags the cable.
+            // Nothing drags the cable, and what held it is gone.
+            state.release(&self.cable);
             return Ok(self.outcome(state, Recorder::new(state.end_forces(&self.cable, &self.mesh))));
         }
         self.check_precision(passage, state)?;

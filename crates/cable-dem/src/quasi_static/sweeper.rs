@@ -360,8 +360,8 @@ impl Sweeper {
         let u = |i: usize| self.displacement(i, snapshot);
         let force = |node: usize, inner: usize, outward: f64, end: crate::End| match end {
             crate::End::Free => 0.0,
-            crate::End::Spring(stiffness) => outward * stiffness * u(node),
-            crate::End::Fixed => {
+            // A spring carries what the cable and its last node's friction bring: s u itself has no digits for a stiff one.
+            crate::End::Spring(_) | crate::End::Fixed => {
                 let friction = self.friction(node, snapshot);
                 outward
                     * (self.chain.stiffness * (u(inner) - u(node)) + self.chain.tributary[node] * friction)

@@ -55,7 +55,7 @@ pub(crate) struct Instant<'a> {
 impl MovingDuct {
     /// The duct of `cable` with nodes as in `mesh`, under a vehicle whose duct motion is `motion`.
     ///
-    /// The vehicle's outermost wheels come from `approach` \[m\] before the duct and leave to `approach` past it. The duct's
+    /// The vehicle's origin comes from `approach` \[m\] before the duct and leaves to `approach` past it. The duct's
     /// displacement at the first position is the reference: nothing jumps at the start, and the difference to the last
     /// position stays out of account, as in [`crate::Passage`].
     ///
@@ -80,7 +80,7 @@ impl MovingDuct {
             mesh,
             (direction, motion.velocity().abs()),
             |xi| sign * motion.longitudinal(sign * xi),
-            motion.half_length() + approach,
+            approach,
         )
     }
 
