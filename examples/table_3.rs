@@ -7,6 +7,8 @@
 //!
 //! `cargo run --example table_3`
 
+#![allow(clippy::doc_markdown, reason = "D_l in the text is a formula, not code")]
+
 use boussinesq::HalfSpace;
 use ground_field::{DuctLine, DuctMotion, GroundError, Soil, Vehicle};
 
