@@ -46,7 +46,7 @@ pub fn choose(scene: &Scene) -> Result<(CableMethod, String), Error> {
             for traffic in &scene.vehicles {
                 ratio = ratio.max(inertia_ratio(&cable, mass(scene), traffic.vehicle.speed())?);
             }
-            let share = format!("inertia changes the force by at most {:.2e} of it, (v/c)²", ratio);
+            let share = format!("inertia changes the force by at most {ratio:.2e} of it, (v/c)²");
             Ok(if ratio <= scene.solver.tolerance {
                 (CableMethod::QuasiStatic, share)
             } else {

@@ -5,6 +5,8 @@ use std::io::{self, Write};
 use super::Failure;
 use crate::{PassRecord, Profile, Run, Scene};
 
+/// Leading digits of the passes in a shortened table.
+const STEPS: [u64; 3] = [1, 2, 5];
 /// Rows of a table that is read on a terminal.
 const ROWS: usize = 16;
 
@@ -88,7 +90,6 @@ fn selected(passes: &[PassRecord]) -> Vec<&PassRecord> {
     if passes.len() <= ROWS {
         return passes.iter().collect();
     }
-    const STEPS: [u64; 3] = [1, 2, 5];
     let last = passes.len() - 1;
     passes
         .iter()

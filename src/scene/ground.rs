@@ -25,8 +25,8 @@ pub(super) fn ground(root: &Table) -> Result<Ground, SceneError> {
     }
     Ok(Ground {
         model,
-        scaling,
         profile,
+        scaling,
     })
 }
 

@@ -25,7 +25,7 @@ macro_rules! range {
         $(#[$doc])*
         pub(super) const $name: Range = Range {
             words: $words,
-            holds: |v| v >= $low && v <= $high,
+            holds: |v| ($low..=$high).contains(&v),
         };
     };
 }

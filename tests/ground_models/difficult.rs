@@ -130,13 +130,11 @@ fn far_along_a_long_duct(model: &str) {
 }
 
 #[test]
-#[ignore = "the radial profile ends at 50 m and continues as a power of the radius, or as nothing"]
 fn far_along_a_long_duct_by_transform() {
     far_along_a_long_duct("burmister");
 }
 
 #[test]
-#[ignore = "the radial profile ends at 50 m and continues as a power of the radius, or as nothing"]
 fn far_along_a_long_duct_by_finite_elements() {
     far_along_a_long_duct("fem");
 }
