@@ -53,6 +53,11 @@ pub fn choose(scene: &Scene) -> Result<(CableMethod, String), Error> {
                 (CableMethod::Dynamic, format!("{share}, above the tolerance"))
             })
         }
+        SolverMethod::QuasiStatic if !scene.friction.law.has_memory() => Err(Error::Unfit {
+            key: "solver.method",
+            found: "quasi-static",
+            reason: "the sigmoid law has no state of rest: its friction depends on the time step",
+        }),
         SolverMethod::QuasiStatic => asked(CableMethod::QuasiStatic),
         SolverMethod::Dynamic => asked(CableMethod::Dynamic),
         SolverMethod::Explicit => asked(CableMethod::Explicit),

@@ -60,7 +60,8 @@ fn a_misplaced_key_is_told_its_section() {
 
 #[test]
 fn a_missing_key_is_named_at_its_section() {
-    let missing = "key `duct.depth` is missing; allowed: a length greater than 0, such as \"1.2 m\"";
+    let missing =
+        "key `duct.depth` is missing; allowed: a length greater than 0, from 1 cm to 1 km, such as \"1.2 m\"";
     assert_refused("depth = \"1.2 m\"", "", "[duct]", &[missing]);
     let missing = "key `friction.dynamic_coefficient` is missing; allowed: a number from 0 to 10";
     assert_refused("dynamic_coefficient = 0.25", "", "[friction]", &[missing]);
@@ -395,7 +396,7 @@ fn a_message_reads_as_a_whole() {
     assert_eq!(
         message.unwrap_err().to_string(),
         "bad.toml, line 4: `duct.depth`: wrong dimension: found \"1.2 kN\", a force; \
-         allowed: a length greater than 0, such as \"1.2 m\" (units: m, cm, mm, um, nm, km)\n  \
+         allowed: a length greater than 0, from 1 cm to 1 km, such as \"1.2 m\" (units: m, cm, mm, um, nm, km)\n  \
            |\n\
          4 | depth = \"1.2 kN\"  # to the cable\n  \
            |         ^^^^^^^^"

@@ -80,14 +80,14 @@ fn layers_have_a_thickness_but_the_last() {
 fn a_half_space_has_one_modulus() {
     let text = FULL
         .replace("rigid_base_depth = \"12 m\"\n", "")
-        .replace("\"800 MPa\"", "{ top = 1, bottom = 2 }");
+        .replace("\"800 MPa\"", "{ top = 1e6, bottom = 2e6 }");
     let message = read(&text).unwrap_err().to_string();
     assert!(
         message
             .starts_with("bad.toml, line 18: `ground.layers.2.young_modulus`: found a modulus that varies"),
         "{message}"
     );
-    assert!(read(&FULL.replace("\"800 MPa\"", "{ top = 1, bottom = 2 }")).is_ok());
+    assert!(read(&FULL.replace("\"800 MPa\"", "{ top = 1e6, bottom = 2e6 }")).is_ok());
 }
 
 #[test]

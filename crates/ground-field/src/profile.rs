@@ -85,7 +85,8 @@ impl RadialProfile {
             (1e-13..=0.1).contains(&v)
         })?;
         let load = SurfaceLoad::new(1.0, contact_radius)?;
-        let end = reach.max(2.0 * depth);
+        // A little more, so that rounding of the farthest radius stays inside.
+        let end = 1.05 * reach.max(2.0 * depth);
         let mut sampler = Sampler {
             field,
             load,
