@@ -1,0 +1,224 @@
+//! The slow problem: ∂u/∂n = G(f̄) + B(f̄) ∂f̄/∂x + D̄(x) in the pass number n, with f̄ = −EA ∂²u/∂x².
+//!
+//! In space, finite volumes: forces F = −EA u′ on the pieces between points, and at every point the friction that balances
+//! them over its share w of the cable. At an end
+//!
+//! w f̄ + S(f̄) = F_inside − F_end,  F_end = ∓ s (u + v),
+//!
+//! with S and v of the end's layer ([`crate::layer`]) and s the spring there; a fixed end takes u = −v instead of its
+//! equation. Where S falls with f̄, the slow problem ends that much before the cable's end, as far as S and w f̄ together
+//! rise. D̄ is the residual motion of a finite approach, zero by default.
+
+use crate::layer::Layer;
+use crate::banded::Banded;
+use crate::{LawError, MixedLaw};
+
+/// Newton's method gives up after this many iterations.
+const MOST_ITERATIONS: usize = 30;
+
+/// One end of the slow problem.
+#[derive(Debug, Clone)]
+pub(crate) struct SlowEnd {
+    pub layer: Layer,
+    /// Spring to the ground \[N/m\]; `None` holds the end.
+    pub stiffness: Option<f64>,
+    /// Cable beyond the last point \[m\].
+    pub inset: f64,
+}
+
+/// The problem on its points.
+#[derive(Debug, Clone)]
+pub(crate) struct SlowProblem {
+    pub law: MixedLaw,
+    pub axial_stiffness: f64,
+    pub points: Vec<f64>,
+    pub weights: Vec<f64>,
+    /// Clamps' stiffness at every point \[N/m\].
+    pub springs: Vec<f64>,
+    /// Residual motion D̄ at every point \[m\].
+    pub residual: Vec<f64>,
+    pub upstream: SlowEnd,
+    pub downstream: SlowEnd,
+}
+
+/// Locked friction at one point, with its derivatives by the displacements to the left, here and to the right.
+#[derive(Debug, Clone, Copy)]
+struct Local {
+    friction: f64,
+    by: [f64; 3],
+}
+
+impl SlowEnd {
+    /// Force on what holds the end \[N\], measured as pull back on the cable, per displacement: spring and the inset piece in
+    /// series.
+    fn grip(&self, axial_stiffness: f64) -> f64 {
+        match self.stiffness {
+            Some(stiffness) if stiffness > 0.0 => 1.0 / (1.0 / stiffness + self.inset / axial_stiffness),
+            _ => 0.0,
+        }
+    }
+
+    /// Friction f̄ with w f̄ + S(f̄) + inset · f̄ = `force`, and its derivative by `force`.
+    fn friction(&self, weight: f64, force: f64, limit: f64) -> (f64, f64) {
+        let width = weight + self.inset;
+        let balance = |f: f64| {
+            let (s, slope) = self.layer.force.at(f);
+            (width * f + s - force, (width + slope).max(0.1 * width))
+        };
+        let (mut low, mut high) = (-4.0 * limit, 4.0 * limit);
+        let mut f = (force / width).clamp(low, high);
+        for _ in 0..60 {
+            let (value, slope) = balance(f);
+            if value > 0.0 {
+                high = f;
+            } else {
+                low = f;
+            }
+            let newton = f - value / slope;
+            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            if (next - f).abs() <= 1e-12 * limit {
+                f = next;
+                break;
+            }
+            f = next;
+        }
+        (f, 1.0 / balance(f).1)
+    }
+}
+
+impl SlowProblem {
+    fn last(&self) -> usize {
+        self.points.len() - 1
+    }
+
+    fn stiffness(&self, piece: usize) -> f64 {
+        self.axial_stiffness / (self.points[piece + 1] - self.points[piece])
+    }
+
+    /// Force in the piece after point `piece` \[N\], compression positive.
+    pub fn force(&self, u: &[f64], piece: usize) -> f64 {
+        self.stiffness(piece) * (u[piece] - u[piece + 1])
+    }
+
+    /// v at the ends, from the friction where the end does not move or, at a moving one, where the law holds.
+    fn offset(&self, end: &SlowEnd, friction: f64) -> f64 {
+        end.layer.displacement.at(friction).0
+    }
+
+    /// Displacement of a held end's point.
+    pub fn held(&self, end: &SlowEnd) -> f64 {
+        -self.offset(end, self.law.saturation())
+    }
+
+    /// Locked friction at every point \[N/m\].
+    pub fn friction(&self, u: &[f64]) -> Vec<f64> {
+        (0..u.len()).map(|i| self.local(u, i).friction).collect()
+    }
+
+    fn local(&self, u: &[f64], i: usize) -> Local {
+        let limit = self.law.friction_limit();
+        let (weight, last) = (self.weights[i], self.last());
+        if i == 0 {
+            let (end, k) = (&self.upstream, self.stiffness(0));
+            if end.stiffness.is_none() {
+                return self.at_rest(i);
+            }
+            let grip = end.grip(self.axial_stiffness);
+            let spring = grip * (u[0] + self.offset(end, self.law.saturation())) + self.springs[0] * u[0];
+            let (friction, by) = end.friction(weight, self.force(u, 0) + spring, limit);
+            return Local {
+                friction,
+                by: [0.0, by * (k + grip + self.springs[0]), -by * k],
+            };
+        }
+        if i == last {
+            let (end, k) = (&self.downstream, self.stiffness(last - 1));
+            if end.stiffness.is_none() {
+                return self.at_rest(i);
+            }
+            let grip = end.grip(self.axial_stiffness);
+            let spring = grip * (u[last] + self.offset(end, self.law.saturation())) + self.springs[last] * u[last];
+            let (friction, by) = end.friction(weight, spring - self.force(u, last - 1), limit);
+            return Local {
+                friction,
+                by: [-by * k, by * (k + grip + self.springs[last]), 0.0],
+            };
+        }
+        let (left, right, spring) = (self.stiffness(i - 1), self.stiffness(i), self.springs[i]);
+        Local {
+            friction: (self.force(u, i) - self.force(u, i - 1) + spring * u[i]) / weight,
+            by: [-left / weight, (left + right + spring) / weight, -right / weight],
+        }
+    }
+
+    /// A point that does not move carries the friction that stops it.
+    fn at_rest(&self, i: usize) -> Local {
+        Local {
+            friction: self.law.friction_at(-self.residual[i]),
+            by: [0.0; 3],
+        }
+    }
+
+    /// Solves u = base + step · (G(f̄(u)) + D̄) by Newton's method from the guess in `u`; returns the iterations.
+    pub fn implicit(
+        &self,
+        base: &[f64],
+        step: f64,
+        accuracy: f64,
+        u: &mut [f64],
+        system: &mut Banded,
+    ) -> Result<usize, LawError> {
+        let mut smallest = f64::INFINITY;
+        for iteration in 1..=MOST_ITERATIONS {
+            let locals: Vec<Local> = (0..u.len()).map(|i| self.local(u, i)).collect();
+            for i in 0..u.len() {
+                let held = match i {
+                    0 => self.upstream.stiffness.is_none().then_some(&self.upstream),
+                    i if i == self.last() => self.downstream.stiffness.is_none().then_some(&self.downstream),
+                    _ => None,
+                };
+                if let Some(end) = held {
+                    system.rows[i] = [0.0, 0.0, 1.0, 0.0, 0.0];
+                    system.right[i] = self.held(end) - u[i];
+                    continue;
+                }
+                let (lo, hi) = (i.max(1) - 1, (i + 1).min(self.last()));
+                let (local, skew, skew_slope) = {
+                    let local = locals[i];
+                    let (skew, slope) = self.law.skew(local.friction);
+                    (local, skew, slope)
+                };
+                let gradient = (locals[hi].friction - locals[lo].friction) / (self.points[hi] - self.points[lo]);
+                let per = step * skew / (self.points[hi] - self.points[lo]);
+                let (advance, slope) = self.law.advance(local.friction);
+                let gain = -step * (slope.min(0.0) + skew_slope * gradient).min(0.0);
+                let row = &mut system.rows[i];
+                *row = [0.0, 0.0, 1.0, 0.0, 0.0];
+                for k in 0..3 {
+                    row[1 + k] += gain * local.by[k];
+                    row[hi + 1 + k - i] -= per * locals[hi].by[k];
+                    row[lo + 1 + k - i] += per * locals[lo].by[k];
+                }
+                system.right[i] =
+                    base[i] + step * (advance + skew * gradient + self.residual[i]) - u[i];
+            }
+            system.solve();
+            let change = system.right.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+            for (value, change) in u.iter_mut().zip(&system.right) {
+                *value += change;
+            }
+            if !change.is_finite() {
+                break;
+            }
+            if std::env::var("DBG").is_ok() { eprintln!("step {step:e} it {iteration} change {change:e}"); }
+            if change <= accuracy {
+                return Ok(iteration);
+            }
+            if iteration > 12 && change >= smallest {
+                break;
+            }
+            smallest = smallest.min(change);
+        }
+        Err(LawError::NoConvergence { pass: 0.0, step })
+    }
+}
