@@ -25,8 +25,12 @@ const LARGEST: f64 = 0.98;
 const MARGIN: f64 = 0.04;
 /// Pieces are not bisected below this share of q: with Coulomb's law the cell's nodes show through there.
 const FINEST: f64 = 0.03;
-/// Skew is tabulated at this many points.
-const SKEW_POINTS: usize = 7;
+/// The lag is tabulated at this many points.
+const LAG_POINTS: usize = 7;
+/// Longest lag, in depths.
+const LONGEST_LAG: f64 = 8.0;
+/// Where G falls by less than this share of the peak displacement over q, it has no lag.
+const FLAT: f64 = 1e-3;
 /// A cell's estimated error may be this many times the table's accuracy.
 const UNSETTLED: f64 = 5.0;
 
@@ -45,7 +49,7 @@ pub struct LawStatistics {
 #[derive(Debug, Clone, PartialEq)]
 pub struct AdvanceLaw {
     table: Table,
-    skew: Table,
+    lag: Table,
     limit: f64,
     peak: f64,
     free_advance: f64,
@@ -97,17 +101,11 @@ impl AdvanceLaw {
         self.table.at(friction)
     }
 
-    /// B(f̄) \[m³/N\] and its slope: what a gradient of the locked friction adds to the advance, Δu = G(f̄) + B(f̄) ∂f̄/∂x.
-    ///
-    /// The cable behind a vehicle still feels what it passed before: the advance follows G with a lag of −B/G′ \[m\] along
-    /// the duct. Outside its table B stays as it is at the table's end.
-    pub fn skew(&self, friction: f64) -> (f64, f64) {
-        let (low, high) = self.skew.domain();
-        if friction > low && friction < high {
-            self.skew.at(friction)
-        } else {
-            (self.skew.at(friction.clamp(low, high)).0, 0.0)
-        }
+    /// Lag ℓ(f̄) \[m\], positive toward growing x: where friction varies along the duct, the advance a follows
+    /// G with a memory of what the vehicle passed before, a + ℓ ∂a/∂x = G(f̄).
+    pub fn lag(&self, friction: f64) -> f64 {
+        let (low, high) = self.lag.domain();
+        self.lag.at(friction.clamp(low, high)).0
     }
 
     /// G(0) \[m\]: the movement per pass of a cable that nothing holds.
@@ -153,7 +151,7 @@ impl AdvanceLaw {
         };
         Self {
             table: mirrored(&self.table, -1.0),
-            skew: mirrored(&self.skew, -1.0),
+            lag: mirrored(&self.lag, -1.0),
             free_advance: -self.free_advance,
             saturation: -self.saturation,
             ..self.clone()
@@ -299,19 +297,27 @@ impl<'a> Draft<'a> {
         for node in &mut nodes {
             node[0] *= self.limit;
         }
-        let skews = self.skews(&nodes)?;
-        Ok(self.finish(nodes, skews))
+        let lags = self.lags(&nodes)?;
+        Ok(self.finish(nodes, lags))
     }
 
-    /// B at a few points of the table made of `nodes`, which hold locked frictions \[N/m\] and advances.
-    fn skews(&mut self, nodes: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, LawError> {
+    /// Lag at a few points of the table made of `nodes`, which hold locked frictions \[N/m\] and advances.
+    fn lags(&mut self, nodes: &[[f64; 2]]) -> Result<Vec<[f64; 2]>, LawError> {
         let table = Table::new(nodes.to_vec());
         let (from, to) = table.domain();
-        (0..SKEW_POINTS)
+        let longest = LONGEST_LAG * self.resolution.depth();
+        let flat = FLAT * self.peak / self.limit;
+        (0..LAG_POINTS)
             .map(|k| {
-                let friction = from + (to - from) * (k as f64 + 0.5) / SKEW_POINTS as f64;
+                let friction = from + (to - from) * (k as f64 + 0.5) / LAG_POINTS as f64;
+                // The table's mean slope over the width of a lag's cell: its own slope may show the cell's nodes.
+                let reach = 0.02 * self.limit;
+                let slope = (table.at(friction + reach).0 - table.at(friction - reach).0) / (2.0 * reach);
+                if -slope < flat {
+                    return Ok([friction, 0.0]);
+                }
                 let skew = self.cell.skew(friction, |f| table.at(f).0)?;
-                Ok([friction, skew])
+                Ok([friction, (-skew / slope).clamp(-longest, longest)])
             })
             .collect()
     }
@@ -342,7 +348,7 @@ impl<'a> Draft<'a> {
         Ok(nodes)
     }
 
-    fn finish(self, nodes: Vec<[f64; 2]>, skews: Vec<[f64; 2]>) -> AdvanceLaw {
+    fn finish(self, nodes: Vec<[f64; 2]>, lags: Vec<[f64; 2]>) -> AdvanceLaw {
         let free = self.known.iter().find(|node| node[0] == 0.0).map_or(0.0, |node| node[1]);
         AdvanceLaw {
             limit: self.limit,
@@ -355,7 +361,7 @@ impl<'a> Draft<'a> {
                 cell_error: self.error,
             },
             table: Table::new(nodes),
-            skew: Table::new(skews),
+            lag: Table::new(lags),
         }
     }
 }

@@ -8,7 +8,7 @@
 use cable_dem::End;
 
 use crate::slow::{SlowEnd, SlowProblem};
-use crate::banded::Banded;
+use crate::tridiagonal::Tridiagonal;
 use crate::{LawError, PassLaw};
 
 /// Error of a step as a share of the largest displacement.
@@ -51,7 +51,7 @@ pub struct EvolutionStatistics {
     pub steps: usize,
     /// Steps that were repeated with a smaller size.
     pub rejected: usize,
-    /// Newton iterations: banded systems solved.
+    /// Newton iterations: tridiagonal systems solved.
     pub newton_iterations: usize,
 }
 
@@ -172,7 +172,7 @@ struct March<'a> {
     u: Vec<f64>,
     left_table: bool,
     statistics: EvolutionStatistics,
-    system: Banded,
+    system: Tridiagonal,
     base: Vec<f64>,
     stages: [Vec<f64>; 2],
 }
@@ -194,7 +194,7 @@ impl<'a> March<'a> {
             u,
             left_table: false,
             statistics: EvolutionStatistics::default(),
-            system: Banded::new(n),
+            system: Tridiagonal::new(n),
             base: vec![0.0; n],
             stages: [vec![0.0; n], vec![0.0; n]],
         }
@@ -234,18 +234,19 @@ impl<'a> March<'a> {
     fn attempt(&mut self, step: f64) -> Result<f64, LawError> {
         let implicit = GAMMA * step;
         let largest = self.u.iter().fold(self.peak, |m, u| m.max(u.abs()));
+        let memory = self.problem.memory(&self.u);
         let [first, second] = &mut self.stages;
         first.copy_from_slice(&self.u);
         let accuracy = STAGE_ACCURACY * largest;
         self.statistics.newton_iterations +=
-            self.problem.implicit(&self.u, implicit, accuracy, first, &mut self.system)?;
+            self.problem.implicit(&memory, &self.u, implicit, accuracy, first, &mut self.system)?;
         // k1 = (first − u)/(γ step).
         for i in 0..self.u.len() {
             self.base[i] = self.u[i] + (1.0 - GAMMA) / GAMMA * (first[i] - self.u[i]);
         }
         second.copy_from_slice(first);
         self.statistics.newton_iterations +=
-            self.problem.implicit(&self.base, implicit, accuracy, second, &mut self.system)?;
+            self.problem.implicit(&memory, &self.base, implicit, accuracy, second, &mut self.system)?;
         let mut error = 0.0_f64;
         for i in 0..self.u.len() {
             let (slow, fast) = (first[i] - self.u[i], second[i] - self.base[i]);

@@ -1,7 +1,6 @@
 //! Many passes at the cost of one.
 
 mod advance;
-mod banded;
 mod cell;
 mod error;
 mod evolution;
@@ -12,6 +11,7 @@ mod pass_law;
 mod resolution;
 mod slow;
 mod table;
+mod tridiagonal;
 
 pub use advance::{AdvanceLaw, LawStatistics};
 pub use error::LawError;

@@ -47,12 +47,14 @@ impl MixedLaw {
         })
     }
 
-    /// Mean of [`AdvanceLaw::skew`], B(f̄) \[m³/N\] and its slope.
-    pub fn skew(&self, friction: f64) -> (f64, f64) {
-        self.parts.iter().fold((0.0, 0.0), |(value, slope), (share, law)| {
-            let (v, s) = law.skew(friction);
-            (value + share * v, slope + share * s)
-        })
+    /// Lag of the mean advance \[m\] (see [`AdvanceLaw::lag`]): to first order in the gradient of the friction the vehicles' lags
+    /// count by the slopes of their advances.
+    pub fn lag(&self, friction: f64) -> f64 {
+        let (skew, slope) = self.parts.iter().fold((0.0, 0.0), |(skew, slope), (share, law)| {
+            let part = share * law.advance(friction).1;
+            (skew + part * law.lag(friction), slope + part)
+        });
+        if slope < 0.0 { skew / slope } else { 0.0 }
     }
 
     /// G(0) \[m\], positive toward growing x.

@@ -1,4 +1,4 @@
-//! The slow problem: ∂u/∂n = G(f̄) + B(f̄) ∂f̄/∂x + D̄(x) in the pass number n, with f̄ = −EA ∂²u/∂x².
+//! The slow problem: (1 + ℓ ∂/∂x) ∂u/∂n = G(f̄) + D̄(x) in the pass number n, with f̄ = −EA ∂²u/∂x².
 //!
 //! In space, finite volumes: forces F = −EA u′ on the pieces between points, and at every point the friction that balances
 //! them over its share w of the cable. At an end
@@ -10,7 +10,7 @@
 //! rise. D̄ is the residual motion of a finite approach, zero by default.
 
 use crate::layer::Layer;
-use crate::banded::Banded;
+use crate::tridiagonal::Tridiagonal;
 use crate::{LawError, MixedLaw};
 
 /// Newton's method gives up after this many iterations.
@@ -159,48 +159,63 @@ impl SlowProblem {
         }
     }
 
-    /// Solves u = base + step · (G(f̄(u)) + D̄) by Newton's method from the guess in `u`; returns the iterations.
+    /// Weights of the advance at a point's left neighbour, itself and its right neighbour in a + ℓ ∂a/∂x, for the friction of
+    /// `u`. Where vehicles enter there is nothing before to remember.
+    pub fn memory(&self, u: &[f64]) -> Vec<[f64; 3]> {
+        let (last, x) = (self.last(), &self.points);
+        let friction = self.friction(u);
+        (0..=last)
+            .map(|i| {
+                let lag = self.law.lag(friction[i]);
+                if (i == 0 && lag > 0.0) || (i == last && lag < 0.0) {
+                    return [0.0, 1.0, 0.0];
+                }
+                let (left, right) = (i.saturating_sub(1), (i + 1).min(last));
+                let share = lag / (x[right] - x[left]);
+                let mut weights = [-share, 1.0, share];
+                if i == 0 {
+                    weights = [0.0, 1.0 - share, share];
+                } else if i == last {
+                    weights = [-share, 1.0 + share, 0.0];
+                }
+                weights
+            })
+            .collect()
+    }
+
+    /// Solves (1 + ℓ ∂/∂x)(u − base) = step · (G(f̄(u)) + D̄) by Newton's method from the guess in `u`; returns the iterations.
     pub fn implicit(
         &self,
+        memory: &[[f64; 3]],
         base: &[f64],
         step: f64,
         accuracy: f64,
         u: &mut [f64],
-        system: &mut Banded,
+        system: &mut Tridiagonal,
     ) -> Result<usize, LawError> {
-        let mut smallest = f64::INFINITY;
+        let last = self.last();
         for iteration in 1..=MOST_ITERATIONS {
-            let locals: Vec<Local> = (0..u.len()).map(|i| self.local(u, i)).collect();
-            for i in 0..u.len() {
+            for i in 0..=last {
                 let held = match i {
                     0 => self.upstream.stiffness.is_none().then_some(&self.upstream),
-                    i if i == self.last() => self.downstream.stiffness.is_none().then_some(&self.downstream),
+                    i if i == last => self.downstream.stiffness.is_none().then_some(&self.downstream),
                     _ => None,
                 };
                 if let Some(end) = held {
-                    system.rows[i] = [0.0, 0.0, 1.0, 0.0, 0.0];
+                    system.rows[i] = [0.0, 1.0, 0.0];
                     system.right[i] = self.held(end) - u[i];
                     continue;
                 }
-                let (lo, hi) = (i.max(1) - 1, (i + 1).min(self.last()));
-                let (local, skew, skew_slope) = {
-                    let local = locals[i];
-                    let (skew, slope) = self.law.skew(local.friction);
-                    (local, skew, slope)
-                };
-                let gradient = (locals[hi].friction - locals[lo].friction) / (self.points[hi] - self.points[lo]);
-                let per = step * skew / (self.points[hi] - self.points[lo]);
+                let local = self.local(u, i);
                 let (advance, slope) = self.law.advance(local.friction);
-                let gain = -step * (slope.min(0.0) + skew_slope * gradient).min(0.0);
-                let row = &mut system.rows[i];
-                *row = [0.0, 0.0, 1.0, 0.0, 0.0];
+                let mut right = step * (advance + self.residual[i]);
                 for k in 0..3 {
-                    row[1 + k] += gain * local.by[k];
-                    row[hi + 1 + k - i] -= per * locals[hi].by[k];
-                    row[lo + 1 + k - i] += per * locals[lo].by[k];
+                    system.rows[i][k] = memory[i][k] - step * slope * local.by[k];
+                    if memory[i][k] != 0.0 {
+                        right -= memory[i][k] * (u[i + k - 1] - base[i + k - 1]);
+                    }
                 }
-                system.right[i] =
-                    base[i] + step * (advance + skew * gradient + self.residual[i]) - u[i];
+                system.right[i] = right;
             }
             system.solve();
             let change = system.right.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
@@ -210,14 +225,9 @@ impl SlowProblem {
             if !change.is_finite() {
                 break;
             }
-            if std::env::var("DBG").is_ok() { eprintln!("step {step:e} it {iteration} change {change:e}"); }
             if change <= accuracy {
                 return Ok(iteration);
             }
-            if iteration > 12 && change >= smallest {
-                break;
-            }
-            smallest = smallest.min(change);
         }
         Err(LawError::NoConvergence { pass: 0.0, step })
     }
