@@ -19,6 +19,8 @@ const STAGE_ACCURACY: f64 = 1e-9;
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 /// Smallest step \[passes\].
 const SMALLEST: f64 = 1e-9;
+/// In the first passes the friction near a held end is still sharp \[passes\].
+const SETTLED: f64 = 10.0;
 /// Most passes.
 const MOST_PASSES: u64 = 1_000_000_000_000;
 
@@ -31,8 +33,13 @@ pub struct PassRecord {
     pub upstream_force: f64,
     /// Force on the downstream end \[N\], compression positive.
     pub downstream_force: f64,
-    /// Estimated largest force on the upstream end during a pass \[N\]: the force after it and the transient of the run at
-    /// that end. Equal to the force after the pass where nothing, or only a spring, holds the end.
+    /// The part of [`PassRecord::upstream_force`] \[N\] that only the vehicle that passed last has left there, vehicles coming
+    /// interleaved by their shares; 0 for a single vehicle, and for shares without a short period.
+    pub upstream_swing: f64,
+    /// As [`PassRecord::upstream_swing`], downstream \[N\].
+    pub downstream_swing: f64,
+    /// Estimated largest force on the upstream end during a pass \[N\]: the mean force after passes and the transient of the run
+    /// at that end, which is that of the saturated cable.
     pub upstream_peak: f64,
     /// As [`PassRecord::upstream_peak`], downstream \[N\].
     pub downstream_peak: f64,
@@ -66,7 +73,8 @@ pub struct Evolution {
     pub displacement: Vec<f64>,
     /// Locked friction there \[N/m\].
     pub friction: Vec<f64>,
-    /// Whether the locked friction ever left the table of the advance (see [`crate::MixedLaw::domain`]).
+    /// Whether the locked friction was outside the table of the advance (see [`crate::MixedLaw::domain`]) after any listed
+    /// pass from the tenth on.
     pub left_table: bool,
     /// What it cost.
     pub statistics: EvolutionStatistics,
@@ -93,6 +101,7 @@ impl PassLaw {
             .iter()
             .map(|&pass| {
                 march.advance_to(pass as f64)?;
+                march.watch();
                 Ok(self.record(&problem, pass, &march.u))
             })
             .collect::<Result<Vec<_>, LawError>>()?;
@@ -117,7 +126,7 @@ impl PassLaw {
             let f = friction[node];
             let (force, v) = (end.layer.force.at(f).0, end.layer.displacement.at(f).0);
             match kind {
-                End::Free => (0.0, u[node] + v + outward * 0.0),
+                End::Free => (0.0, u[node] + v),
                 End::Spring(spring) => {
                     let held = end.layer.displacement.at(problem.law.saturation()).0;
                     let series = if spring > 0.0 {
@@ -146,14 +155,22 @@ impl PassLaw {
             1.0,
             problem.force(u, n - 1),
         );
+        let swing = |end: &SlowEnd| {
+            let swing = &end.layer.swing;
+            let phase = (pass - 1).checked_rem(swing.len() as u64).unwrap_or(0);
+            swing.get(phase as usize).copied().unwrap_or(0.0)
+        };
+        let (upstream_swing, downstream_swing) = (swing(&problem.upstream), swing(&problem.downstream));
         let max_compression = (0..n)
             .map(|piece| problem.force(u, piece))
-            .chain([upstream, downstream])
+            .chain([upstream + upstream_swing, downstream + downstream_swing])
             .fold(f64::NEG_INFINITY, f64::max);
         PassRecord {
             pass,
-            upstream_force: upstream,
-            downstream_force: downstream,
+            upstream_force: upstream + upstream_swing,
+            downstream_force: downstream + downstream_swing,
+            upstream_swing,
+            downstream_swing,
             upstream_peak: upstream + problem.upstream.layer.transient.0,
             downstream_peak: downstream + problem.downstream.layer.transient.0,
             max_compression,
@@ -210,7 +227,6 @@ impl<'a> March<'a> {
                     self.u.copy_from_slice(&self.stages[1]);
                     self.pass = if whole { pass } else { self.pass + step };
                     self.statistics.steps += 1;
-                    self.watch();
                     let growth = (0.9 / error.max(1e-6).sqrt()).min(2.5);
                     self.step = if whole { self.step.max(step * growth) } else { step * growth.max(0.5) };
                 }
@@ -259,6 +275,8 @@ impl<'a> March<'a> {
     fn watch(&mut self) {
         let (low, high) = self.problem.law.domain();
         let outside = |f: &f64| *f < low || *f > high;
-        self.left_table |= self.problem.friction(&self.u).iter().any(outside);
+        let friction = self.problem.friction(&self.u);
+        let inner = &friction[1..friction.len() - 1];
+        self.left_table |= self.pass >= SETTLED && inner.iter().any(outside);
     }
 }

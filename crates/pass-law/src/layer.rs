@@ -14,7 +14,7 @@
 //!
 //! A spring has the moving end's S(f̄), shifted to its own value at f*.
 
-use cable_dem::{CableState, DuctedCable, End, Mesh, Order, PassOutcome, Passage, QuasiStatic, Traffic};
+use cable_dem::{CableState, DuctedCable, End, Mesh, Order, Passage, QuasiStatic, Traffic};
 use ground_field::DuctMotion;
 
 use crate::cell::dead_load;
@@ -47,8 +47,10 @@ pub(crate) struct Layer {
     pub force: Table,
     /// v \[m\] against f̄ \[N/m\].
     pub displacement: Table,
-    /// Largest and least force during a pass less the force after it \[N\].
+    /// Largest and least force during a pass less the mean force after passes \[N\].
     pub transient: (f64, f64),
+    /// Force after each pass of a period of interleaved traffic less its mean \[N\]; empty where traffic has no short period.
+    pub swing: Vec<f64>,
 }
 
 impl Layer {
@@ -59,6 +61,7 @@ impl Layer {
             force: zero(),
             displacement: zero(),
             transient: (0.0, 0.0),
+            swing: Vec::new(),
         }
     }
 
@@ -72,16 +75,50 @@ impl Layer {
             force: shifted(&self.force, &held.force),
             displacement: shifted(&self.displacement, &held.displacement),
             transient: held.transient,
+            swing: held.swing.clone(),
         }
     }
 
-    fn constant(reading: Reading, transient: (f64, f64)) -> Self {
+    fn constant(reading: Reading, forces: &Forces) -> Self {
+        let mean = forces.after.iter().sum::<f64>() / forces.after.len() as f64;
         let level = |value: f64| Table::new(vec![[-1.0, value], [1.0, value]]);
         Self {
             force: level(reading.force),
             displacement: level(reading.displacement),
-            transient,
+            transient: (forces.greatest - mean, forces.least - mean),
+            swing: if forces.repeats {
+                forces.after.iter().map(|force| force - mean).collect()
+            } else {
+                Vec::new()
+            },
         }
+    }
+}
+
+/// Forces on one end in the last period of a run \[N\].
+#[derive(Debug, Clone)]
+struct Forces {
+    after: Vec<f64>,
+    greatest: f64,
+    least: f64,
+    /// Whether the period is one.
+    repeats: bool,
+}
+
+impl Forces {
+    fn new(repeats: bool) -> Self {
+        Self {
+            after: Vec::new(),
+            greatest: f64::NEG_INFINITY,
+            least: f64::INFINITY,
+            repeats,
+        }
+    }
+
+    fn push(&mut self, after: f64, greatest: f64, least: f64) {
+        self.after.push(after);
+        self.greatest = self.greatest.max(greatest);
+        self.least = self.least.min(least);
     }
 }
 
@@ -121,7 +158,7 @@ impl<'a> Piece<'a> {
             cable: DuctedCable::new(length, cable.axial_stiffness(), cable.friction())?,
             mesh: Mesh::new(length, resolution.node_spacing(), resolution.vehicle_step())?,
             streams,
-            approach: APPROACH_DEPTHS * resolution.depth() + half,
+            approach: resolution.approach().unwrap_or(APPROACH_DEPTHS * resolution.depth() + half),
             peak,
             depth: resolution.depth(),
             passes: 0,
@@ -153,6 +190,7 @@ impl<'a> Piece<'a> {
                 force: column(|r| r.force),
                 displacement: column(|r| r.displacement),
                 transient: (0.0, 0.0),
+                swing: Vec::new(),
             }
         }))
     }
@@ -181,23 +219,12 @@ impl<'a> Piece<'a> {
         };
         let cable = self.cable.clone().with_ends(ends.0, ends.1)?;
         let start = self.state(friction, |x| give + bend * (length * length - distance(x, length).powi(2)))?;
-        let (readings, outcome) = self.run(cable, start, false)?;
-        Ok(match side {
-            Side::Upstream => Layer::constant(
-                readings[0],
-                (
-                    outcome.peak.upstream - outcome.force.upstream,
-                    outcome.lowest.upstream - outcome.force.upstream,
-                ),
-            ),
-            Side::Downstream => Layer::constant(
-                readings[1],
-                (
-                    outcome.peak.downstream - outcome.force.downstream,
-                    outcome.lowest.downstream - outcome.force.downstream,
-                ),
-            ),
-        })
+        let (readings, forces) = self.run(cable, start, false)?;
+        let index = match side {
+            Side::Upstream => 0,
+            Side::Downstream => 1,
+        };
+        Ok(Layer::constant(readings[index], &forces[index]))
     }
 
     fn state(&self, friction: f64, displacement: impl Fn(f64) -> f64) -> Result<CableState, LawError> {
@@ -212,7 +239,7 @@ impl<'a> Piece<'a> {
         cable: DuctedCable,
         mut state: CableState,
         moving: bool,
-    ) -> Result<([Reading; 2], PassOutcome), LawError> {
+    ) -> Result<([Reading; 2], [Forces; 2]), LawError> {
         let passages = self
             .streams
             .iter()
@@ -220,7 +247,7 @@ impl<'a> Piece<'a> {
             .collect::<Result<Vec<_>, _>>()?;
         let shares: Vec<f64> = self.streams.iter().map(|stream| stream.1).collect();
         let mut traffic = Traffic::new(&shares, Order::Interleaved)?;
-        let period = period(&shares);
+        let (period, repeats) = period(&shares);
         let scale = cable.friction().limit() * self.depth;
         let mut solver = QuasiStatic::new(cable, self.mesh)?;
         let mut last = [Reading::default(); 2];
@@ -228,18 +255,13 @@ impl<'a> Piece<'a> {
         loop {
             let before = state.displacement()[self.mesh.elements() / 2];
             let mut mean = [Reading::default(); 2];
-            let mut extremes = PassOutcome::default();
-            for k in 0..period {
+            let mut forces = [Forces::new(repeats), Forces::new(repeats)];
+            for _ in 0..period {
                 let vehicle = traffic.next().unwrap_or(0);
                 let outcome = solver.pass(&passages[vehicle], &mut state)?;
-                if k == 0 {
-                    extremes = outcome;
-                }
-                extremes.force = outcome.force;
-                extremes.peak.upstream = extremes.peak.upstream.max(outcome.peak.upstream);
-                extremes.peak.downstream = extremes.peak.downstream.max(outcome.peak.downstream);
-                extremes.lowest.upstream = extremes.lowest.upstream.min(outcome.lowest.upstream);
-                extremes.lowest.downstream = extremes.lowest.downstream.min(outcome.lowest.downstream);
+                let (after, peak, lowest) = (outcome.force, outcome.peak, outcome.lowest);
+                forces[0].push(after.upstream, peak.upstream, lowest.upstream);
+                forces[1].push(after.downstream, peak.downstream, lowest.downstream);
                 let readings = self.read(&state);
                 for (sum, reading) in mean.iter_mut().zip(readings) {
                     sum.friction += reading.friction / period as f64;
@@ -254,7 +276,7 @@ impl<'a> Piece<'a> {
             last = mean;
             let most = if passes < MOST_PASSES { STEADY } else { UNSTEADY };
             if passes > 2 * period && change <= most * scale {
-                return Ok((last, extremes));
+                return Ok((last, forces));
             }
             if passes >= MOST_PASSES {
                 return Err(LawError::EndUnsettled { change, passes });
@@ -289,17 +311,19 @@ impl<'a> Piece<'a> {
     }
 }
 
-/// Least number of passes after which interleaved traffic with these shares repeats, as far as it is short.
-fn period(shares: &[f64]) -> usize {
+/// Least number of passes after which interleaved traffic with these shares repeats, and true; or, where that is long, a number
+/// over which to average, and false.
+fn period(shares: &[f64]) -> (usize, bool) {
     let total: f64 = shares.iter().sum();
-    (1..LONGEST_PERIOD)
-        .find(|&n| {
-            shares.iter().all(|share| {
-                let count = share / total * n as f64;
-                (count - count.round()).abs() < 1e-6
-            })
+    let whole = |n: &usize| {
+        shares.iter().all(|share| {
+            let count = share / total * *n as f64;
+            (count - count.round()).abs() < 1e-6
         })
-        .unwrap_or(LONGEST_PERIOD)
+    };
+    (1..=LONGEST_PERIOD)
+        .find(whole)
+        .map_or((LONGEST_PERIOD, false), |period| (period, true))
 }
 
 #[cfg(test)]
@@ -308,9 +332,9 @@ mod tests {
 
     #[test]
     fn traffic_repeats_after_its_period() {
-        assert_eq!(period(&[1.0]), 1);
-        assert_eq!(period(&[2.0, 1.0]), 3);
-        assert_eq!(period(&[0.25, 0.75]), 4);
-        assert_eq!(period(&[1.0, std::f64::consts::PI]), LONGEST_PERIOD);
+        assert_eq!(period(&[1.0]), (1, true));
+        assert_eq!(period(&[2.0, 1.0]), (3, true));
+        assert_eq!(period(&[0.25, 0.75]), (4, true));
+        assert_eq!(period(&[1.0, std::f64::consts::PI]), (LONGEST_PERIOD, false));
     }
 }

@@ -78,17 +78,9 @@ impl PassLaw {
             resolution,
             upstream,
             downstream,
-            residual: None,
+            residual: resolution.approach().map(|approach| (approach, traffic.to_vec())),
             preparation,
         })
-    }
-
-    /// The same law as a simulation sees it whose vehicles come from and leave to `approach` \[m\] beyond the duct's ends.
-    /// The field of an endless half-space reaches farther; cutting it off leaves the duct a little ahead after every pass.
-    #[must_use]
-    pub fn with_approach(mut self, approach: f64, traffic: &[(DuctMotion, f64)]) -> Self {
-        self.residual = Some((approach, traffic.to_vec()));
-        self
     }
 
     /// Mean advance per pass of the traffic.

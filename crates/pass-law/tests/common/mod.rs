@@ -42,7 +42,7 @@ pub fn both(
     traffic: &[(DuctMotion, f64)],
     passes: &[u64],
 ) -> Result<Vec<(PassRecord, PassRecord)>, Box<dyn std::error::Error>> {
-    let law = PassLaw::new(cable, traffic, resolution()?)?.with_approach(APPROACH, traffic);
+    let law = PassLaw::new(cable, traffic, resolution()?.with_approach(APPROACH)?)?;
     let evolution = law.run(passes)?;
     println!("{:?} {:?}", law.preparation(), evolution.statistics);
     let direct = direct(cable, traffic, passes)?;
@@ -70,6 +70,8 @@ pub fn direct(
                 pass,
                 upstream_force: outcome.force.upstream,
                 downstream_force: outcome.force.downstream,
+                upstream_swing: 0.0,
+                downstream_swing: 0.0,
                 upstream_peak: outcome.peak.upstream,
                 downstream_peak: outcome.peak.downstream,
                 max_compression: outcome.max_compression,
