@@ -15,7 +15,7 @@ use crate::table::Table;
 use crate::error::checked;
 use crate::{LawError, Resolution};
 
-/// An advance below this share of the duct's largest displacement counts as none.
+/// An advance below this share of the duct's largest displacement counts as none; every advance is less by it.
 pub(crate) const NO_ADVANCE: f64 = 1e-4;
 /// f* is found to this share of q.
 const ROOT_ACCURACY: f64 = 5e-5;
@@ -201,8 +201,11 @@ impl<'a> Draft<'a> {
             return Ok(known[1]);
         }
         let advance = self.cell.advance(share * self.limit)?;
-        self.known.push([share, advance.value, advance.error]);
-        Ok(advance.value)
+        // What is only the solver's tolerance must not add up over millions of passes.
+        let floor = NO_ADVANCE * self.peak;
+        let value = (advance.value.abs() - floor).max(0.0).copysign(advance.value);
+        self.known.push([share, value, advance.error]);
+        Ok(value)
     }
 
     /// Fails where the cell was too short for one of the shares in use.
@@ -227,13 +230,13 @@ impl<'a> Draft<'a> {
             self.known.push([0.0; 3]);
             return Ok(0.0);
         }
-        let floor = NO_ADVANCE * self.peak;
+        // Where the advance stays zero, f* is where it begins to.
+        let floor = 0.01 * NO_ADVANCE * self.peak;
         let start = self.sample(0.0)?;
         if start.abs() <= floor {
             return Ok(0.0);
         }
         let sign = start.signum();
-        // Ahead of the zero the advance is positive in the traffic's direction; where it stays zero, f* is where it begins to.
         let (mut low, mut high, mut above, mut below) = (0.0, 0.0, start.abs() - floor, 0.0);
         for step in 1..=8 {
             let share = (0.125 * f64::from(step)).min(LARGEST);
@@ -248,10 +251,15 @@ impl<'a> Draft<'a> {
         if below > 0.0 {
             return Ok(sign * LARGEST * self.limit);
         }
-        let mut side = 0;
+        let (mut side, mut round) = (0, 0);
         while high - low > ROOT_ACCURACY {
-            // Never closer to an end than a tenth of what is left, so that both ends close in.
-            let guess = (low * below - high * above) / (below - above);
+            round += 1;
+            let guess = if round % 4 == 0 {
+                0.5 * (low + high)
+            } else {
+                (low * below - high * above) / (below - above)
+            };
+            // Not quite at an end, so that both ends close in.
             let inset = 0.02 * (high - low);
             let middle = guess.clamp(low + inset, high - inset);
             let value = sign * self.sample(sign * middle)? - floor;

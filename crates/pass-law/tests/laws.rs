@@ -131,7 +131,9 @@ fn a_soft_deep_cable_shakes_down() -> Outcome {
     let cable = DuctedCable::new(100.0, 1.47e6, friction)?.with_ends(End::Free, End::Fixed)?;
     let law = PassLaw::new(&cable, &[(motion(TRUCK, Forward)?, 1.0)], resolution()?)?;
     assert!(matches!(law.concerns()[..], [Concern::ShakesDown { .. }]), "{:?}", law.concerns());
-    assert!(law.run(&[1_000_000])?.records[0].downstream_force.abs() < 0.02 * q * 100.0);
+    // The ends' layers, of a few depths, are all that is left of the force.
+    let force = law.run(&[1_000_000])?.records[0].downstream_force;
+    assert!(force.abs() < 2.0 * common::DEPTH * q, "{force}");
     Ok(())
 }
 
