@@ -24,8 +24,8 @@ use ground_field::DuctMotion;
 
 use crate::{LawError, Resolution};
 
-/// Length of a cell in depths, beside the vehicle's own length.
-const CELL_DEPTHS: f64 = 36.0;
+/// Length of a cell in fading lengths, beside the vehicle's own length.
+const CELL_LENGTHS: f64 = 36.0;
 /// Distance in depths from which vehicles come.
 const APPROACH_DEPTHS: f64 = 40.0;
 /// The dead loads' springs are stretched by this many times the duct's largest displacement.
@@ -77,7 +77,7 @@ pub(crate) struct Cell<'a> {
 
 impl<'a> Cell<'a> {
     pub fn new(cable: &DuctedCable, motion: &'a DuctMotion, resolution: Resolution) -> Result<Self, LawError> {
-        let length = CELL_DEPTHS * resolution.depth() + 2.0 * motion.half_length();
+        let length = CELL_LENGTHS * resolution.fading_length(cable, motion.peak_longitudinal()) + 2.0 * motion.half_length();
         let approach = APPROACH_DEPTHS * resolution.depth() + motion.half_length();
         let mesh = Mesh::new(length, resolution.node_spacing(), resolution.vehicle_step())?;
         let residual = (0..mesh.nodes())

@@ -21,8 +21,8 @@ use crate::cell::dead_load;
 use crate::table::Table;
 use crate::{LawError, MixedLaw, Resolution};
 
-/// Length of a piece in depths, beside the longest vehicle.
-const PIECE_DEPTHS: f64 = 24.0;
+/// Length of a piece in fading lengths, beside the longest vehicle.
+const PIECE_LENGTHS: f64 = 24.0;
 /// Distance in depths from which vehicles come.
 const APPROACH_DEPTHS: f64 = 40.0;
 /// A piece is steady when S changes by less than this share of q × depth a pass.
@@ -152,7 +152,7 @@ impl<'a> Piece<'a> {
     ) -> Result<Self, LawError> {
         let half = streams.iter().map(|(motion, _)| motion.half_length()).fold(0.0, f64::max);
         let peak = streams.iter().map(|(motion, _)| motion.peak_longitudinal()).fold(0.0, f64::max);
-        let length = PIECE_DEPTHS * resolution.depth() + 2.0 * half;
+        let length = PIECE_LENGTHS * resolution.fading_length(cable, peak) + 2.0 * half;
         Ok(Self {
             stiffness: cable.axial_stiffness(),
             cable: DuctedCable::new(length, cable.axial_stiffness(), cable.friction())?,

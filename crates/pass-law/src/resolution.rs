@@ -1,7 +1,14 @@
 //! How finely cells and runs at the ends are computed.
 
+use cable_dem::DuctedCable;
+
 use crate::LawError;
 use crate::error::checked;
+
+/// Weight of the slip length beside the depth.
+const SLIP_LENGTHS: f64 = 0.6;
+/// Longest fading length in depths.
+const MOST_DEPTHS: f64 = 8.0;
 
 /// Cells in units of the duct's depth, which is the natural length of the ground's motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,6 +91,17 @@ impl Resolution {
     /// Distance between vehicle positions \[m\].
     pub fn vehicle_step(self) -> f64 {
         0.5 * self.node_spacing()
+    }
+
+    /// Length \[m\] over which the effect of a vehicle fades: the depth, or the length √(EA D_l/q) over which friction stretches
+    /// the cable by the duct's displacement, in proportion to which it grows where friction is small.
+    pub(crate) fn fading_length(self, cable: &DuctedCable, peak: f64) -> f64 {
+        let limit = cable.friction().limit();
+        if limit == 0.0 {
+            return self.depth;
+        }
+        let slip_length = (cable.axial_stiffness() * peak / limit).sqrt();
+        self.depth.max(SLIP_LENGTHS * slip_length).min(MOST_DEPTHS * self.depth)
     }
 
     /// Accuracy of the table, a share of the largest advance.

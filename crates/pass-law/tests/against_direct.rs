@@ -17,9 +17,7 @@ fn a_hundred_metres_within_two_per_cent_beyond_the_tenth_pass() -> Outcome {
     Ok(())
 }
 
-/// `cargo test --release -p pass-law -- --ignored three_hundred`
 #[test]
-#[ignore = "three thousand passes over 300 m take about a minute"]
 fn three_hundred_metres_within_two_per_cent() -> Outcome {
     let traffic = [(motion(TRUCK, Forward)?, 1.0)];
     let passes = [11, 20, 50, 100, 200, 500, 1000, 2000, 3000];
