@@ -138,7 +138,13 @@ mod tests {
         let state = CableState::from_parts(&mesh, vec![0.0, 1.0, 2.0], vec![3.0; 3])?;
         assert_eq!((state.displacement()[2], state.friction()[0]), (2.0, 3.0));
         let short = CableState::from_parts(&mesh, vec![0.0; 2], vec![0.0; 3]);
-        assert_eq!(short, Err(CableError::StateMismatch { found: 2, expected: 3 }));
+        assert_eq!(
+            short,
+            Err(CableError::StateMismatch {
+                found: 2,
+                expected: 3
+            })
+        );
         assert!(CableState::from_parts(&mesh, vec![0.0; 3], vec![0.0, f64::NAN, 0.0]).is_err());
         Ok(())
     }

@@ -15,7 +15,12 @@ fn setup() -> Setup {
     let truck = Vehicle::point("20 tf", 196_133.0, 11.1)?;
     let motion = DuctMotion::new(&ground, &truck, DuctLine::new(1.2, 0.0)?, 500.0, 1e-8)?;
     let q = 0.25 * 108.8;
-    let friction = Friction::new(FrictionLaw::ElasticPlastic { shape_factor: 2e8 / q }, q)?;
+    let friction = Friction::new(
+        FrictionLaw::ElasticPlastic {
+            shape_factor: 2e8 / q,
+        },
+        q,
+    )?;
     let cable = DuctedCable::new(300.0, 8.01e6, friction)?.with_ends(End::Free, End::Fixed)?;
     Ok((cable, [(motion, 1.0)], Resolution::new(1.2)?))
 }

@@ -20,7 +20,9 @@ const STIFFNESS: f64 = 8.01e6;
 const SHEAR: [f64; 2] = [1e8, 2.5e7];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let path = std::env::args().nth(1).unwrap_or_else(|| "docs/design-chart.svg".into());
+    let path = std::env::args()
+        .nth(1)
+        .unwrap_or_else(|| "docs/design-chart.svg".into());
     let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
     let truck = Vehicle::point("20 tf", 196_133.0, 11.1)?;
     let motion = DuctMotion::new(&ground, &truck, DuctLine::new(DEPTH, 0.0)?, 500.0, 1e-9)?;
@@ -58,15 +60,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         plot.text((from * to).sqrt(), 2.27, "middle", "#333", label);
     }
 
-    let mut threshold = None;
     for (shear, dash) in SHEAR.into_iter().zip(["none", "7 4"]) {
         let (mut saturation, mut advance) = (Vec::new(), Vec::new());
+        let mut threshold = None;
         for k in 0..=44 {
             let number = 0.03 * (5.0_f64 / 0.03).powf(f64::from(k) / 44.0);
             let q = number * STIFFNESS * motion.peak_longitudinal() / (DEPTH * DEPTH);
-            let law = FrictionLaw::ElasticPlastic { shape_factor: 2.0 * shear / q };
+            let law = FrictionLaw::ElasticPlastic {
+                shape_factor: 2.0 * shear / q,
+            };
             let cable = DuctedCable::new(100.0, STIFFNESS, Friction::new(law, q)?)?;
-            let law = match AdvanceLaw::new(&cable, &motion, Resolution::new(DEPTH)?.with_nodes_per_depth(10.0)?) {
+            let law = match AdvanceLaw::new(
+                &cable,
+                &motion,
+                Resolution::new(DEPTH)?.with_nodes_per_depth(10.0)?,
+            ) {
                 Ok(law) => law,
                 Err(error @ LawError::CellUnsettled { .. }) => {
                     println!("{number:.3}: {error}");
@@ -75,7 +83,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 Err(error) => return Err(error.into()),
             };
             let share = law.free_advance() / motion.peak_longitudinal();
-            println!("{number:.4} {shear:.1e} f*/q {:.4} G(0)/D {share:.4}", law.saturation() / q);
+            println!(
+                "{number:.4} {shear:.1e} f*/q {:.4} G(0)/D {share:.4}",
+                law.saturation() / q
+            );
             if law.saturation() == 0.0 && threshold.is_none() {
                 threshold = Some(number);
             }
@@ -84,14 +95,20 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
         plot.curve(&saturation, "#1b5fa8", dash);
         plot.curve(&advance, "#c04a12", dash);
+        if let Some(number) = threshold {
+            plot.curve(&[(number, 0.0), (number, 0.6)], "#777", "2 3");
+        }
     }
-    if let Some(number) = threshold {
-        plot.curve(&[(number, 0.0), (number, 1.1)], "#777", "2 3");
-        plot.text(number * 0.96, 1.15, "middle", "#555", "shakedown");
-    }
-    plot.text(0.034, 2.02, "start", "#c04a12", "G(0)/max D_l");
-    plot.text(0.034, 0.72, "start", "#1b5fa8", "f*/q");
-    plot.text(0.034, 0.18, "start", "#555", "sheath EA γ/z²: 0.056 solid, 0.22 dashed");
+    plot.text(2.6, 0.66, "middle", "#555", "shakedown");
+    plot.text(0.072, 2.1, "start", "#c04a12", "G(0)/max D_l");
+    plot.text(0.072, 0.66, "start", "#1b5fa8", "f*/q");
+    plot.text(
+        0.034,
+        0.18,
+        "start",
+        "#555",
+        "sheath EA γ/z²: 0.056 solid, 0.22 dashed",
+    );
     std::fs::write(path, plot.svg())?;
     Ok(())
 }

@@ -11,8 +11,8 @@ use cable_dem::{CableError, DuctedCable};
 use ground_field::DuctMotion;
 
 use crate::cell::Cell;
-use crate::table::Table;
 use crate::error::checked;
+use crate::table::Table;
 use crate::{LawError, Resolution};
 
 /// An advance below this share of the duct's largest displacement counts as none; every advance is less by it.
@@ -65,11 +65,7 @@ impl AdvanceLaw {
     ///
     /// [`LawError::Cable`] with [`CableError::UnsupportedLaw`] for friction without memory, and for what the solver refuses;
     /// [`LawError::CellUnsettled`] where a cell is too short for the vehicle's effect.
-    pub fn new(
-        cable: &DuctedCable,
-        motion: &DuctMotion,
-        resolution: Resolution,
-    ) -> Result<Self, LawError> {
+    pub fn new(cable: &DuctedCable, motion: &DuctMotion, resolution: Resolution) -> Result<Self, LawError> {
         let draft = Draft::new(cable, motion, resolution)?;
         let (from, to) = (draft.saturation.min(0.0), draft.saturation.max(0.0));
         draft.tabulate(from, to)
@@ -147,7 +143,14 @@ impl AdvanceLaw {
     #[must_use]
     pub fn opposed(&self) -> Self {
         let mirrored = |table: &Table, sign: f64| {
-            Table::new(table.nodes().iter().rev().map(|&[f, value]| [-f, sign * value]).collect())
+            Table::new(
+                table
+                    .nodes()
+                    .iter()
+                    .rev()
+                    .map(|&[f, value]| [-f, sign * value])
+                    .collect(),
+            )
         };
         Self {
             table: mirrored(&self.table, -1.0),
@@ -173,7 +176,11 @@ pub(crate) struct Draft<'a> {
 }
 
 impl<'a> Draft<'a> {
-    pub fn new(cable: &DuctedCable, motion: &'a DuctMotion, resolution: Resolution) -> Result<Self, LawError> {
+    pub fn new(
+        cable: &DuctedCable,
+        motion: &'a DuctMotion,
+        resolution: Resolution,
+    ) -> Result<Self, LawError> {
         let friction = cable.friction();
         if !friction.law().has_memory() {
             return Err(LawError::Cable(CableError::UnsupportedLaw {
@@ -203,7 +210,7 @@ impl<'a> Draft<'a> {
         let advance = self.cell.advance(share * self.limit)?;
         // What is only the solver's tolerance must not add up over millions of passes.
         let floor = NO_ADVANCE * self.peak;
-        let value = (advance.value.abs() - floor).max(0.0).copysign(advance.value);
+        let value = advance.value - advance.value.clamp(-floor, floor);
         self.known.push([share, value, advance.error]);
         Ok(value)
     }
@@ -341,7 +348,10 @@ impl<'a> Draft<'a> {
             let (mut finer, mut still_open) = (Vec::new(), Vec::new());
             for (i, &node) in nodes.iter().enumerate() {
                 finer.push(node);
-                let Some(next) = nodes.get(i + 1).filter(|next| open[i] && next[0] - node[0] > FINEST) else {
+                let Some(next) = nodes
+                    .get(i + 1)
+                    .filter(|next| open[i] && next[0] - node[0] > FINEST)
+                else {
                     still_open.push(false);
                     continue;
                 };
@@ -357,7 +367,11 @@ impl<'a> Draft<'a> {
     }
 
     fn finish(self, nodes: Vec<[f64; 2]>, lags: Vec<[f64; 2]>) -> AdvanceLaw {
-        let free = self.known.iter().find(|node| node[0] == 0.0).map_or(0.0, |node| node[1]);
+        let free = self
+            .known
+            .iter()
+            .find(|node| node[0] == 0.0)
+            .map_or(0.0, |node| node[1]);
         AdvanceLaw {
             limit: self.limit,
             peak: self.peak,

@@ -59,7 +59,10 @@ impl std::fmt::Display for Concern {
         match self {
             Self::NoMemory => write!(f, "friction without memory locks nothing in"),
             Self::ShortDuct { length, needed } => {
-                write!(f, "a duct of {length} m is mostly ends; the law needs about {needed} m")
+                write!(
+                    f,
+                    "a duct of {length} m is mostly ends; the law needs about {needed} m"
+                )
             }
             Self::ShakesDown { advance, peak } => write!(
                 f,
@@ -99,7 +102,11 @@ impl PassLaw {
         let mut concerns = concerns_before(self.cable(), self.resolution);
         let law = self.law();
         let (advance, peak) = (law.free_advance().abs(), law.peak_longitudinal());
-        let alone = law.parts().iter().map(|(_, law)| law.free_advance().abs()).fold(0.0, f64::max);
+        let alone = law
+            .parts()
+            .iter()
+            .map(|(_, law)| law.free_advance().abs())
+            .fold(0.0, f64::max);
         if alone < SMALL_ADVANCE * peak {
             concerns.push(Concern::ShakesDown { advance, peak });
         } else if advance < SMALL_ADVANCE * alone {

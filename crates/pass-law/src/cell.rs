@@ -76,8 +76,13 @@ pub(crate) struct Cell<'a> {
 }
 
 impl<'a> Cell<'a> {
-    pub fn new(cable: &DuctedCable, motion: &'a DuctMotion, resolution: Resolution) -> Result<Self, LawError> {
-        let length = CELL_LENGTHS * resolution.fading_length(cable, motion.peak_longitudinal()) + 2.0 * motion.half_length();
+    pub fn new(
+        cable: &DuctedCable,
+        motion: &'a DuctMotion,
+        resolution: Resolution,
+    ) -> Result<Self, LawError> {
+        let length = CELL_LENGTHS * resolution.fading_length(cable, motion.peak_longitudinal())
+            + 2.0 * motion.half_length();
         let approach = APPROACH_DEPTHS * resolution.depth() + motion.half_length();
         let mesh = Mesh::new(length, resolution.node_spacing(), resolution.vehicle_step())?;
         let residual = (0..mesh.nodes())
@@ -124,7 +129,11 @@ impl<'a> Cell<'a> {
 
     /// Node at a share of the cell's length from where the vehicle enters.
     fn node(&self, share: f64) -> usize {
-        let share = if self.motion.velocity() < 0.0 { 1.0 - share } else { share };
+        let share = if self.motion.velocity() < 0.0 {
+            1.0 - share
+        } else {
+            share
+        };
         (share * self.mesh.elements() as f64).round() as usize
     }
 
@@ -134,7 +143,10 @@ impl<'a> Cell<'a> {
         let length = self.cable.length();
         let (spring, stretch) = dead_load(0.5 * friction * length, self.motion.peak_longitudinal());
         // The gradient adds no force at the ends, but moves them apart.
-        let (bend, twist) = (0.5 * friction / self.cable.axial_stiffness(), gradient / self.cable.axial_stiffness());
+        let (bend, twist) = (
+            0.5 * friction / self.cable.axial_stiffness(),
+            gradient / self.cable.axial_stiffness(),
+        );
         let apart = twist * length.powi(3) / 12.0;
         let far_spring = spring * stretch / (stretch + apart);
         let far_spring = if far_spring > 0.0 { far_spring } else { 0.0 };
@@ -155,7 +167,9 @@ impl<'a> Cell<'a> {
         QuasiStatic::new(cable, self.mesh)?.pass(&passage, &mut state)?;
         self.passes += 1;
         let moved = state.displacement().iter().zip(&start).zip(&self.residual);
-        Ok(moved.map(|((after, before), residual)| after - before - residual).collect())
+        Ok(moved
+            .map(|((after, before), residual)| after - before - residual)
+            .collect())
     }
 
     pub fn length(&self) -> f64 {

@@ -135,7 +135,10 @@ impl PassLaw {
                         0.0
                     };
                     let pull = series * (u[node] + held);
-                    (outward * pull, if spring > 0.0 { pull / spring } else { u[node] + v })
+                    (
+                        outward * pull,
+                        if spring > 0.0 { pull / spring } else { u[node] + v },
+                    )
                 }
                 // The slow force at the end, and what its layer adds.
                 End::Fixed => (inside + outward * (problem.weights[node] * f + force), 0.0),
@@ -221,16 +224,25 @@ impl<'a> March<'a> {
         while self.pass < pass {
             let left = pass - self.pass;
             // A listed pass shortens a step, but not those after it.
-            let (step, whole) = if left <= self.step { (left, true) } else { (self.step, false) };
+            let (step, whole) = if left <= self.step {
+                (left, true)
+            } else {
+                (self.step, false)
+            };
             match self.attempt(step) {
                 Ok(error) if error <= 1.0 => {
                     self.u.copy_from_slice(&self.stages[1]);
                     self.pass = if whole { pass } else { self.pass + step };
                     self.statistics.steps += 1;
                     let growth = (0.9 / error.max(1e-6).sqrt()).min(2.5);
-                    self.step = if whole { self.step.max(step * growth) } else { step * growth.max(0.5) };
+                    self.step = if whole {
+                        self.step.max(step * growth)
+                    } else {
+                        step * growth.max(0.5)
+                    };
                 }
                 outcome => {
+                    // No answer, or not accurate enough: a shorter step.
                     self.statistics.rejected += 1;
                     let shrink = outcome.map_or(0.25, |error| (0.9 / error.sqrt()).clamp(0.1, 0.7));
                     self.step = step * shrink;
@@ -255,19 +267,22 @@ impl<'a> March<'a> {
         first.copy_from_slice(&self.u);
         let accuracy = STAGE_ACCURACY * largest;
         self.statistics.newton_iterations +=
-            self.problem.implicit(&memory, &self.u, implicit, accuracy, first, &mut self.system)?;
+            self.problem
+                .implicit(&memory, &self.u, implicit, accuracy, first, &mut self.system)?;
         // k1 = (first − u)/(γ step).
-        for i in 0..self.u.len() {
-            self.base[i] = self.u[i] + (1.0 - GAMMA) / GAMMA * (first[i] - self.u[i]);
+        for ((base, u), first) in self.base.iter_mut().zip(&self.u).zip(&*first) {
+            *base = u + (1.0 - GAMMA) / GAMMA * (first - u);
         }
         second.copy_from_slice(first);
         self.statistics.newton_iterations +=
-            self.problem.implicit(&memory, &self.base, implicit, accuracy, second, &mut self.system)?;
-        let mut error = 0.0_f64;
-        for i in 0..self.u.len() {
-            let (slow, fast) = (first[i] - self.u[i], second[i] - self.base[i]);
-            error = error.max((fast - slow).abs());
-        }
+            self.problem
+                .implicit(&memory, &self.base, implicit, accuracy, second, &mut self.system)?;
+        let slow = first.iter().zip(&self.u).map(|(stage, u)| stage - u);
+        let fast = second.iter().zip(&self.base).map(|(stage, base)| stage - base);
+        let error = fast
+            .zip(slow)
+            .map(|(fast, slow)| (fast - slow).abs())
+            .fold(0.0, f64::max);
         let largest = second.iter().fold(self.peak, |m, u| m.max(u.abs()));
         Ok(error / (STEP_ACCURACY * largest))
     }

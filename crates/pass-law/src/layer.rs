@@ -69,7 +69,13 @@ impl Layer {
     pub fn shifted_to(&self, held: &Self, at: f64) -> Self {
         let shifted = |table: &Table, target: &Table| {
             let shift = target.at(at).0 - table.at(at).0;
-            Table::new(table.nodes().iter().map(|node| [node[0], node[1] + shift]).collect())
+            Table::new(
+                table
+                    .nodes()
+                    .iter()
+                    .map(|node| [node[0], node[1] + shift])
+                    .collect(),
+            )
         };
         Self {
             force: shifted(&self.force, &held.force),
@@ -150,15 +156,23 @@ impl<'a> Piece<'a> {
         streams: &'a [(DuctMotion, f64)],
         resolution: Resolution,
     ) -> Result<Self, LawError> {
-        let half = streams.iter().map(|(motion, _)| motion.half_length()).fold(0.0, f64::max);
-        let peak = streams.iter().map(|(motion, _)| motion.peak_longitudinal()).fold(0.0, f64::max);
+        let half = streams
+            .iter()
+            .map(|(motion, _)| motion.half_length())
+            .fold(0.0, f64::max);
+        let peak = streams
+            .iter()
+            .map(|(motion, _)| motion.peak_longitudinal())
+            .fold(0.0, f64::max);
         let length = PIECE_LENGTHS * resolution.fading_length(cable, peak) + 2.0 * half;
         Ok(Self {
             stiffness: cable.axial_stiffness(),
             cable: DuctedCable::new(length, cable.axial_stiffness(), cable.friction())?,
             mesh: Mesh::new(length, resolution.node_spacing(), resolution.vehicle_step())?,
             streams,
-            approach: resolution.approach().unwrap_or(APPROACH_DEPTHS * resolution.depth() + half),
+            approach: resolution
+                .approach()
+                .unwrap_or(APPROACH_DEPTHS * resolution.depth() + half),
             peak,
             depth: resolution.depth(),
             passes: 0,
@@ -179,8 +193,10 @@ impl<'a> Piece<'a> {
         }
         Ok([0, 1].map(|side| {
             let column = |value: fn(Reading) -> f64| {
-                let mut nodes: Vec<[f64; 2]> =
-                    readings.iter().map(|r| [r[side].friction, value(r[side])]).collect();
+                let mut nodes: Vec<[f64; 2]> = readings
+                    .iter()
+                    .map(|r| [r[side].friction, value(r[side])])
+                    .collect();
                 if nodes.len() == 1 {
                     nodes.push([nodes[0][0] + 1.0, nodes[0][1]]);
                 }
@@ -198,7 +214,10 @@ impl<'a> Piece<'a> {
     fn run_moving(&mut self, friction: f64) -> Result<[Reading; 2], LawError> {
         let length = self.cable.length();
         let (spring, stretch) = dead_load(0.5 * friction * length, self.peak);
-        let cable = self.cable.clone().with_ends(End::Spring(spring), End::Spring(spring))?;
+        let cable = self
+            .cable
+            .clone()
+            .with_ends(End::Spring(spring), End::Spring(spring))?;
         let bend = 0.5 * friction / self.stiffness;
         let start = self.state(friction, |x| stretch + bend * x * (length - x))?;
         let (readings, _) = self.run(cable, start, true)?;
@@ -218,7 +237,9 @@ impl<'a> Piece<'a> {
             Side::Downstream => ((End::Free, end), |x, _| x),
         };
         let cable = self.cable.clone().with_ends(ends.0, ends.1)?;
-        let start = self.state(friction, |x| give + bend * (length * length - distance(x, length).powi(2)))?;
+        let start = self.state(friction, |x| {
+            give + bend * (length * length - distance(x, length).powi(2))
+        })?;
         let (readings, forces) = self.run(cable, start, false)?;
         let index = match side {
             Side::Upstream => 0,
@@ -229,8 +250,14 @@ impl<'a> Piece<'a> {
 
     fn state(&self, friction: f64, displacement: impl Fn(f64) -> f64) -> Result<CableState, LawError> {
         let nodes = self.mesh.nodes();
-        let displacement = (0..nodes).map(|i| displacement(self.mesh.spacing() * i as f64)).collect();
-        Ok(CableState::from_parts(&self.mesh, displacement, vec![friction; nodes])?)
+        let displacement = (0..nodes)
+            .map(|i| displacement(self.mesh.spacing() * i as f64))
+            .collect();
+        Ok(CableState::from_parts(
+            &self.mesh,
+            displacement,
+            vec![friction; nodes],
+        )?)
     }
 
     /// Lets the traffic pass until S of both ends is steady; a moving piece is set back after every period.
@@ -271,7 +298,9 @@ impl<'a> Piece<'a> {
             }
             passes += period;
             self.passes += period;
-            let change = (0..2).map(|side| (mean[side].force - last[side].force).abs()).fold(0.0, f64::max)
+            let change = (0..2)
+                .map(|side| (mean[side].force - last[side].force).abs())
+                .fold(0.0, f64::max)
                 / period as f64;
             last = mean;
             let most = if passes < MOST_PASSES { STEADY } else { UNSTEADY };

@@ -26,13 +26,19 @@ impl MixedLaw {
         let limit = parts[0].1.friction_limit();
         for (share, law) in &parts {
             checked("share", *share, "finite and positive", |v| v > 0.0)?;
-            checked("friction limit", law.friction_limit(), "the same for all vehicles", |v| {
-                v == limit
-            })?;
+            checked(
+                "friction limit",
+                law.friction_limit(),
+                "the same for all vehicles",
+                |v| v == limit,
+            )?;
         }
         let total: f64 = parts.iter().map(|part| part.0).sum();
         let mut law = Self {
-            parts: parts.into_iter().map(|(share, law)| (share / total, law)).collect(),
+            parts: parts
+                .into_iter()
+                .map(|(share, law)| (share / total, law))
+                .collect(),
             saturation: 0.0,
         };
         law.saturation = law.find_saturation();
@@ -41,10 +47,12 @@ impl MixedLaw {
 
     /// Mean advance per pass \[m\] at a locked `friction` \[N/m\], and its slope \[m²/N\].
     pub fn advance(&self, friction: f64) -> (f64, f64) {
-        self.parts.iter().fold((0.0, 0.0), |(value, slope), (share, law)| {
-            let (v, s) = law.advance(friction);
-            (value + share * v, slope + share * s)
-        })
+        self.parts
+            .iter()
+            .fold((0.0, 0.0), |(value, slope), (share, law)| {
+                let (v, s) = law.advance(friction);
+                (value + share * v, slope + share * s)
+            })
     }
 
     /// Lag of the mean advance \[m\] (see [`AdvanceLaw::lag`]): to first order in the gradient of the friction the vehicles' lags
@@ -59,7 +67,10 @@ impl MixedLaw {
 
     /// G(0) \[m\], positive toward growing x.
     pub fn free_advance(&self) -> f64 {
-        self.parts.iter().map(|(share, law)| share * law.free_advance()).sum()
+        self.parts
+            .iter()
+            .map(|(share, law)| share * law.free_advance())
+            .sum()
     }
 
     /// f* \[N/m\]: the locked friction at which the mean advance vanishes, with the sign of the advance before.
@@ -74,7 +85,10 @@ impl MixedLaw {
 
     /// Largest longitudinal displacement of the duct under any of the vehicles \[m\].
     pub fn peak_longitudinal(&self) -> f64 {
-        self.parts.iter().map(|(_, law)| law.peak_longitudinal()).fold(0.0, f64::max)
+        self.parts
+            .iter()
+            .map(|(_, law)| law.peak_longitudinal())
+            .fold(0.0, f64::max)
     }
 
     /// The vehicles' laws with their shares, which add up to 1.
@@ -84,9 +98,11 @@ impl MixedLaw {
 
     /// Locked friction \[N/m\] that all tables cover.
     pub fn domain(&self) -> (f64, f64) {
-        self.parts.iter().fold((f64::NEG_INFINITY, f64::INFINITY), |(low, high), (_, law)| {
-            (low.max(law.domain().0), high.min(law.domain().1))
-        })
+        self.parts
+            .iter()
+            .fold((f64::NEG_INFINITY, f64::INFINITY), |(low, high), (_, law)| {
+                (low.max(law.domain().0), high.min(law.domain().1))
+            })
     }
 
     /// The locked friction nearest to none at which the mean advance is `advance` \[m\], by bisection.

@@ -61,7 +61,11 @@ impl PassLaw {
             .collect::<Result<Vec<_>, LawError>>()?;
         let law = MixedLaw::new(parts)?;
         let mut preparation = Preparation {
-            cell_passes: law.parts().iter().map(|(_, law)| law.statistics().cell_passes).sum(),
+            cell_passes: law
+                .parts()
+                .iter()
+                .map(|(_, law)| law.statistics().cell_passes)
+                .sum(),
             end_passes: 0,
         };
         let (upstream, downstream) = if law.friction_limit() == 0.0 {
@@ -102,13 +106,20 @@ impl PassLaw {
         let limit = self.law.friction_limit();
         let end = |layer: &Layer, end: End| SlowEnd {
             stiffness: end.stiffness(),
-            inset: if end.stiffness().is_none() { 0.0 } else { inset(layer, limit) },
+            inset: if end.stiffness().is_none() {
+                0.0
+            } else {
+                inset(layer, limit)
+            },
             layer: layer.clone(),
         };
         let upstream = end(&self.upstream, self.cable.upstream());
         let downstream = end(&self.downstream, self.cable.downstream());
         let length = self.cable.length();
-        let (first, last) = (upstream.inset.min(0.2 * length), length - downstream.inset.min(0.2 * length));
+        let (first, last) = (
+            upstream.inset.min(0.2 * length),
+            length - downstream.inset.min(0.2 * length),
+        );
         let mut breaks = vec![first, last];
         let clamps: Vec<(f64, f64)> = self
             .cable
@@ -157,7 +168,10 @@ impl PassLaw {
 
 /// Layers of both ends, as they are held.
 fn layers(piece: &mut Piece<'_>, law: &MixedLaw, cable: &DuctedCable) -> Result<(Layer, Layer), LawError> {
-    let ends = [(Side::Upstream, cable.upstream()), (Side::Downstream, cable.downstream())];
+    let ends = [
+        (Side::Upstream, cable.upstream()),
+        (Side::Downstream, cable.downstream()),
+    ];
     let moving = if ends.iter().any(|(_, end)| end.stiffness().is_some()) {
         piece.moving(law)?
     } else {

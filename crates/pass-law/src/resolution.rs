@@ -101,7 +101,9 @@ impl Resolution {
             return self.depth;
         }
         let slip_length = (cable.axial_stiffness() * peak / limit).sqrt();
-        self.depth.max(SLIP_LENGTHS * slip_length).min(MOST_DEPTHS * self.depth)
+        self.depth
+            .max(SLIP_LENGTHS * slip_length)
+            .min(MOST_DEPTHS * self.depth)
     }
 
     /// Accuracy of the table, a share of the largest advance.

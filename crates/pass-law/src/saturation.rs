@@ -120,7 +120,11 @@ impl PassLaw {
                     / (first + last + length / stiffness)
             }
         };
-        let halves = if first.is_some() && last.is_some() { 2.0 } else { 1.0 };
+        let halves = if first.is_some() && last.is_some() {
+            2.0
+        } else {
+            1.0
+        };
         Some(Saturation {
             friction,
             upstream_force: upstream,
@@ -148,7 +152,11 @@ impl PassLaw {
         }
         let pieces = 200;
         let mean = (0..pieces)
-            .map(|k| self.law().advance(star * (f64::from(k) + 0.5) / f64::from(pieces)).0)
+            .map(|k| {
+                self.law()
+                    .advance(star * (f64::from(k) + 0.5) / f64::from(pieces))
+                    .0
+            })
             .sum::<f64>()
             / f64::from(pieces);
         2.0 * self.cable().axial_stiffness() * mean / star
@@ -166,6 +174,12 @@ impl PassLaw {
             };
             weight * friction
         };
-        problem.residual.iter().zip(&problem.weights).map(locked).sum::<f64>() / weights
+        problem
+            .residual
+            .iter()
+            .zip(&problem.weights)
+            .map(locked)
+            .sum::<f64>()
+            / weights
     }
 }

@@ -75,7 +75,11 @@ impl SlowEnd {
                 low = f;
             }
             let newton = f - value / slope;
-            let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
+            let next = if newton > low && newton < high {
+                newton
+            } else {
+                0.5 * (low + high)
+            };
             if (next - f).abs() <= 1e-12 * limit {
                 f = next;
                 break;
@@ -100,14 +104,9 @@ impl SlowProblem {
         self.stiffness(piece) * (u[piece] - u[piece + 1])
     }
 
-    /// v at the ends, from the friction where the end does not move or, at a moving one, where the law holds.
-    fn offset(&self, end: &SlowEnd, friction: f64) -> f64 {
-        end.layer.displacement.at(friction).0
-    }
-
-    /// Displacement of a held end's point.
+    /// Displacement −v of an end's point while what holds the end is at rest.
     pub fn held(&self, end: &SlowEnd) -> f64 {
-        -self.offset(end, self.law.saturation())
+        -end.layer.displacement.at(self.law.saturation()).0
     }
 
     /// Locked friction at every point \[N/m\].
@@ -124,7 +123,7 @@ impl SlowProblem {
                 return self.at_rest(i);
             }
             let grip = end.grip(self.axial_stiffness);
-            let spring = grip * (u[0] + self.offset(end, self.law.saturation())) + self.springs[0] * u[0];
+            let spring = grip * (u[0] - self.held(end)) + self.springs[0] * u[0];
             let (friction, by) = end.friction(weight, self.force(u, 0) + spring, limit);
             return Local {
                 friction,
@@ -137,7 +136,7 @@ impl SlowProblem {
                 return self.at_rest(i);
             }
             let grip = end.grip(self.axial_stiffness);
-            let spring = grip * (u[last] + self.offset(end, self.law.saturation())) + self.springs[last] * u[last];
+            let spring = grip * (u[last] - self.held(end)) + self.springs[last] * u[last];
             let (friction, by) = end.friction(weight, spring - self.force(u, last - 1), limit);
             return Local {
                 friction,

@@ -26,9 +26,7 @@ impl Table {
             slopes.push(match (i.checked_sub(1).map(|k| secants[k]), secants.get(i)) {
                 (Some((h0, s0)), Some(&(h1, s1))) => interior(h0, s0, h1, s1),
                 (None, Some(&(h0, s0))) => edge(h0, s0, secants.get(1).copied()),
-                (Some((h0, s0)), None) => {
-                    edge(h0, s0, secants.len().checked_sub(2).map(|k| secants[k]))
-                }
+                (Some((h0, s0)), None) => edge(h0, s0, secants.len().checked_sub(2).map(|k| secants[k])),
                 (None, None) => 0.0,
             });
         }
@@ -118,7 +116,12 @@ mod tests {
     fn a_smooth_function_is_met_to_third_order() {
         let error = |n: i32| {
             let f = |x: f64| -(x.exp());
-            let table = Table::new((0..=n).map(|k| f64::from(k) / f64::from(n)).map(|x| [x, f(x)]).collect());
+            let table = Table::new(
+                (0..=n)
+                    .map(|k| f64::from(k) / f64::from(n))
+                    .map(|x| [x, f(x)])
+                    .collect(),
+            );
             (0..1000)
                 .map(|k| f64::from(k) / 1000.0)
                 .map(|x| (table.at(x).0 - f(x)).abs())

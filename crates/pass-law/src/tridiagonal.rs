@@ -25,7 +25,11 @@ impl Tridiagonal {
             self.right[i] -= factor * self.right[i - 1];
         }
         for i in (0..size).rev() {
-            let next = if i + 1 < size { self.rows[i][2] * self.right[i + 1] } else { 0.0 };
+            let next = if i + 1 < size {
+                self.rows[i][2] * self.right[i + 1]
+            } else {
+                0.0
+            };
             self.right[i] = (self.right[i] - next) / self.rows[i][1];
         }
     }

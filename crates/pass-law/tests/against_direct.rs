@@ -40,7 +40,10 @@ fn both_cables_of_the_experiment_saturate_within_two_per_cent() -> Outcome {
 
 #[test]
 fn two_vehicles_of_different_weight_within_three_per_cent() -> Outcome {
-    let traffic = [(motion(TRUCK, Forward)?, 1.0), (motion(0.6 * TRUCK, Forward)?, 1.0)];
+    let traffic = [
+        (motion(TRUCK, Forward)?, 1.0),
+        (motion(0.6 * TRUCK, Forward)?, 1.0),
+    ];
     let records = both(&cable(60.0, 0.25, 108.8)?, &traffic, &[12, 20, 50, 100, 200, 600])?;
     assert_within(0.03, &records, |record| record.downstream_force);
     Ok(())

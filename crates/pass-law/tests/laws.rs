@@ -28,7 +28,10 @@ fn the_opposed_law_is_that_of_the_opposite_vehicle() -> Outcome {
     for share in [0.0, 0.2, 0.5, 0.64] {
         let f = -share * cable.friction().limit();
         let (mirrored, direct) = (forward.opposed().advance(f).0, reverse.advance(f).0);
-        assert!((mirrored - direct).abs() < 1e-3 * forward.free_advance(), "{share}: {mirrored} {direct}");
+        assert!(
+            (mirrored - direct).abs() < 1e-3 * forward.free_advance(),
+            "{share}: {mirrored} {direct}"
+        );
     }
     Ok(())
 }
@@ -52,7 +55,10 @@ fn more_opposing_traffic_saturates_lower() -> Outcome {
     let saturation = |share: f64| -> Result<f64, LawError> {
         Ok(MixedLaw::new(vec![(1.0, law.clone()), (share, law.opposed())])?.saturation())
     };
-    let all: Vec<f64> = [1e-9, 0.2, 0.5, 0.8].map(&saturation).into_iter().collect::<Result<_, _>>()?;
+    let all: Vec<f64> = [1e-9, 0.2, 0.5, 0.8]
+        .map(&saturation)
+        .into_iter()
+        .collect::<Result<_, _>>()?;
     assert!(all.windows(2).all(|pair| pair[1] < pair[0]));
     assert!((all[0] / law.saturation() - 1.0).abs() < 1e-3);
     Ok(())
@@ -67,7 +73,10 @@ fn cost_does_not_grow_with_the_passes() -> Outcome {
     assert!(few.steps < 200 && few.newton_iterations < 2000, "{few:?}");
     // Ten thousand times as many passes: a few ever longer steps.
     assert!(many.steps < few.steps + 30, "{few:?} {many:?}");
-    assert!(many.newton_iterations < few.newton_iterations + 200, "{few:?} {many:?}");
+    assert!(
+        many.newton_iterations < few.newton_iterations + 200,
+        "{few:?} {many:?}"
+    );
     Ok(())
 }
 
@@ -88,7 +97,10 @@ fn the_evolution_ends_at_the_closed_form() -> Outcome {
             (last.upstream_force, saturation.upstream_force),
             (last.downstream_force, saturation.downstream_force),
         ] {
-            assert!((found - closed).abs() < 0.01 * saturation.friction * 100.0, "{found} {closed}");
+            assert!(
+                (found - closed).abs() < 0.01 * saturation.friction * 100.0,
+                "{found} {closed}"
+            );
         }
     }
     Ok(())
@@ -100,9 +112,14 @@ fn the_front_spreads_with_the_root_of_the_passes() -> Outcome {
     let law = PassLaw::new(&cable(1000.0, 0.25, 108.8)?, &traffic, resolution()?)?;
     let records = law.run(&[100, 400, 1600, 6400])?.records;
     // Differences are free of what the end's layer adds.
-    let steps: Vec<f64> =
-        records.windows(2).map(|pair| pair[1].downstream_force - pair[0].downstream_force).collect();
-    assert!((steps[1] / steps[0] - 2.0).abs() < 0.01 && (steps[2] / steps[1] - 2.0).abs() < 0.01, "{steps:?}");
+    let steps: Vec<f64> = records
+        .windows(2)
+        .map(|pair| pair[1].downstream_force - pair[0].downstream_force)
+        .collect();
+    assert!(
+        (steps[1] / steps[0] - 2.0).abs() < 0.01 && (steps[2] / steps[1] - 2.0).abs() < 0.01,
+        "{steps:?}"
+    );
     let saturation = law.saturation().ok_or("saturates")?;
     let closed = saturation.early_force(6400.0) - saturation.early_force(1600.0);
     assert!((closed / steps[2] - 1.0).abs() < 0.03, "{closed} {}", steps[2]);
@@ -118,7 +135,10 @@ fn passes_to_a_share_agree_with_the_evolution() -> Outcome {
         let passes = saturation.passes_to(share).ok_or("a share")?;
         let force = law.run(&[passes.round() as u64])?.records[0].downstream_force;
         let reached = force / saturation.downstream_force;
-        assert!((reached - share).abs() < 0.05, "{share}: {reached} after {passes}");
+        assert!(
+            (reached - share).abs() < 0.05,
+            "{share}: {reached} after {passes}"
+        );
     }
     assert_eq!(saturation.passes_to(1.0), None);
     Ok(())
@@ -130,7 +150,11 @@ fn a_soft_deep_cable_shakes_down() -> Outcome {
     let friction = Friction::new(FrictionLaw::Coulomb, q)?;
     let cable = DuctedCable::new(100.0, 1.47e6, friction)?.with_ends(End::Free, End::Fixed)?;
     let law = PassLaw::new(&cable, &[(motion(TRUCK, Forward)?, 1.0)], resolution()?)?;
-    assert!(matches!(law.concerns()[..], [Concern::ShakesDown { .. }]), "{:?}", law.concerns());
+    assert!(
+        matches!(law.concerns()[..], [Concern::ShakesDown { .. }]),
+        "{:?}",
+        law.concerns()
+    );
     // The ends' layers, of a few depths, are all that is left of the force.
     let force = law.run(&[1_000_000])?.records[0].downstream_force;
     assert!(force.abs() < 2.0 * common::DEPTH * q, "{force}");
@@ -146,7 +170,10 @@ fn what_the_law_cannot_do_it_says() -> Outcome {
     assert!(concerns.contains(&Concern::NoMemory) && concerns.iter().all(|concern| concern.is_fatal()));
     assert_eq!(concerns.len(), 2);
     let refused = AdvanceLaw::new(&short, &motion(TRUCK, Forward)?, resolution()?);
-    assert!(matches!(refused, Err(LawError::Cable(CableError::UnsupportedLaw { .. }))));
+    assert!(matches!(
+        refused,
+        Err(LawError::Cable(CableError::UnsupportedLaw { .. }))
+    ));
     assert!(Resolution::new(f64::NAN).is_err() && Resolution::new(1.2)?.with_accuracy(0.0).is_err());
     assert!(MixedLaw::new(Vec::new()).is_err());
     Ok(())

@@ -37,7 +37,11 @@ pub struct Plot {
 
 impl Plot {
     pub fn new(x: Axis, y: Axis) -> Self {
-        Self { x, y, body: String::new() }
+        Self {
+            x,
+            y,
+            body: String::new(),
+        }
     }
 
     pub fn place(&self, x: f64, y: f64) -> (f64, f64) {

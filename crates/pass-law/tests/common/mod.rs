@@ -2,7 +2,9 @@
 #![allow(dead_code, reason = "every test file uses its own part")]
 
 use boussinesq::HalfSpace;
-use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Order, Passage, QuasiStatic, Traffic};
+use cable_dem::{
+    CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Order, Passage, QuasiStatic, Traffic,
+};
 use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
 use pass_law::{PassLaw, PassRecord, Resolution};
 
@@ -19,7 +21,13 @@ pub const NODES: f64 = 6.0;
 pub fn motion(force: f64, direction: Direction) -> Result<DuctMotion, Box<dyn std::error::Error>> {
     let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
     let truck = Vehicle::point("truck", force, 11.11)?.driving(direction);
-    Ok(DuctMotion::new(&ground, &truck, DuctLine::new(DEPTH, 0.0)?, 1000.0, 1e-10)?)
+    Ok(DuctMotion::new(
+        &ground,
+        &truck,
+        DuctLine::new(DEPTH, 0.0)?,
+        1000.0,
+        1e-10,
+    )?)
 }
 
 /// 20 tf.
@@ -28,7 +36,9 @@ pub const TRUCK: f64 = 196_133.0;
 /// A cable of the experiment with friction coefficient `mu` and `load` \[N/m\] on its duct.
 pub fn cable(length: f64, mu: f64, load: f64) -> Result<DuctedCable, Box<dyn std::error::Error>> {
     let q = mu * load;
-    let law = FrictionLaw::ElasticPlastic { shape_factor: 2e8 / q };
+    let law = FrictionLaw::ElasticPlastic {
+        shape_factor: 2e8 / q,
+    };
     Ok(DuctedCable::new(length, 8.01e6, Friction::new(law, q)?)?.with_ends(End::Free, End::Fixed)?)
 }
 
@@ -84,11 +94,7 @@ pub fn direct(
 }
 
 /// Asserts that `value` of all records agrees within `share` of the direct one.
-pub fn assert_within(
-    share: f64,
-    records: &[(PassRecord, PassRecord)],
-    value: impl Fn(&PassRecord) -> f64,
-) {
+pub fn assert_within(share: f64, records: &[(PassRecord, PassRecord)], value: impl Fn(&PassRecord) -> f64) {
     for (law, direct) in records {
         println!(
             "{:8} law {:12.5e} direct {:12.5e} ({:+.2} %)",
@@ -100,6 +106,11 @@ pub fn assert_within(
     }
     for (law, direct) in records {
         let error = value(law) / value(direct) - 1.0;
-        assert!(error.abs() <= share, "pass {}: {:.2} % off", law.pass, 100.0 * error);
+        assert!(
+            error.abs() <= share,
+            "pass {}: {:.2} % off",
+            law.pass,
+            100.0 * error
+        );
     }
 }
