@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     );
 
     // Table 2 and Table 3 of Kashiro et al.: friction coefficients, weight [N/m], EA [N], depth [m]; max D_l = 35.7 µm.
-    let classes: [(&str, &str, [f64; 2], f64, f64, f64); 4] = [
+    let classes = [
         ("(1) 0.6 m", "#e3eefb", [0.3, 0.5], 108.8, 8.01e6, 0.6),
         ("(1) 1.5 m", "#e3eefb", [0.3, 0.5], 108.8, 8.01e6, 1.5),
         ("(2) 2.0 m", "#fdebd2", [0.3, 0.5], 108.8, 8.01e6, 2.0),

@@ -2,9 +2,10 @@
 
 mod common;
 
-use cable_dem::End;
-use common::{Outcome, TRUCK, assert_within, both, cable, motion};
+use cable_dem::{DuctedCable, End, Friction, FrictionLaw};
+use common::{Outcome, TRUCK, assert_within, both, both_at, cable, motion, under};
 use ground_field::Direction::{Forward, Reverse};
+use ground_field::{SurfaceLoad, Vehicle, Wheel};
 
 #[test]
 fn a_hundred_metres_within_two_per_cent_beyond_the_tenth_pass() -> Outcome {
@@ -101,5 +102,71 @@ fn reverse_traffic_is_the_mirror_image() -> Outcome {
     let reverse = run(Reverse, End::Fixed, End::Free)?;
     let error = reverse.upstream_force / forward.downstream_force - 1.0;
     assert!(error.abs() < 1e-4, "{error:e}");
+    Ok(())
+}
+
+/// The duct's largest longitudinal displacement in Kashiro et al., Table 3 \[m\].
+const PEAK: f64 = 35.7e-6;
+
+/// Table 2 and 3 of Kashiro et al.: friction coefficient, weight \[N/m\], EA \[N\] and depth \[m\].
+fn class(mu: f64, weight: f64, stiffness: f64, depth: f64, law: impl Fn(f64) -> FrictionLaw) -> Outcome {
+    let q = mu * weight;
+    let cable =
+        DuctedCable::new(60.0, stiffness, Friction::new(law(q), q)?)?.with_ends(End::Free, End::Fixed)?;
+    let motion = under(&Vehicle::point("truck", TRUCK, 11.11)?, depth)?;
+    let factor = PEAK / motion.peak_longitudinal();
+    let records = both_at(
+        depth,
+        &cable,
+        &[(motion.scaled(factor), 1.0)],
+        &[11, 20, 50, 150, 500],
+    )?;
+    assert_within(0.03, &records, |record| record.downstream_force);
+    Ok(())
+}
+
+fn sheath(q: f64) -> FrictionLaw {
+    FrictionLaw::ElasticPlastic {
+        shape_factor: 2e8 / q,
+    }
+}
+
+#[test]
+fn a_shallow_duct_where_the_cable_slips() -> Outcome {
+    class(0.3, 108.8, 8.01e6, 0.6, sheath)
+}
+
+#[test]
+fn a_deep_duct() -> Outcome {
+    class(0.5, 108.8, 8.01e6, 2.0, sheath)
+}
+
+#[test]
+fn a_soft_cable() -> Outcome {
+    class(0.3, 112.7, 1.47e6, 1.5, sheath)
+}
+
+#[test]
+fn coulombs_law() -> Outcome {
+    class(0.4, 108.8, 8.01e6, 1.5, |_| FrictionLaw::Coulomb)
+}
+
+#[test]
+fn a_truck_with_three_axles() -> Outcome {
+    let axle = |x: f64, share: f64| -> Result<Wheel, ground_field::GroundError> {
+        Ok(Wheel {
+            x,
+            y: 0.0,
+            load: SurfaceLoad::point(share * TRUCK)?,
+        })
+    };
+    let wheels = vec![axle(0.0, 0.3)?, axle(-3.8, 0.35)?, axle(-5.1, 0.35)?];
+    let motion = under(&Vehicle::new("truck", wheels, 11.11, Forward)?, 1.2)?.scaled(2.0);
+    let records = both(
+        &cable(60.0, 0.25, 108.8)?,
+        &[(motion, 1.0)],
+        &[11, 20, 50, 150, 500],
+    )?;
+    assert_within(0.03, &records, |record| record.downstream_force);
     Ok(())
 }

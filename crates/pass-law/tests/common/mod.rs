@@ -19,12 +19,16 @@ pub const NODES: f64 = 6.0;
 
 /// The duct under a point load of `force` \[N\].
 pub fn motion(force: f64, direction: Direction) -> Result<DuctMotion, Box<dyn std::error::Error>> {
+    under(&Vehicle::point("truck", force, 11.11)?.driving(direction), DEPTH)
+}
+
+/// A duct at `depth` \[m\] under `vehicle`.
+pub fn under(vehicle: &Vehicle, depth: f64) -> Result<DuctMotion, Box<dyn std::error::Error>> {
     let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
-    let truck = Vehicle::point("truck", force, 11.11)?.driving(direction);
     Ok(DuctMotion::new(
         &ground,
-        &truck,
-        DuctLine::new(DEPTH, 0.0)?,
+        vehicle,
+        DuctLine::new(depth, 0.0)?,
         1000.0,
         1e-10,
     )?)
@@ -52,10 +56,26 @@ pub fn both(
     traffic: &[(DuctMotion, f64)],
     passes: &[u64],
 ) -> Result<Vec<(PassRecord, PassRecord)>, Box<dyn std::error::Error>> {
-    let law = PassLaw::new(cable, traffic, resolution()?.with_approach(APPROACH)?)?;
+    both_at(DEPTH, cable, traffic, passes)
+}
+
+/// As [`both`], for a duct at `depth` \[m\].
+pub fn both_at(
+    depth: f64,
+    cable: &DuctedCable,
+    traffic: &[(DuctMotion, f64)],
+    passes: &[u64],
+) -> Result<Vec<(PassRecord, PassRecord)>, Box<dyn std::error::Error>> {
+    let resolution = Resolution::new(depth)?
+        .with_nodes_per_depth(NODES)?
+        .with_approach(APPROACH)?;
+    let law = PassLaw::new(cable, traffic, resolution)?;
+    for concern in law.concerns() {
+        println!("concern: {concern}");
+    }
     let evolution = law.run(passes)?;
     println!("{:?} {:?}", law.preparation(), evolution.statistics);
-    let direct = direct(cable, traffic, passes)?;
+    let direct = direct_at(depth, cable, traffic, passes)?;
     Ok(evolution.records.into_iter().zip(direct).collect())
 }
 
@@ -64,7 +84,16 @@ pub fn direct(
     traffic: &[(DuctMotion, f64)],
     passes: &[u64],
 ) -> Result<Vec<PassRecord>, Box<dyn std::error::Error>> {
-    let mesh = Mesh::new(cable.length(), DEPTH / NODES, 0.5 * DEPTH / NODES)?;
+    direct_at(DEPTH, cable, traffic, passes)
+}
+
+fn direct_at(
+    depth: f64,
+    cable: &DuctedCable,
+    traffic: &[(DuctMotion, f64)],
+    passes: &[u64],
+) -> Result<Vec<PassRecord>, Box<dyn std::error::Error>> {
+    let mesh = Mesh::new(cable.length(), depth / NODES, 0.5 * depth / NODES)?;
     let mut solver = QuasiStatic::new(cable.clone(), mesh)?;
     let passages = traffic
         .iter()
