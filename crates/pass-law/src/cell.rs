@@ -42,6 +42,15 @@ pub(crate) fn residual_motion(motion: &DuctMotion, length: f64, approach: f64, x
     motion.longitudinal(x - last) - motion.longitudinal(x - first)
 }
 
+/// [`residual_motion`] averaged over traffic by its shares.
+pub(crate) fn mean_residual_motion(traffic: &[(DuctMotion, f64)], length: f64, approach: f64, x: f64) -> f64 {
+    let total: f64 = traffic.iter().map(|stream| stream.1).sum();
+    traffic
+        .iter()
+        .map(|(motion, share)| share / total * residual_motion(motion, length, approach, x))
+        .sum()
+}
+
 /// Stiffness \[N/m\] and stretch \[m\] of a spring that holds `force` \[N\] as a dead load.
 pub(crate) fn dead_load(force: f64, peak: f64) -> (f64, f64) {
     if force == 0.0 {

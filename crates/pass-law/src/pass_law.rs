@@ -4,7 +4,7 @@ use cable_dem::{DuctedCable, End};
 use ground_field::DuctMotion;
 
 use crate::advance::Draft;
-use crate::cell::residual_motion;
+use crate::cell::mean_residual_motion;
 use crate::grid::graded;
 use crate::layer::{Layer, Piece, Side};
 use crate::slow::{SlowEnd, SlowProblem};
@@ -144,13 +144,7 @@ impl PassLaw {
             .iter()
             .map(|&x| match &self.residual {
                 None => 0.0,
-                Some((approach, traffic)) => {
-                    let total: f64 = traffic.iter().map(|stream| stream.1).sum();
-                    traffic
-                        .iter()
-                        .map(|(motion, share)| share / total * residual_motion(motion, length, *approach, x))
-                        .sum()
-                }
+                Some((approach, traffic)) => mean_residual_motion(traffic, length, *approach, x),
             })
             .collect();
         SlowProblem {
