@@ -18,6 +18,19 @@ pub enum Error {
     /// The cable could not be computed.
     #[error(transparent)]
     Cable(#[from] CableError),
+    /// The finest affordable mesh leaves too large an error.
+    #[error(
+        "the estimated error of {:.1} % is too far above the tolerance of {:.2} %: the forces are small beside what passes through \
+         the cable; a node spacing in the scene (solver.node_spacing) or a larger tolerance gives an answer nonetheless",
+        100.0 * .reached,
+        100.0 * .asked
+    )]
+    Inaccurate {
+        /// Estimated error, as a share of the forces.
+        reached: f64,
+        /// Tolerance asked.
+        asked: f64,
+    },
     /// The scene asks for something that does not fit the rest of it.
     #[error("{key}: {found} does not fit this scene: {reason}")]
     Unfit {

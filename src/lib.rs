@@ -16,7 +16,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `cable-dem` (the cable).
+//! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `burmister` (layers by
+//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable).
 
 mod analysis;
 #[cfg(feature = "cli")]
@@ -31,3 +32,8 @@ pub use analysis::result::{
 pub use analysis::run::{RunOptions, check, run, run_with};
 pub use error::Error;
 pub use scene::{Scene, SceneError};
+
+/// The README's example is a test too.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

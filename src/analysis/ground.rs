@@ -13,7 +13,7 @@ use crate::scene::{GroundModel, Scene};
 const CLOSED_FORM_ACCURACY: f64 = 1e-9;
 /// The same for layers by Hankel transform; asked of the transform itself is a tenth of it.
 const TRANSFORM_ACCURACY: f64 = 1e-7;
-/// Loosest and tightest accuracy asked of finite elements, and the share of the tolerance they get.
+/// Tightest and loosest accuracy asked of finite elements, and the share of the tolerance they get.
 const ELEMENTS_ACCURACY: (f64, f64) = (2e-4, 5e-3);
 const ELEMENTS_SHARE: f64 = 0.25;
 

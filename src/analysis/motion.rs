@@ -26,10 +26,14 @@ pub fn approach(scene: &Scene) -> f64 {
         .unwrap_or(APPROACH.max(farthest + APPROACH_DEPTHS * scene.duct.depth))
 }
 
-/// The motion under every vehicle, scaled to a measured peak where the scene has one.
-pub fn motions(scene: &Scene, ground: &ChosenGround) -> Result<Vec<DuctMotion>, Error> {
+/// How far from a vehicle's origin the cable feels it \[m\].
+pub fn reach(scene: &Scene) -> f64 {
+    scene.duct.length + 2.0 * approach(scene)
+}
+
+/// The motion under every vehicle for |ξ| up to `reach` \[m\], scaled to a measured peak where the scene has one.
+pub fn motions(scene: &Scene, ground: &ChosenGround, reach: f64) -> Result<Vec<DuctMotion>, Error> {
     let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
-    let reach = scene.duct.length + 2.0 * approach(scene);
     let mut motions = Vec::new();
     for traffic in &scene.vehicles {
         motions.push(DuctMotion::new(

@@ -39,7 +39,10 @@ pub fn profile(scene: &Scene) -> Result<Profile, Error> {
 /// As for [`profile`].
 pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
     let ground = ground::choose(scene)?;
-    let motions = motion::motions(scene, &ground)?;
+    let reach = positions
+        .iter()
+        .fold(scene.duct.depth, |reach, xi| reach.max(xi.abs()));
+    let motions = motion::motions(scene, &ground, reach)?;
     let first = &motions[0];
     Ok(Profile {
         ground: ground.name.into(),

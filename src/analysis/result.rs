@@ -16,6 +16,13 @@ pub struct Run {
     pub passes: Vec<PassRecord>,
     /// Where the force levels off, if it does.
     pub saturation: Option<Saturation>,
+    /// Force along the cable after the last pass.
+    pub force_profile: ForceProfile,
+    /// What each clamp carries after the last pass.
+    pub restraints: Vec<RestraintRecord>,
+    /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure 7); not from solvers
+    /// with inertia.
+    pub slip_lengths: Option<SlipRecord>,
     /// How wrong the forces may be.
     pub error_estimate: ErrorEstimate,
     /// What the answer cost, in counts that do not depend on the machine.
@@ -67,6 +74,37 @@ pub struct PassRecord {
     pub upstream_displacement_m: f64,
     /// Displacement of the cable at the downstream end \[m\].
     pub downstream_displacement_m: f64,
+    /// Work that slip between cable and duct has turned into heat in this pass \[J\].
+    pub dissipated_energy_j: f64,
+}
+
+/// Force along the cable after the last pass.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ForceProfile {
+    /// Positions along the duct \[m\], midway between nodes.
+    pub positions_m: Vec<f64>,
+    /// Force in the cable there \[N\], compression positive.
+    pub force_n: Vec<f64>,
+}
+
+/// What a clamp carries after the last pass.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct RestraintRecord {
+    /// Position along the duct \[m\].
+    pub position_m: f64,
+    /// Stiffness \[N/m\].
+    pub stiffness_n_per_m: f64,
+    /// Force of the cable on it \[N\], positive toward growing x.
+    pub force_n: f64,
+}
+
+/// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle in the last pass.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct SlipRecord {
+    /// Friction at its limit toward growing x \[m\].
+    pub forward_m: f64,
+    /// Friction at its limit toward falling x \[m\].
+    pub backward_m: f64,
 }
 
 /// Where the force levels off.
@@ -119,6 +157,7 @@ impl PassRecord {
             max_compression_n: outcome.max_compression,
             upstream_displacement_m: outcome.upstream_displacement,
             downstream_displacement_m: outcome.downstream_displacement,
+            dissipated_energy_j: outcome.dissipated,
         }
     }
 }

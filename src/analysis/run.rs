@@ -6,14 +6,18 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
-use cable_dem::{Mesh, PassOutcome, QuasiStatic};
+use cable_dem::{Mesh, PassOutcome};
 use ground_field::DuctMotion;
 
-use super::passes::{Passes, cable, simulate};
-use super::result::{Cost, DuctMotionSummary, ErrorEstimate, PassRecord, PlanSummary, Run};
+use super::cable::{self, CableMethod};
+use super::passes::{Passes, simulate};
+use super::result::{
+    Cost, DuctMotionSummary, ErrorEstimate, ForceProfile, PassRecord, PlanSummary, RestraintRecord, Run,
+    SlipRecord,
+};
 use super::saturation::saturation;
 use super::{ground, motion};
-use crate::scene::{End, SolverMethod};
+use crate::scene::End;
 use crate::{Error, Scene};
 
 /// Nodes per depth of the duct at a tolerance of 1 %; the error falls with the square of the spacing.
@@ -22,8 +26,16 @@ const NODES_PER_DEPTH: f64 = 12.0;
 const STEPS_PER_SPACING: f64 = 2.0;
 /// Share of the difference to the mesh twice as coarse that counts as error. Second order leaves a third of it.
 const ERROR_SHARE: f64 = 0.5;
-/// Halvings of the mesh after which a run gives its best answer with a warning.
+/// Halvings of the mesh after which a run gives its best answer with a warning, and nodes eliminated in all passes beyond
+/// which it halves no more: about ten seconds.
 const MAX_HALVINGS: usize = 4;
+const MAX_NODE_UPDATES: usize = 500_000_000;
+/// A mesh half as coarse takes about this many times the node updates.
+const HALVING_COST: usize = 4;
+/// A larger error than this, or the tolerance if that is larger still, is no answer.
+const DOUBTFUL: f64 = 0.1;
+/// Most passes that are computed one by one.
+const MAX_PASSES: u64 = 1_000_000;
 /// Passes up to which every one is listed.
 const ALL_LISTED: u64 = 10_000;
 /// Forces below this share of the largest transient count as nothing when errors are compared.
@@ -53,24 +65,33 @@ pub fn run(scene: &Scene) -> Result<Run, Error> {
 ///
 /// As for [`run`].
 pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
-    check_method(scene)?;
+    let (method, reason) = cable::choose(scene)?;
     let ground = ground::choose(scene)?;
-    let motions = motion::motions(scene, &ground)?;
+    let motions = motion::motions(scene, &ground, motion::reach(scene))?;
+    let task = Task {
+        scene,
+        method,
+        motions: &motions,
+        progress: options.progress,
+    };
     let mut warnings = Vec::new();
-    let solved = solve(scene, &motions, options, &mut warnings)?;
+    let solved = task.solve(options.verify, &mut warnings)?;
+    for leak in solved.passes.leaks.iter().filter(|leak| leak.matters()) {
+        warnings.push(leak.to_string());
+    }
     let passes = &solved.passes.outcomes;
     let (series, scale) = force_series(scene, passes);
     Ok(Run {
         title: scene.title.clone(),
         plan: PlanSummary {
             ground: ground.name.into(),
-            cable: "quasi-static".into(),
+            cable: method.name().into(),
             node_spacing_m: solved.mesh.spacing(),
             vehicle_step_m: solved.mesh.vehicle_step(),
             reasons: vec![
                 format!("ground {}: {}", ground.name, ground.reason),
-                "cable quasi-static: the cable's wave speed is far above the vehicle's".into(),
-                solved.reason,
+                format!("cable {}: {reason}", method.name()),
+                solved.reason.clone(),
             ],
         },
         duct_motion: DuctMotionSummary {
@@ -79,7 +100,13 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
         },
         passes: listed(passes),
         saturation: saturation(&series, scale),
-        error_estimate: solved.error,
+        force_profile: force_profile(&solved),
+        restraints: restraints(&solved),
+        slip_lengths: solved.passes.slip.map(|slip| SlipRecord {
+            forward_m: slip.forward,
+            backward_m: slip.backward,
+        }),
+        error_estimate: solved.error.clone(),
         cost: Cost::new(&solved.passes.statistics),
         warnings,
     })
@@ -91,27 +118,23 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
 ///
 /// As for [`run`].
 pub fn check(scene: &Scene) -> Result<(), Error> {
-    check_method(scene)?;
+    cable::choose(scene)?;
     ground::choose(scene)?;
-    let cable = cable(scene)?;
-    QuasiStatic::new(cable, first_mesh(scene)?)?;
-    Ok(())
+    cable::cable(scene)?;
+    first_mesh(scene)?;
+    check_passes(scene)
 }
 
-fn check_method(scene: &Scene) -> Result<(), Error> {
-    let unfit = |found| {
-        Err(Error::Unfit {
-            key: "solver.method",
-            found,
-            reason: "not in this version",
-        })
-    };
-    match scene.solver.method {
-        SolverMethod::Auto | SolverMethod::QuasiStatic => Ok(()),
-        SolverMethod::Dynamic => unfit("dynamic"),
-        SolverMethod::Explicit => unfit("explicit"),
-        SolverMethod::PassLaw => unfit("pass-law"),
+/// Passes are computed one by one.
+fn check_passes(scene: &Scene) -> Result<(), Error> {
+    if scene.traffic.passes > MAX_PASSES {
+        return Err(Error::Unfit {
+            key: "traffic.passes",
+            found: "more than a million passes",
+            reason: "this version computes them one by one",
+        });
     }
+    Ok(())
 }
 
 /// Passes on the mesh that was good enough.
@@ -122,81 +145,123 @@ struct Solved {
     reason: String,
 }
 
-/// Refines until the estimated error is within the tolerance, unless the scene says how fine to be.
-fn solve(
-    scene: &Scene,
-    motions: &[DuctMotion],
-    options: &RunOptions<'_>,
-    warnings: &mut Vec<String>,
-) -> Result<Solved, Error> {
-    let tolerance = scene.solver.tolerance;
-    let chosen = scene.solver.node_spacing.is_some() || scene.solver.vehicle_step.is_some();
-    let mut mesh = first_mesh(scene)?;
-    let (mut passes, mut coarse) = both(
-        || simulate_on(scene, motions, mesh, options.progress),
-        || {
-            coarser(scene, mesh)
-                .map(|mesh| simulate(scene, motions, mesh, || ()))
-                .transpose()
-        },
-    )?;
-    let mut halvings = 0;
-    loop {
-        let estimate = coarse
-            .as_ref()
-            .map(|coarse| ERROR_SHARE * difference(&passes, coarse));
-        let enough = estimate.is_none_or(|estimate| estimate <= tolerance);
-        if enough || chosen || halvings == MAX_HALVINGS {
-            if !enough {
-                let estimate = 100.0 * estimate.unwrap_or(f64::NAN);
-                warnings.push(format!(
-                    "the estimated error of {estimate:.2} % exceeds the tolerance of {:.2} %",
-                    100.0 * tolerance
-                ));
+/// What is to be computed on whatever mesh.
+#[derive(Clone, Copy)]
+struct Task<'a> {
+    scene: &'a Scene,
+    method: CableMethod,
+    motions: &'a [DuctMotion],
+    progress: Option<&'a (dyn Fn(f64) + Sync)>,
+}
+
+impl Task<'_> {
+    /// Refines until the estimated error is within the tolerance, unless the scene says how fine to be.
+    fn solve(&self, verify: bool, warnings: &mut Vec<String>) -> Result<Solved, Error> {
+        let Self { scene, .. } = *self;
+        check_passes(scene)?;
+        let tolerance = scene.solver.tolerance;
+        // A law without memory is one of the time step: there is no limit to refine towards.
+        let chosen = scene.solver.node_spacing.is_some()
+            || scene.solver.vehicle_step.is_some()
+            || !scene.friction.law.has_memory();
+        let mut mesh = first_mesh(scene)?;
+        let (mut passes, mut coarse) = both(
+            || self.simulate(mesh, true),
+            || {
+                self.coarser(mesh)
+                    .map(|mesh| self.simulate(mesh, false))
+                    .transpose()
+            },
+        )?;
+        let mut halvings = 0;
+        let mut estimate;
+        loop {
+            estimate = coarse
+                .as_ref()
+                .map(|coarse| ERROR_SHARE * difference(&passes, coarse));
+            let enough = estimate.is_none_or(|estimate| estimate <= tolerance);
+            let costly = HALVING_COST.saturating_mul(passes.statistics.node_updates) > MAX_NODE_UPDATES;
+            if enough || chosen || costly || halvings == MAX_HALVINGS {
+                break;
             }
-            break;
+            let finer = halved(scene, mesh)?;
+            coarse = Some(std::mem::replace(&mut passes, self.simulate(finer, true)?));
+            mesh = finer;
+            halvings += 1;
         }
-        let finer = halved(scene, mesh)?;
-        coarse = Some(std::mem::replace(
-            &mut passes,
-            simulate_on(scene, motions, finer, options.progress)?,
-        ));
-        mesh = finer;
-        halvings += 1;
+        let error = if verify {
+            let finer = self.simulate(halved(scene, mesh)?, true)?;
+            ErrorEstimate {
+                relative: difference(&passes, &finer),
+                method: "measured against a run with half the node spacing and vehicle step".into(),
+            }
+        } else if let Some(relative) = estimate {
+            ErrorEstimate {
+                relative,
+                method: "half the difference to a run with twice the node spacing and vehicle step".into(),
+            }
+        } else {
+            warnings.push("the node spacing is too coarse to estimate the error".into());
+            ErrorEstimate {
+                relative: 1.0,
+                method: "none: the duct is too short for a mesh twice as coarse".into(),
+            }
+        };
+        if !chosen && error.relative > tolerance.max(DOUBTFUL) {
+            return Err(Error::Inaccurate {
+                reached: error.relative,
+                asked: tolerance,
+            });
+        }
+        if error.relative > tolerance {
+            warnings.push(format!(
+                "the estimated error of {:.2} % exceeds the tolerance of {:.2} %",
+                100.0 * error.relative,
+                100.0 * tolerance
+            ));
+        }
+        let reason = if chosen {
+            "node spacing and vehicle step: as the scene asks".into()
+        } else {
+            format!(
+                "node spacing and vehicle step: {:.0} nodes per depth of the duct for an error within {} %",
+                scene.duct.depth / mesh.spacing(),
+                100.0 * tolerance
+            )
+        };
+        Ok(Solved {
+            mesh,
+            passes,
+            error,
+            reason,
+        })
     }
-    let error = if options.verify {
-        let finer = simulate_on(scene, motions, halved(scene, mesh)?, options.progress)?;
-        ErrorEstimate {
-            relative: difference(&passes, &finer),
-            method: "measured against a run with half the node spacing and vehicle step".into(),
-        }
-    } else if let Some(coarse) = &coarse {
-        ErrorEstimate {
-            relative: ERROR_SHARE * difference(&passes, coarse),
-            method: "half the difference to a run with twice the node spacing and vehicle step".into(),
-        }
-    } else {
-        warnings.push("the node spacing is too coarse to estimate the error".into());
-        ErrorEstimate {
-            relative: 1.0,
-            method: "none: the duct is too short for a mesh twice as coarse".into(),
-        }
-    };
-    let reason = if chosen {
-        "node spacing and vehicle step: as the scene asks".into()
-    } else {
-        format!(
-            "node spacing and vehicle step: {:.0} nodes per depth of the duct keep the error within {} %",
-            scene.duct.depth / mesh.spacing(),
-            100.0 * tolerance
+
+    /// All passes on `mesh`; `shown` ones report their progress.
+    fn simulate(&self, mesh: Mesh, shown: bool) -> Result<Passes, Error> {
+        let done = AtomicU64::new(0);
+        simulate(self.scene, self.method, self.motions, mesh, || {
+            if let (true, Some(progress)) = (shown, self.progress) {
+                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                progress(done as f64 / self.scene.traffic.passes as f64);
+            }
+        })
+    }
+
+    /// The mesh twice as coarse; `None` where the duct is too short for one.
+    fn coarser(&self, mesh: Mesh) -> Option<Mesh> {
+        let step = if self.scene.friction.law.has_memory() {
+            2.0
+        } else {
+            1.0
+        };
+        Mesh::new(
+            self.scene.duct.length,
+            2.0 * mesh.spacing(),
+            step * mesh.vehicle_step(),
         )
-    };
-    Ok(Solved {
-        mesh,
-        passes,
-        error,
-        reason,
-    })
+        .ok()
+    }
 }
 
 /// Runs two computations side by side; the first error wins.
@@ -215,21 +280,6 @@ fn both<A: Send, B: Send>(
     })
 }
 
-fn simulate_on(
-    scene: &Scene,
-    motions: &[DuctMotion],
-    mesh: Mesh,
-    progress: Option<&(dyn Fn(f64) + Sync)>,
-) -> Result<Passes, Error> {
-    let done = AtomicU64::new(0);
-    simulate(scene, motions, mesh, || {
-        if let Some(progress) = progress {
-            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            progress(done as f64 / scene.traffic.passes as f64);
-        }
-    })
-}
-
 fn first_mesh(scene: &Scene) -> Result<Mesh, Error> {
     let length = scene.duct.length;
     let natural =
@@ -240,11 +290,6 @@ fn first_mesh(scene: &Scene) -> Result<Mesh, Error> {
     });
     let step = scene.solver.vehicle_step.unwrap_or(spacing / STEPS_PER_SPACING);
     Ok(Mesh::new(length, spacing, step)?)
-}
-
-/// The mesh twice as coarse; `None` where the duct is too short for one.
-fn coarser(scene: &Scene, mesh: Mesh) -> Option<Mesh> {
-    Mesh::new(scene.duct.length, 2.0 * mesh.spacing(), 2.0 * mesh.vehicle_step()).ok()
 }
 
 fn halved(scene: &Scene, mesh: Mesh) -> Result<Mesh, Error> {
@@ -327,6 +372,32 @@ fn force_series(scene: &Scene, outcomes: &[PassOutcome]) -> (Vec<f64>, f64) {
             }
         }
     }
+}
+
+fn force_profile(solved: &Solved) -> ForceProfile {
+    let Passes { state, cable, .. } = &solved.passes;
+    let force_n: Vec<f64> = state.element_forces(cable, &solved.mesh).collect();
+    ForceProfile {
+        positions_m: (0..force_n.len())
+            .map(|i| solved.mesh.spacing() * (i as f64 + 0.5))
+            .collect(),
+        force_n,
+    }
+}
+
+fn restraints(solved: &Solved) -> Vec<RestraintRecord> {
+    let Passes { state, cable, .. } = &solved.passes;
+    let forces = state.restraint_forces(cable, &solved.mesh);
+    cable
+        .restraints()
+        .iter()
+        .zip(forces)
+        .map(|(restraint, force_n)| RestraintRecord {
+            position_m: restraint.position,
+            stiffness_n_per_m: restraint.stiffness,
+            force_n,
+        })
+        .collect()
 }
 
 /// All passes, or of very many the first ones and then evenly growing numbers, the last among them.

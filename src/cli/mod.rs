@@ -18,6 +18,8 @@ enum Failure {
     #[error(transparent)]
     Analysis(#[from] crate::Error),
     #[error("{file}: cannot be written: {source}")]
+    Unwritable { file: String, source: std::io::Error },
+    #[error("{file}: cannot be written: {source}")]
     Write { file: String, source: csv::Error },
     #[error("standard output: cannot be written: {0}")]
     Output(#[from] std::io::Error),
@@ -36,12 +38,13 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
     match execute(&arguments.command) {
         Ok(()) => ExitCode::SUCCESS,
+        // The reader of a pipe has gone: it has what it wanted.
+        Err(Failure::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
             // A closed standard error leaves nobody to tell.
             let _ = writeln!(std::io::stderr(), "error: {failure}");
             match failure {
-                // The reader of a pipe has gone: it has what it wanted.
-                Failure::Output(error) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
+                Failure::Unwritable { .. } => ExitCode::from(2),
                 Failure::Analysis(error) if error.is_bad_input() => ExitCode::from(2),
                 _ => ExitCode::from(1),
             }
@@ -56,7 +59,9 @@ fn execute(command: &Command) -> Result<(), Failure> {
             verify,
             output,
         } => {
-            let answer = run(&read(scene)?, *verify)?;
+            let scene = read(scene)?;
+            write::writable(output.csv.as_deref())?;
+            let answer = run(&scene, *verify)?;
             for warning in &answer.warnings {
                 let _ = writeln!(std::io::stderr(), "warning: {warning}");
             }
@@ -75,6 +80,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
             output,
         } => {
             let scene = read(scene)?;
+            write::writable(output.csv.as_deref())?;
             let answer: Profile = match positions {
                 Some(positions) => crate::profile_at(&scene, positions).map_err(Failure::from)?,
                 None => crate::profile(&scene)?,

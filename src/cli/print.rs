@@ -5,6 +5,8 @@ use std::io::{self, Write};
 use super::Failure;
 use crate::{PassRecord, Profile, Run, Scene};
 
+/// Leading digits of the passes in a shortened table.
+const STEPS: [u64; 3] = [1, 2, 5];
 /// Rows of a table that is read on a terminal.
 const ROWS: usize = 16;
 
@@ -50,6 +52,22 @@ pub fn run(run: &Run) -> Result<(), Failure> {
         )?,
         None => writeln!(out, "saturation: not reached within these passes")?,
     }
+    for restraint in &run.restraints {
+        writeln!(
+            out,
+            "clamp at {} m: {:.1} N, moved {:.4} mm",
+            restraint.position_m,
+            restraint.force_n,
+            1e3 * restraint.force_n / restraint.stiffness_n_per_m
+        )?;
+    }
+    if let Some(slip) = &run.slip_lengths {
+        writeln!(
+            out,
+            "slipping as the vehicle passes the middle: {:.2} m forward, {:.2} m backward",
+            slip.forward_m, slip.backward_m
+        )?;
+    }
     writeln!(
         out,
         "estimated error: {:.2} % ({})",
@@ -72,7 +90,6 @@ fn selected(passes: &[PassRecord]) -> Vec<&PassRecord> {
     if passes.len() <= ROWS {
         return passes.iter().collect();
     }
-    const STEPS: [u64; 3] = [1, 2, 5];
     let last = passes.len() - 1;
     passes
         .iter()

@@ -8,6 +8,20 @@ use serde::Serialize;
 use super::Failure;
 use crate::{PassRecord, Profile};
 
+/// Makes sure that a table can be written to `file`, before hours of computing; an older table stays as it is.
+pub fn writable(file: Option<&Path>) -> Result<(), Failure> {
+    let Some(file) = file else { return Ok(()) };
+    std::fs::OpenOptions::new()
+        .append(true)
+        .create(true)
+        .open(file)
+        .map(drop)
+        .map_err(|source| Failure::Unwritable {
+            file: file.display().to_string(),
+            source,
+        })
+}
+
 /// One JSON document on standard output.
 pub fn json<T: Serialize>(answer: &T) -> Result<(), Failure> {
     let mut out = std::io::stdout().lock();

@@ -1,6 +1,9 @@
 //! `[duct]`, `[cable]`, `[friction]`, `[ends]`, `[[restraints]]`: what the traffic acts on.
 
-use super::range::{ANY, COEFFICIENT, POSITIVE, shown};
+use super::range::{
+    ANY, AXIAL_STIFFNESS, COEFFICIENT, DEPTH, DUCT_LENGTH, LOAD_FACTOR, OFFSET, SHAPE_FACTOR, STIFFNESS,
+    WEIGHT, shown,
+};
 use super::table::Table;
 use super::value::Value;
 use super::{Cable, Dimension, Duct, End, Ends, Friction, FrictionLaw, Restraint, SceneError, keys};
@@ -8,10 +11,10 @@ use super::{Cable, Dimension, Duct, End, Ends, Friction, FrictionLaw, Restraint,
 pub(super) fn duct(root: &Table) -> Result<Duct, SceneError> {
     let table = root.table("duct", keys::DUCT)?;
     Ok(Duct {
-        length: table.quantity("length", Dimension::Length, POSITIVE, "\"30 m\"")?,
-        depth: table.quantity("depth", Dimension::Length, POSITIVE, "\"1.2 m\"")?,
+        length: table.quantity("length", Dimension::Length, DUCT_LENGTH, "\"30 m\"")?,
+        depth: table.quantity("depth", Dimension::Length, DEPTH, "\"1.2 m\"")?,
         lateral_offset: table
-            .optional_quantity("lateral_offset", Dimension::Length, ANY, "\"0.5 m\"")?
+            .optional_quantity("lateral_offset", Dimension::Length, OFFSET, "\"0.5 m\"")?
             .unwrap_or(0.0),
     })
 }
@@ -19,10 +22,15 @@ pub(super) fn duct(root: &Table) -> Result<Duct, SceneError> {
 pub(super) fn cable(root: &Table) -> Result<Cable, SceneError> {
     let table = root.table("cable", keys::CABLE)?;
     Ok(Cable {
-        weight: table.quantity("weight", Dimension::ForcePerLength, POSITIVE, "\"108.8 N/m\"")?,
-        axial_stiffness: table.quantity("axial_stiffness", Dimension::Force, POSITIVE, "\"8.01e6 N\"")?,
+        weight: table.quantity("weight", Dimension::ForcePerLength, WEIGHT, "\"108.8 N/m\"")?,
+        axial_stiffness: table.quantity(
+            "axial_stiffness",
+            Dimension::Force,
+            AXIAL_STIFFNESS,
+            "\"8.01e6 N\"",
+        )?,
         normal_load_factor: table
-            .optional_number("normal_load_factor", POSITIVE)?
+            .optional_number("normal_load_factor", LOAD_FACTOR)?
             .unwrap_or(1.0),
     })
 }
@@ -43,8 +51,12 @@ pub(super) fn friction(root: &Table) -> Result<Friction, SceneError> {
         )?;
         FrictionLaw::Coulomb
     } else {
-        let shape_factor =
-            table.quantity("shape_factor", Dimension::InverseLength, POSITIVE, "\"2e7 1/m\"")?;
+        let shape_factor = table.quantity(
+            "shape_factor",
+            Dimension::InverseLength,
+            SHAPE_FACTOR,
+            "\"2e7 1/m\"",
+        )?;
         if law == SIGMOID {
             FrictionLaw::Sigmoid { shape_factor }
         } else {
@@ -71,7 +83,7 @@ fn end(table: &Table, key: &str) -> Result<End, SceneError> {
     if value.is_table() {
         value
             .table(keys::SPRING)?
-            .quantity("spring", Dimension::ForcePerLength, POSITIVE, "\"3 MN/m\"")
+            .quantity("spring", Dimension::ForcePerLength, STIFFNESS, "\"3 MN/m\"")
             .map(End::Spring)
     } else {
         value.word_of(&[("free", End::Free), ("fixed", End::Fixed)], ALLOWED)
@@ -97,6 +109,6 @@ fn restraint(item: &Value, duct: &Duct) -> Result<Restraint, SceneError> {
     }
     Ok(Restraint {
         position,
-        stiffness: table.quantity("stiffness", Dimension::ForcePerLength, POSITIVE, "\"1 MN/m\"")?,
+        stiffness: table.quantity("stiffness", Dimension::ForcePerLength, STIFFNESS, "\"1 MN/m\"")?,
     })
 }

@@ -2,7 +2,7 @@
 
 use ground_field::{Base, Modulus, Soil, SoilLayer, SoilProfile};
 
-use super::range::{POISSON, POSITIVE, shown};
+use super::range::{MODULUS, PEAK, POISSON, THICKNESS, shown};
 use super::table::Table;
 use super::value::Value;
 use super::{Dimension, Ground, GroundModel, PeakScaling, SceneError, keys};
@@ -17,15 +17,35 @@ const MODELS: &[(&str, GroundModel)] = &[
 
 pub(super) fn ground(root: &Table) -> Result<Ground, SceneError> {
     let table = root.table("ground", keys::GROUND)?;
+    let model = table.word("model", MODELS, GroundModel::Auto)?;
+    let scaling = scaling(&table)?;
+    let profile = profile(&table)?;
+    if let (Some(allowed), Some(value)) = (unfit(model, &profile), table.optional("model")) {
+        return Err(value.inconsistent(value.written(), allowed));
+    }
     Ok(Ground {
-        model: table.word("model", MODELS, GroundModel::Auto)?,
-        scaling: scaling(&table)?,
-        profile: profile(&table)?,
+        model,
+        profile,
+        scaling,
     })
 }
 
+/// What is allowed instead where a model cannot represent the ground.
+fn unfit(model: GroundModel, profile: &SoilProfile) -> Option<&'static str> {
+    let graded = profile.layers().iter().any(|layer| layer.soil().is_none());
+    match model {
+        GroundModel::Boussinesq if profile.homogeneous().is_none() => Some(
+            "\"boussinesq\" with one layer and no rigid base only; \"auto\", \"burmister\" or \"fem\" here",
+        ),
+        GroundModel::Burmister | GroundModel::Odemark if graded => {
+            Some("\"auto\" or \"fem\" where a modulus varies with depth")
+        }
+        _ => None,
+    }
+}
+
 fn scaling(table: &Table) -> Result<Option<PeakScaling>, SceneError> {
-    let peak = |value: &Value, example| value.quantity(Dimension::Length, POSITIVE, example);
+    let peak = |value: &Value, example| value.quantity(Dimension::Length, PEAK, example);
     Ok(match table.alternatives("longitudinal_peak", "vertical_peak")? {
         [Some(value), _] => Some(PeakScaling::Longitudinal(peak(&value, "\"35.7 um\"")?)),
         [None, Some(value)] => Some(PeakScaling::Vertical(peak(&value, "\"90 um\"")?)),
@@ -62,7 +82,7 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
     for layer in &layers {
         let thickness = layer
             .table
-            .quantity("thickness", Dimension::Length, POSITIVE, "\"50 mm\"")?;
+            .quantity("thickness", Dimension::Length, THICKNESS, "\"50 mm\"")?;
         upper.push(layer.of_thickness(thickness)?);
     }
     if let (Some(_), Some(value)) = (last.thickness, last.table.optional("thickness")) {
@@ -71,7 +91,7 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
         return Err(value.inconsistent(value.written(), allowed));
     }
     let base = if let Some(value) = table.optional("rigid_base_depth") {
-        let depth = value.quantity(Dimension::Length, POSITIVE, "\"12 m\"")?;
+        let depth = value.quantity(Dimension::Length, THICKNESS, "\"12 m\"")?;
         let above: f64 = upper.iter().map(SoilLayer::thickness).sum();
         if depth <= above {
             return Err(value.out_of_range(format!(
@@ -96,7 +116,7 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
 fn layer<'d>(value: &Value<'d>) -> Result<Layer<'d>, SceneError> {
     let table = value.table(keys::LAYER)?;
     Ok(Layer {
-        thickness: table.optional_quantity("thickness", Dimension::Length, POSITIVE, "\"50 mm\"")?,
+        thickness: table.optional_quantity("thickness", Dimension::Length, THICKNESS, "\"50 mm\"")?,
         modulus: modulus(&table)?,
         poisson_ratio: table.number("poisson_ratio", POISSON)?,
         table,
@@ -109,14 +129,14 @@ fn modulus(table: &Table) -> Result<Modulus, SceneError> {
     match table.optional("young_modulus").filter(Value::is_table) {
         Some(value) => {
             let graded = value.table(keys::GRADED)?;
-            let end = |key| graded.quantity(key, Dimension::Pressure, POSITIVE, "\"60 MPa\"");
+            let end = |key| graded.quantity(key, Dimension::Pressure, MODULUS, "\"60 MPa\"");
             Ok(Modulus::Linear {
                 top: end("top")?,
                 bottom: end("bottom")?,
             })
         }
         None => table
-            .quantity("young_modulus", Dimension::Pressure, POSITIVE, EXAMPLE)
+            .quantity("young_modulus", Dimension::Pressure, MODULUS, EXAMPLE)
             .map(Modulus::Uniform),
     }
 }

@@ -18,10 +18,32 @@ pub(super) const POSITIVE: Range = Range {
     words: "greater than 0",
     holds: |v| v > 0.0,
 };
-pub(super) const NOT_NEGATIVE: Range = Range {
-    words: "of at least 0",
-    holds: |v| v >= 0.0,
-};
+// The limits of what the models can mean, far outside what is built: beyond them numbers lose their digits, or a run its
+// end.
+macro_rules! range {
+    ($(#[$doc:meta])* $name:ident, $low:expr, $high:expr, $words:expr) => {
+        $(#[$doc])*
+        pub(super) const $name: Range = Range {
+            words: $words,
+            holds: |v| ($low..=$high).contains(&v),
+        };
+    };
+}
+range!(DUCT_LENGTH, 0.1, 1e5, "greater than 0, from 0.1 m to 100 km");
+range!(DEPTH, 0.01, 1e3, "greater than 0, from 1 cm to 1 km");
+range!(OFFSET, -1e3, 1e3, "of any sign, at most 1 km");
+range!(THICKNESS, 1e-6, 1e4, "greater than 0, from 1 um to 10 km");
+range!(CONTACT_RADIUS, 0.0, 100.0, "of at least 0 and at most 100 m");
+range!(PEAK, 1e-12, 1.0, "greater than 0, from 1e-6 um to 1 m");
+range!(MODULUS, 1e3, 1e13, "greater than 0, from 1 kPa to 10000 GPa");
+range!(WEIGHT, 1e-3, 1e6, "greater than 0, from 1e-3 N/m to 1 MN/m");
+range!(AXIAL_STIFFNESS, 1.0, 1e15, "greater than 0, from 1 N to 1e15 N");
+range!(SHAPE_FACTOR, 1.0, 1e18, "greater than 0, from 1 to 1e18 1/m");
+range!(STIFFNESS, 1e-9, 1e18, "greater than 0, from 1e-9 to 1e18 N/m");
+range!(LOAD_FACTOR, 1e-6, 1e6, "greater than 0, from 1e-6 to 1e6");
+range!(LOAD, 0.0, 1e9, "of at least 0 and at most 1000 MN");
+range!(SPEED, 1e-3, 1e3, "greater than 0, from 1 mm/s to 1 km/s");
+range!(APPROACH, 0.1, 1e5, "greater than 0, from 0.1 m to 100 km");
 pub(super) const POISSON: Range = Range {
     words: "from 0 to 0.5",
     holds: |v| (0.0..=0.5).contains(&v),

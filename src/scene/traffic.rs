@@ -2,7 +2,7 @@
 
 use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
-use super::range::{ANY, NOT_NEGATIVE, POSITIVE};
+use super::range::{CONTACT_RADIUS, LOAD, OFFSET, POSITIVE, SPEED};
 use super::table::Table;
 use super::value::Value;
 use super::{Dimension, Order, PeakScaling, SceneError, Traffic, TrafficVehicle, keys};
@@ -72,7 +72,7 @@ fn name(table: &Table, index: usize, others: &[TrafficVehicle]) -> Result<String
 fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {
     let wheels = match table.alternatives("load", "wheels")? {
         [Some(load), _] => {
-            let force = load.quantity(Dimension::Force, NOT_NEGATIVE, LOAD_EXAMPLE)?;
+            let force = load.quantity(Dimension::Force, LOAD, LOAD_EXAMPLE)?;
             vec![Wheel {
                 x: 0.0,
                 y: 0.0,
@@ -91,7 +91,7 @@ fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {
             ));
         }
     };
-    let speed = table.quantity("speed", Dimension::Speed, POSITIVE, "\"40 km/h\"")?;
+    let speed = table.quantity("speed", Dimension::Speed, SPEED, "\"40 km/h\"")?;
     let direction = table.word("direction", DIRECTIONS, Direction::Forward)?;
     Vehicle::new(name, wheels, speed, direction).map_err(|e| table.rejected(e))
 }
@@ -103,11 +103,11 @@ fn wheel(item: &Value) -> Result<Wheel, SceneError> {
             .optional_quantity(key, Dimension::Length, range, example)?
             .unwrap_or(0.0))
     };
-    let force = table.quantity("load", Dimension::Force, NOT_NEGATIVE, "\"50 kN\"")?;
-    let contact_radius = length("contact_radius", NOT_NEGATIVE, "\"0.15 m\"")?;
+    let force = table.quantity("load", Dimension::Force, LOAD, "\"50 kN\"")?;
+    let contact_radius = length("contact_radius", CONTACT_RADIUS, "\"0.15 m\"")?;
     Ok(Wheel {
-        x: length("x", ANY, "\"-4 m\"")?,
-        y: length("y", ANY, "\"0.9 m\"")?,
+        x: length("x", OFFSET, "\"-4 m\"")?,
+        y: length("y", OFFSET, "\"0.9 m\"")?,
         load: SurfaceLoad::new(force, contact_radius).map_err(|e| table.rejected(e))?,
     })
 }

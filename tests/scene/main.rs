@@ -191,6 +191,7 @@ fn every_key_is_read() {
             node_spacing: Some(0.1),
             vehicle_step: Some(0.05),
             time_step: Some(1e-4),
+            approach: None,
         }
     );
 }

@@ -5,7 +5,7 @@
 #[non_exhaustive]
 pub enum CableError {
     /// A parameter is outside its range, or not a number.
-    #[error("{name} = {value}: must be {allowed}")]
+    #[error("{name} = {value:?}: must be {allowed}")]
     InvalidParameter {
         /// The parameter's name.
         name: &'static str,
@@ -36,7 +36,7 @@ pub enum CableError {
     },
     /// Rounding is too large beside the friction limit for the answer to mean anything.
     #[error(
-        "rounding of the elastic forces reaches {share:.1e} of the friction limit: axial stiffness {axial_stiffness} N at a node spacing of {spacing} m is too stiff for this friction"
+        "rounding of the elastic forces reaches {share:.1e} of the friction limit: axial stiffness {axial_stiffness:?} N at a node spacing of {spacing:?} m is too stiff for this friction"
     )]
     Precision {
         /// Rounding error as a share of the friction limit.
@@ -46,8 +46,8 @@ pub enum CableError {
         /// Node spacing \[m\].
         spacing: f64,
     },
-    /// The passage belongs to another mesh, or to a cable of other stiffness or friction.
-    #[error("the passage was made for another mesh or another cable")]
+    /// The passage was computed for another cable or mesh.
+    #[error("the passage was computed for another mesh, axial stiffness or friction than the solver's")]
     PassageMismatch,
     /// The state belongs to another mesh.
     #[error("the state has {found} nodes where the mesh has {expected}")]
@@ -56,6 +56,42 @@ pub enum CableError {
         found: usize,
         /// Nodes of the mesh.
         expected: usize,
+    },
+    /// A time step beyond what the explicit scheme bears.
+    #[error(
+        "a time step of {time_step:.3e} s is beyond the explicit scheme's limit of {limit:.3e} s ({formula})"
+    )]
+    UnstableStep {
+        /// The step asked for \[s\].
+        time_step: f64,
+        /// The longest stable step \[s\].
+        limit: f64,
+        /// The limit that governs.
+        formula: &'static str,
+    },
+    /// A pass would take more work than allowed.
+    #[error(
+        "a pass takes {node_updates:.2e} node updates ({steps:.2e} steps of {time_step:.2e} s); {allowed:.2e} are allowed"
+    )]
+    TooManySteps {
+        /// Steps of one pass.
+        steps: f64,
+        /// Duration of a step \[s\].
+        time_step: f64,
+        /// Steps times nodes.
+        node_updates: f64,
+        /// Largest number of node updates allowed.
+        allowed: f64,
+    },
+    /// The energy of a pass does not balance: the answer is one of the scheme, not of the cable.
+    #[error(
+        "energy is not conserved: {unbalanced:.1e} of it is unaccounted for, and friction returned {returned:.1e} of its heat: the time step is too long"
+    )]
+    EnergyNotConserved {
+        /// Energy out of balance, as a share of all that took part.
+        unbalanced: f64,
+        /// Work that friction returned, as a share of its heat.
+        returned: f64,
     },
 }
 

@@ -70,15 +70,14 @@ impl CableState {
         let n = mesh.elements();
         let stiffness = cable.axial_stiffness() / mesh.spacing();
         let (u, f) = (&self.displacement, &self.friction);
+        // A spring carries what the cable and its last node's friction bring; its own s u has no digits when it is stiff.
         let upstream = match cable.upstream() {
             End::Free => 0.0,
-            End::Spring(spring) => -spring * u[0],
-            End::Fixed => stiffness * (u[0] - u[1]) - mesh.tributary_length(0) * f[0],
+            End::Spring(_) | End::Fixed => stiffness * (u[0] - u[1]) - mesh.tributary_length(0) * f[0],
         };
         let downstream = match cable.downstream() {
             End::Free => 0.0,
-            End::Spring(spring) => spring * u[n],
-            End::Fixed => stiffness * (u[n - 1] - u[n]) + mesh.tributary_length(n) * f[n],
+            End::Spring(_) | End::Fixed => stiffness * (u[n - 1] - u[n]) + mesh.tributary_length(n) * f[n],
         };
         EndForces { upstream, downstream }
     }
@@ -95,6 +94,25 @@ impl CableState {
                 restraint.stiffness * u
             })
             .collect()
+    }
+
+    /// Lets go of all friction: the cable returns to where its ends and clamps want it, or, held by none, keeps its mean
+    /// position.
+    pub(crate) fn release(&mut self, cable: &DuctedCable) {
+        let held = [cable.upstream(), cable.downstream()]
+            .iter()
+            .any(|end| end.stiffness() != Some(0.0))
+            || cable
+                .restraints()
+                .iter()
+                .any(|restraint| restraint.stiffness > 0.0);
+        let rest = if held {
+            0.0
+        } else {
+            self.displacement.iter().sum::<f64>() / self.displacement.len() as f64
+        };
+        self.displacement.fill(rest);
+        self.friction.fill(0.0);
     }
 
     pub(crate) fn check(&self, mesh: &Mesh) -> Result<(), CableError> {

@@ -7,7 +7,7 @@ use std::error::Error;
 #[non_exhaustive]
 pub enum GroundError {
     /// A parameter is outside its range, or not a number.
-    #[error("{name} = {value}: must be {allowed}")]
+    #[error("{name} = {value:?}: must be {allowed}")]
     InvalidParameter {
         /// The parameter's name.
         name: &'static str,
@@ -17,7 +17,7 @@ pub enum GroundError {
         allowed: &'static str,
     },
     /// The displacement has no finite value here, such as directly at a point load.
-    #[error("{model}: the displacement has no finite value at radius {radius} m, depth {depth} m")]
+    #[error("{model}: the displacement has no finite value at radius {radius:?} m, depth {depth:?} m")]
     Singular {
         /// The ground model.
         model: &'static str,
@@ -28,7 +28,7 @@ pub enum GroundError {
     },
     /// The asked accuracy was not reached; no value is returned in its place.
     #[error(
-        "{model}: error {reached:.1e} of the peak where {asked:.1e} was asked, at radius {radius} m, depth {depth} m"
+        "{model}: error {reached:.1e} of the peak where {asked:.1e} was asked, at radius {radius:?} m, depth {depth:?} m"
     )]
     Accuracy {
         /// The ground model.

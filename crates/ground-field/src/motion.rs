@@ -215,24 +215,26 @@ impl DuctMotion {
 
     /// Scans around the wheels for both peaks, then closes in on each.
     fn find_peaks(&mut self, depth: f64) {
-        let step = 0.05 * depth;
-        let mut longitudinal = (0.0, 0.0_f64);
-        let mut vertical = (0.0, 0.0_f64);
+        let mut longitudinal = (0.0, 0.0_f64, depth);
+        let mut vertical = (0.0, 0.0_f64, depth);
         for wheel in &self.wheels {
-            let count = (8.0 * depth.hypot(wheel.side) / step).ceil() as i32;
-            for k in -count..=count {
+            // The field under one wheel has the width of its distance.
+            let step = 0.05 * depth.hypot(wheel.side);
+            for k in -160..=160 {
                 let xi = wheel.x + step * f64::from(k);
                 let point = self.point(xi);
                 if point.longitudinal.abs() > longitudinal.1 {
-                    longitudinal = (xi, point.longitudinal.abs());
+                    longitudinal = (xi, point.longitudinal.abs(), step);
                 }
                 if point.vertical.abs() > vertical.1 {
-                    vertical = (xi, point.vertical.abs());
+                    vertical = (xi, point.vertical.abs(), step);
                 }
             }
         }
-        self.peak_longitudinal = largest_near(longitudinal.0, step, |xi| self.point(xi).longitudinal.abs());
-        self.peak_vertical = largest_near(vertical.0, step, |xi| self.point(xi).vertical.abs());
+        self.peak_longitudinal = largest_near(longitudinal.0, longitudinal.2, |xi| {
+            self.point(xi).longitudinal.abs()
+        });
+        self.peak_vertical = largest_near(vertical.0, vertical.2, |xi| self.point(xi).vertical.abs());
     }
 }
 

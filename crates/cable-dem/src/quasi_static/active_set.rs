@@ -123,8 +123,9 @@ pub(crate) fn correct(
                 let total = balancing + load.adhesion[i];
                 let excess = total.abs() - chain.limit;
                 g[i] = balancing;
-                // Written so that NaN counts as a violation.
-                if !(excess <= tolerance.friction) {
+                // A comparison that NaN fails: it counts as a violation.
+                let within = excess <= tolerance.friction;
+                if !within {
                     worst = worst.max(nan_is_infinite(excess));
                     contact[i] = if total > 0.0 {
                         Contact::Forward
@@ -142,10 +143,12 @@ pub(crate) fn correct(
                 let along = if slipping == Contact::Forward { slip } else { -slip };
                 // The linear solve itself: equilibrium with the bound.
                 let residual = (balancing - bound).abs();
-                if !(residual <= tolerance.friction) {
+                let balanced = residual <= tolerance.friction;
+                if !balanced {
                     worst = worst.max(nan_is_infinite(residual));
                 }
-                if !(along >= -tolerance.slip) {
+                let slips_along = along >= -tolerance.slip;
+                if !slips_along {
                     contact[i] = Contact::Stuck;
                     worst = worst.max(chain.limit.max(f64::MIN_POSITIVE));
                 }

@@ -76,6 +76,14 @@ pub(crate) struct Tolerance {
 }
 
 impl Chain {
+    /// Gives the contact another shear compliance \[m²/N\].
+    pub fn soften(&mut self, compliance: f64) {
+        self.compliance = compliance;
+        for (softness, tributary) in self.softness.iter_mut().zip(&self.tributary) {
+            *softness = compliance * self.stiffness / tributary;
+        }
+    }
+
     /// Bound of the friction g in the slipping state `contact` \[N/m\].
     pub fn bound(&self, contact: Contact, adhesion: f64) -> f64 {
         match contact {

@@ -11,17 +11,25 @@ mod chain;
 mod exact;
 mod memory;
 mod passage;
+mod settle;
 mod support;
+mod sweeper;
 mod view;
 mod window;
 
 pub use passage::Passage;
 pub use view::{SlipLengths, StepView};
 
+// The solvers with inertia take the same step on the whole cable.
+pub(crate) use active_set::{Elimination, Outcome};
+pub(crate) use chain::{Chain, Contact, Load, Stretch, Tolerance, Trial};
+pub(crate) use exact::contacts;
+pub(crate) use support::Support;
+
 use ground_field::Direction;
 
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
-use window::Sweeper;
+use sweeper::Sweeper;
 
 /// Share of the friction limit up to which rounding may blur equilibrium.
 const MAX_ROUNDING: f64 = 1e-3;
@@ -129,8 +137,8 @@ impl QuasiStatic {
     ///
     /// # Errors
     ///
-    /// [`CableError::StateMismatch`] and [`CableError::PassageMismatch`] for a state or a passage of another mesh or cable,
-    /// [`CableError::Precision`] where rounding would blur
+    /// [`CableError::StateMismatch`] for a state of another mesh, [`CableError::PassageMismatch`] for a passage computed for
+    /// another mesh, axial stiffness or friction, [`CableError::Precision`] where rounding would blur
     /// the answer, [`CableError::NoConvergence`] where a step found no equilibrium.
     pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<PassOutcome, CableError> {
         self.pass_observed(passage, state, |_| {})
@@ -148,11 +156,12 @@ impl QuasiStatic {
         mut observe: impl FnMut(StepView<'_>),
     ) -> Result<PassOutcome, CableError> {
         state.check(&self.mesh)?;
-        if !passage.is_for(&self.cable, &self.mesh) {
+        if !passage.fits(&self.cable, &self.mesh) {
             return Err(CableError::PassageMismatch);
         }
         if self.cable.friction().limit() == 0.0 {
-            // Nothing drags the cable.
+            // Nothing drags the cable, and what held it is gone.
+            state.release(&self.cable);
             return Ok(self.outcome(state, Recorder::new(state.end_forces(&self.cable, &self.mesh))));
         }
         self.check_precision(passage, state)?;
@@ -207,7 +216,7 @@ impl QuasiStatic {
             .displacement()
             .iter()
             .fold(passage.peak(), |largest, u| largest.max(u.abs()));
-        let share = window::rounding(&self.cable, &self.mesh, largest) / self.cable.friction().limit();
+        let share = sweeper::rounding(&self.cable, &self.mesh, largest) / self.cable.friction().limit();
         if share <= MAX_ROUNDING {
             Ok(())
         } else {

@@ -19,7 +19,7 @@ use ground_field::{Direction, DuctMotion};
 
 use super::window::NEGLIGIBLE;
 use crate::error::checked;
-use crate::{CableError, DuctedCable, Mesh};
+use crate::{CableError, DuctedCable, Friction, Mesh};
 
 static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 
@@ -30,10 +30,10 @@ static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 pub struct Passage {
     /// Tells passages apart, so that a solver can remember the last pass of each.
     id: u64,
+    /// What it was computed for.
     mesh: Mesh,
-    /// EA \[N\] and γ \[m²/N\], on which the adherent motion depends.
-    stiffness: f64,
-    compliance: f64,
+    axial_stiffness: f64,
+    friction: Friction,
     direction: Direction,
     /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s.
     phases: Vec<Phase>,
@@ -102,7 +102,7 @@ impl Passage {
     ///
     /// # Errors
     ///
-    /// As for [`Passage::new`].
+    /// As for [`Passage::new`], and [`CableError::InvalidParameter`] where `shape` is not finite.
     pub fn from_shape(
         cable: &DuctedCable,
         mesh: &Mesh,
@@ -124,18 +124,21 @@ impl Passage {
         let count = ((behind + ahead) / m) as usize;
         let compliance = cable.friction().compliance();
         let stiffness = cable.axial_stiffness() / mesh.spacing();
-        let phases: Vec<Phase> = (0..m)
+        let phases = (0..m)
             .map(|phase| {
-                let duct: Vec<f64> = (0..count)
-                    .map(|c| shape(step * (phase - behind + m * c as i64) as f64))
-                    .collect();
-                Phase::new(
+                let duct = (0..count)
+                    .map(|c| {
+                        let displacement = shape(step * (phase - behind + m * c as i64) as f64);
+                        checked("displacement of the duct", displacement, "finite", |_| true)
+                    })
+                    .collect::<Result<Vec<f64>, _>>()?;
+                Ok(Phase::new(
                     &duct,
                     compliance * stiffness / mesh.spacing(),
                     stiffness / mesh.spacing(),
-                )
+                ))
             })
-            .collect();
+            .collect::<Result<Vec<Phase>, CableError>>()?;
 
         let peak = phases
             .iter()
@@ -152,8 +155,8 @@ impl Passage {
         Ok(Self {
             id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
             mesh: *mesh,
-            stiffness: cable.axial_stiffness(),
-            compliance,
+            axial_stiffness: cable.axial_stiffness(),
+            friction: cable.friction(),
             direction,
             phases,
             behind: behind as usize,
@@ -163,11 +166,11 @@ impl Passage {
         })
     }
 
-    /// Whether this passage was made for this cable's stiffness and friction on this mesh.
-    pub(super) fn is_for(&self, cable: &DuctedCable, mesh: &Mesh) -> bool {
+    /// Whether it was computed for a cable of the same stiffness and friction on the same mesh.
+    pub(super) fn fits(&self, cable: &DuctedCable, mesh: &Mesh) -> bool {
         self.mesh == *mesh
-            && self.stiffness == cable.axial_stiffness()
-            && self.compliance == cable.friction().compliance()
+            && self.axial_stiffness == cable.axial_stiffness()
+            && self.friction == cable.friction()
     }
 
     pub(super) fn id(&self) -> u64 {

@@ -5,7 +5,7 @@ use crate::{DuctedCable, Mesh};
 
 /// A node at which the passing vehicle acts otherwise than through the friction bounds.
 #[derive(Debug, Clone)]
-pub(super) struct Support {
+pub(crate) struct Support {
     pub node: usize,
     /// Spring to the ground \[N/m\]; `None` holds the node.
     pub stiffness: Option<f64>,
@@ -63,7 +63,7 @@ impl Support {
     ///
     /// Beyond an end the adherent motion would go on; cutting the chain there leaves ±(k/2)(a_{+1} − a_{−1}), the force of
     /// the missing half.
-    pub fn forcing(&self, snapshot: &Snapshot<'_>, stiffness: f64, last: usize) -> Forcing {
+    pub(super) fn forcing(&self, snapshot: &Snapshot<'_>, stiffness: f64, last: usize) -> Forcing {
         let index = self.node + 1;
         let strain = 0.5 * stiffness * (snapshot.adherent[index + 1] - snapshot.adherent[index - 1]);
         Forcing {
@@ -77,7 +77,7 @@ impl Support {
     }
 
     /// Load on the node \[N\] in the adherent frame.
-    pub fn load(&self, forcing: Forcing) -> f64 {
+    pub(super) fn load(&self, forcing: Forcing) -> f64 {
         forcing.cut - self.stiffness.unwrap_or(0.0) * forcing.adherent
     }
 }

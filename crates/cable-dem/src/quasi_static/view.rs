@@ -1,7 +1,7 @@
 //! A look at the cable while the vehicle passes.
 
 use super::passage::Snapshot;
-use super::window::Sweeper;
+use super::sweeper::Sweeper;
 
 /// The cable at one vehicle position.
 #[derive(Debug, Clone, Copy)]

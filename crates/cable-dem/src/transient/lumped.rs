@@ -1,0 +1,126 @@
+//! The cable as masses and springs: M ü + K u + S u = w f.
+//!
+//! Node i carries the mass m_i = w_i m′ and the friction w_i f_i of its tributary length w_i (h, and h/2 at the ends),
+//! and hangs on its neighbours by springs k = EA/h. End springs and clamps are springs S to the ground; a fixed end does
+//! not move.
+
+use crate::error::checked;
+use crate::quasi_static::Support;
+use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
+
+/// Share of the friction limit up to which rounding may blur equilibrium.
+const MAX_ROUNDING: f64 = 1e-3;
+
+/// Masses, springs and supports of one cable on one mesh.
+#[derive(Debug, Clone)]
+pub(crate) struct Lumped {
+    pub cable: DuctedCable,
+    pub mesh: Mesh,
+    /// m′ \[kg/m\].
+    pub mass_per_metre: f64,
+    /// k = EA/h \[N/m\].
+    pub stiffness: f64,
+    /// Springs to the ground (node, stiffness \[N/m\]), ascending by node.
+    pub springs: Vec<(usize, f64)>,
+    /// Whether the first and the last node are held.
+    pub fixed: [bool; 2],
+}
+
+impl Lumped {
+    pub fn new(cable: DuctedCable, mesh: Mesh, mass_per_metre: f64) -> Result<Self, CableError> {
+        checked("mass_per_metre", mass_per_metre, "finite and positive", |v| {
+            v > 0.0
+        })?;
+        let length = mesh.spacing() * mesh.elements() as f64;
+        checked("mesh length", length, "the cable's length", |v| {
+            (v / cable.length() - 1.0).abs() < 1e-9
+        })?;
+        let supports = Support::of(&cable, &mesh);
+        let held = |node: usize| supports.iter().any(|s| s.node == node && s.stiffness.is_none());
+        Ok(Self {
+            mass_per_metre,
+            stiffness: cable.axial_stiffness() / mesh.spacing(),
+            fixed: [held(0), held(mesh.elements())],
+            springs: supports
+                .iter()
+                .filter_map(|support| Some((support.node, support.stiffness.filter(|s| *s > 0.0)?)))
+                .collect(),
+            cable,
+            mesh,
+        })
+    }
+
+    /// Mass of node i \[kg\].
+    pub fn mass(&self, i: usize) -> f64 {
+        self.mass_per_metre * self.mesh.tributary_length(i)
+    }
+
+    /// Half the elastic energy's bilinear form, ½ aᵀ(K + S) b \[J\].
+    pub fn elastic_energy(&self, u: &[f64]) -> f64 {
+        let stretched: f64 = u.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
+        let supported: f64 = self.springs.iter().map(|&(node, s)| s * u[node] * u[node]).sum();
+        0.5 * (self.stiffness * stretched + supported)
+    }
+
+    /// ½ Σ m v² \[J\].
+    pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
+        let squares = self.weighted(v.len(), |i| v[i] * v[i]);
+        0.5 * self.mass_per_metre * squares
+    }
+
+    /// ½ γ Σ w f² \[J\]: energy in the contact's shear; 0 for Coulomb's law and for laws without memory.
+    pub fn stored_energy(&self, f: &[f64]) -> f64 {
+        let friction = self.cable.friction();
+        if friction.limit() == 0.0 || !friction.law().has_memory() {
+            return 0.0;
+        }
+        0.5 * friction.compliance() * self.weighted(f.len(), |i| f[i] * f[i])
+    }
+
+    /// q·D·L \[J\]: work of friction at its limit over a displacement `peak` of the duct.
+    pub fn reference_work(&self, peak: f64) -> f64 {
+        self.cable.friction().limit() * self.cable.length() * peak
+    }
+
+    /// Σ w_i value(i).
+    pub fn weighted(&self, nodes: usize, value: impl Fn(usize) -> f64) -> f64 {
+        let sum: f64 = (0..nodes).map(&value).sum();
+        self.mesh.spacing() * (sum - 0.5 * (value(0) + value(nodes - 1)))
+    }
+
+    /// Force on each end \[N\], compression positive, from displacement and friction.
+    pub fn end_forces(&self, u: &[f64], f: &[f64]) -> EndForces {
+        let last = u.len() - 1;
+        let half = 0.5 * self.mesh.spacing();
+        let force = |node: usize, inner: usize, outward: f64, end: crate::End| match end {
+            crate::End::Free => 0.0,
+            crate::End::Spring(stiffness) => outward * stiffness * u[node],
+            crate::End::Fixed => outward * (self.stiffness * (u[inner] - u[node]) + half * f[node]),
+        };
+        EndForces {
+            upstream: force(0, 1, -1.0, self.cable.upstream()),
+            downstream: force(last, last - 1, 1.0, self.cable.downstream()),
+        }
+    }
+
+    /// Refuses a state whose elastic forces rounding would blur when displacements reach `largest` \[m\].
+    pub fn check(&self, state: &CableState, peak: f64) -> Result<(), CableError> {
+        state.check(&self.mesh)?;
+        let largest = state.displacement().iter().fold(peak, |l, u| l.max(u.abs()));
+        let share = self.rounding(largest) / self.cable.friction().limit();
+        if share <= MAX_ROUNDING {
+            Ok(())
+        } else {
+            Err(CableError::Precision {
+                share,
+                axial_stiffness: self.cable.axial_stiffness(),
+                spacing: self.mesh.spacing(),
+            })
+        }
+    }
+
+    /// Rounding error of a node's elastic force per metre \[N/m\].
+    pub fn rounding(&self, largest: f64) -> f64 {
+        4.0 * f64::EPSILON * self.stiffness / self.mesh.spacing() * largest
+    }
+}

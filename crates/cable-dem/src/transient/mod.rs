@@ -1,0 +1,19 @@
+//! What the solvers with inertia share: the duct's motion in time, masses and supports, energy, the return to rest.
+
+mod energy;
+mod inertia;
+mod leak;
+mod lumped;
+mod moving_duct;
+mod outcome;
+mod rest;
+
+pub use energy::EnergyBalance;
+pub use inertia::inertia_ratio;
+pub use leak::SigmoidLeak;
+pub use moving_duct::MovingDuct;
+pub use outcome::TransientOutcome;
+
+pub(crate) use lumped::Lumped;
+pub(crate) use outcome::Record;
+pub(crate) use rest::{Settler, StepSolver, tolerance};

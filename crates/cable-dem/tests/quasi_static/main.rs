@@ -1,0 +1,13 @@
+//! The quasi-static solver against independent answers: published-style reference forces, closed forms, a whole-chain
+//! Newton method, physical laws, and hostile parameters.
+//!
+//! One binary, one idea a file; [`scenes`] holds what they share, [`full_newton`] the independent solver.
+
+mod against_full_newton;
+mod closed_forms;
+mod friction_symmetry;
+mod full_newton;
+mod reference;
+mod robustness;
+mod scenes;
+mod windows;

@@ -1,0 +1,152 @@
+//! Scenes and helpers that several tests share.
+
+use boussinesq::HalfSpace;
+use cable_dem::{
+    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic,
+};
+use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
+
+/// Distance beyond the duct's ends from which vehicles come \[m\].
+pub const APPROACH: f64 = 15.0;
+/// EA of the reference cables \[N\].
+pub const AXIAL_STIFFNESS: f64 = 8.01e6;
+/// q b/2 of the reference cables: shear stiffness of their sheaths \[N/m²\].
+pub const SHEATH_STIFFNESS: f64 = 1e8;
+/// Friction limits of the reference cables \[N/m\]: upper phase, and lower phase with the load of the others.
+pub const LIMITS: [f64; 2] = [0.25 * 108.8, 0.27 * 163.2];
+
+/// Young's modulus 800 MPa, Poisson's ratio 0.4, a load of 20 tf, a duct at 1.2 m.
+pub fn reference_motion() -> DuctMotion {
+    reference_motion_at_speed(11.1)
+}
+
+/// [`reference_motion`] of a truck at `speed` \[m/s\].
+pub fn reference_motion_at_speed(speed: f64) -> DuctMotion {
+    let ground = HalfSpace::new(Soil::new(800e6, 0.4).expect("a valid soil"));
+    let truck = Vehicle::point("truck", 196_133.0, speed).expect("a valid vehicle");
+    let line = DuctLine::new(1.2, 0.0).expect("a valid line");
+    DuctMotion::new(&ground, &truck, line, 60.0, 1e-10).expect("a smooth field")
+}
+
+/// Elastic-plastic friction with limit `limit` \[N/m\] and the reference sheath.
+pub fn sheathed(limit: f64) -> Friction {
+    elastic_plastic(2.0 * SHEATH_STIFFNESS / limit, limit)
+}
+
+pub fn elastic_plastic(shape_factor: f64, limit: f64) -> Friction {
+    Friction::new(FrictionLaw::ElasticPlastic { shape_factor }, limit).expect("valid friction")
+}
+
+pub fn coulomb(limit: f64) -> Friction {
+    Friction::new(FrictionLaw::Coulomb, limit).expect("valid friction")
+}
+
+/// A reference cable: upstream free, downstream fixed.
+pub fn reference_cable(length: f64, friction: Friction) -> DuctedCable {
+    cable(length, AXIAL_STIFFNESS, friction, End::Free, End::Fixed)
+}
+
+pub fn cable(
+    length: f64,
+    axial_stiffness: f64,
+    friction: Friction,
+    upstream: End,
+    downstream: End,
+) -> DuctedCable {
+    DuctedCable::new(length, axial_stiffness, friction)
+        .and_then(|cable| cable.with_ends(upstream, downstream))
+        .expect("a valid cable")
+}
+
+/// One cable, its solver and its state.
+#[derive(Debug, Clone)]
+pub struct Run {
+    pub solver: QuasiStatic,
+    pub state: CableState,
+}
+
+impl Run {
+    pub fn new(cable: DuctedCable, mesh: Mesh) -> Self {
+        Self {
+            solver: QuasiStatic::new(cable, mesh).expect("a valid solver"),
+            state: CableState::at_rest(&mesh),
+        }
+    }
+
+    pub fn try_pass(&mut self, passage: &Passage) -> Result<PassOutcome, CableError> {
+        self.solver.pass(passage, &mut self.state)
+    }
+
+    pub fn pass(&mut self, passage: &Passage) -> PassOutcome {
+        self.try_pass(passage).expect("an equilibrium")
+    }
+
+    /// Several passes; the last one's outcome.
+    pub fn passes(&mut self, count: usize, passage: &Passage) -> PassOutcome {
+        (0..count).fold(PassOutcome::default(), |_, _| self.pass(passage))
+    }
+
+    /// Largest imbalance of a node that is not fixed, as a share of the friction limit on one element: equilibrium written
+    /// out anew from the cable's definition.
+    pub fn imbalance(&self) -> f64 {
+        let (cable, mesh) = (self.solver.cable(), self.solver.mesh());
+        let (u, f) = (self.state.displacement(), self.state.friction());
+        let (h, last) = (mesh.spacing(), mesh.elements());
+        let k = cable.axial_stiffness() / h;
+        let mut force: Vec<f64> = (0..=last)
+            .map(|i| f[i] * if i == 0 || i == last { 0.5 * h } else { h })
+            .collect();
+        for i in 0..last {
+            let tension = k * (u[i + 1] - u[i]);
+            force[i] += tension;
+            force[i + 1] -= tension;
+        }
+        for (node, end) in [(0, cable.upstream()), (last, cable.downstream())] {
+            match end {
+                End::Free => {}
+                End::Spring(stiffness) => force[node] -= stiffness * u[node],
+                End::Fixed => force[node] = 0.0,
+            }
+        }
+        for clamp in cable.restraints() {
+            let left = ((clamp.position / h) as usize).min(last - 1);
+            let share = clamp.position / h - left as f64;
+            for (node, stiffness) in [
+                (left, (1.0 - share) * clamp.stiffness),
+                (left + 1, share * clamp.stiffness),
+            ] {
+                let fixed = (node == 0 && cable.upstream() == End::Fixed)
+                    || (node == last && cable.downstream() == End::Fixed);
+                if !fixed {
+                    force[node] -= stiffness * u[node];
+                }
+            }
+        }
+        force.iter().fold(0.0, |worst: f64, f| {
+            if f.is_nan() {
+                f64::INFINITY
+            } else {
+                worst.max(f.abs())
+            }
+        }) / (cable.friction().limit() * h)
+    }
+
+    /// Largest friction as a share of its limit.
+    pub fn utilisation(&self) -> f64 {
+        self.state.friction().iter().fold(0.0, |worst: f64, f| {
+            if f.is_nan() {
+                f64::INFINITY
+            } else {
+                worst.max(f.abs())
+            }
+        }) / self.solver.cable().friction().limit()
+    }
+}
+
+/// Largest difference of two equally long lists.
+pub fn largest_difference(one: &[f64], two: &[f64]) -> f64 {
+    assert_eq!(one.len(), two.len());
+    one.iter()
+        .zip(two)
+        .fold(0.0, |worst: f64, (a, b)| worst.max((a - b).abs()))
+}

@@ -1,0 +1,167 @@
+//! Which solver a scene's cable gets, and how it lets one vehicle pass.
+
+use cable_dem::{
+    CableError, CableState, DuctedCable, Dynamic, Explicit, ExplicitOptions, Friction, Mesh, MovingDuct,
+    PassOutcome, Passage, QuasiStatic, SigmoidLeak, SlipLengths, inertia_ratio,
+};
+use ground_field::DuctMotion;
+
+use super::motion::approach;
+use crate::Error;
+use crate::scene::{Scene, SolverMethod};
+
+/// Standard acceleration of gravity \[m/s²\], which makes a weight of a mass.
+const GRAVITY: f64 = 9.80665;
+
+/// Solver of the cable.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CableMethod {
+    QuasiStatic,
+    Dynamic,
+    Explicit,
+}
+
+impl CableMethod {
+    /// Its name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::QuasiStatic => "quasi-static",
+            Self::Dynamic => "dynamic",
+            Self::Explicit => "explicit",
+        }
+    }
+}
+
+/// The method the scene names, or the cheapest that is accurate enough, and why.
+pub fn choose(scene: &Scene) -> Result<(CableMethod, String), Error> {
+    let asked = |method| Ok((method, "the scene asks for it".to_owned()));
+    match scene.solver.method {
+        SolverMethod::Auto => {
+            if !scene.friction.law.has_memory() {
+                let reason = "the sigmoid law has no state of rest: its friction depends on the time step";
+                return Ok((CableMethod::Dynamic, reason.into()));
+            }
+            let cable = cable(scene)?;
+            let mut ratio = 0.0_f64;
+            for traffic in &scene.vehicles {
+                ratio = ratio.max(inertia_ratio(&cable, mass(scene), traffic.vehicle.speed())?);
+            }
+            let share = format!("inertia changes the force by at most {ratio:.2e} of it, (v/c)²");
+            Ok(if ratio <= scene.solver.tolerance {
+                (CableMethod::QuasiStatic, share)
+            } else {
+                (CableMethod::Dynamic, format!("{share}, above the tolerance"))
+            })
+        }
+        SolverMethod::QuasiStatic => asked(CableMethod::QuasiStatic),
+        SolverMethod::Dynamic => asked(CableMethod::Dynamic),
+        SolverMethod::Explicit => asked(CableMethod::Explicit),
+        SolverMethod::PassLaw => Err(Error::Unfit {
+            key: "solver.method",
+            found: "pass-law",
+            reason: "not in this version",
+        }),
+    }
+}
+
+/// A scene's cable: friction by its law with the limit q = μ_d N′, ends and clamps.
+pub fn cable(scene: &Scene) -> Result<DuctedCable, Error> {
+    let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
+    let friction = Friction::new(scene.friction.law, limit)?;
+    Ok(
+        DuctedCable::new(scene.duct.length, scene.cable.axial_stiffness, friction)?
+            .with_ends(scene.ends.upstream, scene.ends.downstream)?
+            .with_restraints(scene.restraints.clone())?,
+    )
+}
+
+/// Mass per metre \[kg/m\]: the cable's own weight's, whatever presses it down.
+fn mass(scene: &Scene) -> f64 {
+    scene.cable.weight / GRAVITY
+}
+
+/// A solver with the scene's vehicles, ready to let them pass.
+pub enum PassSolver {
+    QuasiStatic(Box<QuasiStatic>, Vec<Passage>),
+    Dynamic(Box<Dynamic>, Vec<MovingDuct>),
+    Explicit(Box<Explicit>, Vec<MovingDuct>),
+}
+
+impl PassSolver {
+    pub fn new(
+        scene: &Scene,
+        method: CableMethod,
+        motions: &[DuctMotion],
+        mesh: Mesh,
+    ) -> Result<Self, Error> {
+        let cable = cable(scene)?;
+        let ducts = || {
+            motions
+                .iter()
+                .map(|motion| MovingDuct::new(&cable, &mesh, motion, approach(scene)))
+                .collect::<Result<Vec<_>, _>>()
+        };
+        Ok(match method {
+            CableMethod::QuasiStatic => {
+                let passages = motions
+                    .iter()
+                    .map(|motion| Passage::new(&cable, &mesh, motion, approach(scene)))
+                    .collect::<Result<Vec<_>, _>>()?;
+                Self::QuasiStatic(Box::new(QuasiStatic::new(cable, mesh)?), passages)
+            }
+            CableMethod::Dynamic => {
+                let ducts = ducts()?;
+                Self::Dynamic(Box::new(Dynamic::new(cable, mesh, mass(scene))?), ducts)
+            }
+            CableMethod::Explicit => {
+                let ducts = ducts()?;
+                let options = ExplicitOptions {
+                    time_step: scene.solver.time_step,
+                    ..ExplicitOptions::default()
+                };
+                Self::Explicit(Box::new(Explicit::new(cable, mesh, mass(scene), options)?), ducts)
+            }
+        })
+    }
+
+    /// Lets `vehicle` pass.
+    pub fn pass(&mut self, vehicle: usize, state: &mut CableState) -> Result<PassOutcome, CableError> {
+        match self {
+            Self::QuasiStatic(solver, passages) => solver.pass(&passages[vehicle], state),
+            Self::Dynamic(solver, ducts) => Ok(solver.pass(&ducts[vehicle], state)?.pass),
+            Self::Explicit(solver, ducts) => Ok(solver.pass(&ducts[vehicle], state)?.pass),
+        }
+    }
+
+    /// As [`PassSolver::pass`], and measures the lengths of slip with the vehicle nearest to `position` \[m\], where the
+    /// solver can be looked at.
+    pub fn pass_and_look(
+        &mut self,
+        vehicle: usize,
+        state: &mut CableState,
+        position: f64,
+    ) -> Result<(PassOutcome, Option<SlipLengths>), CableError> {
+        let Self::QuasiStatic(solver, passages) = self else {
+            return Ok((self.pass(vehicle, state)?, None));
+        };
+        let mut nearest = f64::INFINITY;
+        let mut slip = None;
+        let outcome = solver.pass_observed(&passages[vehicle], state, |view| {
+            let distance = (view.vehicle_position() - position).abs();
+            if distance < nearest {
+                nearest = distance;
+                slip = Some(view.slip_lengths());
+            }
+        })?;
+        Ok((outcome, slip))
+    }
+
+    /// What a law without memory loses in each vehicle's pass.
+    pub fn leaks(&self) -> Vec<SigmoidLeak> {
+        match self {
+            Self::QuasiStatic(..) => Vec::new(),
+            Self::Dynamic(solver, ducts) => ducts.iter().filter_map(|duct| solver.leak(duct)).collect(),
+            Self::Explicit(solver, ducts) => ducts.iter().filter_map(|duct| solver.leak(duct)).collect(),
+        }
+    }
+}

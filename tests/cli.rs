@@ -1,0 +1,826 @@
+//! The command line, from outside: what it prints where, its exit status, and what it says about bad input.
+
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+const PASS_FIELDS: [&str; 8] = [
+    "pass",
+    "downstream_force_n",
+    "downstream_peak_n",
+    "upstream_force_n",
+    "upstream_peak_n",
+    "max_compression_n",
+    "upstream_displacement_m",
+    "downstream_displacement_m",
+];
+const PROFILE_FIELDS: [&str; 4] = [
+    "positions_m",
+    "longitudinal_m",
+    "vertical_m",
+    "longitudinal_velocity_m_per_s",
+];
+
+fn command(arguments: &[&str]) -> Command {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("creepage"));
+    command
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(arguments)
+        .stdin(Stdio::null());
+    command
+}
+
+fn output(arguments: &[&str]) -> Output {
+    command(arguments).output().expect("the command starts")
+}
+
+/// What a command that succeeds prints; standard error has to stay empty, for it is no terminal.
+#[track_caller]
+fn printed(arguments: &[&str]) -> String {
+    let output = output(arguments);
+    let errors = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {errors}");
+    assert_eq!(errors, "", "{arguments:?}");
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+/// The whole of standard output as one JSON document.
+#[track_caller]
+fn json(arguments: &[&str]) -> Value {
+    serde_json::from_str(&printed(&[arguments, &["--json"]].concat())).expect("JSON and nothing else")
+}
+
+/// The upper phase with a few passes only, and what else is set.
+#[track_caller]
+fn short_run(set: &[&str]) -> Value {
+    let mut arguments = vec!["run", UPPER, "--set", "traffic.passes=6"];
+    for set in set {
+        arguments.extend(["--set", set]);
+    }
+    json(&arguments)
+}
+
+/// Asserts exit status, silence on standard output, and an error that contains all of `parts`.
+#[track_caller]
+fn assert_fails(arguments: &[&str], status: i32, parts: &[&str]) {
+    let output = output(arguments);
+    let errors = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(output.status.code(), Some(status), "{arguments:?}: {errors}");
+    assert_eq!(output.stdout, b"", "{arguments:?} prints on standard output");
+    for part in parts {
+        assert!(errors.contains(part), "{arguments:?}: {part} is not in\n{errors}");
+    }
+}
+
+/// A place for files of one test.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli").join(test);
+    fs::create_dir_all(&folder).expect("a folder for the test");
+    folder
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("a path in UTF-8")
+}
+
+#[track_caller]
+fn numbers(value: &Value) -> Vec<f64> {
+    let list = value.as_array().expect("a list");
+    list.iter().map(|n| n.as_f64().expect("a number")).collect()
+}
+
+#[track_caller]
+fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("{value} is not a number"))
+}
+
+#[track_caller]
+fn last_force(run: &Value) -> f64 {
+    number(&run["passes"].as_array().expect("passes").last().expect("a pass")["downstream_force_n"])
+}
+
+/// Header and rows of a CSV file.
+fn table(file: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
+    let mut reader = csv::Reader::from_path(file).expect("a CSV file");
+    let header = reader
+        .headers()
+        .expect("a header")
+        .iter()
+        .map(String::from)
+        .collect();
+    let rows = reader
+        .records()
+        .map(|row| {
+            row.expect("a row")
+                .iter()
+                .map(|n| n.parse().expect("a number"))
+                .collect()
+        })
+        .collect();
+    (header, rows)
+}
+
+// run
+
+#[test]
+fn run_answers_with_every_field_of_its_document() {
+    let run = json(&["run", UPPER]);
+    assert_eq!(run["title"], "Full-scale experiment, upper phase");
+    assert!(run["plan"]["ground"].is_string() && run["plan"]["cable"].is_string());
+    assert!(number(&run["plan"]["node_spacing_m"]) > 0.0 && number(&run["plan"]["vehicle_step_m"]) > 0.0);
+    let reasons = run["plan"]["reasons"].as_array().expect("a list");
+    assert!(!reasons.is_empty() && reasons.iter().all(Value::is_string));
+    // Boussinesq's closed form: (1+ν)P/(2πE)·(2−2ν+1)/z below the load.
+    let below = 1.4 * 196_133.0 / (std::f64::consts::TAU * 800e6) * 2.2 / 1.2;
+    assert!((number(&run["duct_motion"]["peak_vertical_m"]) / below - 1.0).abs() < 1e-6);
+    assert!((number(&run["duct_motion"]["peak_longitudinal_m"]) / 15.19e-6 - 1.0).abs() < 1e-3);
+
+    let passes = run["passes"].as_array().expect("a list");
+    assert_eq!(passes.len(), 200);
+    for (index, pass) in passes.iter().enumerate() {
+        assert_eq!(pass["pass"].as_u64(), Some(index as u64 + 1));
+        for field in PASS_FIELDS {
+            assert!(number(&pass[field]).is_finite(), "{field}");
+        }
+        assert!(number(&pass["downstream_peak_n"]) >= number(&pass["downstream_force_n"]));
+        assert_eq!(number(&pass["upstream_force_n"]), 0.0, "the upstream end is free");
+        assert_eq!(
+            number(&pass["downstream_displacement_m"]),
+            0.0,
+            "the downstream end is fixed"
+        );
+    }
+    // Forces that a program of its own gave for this scene.
+    for (pass, force) in [(1, 113.4), (5, 223.3), (10, 297.6), (60, 534.9), (200, 542.3)] {
+        let found = number(&passes[pass - 1]["downstream_force_n"]);
+        assert!((found / force - 1.0).abs() < 0.01, "pass {pass}: {found} N");
+    }
+
+    assert!((number(&run["saturation"]["force_n"]) / 542.3 - 1.0).abs() < 0.01);
+    let to_95_percent = run["saturation"]["passes_to_95_percent"]
+        .as_u64()
+        .expect("a whole number");
+    assert!((30..60).contains(&to_95_percent), "{to_95_percent}");
+    let error = number(&run["error_estimate"]["relative"]);
+    assert!((0.0..=0.01).contains(&error) && run["error_estimate"]["method"].is_string());
+    assert_eq!(run["warnings"], Value::Array(vec![]));
+}
+
+#[test]
+fn run_prints_a_short_table_and_the_plan() {
+    let arguments = ["run", UPPER, "--set", "traffic.passes=40"];
+    let table = printed(&arguments);
+    let run = json(&arguments);
+    assert!(table.lines().count() < 40, "{table}");
+    assert!(
+        table.starts_with("Full-scale experiment, upper phase\n"),
+        "{table}"
+    );
+    for pass in [1, 40] {
+        let record = &run["passes"][pass - 1];
+        let row: Vec<f64> = table
+            .lines()
+            .map(|line| line.split_whitespace().map_while(|n| n.parse().ok()).collect())
+            .find(|row: &Vec<f64>| row.first() == Some(&(pass as f64)))
+            .expect("a row for the pass");
+        let expected = [
+            ("upstream_force_n", 1.0),
+            ("downstream_force_n", 1.0),
+            ("upstream_displacement_m", 1e3),
+            ("downstream_displacement_m", 1e3),
+            ("max_compression_n", 1.0),
+        ];
+        for ((field, factor), shown) in expected.into_iter().zip(&row[1..]) {
+            let value = factor * number(&record[field]);
+            assert!((shown - value).abs() < 0.06, "pass {pass}, {field}: {row:?}");
+        }
+    }
+    for reason in run["plan"]["reasons"].as_array().expect("a list") {
+        assert!(table.contains(reason.as_str().expect("a text")), "{table}");
+    }
+    assert!(
+        run["saturation"].is_null() && table.contains("saturation: not reached"),
+        "{table}"
+    );
+}
+
+#[test]
+fn run_writes_the_same_numbers_as_csv() {
+    let file = folder("run_csv").join("forces.csv");
+    let run = json(&["run", UPPER, "--set", "traffic.passes=6", "--csv", text(&file)]);
+    let (header, rows) = table(&file);
+    assert_eq!(header, PASS_FIELDS);
+    let expected: Vec<Vec<f64>> = run["passes"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|pass| PASS_FIELDS.iter().map(|field| number(&pass[field])).collect())
+        .collect();
+    assert_eq!(rows, expected);
+}
+
+#[test]
+fn csv_replaces_an_older_longer_file() {
+    let file = folder("csv_replaces").join("forces.csv");
+    fs::write(&file, "old\n".repeat(1000)).expect("a file");
+    printed(&["run", UPPER, "--set", "traffic.passes=2", "--csv", text(&file)]);
+    assert_eq!(table(&file).1.len(), 2);
+}
+
+#[test]
+fn set_is_as_good_as_an_edit_of_the_file() {
+    let original = short_run(&[]);
+    let set = short_run(&[
+        "friction.dynamic_coefficient=0.3",
+        "vehicles.0.load=15 tf",
+        "title=Other",
+    ]);
+    assert_eq!(set["title"], "Other");
+    let change = last_force(&set) / last_force(&original) - 1.0;
+    assert!(change.abs() > 0.05, "changed by {change}");
+
+    let file = folder("set").join("edited.toml");
+    let scene = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(UPPER)).expect("the scene");
+    let edited = scene
+        .replace("dynamic_coefficient = 0.25", "dynamic_coefficient = 0.3")
+        .replace("load = \"20 tf\"", "load = \"15 tf\"")
+        .replace("passes = 200", "passes = 6")
+        .replace("Full-scale experiment, upper phase", "Other");
+    fs::write(&file, edited).expect("a file");
+    assert_eq!(json(&["run", text(&file)]), set);
+}
+
+#[test]
+fn the_force_does_not_depend_on_the_speed() {
+    // As measured (section 4.1 of the paper): 20, 30 and 40 km/h make no difference.
+    let fast = last_force(&short_run(&[]));
+    let slow = last_force(&short_run(&["vehicles.0.speed=20 km/h"]));
+    assert!((slow / fast - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn a_mirrored_scene_has_the_mirrored_answer() {
+    let forward = short_run(&[]);
+    let mirrored = short_run(&[
+        "vehicles.0.direction=reverse",
+        "ends.upstream=fixed",
+        "ends.downstream=free",
+    ]);
+    for (index, pass) in mirrored["passes"].as_array().expect("a list").iter().enumerate() {
+        let original = &forward["passes"][index];
+        let force = number(&original["downstream_force_n"]);
+        assert!((number(&pass["upstream_force_n"]) / force - 1.0).abs() < 1e-3);
+        let moved = number(&original["upstream_displacement_m"]);
+        assert!((number(&pass["downstream_displacement_m"]) / moved + 1.0).abs() < 1e-3);
+    }
+}
+
+#[test]
+fn the_same_command_gives_the_same_answer() {
+    let arguments = [
+        "run",
+        UPPER,
+        "--json",
+        "--set",
+        "traffic.passes=4",
+        "--set",
+        "traffic.order=random",
+        "--set",
+        "traffic.seed=3",
+    ];
+    assert_eq!(printed(&arguments), printed(&arguments));
+}
+
+#[test]
+fn verify_measures_the_error_and_leaves_the_forces() {
+    let estimated = short_run(&[]);
+    let verified = json(&["run", UPPER, "--set", "traffic.passes=6", "--verify"]);
+    assert_eq!(verified["passes"], estimated["passes"]);
+    let measured = number(&verified["error_estimate"]["relative"]);
+    assert!(measured > 0.0 && measured < 0.01, "{measured}");
+    assert_ne!(
+        verified["error_estimate"]["method"],
+        estimated["error_estimate"]["method"]
+    );
+
+    // The finer run it speaks of, made by hand.
+    let half = |key: &str| 0.5 * number(&verified["plan"][key]);
+    let finer = short_run(&[
+        &format!("solver.node_spacing={}", half("node_spacing_m")),
+        &format!("solver.vehicle_step={}", half("vehicle_step_m")),
+    ]);
+    let difference = (last_force(&finer) / last_force(&verified) - 1.0).abs();
+    assert!(
+        difference <= measured * 1.0001,
+        "{difference} where {measured} was measured"
+    );
+}
+
+#[test]
+fn warnings_go_to_standard_error_and_into_the_document() {
+    let output = output(&[
+        "run",
+        UPPER,
+        "--json",
+        "--set",
+        "traffic.passes=2",
+        "--set",
+        "solver.node_spacing=1 m",
+    ]);
+    assert_eq!(output.status.code(), Some(0));
+    let run: Value = serde_json::from_slice(&output.stdout).expect("JSON and nothing else");
+    let errors = String::from_utf8(output.stderr).expect("UTF-8");
+    let warnings = run["warnings"].as_array().expect("a list");
+    assert!(!warnings.is_empty());
+    for warning in warnings {
+        let warning = warning.as_str().expect("a text");
+        assert!(errors.contains(&format!("warning: {warning}\n")), "{errors}");
+    }
+}
+
+// profile
+
+#[test]
+fn profile_obeys_equation_1_and_the_symmetry_of_one_load() {
+    let profile = json(&["profile", UPPER]);
+    assert!(profile["ground"].is_string());
+    let [xi, along, down, velocity] = PROFILE_FIELDS.map(|field| numbers(&profile[field]));
+    for list in [&along, &down, &velocity] {
+        assert_eq!(list.len(), xi.len());
+    }
+    assert!(xi.len() > 100 && xi.is_sorted());
+    let speed = 40.0 / 3.6;
+    let peak = along.iter().fold(0.0_f64, |peak, d| peak.max(d.abs()));
+    for (i, step) in xi.windows(3).enumerate() {
+        let difference = -speed * (along[i + 2] - along[i]) / (step[2] - step[0]);
+        assert!(
+            (difference - velocity[i + 1]).abs() < 0.05 * speed * peak / 1.2,
+            "V_l at {} m",
+            step[1]
+        );
+    }
+    for i in 0..xi.len() {
+        let mirror = xi.len() - 1 - i;
+        assert!((along[i] + along[mirror]).abs() < 1e-9 * peak.max(1e-6) + 1e-12);
+        assert!((down[i] - down[mirror]).abs() < 1e-12);
+    }
+    let middle = xi.len() / 2;
+    assert!(
+        velocity[middle] < 0.0,
+        "the duct moves backward below a forward vehicle"
+    );
+    assert!(along[middle + 3] > 0.0, "the duct moves away from the load");
+}
+
+#[test]
+fn profile_takes_positions_of_any_sign_in_their_order() {
+    for positions in [&["--positions", "-1.5,0,1.5"][..], &["--positions=-1.5,0,1.5"]] {
+        let profile = json(&[&["profile", UPPER], positions].concat());
+        assert_eq!(numbers(&profile["positions_m"]), [-1.5, 0.0, 1.5]);
+        let along = numbers(&profile["longitudinal_m"]);
+        // Boussinesq's closed form at r = 1.5 m.
+        let (r, z, nu): (f64, f64, f64) = (1.5, 1.2, 0.4);
+        let root = r.hypot(z);
+        let factor = (1.0 + nu) * 196_133.0 / (std::f64::consts::TAU * 800e6);
+        let exact = factor * (r * z / root.powi(3) - (1.0 - 2.0 * nu) * r / (root * (root + z)));
+        assert!((along[2] / exact - 1.0).abs() < 1e-6 && (along[0] / exact + 1.0).abs() < 1e-6);
+        assert_eq!(along[1], 0.0);
+    }
+    let one = json(&["profile", UPPER, "--positions", "-2"]);
+    for field in PROFILE_FIELDS {
+        assert_eq!(numbers(&one[field]).len(), 1, "{field}");
+    }
+    let unsorted = json(&["profile", UPPER, "--positions", "1,-1,1"]);
+    assert_eq!(numbers(&unsorted["positions_m"]), [1.0, -1.0, 1.0]);
+}
+
+#[test]
+fn profile_writes_the_same_numbers_as_csv() {
+    let file = folder("profile_csv").join("motion.csv");
+    let profile = json(&["profile", UPPER, "--positions", "-1,0,2.5", "--csv", text(&file)]);
+    let (header, rows) = table(&file);
+    assert_eq!(header.len(), 4);
+    assert_eq!(header[0], "position_m");
+    assert_eq!(header[1..], PROFILE_FIELDS[1..]);
+    for (column, field) in PROFILE_FIELDS.iter().enumerate() {
+        let written: Vec<f64> = rows.iter().map(|row| row[column]).collect();
+        assert_eq!(written, numbers(&profile[field]), "{field}");
+    }
+}
+
+#[test]
+fn profile_prints_a_table() {
+    let table = printed(&["profile", UPPER, "--positions", "-1,0,2.5"]);
+    assert_eq!(table.lines().count(), 5, "{table}");
+    for unit in ["ξ, m", "D_l, µm", "D_v, µm", "V_l, µm/s"] {
+        assert!(table.contains(unit), "{table}");
+    }
+}
+
+// check, help
+
+#[test]
+fn check_accepts_the_example_scenes() {
+    let scenes =
+        fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes")).expect("a folder");
+    let mut count = 0;
+    for scene in scenes {
+        let scene = scene.expect("a file").path();
+        let said = printed(&["check", text(&scene)]);
+        assert!(said.contains("valid"), "{said}");
+        count += 1;
+    }
+    assert!(count >= 2);
+}
+
+#[test]
+fn help_and_version_are_no_errors() {
+    let help = printed(&["--help"]);
+    for command in ["run", "profile", "check"] {
+        assert!(help.contains(&format!("\n  {command} ")), "{help}");
+        assert!(printed(&[command, "--help"]).contains("--set <KEY=VALUE>"));
+    }
+    let run = printed(&["help", "run"]);
+    for flag in ["--json", "--csv <FILE>", "--verify"] {
+        assert!(run.contains(flag), "{run}");
+    }
+    assert_eq!(
+        printed(&["--version"]),
+        format!("creepage {}\n", env!("CARGO_PKG_VERSION"))
+    );
+}
+
+// what fails
+
+#[test]
+fn bad_usage_has_status_2() {
+    let cases: &[(&[&str], &str)] = &[
+        (&[], "Usage"),
+        (&["walk", UPPER], "walk"),
+        (&["run"], "SCENE"),
+        (&["run", UPPER, UPPER], UPPER),
+        (&["run", UPPER, "--fast"], "--fast"),
+        (&["run", UPPER, "--csv"], "--csv"),
+        (&["run", UPPER, "--set"], "--set"),
+        (&["run", UPPER, "--positions", "0"], "--positions"),
+        (&["profile", UPPER, "--verify"], "--verify"),
+        (&["profile", UPPER, "--positions", "0,x"], "x"),
+        (&["profile", UPPER, "--positions", "nan"], "nan"),
+        (&["profile", UPPER, "--positions", "inf"], "inf"),
+        (&["profile", UPPER, "--positions", "0,,1"], "--positions"),
+        (&["check"], "SCENE"),
+    ];
+    for (arguments, part) in cases {
+        assert_fails(arguments, 2, &[part]);
+    }
+}
+
+#[test]
+fn an_unreadable_scene_has_status_2() {
+    let folder = folder("unreadable");
+    let binary = folder.join("binary.toml");
+    fs::write(&binary, b"title = \"\xff\xfe\"\n").expect("a file");
+    let empty = folder.join("empty.toml");
+    fs::write(&empty, "").expect("a file");
+    for command in ["run", "profile", "check"] {
+        let missing = folder.join("no-such-scene.toml");
+        assert_fails(&[command, text(&missing)], 2, &["no-such-scene.toml", "No such"]);
+        assert_fails(
+            &[command, text(&missing), "--set", "duct.length=1"],
+            2,
+            &["no-such-scene.toml"],
+        );
+        assert_fails(&[command, text(&folder)], 2, &[text(&folder), "cannot be read"]);
+        assert_fails(&[command, text(&binary)], 2, &["binary.toml, line 1", "UTF-8"]);
+        assert_fails(&[command, text(&empty)], 2, &["empty.toml", "missing"]);
+    }
+}
+
+#[test]
+fn a_bad_scene_is_refused_with_file_line_key_found_and_allowed() {
+    // Old text, new text, what the error has to say beside file and line.
+    let cases: &[(&str, &str, &[&str])] = &[
+        (
+            "depth = \"1.2 m\"",
+            "depth = \"1.2 m",
+            &["not valid TOML", "1.2 m"],
+        ),
+        (
+            "depth = \"1.2 m\"",
+            "deepth = \"1.2 m\"",
+            &["duct.deepth", "did you mean `depth`", "allowed"],
+        ),
+        (
+            "depth = \"1.2 m\"",
+            "depth = \"1.2 kN\"",
+            &["duct.depth", "found \"1.2 kN\"", "allowed: a length"],
+        ),
+        (
+            "depth = \"1.2 m\"",
+            "depth = \"1.2\"",
+            &["duct.depth", "missing unit", "found \"1.2\"", "allowed"],
+        ),
+        (
+            "depth = \"1.2 m\"",
+            "depth = \"1.2 metre\"",
+            &["duct.depth", "unknown unit `metre`", "allowed"],
+        ),
+        (
+            "depth = \"1.2 m\"",
+            "depth = nan",
+            &["duct.depth", "found nan", "allowed"],
+        ),
+        (
+            "depth = \"1.2 m\"",
+            "depth = \"inf m\"",
+            &["duct.depth", "found \"inf m\"", "allowed"],
+        ),
+        (
+            "depth = \"1.2 m\"",
+            "depth = -1.2",
+            &["duct.depth", "found -1.2", "greater than 0"],
+        ),
+        (
+            "depth = \"1.2 m\"",
+            "depth = [1.2]",
+            &["duct.depth", "found", "allowed"],
+        ),
+        (
+            "poisson_ratio = 0.4",
+            "poisson_ratio = 0.6",
+            &["poisson_ratio", "found 0.6", "from 0 to 0.5"],
+        ),
+        (
+            "law = \"elastic-plastic\"",
+            "law = \"stribeck\"",
+            &["friction.law", "stribeck", "coulomb"],
+        ),
+        (
+            "upstream = \"free\"",
+            "upstream = \"loose\"",
+            &["ends.upstream", "loose", "spring"],
+        ),
+        (
+            "passes = 200",
+            "passes = 0",
+            &["traffic.passes", "found 0", "at least 1"],
+        ),
+        (
+            "passes = 200",
+            "passes = 1.5",
+            &["traffic.passes", "found 1.5", "whole number"],
+        ),
+        (
+            "passes = 200",
+            "passes = 200\npasses = 200",
+            &["passes", "not valid TOML"],
+        ),
+    ];
+    let scene = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(UPPER)).expect("the scene");
+    let file = folder("bad_scene").join("bad.toml");
+    for (old, new, parts) in cases {
+        assert_eq!(scene.matches(old).count(), 1, "{old} is not one place");
+        let faulty = scene.replace(old, new);
+        // The last line of what is new: the second one of a key that stands twice.
+        let end = faulty.find(new).expect("the new text") + new.len();
+        let line = faulty[..end].lines().count();
+        fs::write(&file, &faulty).expect("a file");
+        let place = format!("{}, line {line}: ", text(&file));
+        for command in ["run", "profile", "check"] {
+            assert_fails(&[command, text(&file)], 2, &[&[place.as_str()], *parts].concat());
+        }
+    }
+}
+
+#[test]
+fn a_bad_override_is_refused_with_its_text() {
+    let cases: &[(&str, &[&str])] = &[
+        (
+            "friction.dynamic_coefficent=0.3",
+            &["friction.dynamic_coefficent", "did you mean"],
+        ),
+        ("frictoin.dynamic_coefficient=0.3", &["frictoin"]),
+        ("friction.dynamic_coefficient", &["KEY=VALUE"]),
+        ("friction.dynamic_coefficient=nan", &["found nan", "from 0 to 10"]),
+        ("friction.dynamic_coefficient=-1", &["found -1", "from 0 to 10"]),
+        ("=0.3", &["duct.length"]),
+        ("", &["KEY=VALUE"]),
+        ("vehicles.1.load=20 tf", &["vehicles.1.load", "0"]),
+        (
+            "vehicles.0.load=20 m",
+            &["vehicles.0.load", "found 20 m", "a force"],
+        ),
+        ("duct.length=1e999", &["duct.length", "allowed"]),
+    ];
+    // An empty value removes the key: then the file lacks it.
+    let removed = ["check", UPPER, "--set", "friction.dynamic_coefficient="];
+    assert_fails(&removed, 2, &[UPPER, "friction.dynamic_coefficient", "missing"]);
+    for (set, parts) in cases {
+        for command in ["run", "profile", "check"] {
+            let place = format!("--set {set}");
+            assert_fails(
+                &[command, UPPER, "--set", set],
+                2,
+                &[&[place.as_str()], *parts].concat(),
+            );
+        }
+    }
+}
+
+#[test]
+fn a_scene_that_does_not_fit_together_has_status_2() {
+    let rigid_base = [
+        "--set",
+        "ground.rigid_base_depth=12 m",
+        "--set",
+        "ground.model=boussinesq",
+    ];
+    for command in ["run", "profile", "check"] {
+        let arguments = [&[command, UPPER], &rigid_base[..]].concat();
+        assert_fails(&arguments, 2, &["ground.model", "boussinesq", "rigid base"]);
+    }
+    let no_memory = [
+        "--set",
+        "friction.law=sigmoid",
+        "--set",
+        "solver.method=quasi-static",
+    ];
+    for command in ["run", "check"] {
+        let arguments = [&[command, UPPER], &no_memory[..]].concat();
+        assert_fails(&arguments, 2, &["quasi-static", "sigmoid"]);
+    }
+}
+
+#[test]
+fn a_csv_file_that_cannot_be_written_has_status_2_before_anything_is_computed() {
+    let folder = folder("csv_unwritable");
+    let nowhere = folder.join("no-such-folder").join("forces.csv");
+    for file in [&nowhere, &folder] {
+        for command in ["run", "profile"] {
+            let arguments = [command, UPPER, "--csv", text(file)];
+            assert_fails(&arguments, 2, &[text(file), "cannot be written"]);
+        }
+    }
+    // Were it computed first, this would take days.
+    let days = [
+        "run",
+        UPPER,
+        "--set",
+        "traffic.passes=100000000",
+        "--csv",
+        text(&nowhere),
+    ];
+    assert_fails(&days, 2, &["cannot be written"]);
+}
+
+#[test]
+fn a_computation_that_fails_has_status_1() {
+    let file = folder("fails").join("forces.csv");
+    let too_stiff = [
+        "run",
+        UPPER,
+        "--json",
+        "--csv",
+        text(&file),
+        "--set",
+        "cable.axial_stiffness=1e25 N",
+    ];
+    assert_fails(&too_stiff, 1, &["error: ", "stiff"]);
+    let left = fs::read_to_string(&file).unwrap_or_default();
+    assert_eq!(left, "", "no numbers of a run that failed");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_has_status_1() {
+    let full = || {
+        let file = fs::OpenOptions::new().write(true).open("/dev/full");
+        Stdio::from(file.expect("the full device"))
+    };
+    for arguments in [
+        &["check", UPPER][..],
+        &["profile", UPPER],
+        &["profile", UPPER, "--json"],
+    ] {
+        let output = command(arguments).stdout(full()).output().expect("the command");
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        let errors = String::from_utf8(output.stderr).expect("UTF-8");
+        assert!(errors.contains("standard output: cannot be written"), "{errors}");
+    }
+    assert_fails(
+        &["profile", UPPER, "--csv", "/dev/full"],
+        1,
+        &["/dev/full", "cannot be written"],
+    );
+}
+
+#[test]
+fn a_reader_that_leaves_is_no_error() {
+    for arguments in [
+        &["run", UPPER, "--set", "traffic.passes=2"][..],
+        &["run", UPPER, "--set", "traffic.passes=2", "--json"],
+        &["profile", UPPER],
+        &["check", UPPER],
+    ] {
+        let mut child = command(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the command");
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+        assert_eq!(String::from_utf8_lossy(&output.stderr), "", "{arguments:?}");
+    }
+}
+
+// the README
+
+fn readme() -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md")).expect("the README")
+}
+
+/// Blocks of code in one language.
+fn blocks<'t>(text: &'t str, language: &str) -> Vec<&'t str> {
+    let opening = format!("```{language}\n");
+    text.split(&opening)
+        .skip(1)
+        .map(|rest| rest.split("\n```").next().unwrap_or_default())
+        .collect()
+}
+
+#[test]
+fn the_scene_in_the_readme_runs() {
+    let readme = readme();
+    let scenes = blocks(&readme, "toml");
+    assert_eq!(scenes.len(), 1);
+    let file = folder("readme").join("my-duct.toml");
+    fs::write(&file, scenes[0]).expect("a file");
+    let run = json(&["run", text(&file)]);
+    assert!(last_force(&run).abs() > 1.0);
+}
+
+#[test]
+fn the_commands_in_the_readme_work() {
+    let readme = readme();
+    let folder = folder("readme_commands");
+    let file = folder.join("my-duct.toml");
+    fs::write(&file, blocks(&readme, "toml")[0]).expect("a file");
+    let commands: Vec<&str> = blocks(&readme, "sh")
+        .into_iter()
+        .flat_map(str::lines)
+        .filter_map(|line| line.strip_prefix("creepage "))
+        .collect();
+    assert!(commands.len() >= 5, "{commands:?}");
+    for line in commands {
+        let words = line.split('#').next().unwrap_or_default();
+        let arguments: Vec<&str> = words
+            .split_whitespace()
+            .map(|word| word.trim_matches('"'))
+            .collect();
+        let output = command(&arguments)
+            .current_dir(&folder)
+            .output()
+            .expect("the command");
+        let errors = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(0), "creepage {line}: {errors}");
+    }
+}
+
+#[test]
+fn the_output_in_the_readme_is_the_output() {
+    let readme = readme();
+    let shown = blocks(&readme, "text");
+    let shown = shown.first().expect("the output of the main job");
+    let printed = printed(&["run", UPPER]);
+    assert!(shown.contains("saturation: "));
+    assert_eq!(shown.lines().count(), printed.trim_end().lines().count());
+    for (shown, printed) in shown.lines().zip(printed.lines()) {
+        if printed.starts_with("estimated error")
+            || printed.starts_with("plan")
+            || printed.starts_with("  ground")
+        {
+            continue;
+        }
+        let (shown_words, words) = (shown.split_whitespace(), printed.split_whitespace());
+        assert_eq!(
+            shown_words.clone().count(),
+            words.clone().count(),
+            "{shown}\n{printed}"
+        );
+        for (shown_word, word) in shown_words.zip(words) {
+            match (shown_word.parse::<f64>(), word.parse::<f64>()) {
+                // Numbers may differ in their last digit from machine to machine.
+                (Ok(a), Ok(b)) => assert!((a - b).abs() <= 2e-3 * b.abs() + 1e-3, "{shown}\n{printed}"),
+                _ => assert_eq!(shown_word, word),
+            }
+        }
+    }
+}
