@@ -1,5 +1,6 @@
 //! What the cable keeps from one pass to the next.
 
+use crate::error::checked;
 use crate::{CableError, DuctedCable, End, Mesh};
 
 /// The cable at rest: displacement and friction of every node, with no vehicle near.
@@ -19,6 +20,31 @@ impl CableState {
             displacement: vec![0.0; mesh.nodes()],
             friction: vec![0.0; mesh.nodes()],
         }
+    }
+
+    /// A cable at rest with `displacement` u \[m\] and `friction` f \[N/m\] at every node. Whether they balance each other is
+    /// for the solver to see: what is out of balance moves as soon as a vehicle passes.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::StateMismatch`] unless there is a value of each for every node of `mesh`,
+    /// [`CableError::InvalidParameter`] unless all are finite.
+    pub fn from_parts(mesh: &Mesh, displacement: Vec<f64>, friction: Vec<f64>) -> Result<Self, CableError> {
+        for (name, values) in [("displacement", &displacement), ("friction", &friction)] {
+            if values.len() != mesh.nodes() {
+                return Err(CableError::StateMismatch {
+                    found: values.len(),
+                    expected: mesh.nodes(),
+                });
+            }
+            for &value in values {
+                checked(name, value, "finite", |_| true)?;
+            }
+        }
+        Ok(Self {
+            displacement,
+            friction,
+        })
     }
 
     /// Displacement u of every node \[m\].
@@ -118,4 +144,26 @@ pub struct EndForces {
     pub upstream: f64,
     /// At x = length.
     pub downstream: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_given_state_must_fit_its_mesh_and_be_finite() -> Result<(), CableError> {
+        let mesh = Mesh::new(1.0, 0.5, 0.5)?;
+        let state = CableState::from_parts(&mesh, vec![0.0, 1.0, 2.0], vec![3.0; 3])?;
+        assert_eq!((state.displacement()[2], state.friction()[0]), (2.0, 3.0));
+        let short = CableState::from_parts(&mesh, vec![0.0; 2], vec![0.0; 3]);
+        assert_eq!(
+            short,
+            Err(CableError::StateMismatch {
+                found: 2,
+                expected: 3
+            })
+        );
+        assert!(CableState::from_parts(&mesh, vec![0.0; 3], vec![0.0, f64::NAN, 0.0]).is_err());
+        Ok(())
+    }
 }
