@@ -1,7 +1,10 @@
 //! What can go wrong in an analysis.
 
+use std::borrow::Cow;
+
 use cable_dem::CableError;
 use ground_field::GroundError;
+use pass_law::LawError;
 
 use crate::SceneError;
 
@@ -18,6 +21,9 @@ pub enum Error {
     /// The cable could not be computed.
     #[error(transparent)]
     Cable(#[from] CableError),
+    /// The pass law could not be computed.
+    #[error(transparent)]
+    Law(#[from] LawError),
     /// The finest affordable mesh leaves too large an error.
     #[error(
         "the estimated error of {:.1} % is too far above the tolerance of {:.2} %: the forces are small beside what passes through \
@@ -39,7 +45,7 @@ pub enum Error {
         /// What it asks for.
         found: &'static str,
         /// Why it does not fit.
-        reason: &'static str,
+        reason: Cow<'static, str>,
     },
 }
 

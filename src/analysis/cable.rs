@@ -6,6 +6,7 @@ use cable_dem::{
 };
 use ground_field::DuctMotion;
 
+use super::law;
 use super::motion::approach;
 use crate::Error;
 use crate::scene::{Scene, SolverMethod};
@@ -13,12 +14,34 @@ use crate::scene::{Scene, SolverMethod};
 /// Standard acceleration of gravity \[m/s²\], which makes a weight of a mass.
 const GRAVITY: f64 = 9.80665;
 
+/// Depths of duct passed over by all vehicles together from which the pass law is taken: a minute or two one by one.
+const MANY_DEPTHS: f64 = 2.5e6;
+
+/// How all passes are computed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PassMethod {
+    /// One by one.
+    EveryPass(CableMethod),
+    /// By the pass law.
+    Law,
+}
+
 /// Solver of the cable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CableMethod {
     QuasiStatic,
     Dynamic,
     Explicit,
+}
+
+impl PassMethod {
+    /// Its name in scene files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::EveryPass(method) => method.name(),
+            Self::Law => "pass-law",
+        }
+    }
 }
 
 impl CableMethod {
@@ -33,13 +56,13 @@ impl CableMethod {
 }
 
 /// The method the scene names, or the cheapest that is accurate enough, and why.
-pub fn choose(scene: &Scene) -> Result<(CableMethod, String), Error> {
-    let asked = |method| Ok((method, "the scene asks for it".to_owned()));
+pub fn choose(scene: &Scene) -> Result<(PassMethod, String), Error> {
+    let asked = |method| Ok((PassMethod::EveryPass(method), "the scene asks for it".to_owned()));
     match scene.solver.method {
         SolverMethod::Auto => {
             if !scene.friction.law.has_memory() {
                 let reason = "the sigmoid law has no state of rest: its friction depends on the time step";
-                return Ok((CableMethod::Dynamic, reason.into()));
+                return Ok((PassMethod::EveryPass(CableMethod::Dynamic), reason.into()));
             }
             let cable = cable(scene)?;
             let mut ratio = 0.0_f64;
@@ -47,26 +70,40 @@ pub fn choose(scene: &Scene) -> Result<(CableMethod, String), Error> {
                 ratio = ratio.max(inertia_ratio(&cable, mass(scene), traffic.vehicle.speed())?);
             }
             let share = format!("inertia changes the force by at most {ratio:.2e} of it, (v/c)²");
-            Ok(if ratio <= scene.solver.tolerance {
-                (CableMethod::QuasiStatic, share)
-            } else {
-                (CableMethod::Dynamic, format!("{share}, above the tolerance"))
-            })
+            if ratio > scene.solver.tolerance {
+                let reason = format!("{share}, above the tolerance");
+                return Ok((PassMethod::EveryPass(CableMethod::Dynamic), reason));
+            }
+            if by_law(scene)? {
+                let reason = format!("{} passes one by one would take minutes", scene.traffic.passes);
+                return Ok((PassMethod::Law, reason));
+            }
+            Ok((PassMethod::EveryPass(CableMethod::QuasiStatic), share))
         }
         SolverMethod::QuasiStatic if !scene.friction.law.has_memory() => Err(Error::Unfit {
             key: "solver.method",
             found: "quasi-static",
-            reason: "the sigmoid law has no state of rest: its friction depends on the time step",
+            reason: "the sigmoid law has no state of rest: its friction depends on the time step".into(),
         }),
         SolverMethod::QuasiStatic => asked(CableMethod::QuasiStatic),
         SolverMethod::Dynamic => asked(CableMethod::Dynamic),
         SolverMethod::Explicit => asked(CableMethod::Explicit),
-        SolverMethod::PassLaw => Err(Error::Unfit {
-            key: "solver.method",
-            found: "pass-law",
-            reason: "not in this version",
-        }),
+        SolverMethod::PassLaw => match law::refusal(scene)? {
+            Some(concern) => Err(Error::Unfit {
+                key: "solver.method",
+                found: "pass-law",
+                reason: concern.to_string().into(),
+            }),
+            None => Ok((PassMethod::Law, "the scene asks for it".into())),
+        },
     }
+}
+
+/// Whether the pass law is the better choice: so many passes that one by one they would take minutes, and nothing that
+/// speaks against it.
+fn by_law(scene: &Scene) -> Result<bool, Error> {
+    let road = scene.traffic.passes as f64 * scene.duct.length / scene.duct.depth;
+    Ok(road > MANY_DEPTHS && scene.restraints.is_empty() && law::refusal(scene)?.is_none())
 }
 
 /// A scene's cable: friction by its law with the limit q = μ_d N′, ends and clamps.

@@ -13,21 +13,33 @@ use crate::scene::{GroundModel, Scene};
 const CLOSED_FORM_ACCURACY: f64 = 1e-9;
 /// The same for layers by Hankel transform; asked of the transform itself is a tenth of it.
 const TRANSFORM_ACCURACY: f64 = 1e-7;
+/// The same for a model of unknown smoothness.
+const OWN_ACCURACY: f64 = 1e-6;
 /// Tightest and loosest accuracy asked of finite elements, and the share of the tolerance they get.
 const ELEMENTS_ACCURACY: (f64, f64) = (2e-4, 5e-3);
 const ELEMENTS_SHARE: f64 = 0.25;
 
 /// A ground model, its name in scene files, and why it was taken.
-pub struct ChosenGround {
-    pub field: Box<dyn GroundField>,
+pub struct ChosenGround<'a> {
+    pub field: Box<dyn GroundField + 'a>,
     pub name: &'static str,
     pub reason: &'static str,
     /// Accuracy to which the duct's motion follows it, as a share of its peak.
     pub accuracy: f64,
 }
 
+/// A model that the caller brings along.
+pub fn own(field: &dyn GroundField) -> ChosenGround<'_> {
+    ChosenGround {
+        field: Box::new(field),
+        name: "own",
+        reason: "the caller's own model",
+        accuracy: OWN_ACCURACY,
+    }
+}
+
 /// The model the scene names, or the cheapest that represents its ground.
-pub fn choose(scene: &Scene) -> Result<ChosenGround, Error> {
+pub fn choose(scene: &Scene) -> Result<ChosenGround<'static>, Error> {
     let profile = &scene.ground.profile;
     let homogeneous = profile.homogeneous();
     let graded = profile.layers().iter().any(|layer| layer.soil().is_none());
@@ -50,7 +62,7 @@ pub fn choose(scene: &Scene) -> Result<ChosenGround, Error> {
             field: Box::new(HalfSpace::new(homogeneous.ok_or(Error::Unfit {
                 key: "ground.model",
                 found: "boussinesq",
-                reason: "its ground has layers or a rigid base, and this closed form knows one half-space only",
+                reason: "its ground has layers or a rigid base, and this closed form knows one half-space only".into(),
             })?)),
             name: "boussinesq",
             reason: reason("the ground is one half-space, whose displacement has a closed form"),

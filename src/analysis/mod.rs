@@ -2,6 +2,7 @@
 
 pub mod cable;
 pub mod ground;
+pub mod law;
 pub mod motion;
 pub mod passes;
 pub mod profile;

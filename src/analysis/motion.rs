@@ -32,7 +32,7 @@ pub fn reach(scene: &Scene) -> f64 {
 }
 
 /// The motion under every vehicle for |ξ| up to `reach` \[m\], scaled to a measured peak where the scene has one.
-pub fn motions(scene: &Scene, ground: &ChosenGround, reach: f64) -> Result<Vec<DuctMotion>, Error> {
+pub fn motions(scene: &Scene, ground: &ChosenGround<'_>, reach: f64) -> Result<Vec<DuctMotion>, Error> {
     let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
     let mut motions = Vec::new();
     for traffic in &scene.vehicles {
@@ -56,7 +56,7 @@ fn scale(scene: &Scene, motions: Vec<DuctMotion>) -> Result<Vec<DuctMotion>, Err
             Err(Error::Unfit {
                 key,
                 found: "a peak",
-                reason: "the vehicle does not move the duct, so there is nothing to scale",
+                reason: "the vehicle does not move the duct, so there is nothing to scale".into(),
             })
         }
     };

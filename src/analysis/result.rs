@@ -1,6 +1,7 @@
 //! What a run answers. The names of the fields are those of the JSON document, units included.
 
 use cable_dem::{PassOutcome, Statistics};
+use pass_law::EvolutionStatistics;
 use serde::Serialize;
 
 /// Answer of a run.
@@ -74,8 +75,8 @@ pub struct PassRecord {
     pub upstream_displacement_m: f64,
     /// Displacement of the cable at the downstream end \[m\].
     pub downstream_displacement_m: f64,
-    /// Work that slip between cable and duct has turned into heat in this pass \[J\].
-    pub dissipated_energy_j: f64,
+    /// Work that slip between cable and duct has turned into heat in this pass \[J\]; not from the pass law.
+    pub dissipated_energy_j: Option<f64>,
 }
 
 /// Force along the cable after the last pass.
@@ -116,14 +117,14 @@ pub struct Saturation {
     pub passes_to_95_percent: u64,
 }
 
-/// Work of the cable solver for the passes as listed.
+/// Work of the cable solver for the passes as listed; of the pass law, that of its evolution in the pass number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Cost {
-    /// Vehicle positions.
+    /// Vehicle positions, steps of time, or of the pass number.
     pub steps: u64,
     /// Linear solves.
     pub sweeps: u64,
-    /// Nodes eliminated in these.
+    /// Nodes eliminated in these, or advanced in time; not counted by the pass law.
     pub node_updates: u64,
 }
 
@@ -137,6 +138,14 @@ pub struct ErrorEstimate {
 }
 
 impl Cost {
+    pub(crate) fn of_law(statistics: EvolutionStatistics) -> Self {
+        Self {
+            steps: (statistics.steps + statistics.rejected) as u64,
+            sweeps: statistics.newton_iterations as u64,
+            node_updates: 0,
+        }
+    }
+
     pub(crate) fn new(statistics: &Statistics) -> Self {
         Self {
             steps: statistics.steps as u64,
@@ -157,7 +166,7 @@ impl PassRecord {
             max_compression_n: outcome.max_compression,
             upstream_displacement_m: outcome.upstream_displacement,
             downstream_displacement_m: outcome.downstream_displacement,
-            dissipated_energy_j: outcome.dissipated,
+            dissipated_energy_j: Some(outcome.dissipated),
         }
     }
 }

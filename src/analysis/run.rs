@@ -1,22 +1,24 @@
 //! A whole run: ground, motion, passes, and their discretisation error.
 //!
-//! The passes are computed on a mesh and on one twice as coarse. The difference, of which a convergent scheme's error
-//! is the smaller part, estimates the error; where it exceeds the tolerance both meshes are halved.
+//! The passes are computed on a mesh, on one twice and on one four times as coarse. From the differences between them the
+//! error is estimated; where it exceeds the tolerance all meshes are halved. A scheme of second order leaves a third of the
+//! first difference and a twelfth of the second; more than twice that is counted, and the larger of both, as two meshes
+//! may agree by chance.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use cable_dem::{Mesh, PassOutcome};
-use ground_field::DuctMotion;
+use ground_field::{DuctMotion, GroundField};
 
-use super::cable::{self, CableMethod};
+use super::cable::{self, CableMethod, PassMethod};
 use super::passes::{Passes, simulate};
 use super::result::{
     Cost, DuctMotionSummary, ErrorEstimate, ForceProfile, PassRecord, PlanSummary, RestraintRecord, Run,
     SlipRecord,
 };
 use super::saturation::saturation;
-use super::{ground, motion};
+use super::{ground, law, motion};
 use crate::scene::End;
 use crate::{Error, Scene};
 
@@ -24,8 +26,11 @@ use crate::{Error, Scene};
 const NODES_PER_DEPTH: f64 = 12.0;
 /// Steps of the vehicle per node spacing.
 const STEPS_PER_SPACING: f64 = 2.0;
-/// Share of the difference to the mesh twice as coarse that counts as error. Second order leaves a third of it.
-const ERROR_SHARE: f64 = 0.5;
+/// Shares of the differences to the mesh twice as coarse, and between that and the one four times as coarse, that count as
+/// error.
+const ERROR_SHARES: [f64; 2] = [0.75, 0.3];
+/// What the error is beside the difference to a mesh half as coarse, at second order.
+const VERIFIED_SHARE: f64 = 4.0 / 3.0;
 /// Halvings of the mesh after which a run gives its best answer with a warning, and nodes eliminated in all passes beyond
 /// which it halves no more: about ten seconds.
 const MAX_HALVINGS: usize = 4;
@@ -34,6 +39,8 @@ const MAX_NODE_UPDATES: usize = 500_000_000;
 const HALVING_COST: usize = 4;
 /// A larger error than this, or the tolerance if that is larger still, is no answer.
 const DOUBTFUL: f64 = 0.1;
+/// A law that loses more than this share of the stored force in one pass gives no answer.
+const LARGEST_LEAK: f64 = 0.9;
 /// Most passes that are computed one by one.
 const MAX_PASSES: u64 = 1_000_000;
 /// Passes up to which every one is listed.
@@ -48,6 +55,8 @@ pub struct RunOptions<'a> {
     pub verify: bool,
     /// Hears of the share of the work done so far, in \[0, 1\].
     pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
+    /// A ground model of one's own, in place of the scene's.
+    pub ground: Option<&'a dyn GroundField>,
 }
 
 /// Computes all passes of `scene`.
@@ -66,8 +75,47 @@ pub fn run(scene: &Scene) -> Result<Run, Error> {
 /// As for [`run`].
 pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
     let (method, reason) = cable::choose(scene)?;
-    let ground = ground::choose(scene)?;
+    let ground = match options.ground {
+        Some(field) => ground::own(field),
+        None => ground::choose(scene)?,
+    };
     let motions = motion::motions(scene, &ground, motion::reach(scene))?;
+    let duct_motion = DuctMotionSummary {
+        peak_longitudinal_m: motions[0].peak_longitudinal(),
+        peak_vertical_m: motions[0].peak_vertical(),
+    };
+    let mut plan = PlanSummary {
+        ground: ground.name.into(),
+        cable: method.name().into(),
+        node_spacing_m: 0.0,
+        vehicle_step_m: 0.0,
+        reasons: vec![
+            format!("ground {}: {}", ground.name, ground.reason),
+            format!("cable {}: {reason}", method.name()),
+            approach_reason(scene, &motions),
+        ],
+    };
+    let title = scene.title.clone();
+    let method = match method {
+        PassMethod::EveryPass(method) => method,
+        PassMethod::Law => {
+            let law = law::run(scene, &motions)?;
+            (plan.node_spacing_m, plan.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
+            return Ok(Run {
+                title,
+                plan,
+                duct_motion,
+                passes: law.passes,
+                saturation: law.saturation,
+                force_profile: law.force_profile,
+                restraints: law.restraints,
+                slip_lengths: None,
+                error_estimate: law.error,
+                cost: law.cost,
+                warnings: law.warnings,
+            });
+        }
+    };
     let task = Task {
         scene,
         method,
@@ -77,27 +125,23 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
     let mut warnings = Vec::new();
     let solved = task.solve(options.verify, &mut warnings)?;
     for leak in solved.passes.leaks.iter().filter(|leak| leak.matters()) {
+        if leak.loss_per_pass > LARGEST_LEAK {
+            return Err(Error::Unfit {
+                key: "friction.law",
+                found: "sigmoid",
+                reason: leak.to_string().into(),
+            });
+        }
         warnings.push(leak.to_string());
     }
+    (plan.node_spacing_m, plan.vehicle_step_m) = (solved.mesh.spacing(), solved.mesh.vehicle_step());
+    plan.reasons.push(solved.reason.clone());
     let passes = &solved.passes.outcomes;
     let (series, scale) = force_series(scene, passes);
     Ok(Run {
-        title: scene.title.clone(),
-        plan: PlanSummary {
-            ground: ground.name.into(),
-            cable: method.name().into(),
-            node_spacing_m: solved.mesh.spacing(),
-            vehicle_step_m: solved.mesh.vehicle_step(),
-            reasons: vec![
-                format!("ground {}: {}", ground.name, ground.reason),
-                format!("cable {}: {reason}", method.name()),
-                solved.reason.clone(),
-            ],
-        },
-        duct_motion: DuctMotionSummary {
-            peak_longitudinal_m: motions[0].peak_longitudinal(),
-            peak_vertical_m: motions[0].peak_vertical(),
-        },
+        title,
+        plan,
+        duct_motion,
         passes: listed(passes),
         saturation: saturation(&series, scale),
         force_profile: force_profile(&solved),
@@ -112,26 +156,49 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
     })
 }
 
+/// From where vehicles come, and what is left out of account by that.
+fn approach_reason(scene: &Scene, motions: &[DuctMotion]) -> String {
+    let approach = motion::approach(scene);
+    let left = motions.iter().fold(0.0_f64, |left, motion| {
+        let far = motion
+            .longitudinal(approach)
+            .abs()
+            .max(motion.longitudinal(-approach).abs());
+        if far > 0.0 {
+            left.max(far / motion.peak_longitudinal())
+        } else {
+            left
+        }
+    });
+    format!(
+        "vehicles come from and leave to {approach} m beyond the duct (solver.approach), where its end is {:.1} % of the peak \
+         from its place",
+        100.0 * left
+    )
+}
+
 /// Checks that the parts of `scene` fit together, without computing any pass.
 ///
 /// # Errors
 ///
 /// As for [`run`].
 pub fn check(scene: &Scene) -> Result<(), Error> {
-    cable::choose(scene)?;
     ground::choose(scene)?;
     cable::cable(scene)?;
     first_mesh(scene)?;
-    check_passes(scene)
+    match cable::choose(scene)?.0 {
+        PassMethod::EveryPass(_) => check_passes(scene),
+        PassMethod::Law => Ok(()),
+    }
 }
 
-/// Passes are computed one by one.
+/// Passes are computed one by one, and all are kept.
 fn check_passes(scene: &Scene) -> Result<(), Error> {
     if scene.traffic.passes > MAX_PASSES {
         return Err(Error::Unfit {
             key: "traffic.passes",
             found: "more than a million passes",
-            reason: "this version computes them one by one",
+            reason: "one by one they would take days, and the pass law does not apply here".into(),
         });
     }
     Ok(())
@@ -163,28 +230,36 @@ impl Task<'_> {
         // A law without memory is one of the time step: there is no limit to refine towards.
         let chosen = scene.solver.node_spacing.is_some()
             || scene.solver.vehicle_step.is_some()
+            || (self.method == CableMethod::Explicit && scene.solver.time_step.is_some())
             || !scene.friction.law.has_memory();
         let mut mesh = first_mesh(scene)?;
-        let (mut passes, mut coarse) = both(
+        let (mut passes, (mut coarse, mut coarser)) = both(
             || self.simulate(mesh, true),
             || {
-                self.coarser(mesh)
-                    .map(|mesh| self.simulate(mesh, false))
-                    .transpose()
+                let simulate = |mesh: Option<Mesh>| mesh.map(|mesh| self.simulate(mesh, false)).transpose();
+                let twice = self.coarser(mesh);
+                Ok((
+                    simulate(twice)?,
+                    simulate(twice.and_then(|mesh| self.coarser(mesh)))?,
+                ))
             },
         )?;
         let mut halvings = 0;
         let mut estimate;
         loop {
-            estimate = coarse
-                .as_ref()
-                .map(|coarse| ERROR_SHARE * difference(&passes, coarse));
+            estimate = coarse.as_ref().map(|coarse| {
+                let second = coarser
+                    .as_ref()
+                    .map_or(0.0, |coarser| difference(coarse, coarser));
+                (ERROR_SHARES[0] * difference(&passes, coarse)).max(ERROR_SHARES[1] * second)
+            });
             let enough = estimate.is_none_or(|estimate| estimate <= tolerance);
             let costly = HALVING_COST.saturating_mul(passes.statistics.node_updates) > MAX_NODE_UPDATES;
             if enough || chosen || costly || halvings == MAX_HALVINGS {
                 break;
             }
             let finer = halved(scene, mesh)?;
+            coarser = coarse;
             coarse = Some(std::mem::replace(&mut passes, self.simulate(finer, true)?));
             mesh = finer;
             halvings += 1;
@@ -192,13 +267,17 @@ impl Task<'_> {
         let error = if verify {
             let finer = self.simulate(halved(scene, mesh)?, true)?;
             ErrorEstimate {
-                relative: difference(&passes, &finer),
+                relative: VERIFIED_SHARE * difference(&passes, &finer),
                 method: "measured against a run with half the node spacing and vehicle step".into(),
             }
         } else if let Some(relative) = estimate {
             ErrorEstimate {
                 relative,
-                method: "half the difference to a run with twice the node spacing and vehicle step".into(),
+                method: if scene.friction.law.has_memory() {
+                    "from runs with two and four times the node spacing and vehicle step".into()
+                } else {
+                    "of the node spacing alone: the sigmoid's answer is one of its time step".into()
+                },
             }
         } else {
             warnings.push("the node spacing is too coarse to estimate the error".into());
@@ -220,14 +299,14 @@ impl Task<'_> {
                 100.0 * tolerance
             ));
         }
-        let reason = if chosen {
-            "node spacing and vehicle step: as the scene asks".into()
+        let depths = format!(
+            "node spacing and vehicle step: {:.0} nodes per depth of the duct",
+            scene.duct.depth / mesh.spacing()
+        );
+        let reason = if scene.solver.node_spacing.is_some() || scene.solver.vehicle_step.is_some() {
+            format!("{depths}, as the scene asks")
         } else {
-            format!(
-                "node spacing and vehicle step: {:.0} nodes per depth of the duct for an error within {} %",
-                scene.duct.depth / mesh.spacing(),
-                100.0 * tolerance
-            )
+            format!("{depths}; {} % asked", 100.0 * tolerance)
         };
         Ok(Solved {
             mesh,

@@ -118,6 +118,7 @@ fn run(scene: &Scene, verify: bool) -> Result<Run, Failure> {
     let options = RunOptions {
         verify,
         progress: Some(&progress),
+        ground: None,
     };
     let answer = crate::run_with(scene, &options);
     bar.finish_and_clear();

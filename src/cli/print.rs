@@ -33,14 +33,13 @@ pub fn run(run: &Run) -> Result<(), Failure> {
     for record in selected(&run.passes) {
         writeln!(
             out,
-            "{:>9} {:>11.1} {:>11.1} {:>11.4} {:>11.4} {:>12.1}",
+            "{:>9} {:>11} {:>11} {:>11} {:>11} {:>12}",
             record.pass,
-            // Rounding must not print −0.
-            record.upstream_force_n + 0.0,
-            record.downstream_force_n + 0.0,
-            1e3 * record.upstream_displacement_m,
-            1e3 * record.downstream_displacement_m,
-            record.max_compression_n
+            rounded(record.upstream_force_n, 1),
+            rounded(record.downstream_force_n, 1),
+            rounded(1e3 * record.upstream_displacement_m, 4),
+            rounded(1e3 * record.downstream_displacement_m, 4),
+            rounded(record.max_compression_n, 1)
         )?;
     }
     writeln!(out)?;
@@ -83,6 +82,15 @@ pub fn run(run: &Run) -> Result<(), Failure> {
         writeln!(out, "  {reason}")?;
     }
     Ok(())
+}
+
+/// `value` with so many decimals, and no minus before zeros.
+fn rounded(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    match text.strip_prefix('-') {
+        Some(digits) if digits.bytes().all(|byte| matches!(byte, b'0' | b'.')) => digits.to_owned(),
+        _ => text,
+    }
 }
 
 /// The first passes, then about evenly growing numbers, and the last.

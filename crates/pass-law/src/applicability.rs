@@ -61,7 +61,7 @@ impl std::fmt::Display for Concern {
             Self::ShortDuct { length, needed } => {
                 write!(
                     f,
-                    "a duct of {length} m is mostly ends; the law needs about {needed} m"
+                    "a duct of {length} m is mostly ends; the law needs about {needed:.0} m"
                 )
             }
             Self::ShakesDown { advance, peak } => write!(

@@ -1,0 +1,206 @@
+//! A run by the pass law: many passes at the cost of one.
+
+use cable_dem::{DuctedCable, Order};
+use ground_field::DuctMotion;
+use pass_law::{Concern, Evolution, PassLaw, Resolution, concerns_before};
+
+use super::cable::cable;
+use super::motion::approach;
+use super::result::{ErrorEstimate, ForceProfile, PassRecord, RestraintRecord, Saturation};
+use crate::scene::{End, Scene};
+use crate::{Cost, Error};
+
+/// Nodes per depth of the duct in the law's cells at a tolerance of 1 % or less, and above.
+const FINE: f64 = 12.0;
+const COARSE: f64 = 6.0;
+/// Largest error of the law itself beyond the tenth pass, measured against the simulation of every pass.
+const LAW_ERROR: f64 = 0.01;
+/// The law resolves the passes from this one on.
+const FIRST_GOOD: u64 = 10;
+/// The first passes are all listed, then each this much later than the one before.
+const GROWTH: f64 = 1.03;
+
+/// Answer of the law.
+pub struct LawRun {
+    pub node_spacing: f64,
+    pub vehicle_step: f64,
+    pub passes: Vec<PassRecord>,
+    pub saturation: Option<Saturation>,
+    pub force_profile: ForceProfile,
+    pub restraints: Vec<RestraintRecord>,
+    pub error: ErrorEstimate,
+    pub cost: Cost,
+    pub warnings: Vec<String>,
+}
+
+/// Why the law must not be used for this scene; `None` where it may.
+pub fn refusal(scene: &Scene) -> Result<Option<Concern>, Error> {
+    let concerns = concerns_before(&cable(scene)?, Resolution::new(scene.duct.depth)?);
+    Ok(concerns.into_iter().find(|concern| concern.is_fatal()))
+}
+
+/// Runs all passes of `scene` by the law.
+pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
+    let cable = cable(scene)?;
+    let traffic: Vec<(DuctMotion, f64)> = motions
+        .iter()
+        .cloned()
+        .zip(scene.vehicles.iter().map(|vehicle| vehicle.share))
+        .filter(|(_, share)| *share > 0.0)
+        .collect();
+    let nodes = if scene.solver.tolerance <= 0.01 {
+        FINE
+    } else {
+        COARSE
+    };
+    let passes = listed(scene.traffic.passes);
+    let at = |nodes: f64| -> Result<(PassLaw, Evolution, Resolution), Error> {
+        let resolution = Resolution::new(scene.duct.depth)?
+            .with_nodes_per_depth(nodes)?
+            .with_approach(approach(scene))?;
+        let law = PassLaw::new(&cable, &traffic, resolution)?;
+        let evolution = law.run(&passes)?;
+        Ok((law, evolution, resolution))
+    };
+    let (law, evolution, resolution) = at(nodes)?;
+    let (_, coarse, _) = at(0.5 * nodes)?;
+
+    let mut warnings: Vec<String> = law.concerns().iter().map(ToString::to_string).collect();
+    if evolution.left_table {
+        warnings.push("the locked friction left the range in which the law was tabulated".into());
+    }
+    if scene.traffic.passes < FIRST_GOOD {
+        warnings.push("the first ten passes are rough by the pass law".into());
+    }
+    // Traffic in another order than evenly interleaved leaves another force at the very end: the mean is shown.
+    let swing = f64::from(u8::from(scene.traffic.order == Order::Interleaved));
+    let records: Vec<PassRecord> = evolution.records.iter().map(|record| of(record, swing)).collect();
+    let share = difference(
+        &records,
+        &coarse
+            .records
+            .iter()
+            .map(|record| of(record, swing))
+            .collect::<Vec<_>>(),
+    );
+    Ok(LawRun {
+        node_spacing: resolution.node_spacing(),
+        vehicle_step: resolution.vehicle_step(),
+        saturation: saturation(scene, &law),
+        force_profile: force_profile(&cable, &evolution),
+        restraints: restraints(&cable, &evolution),
+        error: ErrorEstimate {
+            relative: 0.5 * share + LAW_ERROR,
+            method:
+                "half the difference to cells half as fine, and 1 % for the law itself beyond the tenth pass"
+                    .into(),
+        },
+        cost: Cost::of_law(evolution.statistics),
+        passes: records,
+        warnings,
+    })
+}
+
+fn of(record: &pass_law::PassRecord, swing: f64) -> PassRecord {
+    PassRecord {
+        pass: record.pass,
+        downstream_force_n: record.downstream_force - (1.0 - swing) * record.downstream_swing,
+        downstream_peak_n: record.downstream_peak,
+        upstream_force_n: record.upstream_force - (1.0 - swing) * record.upstream_swing,
+        upstream_peak_n: record.upstream_peak,
+        max_compression_n: record.max_compression,
+        upstream_displacement_m: record.upstream_displacement,
+        downstream_displacement_m: record.downstream_displacement,
+        dissipated_energy_j: None,
+    }
+}
+
+/// Largest difference of a force from the tenth pass on, as a share of the largest force after that pass.
+fn difference(a: &[PassRecord], b: &[PassRecord]) -> f64 {
+    let forces = |r: &PassRecord| [r.upstream_force_n, r.downstream_force_n, r.max_compression_n];
+    a.iter()
+        .zip(b)
+        .filter(|(record, _)| record.pass >= FIRST_GOOD || a.len() == 1)
+        .flat_map(|(a, b)| {
+            let scale = forces(a).into_iter().map(f64::abs).fold(0.0, f64::max);
+            forces(a)
+                .into_iter()
+                .zip(forces(b))
+                .filter(|(a, b)| a != b)
+                .map(move |(a, b)| (a - b).abs() / scale)
+        })
+        .fold(0.0, f64::max)
+}
+
+/// Saturated force at the end that is held, the larger of two.
+fn saturation(scene: &Scene, law: &PassLaw) -> Option<Saturation> {
+    let saturation = law.saturation()?;
+    let at = |end: End, force: f64| if end == End::Free { 0.0 } else { force };
+    let upstream = at(scene.ends.upstream, saturation.upstream_force);
+    let downstream = at(scene.ends.downstream, saturation.downstream_force);
+    let force_n = if upstream.abs() > downstream.abs() {
+        upstream
+    } else {
+        downstream
+    };
+    let passes = saturation.passes_to(0.95)?;
+    (force_n != 0.0 && passes.is_finite()).then(|| Saturation {
+        force_n,
+        passes_to_95_percent: passes.ceil() as u64,
+    })
+}
+
+fn force_profile(cable: &DuctedCable, evolution: &Evolution) -> ForceProfile {
+    let pairs = || {
+        evolution
+            .positions
+            .windows(2)
+            .zip(evolution.displacement.windows(2))
+    };
+    ForceProfile {
+        positions_m: pairs().map(|(x, _)| 0.5 * (x[0] + x[1])).collect(),
+        force_n: pairs()
+            .map(|(x, u)| cable.axial_stiffness() * (u[0] - u[1]) / (x[1] - x[0]))
+            .collect(),
+    }
+}
+
+fn restraints(cable: &DuctedCable, evolution: &Evolution) -> Vec<RestraintRecord> {
+    cable
+        .restraints()
+        .iter()
+        .map(|restraint| {
+            let right = evolution
+                .positions
+                .partition_point(|&x| x < restraint.position)
+                .clamp(1, evolution.positions.len() - 1);
+            let (x, u) = (
+                &evolution.positions[right - 1..=right],
+                &evolution.displacement[right - 1..=right],
+            );
+            let share = (restraint.position - x[0]) / (x[1] - x[0]);
+            RestraintRecord {
+                position_m: restraint.position,
+                stiffness_n_per_m: restraint.stiffness,
+                force_n: restraint.stiffness * (u[0] + share * (u[1] - u[0])),
+            }
+        })
+        .collect()
+}
+
+/// The first passes, then evenly growing numbers, round ones, and the last.
+fn listed(count: u64) -> Vec<u64> {
+    let mut passes = Vec::new();
+    let mut next = 1;
+    while next < count {
+        passes.push(next);
+        next = (next + 1).max((GROWTH * next as f64) as u64);
+    }
+    passes.push(count);
+    // The numbers that a reader looks for.
+    let round = (0..19).flat_map(|power| [1, 2, 5].map(|leading| leading * 10_u64.pow(power.min(18))));
+    passes.extend(round.filter(|&pass| pass < count));
+    passes.sort_unstable();
+    passes.dedup();
+    passes
+}
