@@ -1,0 +1,155 @@
+//! The scene's `solver.method`: which one a scene gets, and that they agree.
+
+use std::path::Path;
+
+use boussinesq::HalfSpace;
+use creepage::{Error, Run, RunOptions, Scene};
+use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad};
+
+const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+
+fn scene(overrides: &[&str]) -> Scene {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Scene::from_file_with(Path::new(UPPER), &overrides).expect("a valid scene")
+}
+
+fn run(overrides: &[&str]) -> Run {
+    creepage::run(&scene(overrides)).expect("an answer")
+}
+
+fn force_after(run: &Run, pass: u64) -> f64 {
+    let record = run.passes.iter().find(|record| record.pass == pass);
+    record.expect("this pass is listed").downstream_force_n
+}
+
+#[test]
+fn inertia_is_for_fast_vehicles_and_the_law_for_many() {
+    let cases: [(&[&str], &str); 4] = [
+        (&["traffic.passes=3"], "quasi-static"),
+        (&["traffic.passes=3", "vehicles.0.speed=400 km/h"], "dynamic"),
+        (&["traffic.passes=3", "friction.law=sigmoid"], "dynamic"),
+        (&["traffic.passes=10000000"], "pass-law"),
+    ];
+    for (overrides, expected) in cases {
+        assert_eq!(run(overrides).plan.cable, expected, "{overrides:?}");
+    }
+}
+
+#[test]
+fn solvers_with_and_without_inertia_agree_at_40_km_per_hour() {
+    let mesh = ["traffic.passes=5", "solver.node_spacing=0.1 m"];
+    let force = |method: &str| {
+        let method = format!("solver.method={method}");
+        force_after(&run(&[mesh[0], mesh[1], &method]), 5)
+    };
+    let quasi_static = force("quasi-static");
+    for method in ["dynamic", "explicit"] {
+        let other = force(method);
+        assert!(
+            (other / quasi_static - 1.0).abs() < 5e-3,
+            "{method}: {other} N, quasi-static: {quasi_static} N"
+        );
+    }
+}
+
+#[test]
+fn the_law_agrees_with_every_pass() {
+    let duct = ["duct.length=100 m", "traffic.passes=200", "solver.tolerance=0.02"];
+    let law = run(&[duct[0], duct[1], duct[2], "solver.method=pass-law"]);
+    let every = run(&[duct[0], duct[1], duct[2], "solver.method=quasi-static"]);
+    for pass in [20, 50, 100, 200] {
+        let (law, every) = (force_after(&law, pass), force_after(&every, pass));
+        assert!(
+            (law / every - 1.0).abs() < 0.02,
+            "pass {pass}: {law} N, {every} N"
+        );
+    }
+    let stated = law.error_estimate.relative;
+    let found = (force_after(&law, 200) / force_after(&every, 200) - 1.0).abs();
+    assert!(found <= stated, "{found}, {stated}");
+}
+
+#[test]
+fn ten_million_passes_take_few_steps_and_reach_saturation() {
+    let run = run(&["duct.length=300 m", "traffic.passes=10000000"]);
+    assert_eq!(run.passes.last().expect("passes").pass, 10_000_000);
+    assert!(run.cost.steps < 1000, "{:?}", run.cost);
+    let saturation = run.saturation.expect("it levels off");
+    assert!((force_after(&run, 10_000_000) / saturation.force_n - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn the_law_refuses_what_it_does_not_cover() {
+    let short = creepage::run(&scene(&["solver.method=pass-law", "duct.length=5 m"]));
+    assert!(
+        matches!(
+            short,
+            Err(Error::Unfit {
+                key: "solver.method",
+                ..
+            })
+        ),
+        "{short:?}"
+    );
+    let forgetful = creepage::run(&scene(&["solver.method=pass-law", "friction.law=sigmoid"]));
+    assert!(matches!(forgetful, Err(Error::Unfit { .. })), "{forgetful:?}");
+}
+
+#[test]
+fn the_sigmoid_warns_of_its_leak_and_stops_where_all_leaks_away() {
+    let run = run(&["friction.law=sigmoid", "traffic.passes=2"]);
+    assert!(
+        run.warnings.iter().any(|warning| warning.contains("sigmoid")),
+        "{:?}",
+        run.warnings
+    );
+    let explicit = scene(&[
+        "friction.law=sigmoid",
+        "traffic.passes=1",
+        "solver.method=explicit",
+    ]);
+    let error = creepage::run(&explicit).expect_err("the force has leaked away before the vehicle has left");
+    assert!(
+        matches!(
+            error,
+            Error::Unfit {
+                key: "friction.law",
+                ..
+            }
+        ),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_time_step_beyond_the_limit_is_refused() {
+    let scene = scene(&[
+        "solver.method=explicit",
+        "solver.time_step=10 ms",
+        "traffic.passes=1",
+    ]);
+    let error = creepage::run(&scene).expect_err("unstable");
+    assert!(error.to_string().contains("limit"), "{error}");
+}
+
+/// A half-space twice as soft as the one it holds.
+struct Softer(HalfSpace);
+
+impl GroundField for Softer {
+    fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
+        Ok(self.0.displacement(load, radius, depth)? * 2.0)
+    }
+}
+
+#[test]
+fn a_ground_model_of_ones_own_takes_the_scenes_place() {
+    let own = Softer(HalfSpace::new(Soil::new(800e6, 0.4).expect("a soil")));
+    let options = RunOptions {
+        ground: Some(&own),
+        ..RunOptions::default()
+    };
+    let own = creepage::run_with(&scene(&["traffic.passes=3"]), &options).expect("an answer");
+    let soft = run(&["traffic.passes=3", "ground.layers.0.young_modulus=400 MPa"]);
+    assert_eq!(own.plan.ground, "own");
+    assert!((force_after(&own, 3) / force_after(&soft, 3) - 1.0).abs() < 1e-4);
+}
