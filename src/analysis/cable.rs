@@ -198,6 +198,21 @@ impl PassSolver {
         Ok((outcome, slip))
     }
 
+    /// The time step of an explicit solver and what limits it.
+    pub fn step_limits(&self) -> Option<String> {
+        let Self::Explicit(solver, ducts) = self else {
+            return None;
+        };
+        let limits = solver.limits();
+        let step = ducts
+            .first()
+            .map_or(limits.advised(), |duct| solver.time_step(duct));
+        Some(format!(
+            "time step {step:.3e} s, a margin of {:.2} to the limit: {limits}",
+            limits.margin(step)
+        ))
+    }
+
     /// What a law without memory loses in each vehicle's pass.
     pub fn leaks(&self) -> Vec<SigmoidLeak> {
         match self {

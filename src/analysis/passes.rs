@@ -16,6 +16,8 @@ pub struct Passes {
     pub slip: Option<SlipLengths>,
     /// What a law without memory loses.
     pub leaks: Vec<SigmoidLeak>,
+    /// The explicit solver's time step and what limits it.
+    pub step_limits: Option<String>,
     pub statistics: Statistics,
 }
 
@@ -53,6 +55,7 @@ pub fn simulate(
         state,
         slip,
         leaks: solver.leaks(),
+        step_limits: solver.step_limits(),
         statistics,
     })
 }

@@ -136,6 +136,7 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
     }
     (plan.node_spacing_m, plan.vehicle_step_m) = (solved.mesh.spacing(), solved.mesh.vehicle_step());
     plan.reasons.push(solved.reason.clone());
+    plan.reasons.extend(solved.passes.step_limits.clone());
     let passes = &solved.passes.outcomes;
     let (series, scale) = force_series(scene, passes);
     Ok(Run {
