@@ -17,7 +17,9 @@
 
 use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh};
 
-use super::harness::{AXIAL_STIFFNESS, Drive, Kind, LIMITS, MASS, Pass, Problem, Run, SPEED, sheathed, truck};
+use super::harness::{
+    AXIAL_STIFFNESS, Drive, Kind, LIMITS, MASS, Pass, Problem, Run, SPEED, sheathed, truck,
+};
 
 type Made<T> = Result<T, Box<dyn std::error::Error>>;
 
@@ -340,19 +342,22 @@ fn steady_slide(slip: f64) -> Made<Model> {
     let friction = Friction::new(FrictionLaw::Sigmoid { shape_factor }, Q)?;
     let rubbed = Q * slip.tanh();
     let (force, stretch) = (rubbed * length, rubbed * length * length / (2.0 * EA));
-    // Everything is steady: what is left is how far it has settled, and rounding of the time step.
-    let (rest, element) = (1e-6, 11);
+    let (approach, element) = (25.0, 11);
+    // A pass takes a whole number of steps: Δt is rounded to one step in so many.
+    let steps = (length + 2.0 * approach) / mesh.vehicle_step();
     let middle = rubbed * (element as f64 + 0.5) * mesh.spacing();
     let answer = |quantity, value, scale| Exact {
         inertia: 0.0,
-        ..Exact::new(quantity, value, rest, scale)
+        steps: scale / steps,
+        // Steady, and settled.
+        ..Exact::new(quantity, value, 1e-6, scale)
     };
     Ok(Model {
         name: "steady slide",
         problem: Problem {
             cable: DuctedCable::new(length, EA, friction)?.with_ends(End::Free, End::Fixed)?,
             mesh,
-            drives: vec![Drive::new(speed, 25.0, move |xi| -strain * xi)],
+            drives: vec![Drive::new(speed, approach, move |xi| -strain * xi)],
         },
         traffic: vec![0],
         exact: vec![

@@ -10,12 +10,12 @@ fn force(
     law: FrictionLaw,
     truck: &Drive,
     speed: f64,
-    vehicle_step: f64,
+    (spacing, vehicle_step): (f64, f64),
 ) -> Result<f64, CableError> {
     let cable = DuctedCable::new(15.0, AXIAL_STIFFNESS, Friction::new(law, LIMITS[0])?)?
         .with_ends(End::Free, End::Fixed)?;
     let problem = Problem {
-        mesh: Mesh::new(15.0, 0.2, vehicle_step)?,
+        mesh: Mesh::new(15.0, spacing, vehicle_step)?,
         cable,
         drives: vec![Drive {
             speed,
@@ -27,28 +27,32 @@ fn force(
 
 /// What nodes that stick and slip one by one leave of waves, as between solvers with and without inertia.
 const STEPPING: f64 = 3e-4;
+/// Accuracy of the explicit solver at this spacing, whose nodes swing as they are passed, at v/h a second.
+const LATTICE: f64 = 5e-3;
 
 /// Exactly without inertia, to the inertia ratio with it.
 #[test]
 fn speed_changes_nothing_but_inertia() -> Outcome {
     let truck = truck()?;
+    let mesh = (0.1, 0.05);
     for law in [FrictionLaw::Coulomb, sheathed(LIMITS[0])] {
         let cable = DuctedCable::new(15.0, AXIAL_STIFFNESS, Friction::new(law, LIMITS[0])?)?;
         for kind in Kind::ALL {
-            let slow = force(kind, law, &truck, 2.0, 0.1)?;
+            let slow = force(kind, law, &truck, 2.0, mesh)?;
             assert!(slow > 100.0, "{slow}");
             for speed in [20.0 / 3.6, 30.0 / 3.6, 40.0 / 3.6, 30.0] {
-                let found = force(kind, law, &truck, speed, 0.1)? / slow - 1.0;
+                let found = force(kind, law, &truck, speed, mesh)? / slow - 1.0;
                 let ratio = inertia_ratio(&cable, MASS, speed)?;
                 println!(
                     "{} {kind:?} {speed:.1} m/s: {found:+.1e}, ratio {ratio:.1e}",
                     law.name()
                 );
-                if kind.has_inertia() {
-                    assert!(found.abs() < ratio + STEPPING, "{} {kind:?}: {found} {ratio}", law.name());
-                } else {
-                    assert_eq!(found, 0.0);
-                }
+                let allowed = match kind {
+                    Kind::QuasiStatic => 0.0,
+                    Kind::Dynamic => ratio + STEPPING,
+                    Kind::Explicit => ratio + LATTICE,
+                };
+                assert!(found.abs() <= allowed, "{} {kind:?}: {found} {ratio}", law.name());
             }
         }
     }
@@ -61,8 +65,8 @@ fn speed_changes_nothing_but_inertia() -> Outcome {
 fn the_sigmoid_depends_on_time_step_and_speed() -> Outcome {
     let truck = truck()?;
     let sigmoid = FrictionLaw::Sigmoid { shape_factor: 1e8 };
-    let implicit = |law, vehicle_step| force(Kind::Dynamic, law, &truck, 11.0, vehicle_step);
-    let explicit = |law, speed| force(Kind::Explicit, law, &truck, speed, 0.1);
+    let implicit = |law, vehicle_step| force(Kind::Dynamic, law, &truck, 11.0, (0.2, vehicle_step));
+    let explicit = |law, speed| force(Kind::Explicit, law, &truck, speed, (0.2, 0.1));
     for (name, with_sigmoid, with_memory) in [
         (
             "half the time step",

@@ -31,7 +31,11 @@ fn stiff_springs_read_what_a_fixed_end_reads() -> Outcome {
     for law in [FrictionLaw::Coulomb, sheathed(LIMITS[0])] {
         let fixed = force_and_peak(Kind::Dynamic, law, End::Fixed, &truck)?;
         // At rest, Coulomb's law lets the friction on the last half element be anything from −q to q.
-        let undetermined = if law == FrictionLaw::Coulomb { SPACING * LIMITS[0] } else { 0.0 };
+        let undetermined = if law == FrictionLaw::Coulomb {
+            SPACING * LIMITS[0]
+        } else {
+            0.0
+        };
         for stiffness in [1e8, 1e9, 1e10, 1e11, 1e12] {
             let end = End::Spring(stiffness);
             let reference = force_and_peak(Kind::Dynamic, law, end, &truck)?;

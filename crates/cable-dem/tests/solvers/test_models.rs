@@ -65,8 +65,15 @@ fn all_solvers_find_the_same_heat() -> Outcome {
             let expected = heat(Kind::QuasiStatic)?;
             for kind in [Kind::Dynamic, Kind::Explicit] {
                 let found = heat(kind)? / expected - 1.0;
-                println!("{} pass {passes} {kind:?}: {expected:.3e} J {found:+.1e}", law.name());
-                assert!(found.abs() < 0.02, "{} {kind:?}: {found} of {expected} J", law.name());
+                println!(
+                    "{} pass {passes} {kind:?}: {expected:.3e} J {found:+.1e}",
+                    law.name()
+                );
+                assert!(
+                    found.abs() < 0.02,
+                    "{} {kind:?}: {found} of {expected} J",
+                    law.name()
+                );
             }
         }
     }
