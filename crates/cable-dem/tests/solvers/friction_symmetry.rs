@@ -108,8 +108,7 @@ impl Scene {
         scene
     }
 
-    /// Displacement that friction at its limit can impose on the cable, and at least what a wave that is as fast as the
-    /// duct: a scale for rounding \[m\].
+    /// A scale for errors \[m\]: what friction at its limit can stretch the cable by, and the least motion of a duct.
     fn displacement(&self) -> f64 {
         let cable = &self.problem.cable;
         1e-6 + self.problem.largest_force() * cable.length() / cable.axial_stiffness()
