@@ -187,6 +187,9 @@ impl Dynamic {
         let tolerance = tolerance(&self.lumped, largest);
         self.history.start(&state.displacement);
         self.prediction.start(&self.lumped.mesh, duct.direction(), steps);
+        if let Some((_, Solver::Sigmoid(solver))) = &mut self.solver {
+            solver.start();
+        }
         self.friction.copy_from_slice(&state.friction);
         self.duct.fill(0.0);
         duct.at(0.0, nodes).advance(&mut self.duct, &mut self.increment);

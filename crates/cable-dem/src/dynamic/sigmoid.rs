@@ -9,7 +9,7 @@
 //! nearly a step and Newton starts far from its basin: where it does not arrive from the last increment, it starts again from
 //! the answer for clamp(b Δs/2, −1, 1), which the active set finds ([`StepSolver`]).
 
-use crate::quasi_static::Tolerance;
+use crate::quasi_static::{Contact, Tolerance};
 use crate::transient::{Lumped, StepSolver};
 use crate::{FrictionLaw, Statistics};
 
@@ -65,6 +65,12 @@ impl SigmoidSolver {
             upper: zeros(),
             clamped: zeros(),
         }
+    }
+
+    /// Forgets earlier passes: a pass depends on the state it starts from, to the last digit.
+    pub fn start(&mut self) {
+        self.r.fill(0.0);
+        self.inner.contacts().fill(Contact::Stuck);
     }
 
     /// Solves one step with duct increments `duct` and the inner solver's loads; `f` becomes the friction. On failure the

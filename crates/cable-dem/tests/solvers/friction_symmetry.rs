@@ -1,0 +1,228 @@
+//! What friction forces on every solver, whatever the numbers.
+
+use std::rc::Rc;
+
+use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, Restraint};
+use proptest::prelude::*;
+
+use super::harness::{Drive, Kind, Problem, Run};
+
+/// A problem and the traffic over it.
+#[derive(Clone)]
+struct Scene {
+    problem: Problem,
+    traffic: Vec<usize>,
+}
+
+impl std::fmt::Debug for Scene {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Problem { cable, mesh, drives } = &self.problem;
+        let (speed, approach) = (drives[0].speed, drives[0].approach);
+        write!(
+            f,
+            "{cable:?} {mesh:?} {:?}, {speed} m/s, width {}",
+            self.traffic,
+            approach / 10.0
+        )
+    }
+}
+
+fn any_law() -> impl Strategy<Value = FrictionLaw> {
+    let shape_factor = || (4.0..8.5_f64).prop_map(|exponent| 10.0_f64.powf(exponent));
+    prop_oneof![
+        Just(FrictionLaw::Coulomb),
+        shape_factor().prop_map(|shape_factor| FrictionLaw::ElasticPlastic { shape_factor }),
+        shape_factor().prop_map(|shape_factor| FrictionLaw::Sigmoid { shape_factor }),
+    ]
+}
+
+fn any_end() -> impl Strategy<Value = End> {
+    prop_oneof![
+        Just(End::Free),
+        Just(End::Fixed),
+        (1e4..1e7_f64).prop_map(End::Spring)
+    ]
+}
+
+/// Speeds from `slowest` to `fastest` \[m/s\].
+fn any_scene(slowest: f64, fastest: f64) -> impl Strategy<Value = Scene> {
+    (
+        (5.0..12.0_f64, 1e6..2e7_f64, 0.15..0.4_f64),
+        (any_law(), 5.0..80.0_f64),
+        (any_end(), any_end()),
+        prop::collection::vec((0.0..=1.0_f64, 1e4..1e7_f64), 0..2),
+        (1e-6..1e-4_f64, 0.5..2.0_f64, slowest..fastest),
+        prop::collection::vec(0..2_usize, 1..4),
+    )
+        .prop_map(
+            |((length, stiffness, spacing), (law, limit), ends, clamps, (peak, width, speed), traffic)| {
+                let friction = Friction::new(law, limit).expect("valid friction");
+                let clamps = clamps.into_iter().map(|(share, stiffness)| Restraint {
+                    position: share * length,
+                    stiffness,
+                });
+                let cable = DuctedCable::new(length, stiffness, friction)
+                    .and_then(|cable| cable.with_ends(ends.0, ends.1))
+                    .and_then(|cable| cable.with_restraints(clamps.collect()))
+                    .expect("a valid cable");
+                let spacing = spacing * width;
+                let drive = Drive::new(speed, 10.0 * width, move |xi| {
+                    let t = xi / width;
+                    // Not symmetric: steeper behind than ahead.
+                    peak * (t + 0.3 * t * t) / (1.0 + t * t).powi(2)
+                });
+                Scene {
+                    problem: Problem {
+                        cable,
+                        mesh: Mesh::new(length, spacing, 0.5 * spacing).expect("a valid mesh"),
+                        drives: vec![drive.clone(), drive.back()],
+                    },
+                    traffic,
+                }
+            },
+        )
+}
+
+impl Scene {
+    /// Those that handle its law.
+    fn kinds(&self) -> impl Iterator<Item = Kind> {
+        Kind::for_law(self.problem.cable.friction().law())
+    }
+
+    fn run(&self, kind: Kind) -> Run {
+        let mut run = Run::new(kind, &self.problem).expect("a valid problem");
+        for &drive in &self.traffic {
+            run.pass(drive).expect("an equilibrium");
+        }
+        run
+    }
+
+    /// The same with the duct's motion changed, both ways.
+    fn with_motion(&self, change: impl Fn(f64, f64) -> f64 + 'static) -> Self {
+        let change = Rc::new(change);
+        let mut scene = self.clone();
+        for drive in &mut scene.problem.drives {
+            let (change, shape) = (Rc::clone(&change), Rc::clone(&drive.shape));
+            drive.shape = Rc::new(move |xi| change(xi, shape(xi)));
+        }
+        scene
+    }
+
+    /// A scale for errors \[m\]: what friction at its limit can stretch the cable by, and the least motion of a duct.
+    fn displacement(&self) -> f64 {
+        let cable = &self.problem.cable;
+        1e-6 + self.problem.largest_force() * cable.length() / cable.axial_stiffness()
+    }
+
+    fn forces(&self, run: &Run) -> Vec<f64> {
+        let Problem { cable, mesh, .. } = &self.problem;
+        let ends = run.state.end_forces(cable, mesh);
+        let inner = run.state.element_forces(cable, mesh);
+        [ends.upstream]
+            .into_iter()
+            .chain(inner)
+            .chain([ends.downstream])
+            .collect()
+    }
+}
+
+fn largest_difference<'a>(one: impl Iterator<Item = &'a f64>, other: impl Iterator<Item = f64>) -> f64 {
+    one.zip(other).fold(0.0, |worst: f64, (a, b)| {
+        if (a - b).is_nan() {
+            f64::INFINITY
+        } else {
+            worst.max((a - b).abs())
+        }
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn friction_stays_within_its_limit_and_only_heats(scene in any_scene(3.0, 40.0)) {
+        for kind in scene.kinds() {
+            let mut run = Run::new(kind, &scene.problem).expect("a valid problem");
+            for &drive in &scene.traffic {
+                let pass = run.pass(drive).expect("an equilibrium");
+                prop_assert!(run.utilisation(&scene.problem) <= 1.0 + 1e-6, "{kind:?}");
+                prop_assert!(pass.outcome.dissipated >= -scene.problem.negligible_work(), "{kind:?} {pass:?}");
+                let Some(energy) = pass.energy else { continue };
+                prop_assert!(energy.returned_share() < 1e-3, "{kind:?} {energy}");
+                match kind {
+                    // Neither adds nor takes.
+                    Kind::Explicit => prop_assert!(energy.unbalanced_share() < 1e-2, "{kind:?} {energy}"),
+                    // Takes vibration that it does not resolve, and adds nothing.
+                    _ => prop_assert!(
+                        energy.residual() >= -1e-2 * energy.duct_work.abs() - scene.problem.negligible_work(),
+                        "{kind:?} {energy}"
+                    ),
+                }
+            }
+        }
+    }
+
+    /// Duct backward, cable backward.
+    #[test]
+    fn the_answer_is_odd(scene in any_scene(3.0, 40.0)) {
+        let negated = scene.with_motion(|_, displacement| -displacement);
+        for kind in scene.kinds() {
+            let (one, other) = (scene.run(kind), negated.run(kind));
+            let moved = largest_difference(
+                one.state.displacement().iter(),
+                other.state.displacement().iter().map(|u| -u),
+            );
+            prop_assert!(moved <= 1e-6 * scene.displacement(), "{kind:?}: {moved} m");
+            let forces = largest_difference(
+                scene.forces(&one).iter(),
+                scene.forces(&other).into_iter().map(|f| -f),
+            );
+            prop_assert!(forces <= 1e-6 * scene.problem.largest_force(), "{kind:?}: {forces} N");
+        }
+    }
+
+    #[test]
+    fn a_mirrored_scene_gives_the_mirrored_answer(scene in any_scene(3.0, 40.0)) {
+        let mut mirrored = scene.clone();
+        mirrored.problem.cable = scene.problem.cable.mirrored();
+        for drive in &mut mirrored.traffic {
+            *drive = 1 - *drive;
+        }
+        for kind in scene.kinds() {
+            let (one, other) = (scene.run(kind), mirrored.run(kind));
+            let moved = largest_difference(
+                one.state.displacement().iter(),
+                other.state.displacement().iter().rev().map(|u| -u),
+            );
+            prop_assert!(moved <= 1e-6 * scene.displacement(), "{kind:?}: {moved} m");
+            let forces = largest_difference(
+                scene.forces(&one).iter(),
+                mirrored.forces(&other).into_iter().rev(),
+            );
+            prop_assert!(forces <= 1e-6 * scene.problem.largest_force(), "{kind:?}: {forces} N");
+        }
+    }
+
+    /// A duct that moves farther forward at every step never leaves any part of the cable farther back: each step is
+    /// monotone in the duct's increment and in the sheath's anchor u + γ f, which is monotone again. With inertia the order
+    /// holds up to waves.
+    #[test]
+    fn who_is_pushed_farther_gets_farther(scene in any_scene(0.5, 2.0), more in 1e-7..1e-4_f64) {
+        prop_assume!(scene.problem.cable.friction().law().has_memory());
+        let mut pushed = scene.clone();
+        pushed.traffic.fill(0);
+        let scene = pushed.clone();
+        let pushed = pushed.with_motion(move |xi, displacement| {
+            displacement + 0.5 * more * (1.0 - (xi / 0.8).tanh())
+        });
+        for kind in scene.kinds() {
+            let (one, other) = (scene.run(kind), pushed.run(kind));
+            let back = one.state.displacement().iter().zip(other.state.displacement()).fold(
+                0.0,
+                |worst: f64, (one, other)| if (one - other).is_nan() { f64::INFINITY } else { worst.max(one - other) },
+            );
+            let share = if kind.has_inertia() { 1e-3 } else { 1e-4 };
+            prop_assert!(back <= share * scene.displacement(), "{kind:?}: {back} m of {}", scene.displacement());
+        }
+    }
+}

@@ -1,0 +1,204 @@
+//! Any solver on any problem.
+
+use std::rc::Rc;
+
+use boussinesq::HalfSpace;
+use cable_dem::{
+    CableError, CableState, DuctedCable, Dynamic, EnergyBalance, Explicit, ExplicitOptions, FrictionLaw,
+    Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic,
+};
+use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
+
+pub type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// Mass per metre of the cable \[kg/m\]: 108.8 N/m.
+pub const MASS: f64 = 108.8 / 9.80665;
+/// EA of the full-scale experiment's cables \[N\].
+pub const AXIAL_STIFFNESS: f64 = 8.01e6;
+/// Its friction limits \[N/m\]: upper cable, and lower cable with the load of the others.
+pub const LIMITS: [f64; 2] = [0.25 * 108.8, 0.27 * 163.2];
+/// Distance beyond the duct's ends from which its vehicle comes \[m\].
+pub const APPROACH: f64 = 15.0;
+/// 40 km/h.
+pub const SPEED: f64 = 40.0 / 3.6;
+
+/// The sheath of the full-scale experiment's cables, q b/2 = 1e8 N/m².
+pub fn sheathed(limit: f64) -> FrictionLaw {
+    FrictionLaw::ElasticPlastic {
+        shape_factor: 2e8 / limit,
+    }
+}
+
+/// The duct 1.2 m below a load of 20 tf on ground of 800 MPa, ν = 0.4, at 40 km/h.
+pub fn truck() -> Result<Drive, Box<dyn std::error::Error>> {
+    let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
+    let vehicle = Vehicle::point("truck", 196_133.0, SPEED)?;
+    let motion = DuctMotion::new(&ground, &vehicle, DuctLine::new(1.2, 0.0)?, 100.0, 1e-10)?;
+    Ok(Drive::new(SPEED, APPROACH, move |xi| motion.longitudinal(xi)))
+}
+
+/// The solvers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    QuasiStatic,
+    Dynamic,
+    Explicit,
+}
+
+impl Kind {
+    pub const ALL: [Self; 3] = [Self::QuasiStatic, Self::Dynamic, Self::Explicit];
+
+    /// Those that handle `law`.
+    pub fn for_law(law: FrictionLaw) -> impl Iterator<Item = Self> {
+        let handles = move |kind: &Self| kind.has_inertia() || law.has_memory();
+        Self::ALL.into_iter().filter(handles)
+    }
+
+    pub fn has_inertia(self) -> bool {
+        self != Self::QuasiStatic
+    }
+}
+
+/// One vehicle: a shape of the duct's displacement that travels along the duct.
+#[derive(Clone)]
+pub struct Drive {
+    pub direction: Direction,
+    pub speed: f64,
+    pub approach: f64,
+    pub shape: Rc<dyn Fn(f64) -> f64>,
+}
+
+impl Drive {
+    /// Forward traffic.
+    pub fn new(speed: f64, approach: f64, shape: impl Fn(f64) -> f64 + 'static) -> Self {
+        Self {
+            direction: Direction::Forward,
+            speed,
+            approach,
+            shape: Rc::new(shape),
+        }
+    }
+
+    /// The same vehicle on its way back.
+    pub fn back(&self) -> Self {
+        Self {
+            direction: match self.direction {
+                Direction::Forward => Direction::Reverse,
+                Direction::Reverse => Direction::Forward,
+            },
+            ..self.clone()
+        }
+    }
+}
+
+/// A cable on a mesh, and the vehicles that may come.
+#[derive(Clone)]
+pub struct Problem {
+    pub cable: DuctedCable,
+    pub mesh: Mesh,
+    pub drives: Vec<Drive>,
+}
+
+impl Problem {
+    /// Work of friction at its limit over a picometre of slip \[J\]: rounding.
+    pub fn negligible_work(&self) -> f64 {
+        1e-12 * self.cable.friction().limit() * self.cable.length()
+    }
+
+    /// Largest force that friction can build up: q L \[N\].
+    pub fn largest_force(&self) -> f64 {
+        self.cable.friction().limit() * self.cable.length()
+    }
+}
+
+/// A solver with the vehicles as it takes them, and the cable's state.
+pub struct Run {
+    solver: Solver,
+    pub state: CableState,
+}
+
+enum Solver {
+    QuasiStatic(Box<QuasiStatic>, Vec<Passage>),
+    Dynamic(Box<Dynamic>, Vec<MovingDuct>),
+    Explicit(Box<Explicit>, Vec<MovingDuct>),
+}
+
+/// What one pass did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pass {
+    pub outcome: PassOutcome,
+    /// Of solvers with inertia.
+    pub energy: Option<EnergyBalance>,
+}
+
+impl Run {
+    /// From rest.
+    pub fn new(kind: Kind, problem: &Problem) -> Result<Self, CableError> {
+        Self::resumed(kind, problem, CableState::at_rest(&problem.mesh))
+    }
+
+    /// From `state`, by a new solver.
+    pub fn resumed(kind: Kind, problem: &Problem, state: CableState) -> Result<Self, CableError> {
+        let Problem { cable, mesh, drives } = problem;
+        let ducts = || -> Result<Vec<MovingDuct>, CableError> {
+            let duct = |drive: &Drive| {
+                let course = (drive.direction, drive.speed);
+                MovingDuct::from_shape(cable, mesh, course, &*drive.shape, drive.approach)
+            };
+            drives.iter().map(duct).collect()
+        };
+        let passage =
+            |drive: &Drive| Passage::from_shape(cable, mesh, drive.direction, &*drive.shape, drive.approach);
+        let own = cable.clone();
+        let solver = match kind {
+            Kind::QuasiStatic => Solver::QuasiStatic(
+                Box::new(QuasiStatic::new(own, *mesh)?),
+                drives.iter().map(passage).collect::<Result<_, _>>()?,
+            ),
+            Kind::Dynamic => Solver::Dynamic(Box::new(Dynamic::new(own, *mesh, MASS)?), ducts()?),
+            Kind::Explicit => {
+                let explicit = Explicit::new(own, *mesh, MASS, ExplicitOptions::default())?;
+                Solver::Explicit(Box::new(explicit), ducts()?)
+            }
+        };
+        Ok(Self { solver, state })
+    }
+
+    /// Lets the vehicle of this index pass.
+    pub fn pass(&mut self, drive: usize) -> Result<Pass, CableError> {
+        let transient = match &mut self.solver {
+            Solver::QuasiStatic(solver, passages) => {
+                return Ok(Pass {
+                    outcome: solver.pass(&passages[drive], &mut self.state)?,
+                    energy: None,
+                });
+            }
+            Solver::Dynamic(solver, ducts) => solver.pass(&ducts[drive], &mut self.state)?,
+            Solver::Explicit(solver, ducts) => solver.pass(&ducts[drive], &mut self.state)?,
+        };
+        Ok(Pass {
+            outcome: transient.pass,
+            energy: Some(transient.energy),
+        })
+    }
+
+    /// Largest friction as a share of its limit, infinite for NaN.
+    pub fn utilisation(&self, problem: &Problem) -> f64 {
+        let largest = self.state.friction().iter().fold(0.0, |worst: f64, f| {
+            if f.is_nan() {
+                f64::INFINITY
+            } else {
+                worst.max(f.abs())
+            }
+        });
+        largest / problem.cable.friction().limit()
+    }
+
+    /// Several passes of the first vehicle, at least one; the last one's outcome.
+    pub fn passes(&mut self, count: usize) -> Result<PassOutcome, CableError> {
+        for _ in 1..count {
+            self.pass(0)?;
+        }
+        Ok(self.pass(0)?.outcome)
+    }
+}

@@ -1,0 +1,12 @@
+//! Every solver on every test model, through one harness; and the laws of nature that all of them must keep.
+//!
+//! [`models`] holds problems with their exact answers, [`harness`] runs any solver on any problem.
+
+mod friction_symmetry;
+mod harness;
+mod models;
+mod opposing_traffic;
+mod rate;
+mod restart;
+mod stiff_ends;
+mod test_models;

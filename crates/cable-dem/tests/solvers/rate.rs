@@ -1,0 +1,87 @@
+//! Rate independence, where it must hold, and its absence where it must not.
+
+use cable_dem::{CableError, DuctedCable, End, Friction, FrictionLaw, Mesh, inertia_ratio};
+
+use super::harness::{AXIAL_STIFFNESS, Drive, Kind, LIMITS, MASS, Outcome, Problem, Run, sheathed, truck};
+
+/// Force after two passes at `speed`, with the vehicle in steps of at most `vehicle_step`.
+fn force(
+    kind: Kind,
+    law: FrictionLaw,
+    truck: &Drive,
+    speed: f64,
+    (spacing, vehicle_step): (f64, f64),
+) -> Result<f64, CableError> {
+    let cable = DuctedCable::new(15.0, AXIAL_STIFFNESS, Friction::new(law, LIMITS[0])?)?
+        .with_ends(End::Free, End::Fixed)?;
+    let problem = Problem {
+        mesh: Mesh::new(15.0, spacing, vehicle_step)?,
+        cable,
+        drives: vec![Drive {
+            speed,
+            ..truck.clone()
+        }],
+    };
+    Ok(Run::new(kind, &problem)?.passes(2)?.force.downstream)
+}
+
+/// What nodes that stick and slip one by one leave of waves, as between solvers with and without inertia.
+const STEPPING: f64 = 3e-4;
+/// Accuracy of the explicit solver at this spacing, whose nodes swing as they are passed, at v/h a second.
+const LATTICE: f64 = 5e-3;
+
+/// Exactly without inertia, to the inertia ratio with it.
+#[test]
+fn speed_changes_nothing_but_inertia() -> Outcome {
+    let truck = truck()?;
+    let mesh = (0.1, 0.05);
+    for law in [FrictionLaw::Coulomb, sheathed(LIMITS[0])] {
+        let cable = DuctedCable::new(15.0, AXIAL_STIFFNESS, Friction::new(law, LIMITS[0])?)?;
+        for kind in Kind::ALL {
+            let slow = force(kind, law, &truck, 2.0, mesh)?;
+            assert!(slow > 100.0, "{slow}");
+            for speed in [20.0 / 3.6, 30.0 / 3.6, 40.0 / 3.6, 30.0] {
+                let found = force(kind, law, &truck, speed, mesh)? / slow - 1.0;
+                let ratio = inertia_ratio(&cable, MASS, speed)?;
+                println!(
+                    "{} {kind:?} {speed:.1} m/s: {found:+.1e}, ratio {ratio:.1e}",
+                    law.name()
+                );
+                let allowed = match kind {
+                    Kind::QuasiStatic => 0.0,
+                    Kind::Dynamic => ratio + STEPPING,
+                    Kind::Explicit => ratio + LATTICE,
+                };
+                assert!(found.abs() <= allowed, "{} {kind:?}: {found} {ratio}", law.name());
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The sigmoid's slip is that of one time step: half the step holds on to less, in a step tied to the vehicle
+/// (implicit), and so does half the speed in a step tied to the mesh (explicit).
+#[test]
+fn the_sigmoid_depends_on_time_step_and_speed() -> Outcome {
+    let truck = truck()?;
+    let sigmoid = FrictionLaw::Sigmoid { shape_factor: 1e8 };
+    let implicit = |law, vehicle_step| force(Kind::Dynamic, law, &truck, 11.0, (0.2, vehicle_step));
+    let explicit = |law, speed| force(Kind::Explicit, law, &truck, speed, (0.2, 0.1));
+    for (name, with_sigmoid, with_memory) in [
+        (
+            "half the time step",
+            implicit(sigmoid, 0.05)? / implicit(sigmoid, 0.1)?,
+            implicit(sheathed(LIMITS[0]), 0.05)? / implicit(sheathed(LIMITS[0]), 0.1)?,
+        ),
+        (
+            "half the speed",
+            explicit(sigmoid, 5.5)? / explicit(sigmoid, 11.0)?,
+            explicit(sheathed(LIMITS[0]), 5.5)? / explicit(sheathed(LIMITS[0]), 11.0)?,
+        ),
+    ] {
+        println!("{name}: sigmoid {with_sigmoid:.3}, with memory {with_memory:.4}");
+        assert!(with_sigmoid < 0.95, "{name}: {with_sigmoid}");
+        assert!((with_memory - 1.0).abs() < 0.01, "{name}: {with_memory}");
+    }
+    Ok(())
+}
