@@ -23,7 +23,7 @@ use crate::DuctedCable;
 use crate::error::checked;
 
 /// Inertia ratio v²/c² = m′ v²/EA of `cable` with `mass_per_metre` m′ \[kg/m\] under a vehicle at `speed` v \[m/s\]: by this
-/// share inertia softens the cable near the vehicle, and at most this share of the force is in error without it.
+/// share inertia softens the cable near the vehicle, and at most this share of the force is in error without it, on a converged mesh.
 ///
 /// # Errors
 ///
