@@ -255,14 +255,14 @@ fn a_rigid_shift_of_the_duct_carries_a_free_cable_along() {
 }
 
 #[test]
-fn ten_thousand_passes_settle() {
+fn a_hundred_thousand_passes_settle() {
     let motion = reference_motion();
     let mesh = Mesh::new(3.0, 0.3, 0.15).expect("a valid mesh");
     for friction in [coulomb(LIMITS[0]), elastic_plastic(7e6, LIMITS[0])] {
         let cable = reference_cable(3.0, friction);
         let passage = Passage::new(&cable, &mesh, &motion, APPROACH).expect("a valid passage");
         let mut run = Run::new(cable, mesh);
-        run.passes(9_990, &passage);
+        run.passes(99_990, &passage);
         let settled = run.state.clone();
         let force = run.pass(&passage).force.downstream;
         assert!(survives(&mut run, &passage, 9));
