@@ -1,0 +1,1 @@
+//! Fits parameters of a creepage model to load-cell data.
