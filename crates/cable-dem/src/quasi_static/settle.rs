@@ -2,11 +2,12 @@
 
 use super::active_set::Outcome;
 use super::chain::{Chain, Contact, Load, Stretch, Tolerance, Trial};
+use super::exact;
 use super::passage::{Passage, Snapshot};
 use super::sweeper::{MAX_GROWTH, Sweeper};
 use super::window::{NEGLIGIBLE, Window};
-use super::{Recorder, exact};
 use crate::CableError;
+use crate::outcome::Recorder;
 
 /// Softnesses γ k/h through which a step is led that does not converge from its first guess: from the first down to the
 /// real one, or to the last, which is as good as rigid.

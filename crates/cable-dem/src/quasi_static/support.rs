@@ -36,11 +36,7 @@ impl Support {
             },
         ];
         for restraint in cable.restraints() {
-            let (left, share) = mesh.place(restraint.position);
-            for (node, stiffness) in [
-                (left, (1.0 - share) * restraint.stiffness),
-                (left + 1, share * restraint.stiffness),
-            ] {
+            for (node, stiffness) in restraint.by_node(mesh) {
                 if stiffness == 0.0 {
                     continue;
                 }

@@ -1,12 +1,13 @@
 //! One pass, forward: the cable's state, its supports, and the steps of the vehicle.
 
-use super::Recorder;
 use super::active_set::Elimination;
 use super::chain::{Chain, Contact, Stretch, Tolerance, Trial};
 use super::memory::PassMemory;
 use super::passage::{Passage, Snapshot};
 use super::support::{Forcing, Support};
 use super::window::{NEGLIGIBLE, Window};
+use crate::ends::{Balance, EndReader};
+use crate::outcome::Recorder;
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
 /// Accuracy of friction and equilibrium inside the windows, as a share of the friction limit.
@@ -26,6 +27,7 @@ pub(super) fn rounding(cable: &DuctedCable, mesh: &Mesh, largest: f64) -> f64 {
 pub(super) struct Sweeper {
     pub(super) cable: DuctedCable,
     pub(super) mesh: Mesh,
+    ends: EndReader,
     pub(super) chain: Chain,
     /// The same chain with a softer sheath.
     pub(super) softened: Chain,
@@ -121,6 +123,7 @@ impl Sweeper {
         Self {
             cable: cable.clone(),
             mesh: *mesh,
+            ends: EndReader::new(cable, mesh),
             softened: chain.clone(),
             soft_anchor: vec![0.0; nodes],
             chain,
@@ -356,21 +359,11 @@ impl Sweeper {
 
     /// Force on each end \[N\] with the vehicle at the snapshot's position, compression positive.
     fn end_forces(&self, snapshot: &Snapshot<'_>) -> EndForces {
-        let last = self.mesh.elements();
-        let u = |i: usize| self.displacement(i, snapshot);
-        let force = |node: usize, inner: usize, outward: f64, end: crate::End| match end {
-            crate::End::Free => 0.0,
-            // A spring carries what the cable and its last node's friction bring: s u itself has no digits for a stiff one.
-            crate::End::Spring(_) | crate::End::Fixed => {
-                let friction = self.friction(node, snapshot);
-                outward
-                    * (self.chain.stiffness * (u(inner) - u(node)) + self.chain.tributary[node] * friction)
-            }
-        };
-        EndForces {
-            upstream: force(0, 1, -1.0, self.cable.upstream()),
-            downstream: force(last, last - 1, 1.0, self.cable.downstream()),
-        }
+        self.ends.read(
+            Balance::AtRest,
+            |node| self.displacement(node, snapshot),
+            |node| self.friction(node, snapshot),
+        )
     }
 }
 
