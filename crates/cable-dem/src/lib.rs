@@ -41,6 +41,7 @@ mod ends;
 mod error;
 mod explicit;
 mod friction;
+mod held;
 mod mesh;
 mod outcome;
 mod quasi_static;

@@ -265,7 +265,12 @@ impl Dynamic {
         let nodes = f.len();
         energy.duct_work += self.lumped.weighted(nodes, |i| acting(i) * duct[i]);
         energy.dissipated += self.lumped.weighted(nodes, heat);
-        energy.returned += self.lumped.weighted(nodes, |i| (-heat(i)).max(0.0));
+        // A held node cannot chatter; what its friction returns is the stretch of the cable within its half element.
+        let fixed = self.lumped.fixed;
+        let held = |i: usize| (i == 0 && fixed[0]) || (i + 1 == nodes && fixed[1]);
+        energy.returned += self
+            .lumped
+            .weighted(nodes, |i| if held(i) { 0.0 } else { (-heat(i)).max(0.0) });
         energy.kinetic = self.lumped.kinetic_energy(&self.history.velocity);
         energy.peak_kinetic = energy.peak_kinetic.max(energy.kinetic);
     }

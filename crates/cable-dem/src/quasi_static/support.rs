@@ -18,6 +18,8 @@ pub(super) struct Forcing {
     pub cut: f64,
     /// Adherent displacement \[m\], against which the ground holds the node.
     pub adherent: f64,
+    /// Adhesion \[N/m\], which a held node's friction has beside its own.
+    pub adhesion: f64,
 }
 
 impl Support {
@@ -69,6 +71,7 @@ impl Support {
                 _ => 0.0,
             },
             adherent: snapshot.adherent[index],
+            adhesion: snapshot.adhesion[index],
         }
     }
 

@@ -7,6 +7,7 @@ use super::passage::{Passage, Snapshot};
 use super::support::{Forcing, Support};
 use super::window::{NEGLIGIBLE, Window};
 use crate::ends::{Balance, EndReader};
+use crate::held::HeldNode;
 use crate::outcome::Recorder;
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
@@ -28,6 +29,7 @@ pub(super) struct Sweeper {
     pub(super) cable: DuctedCable,
     pub(super) mesh: Mesh,
     ends: EndReader,
+    held: HeldNode,
     pub(super) chain: Chain,
     /// The same chain with a softer sheath.
     pub(super) softened: Chain,
@@ -63,8 +65,8 @@ pub(super) struct SupportWindow {
     pub(super) solved: Forcing,
     /// Whether the forcing has changed since.
     pub(super) due: bool,
-    /// Adherent displacement up to which a fixed node's own friction has followed \[m\].
-    pub(super) followed: f64,
+    /// Forcing up to which a fixed node's own friction has followed.
+    pub(super) followed: Forcing,
     /// Force on the cable per displacement of the duct \[N/m\].
     pub(super) grip: f64,
 }
@@ -113,7 +115,7 @@ impl Sweeper {
                 },
                 solved: Forcing::default(),
                 due: false,
-                followed: 0.0,
+                followed: Forcing::default(),
                 grip: support
                     .stiffness
                     .map_or(held_stiffness, |s| 1.0 / (1.0 / s + 1.0 / sheath_stiffness)),
@@ -124,6 +126,7 @@ impl Sweeper {
             cable: cable.clone(),
             mesh: *mesh,
             ends: EndReader::new(cable, mesh),
+            held: HeldNode::new(cable, mesh),
             softened: chain.clone(),
             soft_anchor: vec![0.0; nodes],
             chain,
@@ -264,7 +267,7 @@ impl Sweeper {
             let forcing = support.forcing(snapshot, self.chain.stiffness, last);
             self.support_load[support.node] = support.load(forcing);
             self.supports[index].solved = forcing;
-            self.supports[index].followed = forcing.adherent;
+            self.supports[index].followed = forcing;
         }
     }
 
@@ -287,9 +290,9 @@ impl Sweeper {
             let (node, fixed, load) = (support.node, support.stiffness.is_none(), support.load(forcing));
             if fixed {
                 // Its friction turns at slips far smaller than those that matter to its neighbours.
-                let slip = forcing.adherent - followed;
-                self.drag(node, slip, snapshot.adhesion[node + 1]);
-                self.supports[index].followed = forcing.adherent;
+                let followed = *followed;
+                self.drag(node, followed, forcing);
+                self.supports[index].followed = forcing;
             }
             if due {
                 if fixed {
@@ -304,22 +307,15 @@ impl Sweeper {
         }
     }
 
-    /// Friction on a fixed node as the duct slips past it by `slip`.
-    fn drag(&mut self, node: usize, slip: f64, adhesion: f64) {
-        let g = if self.chain.compliance > 0.0 {
-            self.g[node] + slip / self.chain.compliance
-        } else if slip == 0.0 {
-            self.g[node]
-        } else {
-            f64::INFINITY.copysign(slip)
-        };
-        let g = g.clamp(
-            self.chain.bound(Contact::Backward, adhesion),
-            self.chain.bound(Contact::Forward, adhesion),
-        );
-        let elastic = self.chain.compliance * (g - self.g[node]);
-        self.dissipated += self.chain.tributary[node] * (g + adhesion) * (slip - elastic);
-        self.g[node] = g;
+    /// Friction on a fixed node as the duct moves on past it from the forcing that it has followed so far.
+    fn drag(&mut self, node: usize, followed: Forcing, forcing: Forcing) {
+        let compliance = self.chain.compliance;
+        let before = self.g[node] + followed.adhesion;
+        // D = a + γ A.
+        let slip = forcing.adherent - followed.adherent + compliance * (forcing.adhesion - followed.adhesion);
+        let after = self.held.after_slip(before, slip);
+        self.dissipated += self.chain.tributary[node] * after * (slip - compliance * (after - before));
+        self.g[node] = after - forcing.adhesion;
     }
 
     /// Takes out the memory of a passage's last pass; empty for its first.

@@ -6,6 +6,7 @@
 
 use crate::ends::{Balance, EndReader};
 use crate::error::checked;
+use crate::held::HeldNode;
 use crate::quasi_static::Support;
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
@@ -25,6 +26,8 @@ pub(crate) struct Lumped {
     pub springs: Vec<(usize, f64)>,
     /// Whether the first and the last node are held.
     pub fixed: [bool; 2],
+    /// Friction of the held ones.
+    pub held: HeldNode,
     ends: EndReader,
 }
 
@@ -47,6 +50,7 @@ impl Lumped {
                 .iter()
                 .filter_map(|support| Some((support.node, support.stiffness.filter(|s| *s > 0.0)?)))
                 .collect(),
+            held: HeldNode::new(&cable, &mesh),
             ends: EndReader::new(&cable, &mesh),
             cable,
             mesh,
