@@ -9,6 +9,7 @@
 mod active_set;
 mod chain;
 mod exact;
+mod graph;
 mod memory;
 mod passage;
 mod settle;

@@ -31,9 +31,6 @@ pub(super) struct Sweeper {
     ends: EndReader,
     held: HeldNode,
     pub(super) chain: Chain,
-    /// The same chain with a softer sheath.
-    pub(super) softened: Chain,
-    pub(super) soft_anchor: Vec<f64>,
     pub(super) supports: Vec<SupportWindow>,
     /// Unknown nodes: all but fixed ends.
     pub(super) free: Stretch,
@@ -127,8 +124,6 @@ impl Sweeper {
             mesh: *mesh,
             ends: EndReader::new(cable, mesh),
             held: HeldNode::new(cable, mesh),
-            softened: chain.clone(),
-            soft_anchor: vec![0.0; nodes],
             chain,
             supports,
             free,
