@@ -125,10 +125,9 @@ impl StepSolver {
             return Err(violation);
         }
         f[self.free.lo..=self.free.hi].copy_from_slice(&self.trial.g[self.free.lo..=self.free.hi]);
-        let friction = lumped.cable.friction();
         for (end, node) in [0, f.len() - 1].into_iter().enumerate() {
             if lumped.fixed[end] {
-                f[node] = friction.after_slip(f[node], duct[node]);
+                f[node] = lumped.held.after_slip(f[node], duct[node]);
             }
         }
         Ok(())
