@@ -23,6 +23,7 @@ mod analysis;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod error;
+mod planner;
 pub mod scene;
 
 pub use analysis::profile::{Profile, profile, profile_at};
@@ -31,6 +32,7 @@ pub use analysis::result::{
 };
 pub use analysis::run::{RunOptions, check, run, run_with};
 pub use error::Error;
+pub use planner::{Plan, PlanReport, Rung, plan, plan_on};
 pub use scene::{Scene, SceneError};
 
 /// The README's example is a test too.
