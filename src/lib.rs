@@ -23,6 +23,7 @@ mod analysis;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod error;
+pub mod presets;
 pub mod scene;
 
 pub use analysis::profile::{Profile, profile, profile_at};

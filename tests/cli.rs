@@ -458,6 +458,42 @@ fn help_and_version_are_no_errors() {
     );
 }
 
+// presets
+
+#[test]
+fn presets_are_listed_with_their_sources() {
+    let list = printed(&["presets"]);
+    let document = json(&["presets"]);
+    let presets = document.as_array().expect("a list");
+    assert!(presets.len() > 15);
+    for preset in presets {
+        for field in ["kind", "name", "summary", "toml"] {
+            assert!(preset[field].is_string(), "{field}");
+        }
+        assert!(list.contains(preset["name"].as_str().expect("a name")), "{list}");
+        for source in preset["sources"].as_array().expect("a list") {
+            let line = format!(
+                "{}: {}{}\n",
+                source["key"].as_str().expect("a key"),
+                if source["assumed"] == true {
+                    "ASSUMED, "
+                } else {
+                    ""
+                },
+                source["source"].as_str().expect("a source")
+            );
+            assert!(list.contains(&line), "{line} is not in\n{list}");
+        }
+    }
+    let one = printed(&["presets", "t-25"]);
+    assert!(
+        one.contains("load = \"100 kN\"") && one.contains("ASSUMED") && !one.contains("t-20"),
+        "{one}"
+    );
+    assert_eq!(json(&["presets", "t-25"]).as_array().map(Vec::len), Some(1));
+    assert_fails(&["presets", "t-52"], 2, &["`t-52`", "allowed: t-25"]);
+}
+
 // what fails
 
 #[test]

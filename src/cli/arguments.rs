@@ -44,6 +44,8 @@ pub enum Command {
         #[command(flatten)]
         scene: SceneArguments,
     },
+    /// List named values for vehicles, cables, friction and pavements, with their sources
+    Presets(super::presets::Arguments),
 }
 
 #[derive(Debug, Args)]

@@ -1,6 +1,7 @@
 //! The command line: parsing, printing, and the exit status. Everything it does is a call of the library.
 
 mod arguments;
+mod presets;
 mod print;
 mod write;
 
@@ -17,6 +18,12 @@ use arguments::{Arguments, Command, SceneArguments};
 enum Failure {
     #[error(transparent)]
     Analysis(#[from] crate::Error),
+    #[error("{argument}: found {found}; allowed: {allowed}")]
+    Usage {
+        argument: String,
+        found: String,
+        allowed: String,
+    },
     #[error("{file}: cannot be written: {source}")]
     Unwritable { file: String, source: std::io::Error },
     #[error("{file}: cannot be written: {source}")]
@@ -44,7 +51,7 @@ pub fn main() -> ExitCode {
             // A closed standard error leaves nobody to tell.
             let _ = writeln!(std::io::stderr(), "error: {failure}");
             match failure {
-                Failure::Unwritable { .. } => ExitCode::from(2),
+                Failure::Usage { .. } | Failure::Unwritable { .. } => ExitCode::from(2),
                 Failure::Analysis(error) if error.is_bad_input() => ExitCode::from(2),
                 _ => ExitCode::from(1),
             }
@@ -99,6 +106,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
             crate::check(&scene)?;
             print::checked(&scene)
         }
+        Command::Presets(arguments) => presets::execute(arguments),
     }
 }
 

@@ -7,11 +7,12 @@ use toml::de::{DeTable, DeValue};
 
 use super::table::Table;
 use super::{Location, SceneError};
+use crate::presets::Preset;
 
 /// Where something was written: which source, which bytes of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Place {
-    /// 0 is the file, then the overrides in turn: what has the larger number was set later.
+    /// 0 is the file; then overrides, and presets where they were named.
     pub source: usize,
     pub span: Range<usize>,
 }
@@ -45,11 +46,32 @@ pub(super) struct Entry {
     pub value: Node,
 }
 
-/// A file or an override.
+impl Entry {
+    fn move_to(&mut self, source: usize) {
+        self.key_place.source = source;
+        self.value.move_to(source);
+    }
+}
+
+impl Node {
+    /// Says that this was written in the source of that number.
+    fn move_to(&mut self, source: usize) {
+        self.place.source = source;
+        match &mut self.content {
+            Content::Array(items) => items.iter_mut().for_each(|item| item.move_to(source)),
+            Content::Table(entries) => entries.iter_mut().for_each(|entry| entry.move_to(source)),
+            _ => {}
+        }
+    }
+}
+
+/// A file, an override or a preset.
 #[derive(Debug)]
 struct Source {
     name: String,
     text: String,
+    /// What ranks higher was set later. Files and overrides have odd ranks, and a preset the even one below what names it.
+    rank: usize,
 }
 
 /// A scene file with its overrides.
@@ -70,6 +92,7 @@ impl Document {
             sources: vec![Source {
                 name: name.to_owned(),
                 text: text.to_owned(),
+                rank: 1,
             }],
             root: Node {
                 // What the top level lacks would be added at the end.
@@ -84,11 +107,40 @@ impl Document {
 
     /// Adds an override as a source and returns its number.
     pub fn add_source(&mut self, text: &str) -> usize {
+        let highest = self.sources.iter().map(|source| source.rank).max();
         self.sources.push(Source {
             name: format!("--set {text}"),
             text: text.to_owned(),
+            rank: highest.unwrap_or_default() + 2,
         });
         self.sources.len() - 1
+    }
+
+    /// Adds a preset that was named at `place` as a source and returns its values.
+    pub fn add_preset(&mut self, preset: &Preset, place: &Place) -> Result<Vec<Entry>, SceneError> {
+        let values = Self::parse(&format!("preset {}", preset.name), &preset.toml)?.root;
+        self.sources.push(Source {
+            name: format!("preset {}", preset.name),
+            text: preset.toml.clone(),
+            rank: self.rank(place) - 1,
+        });
+        let Content::Table(mut entries) = values.content else {
+            return Ok(Vec::new());
+        };
+        for entry in &mut entries {
+            entry.move_to(self.sources.len() - 1);
+        }
+        Ok(entries)
+    }
+
+    /// What ranks higher was set later.
+    pub fn rank(&self, place: &Place) -> usize {
+        self.sources[place.source].rank
+    }
+
+    /// Whether a preset gave what stands at this place.
+    pub fn is_preset(&self, place: &Place) -> bool {
+        self.rank(place).is_multiple_of(2)
     }
 
     /// The whole document as a table that may hold only the keys `known`.

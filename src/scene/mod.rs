@@ -14,6 +14,11 @@
 //!   out of its range: the first one found is reported with file, line, key, what was found and what is allowed
 //!   ([`SceneError`]).
 //!
+//! # Presets
+//!
+//! `preset = "t-25"` in a vehicle, the cable, the friction or the ground stands for values with a known source
+//! ([`crate::presets`]); what is given beside it counts instead.
+//!
 //! # Overrides
 //!
 //! `KEY=VALUE` sets one key on top of the file: `friction.dynamic_coefficient=0.3`, `vehicles.0.speed=30 km/h`,
@@ -45,6 +50,7 @@ mod keys;
 mod location;
 mod nearest;
 mod overrides;
+mod preset;
 mod quantity;
 mod range;
 mod solver;
@@ -121,8 +127,10 @@ impl Scene {
     /// As for [`Scene::from_file_with`].
     pub fn from_toml_with(name: &str, text: &str, overrides: &[String]) -> Result<Self, SceneError> {
         let mut document = Document::parse(name, text)?;
+        preset::expand(&mut document)?;
         for text in overrides {
             overrides::apply(&mut document, text)?;
+            preset::expand(&mut document)?;
         }
         read(name, &document)
     }
