@@ -25,6 +25,7 @@ pub mod cli;
 mod error;
 pub mod presets;
 pub mod scene;
+pub mod template;
 
 pub use analysis::profile::{Profile, profile, profile_at};
 pub use analysis::result::{
@@ -32,7 +33,7 @@ pub use analysis::result::{
 };
 pub use analysis::run::{RunOptions, check, run, run_with};
 pub use error::Error;
-pub use scene::{Scene, SceneError};
+pub use scene::{Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.
 #[cfg(doctest)]

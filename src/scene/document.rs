@@ -5,6 +5,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::syntax::hint;
 use super::table::Table;
 use super::{Location, SceneError};
 use crate::presets::Preset;
@@ -66,7 +67,7 @@ impl Node {
 }
 
 /// A file, an override or a preset.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Source {
     name: String,
     text: String,
@@ -75,7 +76,7 @@ struct Source {
 }
 
 /// A scene file with its overrides.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Document {
     sources: Vec<Source>,
     pub root: Node,
@@ -83,9 +84,13 @@ pub(super) struct Document {
 
 impl Document {
     pub fn parse(name: &str, text: &str) -> Result<Self, SceneError> {
-        let table = DeTable::parse(text).map_err(|error| SceneError::Syntax {
-            location: Location::new(name, text, error.span().unwrap_or(0..0), true),
-            message: error.message().to_owned(),
+        let table = DeTable::parse(text).map_err(|error| {
+            let location = Location::new(name, text, error.span().unwrap_or(0..0), true);
+            let hint = hint(&location.text).map_or_else(String::new, |hint| format!("; {hint}"));
+            SceneError::Syntax {
+                message: format!("{}{hint}", error.message()),
+                location,
+            }
         })?;
         let end = text.trim_end().len();
         Ok(Self {
@@ -131,6 +136,11 @@ impl Document {
             entry.move_to(self.sources.len() - 1);
         }
         Ok(entries)
+    }
+
+    /// What was written in the file, the overrides and the presets.
+    pub fn texts(&self) -> impl Iterator<Item = &str> {
+        self.sources.iter().map(|source| source.text.as_str())
     }
 
     /// What ranks higher was set later.
