@@ -25,6 +25,8 @@ pub mod cli;
 mod error;
 mod planner;
 pub mod presets;
+#[cfg(feature = "plot")]
+pub mod figure;
 pub mod scene;
 pub mod template;
 
