@@ -2,6 +2,8 @@
 
 use ground_field::GroundError;
 
+use crate::element::Quadrilateral;
+
 /// Loosest and tightest accuracy that can be asked.
 const ACCURACY_ALLOWED: &str = "between 1e-6 and 0.1";
 
@@ -10,6 +12,7 @@ const ACCURACY_ALLOWED: &str = "between 1e-6 and 0.1";
 pub struct FemOptions {
     accuracy: f64,
     max_unknowns: usize,
+    element: Quadrilateral,
 }
 
 impl FemOptions {
@@ -27,6 +30,7 @@ impl FemOptions {
             Ok(Self {
                 accuracy,
                 max_unknowns: Self::DEFAULT_MAX_UNKNOWNS,
+                element: Quadrilateral::Quadratic9,
             })
         } else {
             Err(GroundError::InvalidParameter {
@@ -45,9 +49,22 @@ impl FemOptions {
         self
     }
 
+    /// The same with another kind of element on the same nodes: the order of the method. Quadratic elements, the default, are
+    /// cheaper at every accuracy; linear ones are there to be compared with.
+    #[must_use]
+    pub fn with_element(mut self, element: Quadrilateral) -> Self {
+        self.element = element;
+        self
+    }
+
     /// Asked error, as a share of the peak at a depth.
     pub fn accuracy(self) -> f64 {
         self.accuracy
+    }
+
+    /// Kind of the elements.
+    pub fn element(self) -> Quadrilateral {
+        self.element
     }
 
     /// Most unknowns a mesh may have.
