@@ -146,7 +146,7 @@ impl GroundField for LayeredHalfSpace {
 }
 
 /// `value` if it is finite and `holds`, or the error that says what is allowed.
-fn checked(
+pub(crate) fn checked(
     name: &'static str,
     value: f64,
     allowed: &'static str,

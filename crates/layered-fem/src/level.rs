@@ -96,6 +96,8 @@ pub(crate) struct Level {
     /// Depths of all rows of nodes.
     rows: Vec<f64>,
     system: System,
+    /// Largest change by which a solution may still be corrected.
+    rounding: f64,
     far_displacement: Vec<f64>,
     far_force: Vec<f64>,
     /// Solutions u* under a unit load by the bits of the contact radius.
@@ -103,7 +105,12 @@ pub(crate) struct Level {
 }
 
 impl Level {
-    pub(crate) fn new(profile: &SoilProfile, kind: Quadrilateral, lines: Lines) -> Result<Self, FemError> {
+    pub(crate) fn new(
+        profile: &SoilProfile,
+        kind: Quadrilateral,
+        rounding: f64,
+        lines: Lines,
+    ) -> Result<Self, FemError> {
         let ground = Ground::new(profile);
         let mesh = Mesh::rectangular(kind, &lines.radii, &lines.depths);
         let (columns, rows) = (with_midpoints(&lines.radii), with_midpoints(&lines.depths));
@@ -142,6 +149,7 @@ impl Level {
             columns,
             rows,
             system,
+            rounding,
             far_displacement,
             far_force,
             solutions: Mutex::default(),
@@ -188,7 +196,10 @@ impl Level {
         for (value, far) in force.iter_mut().zip(&self.far_force) {
             *value += far;
         }
-        let solved = Arc::new(self.system.solve(&force, &self.far_displacement)?);
+        let solved = Arc::new(
+            self.system
+                .solve_within(&force, &self.far_displacement, self.rounding)?,
+        );
         solutions.insert(contact_radius.to_bits(), Arc::clone(&solved));
         Ok(solved)
     }
@@ -298,6 +309,7 @@ impl Level {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::system::LARGEST_CHANGE;
     use ground_field::Soil;
 
     #[test]
@@ -308,7 +320,7 @@ mod tests {
         // Largest error of u_r over depths and radii, each depth by its own peak.
         let error = |kind, parts: usize| {
             let lines = Lines::new(&profile, 0.4, parts, usize::MAX).unwrap();
-            let level = Level::new(&profile, kind, lines).unwrap();
+            let level = Level::new(&profile, kind, LARGEST_CHANGE, lines).unwrap();
             let depths = (0..15).map(|k| 0.6 + 0.1 * f64::from(k));
             let shares = depths.map(|depth| {
                 let line = level.line(0.0, depth).unwrap();

@@ -254,7 +254,7 @@ impl Step {
         let lines = Lines::new(profile, alpha, parts, options.max_unknowns())?;
         Ok(Self {
             parts,
-            level: Level::new(profile, options.element(), lines)?,
+            level: Level::new(profile, options.element(), options.rounding(), lines)?,
         })
     }
 }

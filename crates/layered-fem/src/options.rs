@@ -3,6 +3,7 @@
 use ground_field::GroundError;
 
 use crate::element::Quadrilateral;
+use crate::system::LARGEST_CHANGE;
 
 /// Loosest and tightest accuracy that can be asked.
 const ACCURACY_ALLOWED: &str = "between 1e-6 and 0.1";
@@ -60,6 +61,12 @@ impl FemOptions {
     /// Asked error, as a share of the peak at a depth.
     pub fn accuracy(self) -> f64 {
         self.accuracy
+    }
+
+    /// How much of a solution a last correction may still change: rounding, a thousandth of the accuracy. Where λ is large beside a
+    /// stiff layer rounding is felt long before it matters.
+    pub(crate) fn rounding(self) -> f64 {
+        (1e-3 * self.accuracy).max(LARGEST_CHANGE)
     }
 
     /// Kind of the elements.
