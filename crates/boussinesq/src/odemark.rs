@@ -13,6 +13,19 @@ const MODEL: &str = "odemark";
 
 /// Layered ground by Odemark's equivalent thickness: a closed form, cheap and approximate.
 ///
+/// ```
+/// use boussinesq::{HalfSpace, Odemark};
+/// use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
+///
+/// let subgrade = Soil::new(50e6, 0.4)?;
+/// let asphalt = SoilLayer::uniform(0.2, Soil::new(5e9, 0.35)?)?;
+/// let road = Odemark::new(&SoilProfile::new(vec![asphalt], Base::HalfSpace(subgrade))?)?;
+/// let wheel = SurfaceLoad::new(49e3, 0.15)?;
+/// let (with, without) = (road.displacement(wheel, 0.0, 1.2)?, HalfSpace::new(subgrade).displacement(wheel, 0.0, 1.2)?);
+/// assert!(with.vertical < 0.8 * without.vertical);
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
+///
 /// # The idea
 ///
 /// Seen from layer k, the layers above it act like a thickness of layer k's own soil that bends alike:
@@ -103,6 +116,9 @@ const MODEL: &str = "odemark";
 /// | falling | 15 %, 29 %, 37 % | 3 %, 6 %, 8 % |
 /// | rising | 15 %, 38 %, 46 % | 7 %, 13 %, 16 % |
 /// | up and down | 15 %, 41 %, 82 % | 5 %, 12 %, 26 % |
+///
+/// A soft layer between stiff ones is the worst ground: with 0.2 m of 5 MPa in 200 MPa, u_r at a duct 0.1 m below is four times its
+/// own peak off. How far off a given ground is, `burmister::odemark_error_bound` measures in a few ten microseconds.
 ///
 /// # Limits
 ///

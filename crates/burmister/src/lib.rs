@@ -70,3 +70,7 @@ pub use statistics::Statistics;
 
 /// The model's name in errors.
 const MODEL: &str = "layered half-space";
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -9,6 +9,15 @@ use crate::system::LARGEST_CHANGE;
 const ACCURACY_ALLOWED: &str = "between 1e-6 and 0.1";
 
 /// Accuracy and limits of a [`crate::LayeredFem`].
+///
+/// ```
+/// use layered_fem::FemOptions;
+///
+/// let options = FemOptions::new(1e-3)?.with_max_unknowns(200_000);
+/// assert_eq!(options.accuracy(), 1e-3);
+/// assert!(FemOptions::new(1e-9).is_err());
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FemOptions {
     accuracy: f64,
