@@ -29,7 +29,7 @@ pub enum Command {
     Run {
         #[command(flatten)]
         scene: SceneArguments,
-        /// Measure the error by a second run with half the node spacing and vehicle step
+        /// Measure the error by a second run one rung finer: half the node spacing and vehicle step, nothing left out of the ground
         #[arg(long)]
         verify: bool,
         #[command(flatten)]
@@ -48,6 +48,17 @@ pub enum Command {
         positions: Option<Vec<f64>>,
         #[command(flatten)]
         output: OutputArguments,
+    },
+    /// Show which models would be used and why, with estimated error and time, the rejected ones too
+    #[command(after_help = "Examples:
+  creepage plan my-duct.toml
+  creepage plan my-duct.toml --set solver.tolerance=0.05 --json")]
+    Plan {
+        #[command(flatten)]
+        scene: SceneArguments,
+        /// Print one JSON document on standard output and nothing else there
+        #[arg(long)]
+        json: bool,
     },
     /// Check a scene without computing
     #[command(after_help = "Examples:
