@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use cable_dem::CableError;
+use calibrate::{CalibrationError, DataError};
 use ground_field::GroundError;
 use pass_law::LawError;
 
@@ -24,6 +25,12 @@ pub enum Error {
     /// The pass law could not be computed.
     #[error(transparent)]
     Law(#[from] LawError),
+    /// The readings of a load cell are wrong.
+    #[error(transparent)]
+    Data(#[from] DataError),
+    /// The parameters could not be fitted.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
     /// The finest affordable mesh leaves too large an error.
     #[error(
         "the estimated error of {:.1} % is too far above the tolerance of {:.2} %: the forces are small beside what passes through \
@@ -52,12 +59,14 @@ pub enum Error {
 impl Error {
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
-        matches!(
-            self,
-            Self::Scene(_)
-                | Self::Unfit { .. }
-                | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
-                | Self::Cable(CableError::InvalidParameter { .. } | CableError::UnsupportedLaw { .. })
-        )
+        matches!(self, Self::Calibration(error) if error.is_bad_input())
+            || matches!(
+                self,
+                Self::Scene(_)
+                    | Self::Data(_)
+                    | Self::Unfit { .. }
+                    | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
+                    | Self::Cable(CableError::InvalidParameter { .. } | CableError::UnsupportedLaw { .. })
+            )
     }
 }

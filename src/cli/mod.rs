@@ -1,6 +1,7 @@
 //! The command line: parsing, printing, and the exit status. Everything it does is a call of the library.
 
 mod arguments;
+mod calibrate;
 mod print;
 mod write;
 
@@ -94,6 +95,11 @@ fn execute(command: &Command) -> Result<(), Failure> {
                 print::profile(&answer)
             }
         }
+        Command::Calibrate {
+            scene,
+            calibrate,
+            output,
+        } => calibrate::execute(scene, calibrate, output),
         Command::Check { scene } => {
             let scene = read(scene)?;
             crate::check(&scene)?;
