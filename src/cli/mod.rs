@@ -4,6 +4,7 @@ mod arguments;
 mod input;
 mod new;
 mod presets;
+mod calibrate;
 mod print;
 mod write;
 
@@ -122,6 +123,11 @@ fn execute(command: &Command) -> Result<(), Failure> {
                 print::plan(&plan)
             }
         }
+        Command::Calibrate {
+            scene,
+            calibrate,
+            output,
+        } => calibrate::execute(scene, calibrate, output),
         Command::Check { scene } => {
             let input = Input::read(scene)?;
             input.judged(crate::check(&input.scene))?;
