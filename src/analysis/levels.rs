@@ -110,11 +110,7 @@ impl Ladder<'_> {
 
     /// What the ground model leaves out, as it comes through in the force after the first passes on the coarsest mesh. Where
     /// it is too much, the exact motions take over.
-    fn ground_error(
-        &mut self,
-        statistics: &mut Statistics,
-        reasons: &mut Vec<String>,
-    ) -> Result<f64, Error> {
+    fn ground_error(&mut self, statistics: &mut Statistics, reasons: &mut Vec<String>) -> Result<f64, Error> {
         let level = (0..self.levels.first()).find(|&level| self.levels.mesh(level).is_ok());
         let (Some(exact), Some(level)) = (self.exact, level) else {
             return Ok(self.motion_error);

@@ -1,10 +1,10 @@
 //! The command line: parsing, printing, and the exit status. Everything it does is a call of the library.
 
 mod arguments;
+mod calibrate;
 mod input;
 mod new;
 mod presets;
-mod calibrate;
 mod print;
 mod write;
 

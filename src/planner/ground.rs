@@ -266,7 +266,9 @@ impl Ladder<'_> {
         let depth = self.scene.duct.depth;
         // Points cost less than discs, and tell the soils apart as well.
         let soil = best_soil(self.points.as_ref().unwrap_or(self.scene), profile, exact)?;
-        self.add("boussinesq", HALF_SPACE_SECONDS, |scene| fitted(scene, soil, exact, depth))?;
+        self.add("boussinesq", HALF_SPACE_SECONDS, |scene| {
+            fitted(scene, soil, exact, depth)
+        })?;
         let field = Odemark::new(profile)?;
         self.add("odemark", ODEMARK_SECONDS, |scene| {
             motions(scene, &field, TRANSFORM_ACCURACY)
