@@ -7,6 +7,7 @@ use ground_field::GroundError;
 use pass_law::LawError;
 
 use crate::SceneError;
+use crate::scene::{Location, SceneFile};
 
 /// Error of an analysis.
 #[derive(Debug, thiserror::Error)]
@@ -47,11 +48,38 @@ pub enum Error {
         /// Why it does not fit.
         reason: Cow<'static, str>,
     },
+    /// An error whose cause stands in a scene file.
+    #[error("{location}: {source}{}", .location.excerpt())]
+    Located {
+        /// Where.
+        location: Box<Location>,
+        /// The error.
+        source: Box<Error>,
+    },
 }
 
 impl Error {
+    /// This error with the line of the key at fault, where one is at fault and the scene came from `file`.
+    #[must_use]
+    pub fn located(self, file: &SceneFile) -> Self {
+        let location = match &self {
+            Self::Unfit { key, .. } => file.locate(key),
+            _ => None,
+        };
+        match location {
+            Some(location) => Self::Located {
+                location: Box::new(location),
+                source: Box::new(self),
+            },
+            None => self,
+        }
+    }
+
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
+        if let Self::Located { source, .. } = self {
+            return source.is_bad_input();
+        }
         matches!(
             self,
             Self::Scene(_)

@@ -23,9 +23,12 @@ mod analysis;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod error;
+mod planner;
+pub mod presets;
 #[cfg(feature = "plot")]
 pub mod figure;
 pub mod scene;
+pub mod template;
 
 pub use analysis::profile::{Profile, profile, profile_at};
 pub use analysis::result::{
@@ -33,7 +36,8 @@ pub use analysis::result::{
 };
 pub use analysis::run::{RunOptions, check, run, run_with};
 pub use error::Error;
-pub use scene::{Scene, SceneError};
+pub use planner::{Plan, PlanReport, Rung, plan, plan_on};
+pub use scene::{Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.
 #[cfg(doctest)]

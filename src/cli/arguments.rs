@@ -1,6 +1,6 @@
 //! Arguments of the command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 
@@ -13,13 +13,19 @@ pub struct Arguments {
 }
 
 const EXAMPLES: &str = "Examples:
-  creepage run examples/scenes/full-scale-upper.toml
+  creepage new my-duct.toml
+  creepage run my-duct.toml
   creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --csv forces.csv
   creepage profile my-duct.toml --positions -1.5,0,1.5 --json";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Compute the force in the cable after every pass
+    #[command(after_help = "Examples:
+  creepage run my-duct.toml
+  creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --set vehicles.0.load=15tf
+  creepage run my-duct.toml --json > answer.json
+  creepage run my-duct.toml --csv forces.csv --verify")]
     Run {
         #[command(flatten)]
         scene: SceneArguments,
@@ -30,6 +36,10 @@ pub enum Command {
         output: OutputArguments,
     },
     /// Show the motion of the duct under the first vehicle
+    #[command(after_help = "Examples:
+  creepage profile my-duct.toml
+  creepage profile my-duct.toml --positions -1.5,0,1.5 --json
+  creepage profile my-duct.toml --csv motion.csv")]
     Profile {
         #[command(flatten)]
         scene: SceneArguments,
@@ -40,9 +50,24 @@ pub enum Command {
         output: OutputArguments,
     },
     /// Check a scene without computing
+    #[command(after_help = "Examples:
+  creepage check my-duct.toml
+  creepage check my-duct.toml --set ground.model=boussinesq")]
     Check {
         #[command(flatten)]
         scene: SceneArguments,
+    },
+    /// Write a commented scene to start from
+    New(Box<super::new::Arguments>),
+    /// List named values for vehicles, cables, friction and pavements, with their sources
+    Presets(super::presets::Arguments),
+    /// Print a script that completes commands and flags in a shell
+    #[command(after_help = "Examples:
+  creepage completions bash > ~/.local/share/bash-completion/completions/creepage
+  creepage completions fish > ~/.config/fish/completions/creepage.fish")]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
     },
 }
 
@@ -60,9 +85,19 @@ pub struct OutputArguments {
     /// Print one JSON document on standard output and nothing else there
     #[arg(long)]
     pub json: bool,
-    /// Write a table to this file
+    /// Write a table to this file; - is standard output, where nothing else is printed then
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+}
+
+/// What stands for standard output in place of a file.
+pub const STDOUT: &str = "-";
+
+impl OutputArguments {
+    /// Whether the table goes to standard output.
+    pub fn is_on_stdout(&self) -> bool {
+        self.csv.as_deref() == Some(Path::new(STDOUT))
+    }
 }
 
 fn finite(text: &str) -> Result<f64, String> {
