@@ -25,6 +25,8 @@ pub mod cli;
 mod error;
 pub mod presets;
 pub mod scene;
+#[cfg(feature = "sweep")]
+pub mod sweep;
 pub mod template;
 
 pub use analysis::profile::{Profile, profile, profile_at};
