@@ -23,7 +23,10 @@ mod analysis;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod error;
+mod planner;
 pub mod presets;
+#[cfg(feature = "plot")]
+pub mod figure;
 pub mod scene;
 #[cfg(feature = "sweep")]
 pub mod sweep;
@@ -35,6 +38,7 @@ pub use analysis::result::{
 };
 pub use analysis::run::{RunOptions, check, run, run_with};
 pub use error::Error;
+pub use planner::{Plan, PlanReport, Rung, plan, plan_on};
 pub use scene::{Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.

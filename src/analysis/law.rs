@@ -14,7 +14,7 @@ use crate::{Cost, Error};
 const FINE: f64 = 12.0;
 const COARSE: f64 = 6.0;
 /// Largest error of the law itself beyond the tenth pass, measured against the simulation of every pass.
-const LAW_ERROR: f64 = 0.01;
+pub const ERROR: f64 = 0.01;
 /// The law resolves the passes from this one on.
 const FIRST_GOOD: u64 = 10;
 /// The first passes are all listed, then each this much later than the one before.
@@ -90,7 +90,7 @@ pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
         force_profile: force_profile(&cable, &evolution),
         restraints: restraints(&cable, &evolution),
         error: ErrorEstimate {
-            relative: 0.5 * share + LAW_ERROR,
+            relative: 0.5 * share + ERROR,
             method:
                 "half the difference to cells half as fine, and 1 % for the law itself beyond the tenth pass"
                     .into(),
