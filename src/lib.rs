@@ -29,6 +29,8 @@ pub mod figure;
 mod planner;
 pub mod presets;
 pub mod scene;
+#[cfg(feature = "sweep")]
+pub mod sweep;
 pub mod template;
 
 pub use analysis::profile::{Profile, profile, profile_at};

@@ -81,6 +81,8 @@ pub enum Command {
         #[command(flatten)]
         scene: SceneArguments,
     },
+    /// Compute a scene with many values of some keys, on all cores
+    Sweep(Box<super::sweep::Arguments>),
     /// Write a commented scene to start from
     New(Box<super::new::Arguments>),
     /// List named values for vehicles, cables, friction and pavements, with their sources

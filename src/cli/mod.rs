@@ -6,6 +6,7 @@ mod input;
 mod new;
 mod presets;
 mod print;
+mod sweep;
 mod write;
 
 use std::io::{IsTerminal, Write};
@@ -22,6 +23,10 @@ use input::Input;
 enum Failure {
     #[error(transparent)]
     Analysis(#[from] crate::Error),
+    #[error(transparent)]
+    Sweep(#[from] crate::sweep::SweepError),
+    #[error("no point of the sweep has an answer")]
+    Nothing,
     #[error("{argument}: found {found}; allowed: {allowed}")]
     Usage {
         argument: String,
@@ -56,6 +61,7 @@ pub fn main() -> ExitCode {
             let _ = writeln!(std::io::stderr(), "error: {failure}");
             match failure {
                 Failure::Usage { .. } | Failure::Unwritable { .. } => ExitCode::from(2),
+                Failure::Sweep(error) if error.is_bad_input() => ExitCode::from(2),
                 Failure::Analysis(error) if error.is_bad_input() => ExitCode::from(2),
                 _ => ExitCode::from(1),
             }
@@ -133,6 +139,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
             input.judged(crate::check(&input.scene))?;
             print::checked(&input.scene)
         }
+        Command::Sweep(arguments) => sweep::execute(arguments),
         Command::Presets(arguments) => presets::execute(arguments),
         Command::New(arguments) => new::execute(arguments),
         Command::Completions { shell } => {
