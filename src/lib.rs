@@ -23,10 +23,10 @@ mod analysis;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod error;
-mod planner;
-pub mod presets;
 #[cfg(feature = "plot")]
 pub mod figure;
+mod planner;
+pub mod presets;
 pub mod scene;
 pub mod template;
 
