@@ -494,6 +494,179 @@ fn presets_are_listed_with_their_sources() {
     assert_fails(&["presets", "t-52"], 2, &["`t-52`", "allowed: t-25"]);
 }
 
+// sweep
+
+/// A sweep of 48 points of a few passes each.
+fn sweep_arguments(out: &Path) -> Vec<String> {
+    let vary = [
+        "friction.dynamic_coefficient=0.05:0.6:0.05",
+        "duct.depth=0.9m,1.2m,1.5m,2m",
+    ];
+    let mut arguments = vec![
+        "sweep".to_owned(),
+        UPPER.to_owned(),
+        "--set".to_owned(),
+        "traffic.passes=4".to_owned(),
+    ];
+    for vary in vary {
+        arguments.extend(["--vary".to_owned(), vary.to_owned()]);
+    }
+    arguments.extend(["--out".to_owned(), text(out).to_owned()]);
+    arguments
+}
+
+#[test]
+fn a_killed_sweep_loses_nothing_finished_and_ends_with_the_same_file() {
+    let folder = folder("sweep_killed");
+    for format in ["csv", "parquet"] {
+        let [calm, killed] = ["calm", "killed"].map(|name| folder.join(format!("{name}.{format}")));
+        let journal = folder.join(format!("killed.{format}.journal"));
+        for file in [&calm, &killed, &journal] {
+            let _ = fs::remove_file(file);
+        }
+        let arguments = sweep_arguments(&calm);
+        let said = printed(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+        assert!(said.contains("calm") && said.contains("48 points\n"), "{said}");
+
+        let arguments = sweep_arguments(&killed);
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        let lines = || fs::read_to_string(&journal).unwrap_or_default().lines().count();
+        // Twice, each time with some more points done.
+        let mut kept = 0;
+        for _ in 0..2 {
+            let mut child = command(&arguments)
+                .stdout(Stdio::null())
+                .spawn()
+                .expect("the command starts");
+            while lines() < kept + 6 {
+                assert!(
+                    child.try_wait().expect("a state").is_none(),
+                    "it ended before it was killed"
+                );
+                std::thread::sleep(std::time::Duration::from_millis(2));
+            }
+            child.kill().expect("SIGKILL");
+            child.wait().expect("it ends");
+            assert!(!killed.exists());
+            kept = fs::read_to_string(&journal)
+                .expect("the journal")
+                .matches('\n')
+                .count()
+                - 1;
+        }
+        assert!(kept >= 10, "{kept}");
+        let summary = json(&arguments);
+        assert_eq!(summary["points"], 48);
+        assert_eq!(summary["resumed"].as_u64(), Some(kept as u64));
+        assert_eq!(summary["failed"], 0);
+        assert!(fs::read(&killed).expect("a table") == fs::read(&calm).expect("a table"));
+        assert!(!journal.exists());
+    }
+}
+
+#[test]
+fn a_sweep_tells_its_failing_points_and_fails_where_all_do() {
+    let out = folder("sweep_failing").join("out.csv");
+    let sweep = |vary: &str| {
+        let arguments = [
+            "sweep",
+            UPPER,
+            "--set",
+            "traffic.passes=1",
+            "--out",
+            text(&out),
+            "--vary",
+            vary,
+        ];
+        output(&arguments)
+    };
+    let some = sweep("friction.dynamic_coefficient=0.2,-1,0.3");
+    let errors = String::from_utf8(some.stderr).expect("UTF-8");
+    assert_eq!(some.status.code(), Some(0), "{errors}");
+    assert!(
+        errors.contains("1 of 3 points failed") && errors.contains("found -1"),
+        "{errors}"
+    );
+    assert_eq!(fs::read_to_string(&out).expect("the table").lines().count(), 4);
+    let all = sweep("friction.dynamic_coefficient=-1,-2");
+    assert_eq!(all.status.code(), Some(1));
+    // A bare number that looks like a slip of units is told here too.
+    let slip = sweep("vehicles.0.load=20,30");
+    let errors = String::from_utf8(slip.stderr).expect("UTF-8");
+    assert!(errors.contains("20 without a unit is 20 N"), "{errors}");
+}
+
+#[test]
+fn bad_sweeps_have_status_2() {
+    let folder = folder("sweep_bad");
+    let out = folder.join("out.csv");
+    let _ = fs::remove_file(&out);
+    let nowhere = folder.join("no-such-folder").join("out.csv");
+    let depth = "duct.depth=1:2:1";
+    let text_file = folder.join("out.txt");
+    let cases: &[(&[&str], &str)] = &[
+        (&["--vary", depth], "--out"),
+        (&["--out", text(&out)], "--vary"),
+        (&["--out", text(&text_file), "--vary", depth], ".csv"),
+        (&["--out", text(&out), "--vary", "duct.depth"], "no `=`"),
+        (
+            &["--out", text(&out), "--vary", "duct.depth=1:2:0"],
+            "a STEP that leads",
+        ),
+        (
+            &["--out", text(&out), "--vary", "duct.deepth=1,2"],
+            "did you mean `depth`?",
+        ),
+        (
+            &["--out", text(&out), "--vary", "duct.depth=normal(1, 0.1)"],
+            "samples",
+        ),
+        (
+            &["--out", text(&out), "--vary", depth, "--samples", "5"],
+            "samples and no distribution",
+        ),
+        (
+            &["--out", text(&out), "--vary", depth, "--threads", "0"],
+            "--threads",
+        ),
+    ];
+    for (arguments, part) in cases {
+        assert_fails(&[&["sweep", UPPER], *arguments].concat(), 2, &[part]);
+    }
+    assert_fails(
+        &["sweep", UPPER, "--vary", depth, "--out", text(&nowhere)],
+        2,
+        &["no-such-folder"],
+    );
+    assert!(!out.exists());
+}
+
+#[test]
+fn a_sweep_prints_the_quantiles_of_drawn_keys() {
+    let out = folder("sweep_bands").join("out.csv");
+    let drawn = "friction.dynamic_coefficient=normal(0.25, 0.03)";
+    let mut arguments = vec![
+        "sweep",
+        UPPER,
+        "--set",
+        "traffic.passes=1",
+        "--out",
+        text(&out),
+        "--vary",
+        drawn,
+    ];
+    arguments.extend(["--samples", "20", "--seed", "4"]);
+    let said = printed(&arguments);
+    let document = json(&arguments);
+    let quantiles = &document["bands"][0]["downstream_force_n"];
+    assert_eq!(document["bands"][0]["samples"], 20);
+    for field in ["mean", "p05", "p50", "p95"] {
+        let value = format!("{:.1}", number(&quantiles[field]));
+        assert!(said.contains(&value), "{field} {value}: {said}");
+    }
+    assert!(number(&quantiles["p05"]) < number(&quantiles["p95"]));
+}
+
 // new, completions
 
 #[test]

@@ -1,10 +1,12 @@
 //! The command line: parsing, printing, and the exit status. Everything it does is a call of the library.
 
 mod arguments;
+mod calibrate;
 mod input;
 mod new;
 mod presets;
 mod print;
+mod sweep;
 mod write;
 
 use std::io::{IsTerminal, Write};
@@ -21,6 +23,10 @@ use input::Input;
 enum Failure {
     #[error(transparent)]
     Analysis(#[from] crate::Error),
+    #[error(transparent)]
+    Sweep(#[from] crate::sweep::SweepError),
+    #[error("no point of the sweep has an answer")]
+    Nothing,
     #[error("{argument}: found {found}; allowed: {allowed}")]
     Usage {
         argument: String,
@@ -55,6 +61,7 @@ pub fn main() -> ExitCode {
             let _ = writeln!(std::io::stderr(), "error: {failure}");
             match failure {
                 Failure::Usage { .. } | Failure::Unwritable { .. } => ExitCode::from(2),
+                Failure::Sweep(error) if error.is_bad_input() => ExitCode::from(2),
                 Failure::Analysis(error) if error.is_bad_input() => ExitCode::from(2),
                 _ => ExitCode::from(1),
             }
@@ -109,11 +116,30 @@ fn execute(command: &Command) -> Result<(), Failure> {
                 print::profile(&answer)
             }
         }
+        Command::Plan { scene, json } => {
+            let input = Input::read(scene)?;
+            let mut plan = input.judged(crate::plan(&input.scene).map(|plan| plan.report()))?;
+            for warning in &plan.warnings {
+                let _ = writeln!(std::io::stderr(), "warning: {warning}");
+            }
+            plan.warnings.splice(0..0, input.warnings);
+            if *json {
+                write::json(&plan)
+            } else {
+                print::plan(&plan)
+            }
+        }
+        Command::Calibrate {
+            scene,
+            calibrate,
+            output,
+        } => calibrate::execute(scene, calibrate, output),
         Command::Check { scene } => {
             let input = Input::read(scene)?;
             input.judged(crate::check(&input.scene))?;
             print::checked(&input.scene)
         }
+        Command::Sweep(arguments) => sweep::execute(arguments),
         Command::Presets(arguments) => presets::execute(arguments),
         Command::New(arguments) => new::execute(arguments),
         Command::Completions { shell } => {

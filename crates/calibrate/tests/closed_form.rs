@@ -3,8 +3,8 @@
 mod common;
 
 use calibrate::{
-    BootstrapOptions, Calibration, CalibrationError, Loss, Model, ModelError, Options, Parameter, Prior,
-    Profiles, Resampling, Scale, Warning,
+    BootstrapOptions, Calibration, CalibrationError, Loss, Model, ModelError, Observer, Options, Parameter,
+    Prior, Profiles, Resampling, Scale, Warning,
 };
 use common::{noisy, passes, saturation, saturation_parameters};
 
@@ -369,6 +369,39 @@ fn a_model_that_always_fails_is_an_error_with_its_reason() {
     assert!(error.to_string().contains("no equilibrium"));
 }
 
+/// What an error of the model does to the parameters, against a fit of the wrong model.
+#[test]
+fn shift_is_that_of_a_refit() {
+    let n = passes(40);
+    let model = saturation(&n);
+    let wrong = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        Ok(model(p)?
+            .iter()
+            .zip(&n)
+            .map(|(force, n)| force + 0.02 * n)
+            .collect())
+    };
+    let data = noisy(&model(&[550.0, 12.0]).unwrap(), 5.0, 8);
+    let fit = |model: &dyn Model| {
+        Calibration::new(model, saturation_parameters(), data.clone())
+            .unwrap()
+            .with_sigmas(vec![5.0; 40])
+            .unwrap()
+            .fit()
+            .unwrap()
+    };
+    let (right, misled) = (fit(&model), fit(&wrong));
+    let change: Vec<f64> = n.iter().map(|n| 0.02 * n).collect();
+    for (k, shift) in right.shift(&change).iter().enumerate() {
+        let moved = misled.values()[k] - right.values()[k];
+        let found = moved / right.estimates[k].standard_error.unwrap();
+        assert!(
+            (shift - found).abs() < 0.05 * found.abs().max(0.2),
+            "{shift} {found}"
+        );
+    }
+}
+
 /// The bootstrap's standard error of a mean is σ/√n, and does not change with the order of the threads.
 #[test]
 fn bootstrap_of_a_mean() {
@@ -430,7 +463,7 @@ fn limits_are_kept_and_observers_hear() {
             .unwrap()
     };
     let fit = calibration(Options {
-        observer: Some(Arc::new(move |progress| {
+        observer: Some(Observer::new(move |progress| {
             assert!(progress.parameters.len() == 2 && progress.deviance.is_finite());
             listener.fetch_add(1, Ordering::Relaxed);
         })),
