@@ -38,8 +38,11 @@ struct Method {
     /// What is counted.
     unit: &'static str,
     knobs: &'static [f64],
-    run: fn(&SoilProfile, f64) -> Result<(DuctMotion, usize), GroundError>,
+    run: fn(&SoilProfile, f64) -> Answer,
 }
+
+/// A motion and what it took, or why not.
+type Answer = Result<(DuctMotion, usize), GroundError>;
 
 const CLOSED: &[f64] = &[1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const TRANSFORM: &[f64] = &[0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
@@ -104,11 +107,7 @@ const METHODS: [Method; 5] = [
     },
 ];
 
-fn elements(
-    profile: &SoilProfile,
-    accuracy: f64,
-    element: Quadrilateral,
-) -> Result<(DuctMotion, usize), GroundError> {
+fn elements(profile: &SoilProfile, accuracy: f64, element: Quadrilateral) -> Answer {
     let options = FemOptions::new(accuracy)?.with_element(element);
     let ground = LayeredFem::with_options(profile, options)?;
     let motion = motion(&ground, accuracy)?;
