@@ -51,10 +51,7 @@ pub fn velocity() -> Result<Velocity, Failure> {
     let peak = |sign: f64| v.iter().fold(0.0_f64, |peak, v| peak.max(sign * v));
     let middle = v.len() / 2;
     let backward = v[middle..].iter().position(|v| *v >= 0.0).unwrap_or(0);
-    let forward = v[middle + backward..]
-        .iter()
-        .position(|v| *v < 0.01 * peak(1.0) && *v < peak(1.0));
-    // The first places after the zero are slow as well: look behind the peak.
+    // From the zero beside the vehicle over the forward peak to where next to nothing is left.
     let top = v[middle..]
         .iter()
         .enumerate()
@@ -63,7 +60,6 @@ pub fn velocity() -> Result<Velocity, Failure> {
     let slow = v[middle + top..]
         .iter()
         .position(|v| *v < 0.01 * peak(1.0))
-        .or(forward)
         .unwrap_or(0);
     Ok(Velocity {
         peaks: (peak(1.0), peak(-1.0)),
@@ -85,7 +81,7 @@ pub fn figure(velocity: &Velocity) -> Chart {
         .map(|(x, v)| (*x, v * 1e3))
         .filter(|(x, _)| x.abs() <= 10.0 + 1e-9)
         .collect();
-    let part = |sign: f64| shown.iter().map(move |(x, v)| (*x, sign * (sign * v).max(0.0)));
+    let part = |sign: f64| shown.iter().copied().filter(move |(_, v)| sign * v >= 0.0);
     Chart::new(
         "Figure 6: velocity of the duct under a vehicle at 40 km/h",
         Axis::linear("place from the vehicle, m"),
@@ -93,14 +89,14 @@ pub fn figure(velocity: &Velocity) -> Chart {
     )
     .with(
         Series::area(
-            format!("forward, area {:.1} mm²/ms", velocity.areas.0 * 1e3),
+            format!("forward, area {:.3} mm m/s", velocity.areas.0 * 1e3),
             part(1.0),
         )
         .solid(),
     )
     .with(
         Series::area(
-            format!("backward, area {:.1} mm²/ms", velocity.areas.1 * 1e3),
+            format!("backward, area {:.3} mm m/s", velocity.areas.1 * 1e3),
             part(-1.0),
         )
         .solid(),

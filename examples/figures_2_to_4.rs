@@ -25,7 +25,7 @@ const ROCK: &str = "ground.rigid_base_depth=12 m";
 pub struct Case {
     /// What ground, by what model.
     pub name: &'static str,
-    /// Along 10 m to either side of the vehicle.
+    /// Along 20 m to either side of the vehicle.
     pub profile: Profile,
     /// With the vehicle at A, B, C, D, E.
     pub at_places: Profile,
@@ -73,7 +73,7 @@ pub fn cases() -> Result<Vec<Case>, Failure> {
         ),
         ("800 MPa throughout, boussinesq", &["ground.model=boussinesq"]),
     ];
-    let along: Vec<f64> = even(-10.0, 10.0, 800).collect();
+    let along: Vec<f64> = even(-20.0, 20.0, 1600).collect();
     // Where the point of the duct lies from the vehicle.
     let places: Vec<f64> = PLACES.iter().map(|(_, vehicle)| -vehicle).collect();
     grounds
@@ -92,38 +92,44 @@ pub fn cases() -> Result<Vec<Case>, Failure> {
 
 /// The path of the point, and both components along the duct.
 pub fn figure(cases: &[Case]) -> Panels {
-    let micro = |values: &[f64]| values.iter().map(|value| value * 1e6).collect::<Vec<_>>();
+    let micro = |values: &[f64], sign: f64| values.iter().map(|value| sign * 1e6 * value).collect::<Vec<_>>();
     let mut path = Chart::new(
         "Figure 2: path of the point below C",
         Axis::linear("along the duct, µm"),
-        Axis::linear("down, µm"),
+        Axis::linear("vertical, µm").range(-110.0, 5.0),
     );
-    let down = Axis::linear("down, µm");
-    let mut vertical = Chart::new("Figure 3: down", Axis::linear("place from the vehicle, m"), down)
-        .refer(Reference::horizontal(PAPER.1, "paper: at most 90 µm"));
+    let place = || Axis::linear("place from the vehicle, m").range(-10.0, 10.0);
+    let mut vertical = Chart::new(
+        "Figure 3: vertical",
+        place(),
+        Axis::linear("vertical, µm").range(-110.0, 5.0),
+    )
+    .refer(Reference::horizontal(-PAPER.1, "paper: down to 90 µm"));
     let mut longitudinal = Chart::new(
         "Figure 4: along the duct",
-        Axis::linear("place from the vehicle, m"),
+        place(),
         Axis::linear("along the duct, µm"),
     )
-    .refer(Reference::horizontal(PAPER.0, "paper: at most 16 µm"));
+    .refer(Reference::horizontal(PAPER.0, "paper: up to 16 µm"));
     for (look, case) in cases.iter().enumerate() {
-        let (x, l, v) = (
-            &case.profile.positions_m,
-            micro(&case.profile.longitudinal_m),
-            micro(&case.profile.vertical_m),
+        let x = &case.profile.positions_m;
+        let (along, up) = (
+            micro(&case.profile.longitudinal_m, 1.0),
+            micro(&case.profile.vertical_m, -1.0),
         );
-        let pairs = |a: &[f64], b: &[f64]| a.iter().copied().zip(b.iter().copied()).collect::<Vec<_>>();
-        vertical = vertical.with(Series::line(case.name, pairs(x, &v)).look(look));
-        longitudinal = longitudinal.with(Series::line(case.name, pairs(x, &l)).look(look));
-        path = path.with(Series::line(case.name, pairs(&l, &v)).look(look));
+        vertical = vertical.with(Series::line(case.name, pairs(x, &up)).look(look));
+        longitudinal = longitudinal.with(Series::line(case.name, pairs(x, &along)).look(look));
+        path = path.with(Series::line(case.name, pairs(&along, &up)).look(look));
     }
     // The letters at the places of the ground that comes nearest to the paper's.
     let shown = &cases[1].at_places;
-    let at = pairs_of(&micro(&shown.longitudinal_m), &micro(&shown.vertical_m));
+    let at = pairs(
+        &micro(&shown.longitudinal_m, 1.0),
+        &micro(&shown.vertical_m, -1.0),
+    );
     path = path.with(Series::points("vehicle at A to E, on rock", at.clone()).look(6));
     for ((name, _), (x, y)) in PLACES.iter().zip(at) {
-        path = path.note(Note::new(x, y - 6.0, *name));
+        path = path.note(Note::new(x, y + 7.0, *name));
     }
     Panels::new("Motion of the duct under 20 tf, 1.2 m deep")
         .panel_size(800.0, 430.0)
@@ -132,7 +138,7 @@ pub fn figure(cases: &[Case]) -> Panels {
         .with(longitudinal)
 }
 
-fn pairs_of(a: &[f64], b: &[f64]) -> Vec<(f64, f64)> {
+fn pairs(a: &[f64], b: &[f64]) -> Vec<(f64, f64)> {
     a.iter().copied().zip(b.iter().copied()).collect()
 }
 

@@ -34,7 +34,7 @@ use model::{CableModel, CellEnd, SeriesModel};
 /// Shift of a parameter by the mesh, in standard errors, above which a finer one is taken.
 const MESH_SHIFT: f64 = 0.8;
 /// Distance to the minimum, in standard errors, at which a fit is good enough to look at its mesh, and in the end.
-const PILOT_TOLERANCE: f64 = 0.1;
+const PILOT_TOLERANCE: f64 = 0.3;
 const TOLERANCE: f64 = 0.03;
 /// Rungs of the ladder of meshes: 6, 12 and 24 nodes per depth, corrected by 48.
 const LAST_RUNG: u32 = 2;
@@ -193,9 +193,6 @@ impl Ladder<'_> {
         let calibration = self.calibration(&model, Some(rung.values.clone()), Profiles::All, evaluations)?;
         let fit = calibration.fit()?;
         evaluations += fit.evaluations;
-        if std::env::var("CALDBG").is_ok() {
-            eprintln!("final: {} runs shift {:?}", fit.evaluations, rung.shift);
-        }
         let bootstrap = match &self.options.bootstrap {
             Some(options) => Some(summary(&calibration.bootstrap(&fit, options)?, options)),
             None => None,
@@ -213,12 +210,6 @@ impl Ladder<'_> {
                 .calibration(&model, start, Profiles::None, *evaluations)?
                 .fit()?;
             let values = fit.values();
-            if std::env::var("CALDBG").is_ok() {
-                eprintln!(
-                    "rung {rung}: {} runs {:?} {:?} noise {}",
-                    fit.evaluations, values, fit.warnings, fit.noise
-                );
-            }
             let finer = self
                 .model(rung + 1, None)
                 .predict(&values)

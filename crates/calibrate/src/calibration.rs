@@ -13,7 +13,7 @@ use crate::uncertainty::{Covariance, parameters_from_data, quantile};
 use crate::{CalibrationError, Loss, Model, Options, Parameter, Profiles};
 
 /// Scanned points: so many, and so many more a parameter.
-const SCAN: usize = 4;
+const SCAN: usize = 8;
 /// Probability of residuals as large as these under the given sigmas, below which the sigmas are not believed.
 const MISFIT: f64 = 0.001;
 /// Correlation from which two parameters count as hardly told apart.

@@ -22,7 +22,7 @@ pub struct Options {
     pub loss: Loss,
     /// Values to try first.
     pub start: Option<Vec<f64>>,
-    /// Points all over the range that are tried beside the start; `None` takes four a parameter and four more.
+    /// Points all over the range that are tried beside the start; `None` takes eight a parameter and eight more.
     pub scan: Option<usize>,
     /// Descend from a second point as well, to see whether it leads lower.
     pub restart: bool,

@@ -7,6 +7,7 @@ use argmin::core::observers::{Observe, ObserverMode};
 use argmin::core::{Error, Executor, KV, State, TerminationReason, TerminationStatus};
 use nalgebra::{DMatrix, DVector};
 
+use crate::compass::settle;
 use crate::deviance::Deviance;
 use crate::evaluator::{Evaluator, feasible};
 use crate::levenberg_marquardt::{FitProblem, FitState, LevenbergMarquardt};
@@ -18,6 +19,8 @@ const MAX_ITERATIONS: u64 = 200;
 /// Next step in standard errors at which a descent may stop where no step lowers the deviance: noise of the model hides any
 /// further descent.
 const NOISY_TOLERANCE: f64 = 0.5;
+/// The same for a minimum found by trial.
+const SETTLED: f64 = 0.1;
 /// The same for a descent that is only compared.
 const ROUGH_TOLERANCE: f64 = 0.1;
 /// Rounds of fit and scale of the noise, and the changes of spread and normalisation at which they end. The latter jumps as a residual
@@ -31,7 +34,8 @@ const FREE_ROUNDS: usize = 4;
 pub(crate) const BETTER: f64 = 0.05;
 /// Distance from an optimum, in free variables, of a start worth a second descent.
 const ELSEWHERE: f64 = 0.7;
-/// Descents from elsewhere.
+/// Descents from elsewhere, and their iterations.
+const RESTART_ITERATIONS: u64 = 12;
 const MAX_RESTARTS: usize = 3;
 
 /// What an observer is told after every iteration.
@@ -141,12 +145,19 @@ impl Search<'_> {
     ) -> Result<Optimum, CalibrationError> {
         let optimum = self.attempt(solver, fixed, deviance, start, MAX_ITERATIONS)?;
         if optimum.converged || optimum.offset < NOISY_TOLERANCE {
-            Ok(optimum)
-        } else {
-            Err(CalibrationError::NotConverged {
-                iterations: optimum.iterations,
-                offset: optimum.offset,
-            })
+            return Ok(optimum);
+        }
+        let (iterations, offset) = (optimum.iterations, optimum.offset);
+        match settle(self.evaluator, &deviance, optimum.point, SETTLED)? {
+            Some((point, offset)) => Ok(Optimum {
+                jacobian: optimum.jacobian,
+                deviance,
+                iterations,
+                offset,
+                converged: true,
+                point,
+            }),
+            None => Err(CalibrationError::NotConverged { iterations, offset }),
         }
     }
 
@@ -369,7 +380,13 @@ impl Search<'_> {
         };
         let fixed = vec![false; self.count()];
         let solver = LevenbergMarquardt::new(optimum.deviance, fixed.clone(), ROUGH_TOLERANCE).unverified();
-        match self.descend(solver, &fixed, optimum.deviance, start.clone()) {
+        match self.attempt(
+            solver,
+            &fixed,
+            optimum.deviance,
+            start.clone(),
+            RESTART_ITERATIONS,
+        ) {
             Ok(other) if other.value() < optimum.value() - BETTER => self.refine(other.point, None).map(Some),
             Err(error @ CalibrationError::EvaluationLimit { .. }) => Err(error),
             Ok(_) | Err(_) => Ok(None),
