@@ -18,9 +18,7 @@ use ground_map::{Grid, Outcome};
 
 /// Every cell of the crate is right, or refused with a typed error; at most `refused` of them are.
 fn never_wrong(grid: &Grid, refused: usize) {
-    for outcome in [Outcome::Off, Outcome::Wrong, Outcome::Failed] {
-        assert_eq!(grid.count(0, outcome), 0, "{outcome:?}");
-    }
+    assert_eq!(grid.never_wrong(), Ok(()));
     assert!(
         grid.count(0, Outcome::Refused) <= refused,
         "{} refused",
@@ -43,8 +41,8 @@ fn burmister_is_right_everywhere_and_transfer_matrices_are_not() {
 #[ignore = "45 grounds by finite elements"]
 fn elements_are_never_wrong_as_poissons_ratio_goes_to_a_half() {
     let grid = fem::incompressible(5).unwrap();
-    // Rounding is refused where a stiff layer is nearly incompressible: contrast of 1e4 from ν = 0.49.
-    never_wrong(&grid, 6);
+    // Rounding is refused where a very stiff layer is nearly incompressible: contrast of 1e4 from ν = 0.4999.
+    never_wrong(&grid, 4);
     assert!(grid.count(1, Outcome::Wrong) > 20, "the locking element locks");
 }
 
@@ -53,7 +51,7 @@ fn elements_are_never_wrong_as_poissons_ratio_goes_to_a_half() {
 #[ignore = "25 grounds by finite elements"]
 fn elements_are_never_wrong_over_thickness_and_contrast() {
     let grid = fem::layered(5, 5).unwrap();
-    never_wrong(&grid, 1);
+    never_wrong(&grid, 0);
     assert!(
         grid.count(1, Outcome::Right) > 5,
         "{}",
@@ -65,5 +63,5 @@ fn elements_are_never_wrong_over_thickness_and_contrast() {
 #[test]
 fn elements_are_never_wrong_on_the_coarsest_grid() {
     let grid = fem::layered(2, 2).unwrap();
-    never_wrong(&grid, 1);
+    never_wrong(&grid, 0);
 }

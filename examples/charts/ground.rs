@@ -38,8 +38,11 @@ struct Method {
     /// What is counted.
     unit: &'static str,
     knobs: &'static [f64],
-    run: fn(&SoilProfile, f64) -> Result<(DuctMotion, usize), GroundError>,
+    run: fn(&SoilProfile, f64) -> Answer,
 }
+
+/// A motion and what it took, or why not.
+type Answer = Result<(DuctMotion, usize), GroundError>;
 
 const CLOSED: &[f64] = &[1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const TRANSFORM: &[f64] = &[0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
@@ -104,11 +107,7 @@ const METHODS: [Method; 5] = [
     },
 ];
 
-fn elements(
-    profile: &SoilProfile,
-    accuracy: f64,
-    element: Quadrilateral,
-) -> Result<(DuctMotion, usize), GroundError> {
+fn elements(profile: &SoilProfile, accuracy: f64, element: Quadrilateral) -> Answer {
     let options = FemOptions::new(accuracy)?.with_element(element);
     let ground = LayeredFem::with_options(profile, options)?;
     let motion = motion(&ground, accuracy)?;
@@ -294,13 +293,13 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     }
     std::fs::write(out.join("ground.csv"), table)?;
 
-    let figure = |title: &str, label: &str, cost: &dyn Fn(&Point) -> f64, unit: bool| {
+    let figure = |title: &str, label: &str, range: (f64, f64), cost: &dyn Fn(&Point) -> f64, unit: bool| {
         let mut panels = Panels::new(title).columns(2);
         for (ground, (name, _)) in grounds.iter().enumerate() {
             let mut chart = Chart::new(
                 *name,
-                Axis::logarithmic(label),
-                Axis::logarithmic("error of D_l, share of its peak"),
+                Axis::logarithmic(label).range(range.0, range.1),
+                Axis::logarithmic("error of D_l, share of its peak").range(1e-13, 10.0),
             )
             .refer(Reference::horizontal(1e-2, "1 %"))
             .refer(Reference::horizontal(1e-3, "0.1 %"));
@@ -331,6 +330,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         figure(
             "Motion of the duct: error against time, by model of the ground",
             "time for one profile, s",
+            (1e-5, 20.0),
             &|point| point.seconds,
             false,
         )?,
@@ -340,6 +340,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         figure(
             "Motion of the duct: error against work, each model in its own unit",
             "work for one profile",
+            (0.5, 1e6),
             &|point| point.count.max(1) as f64,
             true,
         )?,

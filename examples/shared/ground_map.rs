@@ -179,6 +179,19 @@ impl Grid {
         self.of(model).filter(|cell| cell.outcome == outcome).count()
     }
 
+    /// An error if the crate, model 0, gave a wrong answer anywhere: with its guards on it may be right or refuse.
+    pub fn never_wrong(&self) -> Result<(), String> {
+        let wrong = [Outcome::Off, Outcome::Wrong, Outcome::Failed].map(|outcome| self.count(0, outcome));
+        if wrong == [0; 3] {
+            Ok(())
+        } else {
+            Err(format!(
+                "{}: {wrong:?} cells are off, wrong or failed",
+                self.models[0]
+            ))
+        }
+    }
+
     /// The table, one row a cell and model.
     ///
     /// # Errors

@@ -110,6 +110,7 @@ fn transfer(upper: Soil, thickness: f64, base: Soil, m: f64) -> (f64, f64) {
 
 pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     let grid = map(25, 26)?;
+    grid.never_wrong()?;
     std::fs::write(
         out.join("stability-burmister.csv"),
         grid.csv("modulus_of_layer_over_base", "thickness_m", "1e-6")?,

@@ -146,6 +146,8 @@ fn graded(breaks: &[f64], scale: f64) -> Vec<f64> {
 pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     let incompressible = incompressible(17)?;
     let layered = layered(17, 13)?;
+    incompressible.never_wrong()?;
+    layered.never_wrong()?;
     std::fs::write(
         out.join("stability-fem-ratio.csv"),
         incompressible.csv("modulus_of_layer_over_base", "poisson_ratio", "0.5 %")?,

@@ -11,7 +11,7 @@
 //! measured by comes from the exact transform by the same rule at a few radii out to four depths; a peak that lies between these
 //! is a little larger than what is found, which errs on the safe side.
 //!
-//! On random grounds the bound is 1.6 times the true error in the middle and 2.5 times for nineteen in twenty. It costs a few ten
+//! On random grounds the bound is about 1.7 times the true error in the middle and within 2.6 times for nineteen in twenty. It costs a few ten
 //! microseconds, a small part of an exact profile.
 
 use boussinesq::Odemark;
