@@ -5,6 +5,7 @@
 
 mod against_full_newton;
 mod closed_forms;
+mod end_clamps;
 mod friction_symmetry;
 mod full_newton;
 mod reference;
