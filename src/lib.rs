@@ -22,11 +22,12 @@
 mod analysis;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod design;
 mod error;
-mod planner;
-pub mod presets;
 #[cfg(feature = "plot")]
 pub mod figure;
+mod planner;
+pub mod presets;
 pub mod scene;
 #[cfg(feature = "sweep")]
 pub mod sweep;
