@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use cable_dem::CableError;
+use calibrate::{CalibrationError, DataError};
 use ground_field::GroundError;
 use pass_law::LawError;
 
@@ -25,6 +26,12 @@ pub enum Error {
     /// The pass law could not be computed.
     #[error(transparent)]
     Law(#[from] LawError),
+    /// The readings of a load cell are wrong.
+    #[error(transparent)]
+    Data(#[from] DataError),
+    /// The parameters could not be fitted.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
     /// The finest affordable mesh leaves too large an error.
     #[error(
         "the estimated error of {:.1} % is too far above the tolerance of {:.2} %: the forces are small beside what passes through \
@@ -77,15 +84,15 @@ impl Error {
 
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
-        if let Self::Located { source, .. } = self {
-            return source.is_bad_input();
-        }
-        matches!(
-            self,
+        match self {
+            Self::Located { source, .. } => source.is_bad_input(),
+            Self::Calibration(error) => error.is_bad_input(),
             Self::Scene(_)
-                | Self::Unfit { .. }
-                | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
-                | Self::Cable(CableError::InvalidParameter { .. } | CableError::UnsupportedLaw { .. })
-        )
+            | Self::Data(_)
+            | Self::Unfit { .. }
+            | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
+            | Self::Cable(CableError::InvalidParameter { .. } | CableError::UnsupportedLaw { .. }) => true,
+            _ => false,
+        }
     }
 }

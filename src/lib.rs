@@ -17,9 +17,10 @@
 //! ```
 //!
 //! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `burmister` (layers by
-//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable).
+//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable), `pass-law` (many passes), `calibrate` (parameters from measurements).
 
 mod analysis;
+pub mod calibration;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod design;
@@ -38,6 +39,7 @@ pub use analysis::result::{
     Cost, DuctMotionSummary, ErrorEstimate, PassRecord, PlanSummary, Run, Saturation,
 };
 pub use analysis::run::{RunOptions, check, run, run_with};
+pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
 pub use error::Error;
 pub use planner::{Plan, PlanReport, Rung, plan, plan_on};
 pub use scene::{Scene, SceneError, SceneFile};

@@ -12,8 +12,8 @@ use cable_dem::PassOutcome;
 use super::passes::Passes;
 
 /// Shares of the last difference between two meshes and of the one before that count as error.
-const LAST: f64 = 0.9;
-const BEFORE: f64 = 0.33;
+const LAST: f64 = 0.8;
+const BEFORE: f64 = 0.27;
 /// With two meshes only.
 const ALONE: f64 = 1.3;
 /// Error that is counted at least on meshes of 3, 6, 12, … nodes a depth: a little less than what is typical.

@@ -20,6 +20,8 @@ const REFINEMENT_COST: usize = 4;
 const DOUBTFUL: f64 = 0.1;
 /// Share of the tolerance that what the ground model leaves out may take of the force.
 const GROUND_SHARE: f64 = 0.5;
+/// The first passes tell what the ground model leaves out: this part of all, and at least so many.
+const FIRST_PASSES: (u64, u64) = (8, 10);
 
 /// A scene's passes, to be computed on whatever level.
 pub struct Ladder<'a> {
@@ -106,31 +108,32 @@ impl Ladder<'_> {
         })
     }
 
-    /// What the ground model leaves out, as it comes through in the force on the coarsest mesh. Where it is too much, the
-    /// exact motions take over.
+    /// What the ground model leaves out, as it comes through in the force after the first passes on the coarsest mesh. Where
+    /// it is too much, the exact motions take over.
     fn ground_error(&mut self, statistics: &mut Statistics, reasons: &mut Vec<String>) -> Result<f64, Error> {
-        let Some(level) = (0..=self.levels.first()).find(|&level| self.levels.mesh(level).is_ok()) else {
+        let level = (0..self.levels.first()).find(|&level| self.levels.mesh(level).is_ok());
+        let (Some(exact), Some(level)) = (self.exact, level) else {
             return Ok(self.motion_error);
         };
-        let Some(exact) = self.exact else {
-            return Ok(self.motion_error);
+        let mut scene = self.scene.clone();
+        let (part, least) = FIRST_PASSES;
+        scene.traffic.passes = scene.traffic.passes.min(least.max(scene.traffic.passes / part));
+        let mut first_passes = |motions| {
+            let passes = simulate(&scene, self.method, motions, self.levels.mesh(level)?, || {})?;
+            *statistics += passes.statistics;
+            Ok::<_, Error>(passes)
         };
-        let chosen = self.simulate(level, false)?;
-        let simplified = std::mem::replace(&mut self.motions, exact);
-        let reference = self.simulate(level, false)?;
-        *statistics += chosen.statistics;
-        *statistics += reference.statistics;
-        let error = difference(&reference, &chosen);
-        if error > GROUND_SHARE * self.scene.solver.tolerance {
-            reasons.push(format!(
-                "what the ground model leaves out changes the force by {:.2} %: the exact motion was taken after all",
-                100.0 * error
-            ));
-            self.exact = None;
-            return Ok(0.0);
+        let error = difference(&first_passes(exact)?, &first_passes(self.motions)?);
+        if error <= GROUND_SHARE * self.scene.solver.tolerance {
+            return Ok(error);
         }
-        self.motions = simplified;
-        Ok(error)
+        reasons.push(format!(
+            "what the ground model leaves out changes the force by {:.2} %: the exact motion was taken after all",
+            100.0 * error
+        ));
+        self.motions = exact;
+        self.exact = None;
+        Ok(0.0)
     }
 
     /// The passes on all levels below `level` that the duct is long enough for.

@@ -97,6 +97,7 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         PassMethod::Law => {
             // Its time does not depend on the motion: nothing is gained by leaving anything out.
             let law = law::run(scene, exact)?;
+            summary.ground = plan.ground.exact_name.into();
             (summary.node_spacing_m, summary.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
             warnings.extend(law.warnings);
             return Ok(Run {

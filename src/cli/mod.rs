@@ -1,6 +1,7 @@
 //! The command line: parsing, printing, and the exit status. Everything it does is a call of the library.
 
 mod arguments;
+mod calibrate;
 mod design;
 mod input;
 mod new;
@@ -122,6 +123,24 @@ fn execute(command: &Command) -> Result<(), Failure> {
                 print::profile(&answer)
             }
         }
+        Command::Plan { scene, json } => {
+            let input = Input::read(scene)?;
+            let mut plan = input.judged(crate::plan(&input.scene).map(|plan| plan.report()))?;
+            for warning in &plan.warnings {
+                let _ = writeln!(std::io::stderr(), "warning: {warning}");
+            }
+            plan.warnings.splice(0..0, input.warnings);
+            if *json {
+                write::json(&plan)
+            } else {
+                print::plan(&plan)
+            }
+        }
+        Command::Calibrate {
+            scene,
+            calibrate,
+            output,
+        } => calibrate::execute(scene, calibrate, output),
         Command::Check { scene } => {
             let input = Input::read(scene)?;
             input.judged(crate::check(&input.scene))?;

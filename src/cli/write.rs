@@ -83,7 +83,8 @@ pub fn profile(file: &Path, profile: &Profile) -> Result<(), Failure> {
     )
 }
 
-fn rows<T: Serialize>(file: &Path, rows: impl Iterator<Item = T>) -> Result<(), Failure> {
+/// One row a record, with the record's fields as columns.
+pub fn rows<T: Serialize>(file: &Path, rows: impl Iterator<Item = T>) -> Result<(), Failure> {
     let write = || -> Result<(), csv::Error> {
         let out: Box<dyn Write> = if file == Path::new(STDOUT) {
             Box::new(std::io::stdout().lock())

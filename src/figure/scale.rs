@@ -29,8 +29,6 @@ pub(super) struct Scale {
     minor: Vec<f64>,
 }
 
-/// Log axes with this many decades or more label decades only.
-const DECADES_ALONE: f64 = 2.0;
 /// Tolerance for ticks on the ends of a range, as a share of the step between ticks.
 const END: f64 = 1e-6;
 
@@ -195,7 +193,7 @@ fn ten_to(power: f64) -> f64 {
     format!("1e{power}").parse().unwrap_or(f64::NAN)
 }
 
-/// Labelled and bare ticks of a logarithmic axis: decades, or 1, 2 and 5 where there are few.
+/// Labelled and bare ticks of a logarithmic axis: 1, 2 and 5 times powers of ten where that makes few, or decades.
 fn logarithmic_ticks(range: (f64, f64), count: usize) -> (Vec<f64>, Vec<f64>) {
     let (from, to) = range;
     let decades = (to / from).log10();
@@ -213,20 +211,20 @@ fn logarithmic_ticks(range: (f64, f64), count: usize) -> (Vec<f64>, Vec<f64>) {
             .filter(inside)
             .collect()
     };
-    if decades >= DECADES_ALONE {
-        let every = (decades / count.max(1) as f64).ceil().max(1.0) as i32;
-        let minor = if every == 1 {
-            at(&[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0], 1)
-        } else {
-            at(&[1.0], 1)
-        };
-        return (at(&[1.0], every), minor);
+    let few = at(&[1.0, 2.0, 5.0], 1);
+    if (2..=count + 1).contains(&few.len()) {
+        return (few, at(&[3.0, 4.0, 6.0, 7.0, 8.0, 9.0], 1));
     }
-    let ticks = at(&[1.0, 2.0, 5.0], 1);
-    if ticks.len() >= 2 {
-        return (ticks, at(&[3.0, 4.0, 6.0, 7.0, 8.0, 9.0], 1));
+    if few.len() < 2 {
+        return (linear_ticks(range, count), Vec::new());
     }
-    (linear_ticks(range, count), Vec::new())
+    let every = (decades / count.max(1) as f64).ceil().max(1.0) as i32;
+    let minor = if every == 1 {
+        at(&[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0], 1)
+    } else {
+        at(&[1.0], 1)
+    };
+    (at(&[1.0], every), minor)
 }
 
 fn label(values: &[f64], logarithmic: bool, labels: &TickLabels) -> Vec<String> {

@@ -264,8 +264,10 @@ impl Ladder<'_> {
 
     fn add_closed_forms(&mut self, profile: &SoilProfile, exact: &[DuctMotion]) -> Result<(), Error> {
         let depth = self.scene.duct.depth;
+        // Points cost less than discs, and tell the soils apart as well.
+        let soil = best_soil(self.points.as_ref().unwrap_or(self.scene), profile, exact)?;
         self.add("boussinesq", HALF_SPACE_SECONDS, |scene| {
-            best_half_space(scene, profile, exact, depth)
+            fitted(scene, soil, exact, depth)
         })?;
         let field = Odemark::new(profile)?;
         self.add("odemark", ODEMARK_SECONDS, |scene| {
@@ -401,38 +403,43 @@ fn compared(motion: &DuctMotion, depth: f64) -> impl Iterator<Item = f64> {
     (0..count).map(move |k| half * (2.0 * k as f64 / (count - 1) as f64 - 1.0))
 }
 
-/// Motions over the half-space that comes nearest: Poisson's ratio of one of the soils, and the modulus that fits best.
-fn best_half_space(
-    scene: &Scene,
-    profile: &SoilProfile,
-    exact: &[DuctMotion],
-    depth: f64,
-) -> Result<Vec<DuctMotion>, Error> {
-    let mut soils: Vec<Soil> = profile.layers().iter().filter_map(SoilLayer::soil).collect();
-    if let Base::HalfSpace(soil) = profile.base() {
-        soils.push(soil);
-    }
-    let mut best: Option<(f64, Vec<DuctMotion>)> = None;
-    for soil in soils {
-        let fitted: Vec<DuctMotion> = motions(scene, &HalfSpace::new(soil), CLOSED_FORM_ACCURACY)?
-            .into_iter()
-            .zip(exact)
-            .map(|(motion, exact)| {
-                // A scaled scene fits each vehicle's peak already, or the first one's vertical peak.
-                let factor = if scene.ground.scaling.is_some() {
-                    1.0
-                } else {
-                    fit(&motion, exact, depth)
-                };
-                motion.scaled(factor)
-            })
-            .collect();
-        let error = difference(&fitted, exact, depth);
-        if best.as_ref().is_none_or(|(least, _)| error < *least) {
-            best = Some((error, fitted));
+/// The soil of `profile` whose half-space comes nearest to the exact motions.
+fn best_soil(scene: &Scene, profile: &SoilProfile, exact: &[DuctMotion]) -> Result<Soil, Error> {
+    let layers = profile.layers().iter().filter_map(SoilLayer::soil);
+    let base = match profile.base() {
+        Base::HalfSpace(soil) => Some(soil),
+        Base::Rigid => None,
+    };
+    let mut best: Option<(f64, Soil)> = None;
+    for soil in layers.chain(base) {
+        let depth = scene.duct.depth;
+        let error = difference(&fitted(scene, soil, exact, depth)?, exact, depth);
+        if best.is_none_or(|(least, _)| error < least) {
+            best = Some((error, soil));
         }
     }
-    Ok(best.map_or_else(Vec::new, |(_, motions)| motions))
+    best.map(|(_, soil)| soil).ok_or(Error::Unfit {
+        key: "ground.layers",
+        found: "no uniform layer",
+        reason: "a half-space needs the Poisson's ratio of one".into(),
+    })
+}
+
+/// Motions over a half-space with the Poisson's ratio of `soil` and the modulus that comes nearest to `exact`.
+fn fitted(scene: &Scene, soil: Soil, exact: &[DuctMotion], depth: f64) -> Result<Vec<DuctMotion>, Error> {
+    let motions = motions(scene, &HalfSpace::new(soil), CLOSED_FORM_ACCURACY)?;
+    if scene.ground.scaling.is_some() {
+        // Fitted already, to each vehicle's peak or to the first one's vertical peak.
+        return Ok(motions);
+    }
+    Ok(motions
+        .into_iter()
+        .zip(exact)
+        .map(|(motion, exact)| {
+            let factor = fit(&motion, exact, depth);
+            motion.scaled(factor)
+        })
+        .collect())
 }
 
 /// The factor by which `motion` comes nearest to `exact`, in the least squares of D_l.

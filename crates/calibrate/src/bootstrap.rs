@@ -173,6 +173,7 @@ impl Calibration<'_> {
             evaluator: &evaluator,
             observer: None,
             known_noise: self.sigmas().is_some() && !fit.noise_estimated,
+            tolerance: options.tolerance,
             loss: options.loss,
             least_noise: self.least_noise(&units),
         };

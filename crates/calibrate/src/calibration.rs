@@ -13,7 +13,7 @@ use crate::uncertainty::{Covariance, parameters_from_data, quantile};
 use crate::{CalibrationError, Loss, Model, Options, Parameter, Profiles};
 
 /// Scanned points: so many, and so many more a parameter.
-const SCAN: usize = 4;
+const SCAN: usize = 8;
 /// Probability of residuals as large as these under the given sigmas, below which the sigmas are not believed.
 const MISFIT: f64 = 0.001;
 /// Correlation from which two parameters count as hardly told apart.
@@ -22,6 +22,8 @@ const CORRELATED: f64 = 0.99;
 const OUTLIER: f64 = 0.35;
 /// Degrees of freedom below which the user is warned.
 const FEW: f64 = 5.0;
+/// Distance to the minimum, in standard errors, that is worth a warning.
+const ROUGH: f64 = 0.1;
 /// Times that a profile may find a lower optimum before the fit gives up.
 const MAX_OPTIMA: usize = 4;
 /// Least noise of the model itself, as a share of its largest prediction: rounding.
@@ -169,6 +171,7 @@ impl<'a> Calibration<'a> {
             evaluator: &evaluator,
             observer: self.options.observer.clone(),
             known_noise: self.sigmas.is_some(),
+            tolerance: self.options.tolerance,
             loss: self.options.loss,
             least_noise: self.least_noise(&units),
         };
@@ -364,6 +367,11 @@ impl<'a> Calibration<'a> {
         if !indices.is_empty() {
             warnings.push(Warning::Outliers { indices });
         }
+        if optimum.offset > ROUGH {
+            warnings.push(Warning::Rough {
+                offset: optimum.offset,
+            });
+        }
         if noise_estimated && degrees_of_freedom < FEW {
             warnings.push(Warning::FewObservations { degrees_of_freedom });
         }
@@ -393,6 +401,14 @@ impl<'a> Calibration<'a> {
             warnings,
             free: optimum.point.free.iter().copied().collect(),
             jacobian: optimum.jacobian.clone(),
+            curvatures: optimum
+                .deviance
+                .curvatures(standardised)
+                .iter()
+                .zip(search.evaluator.sigmas)
+                .map(|(curvature, sigma)| curvature / sigma)
+                .collect(),
+            covariance: covariance.matrix.clone(),
         }
     }
 }

@@ -28,6 +28,7 @@ pub struct Reading {
 /// Readings of one load cell, in the order of the file.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Readings {
+    file: String,
     readings: Vec<Reading>,
     skipped: usize,
 }
@@ -187,7 +188,11 @@ impl Readings {
                 line: bare.line,
             });
         }
-        Ok(Self { readings, skipped })
+        Ok(Self {
+            file: file.to_owned(),
+            readings,
+            skipped,
+        })
     }
 
     /// Makes sure that there are at least `needed` readings for so many parameters.
@@ -195,12 +200,12 @@ impl Readings {
     /// # Errors
     ///
     /// [`DataError::TooFew`].
-    pub fn check_count(&self, file: &str, parameters: usize, needed: usize) -> Result<(), DataError> {
+    pub fn check_count(&self, parameters: usize, needed: usize) -> Result<(), DataError> {
         if self.readings.len() >= needed {
             return Ok(());
         }
         Err(DataError::TooFew {
-            file: file.to_owned(),
+            file: self.file.clone(),
             readings: self.readings.len(),
             line: self.readings.last().map_or(0, |reading| reading.line),
             parameters,
@@ -241,6 +246,7 @@ impl Readings {
 impl FromIterator<Reading> for Readings {
     fn from_iter<I: IntoIterator<Item = Reading>>(readings: I) -> Self {
         Self {
+            file: "readings".into(),
             readings: readings.into_iter().collect(),
             skipped: 0,
         }

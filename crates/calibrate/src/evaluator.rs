@@ -1,8 +1,8 @@
 //! Model runs: residuals and their derivatives by the free variables.
 //!
 //! The residuals are (prediction − observation)/σ, followed by those of the priors. Where the model has no answer they are
-//! infinite, and the optimiser stays away. Derivatives are central differences; their step, the cube root of the model's
-//! relative noise, balances noise against curvature.
+//! infinite, and the optimiser stays away. Derivatives are central differences. Their step is at least the cube root of the
+//! model's relative noise, which balances rounding against curvature, and so long that the noise stays small beside the change.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -12,8 +12,11 @@ use rayon::prelude::*;
 
 use crate::{CalibrationError, Model, ModelError, Parameter};
 
-/// Smallest and largest step of a derivative, in the free variable.
+/// Smallest and largest step of a derivative by rounding, in the free variable, and the largest by noise.
 const STEPS: (f64, f64) = (1e-4, 0.05);
+const LONGEST_STEP: f64 = 0.5;
+/// Change of the residuals over a step, in their noise.
+const CHANGE_TO_NOISE: f64 = 5.0;
 
 /// The model, what it is compared with, and how often it has run.
 pub(crate) struct Evaluator<'a> {
@@ -22,7 +25,7 @@ pub(crate) struct Evaluator<'a> {
     pub values: &'a [f64],
     /// 1 where the noise is to be estimated.
     pub sigmas: &'a [f64],
-    step: f64,
+    relative_noise: f64,
     limit: usize,
     count: AtomicUsize,
     failure: Mutex<Option<ModelError>>,
@@ -42,7 +45,7 @@ impl<'a> Evaluator<'a> {
             parameters,
             values,
             sigmas,
-            step: relative_noise.cbrt().clamp(STEPS.0, STEPS.1),
+            relative_noise,
             limit,
             count: AtomicUsize::new(0),
             failure: Mutex::new(None),
@@ -107,12 +110,37 @@ impl<'a> Evaluator<'a> {
         points.par_iter().map(|point| self.residuals(point)).collect()
     }
 
-    /// Derivatives of the residuals by the free variables; columns of those that are `fixed` are 0.
-    pub fn jacobian(&self, free: &DVector<f64>, fixed: &[bool]) -> Result<DMatrix<f64>, CalibrationError> {
+    /// Steps of derivatives: `slopes` are the norms of the weighted residuals' derivatives where something is known of them.
+    pub fn steps(&self, weights: &DVector<f64>, slopes: Option<&[f64]>) -> Vec<f64> {
+        let least = self.relative_noise.cbrt().clamp(STEPS.0, STEPS.1);
+        let square: f64 = self
+            .values
+            .iter()
+            .zip(self.sigmas)
+            .zip(weights.iter())
+            .map(|((value, sigma), weight)| weight * (self.relative_noise * value / sigma).powi(2))
+            .sum();
+        let noise = CHANGE_TO_NOISE * square.sqrt();
+        (0..self.parameters.len())
+            .map(|k| match slopes {
+                Some(slopes) if slopes[k] > 0.0 => (noise / slopes[k]).clamp(least, LONGEST_STEP),
+                Some(_) => LONGEST_STEP,
+                None => least,
+            })
+            .collect()
+    }
+
+    /// Derivatives of the residuals by the free variables over `steps`; columns of those that are `fixed` are 0.
+    pub fn jacobian(
+        &self,
+        free: &DVector<f64>,
+        steps: &[f64],
+        fixed: &[bool],
+    ) -> Result<DMatrix<f64>, CalibrationError> {
         let moving: Vec<usize> = (0..free.len()).filter(|&k| !fixed[k]).collect();
         let points: Vec<DVector<f64>> = moving
             .iter()
-            .flat_map(|&k| [(k, self.step), (k, -self.step)])
+            .flat_map(|&k| [(k, steps[k]), (k, -steps[k])])
             .map(|(k, step)| {
                 let mut point = free.clone();
                 point[k] += step;
@@ -125,7 +153,7 @@ impl<'a> Evaluator<'a> {
         let mut jacobian = DMatrix::zeros(rows, free.len());
         for (pair, &k) in residuals.chunks_exact(2).zip(&moving) {
             let column = match (feasible(&pair[0]), feasible(&pair[1])) {
-                (true, true) => (&pair[0] - &pair[1]) / (2.0 * self.step),
+                (true, true) => (&pair[0] - &pair[1]) / (2.0 * steps[k]),
                 (false, false) => {
                     return Err(CalibrationError::NoDerivative {
                         name: self.parameters[k].name().to_owned(),
@@ -139,9 +167,9 @@ impl<'a> Evaluator<'a> {
                         None => middle.insert(self.residuals(free)?),
                     };
                     if ahead {
-                        (&pair[0] - here) / self.step
+                        (&pair[0] - here) / steps[k]
                     } else {
-                        (here - &pair[1]) / self.step
+                        (here - &pair[1]) / steps[k]
                     }
                 }
             };

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use nalgebra::{DMatrix, DVector};
+
 /// An interval; an end is `None` where the data do not close it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Interval {
@@ -79,6 +81,11 @@ pub enum Warning {
         /// Their indices, from 0.
         indices: Vec<usize>,
     },
+    /// The model is too noisy to find the minimum exactly.
+    Rough {
+        /// How far the next step would still go, in standard errors.
+        offset: f64,
+    },
     /// Few degrees of freedom: the noise itself is hardly known.
     FewObservations {
         /// Degrees of freedom.
@@ -119,6 +126,10 @@ impl fmt::Display for Warning {
                 write!(f, "{} observations look like outliers, index", indices.len())?;
                 indices.iter().try_for_each(|index| write!(f, " {index}"))
             }
+            Self::Rough { offset } => write!(
+                f,
+                "noise of the model hides the last {offset:.2} standard errors on the way to the best fit"
+            ),
             Self::FewObservations { degrees_of_freedom } => write!(
                 f,
                 "only {degrees_of_freedom:.1} degrees of freedom are left to estimate the noise"
@@ -158,15 +169,38 @@ pub struct Fit {
     pub iterations: u64,
     /// What the user should know.
     pub warnings: Vec<Warning>,
-    /// The optimum in free variables, for a warm start of the bootstrap.
+    /// The optimum in free variables and the derivatives of the standardised residuals by them.
     pub(crate) free: Vec<f64>,
-    pub(crate) jacobian: nalgebra::DMatrix<f64>,
+    pub(crate) jacobian: DMatrix<f64>,
+    /// Half the second derivative of the deviance by each prediction.
+    pub(crate) curvatures: Vec<f64>,
+    /// Covariance of the free variables.
+    pub(crate) covariance: DMatrix<f64>,
 }
 
 impl Fit {
     /// The best values, in the order of the parameters.
     pub fn values(&self) -> Vec<f64> {
         self.estimates.iter().map(|estimate| estimate.value).collect()
+    }
+
+    /// By how many standard errors each estimate would move, to first order, if the model predicted `change` more, in the
+    /// observations' unit: what an error of the model does to the parameters. 0 for what has no standard error.
+    pub fn shift(&self, change: &[f64]) -> Vec<f64> {
+        let count = self.free.len();
+        let mut gradient = DVector::zeros(count);
+        for (row, (change, curvature)) in change.iter().zip(&self.curvatures).enumerate() {
+            for k in 0..count {
+                gradient[k] -= self.jacobian[(row, k)] * curvature * change;
+            }
+        }
+        let moved = &self.covariance * gradient;
+        (0..count)
+            .map(|k| {
+                let error = self.covariance[(k, k)].sqrt();
+                if error > 0.0 { moved[k] / error } else { 0.0 }
+            })
+            .collect()
     }
 
     /// The estimate of the parameter called `name`.

@@ -8,7 +8,7 @@
 //! Converged means that the full step would lower the deviance by less than a tolerance: √(gᵀH⁻¹g) is its length in standard
 //! errors (D. M. Bates, D. G. Watts, "A relative offset orthogonality convergence criterion", Technometrics 23, 1981).
 
-use argmin::core::{Error, IterState, Jacobian, KV, Operator, Problem, Solver, State, TerminationReason};
+use argmin::core::{Error, IterState, KV, Operator, Problem, Solver, State, TerminationReason};
 use nalgebra::{DMatrix, DVector};
 
 use crate::deviance::{Deviance, information};
@@ -17,16 +17,21 @@ use crate::parameter::FARTHEST;
 
 /// First damping, largest before a fit counts as stuck, and what it is divided and multiplied by.
 const FIRST_DAMPING: f64 = 1e-3;
-const LARGEST_DAMPING: f64 = 1e6;
+const LARGEST_DAMPING: f64 = 1e4;
+/// Damping that changes a step: less of it after a failure would only repeat that.
+const FELT_DAMPING: f64 = 0.03;
 const LEAST_DAMPING: f64 = 1e-9;
 const RELIEF: f64 = 10.0;
-const INCREASE: f64 = 4.0;
+const INCREASE: f64 = 8.0;
 /// Share of the predicted gain that must come for damping to fall, and below which it rises.
 const GOOD_GAIN: f64 = 0.5;
 const POOR_GAIN: f64 = 0.1;
-/// Share of its largest element that every diagonal element of H is given at least, so that a parameter of which the data
-/// know nothing stays where it is.
-const RIDGE: f64 = 1e-12;
+/// Added to the diagonal of H: as much as knowing a free variable to ±4, so that one of which the data know nothing, whose
+/// slopes are noise, stays about where it is. Beside the information in data that determine a parameter it is nothing.
+const RIDGE: f64 = 1.0 / 16.0;
+/// Offset, in standard errors, at which a fit has converged where so many steps have failed: ripple of the model hides the rest.
+const ROUGH: f64 = 0.25;
+const MAX_FAILURES: usize = 2;
 /// Longest step of a free variable.
 const LONGEST_STEP: f64 = 2.0;
 
@@ -48,12 +53,27 @@ impl Operator for FitProblem<'_> {
     }
 }
 
-impl Jacobian for FitProblem<'_> {
-    type Param = DVector<f64>;
-    type Jacobian = DMatrix<f64>;
-
-    fn jacobian(&self, free: &DVector<f64>) -> Result<DMatrix<f64>, Error> {
-        Ok(self.evaluator.jacobian(free, self.fixed)?)
+impl FitProblem<'_> {
+    /// J by differences, their steps by the slopes of a Jacobian from nearby.
+    fn jacobian(
+        &self,
+        free: &DVector<f64>,
+        weights: &DVector<f64>,
+        near: Option<&DMatrix<f64>>,
+    ) -> Result<DMatrix<f64>, Error> {
+        let slopes = near.map(|near| -> Vec<f64> {
+            let square = |column: usize| -> f64 {
+                let column = near.column(column);
+                column
+                    .iter()
+                    .zip(weights.iter())
+                    .map(|(slope, weight)| weight * slope * slope)
+                    .sum()
+            };
+            (0..near.ncols()).map(|column| square(column).sqrt()).collect()
+        });
+        let steps = self.evaluator.steps(weights, slopes.as_deref());
+        Ok(self.evaluator.jacobian(free, &steps, self.fixed)?)
     }
 }
 
@@ -70,6 +90,10 @@ pub(crate) struct LevenbergMarquardt {
     /// J, and whether it was computed by differences where the iteration stands.
     jacobian: Option<DMatrix<f64>>,
     fresh: bool,
+    /// Steps in a row that did not lower the deviance.
+    failures: usize,
+    /// J from nearby, by which the steps of the next one are chosen.
+    slopes_from: Option<DMatrix<f64>>,
     /// Length of the full step in standard errors when last computed.
     pub offset: f64,
 }
@@ -84,6 +108,8 @@ impl LevenbergMarquardt {
             damping: FIRST_DAMPING,
             jacobian: None,
             fresh: false,
+            failures: 0,
+            slopes_from: None,
             offset: f64::INFINITY,
         }
     }
@@ -119,17 +145,11 @@ impl LevenbergMarquardt {
         if moving.is_empty() {
             return Some((step, 0.0));
         }
-        let largest = moving
-            .iter()
-            .fold(0.0_f64, |most, &k| most.max(here.information[(k, k)]));
-        if largest == 0.0 {
-            return Some((step, 0.0));
-        }
         let mut matrix = DMatrix::from_fn(moving.len(), moving.len(), |i, j| {
             here.information[(moving[i], moving[j])]
         });
         for i in 0..moving.len() {
-            matrix[(i, i)] += damping * matrix[(i, i)] + RIDGE * largest;
+            matrix[(i, i)] += damping * matrix[(i, i)] + RIDGE;
         }
         let gradient = DVector::from_fn(moving.len(), |i, _| -here.gradient[moving[i]]);
         let solved = matrix.cholesky()?.solve(&gradient);
@@ -176,15 +196,17 @@ impl Solver<FitProblem<'_>, FitState> for LevenbergMarquardt {
                 None,
             ));
         };
-        let mut differentiate = |solver: &mut Self| -> Result<DMatrix<f64>, Error> {
+        let weights = self.deviance.weights(&residuals);
+        let mut differentiate = |solver: &mut Self, near: Option<&DMatrix<f64>>| {
             solver.fresh = true;
-            problem.problem("jacobian_count", |problem| problem.jacobian(&free))
+            problem.problem("jacobian_count", |problem| {
+                problem.jacobian(&free, &weights, near)
+            })
         };
         let mut jacobian = match self.jacobian.take() {
             Some(jacobian) => jacobian,
-            None => differentiate(self)?,
+            None => differentiate(self, self.slopes_from.clone().as_ref())?,
         };
-        let weights = self.deviance.weights(&residuals);
         let quadratic = |jacobian: &DMatrix<f64>| Quadratic {
             free: free.clone(),
             gradient: jacobian.transpose() * weights.component_mul(&residuals),
@@ -196,7 +218,7 @@ impl Solver<FitProblem<'_>, FitState> for LevenbergMarquardt {
             .map_or(f64::INFINITY, |full| full.1);
         let stuck = self.damping > LARGEST_DAMPING;
         if !self.fresh && (stuck || (self.verified && full.max(0.0).sqrt() < self.tolerance)) {
-            jacobian = differentiate(self)?;
+            jacobian = differentiate(self, Some(&jacobian))?;
             self.damping = self.damping.min(FIRST_DAMPING);
             here = quadratic(&jacobian);
             full = self
@@ -204,7 +226,8 @@ impl Solver<FitProblem<'_>, FitState> for LevenbergMarquardt {
                 .map_or(f64::INFINITY, |full| full.1);
         }
         self.offset = full.max(0.0).sqrt();
-        let done = if self.offset < self.tolerance {
+        let rough = self.failures >= MAX_FAILURES && self.fresh && self.offset < ROUGH;
+        let done = if self.offset < self.tolerance || rough {
             Some(TerminationReason::SolverConverged)
         } else if self.damping > LARGEST_DAMPING {
             Some(TerminationReason::SolverExit(
@@ -224,7 +247,8 @@ impl Solver<FitProblem<'_>, FitState> for LevenbergMarquardt {
 
         let Some((step, predicted)) = self.step(&here, self.damping) else {
             self.damping *= INCREASE;
-            self.jacobian = Some(jacobian);
+            self.jacobian = Some(jacobian.clone());
+            let state = state.jacobian(jacobian);
             return Ok((state.param(free).residuals(residuals).cost(cost), None));
         };
         let trial = &free + &step;
@@ -232,10 +256,11 @@ impl Solver<FitProblem<'_>, FitState> for LevenbergMarquardt {
         let found_cost = self.deviance.total(&found);
         let gain = (cost - found_cost) / predicted.max(f64::MIN_POSITIVE);
         let accepted = found_cost < cost;
+        self.failures = if accepted { 0 } else { self.failures + 1 };
         if gain > GOOD_GAIN {
             self.damping = (self.damping / RELIEF).max(LEAST_DAMPING);
         } else if gain < POOR_GAIN {
-            self.damping *= INCREASE;
+            self.damping = (INCREASE * self.damping).max(FELT_DAMPING);
         }
         if accepted {
             // Broyden's update: exact along the step, unchanged across it.
@@ -244,7 +269,12 @@ impl Solver<FitProblem<'_>, FitState> for LevenbergMarquardt {
         }
         // An old Jacobian is the first suspect; a rejected step from a new one means that the step was too long.
         let renew = gain < POOR_GAIN && !self.fresh;
-        self.jacobian = (!renew).then_some(jacobian);
+        if renew {
+            self.slopes_from = Some(jacobian.clone());
+        } else {
+            self.jacobian = Some(jacobian.clone());
+        }
+        let state = state.jacobian(jacobian);
         self.fresh = self.fresh && !accepted;
         let state = if accepted {
             state.param(trial).residuals(found).cost(found_cost)

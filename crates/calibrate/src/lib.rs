@@ -40,6 +40,7 @@
 
 mod bootstrap;
 mod calibration;
+mod compass;
 mod data;
 mod deviance;
 mod error;

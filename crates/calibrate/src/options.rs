@@ -1,7 +1,5 @@
 //! How to fit.
 
-use std::fmt;
-
 use crate::search::Observer;
 use crate::{CalibrationError, Loss};
 
@@ -18,13 +16,13 @@ pub enum Profiles {
 }
 
 /// How to fit.
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct Options {
     /// How much residuals count.
     pub loss: Loss,
     /// Values to try first.
     pub start: Option<Vec<f64>>,
-    /// Points all over the range that are tried beside the start; `None` takes four a parameter and four more.
+    /// Points all over the range that are tried beside the start; `None` takes eight a parameter and eight more.
     pub scan: Option<usize>,
     /// Descend from a second point as well, to see whether it leads lower.
     pub restart: bool,
@@ -32,6 +30,8 @@ pub struct Options {
     pub max_evaluations: usize,
     /// Noise of the model's predictions as a share of them: rounding, or the ripple of a mesh. It sets the step of derivatives.
     pub relative_noise: f64,
+    /// Distance to the minimum, in standard errors, at which a fit has converged.
+    pub tolerance: f64,
     /// Probability that an interval holds the true value.
     pub confidence: f64,
     /// Which intervals are profiles.
@@ -49,26 +49,11 @@ impl Default for Options {
             restart: true,
             max_evaluations: 2000,
             relative_noise: 1e-9,
+            tolerance: 0.02,
             confidence: 0.95,
             profiles: Profiles::All,
             observer: None,
         }
-    }
-}
-
-impl fmt::Debug for Options {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Options")
-            .field("loss", &self.loss)
-            .field("start", &self.start)
-            .field("scan", &self.scan)
-            .field("restart", &self.restart)
-            .field("max_evaluations", &self.max_evaluations)
-            .field("relative_noise", &self.relative_noise)
-            .field("confidence", &self.confidence)
-            .field("profiles", &self.profiles)
-            .field("observer", &self.observer.as_ref().map(|_| "…"))
-            .finish()
     }
 }
 
@@ -88,6 +73,14 @@ impl Options {
             confidence,
             allowed,
             (0.5..=0.9999).contains(&confidence),
+        )?;
+        let tolerance = self.tolerance;
+        let allowed = "above 0, at most 0.5";
+        check(
+            "tolerance",
+            tolerance,
+            allowed,
+            tolerance > 0.0 && tolerance <= 0.5,
         )?;
         let allowed = "between 0 and 0.1";
         check("relative_noise", noise, allowed, (0.0..=0.1).contains(&noise))?;

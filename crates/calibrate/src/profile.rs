@@ -8,7 +8,7 @@
 //! An end is closed only if the data exclude what lies beyond it, up to the bound, by twice the distance that makes an interval: by
 //! four standard errors. For a true value at the bound itself, one such distance would close one of forty intervals by chance.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use crate::CalibrationError;
 use crate::levenberg_marquardt::LevenbergMarquardt;
@@ -19,18 +19,24 @@ use crate::uncertainty::{Covariance, quantile};
 /// Distance at which the bound is excluded, in those that make an interval.
 const EXCLUSION: f64 = 2.0;
 /// Accuracy of an end, as a share of its distance from the estimate.
-const END_ACCURACY: f64 = 0.02;
+const END_ACCURACY: f64 = 0.03;
 /// Steps that close in on an end.
 const MAX_STEPS: usize = 12;
-/// Accuracy of the other parameters, in standard errors.
-const TOLERANCE: f64 = 0.1;
-/// How far each further point lies from the estimate than the one before.
-const STRIDE: f64 = 2.0;
+/// Accuracy of the other parameters, in standard errors: an eighth of a squared one, which is a sixtieth of an end's distance.
+const TOLERANCE: f64 = 0.35;
+/// Iterations of the others at one value.
+const MAX_ITERATIONS: u64 = 10;
+/// First point, in distances that would make the interval if the deviance were a parabola, and the least and largest factors by
+/// which the next lies further from the estimate.
+const FIRST: f64 = 1.1;
+const STRIDES: (f64, f64) = (1.3, 4.0);
 
 /// A point of the profile: the parameter's free variable, the others fitted to it, and the rise of the deviance.
 #[derive(Debug, Clone)]
 struct Station {
     point: Point,
+    /// J there, where the other parameters were fitted.
+    jacobian: Option<DMatrix<f64>>,
     /// Distance from the estimate in the parameter's coordinate.
     distance: f64,
     rise: f64,
@@ -106,7 +112,7 @@ impl Profiler<'_> {
             .covariance
             .standard_error(k)
             .map(|error| error * parameter.bounded_slope(self.optimum.point.free[k]));
-        let mut distance = error.map_or(farthest, |error| (excluded * error).min(farthest));
+        let mut distance = error.map_or(farthest, |error| (FIRST * wanted * error).min(farthest));
         loop {
             let station = match self.station(k, sign, distance, stations.last())? {
                 Ok(station) => station,
@@ -120,17 +126,12 @@ impl Profiler<'_> {
             if distance >= farthest {
                 return Ok(Side::Open);
             }
-            distance = (STRIDE * distance).min(farthest);
+            let stride = (FIRST * excluded / rise.sqrt()).clamp(STRIDES.0, STRIDES.1);
+            distance = (stride * distance).min(farthest);
         }
-        // The root of the rise is nearly a straight line through the estimate.
         for _ in 0..MAX_STEPS {
             let (inner, outer) = bracket(stations, wanted);
-            let share = if outer.1.is_finite() {
-                (wanted - inner.1) / (outer.1 - inner.1)
-            } else {
-                0.5
-            };
-            let distance = inner.0 + share * (outer.0 - inner.0);
+            let distance = crossing(stations, inner, outer, wanted);
             let near = |(_, root): (f64, f64)| (root - wanted).abs() < END_ACCURACY * wanted;
             if near(inner) || near(outer) || (outer.0 - inner.0) < END_ACCURACY * outer.0 {
                 return Ok(Side::Closed(distance));
@@ -177,26 +178,37 @@ impl Profiler<'_> {
         let residuals = evaluator.residuals(&free)?;
         let start = Point { free, residuals };
         let deviance = self.optimum.deviance;
-        let point = if !deviance.total(&start.residuals).is_finite() {
-            // No answer there: as good as excluded.
-            start
-        } else if fixed.len() == 1 {
-            start
+        // Without an answer there, it is as good as excluded; without other parameters, there is nothing to fit.
+        let done = !deviance.total(&start.residuals).is_finite() || fixed.len() == 1;
+        let mut left = 0.0;
+        let (point, jacobian) = if done {
+            (start, None)
         } else {
-            let solver = LevenbergMarquardt::new(deviance, fixed.clone(), TOLERANCE)
-                .with_jacobian(Some(self.optimum.jacobian.clone()), false);
-            self.search
-                .descend(solver, &fixed, deviance, start, TOLERANCE)?
-                .point
+            // Toward the estimate the Jacobian of a station further out is good enough.
+            let known = near.and_then(|near| near.jacobian.clone().filter(|_| distance < near.distance));
+            let trusted = known.is_some();
+            let jacobian = known.unwrap_or_else(|| self.optimum.jacobian.clone());
+            let mut solver = LevenbergMarquardt::new(deviance, fixed.clone(), TOLERANCE)
+                .with_jacobian(Some(jacobian), false);
+            if trusted {
+                solver = solver.unverified();
+            }
+            let found = self
+                .search
+                .attempt(solver, &fixed, deviance, start, MAX_ITERATIONS)?;
+            // What the others might still gain is taken as gained, which widens the interval at most.
+            left = found.offset.powi(2);
+            (found.point, Some(found.jacobian))
         };
-        let rise = deviance.total(&point.residuals) - self.optimum.value();
-        if rise < -BETTER {
+        let found = deviance.total(&point.residuals) - self.optimum.value();
+        if found < -BETTER {
             return Ok(Err(point));
         }
         Ok(Ok(Station {
             point,
+            jacobian,
             distance,
-            rise: rise.max(0.0),
+            rise: (found - left).max(0.0),
         }))
     }
 
@@ -210,6 +222,25 @@ impl Profiler<'_> {
             DVector::zeros(matrix.nrows())
         }
     }
+}
+
+/// Where the root of the rise should be `wanted`. It is nearly a straight line through the estimate; where it is not, the line
+/// through the two stations next to the wanted root is better than the one through the bracket's ends.
+fn crossing(stations: &[Station], inner: (f64, f64), outer: (f64, f64), wanted: f64) -> f64 {
+    let mut next: Vec<(f64, f64)> = stations
+        .iter()
+        .map(|station| (station.distance, station.rise.sqrt()))
+        .filter(|(_, root)| root.is_finite())
+        .collect();
+    next.push((0.0, 0.0));
+    next.sort_by(|a, b| (a.1 - wanted).abs().total_cmp(&(b.1 - wanted).abs()));
+    let line = |a: (f64, f64), b: (f64, f64)| a.0 + (wanted - a.1) / (b.1 - a.1) * (b.0 - a.0);
+    let inside = |distance: &f64| *distance > inner.0 && *distance < outer.0;
+    let secant = next.first().zip(next.get(1)).map(|(a, b)| line(*a, *b));
+    secant
+        .filter(inside)
+        .or(Some(line(inner, outer)).filter(inside))
+        .unwrap_or(0.5 * (inner.0 + outer.0))
 }
 
 /// The stations on either side of the `wanted` root of the rise, as distance and root.

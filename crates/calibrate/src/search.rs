@@ -1,11 +1,13 @@
 //! The way to the optimum: a coarse scan, a descent from its best point, and another descent from elsewhere to compare.
 
+use std::fmt;
 use std::sync::Arc;
 
 use argmin::core::observers::{Observe, ObserverMode};
 use argmin::core::{Error, Executor, KV, State, TerminationReason, TerminationStatus};
 use nalgebra::{DMatrix, DVector};
 
+use crate::compass::settle;
 use crate::deviance::Deviance;
 use crate::evaluator::{Evaluator, feasible};
 use crate::levenberg_marquardt::{FitProblem, FitState, LevenbergMarquardt};
@@ -14,10 +16,11 @@ use crate::{CalibrationError, Loss};
 
 /// Iterations of one descent.
 const MAX_ITERATIONS: u64 = 200;
-/// Next step in standard errors at which a descent has converged, and at which it may stop where noise of the model hides
-/// any further descent.
-const TOLERANCE: f64 = 0.01;
-const NOISY_TOLERANCE: f64 = 0.05;
+/// Next step in standard errors at which a descent may stop where no step lowers the deviance: noise of the model hides any
+/// further descent.
+const NOISY_TOLERANCE: f64 = 0.5;
+/// The same for a minimum found by trial.
+const SETTLED: f64 = 0.1;
 /// The same for a descent that is only compared.
 const ROUGH_TOLERANCE: f64 = 0.1;
 /// Rounds of fit and scale of the noise, and the changes of spread and normalisation at which they end. The latter jumps as a residual
@@ -31,7 +34,8 @@ const FREE_ROUNDS: usize = 4;
 pub(crate) const BETTER: f64 = 0.05;
 /// Distance from an optimum, in free variables, of a start worth a second descent.
 const ELSEWHERE: f64 = 0.7;
-/// Descents from elsewhere.
+/// Descents from elsewhere, and their iterations.
+const RESTART_ITERATIONS: u64 = 12;
 const MAX_RESTARTS: usize = 3;
 
 /// What an observer is told after every iteration.
@@ -46,7 +50,21 @@ pub struct Progress {
 }
 
 /// Hears of every iteration.
-pub type Observer = Arc<dyn Fn(&Progress) + Send + Sync>;
+#[derive(Clone)]
+pub struct Observer(Arc<dyn Fn(&Progress) + Send + Sync>);
+
+impl Observer {
+    /// Calls `observe` after every iteration.
+    pub fn new(observe: impl Fn(&Progress) + Send + Sync + 'static) -> Self {
+        Self(Arc::new(observe))
+    }
+}
+
+impl fmt::Debug for Observer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Observer(..)")
+    }
+}
 
 /// A point and its residuals.
 #[derive(Debug, Clone)]
@@ -62,6 +80,10 @@ pub(crate) struct Optimum {
     pub jacobian: DMatrix<f64>,
     pub deviance: Deviance,
     pub iterations: u64,
+    /// Length of the next step in standard errors.
+    pub offset: f64,
+    /// Whether it is within the tolerance.
+    pub converged: bool,
 }
 
 impl Optimum {
@@ -76,6 +98,8 @@ pub(crate) struct Search<'a> {
     pub observer: Option<Observer>,
     /// Whether the observations came with sigmas.
     pub known_noise: bool,
+    /// Next step in standard errors at which a descent has converged.
+    pub tolerance: f64,
     pub loss: Loss,
     /// Smallest noise that makes sense, in units of σ.
     pub least_noise: f64,
@@ -92,7 +116,7 @@ impl Observe<FitState> for Reporter {
         let Some(free) = state.get_param() else {
             return Ok(());
         };
-        (self.observer)(&Progress {
+        (self.observer.0)(&Progress {
             iteration: state.get_iter(),
             deviance: state.get_cost(),
             parameters: self
@@ -111,14 +135,40 @@ impl Search<'_> {
         self.evaluator.parameters.len()
     }
 
-    /// Runs `solver` from `start`.
-    pub fn descend(
+    /// Runs `solver` from `start` until it has converged.
+    fn descend(
         &self,
         solver: LevenbergMarquardt,
         fixed: &[bool],
         deviance: Deviance,
         start: Point,
-        tolerance: f64,
+    ) -> Result<Optimum, CalibrationError> {
+        let optimum = self.attempt(solver, fixed, deviance, start, MAX_ITERATIONS)?;
+        if optimum.converged || optimum.offset < NOISY_TOLERANCE {
+            return Ok(optimum);
+        }
+        let (iterations, offset) = (optimum.iterations, optimum.offset);
+        match settle(self.evaluator, &deviance, optimum.point, SETTLED)? {
+            Some((point, offset)) => Ok(Optimum {
+                jacobian: optimum.jacobian,
+                deviance,
+                iterations,
+                offset,
+                converged: true,
+                point,
+            }),
+            None => Err(CalibrationError::NotConverged { iterations, offset }),
+        }
+    }
+
+    /// Runs `solver` from `start`, whether or not it converges.
+    pub fn attempt(
+        &self,
+        solver: LevenbergMarquardt,
+        fixed: &[bool],
+        deviance: Deviance,
+        start: Point,
+        max_iterations: u64,
     ) -> Result<Optimum, CalibrationError> {
         let problem = FitProblem {
             evaluator: self.evaluator,
@@ -129,7 +179,7 @@ impl Search<'_> {
             state
                 .param(start.free)
                 .residuals(start.residuals)
-                .max_iters(MAX_ITERATIONS)
+                .max_iters(max_iterations)
         });
         if let Some(observer) = &self.observer {
             let reporter = Reporter {
@@ -151,16 +201,14 @@ impl Search<'_> {
             result.state.take_jacobian(),
         );
         match parts {
-            (Some(free), Some(residuals), Some(jacobian))
-                if converged || offset < tolerance.max(NOISY_TOLERANCE) =>
-            {
-                Ok(Optimum {
-                    point: Point { free, residuals },
-                    jacobian,
-                    deviance,
-                    iterations,
-                })
-            }
+            (Some(free), Some(residuals), Some(jacobian)) => Ok(Optimum {
+                point: Point { free, residuals },
+                jacobian,
+                deviance,
+                iterations,
+                offset,
+                converged,
+            }),
             _ => Err(CalibrationError::NotConverged { iterations, offset }),
         }
     }
@@ -217,9 +265,9 @@ impl Search<'_> {
         let (mut point, mut jacobian, mut fresh) = (start, jacobian, fresh);
         let mut iterations = 0;
         for round in 0..MAX_ROUNDS {
-            let solver =
-                LevenbergMarquardt::new(deviance, fixed.clone(), TOLERANCE).with_jacobian(jacobian, fresh);
-            let mut optimum = self.descend(solver, &fixed, deviance, point, TOLERANCE)?;
+            let solver = LevenbergMarquardt::new(deviance, fixed.clone(), self.tolerance)
+                .with_jacobian(jacobian, fresh);
+            let mut optimum = self.descend(solver, &fixed, deviance, point)?;
             iterations += optimum.iterations;
             optimum.iterations = iterations;
             let used = parameters_from_data(&optimum.jacobian, &deviance, &optimum.point.residuals);
@@ -332,7 +380,13 @@ impl Search<'_> {
         };
         let fixed = vec![false; self.count()];
         let solver = LevenbergMarquardt::new(optimum.deviance, fixed.clone(), ROUGH_TOLERANCE).unverified();
-        match self.descend(solver, &fixed, optimum.deviance, start.clone(), ROUGH_TOLERANCE) {
+        match self.attempt(
+            solver,
+            &fixed,
+            optimum.deviance,
+            start.clone(),
+            RESTART_ITERATIONS,
+        ) {
             Ok(other) if other.value() < optimum.value() - BETTER => self.refine(other.point, None).map(Some),
             Err(error @ CalibrationError::EvaluationLimit { .. }) => Err(error),
             Ok(_) | Err(_) => Ok(None),

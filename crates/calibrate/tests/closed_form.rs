@@ -3,8 +3,8 @@
 mod common;
 
 use calibrate::{
-    BootstrapOptions, Calibration, CalibrationError, Loss, Model, ModelError, Options, Parameter, Prior,
-    Profiles, Resampling, Scale, Warning,
+    BootstrapOptions, Calibration, CalibrationError, Loss, Model, ModelError, Observer, Options, Parameter,
+    Prior, Profiles, Resampling, Scale, Warning,
 };
 use common::{noisy, passes, saturation, saturation_parameters};
 
@@ -27,7 +27,7 @@ fn exact_data_return_the_parameters() {
         for (found, wanted) in fit.values().iter().zip(truth) {
             assert!((found / wanted - 1.0).abs() < 1e-6, "{found} instead of {wanted}");
         }
-        assert!(fit.evaluations < 150, "{}", fit.evaluations);
+        assert!(fit.evaluations <= 200, "{}", fit.evaluations);
     }
 }
 
@@ -333,6 +333,22 @@ fn many_minima_do_not_trap_the_fit() {
     assert!((fit.values()[0] - 0.31).abs() < 0.002, "{:?}", fit.values());
 }
 
+/// The best of a model that cannot reach the data: at its maximum, where no slope tells a step.
+#[test]
+fn data_beyond_the_models_reach() {
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(vec![10.0 - (p[0] - 3.0).powi(2)]) };
+    let parameter = Parameter::new("a", 0.0, 8.0, Scale::Linear).unwrap();
+    let fit = Calibration::new(&model, vec![parameter], vec![20.0])
+        .unwrap()
+        .with_sigmas(vec![2.0])
+        .unwrap()
+        .fit()
+        .unwrap();
+    // The deviance ((10 + (a − 3)²)/2)² has its minimum at 3, where it rises by 5 (a − 3)²: by 0.01 up to 0.045.
+    assert!((fit.values()[0] - 3.0).abs() < 0.05, "{:?}", fit.values());
+    assert!((fit.fitted[0] - 10.0).abs() < 0.01);
+}
+
 /// Corners in which the model has no answer are avoided.
 #[test]
 fn failing_corners_are_avoided() {
@@ -363,10 +379,43 @@ fn a_model_that_always_fails_is_an_error_with_its_reason() {
         .fit()
         .unwrap_err();
     assert!(
-        matches!(&error, CalibrationError::NoFeasibleStart { starts: 12, .. }),
+        matches!(&error, CalibrationError::NoFeasibleStart { starts: 24, .. }),
         "{error}"
     );
     assert!(error.to_string().contains("no equilibrium"));
+}
+
+/// What an error of the model does to the parameters, against a fit of the wrong model.
+#[test]
+fn shift_is_that_of_a_refit() {
+    let n = passes(40);
+    let model = saturation(&n);
+    let wrong = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        Ok(model(p)?
+            .iter()
+            .zip(&n)
+            .map(|(force, n)| force + 0.02 * n)
+            .collect())
+    };
+    let data = noisy(&model(&[550.0, 12.0]).unwrap(), 5.0, 8);
+    let fit = |model: &dyn Model| {
+        Calibration::new(model, saturation_parameters(), data.clone())
+            .unwrap()
+            .with_sigmas(vec![5.0; 40])
+            .unwrap()
+            .fit()
+            .unwrap()
+    };
+    let (right, misled) = (fit(&model), fit(&wrong));
+    let change: Vec<f64> = n.iter().map(|n| 0.02 * n).collect();
+    for (k, shift) in right.shift(&change).iter().enumerate() {
+        let moved = misled.values()[k] - right.values()[k];
+        let found = moved / right.estimates[k].standard_error.unwrap();
+        assert!(
+            (shift - found).abs() < 0.05 * found.abs().max(0.2),
+            "{shift} {found}"
+        );
+    }
 }
 
 /// The bootstrap's standard error of a mean is σ/√n, and does not change with the order of the threads.
@@ -430,7 +479,7 @@ fn limits_are_kept_and_observers_hear() {
             .unwrap()
     };
     let fit = calibration(Options {
-        observer: Some(Arc::new(move |progress| {
+        observer: Some(Observer::new(move |progress| {
             assert!(progress.parameters.len() == 2 && progress.deviance.is_finite());
             listener.fetch_add(1, Ordering::Relaxed);
         })),
@@ -443,12 +492,12 @@ fn limits_are_kept_and_observers_hear() {
     assert!(heard.load(Ordering::Relaxed) as u64 >= fit.iterations);
 
     let limited = Options {
-        max_evaluations: 20,
+        max_evaluations: 30,
         ..Options::default()
     };
     let error = calibration(limited).fit().unwrap_err();
     assert!(
-        matches!(error, CalibrationError::EvaluationLimit { limit: 20 }),
+        matches!(error, CalibrationError::EvaluationLimit { limit: 30 }),
         "{error}"
     );
 

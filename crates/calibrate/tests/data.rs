@@ -88,7 +88,7 @@ fn errors_name_the_line() {
     }
     let error = read("pass,force_n\n1,5\n")
         .unwrap()
-        .check_count("cell.csv", 2, 3)
+        .check_count(2, 3)
         .unwrap_err();
     assert!(
         error

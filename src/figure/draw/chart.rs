@@ -95,7 +95,12 @@ fn draw_label(canvas: &Canvas<'_>, frame: &Frame, reference: &Reference) -> Resu
     if !seen || reference.label.is_empty() {
         return Ok(());
     }
-    let colour = reference.colour.map_or(GREY, |index| PALETTE[index]);
+    // A light colour does for a band, not for a text.
+    let colour = if from == to {
+        reference.colour.map_or(GREY, |index| PALETTE[index])
+    } else {
+        INK
+    };
     let at = match reference.along {
         Along::Horizontal => {
             let (_, line) = frame.at((1.0, to));
