@@ -23,6 +23,7 @@ mod analysis;
 pub mod calibration;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod design;
 mod error;
 #[cfg(feature = "plot")]
 pub mod figure;

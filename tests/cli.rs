@@ -667,6 +667,89 @@ fn a_sweep_prints_the_quantiles_of_drawn_keys() {
     assert!(number(&quantiles["p05"]) < number(&quantiles["p95"]));
 }
 
+#[test]
+fn a_sweep_draws_a_map_of_two_keys() {
+    let folder = folder("sweep_map");
+    let [out, map] = ["out.csv", "map.svg"].map(|name| folder.join(name));
+    let sweep = |vary: &[&str]| {
+        let mut arguments = vec![
+            "sweep",
+            UPPER,
+            "--set",
+            "traffic.passes=1",
+            "--set",
+            "solver.node_spacing=0.5 m",
+        ];
+        for vary in vary {
+            arguments.extend(["--vary", vary]);
+        }
+        arguments.extend(["--out", text(&out), "--map", text(&map)]);
+        output(&arguments)
+    };
+    let depths = "duct.depth=1m:2m:0.5m";
+    let done = sweep(&[depths, "ends.upstream=free,fixed"]);
+    assert_eq!(
+        done.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&done.stderr)
+    );
+    let svg = fs::read_to_string(&map).expect("a map");
+    for part in ["duct.depth, m", "ends.upstream", "fixed", "force, N"] {
+        assert!(svg.contains(part), "{part}");
+    }
+    for vary in [
+        &[depths][..],
+        &[depths, "duct.length=20m,30m", "duct.lateral_offset=0,1"],
+    ] {
+        assert_eq!(sweep(vary).status.code(), Some(2), "{vary:?}");
+    }
+}
+
+// design
+
+#[test]
+fn design_answers_in_words_and_as_json() {
+    let set = [
+        "--set",
+        "traffic.passes=8",
+        "--set",
+        "duct.length=15 m",
+        "--set",
+        "solver.node_spacing=0.25 m",
+    ];
+    let design = |more: &[&'static str]| [&["design", UPPER][..], &set, more].concat();
+    let said = printed(&design(&["--limit-force", "150 N"]));
+    let document = json(&design(&["--limit-force", "150 N"]));
+    let answer = &document["answer"];
+    assert!(number(&answer["force_n"]) <= 150.0 && number(&answer["stiffness_n_per_m"]) > 0.0);
+    assert!(
+        said.contains(&format!(
+            "answer: a spring of {:.3e} N/m",
+            number(&answer["stiffness_n_per_m"])
+        )),
+        "{said}"
+    );
+    let curve = document["curve"].as_array().expect("a list");
+    assert!(curve.len() > 10 && said.lines().count() > curve.len());
+
+    let fixed = printed(&design(&["--limit-force", "10 kN"]));
+    assert!(fixed.contains("answer: fixed"), "{fixed}");
+    let none = printed(&design(&["--limit-force", "1 N", "--limit-movement", "0.1 mm"]));
+    assert!(none.contains("no stiffness keeps the limits"), "{none}");
+    for (more, part) in [
+        (&["--limit-force", "3 m"][..], "force"),
+        (&["--limit-force", "-3"], "limit-force"),
+        (&["--limit-force", "0"], "greater than 0"),
+        (&["--limit-force", "1", "--at", "nowhere"], "upstream, downstream"),
+        (&["--limit-force", "1", "--at", "99 m"], "position"),
+        (&["--limit-force", "1", "--years", "3"], "--trucks-per-day"),
+        (&[], "--limit-force"),
+    ] {
+        assert_fails(&design(more), 2, &[part]);
+    }
+}
+
 // new, completions
 
 #[test]

@@ -83,6 +83,8 @@ pub enum Command {
     },
     /// Compute a scene with many values of some keys, on all cores
     Sweep(Box<super::sweep::Arguments>),
+    /// Find the end spring or clamp that keeps limits of force and movement
+    Design(Box<super::design::Arguments>),
     /// Write a commented scene to start from
     New(Box<super::new::Arguments>),
     /// List named values for vehicles, cables, friction and pavements, with their sources

@@ -2,6 +2,7 @@
 
 mod arguments;
 mod calibrate;
+mod design;
 mod input;
 mod new;
 mod presets;
@@ -25,6 +26,11 @@ enum Failure {
     Analysis(#[from] crate::Error),
     #[error(transparent)]
     Sweep(#[from] crate::sweep::SweepError),
+    #[cfg(feature = "plot")]
+    #[error("the figure: {0}")]
+    Figure(#[from] crate::figure::FigureError),
+    #[error(transparent)]
+    Design(#[from] crate::design::DesignError),
     #[error("no point of the sweep has an answer")]
     Nothing,
     #[error("{argument}: found {found}; allowed: {allowed}")]
@@ -61,6 +67,7 @@ pub fn main() -> ExitCode {
             let _ = writeln!(std::io::stderr(), "error: {failure}");
             match failure {
                 Failure::Usage { .. } | Failure::Unwritable { .. } => ExitCode::from(2),
+                Failure::Design(error) if error.is_bad_input() => ExitCode::from(2),
                 Failure::Sweep(error) if error.is_bad_input() => ExitCode::from(2),
                 Failure::Analysis(error) if error.is_bad_input() => ExitCode::from(2),
                 _ => ExitCode::from(1),
@@ -139,6 +146,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
             input.judged(crate::check(&input.scene))?;
             print::checked(&input.scene)
         }
+        Command::Design(arguments) => design::execute(arguments),
         Command::Sweep(arguments) => sweep::execute(arguments),
         Command::Presets(arguments) => presets::execute(arguments),
         Command::New(arguments) => new::execute(arguments),

@@ -11,6 +11,8 @@ use super::arguments::SceneArguments;
 use super::write;
 use crate::SceneFile;
 use crate::sweep::{Axis, Band, Progress, Quantiles, Samples, Sweep, SweepOptions, SweepSummary};
+#[cfg(feature = "plot")]
+use crate::sweep::{MapValue, Row, SweepMap};
 
 /// Arguments of `creepage sweep`.
 #[derive(Debug, clap::Args)]
@@ -21,6 +23,7 @@ its error. Numbers in the table are SI.
 Examples:
   creepage sweep my-duct.toml --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out friction.csv
   creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary vehicles.0.load=10tf,15tf,20tf --out grid.parquet
+  creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out map.csv --map map.svg
   creepage sweep my-duct.toml --vary \"friction.dynamic_coefficient=normal(0.25, 0.03)\" --samples 500 --out bands.csv"
 )]
 pub struct Arguments {
@@ -42,9 +45,37 @@ pub struct Arguments {
     /// Threads; all cores if left out
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
+    /// Draw a map over two varied keys to this file (SVG)
+    #[cfg(feature = "plot")]
+    #[arg(long, value_name = "FILE.svg")]
+    pub map: Option<PathBuf>,
+    /// What colours the map
+    #[cfg(feature = "plot")]
+    #[arg(long, value_name = "VALUE", default_value = "force", requires = "map")]
+    pub map_of: MapOf,
     /// Print the summary as one JSON document on standard output and nothing else there
     #[arg(long)]
     pub json: bool,
+}
+
+/// What colours a map.
+#[cfg(feature = "plot")]
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+pub enum MapOf {
+    /// The larger force on an end
+    Force,
+    /// The larger movement of an end
+    Movement,
+}
+
+#[cfg(feature = "plot")]
+impl From<MapOf> for MapValue {
+    fn from(of: MapOf) -> Self {
+        match of {
+            MapOf::Force => Self::Force,
+            MapOf::Movement => Self::Movement,
+        }
+    }
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
@@ -67,7 +98,22 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let options = SweepOptions {
         threads: arguments.threads.map(usize::from),
         progress: io::stderr().is_terminal().then_some(&progress),
-        evaluate: None,
+        ..SweepOptions::default()
+    };
+    #[cfg(feature = "plot")]
+    let map = match &arguments.map {
+        Some(file) => {
+            write::creatable(file)?;
+            Some((file, SweepMap::new(&sweep, arguments.map_of.into())?))
+        }
+        None => None,
+    };
+    #[cfg(feature = "plot")]
+    let each = map.as_ref().map(|(_, map)| |row: &Row| map.add(row));
+    #[cfg(feature = "plot")]
+    let options = SweepOptions {
+        each: each.as_ref().map(|each| each as &dyn Fn(&Row)),
+        ..options
     };
     let summary = sweep.run(&arguments.out, &options);
     if let Some(bar) = bar.take() {
@@ -83,6 +129,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     if summary.failed == summary.points {
         return Err(Failure::Nothing);
+    }
+    #[cfg(feature = "plot")]
+    if let Some((file, map)) = map {
+        write::text(file, &map.to_svg()?)?;
     }
     if arguments.json {
         write::json(&summary)

@@ -22,15 +22,30 @@ pub fn writable(output: &OutputArguments) -> Result<(), Failure> {
         }
         return Ok(());
     }
+    creatable(file)
+}
+
+/// Makes sure that `file` can be written, and leaves what is in it.
+pub fn creatable(file: &Path) -> Result<(), Failure> {
     std::fs::OpenOptions::new()
         .append(true)
         .create(true)
         .open(file)
         .map(drop)
-        .map_err(|source| Failure::Unwritable {
-            file: file.display().to_string(),
-            source,
-        })
+        .map_err(|source| unwritable(file, source))
+}
+
+/// Writes a text file.
+#[cfg(feature = "plot")]
+pub fn text(file: &Path, text: &str) -> Result<(), Failure> {
+    std::fs::write(file, text).map_err(|source| unwritable(file, source))
+}
+
+fn unwritable(file: &Path, source: std::io::Error) -> Failure {
+    Failure::Unwritable {
+        file: file.display().to_string(),
+        source,
+    }
 }
 
 /// One JSON document on standard output.

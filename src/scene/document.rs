@@ -139,6 +139,7 @@ impl Document {
     }
 
     /// What was written in the file, the overrides and the presets.
+    #[cfg(feature = "sweep")]
     pub fn texts(&self) -> impl Iterator<Item = &str> {
         self.sources.iter().map(|source| source.text.as_str())
     }

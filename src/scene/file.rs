@@ -114,6 +114,7 @@ impl SceneFile {
     }
 
     /// What the file and the overrides say, to tell one scene from another.
+    #[cfg(feature = "sweep")]
     pub(crate) fn texts(&self) -> impl Iterator<Item = &str> {
         self.document.texts()
     }

@@ -10,6 +10,17 @@ const MOST_VALUES: f64 = 1e7;
 /// Digits kept of A + i·STEP: the decimals that were written, without the binary dust of their sum.
 const DIGITS: usize = 12;
 
+const DIMENSIONS: [Dimension; 8] = [
+    Dimension::Length,
+    Dimension::Force,
+    Dimension::Pressure,
+    Dimension::ForcePerLength,
+    Dimension::InverseLength,
+    Dimension::Speed,
+    Dimension::Time,
+    Dimension::Ratio,
+];
+
 /// A key and the values it takes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
@@ -109,22 +120,23 @@ impl Distribution {
 
 /// The SI value of a number with or without a unit; `None` for any other text.
 pub fn si(text: &str) -> Option<f64> {
-    const ALL: [Dimension; 8] = [
-        Dimension::Length,
-        Dimension::Force,
-        Dimension::Pressure,
-        Dimension::ForcePerLength,
-        Dimension::InverseLength,
-        Dimension::Speed,
-        Dimension::Time,
-        Dimension::Ratio,
-    ];
     let text = text.trim().trim_matches(['"', '\'']);
     // No unit belongs to two dimensions.
-    let value = ALL
+    let value = DIMENSIONS
         .iter()
         .find_map(|dimension| dimension.parse_argument(text).ok())?;
     value.is_finite().then_some(value)
+}
+
+/// The SI unit of a number with a unit.
+#[cfg(feature = "plot")]
+pub fn si_unit(text: &str) -> Option<&'static str> {
+    let text = text.trim().trim_matches(['"', '\'']);
+    DIMENSIONS
+        .iter()
+        .find(|dimension| dimension.parse(text).is_ok())?
+        .units()
+        .next()
 }
 
 /// The parts of a list; commas inside brackets and quotes part nothing.

@@ -27,6 +27,8 @@ mod axis;
 mod bands;
 mod error;
 mod journal;
+#[cfg(feature = "plot")]
+mod map;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod row;
@@ -36,6 +38,8 @@ mod table;
 pub use axis::{Axis, AxisValues, Distribution};
 pub use bands::{Band, Quantiles};
 pub use error::SweepError;
+#[cfg(feature = "plot")]
+pub use map::{MapValue, SweepMap};
 pub use row::{Answer, Row};
 pub use run::{Evaluate, Progress, SweepOptions, SweepSummary};
 

@@ -29,6 +29,8 @@ pub struct SweepOptions<'a> {
     pub threads: Option<usize>,
     /// Hears of every finished point.
     pub progress: Option<&'a dyn Fn(Progress)>,
+    /// Hears of every row of the table, in the order of the grid.
+    pub each: Option<&'a dyn Fn(&Row)>,
     /// Computes a point in place of [`crate::run`].
     pub evaluate: Option<&'a Evaluate<'a>>,
 }
@@ -80,7 +82,7 @@ impl Sweep {
         let resumed = journal.done();
         self.compute(&mut journal, options)?;
         journal.force()?;
-        let summary = self.write(&journal, resumed, output, format)?;
+        let summary = self.write(&journal, resumed, output, format, options.each)?;
         journal.remove()?;
         Ok(summary)
     }
@@ -186,6 +188,7 @@ impl Sweep {
         resumed: usize,
         output: &Path,
         format: Format,
+        each: Option<&dyn Fn(&Row)>,
     ) -> Result<SweepSummary, SweepError> {
         let columns = self.columns();
         let mut summary = SweepSummary {
@@ -198,6 +201,9 @@ impl Sweep {
         let mut gatherer = Gatherer::default();
         table::write(output, format, &columns, |sink| {
             journal.in_order(|row| {
+                if let Some(each) = each {
+                    each(&row);
+                }
                 if let Err(error) = &row.outcome {
                     summary.failed += 1;
                     summary.first_error.get_or_insert_with(|| error.clone());
