@@ -23,6 +23,8 @@ mod analysis;
 #[cfg(feature = "cli")]
 pub mod cli;
 mod error;
+#[cfg(feature = "plot")]
+pub mod figure;
 pub mod scene;
 
 pub use analysis::profile::{Profile, profile, profile_at};

@@ -1,22 +1,19 @@
 //! Draws the force at the fixed end of 100 m of duct against the passes: the law, and the simulation of every pass.
 //!
-//! `cargo run --release -p pass-law --example law_and_simulation -- docs/pass-law.svg`
+//! `cargo run --release --example law_and_simulation`
 
-mod plot;
+mod common;
 
 use boussinesq::HalfSpace;
 use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
+use creepage::figure::{Axis, Chart, Series};
 use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
 use pass_law::{PassLaw, Resolution};
-use plot::{Axis, Plot};
 
 const APPROACH: f64 = 15.0;
 const LAST: u64 = 10_000;
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let path = std::env::args()
-        .nth(1)
-        .unwrap_or_else(|| "docs/pass-law.svg".into());
+fn main() -> Result<(), common::Failure> {
     let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
     let truck = Vehicle::point("20 tf", 196_133.0, 11.1)?;
     let motion = DuctMotion::new(&ground, &truck, DuctLine::new(1.2, 0.0)?, 500.0, 1e-9)?;
@@ -57,35 +54,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .map(|pass| (pass, saturation.downstream_force * saturation.share(pass)))
         .collect();
 
-    let label = |value: &f64| (*value, value.to_string());
-    let mut plot = Plot::new(
-        Axis {
-            from: 1.0,
-            to: LAST as f64,
-            logarithmic: true,
-            ticks: [1.0, 10.0, 100.0, 1000.0, 10_000.0].iter().map(label).collect(),
-            title: "passes",
-        },
-        Axis {
-            from: 0.0,
-            to: 2000.0,
-            logarithmic: false,
-            ticks: [0.0, 500.0, 1000.0, 1500.0, 2000.0].iter().map(label).collect(),
-            title: "force at the fixed end, N",
-        },
+    let chart = Chart::new(
+        "Force at the fixed end of 100 m of duct",
+        Axis::logarithmic("passes").range(1.0, LAST as f64),
+        Axis::linear("force, N"),
+    )
+    .with(Series::line("pass law", curve))
+    .with(Series::points("simulation of every pass", simulated))
+    .with(
+        Series::line("closed form, without the ends' layers on the way", closed)
+            .look(6)
+            .dashed(),
     );
-    plot.curve(&closed, "#888", "6 4");
-    plot.curve(&curve, "#1b5fa8", "none");
-    plot.dots(&simulated, "#c04a12");
-    plot.text(1.3, 1850.0, "start", "#1b5fa8", "law");
-    plot.text(1.3, 1730.0, "start", "#c04a12", "simulation of every pass");
-    plot.text(
-        1.3,
-        1610.0,
-        "start",
-        "#666",
-        "closed form, without the ends' layers on the way",
-    );
-    std::fs::write(path, plot.svg())?;
-    Ok(())
+    common::save("pass-law.svg", &chart.to_svg()?)
 }
