@@ -5,8 +5,14 @@
 
 #[path = "../shared/ground_reference.rs"]
 mod ground_reference;
+#[path = "../shared/passes.rs"]
+mod passes;
+#[path = "../shared/stopwatch.rs"]
+mod stopwatch;
 
+mod cable;
 mod ground;
+mod whole;
 
 use std::error::Error;
 use std::path::Path;
@@ -14,7 +20,11 @@ use std::path::Path;
 /// A chart's name and what draws it into a folder.
 type Entry = (&'static str, fn(&Path) -> Result<(), Box<dyn Error>>);
 
-const CHARTS: &[Entry] = &[("ground", ground::run)];
+const CHARTS: &[Entry] = &[
+    ("ground", ground::run),
+    ("cable", cable::run),
+    ("whole", whole::run),
+];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let out = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/charts");

@@ -1,0 +1,143 @@
+//! The passes of a scene on one mesh by one solver, put together from the crates: no planner, and no coarser mesh to tell an error.
+
+#![allow(dead_code, reason = "every chart uses its own part")]
+
+use std::error::Error;
+
+use cable_dem::{
+    CableState, DuctedCable, Dynamic, Explicit, ExplicitOptions, Friction, Mesh, MovingDuct, PassOutcome,
+    Passage, QuasiStatic,
+};
+use creepage::Scene;
+use ground_field::{DuctLine, DuctMotion, GroundField};
+
+/// Standard acceleration of gravity \[m/s²\].
+const GRAVITY: f64 = 9.80665;
+/// How far beyond the duct's ends vehicles come from \[m\]: the scenes of the charts say so themselves, see [`APPROACH_KEY`].
+const APPROACH: f64 = 15.0;
+/// The same as an override of a scene.
+pub const APPROACH_KEY: &str = "solver.approach=15 m";
+
+/// Which solver takes the passes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Solver {
+    QuasiStatic,
+    Dynamic,
+    Explicit,
+}
+
+impl Solver {
+    /// Most nodes that may be advanced for one answer: some ten seconds.
+    fn most_updates(self) -> f64 {
+        match self {
+            Self::QuasiStatic => 6e8,
+            Self::Dynamic => 2e8,
+            Self::Explicit => 8e9,
+        }
+    }
+}
+
+/// Forces on the downstream end after every pass \[N\], and how many nodes were solved for or advanced.
+#[derive(Debug, Clone, Default)]
+pub struct Answer {
+    pub forces: Vec<f64>,
+    pub node_updates: usize,
+}
+
+/// The cable of `scene`.
+///
+/// # Errors
+///
+/// None for a scene that was read from a file.
+pub fn cable(scene: &Scene) -> Result<DuctedCable, Box<dyn Error>> {
+    let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
+    let friction = Friction::new(scene.friction.law, limit)?;
+    Ok(
+        DuctedCable::new(scene.duct.length, scene.cable.axial_stiffness, friction)?
+            .with_ends(scene.ends.upstream, scene.ends.downstream)?,
+    )
+}
+
+/// Motion of the duct under the scene's first vehicle, on the ground `field`.
+///
+/// # Errors
+///
+/// Those of the ground model.
+pub fn motion(scene: &Scene, field: &dyn GroundField, accuracy: f64) -> Result<DuctMotion, Box<dyn Error>> {
+    let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
+    let reach = scene.duct.length + 2.0 * APPROACH;
+    Ok(DuctMotion::new(
+        field,
+        &scene.vehicles[0].vehicle,
+        line,
+        reach,
+        accuracy,
+    )?)
+}
+
+/// `passes` passes of the first vehicle, with `density` nodes a depth of the duct and two steps of the vehicle a node spacing.
+/// `None` where that would take more than about ten seconds and `limited`.
+///
+/// # Errors
+///
+/// Those of the solver.
+pub fn simulate(
+    scene: &Scene,
+    motion: &DuctMotion,
+    solver: Solver,
+    density: f64,
+    passes: usize,
+    limited: bool,
+) -> Result<Option<Answer>, Box<dyn Error>> {
+    let (cable, mass) = (cable(scene)?, scene.cable.weight / GRAVITY);
+    let spacing = scene.duct.depth / density;
+    let mesh = Mesh::new(scene.duct.length, spacing, 0.5 * spacing)?;
+    let mut state = CableState::at_rest(&mesh);
+    let mut pass: Box<dyn FnMut() -> Result<PassOutcome, cable_dem::CableError>> = match solver {
+        Solver::QuasiStatic => {
+            let passage = Passage::new(&cable, &mesh, motion, APPROACH)?;
+            let mut solver = QuasiStatic::new(cable, mesh)?;
+            Box::new(move || solver.pass(&passage, &mut state))
+        }
+        Solver::Dynamic => {
+            let duct = MovingDuct::new(&cable, &mesh, motion, APPROACH)?;
+            let mut solver = Dynamic::new(cable, mesh, mass)?;
+            Box::new(move || Ok(solver.pass(&duct, &mut state)?.pass))
+        }
+        Solver::Explicit => {
+            let duct = MovingDuct::new(&cable, &mesh, motion, APPROACH)?;
+            let mut solver = Explicit::new(cable, mesh, mass, ExplicitOptions::default())?;
+            Box::new(move || Ok(solver.pass(&duct, &mut state)?.pass))
+        }
+    };
+    let mut answer = Answer::default();
+    for done in 1..=passes {
+        let outcome = pass()?;
+        answer.forces.push(outcome.force.downstream);
+        answer.node_updates += outcome.statistics.node_updates;
+        let expected = answer.node_updates as f64 * passes as f64 / done as f64;
+        if limited && done <= 3 && expected > solver.most_updates() {
+            return Ok(None);
+        }
+    }
+    Ok(Some(answer))
+}
+
+/// Largest difference of `found` from `truth` as a share of the latter, or of its tenth part at the largest where it is less;
+/// infinite for what is not a number.
+pub fn error(found: &[f64], truth: &[f64]) -> f64 {
+    let largest = truth
+        .iter()
+        .fold(0.0_f64, |largest, force| largest.max(force.abs()));
+    let shares = found
+        .iter()
+        .zip(truth)
+        .map(|(found, truth)| (found - truth).abs() / truth.abs().max(0.1 * largest));
+    shares.fold(0.0, |worst: f64, share| {
+        if share.is_nan() {
+            f64::INFINITY
+        } else {
+            worst.max(share)
+        }
+    })
+}
