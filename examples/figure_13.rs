@@ -83,7 +83,7 @@ impl Bar {
 
 fn main() -> Result<(), Failure> {
     let mut chart = Chart::new(
-        "Figure 13: how far friction stretches a cable",
+        "Figure 13: how far friction stretches a cable; lines by formula",
         Axis::logarithmic("length X on which friction acts, m"),
         Axis::logarithmic("elastic displacement ΔC, µm"),
     )
@@ -113,8 +113,8 @@ fn main() -> Result<(), Failure> {
             .zip(&solved)
             .map(|(x, displacement)| (*x, displacement * 1e6));
         chart = chart
-            .with(Series::line(format!("{}, formula", bar.name), curve).look(look))
-            .with(Series::points("solver", points).look(look));
+            .with(Series::line(bar.name, curve).look(look))
+            .with(Series::points(if look == 0 { "markers: cable solver" } else { "" }, points).look(look));
     }
     save("figure-13.svg", &chart.to_svg()?)
 }

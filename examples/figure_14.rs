@@ -112,7 +112,7 @@ impl Case {
 
 /// Table 4: what it says of a kind of cable at a depth, and whether that came out.
 ///
-/// "Almost zero" is a twentieth of the force in the single-core cable at the same depth and friction.
+/// "Almost zero" is taken as less than a tenth of the force in the single-core cable at the same depth and friction.
 pub fn tendencies(cases: &[Case]) -> Vec<(String, bool)> {
     let last = |kind: &str, depth: f64| -> Vec<f64> {
         let there = cases
@@ -143,7 +143,7 @@ pub fn tendencies(cases: &[Case]) -> Vec<(String, bool)> {
         ),
         (
             "(3) triplex, 1.5 m, 0.4: almost zero".into(),
-            triplex[1] < 0.05 * middle[1],
+            triplex[1] < 0.1 * middle[1],
         ),
     ]
 }

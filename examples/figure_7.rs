@@ -67,7 +67,7 @@ pub fn snapshots(axial_stiffness: f64, passes: &[u32]) -> Result<Vec<Snapshot>, 
     };
     let cable = DuctedCable::new(LENGTH, axial_stiffness, Friction::new(law, LIMIT)?)?
         .with_ends(End::Free, End::Fixed)?;
-    let mesh = Mesh::new(LENGTH, 0.05, 0.025)?;
+    let mesh = Mesh::new(LENGTH, 0.1, 0.05)?;
     let passage = Passage::new(&cable, &mesh, &motion, APPROACH)?;
     let mut solver = QuasiStatic::new(cable, mesh)?;
     let mut state = CableState::at_rest(&mesh);

@@ -17,23 +17,32 @@
 //! ```
 //!
 //! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `burmister` (layers by
-//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable).
+//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable), `pass-law` (many passes), `calibrate` (parameters from measurements).
 
 mod analysis;
+pub mod calibration;
 #[cfg(feature = "cli")]
 pub mod cli;
+pub mod design;
 mod error;
 #[cfg(feature = "plot")]
 pub mod figure;
+mod planner;
+pub mod presets;
 pub mod scene;
+#[cfg(feature = "sweep")]
+pub mod sweep;
+pub mod template;
 
 pub use analysis::profile::{Profile, profile, profile_at};
 pub use analysis::result::{
     Cost, DuctMotionSummary, ErrorEstimate, PassRecord, PlanSummary, Run, Saturation,
 };
 pub use analysis::run::{RunOptions, check, run, run_with};
+pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
 pub use error::Error;
-pub use scene::{Scene, SceneError};
+pub use planner::{Plan, PlanReport, Rung, plan, plan_on};
+pub use scene::{Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.
 #[cfg(doctest)]

@@ -139,9 +139,12 @@ impl Chain {
     /// Force on the fixed end after all passes \[N\]; none if a damped step did not arrive.
     fn run(mut self, mesh: &Mesh, motion: &DuctMotion, damped: bool) -> Option<f64> {
         let nodes = self.displacement.len();
-        let steps = (((LENGTH + 2.0 * APPROACH) / mesh.vehicle_step()) * (1.0 + 1e-9)) as usize;
+        // The library's positions: a step apart, on the duct's start, to beyond the approach on either side.
+        let whole = |length: f64| (length / mesh.vehicle_step() * (1.0 - 1e-9)).ceil();
+        let outside = whole(APPROACH);
+        let steps = (whole(LENGTH) + 2.0 * outside) as usize;
         let duct = |step: usize| -> Vec<f64> {
-            let vehicle = mesh.vehicle_step() * step as f64 - APPROACH;
+            let vehicle = mesh.vehicle_step() * (step as f64 - outside);
             (0..nodes)
                 .map(|i| motion.longitudinal(mesh.spacing() * i as f64 - vehicle))
                 .collect()

@@ -4,8 +4,14 @@
 
 #[path = "../shared/cable_map.rs"]
 mod cable_map;
+#[path = "../shared/ground_map.rs"]
+mod ground_map;
+#[path = "../shared/ground_reference.rs"]
+mod ground_reference;
 
+mod burmister;
 mod explicit;
+mod fem;
 mod implicit;
 mod pass_law;
 
@@ -18,6 +24,8 @@ type Entry = (&'static str, fn(&Path) -> Result<(), Box<dyn Error>>);
 const MAPS: &[Entry] = &[
     ("explicit", explicit::run),
     ("implicit", implicit::run),
+    ("fem", fem::run),
+    ("burmister", burmister::run),
     ("pass-law", pass_law::run),
 ];
 

@@ -14,7 +14,7 @@ use crate::{Cost, Error};
 const FINE: f64 = 12.0;
 const COARSE: f64 = 6.0;
 /// Largest error of the law itself beyond the tenth pass, measured against the simulation of every pass.
-const LAW_ERROR: f64 = 0.01;
+pub const ERROR: f64 = 0.01;
 /// The law resolves the passes from this one on.
 const FIRST_GOOD: u64 = 10;
 /// The first passes are all listed, then each this much later than the one before.
@@ -42,12 +42,7 @@ pub fn refusal(scene: &Scene) -> Result<Option<Concern>, Error> {
 /// Runs all passes of `scene` by the law.
 pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
     let cable = cable(scene)?;
-    let traffic: Vec<(DuctMotion, f64)> = motions
-        .iter()
-        .cloned()
-        .zip(scene.vehicles.iter().map(|vehicle| vehicle.share))
-        .filter(|(_, share)| *share > 0.0)
-        .collect();
+    let traffic = traffic(scene, motions);
     let nodes = if scene.solver.tolerance <= 0.01 {
         FINE
     } else {
@@ -72,8 +67,7 @@ pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
     if scene.traffic.passes < FIRST_GOOD {
         warnings.push("the first ten passes are rough by the pass law".into());
     }
-    // Traffic in another order than evenly interleaved leaves another force at the very end: the mean is shown.
-    let swing = f64::from(u8::from(scene.traffic.order == Order::Interleaved));
+    let swing = swing(scene);
     let records: Vec<PassRecord> = evolution.records.iter().map(|record| of(record, swing)).collect();
     let share = difference(
         &records,
@@ -90,7 +84,7 @@ pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
         force_profile: force_profile(&cable, &evolution),
         restraints: restraints(&cable, &evolution),
         error: ErrorEstimate {
-            relative: 0.5 * share + LAW_ERROR,
+            relative: 0.5 * share + ERROR,
             method:
                 "half the difference to cells half as fine, and 1 % for the law itself beyond the tenth pass"
                     .into(),
@@ -99,6 +93,41 @@ pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
         passes: records,
         warnings,
     })
+}
+
+/// The records after `passes`, ascending, with so many nodes per depth in the law's cells.
+pub fn records(
+    scene: &Scene,
+    motions: &[DuctMotion],
+    nodes_per_depth: f64,
+    passes: &[u64],
+) -> Result<Vec<PassRecord>, Error> {
+    let resolution = Resolution::new(scene.duct.depth)?
+        .with_nodes_per_depth(nodes_per_depth)?
+        .with_approach(approach(scene))?;
+    let law = PassLaw::new(&cable(scene)?, &traffic(scene, motions), resolution)?;
+    let swing = swing(scene);
+    Ok(law
+        .run(passes)?
+        .records
+        .iter()
+        .map(|record| of(record, swing))
+        .collect())
+}
+
+/// The motions under vehicles that do drive, with their shares.
+fn traffic(scene: &Scene, motions: &[DuctMotion]) -> Vec<(DuctMotion, f64)> {
+    motions
+        .iter()
+        .cloned()
+        .zip(scene.vehicles.iter().map(|vehicle| vehicle.share))
+        .filter(|(_, share)| *share > 0.0)
+        .collect()
+}
+
+/// Traffic in another order than evenly interleaved leaves another force at the very end: the mean is shown.
+fn swing(scene: &Scene) -> f64 {
+    f64::from(u8::from(scene.traffic.order == Order::Interleaved))
 }
 
 fn of(record: &pass_law::PassRecord, swing: f64) -> PassRecord {

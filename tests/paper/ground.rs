@@ -76,6 +76,13 @@ fn velocity_of_the_duct() {
     let velocity = figure_6::velocity().expect("velocity");
     let (forward, backward) = velocity.areas;
     assert!((forward / backward - 1.0).abs() < 0.01, "{forward} {backward}");
+    // What they differ by is the way still to go beyond the figure's 40 m: v (D(40 m) − D(−40 m)).
+    let displacement = &velocity.profile.longitudinal_m;
+    let left = 40.0 / 3.6 * (displacement[displacement.len() - 1] - displacement[0]);
+    assert!(
+        (backward - forward - left).abs() < 1e-4 * backward,
+        "{backward} {forward} {left}"
+    );
     assert!(velocity.forward_length > 4.0 * velocity.backward_length);
     assert!(velocity.peaks.1 > 4.0 * velocity.peaks.0, "{:?}", velocity.peaks);
     // An area is the speed times the way back between both peaks of the displacement, whatever lies between.

@@ -23,7 +23,7 @@ fn elastic_displacement_of_the_cable() {
 /// Table 3: one displacement of the duct at all depths. Table 4: the tendencies.
 #[test]
 fn occurrence_of_creepage() {
-    let cases = figure_14::cases(40).expect("cases");
+    let cases = figure_14::cases(20).expect("cases");
     assert_eq!(cases.len(), 15);
     for case in &cases {
         // From a table of the displacement, to its accuracy.

@@ -3,7 +3,7 @@
 use crate::figure::FigureError;
 use crate::figure::chart::Chart;
 use crate::figure::palette::{GREY, INK, PALETTE};
-use crate::figure::series::{Along, Note, Reference, Series};
+use crate::figure::series::{Along, Kind, Note, Reference, Series};
 
 use super::canvas::{Anchor, Canvas, Rect, TEXT, stroke, text_width};
 use super::frame::{Frame, below, ticks_across, ticks_up};
@@ -45,7 +45,7 @@ pub fn chart(chart: &Chart, canvas: &Canvas<'_>, outer: Rect) -> Result<(), Figu
         series::draw(canvas, &frame, series, false)?;
     }
     for reference in &chart.references {
-        draw_label(canvas, &frame, reference)?;
+        draw_label(canvas, &frame, reference, &shown)?;
     }
     for note in &chart.notes {
         draw_note(canvas, &frame, note)?;
@@ -89,37 +89,84 @@ fn draw_reference(canvas: &Canvas<'_>, frame: &Frame, reference: &Reference) -> 
     canvas.area(&corners, colour, 0.15)
 }
 
-/// The label stands at the right end above a horizontal line, at the top beside a vertical one, and in bands.
-fn draw_label(canvas: &Canvas<'_>, frame: &Frame, reference: &Reference) -> Result<(), FigureError> {
+/// The label stands on one of the two ends of the line or band, on one of its sides, where it hides least of the data.
+fn draw_label(
+    canvas: &Canvas<'_>,
+    frame: &Frame,
+    reference: &Reference,
+    shown: &[Series],
+) -> Result<(), FigureError> {
     let (from, to, seen) = shares(frame, reference);
     if !seen || reference.label.is_empty() {
         return Ok(());
     }
+    let line = from == to;
     // A light colour does for a band, not for a text.
-    let colour = if from == to {
+    let colour = if line {
         reference.colour.map_or(GREY, |index| PALETTE[index])
     } else {
         INK
     };
-    let at = match reference.along {
+    let half = 0.5 * text_width(&reference.label, TEXT) + 6.0;
+    let plot = frame.plot;
+    let places = match reference.along {
         Along::Horizontal => {
-            let (_, line) = frame.at((1.0, to));
-            let y = if from == to {
-                line - 0.75 * TEXT
-            } else {
-                line + 0.75 * TEXT
-            };
-            (
-                frame.plot.right - 0.5 * text_width(&reference.label, TEXT) - 6.0,
-                y,
-            )
+            let (above, below) = (frame.at((0.0, to)).1, frame.at((0.0, from)).1);
+            let inward = if line { 0.75 * TEXT } else { -0.75 * TEXT };
+            let (left, right) = (plot.left + half, plot.right - half);
+            let (above, below) = (above - inward, below + inward);
+            [(right, above), (left, above), (right, below), (left, below)]
         }
         Along::Vertical => {
-            let (x, _) = frame.at((0.5 * (from + to), 1.0));
-            (x, frame.plot.top + 0.9 * TEXT)
+            let x = frame.at((0.5 * (from + to), 0.0)).0;
+            let (top, bottom) = (plot.top + 0.9 * TEXT, plot.bottom - 0.9 * TEXT);
+            [
+                (x, top),
+                (x, bottom),
+                (x, top + 1.5 * TEXT),
+                (x, bottom - 1.5 * TEXT),
+            ]
         }
     };
-    text_inside(canvas, frame, &reference.label, at, colour)
+    let hidden = places.map(|place| hidden_by(frame, text_place(plot, place, half), half, shown));
+    let least = hidden.into_iter().min().unwrap_or(0);
+    let best = places
+        .into_iter()
+        .zip(hidden)
+        .find(|(_, hidden)| *hidden == least);
+    text_inside(
+        canvas,
+        frame,
+        &reference.label,
+        best.map_or(places[0], |(place, _)| place),
+        colour,
+    )
+}
+
+/// How many points and pieces of lines a text of half-width `half` \[px\] at `centre` would hide.
+fn hidden_by(frame: &Frame, centre: (f64, f64), half: f64, shown: &[Series]) -> usize {
+    // The text as the unit square.
+    let inside = |point: &(f64, f64)| {
+        let (x, y) = frame.at(frame.shares(*point));
+        (
+            0.5 + (x - centre.0) / (2.0 * half),
+            0.5 + (y - centre.1) / (1.5 * TEXT),
+        )
+    };
+    let count = |series: &Series| {
+        let places: Vec<_> = series.points.iter().map(inside).collect();
+        let within = |share: f64| (0.0..=1.0).contains(&share);
+        let points = places.iter().filter(|(x, y)| within(*x) && within(*y)).count();
+        let lines = match series.kind {
+            Kind::Points => 0,
+            _ => places
+                .windows(2)
+                .filter(|pair| series::clip(pair[0], pair[1]).is_some())
+                .count(),
+        };
+        points + lines
+    };
+    shown.iter().map(count).sum()
 }
 
 fn draw_note(canvas: &Canvas<'_>, frame: &Frame, note: &Note) -> Result<(), FigureError> {
@@ -145,7 +192,11 @@ fn text_inside(
             room: plot.width(),
         });
     }
-    let x = at.0.clamp(plot.left + half, plot.right - half);
-    let y = at.1.clamp(plot.top + 0.7 * TEXT, plot.bottom - 0.7 * TEXT);
-    canvas.text_on_white(text, (x, y), Anchor::Middle, colour)
+    canvas.text_on_white(text, text_place(plot, at, half), Anchor::Middle, colour)
+}
+
+/// `at`, moved so that a text of half-width `half` \[px\] stays in the plot.
+fn text_place(plot: Rect, at: (f64, f64), half: f64) -> (f64, f64) {
+    let x = at.0.min(plot.right - half).max(plot.left + half);
+    (x, at.1.clamp(plot.top + 0.7 * TEXT, plot.bottom - 0.7 * TEXT))
 }

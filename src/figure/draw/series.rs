@@ -79,7 +79,7 @@ fn inside(points: &[(f64, f64)]) -> Vec<Vec<(f64, f64)>> {
 }
 
 /// The part of a segment inside the unit square (Y.-D. Liang, B. A. Barsky, ACM Transactions on Graphics 3, 1984).
-fn clip(from: (f64, f64), to: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
+pub fn clip(from: (f64, f64), to: (f64, f64)) -> Option<((f64, f64), (f64, f64))> {
     let (dx, dy) = (to.0 - from.0, to.1 - from.1);
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     for (slope, room) in [

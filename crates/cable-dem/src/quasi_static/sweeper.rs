@@ -12,9 +12,10 @@ use crate::outcome::Recorder;
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
 /// Accuracy of friction and equilibrium inside the windows, as a share of the friction limit.
-const FRICTION_ACCURACY: f64 = 1e-6;
-/// Accuracy of slip, as a share of the largest displacement.
-const SLIP_ACCURACY: f64 = 1e-7;
+const FRICTION_ACCURACY: f64 = 1e-9;
+/// Accuracy of slip, as a share of the largest displacement. What a slipping node may slip the wrong way adds up over
+/// thousands of steps: it has to be far below the slip of one step.
+const SLIP_ACCURACY: f64 = 1e-12;
 /// Most nodes that a disturbed window grows by at once on each side.
 pub(super) const MAX_GROWTH: usize = 256;
 
@@ -165,8 +166,8 @@ impl Sweeper {
             .r
             .iter()
             .fold(passage.peak(), |largest, u| largest.max(u.abs()));
-        let friction =
-            (FRICTION_ACCURACY * self.chain.limit).max(16.0 * rounding(&self.cable, &self.mesh, largest));
+        let friction = (FRICTION_ACCURACY * self.chain.limit)
+            .max(16.0 * (rounding(&self.cable, &self.mesh, largest) + self.support_rounding(largest)));
         let tolerance = Tolerance {
             friction,
             slip: SLIP_ACCURACY * largest + self.chain.compliance * friction,
@@ -247,6 +248,16 @@ impl Sweeper {
     /// Friction f on a node \[N/m\].
     pub fn friction(&self, node: usize, snapshot: &Snapshot<'_>) -> f64 {
         self.g[node] + snapshot.adhesion[node + 1]
+    }
+
+    /// Rounding error of the stiffest support's force, per metre of its node \[N/m\], when displacements reach `largest` \[m\].
+    fn support_rounding(&self, largest: f64) -> f64 {
+        self.supports
+            .iter()
+            .filter_map(|SupportWindow { support, .. }| {
+                Some(4.0 * f64::EPSILON * support.stiffness? * largest / self.chain.tributary[support.node])
+            })
+            .fold(0.0, f64::max)
     }
 
     /// Takes the state into the adherent frame of the vehicle's first position. The cable does not move by this.

@@ -17,9 +17,10 @@ use crate::transient::Lumped;
 use crate::{CableError, CableState, Statistics};
 
 /// Accuracy of friction and equilibrium, as a share of the friction limit.
-const FRICTION_ACCURACY: f64 = 1e-6;
-/// Accuracy of slip, as a share of the largest displacement.
-const SLIP_ACCURACY: f64 = 1e-7;
+const FRICTION_ACCURACY: f64 = 1e-9;
+/// Accuracy of slip, as a share of the largest displacement. What a slipping node may slip the wrong way adds up over
+/// thousands of steps: it has to be far below the slip of one step.
+const SLIP_ACCURACY: f64 = 1e-12;
 /// Softnesses γ k/h through which a step is led that does not converge from its first guess.
 const SOFTNESSES: [f64; 9] = [100.0, 10.0, 1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 

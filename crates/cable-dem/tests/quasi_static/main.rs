@@ -11,4 +11,5 @@ mod full_newton;
 mod reference;
 mod robustness;
 mod scenes;
+mod slow_turn;
 mod windows;

@@ -1,0 +1,131 @@
+//! What is minimised, in units in which a rise by 1 is one standard error.
+//!
+//! With data residuals r in units of σ, their spread s, and u = r/s,
+//!
+//! D = κ · 2 Σ ρ(u) + Σ (prior residual)².
+//!
+//! κ makes D comparable with χ² whatever the loss and whether or not σ was known: κ = A/B with A the mean of ψ′(u) and
+//! B = Σψ²(u)/(n − p) (P. J. Huber, Robust Statistics, 1981, section 7.6; for least squares κ is 1/σ̂²). The inverse
+//! covariance is then κ A JᵀJ/s² plus that of the priors.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::Loss;
+
+/// Makes the median of |r| under Gaussian noise a standard deviation.
+const MEDIAN_TO_SIGMA: f64 = 1.4826;
+/// Least share of residuals that count fully in a robust fit; below, its own statistics are worth nothing.
+const LEAST_CURVATURE: f64 = 0.1;
+
+/// The function that is minimised.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Deviance {
+    pub loss: Loss,
+    /// Number of data residuals; those of the priors follow.
+    pub data: usize,
+    /// s.
+    pub spread: f64,
+    /// κ.
+    pub normalisation: f64,
+}
+
+impl Deviance {
+    /// D of the residuals; infinite where the model has no answer.
+    pub fn total(&self, residuals: &DVector<f64>) -> f64 {
+        let data: f64 = residuals
+            .iter()
+            .take(self.data)
+            .map(|r| 2.0 * self.loss.value(r / self.spread))
+            .sum();
+        let priors: f64 = residuals.iter().skip(self.data).map(|r| r * r).sum();
+        let total = self.normalisation * data + priors;
+        if total.is_nan() { f64::INFINITY } else { total }
+    }
+
+    /// w with ∂D/∂z = 2 Jᵀ(w ∘ r).
+    pub fn weights(&self, residuals: &DVector<f64>) -> DVector<f64> {
+        self.rows(residuals, |u| self.loss.weight(u))
+    }
+
+    /// Half the second derivative of D by each residual, its mean taken for the data.
+    pub fn curvatures(&self, residuals: &DVector<f64>) -> DVector<f64> {
+        let mean = self.mean_curvature(residuals);
+        self.rows(residuals, |_| mean)
+    }
+
+    fn rows(&self, residuals: &DVector<f64>, data: impl Fn(f64) -> f64) -> DVector<f64> {
+        let factor = self.normalisation / (self.spread * self.spread);
+        DVector::from_iterator(
+            residuals.len(),
+            residuals.iter().enumerate().map(|(row, r)| {
+                if row < self.data {
+                    factor * data(r / self.spread)
+                } else {
+                    1.0
+                }
+            }),
+        )
+    }
+
+    /// A.
+    fn mean_curvature(&self, residuals: &DVector<f64>) -> f64 {
+        if !self.loss.is_robust() {
+            return 1.0;
+        }
+        let sum: f64 = residuals
+            .iter()
+            .take(self.data)
+            .map(|r| self.loss.curvature(r / self.spread))
+            .sum();
+        (sum / self.data as f64).max(LEAST_CURVATURE)
+    }
+
+    /// κ from residuals with so many degrees of freedom, whose noise is at least `least` in units of σ.
+    pub fn normalised(self, residuals: &DVector<f64>, degrees_of_freedom: f64, least: f64) -> Self {
+        let sum: f64 = residuals
+            .iter()
+            .take(self.data)
+            .map(|r| (self.loss.weight(r / self.spread) * r / self.spread).powi(2))
+            .sum();
+        let least = (least / self.spread).powi(2);
+        Self {
+            normalisation: self.mean_curvature(residuals) / (sum / degrees_of_freedom).max(least),
+            ..self
+        }
+    }
+
+    /// s from the median of the residuals, which outliers do not move.
+    pub fn with_median_spread(self, residuals: &DVector<f64>, degrees_of_freedom: f64, least: f64) -> Self {
+        let mut sizes: Vec<f64> = residuals.iter().take(self.data).map(|r| r.abs()).collect();
+        sizes.sort_unstable_by(f64::total_cmp);
+        let middle = sizes.len() / 2;
+        let median = if sizes.len().is_multiple_of(2) {
+            0.5 * (sizes[middle - 1] + sizes[middle])
+        } else {
+            sizes[middle]
+        };
+        let lost = (self.data as f64 / degrees_of_freedom).sqrt();
+        Self {
+            spread: (MEDIAN_TO_SIGMA * median * lost).max(least),
+            ..self
+        }
+    }
+
+    /// Standard deviation of the noise in units of σ.
+    pub fn noise(&self, residuals: &DVector<f64>) -> f64 {
+        if self.loss.is_robust() {
+            self.spread
+        } else {
+            self.spread * (self.mean_curvature(residuals) / self.normalisation).sqrt()
+        }
+    }
+}
+
+/// Jᵀ diag(w) J.
+pub(crate) fn information(jacobian: &DMatrix<f64>, weights: &DVector<f64>) -> DMatrix<f64> {
+    let mut weighted = jacobian.clone();
+    for (mut row, weight) in weighted.row_iter_mut().zip(weights.iter()) {
+        row *= *weight;
+    }
+    jacobian.transpose() * weighted
+}

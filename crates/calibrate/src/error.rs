@@ -1,0 +1,156 @@
+//! What can go wrong in a calibration.
+
+use crate::ModelError;
+
+/// Error of a calibration.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CalibrationError {
+    /// A parameter is not well defined.
+    #[error("parameter {name}: {quantity} is {value}; allowed: {allowed}")]
+    InvalidParameter {
+        /// The parameter's name.
+        name: String,
+        /// What of it.
+        quantity: &'static str,
+        /// What was found.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// Two parameters have one name.
+    #[error("two parameters are called {name}")]
+    DuplicateParameter {
+        /// The name.
+        name: String,
+    },
+    /// An option is out of its range.
+    #[error("option {name} is {value}; allowed: {allowed}")]
+    InvalidOption {
+        /// The option.
+        name: &'static str,
+        /// What was found.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// An observation is not a number, or its sigma is not positive.
+    #[error("observation {index}: {quantity} is {value}; allowed: {allowed}")]
+    InvalidObservation {
+        /// Its index, from 0.
+        index: usize,
+        /// What of it.
+        quantity: &'static str,
+        /// What was found.
+        value: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// Sigmas and observations differ in number.
+    #[error("there are {sigmas} sigmas for {observations} observations")]
+    SigmaCount {
+        /// Number of sigmas.
+        sigmas: usize,
+        /// Number of observations.
+        observations: usize,
+    },
+    /// The observations cannot determine so many parameters.
+    #[error(
+        "{observations} observations cannot determine {parameters} parameters; needed: {needed} (one more than parameters without prior \
+         knowledge if the noise is to be estimated as well)"
+    )]
+    TooFewObservations {
+        /// Number of observations.
+        observations: usize,
+        /// Number of parameters.
+        parameters: usize,
+        /// Fewest observations that would do.
+        needed: usize,
+    },
+    /// The model predicts another number of observations than there are.
+    #[error("the model predicts {found} observations; there are {expected}")]
+    PredictionLength {
+        /// Number of observations.
+        expected: usize,
+        /// Number of predictions.
+        found: usize,
+    },
+    /// The model failed at every start.
+    #[error("the model has no answer at any of {starts} starts; the last one failed: {source}")]
+    NoFeasibleStart {
+        /// Number of starts.
+        starts: usize,
+        /// Why the last one failed.
+        source: ModelError,
+    },
+    /// The model failed on both sides of a point, so that it has no derivative there.
+    #[error(
+        "the model has no answer on either side of {name} = {value}, where a derivative is needed: {source}"
+    )]
+    NoDerivative {
+        /// The parameter.
+        name: String,
+        /// Its value.
+        value: f64,
+        /// Why the model failed.
+        source: ModelError,
+    },
+    /// The fit did not converge.
+    #[error(
+        "the fit did not converge in {iterations} iterations: the next step would still go {offset:.2e} standard errors far; a model \
+         that is noisier than stated (relative_noise) does this"
+    )]
+    NotConverged {
+        /// Iterations done.
+        iterations: u64,
+        /// Length of the next step in standard errors.
+        offset: f64,
+    },
+    /// So many model runs were not enough.
+    #[error("{limit} model runs are not enough")]
+    EvaluationLimit {
+        /// Most model runs allowed.
+        limit: usize,
+    },
+    /// Too many replicates of the bootstrap could not be fitted.
+    #[error("{failed} of {replicates} replicates could not be fitted; the last one: {source}")]
+    Bootstrap {
+        /// Replicates that failed.
+        failed: usize,
+        /// Replicates drawn.
+        replicates: usize,
+        /// Why the last one failed.
+        source: Box<CalibrationError>,
+    },
+    /// The optimiser failed for a reason of its own.
+    #[error("the optimiser failed: {source}")]
+    Optimiser {
+        /// Why.
+        source: argmin::core::Error,
+    },
+}
+
+impl CalibrationError {
+    /// Whether the input is at fault, not the computation.
+    pub fn is_bad_input(&self) -> bool {
+        matches!(
+            self,
+            Self::InvalidParameter { .. }
+                | Self::DuplicateParameter { .. }
+                | Self::InvalidOption { .. }
+                | Self::InvalidObservation { .. }
+                | Self::SigmaCount { .. }
+                | Self::TooFewObservations { .. }
+                | Self::PredictionLength { .. }
+        )
+    }
+}
+
+/// Errors that have passed through the optimiser come out as they went in.
+impl From<argmin::core::Error> for CalibrationError {
+    fn from(error: argmin::core::Error) -> Self {
+        error
+            .downcast::<Self>()
+            .unwrap_or_else(|source| Self::Optimiser { source })
+    }
+}

@@ -1,0 +1,210 @@
+//! Model runs: residuals and their derivatives by the free variables.
+//!
+//! The residuals are (prediction − observation)/σ, followed by those of the priors. Where the model has no answer they are
+//! infinite, and the optimiser stays away. Derivatives are central differences. Their step is at least the cube root of the
+//! model's relative noise, which balances rounding against curvature, and so long that the noise stays small beside the change.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+
+use crate::{CalibrationError, Model, ModelError, Parameter};
+
+/// Smallest and largest step of a derivative by rounding, in the free variable, and the largest by noise.
+const STEPS: (f64, f64) = (1e-4, 0.05);
+const LONGEST_STEP: f64 = 0.5;
+/// Change of the residuals over a step, in their noise.
+const CHANGE_TO_NOISE: f64 = 5.0;
+
+/// The model, what it is compared with, and how often it has run.
+pub(crate) struct Evaluator<'a> {
+    model: &'a dyn Model,
+    pub parameters: &'a [Parameter],
+    pub values: &'a [f64],
+    /// 1 where the noise is to be estimated.
+    pub sigmas: &'a [f64],
+    relative_noise: f64,
+    limit: usize,
+    count: AtomicUsize,
+    failure: Mutex<Option<ModelError>>,
+}
+
+impl<'a> Evaluator<'a> {
+    pub fn new(
+        model: &'a dyn Model,
+        parameters: &'a [Parameter],
+        values: &'a [f64],
+        sigmas: &'a [f64],
+        relative_noise: f64,
+        limit: usize,
+    ) -> Self {
+        Self {
+            model,
+            parameters,
+            values,
+            sigmas,
+            relative_noise,
+            limit,
+            count: AtomicUsize::new(0),
+            failure: Mutex::new(None),
+        }
+    }
+
+    /// Model runs so far.
+    pub fn count(&self) -> usize {
+        self.count.load(Ordering::Relaxed)
+    }
+
+    /// Physical values of the free variables.
+    pub fn physical(&self, free: &DVector<f64>) -> Vec<f64> {
+        self.parameters
+            .iter()
+            .zip(free.iter())
+            .map(|(parameter, &z)| parameter.value(parameter.bounded(z)))
+            .collect()
+    }
+
+    /// Standardised residuals; all infinite where the model has no answer.
+    pub fn residuals(&self, free: &DVector<f64>) -> Result<DVector<f64>, CalibrationError> {
+        if self.count.fetch_add(1, Ordering::Relaxed) >= self.limit {
+            return Err(CalibrationError::EvaluationLimit { limit: self.limit });
+        }
+        let priors: Vec<f64> = self
+            .parameters
+            .iter()
+            .zip(free.iter())
+            .filter_map(|(parameter, &z)| parameter.prior_residual(z))
+            .collect();
+        let infeasible = |error| {
+            self.remember(error);
+            DVector::from_element(self.values.len() + priors.len(), f64::INFINITY)
+        };
+        let predicted = match self.model.predict(&self.physical(free)) {
+            Ok(predicted) => predicted,
+            Err(error) => return Ok(infeasible(error)),
+        };
+        if predicted.len() != self.values.len() {
+            return Err(CalibrationError::PredictionLength {
+                expected: self.values.len(),
+                found: predicted.len(),
+            });
+        }
+        if let Some(index) = predicted.iter().position(|value| !value.is_finite()) {
+            return Ok(infeasible(Box::new(NotFinite { index })));
+        }
+        let data = predicted
+            .iter()
+            .zip(self.values)
+            .zip(self.sigmas)
+            .map(|((predicted, observed), sigma)| (predicted - observed) / sigma);
+        Ok(DVector::from_iterator(
+            self.values.len() + priors.len(),
+            data.chain(priors.iter().copied()),
+        ))
+    }
+
+    /// Residuals at many points, in parallel.
+    pub fn all(&self, points: &[DVector<f64>]) -> Result<Vec<DVector<f64>>, CalibrationError> {
+        points.par_iter().map(|point| self.residuals(point)).collect()
+    }
+
+    /// Steps of derivatives: `slopes` are the norms of the weighted residuals' derivatives where something is known of them.
+    pub fn steps(&self, weights: &DVector<f64>, slopes: Option<&[f64]>) -> Vec<f64> {
+        let least = self.relative_noise.cbrt().clamp(STEPS.0, STEPS.1);
+        let square: f64 = self
+            .values
+            .iter()
+            .zip(self.sigmas)
+            .zip(weights.iter())
+            .map(|((value, sigma), weight)| weight * (self.relative_noise * value / sigma).powi(2))
+            .sum();
+        let noise = CHANGE_TO_NOISE * square.sqrt();
+        (0..self.parameters.len())
+            .map(|k| match slopes {
+                Some(slopes) if slopes[k] > 0.0 => (noise / slopes[k]).clamp(least, LONGEST_STEP),
+                Some(_) => LONGEST_STEP,
+                None => least,
+            })
+            .collect()
+    }
+
+    /// Derivatives of the residuals by the free variables over `steps`; columns of those that are `fixed` are 0.
+    pub fn jacobian(
+        &self,
+        free: &DVector<f64>,
+        steps: &[f64],
+        fixed: &[bool],
+    ) -> Result<DMatrix<f64>, CalibrationError> {
+        let moving: Vec<usize> = (0..free.len()).filter(|&k| !fixed[k]).collect();
+        let points: Vec<DVector<f64>> = moving
+            .iter()
+            .flat_map(|&k| [(k, steps[k]), (k, -steps[k])])
+            .map(|(k, step)| {
+                let mut point = free.clone();
+                point[k] += step;
+                point
+            })
+            .collect();
+        let residuals = self.all(&points)?;
+        let mut middle = None;
+        let rows = residuals.first().map_or(0, DVector::len);
+        let mut jacobian = DMatrix::zeros(rows, free.len());
+        for (pair, &k) in residuals.chunks_exact(2).zip(&moving) {
+            let column = match (feasible(&pair[0]), feasible(&pair[1])) {
+                (true, true) => (&pair[0] - &pair[1]) / (2.0 * steps[k]),
+                (false, false) => {
+                    return Err(CalibrationError::NoDerivative {
+                        name: self.parameters[k].name().to_owned(),
+                        value: self.physical(free)[k],
+                        source: self.last_failure(),
+                    });
+                }
+                (ahead, _) => {
+                    let here = match &middle {
+                        Some(here) => here,
+                        None => middle.insert(self.residuals(free)?),
+                    };
+                    if ahead {
+                        (&pair[0] - here) / steps[k]
+                    } else {
+                        (here - &pair[1]) / steps[k]
+                    }
+                }
+            };
+            jacobian.set_column(k, &column);
+        }
+        Ok(jacobian)
+    }
+
+    /// Why the model failed last.
+    pub fn last_failure(&self) -> ModelError {
+        self.failure
+            .lock()
+            .ok()
+            .and_then(|mut failure| failure.take())
+            .unwrap_or_else(|| Box::new(Unknown))
+    }
+
+    fn remember(&self, error: ModelError) {
+        if let Ok(mut failure) = self.failure.lock() {
+            *failure = Some(error);
+        }
+    }
+}
+
+/// Whether the model had an answer.
+pub(crate) fn feasible(residuals: &DVector<f64>) -> bool {
+    residuals.iter().all(|residual| residual.is_finite())
+}
+
+#[derive(Debug, thiserror::Error)]
+#[error("prediction {index} is not a finite number")]
+struct NotFinite {
+    index: usize,
+}
+
+#[derive(Debug, thiserror::Error)]
+#[error("it gave no reason")]
+struct Unknown;

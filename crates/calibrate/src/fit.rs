@@ -1,0 +1,210 @@
+//! What a calibration answers.
+
+use std::fmt;
+
+use nalgebra::{DMatrix, DVector};
+
+/// An interval; an end is `None` where the data do not close it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Interval {
+    /// Lower end.
+    pub lower: Option<f64>,
+    /// Upper end.
+    pub upper: Option<f64>,
+}
+
+impl Interval {
+    /// Whether both ends are closed.
+    pub fn is_closed(&self) -> bool {
+        self.lower.is_some() && self.upper.is_some()
+    }
+
+    /// Whether `value` lies in it.
+    pub fn contains(&self, value: f64) -> bool {
+        self.lower.is_none_or(|lower| lower <= value) && self.upper.is_none_or(|upper| value <= upper)
+    }
+}
+
+/// A fitted parameter, in its own unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Estimate {
+    /// The parameter's name.
+    pub name: String,
+    /// Best value.
+    pub value: f64,
+    /// Standard error by the curvature at the optimum; `None` where the data say nothing about the parameter there.
+    pub standard_error: Option<f64>,
+    /// Interval at the level of confidence asked.
+    pub interval: Interval,
+    /// Whether the data close the interval on both sides. If not, `value` is one of many that fit.
+    pub identifiable: bool,
+    /// Values and rise of the deviance at them, in squared standard errors, where a profile was computed; ascending.
+    pub profile: Vec<(f64, f64)>,
+}
+
+/// What the user should know before trusting a fit.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The interval is open.
+    NotIdentifiable {
+        /// The parameter.
+        name: String,
+        /// Its interval.
+        interval: Interval,
+    },
+    /// The residuals are larger than the given sigmas allow.
+    Misfit {
+        /// Residual variance over that of the sigmas.
+        reduced_chi_square: f64,
+        /// Probability of so large a one by chance.
+        probability: f64,
+    },
+    /// The best value lies at a bound.
+    AtBound {
+        /// The parameter.
+        name: String,
+        /// Its best value.
+        value: f64,
+    },
+    /// Two parameters are hardly told apart.
+    Correlated {
+        /// One.
+        first: String,
+        /// The other.
+        second: String,
+        /// Their correlation.
+        correlation: f64,
+    },
+    /// Observations that hardly count in a robust fit.
+    Outliers {
+        /// Their indices, from 0.
+        indices: Vec<usize>,
+    },
+    /// The model is too noisy to find the minimum exactly.
+    Rough {
+        /// How far the next step would still go, in standard errors.
+        offset: f64,
+    },
+    /// Few degrees of freedom: the noise itself is hardly known.
+    FewObservations {
+        /// Degrees of freedom.
+        degrees_of_freedom: f64,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotIdentifiable { name, interval } => {
+                write!(f, "{name} is not identifiable from these data: ")?;
+                match (interval.lower, interval.upper) {
+                    (Some(lower), _) => write!(f, "any value above {lower:.4e} fits"),
+                    (None, Some(upper)) => write!(f, "any value below {upper:.4e} fits"),
+                    (None, None) => write!(f, "any value fits"),
+                }
+            }
+            Self::Misfit {
+                reduced_chi_square,
+                probability,
+            } => write!(
+                f,
+                "the residuals are {:.2} times the given sigmas, which chance explains with a probability of {probability:.1e}: the \
+                 model does not fit or the sigmas are too small; the errors are scaled up to the residuals",
+                reduced_chi_square.sqrt()
+            ),
+            Self::AtBound { name, value } => write!(f, "the best {name}, {value:.4e}, lies at a bound"),
+            Self::Correlated {
+                first,
+                second,
+                correlation,
+            } => write!(
+                f,
+                "{first} and {second} are hardly told apart: their correlation is {correlation:.4}"
+            ),
+            Self::Outliers { indices } => {
+                write!(f, "{} observations look like outliers, index", indices.len())?;
+                indices.iter().try_for_each(|index| write!(f, " {index}"))
+            }
+            Self::Rough { offset } => write!(
+                f,
+                "noise of the model hides the last {offset:.2} standard errors on the way to the best fit"
+            ),
+            Self::FewObservations { degrees_of_freedom } => write!(
+                f,
+                "only {degrees_of_freedom:.1} degrees of freedom are left to estimate the noise"
+            ),
+        }
+    }
+}
+
+/// A calibrated model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// The parameters, in the order in which they were given.
+    pub estimates: Vec<Estimate>,
+    /// Correlation of the parameters by the curvature at the optimum; `None` where one of them has no standard error.
+    pub correlation: Vec<Vec<Option<f64>>>,
+    /// Predictions of the calibrated model.
+    pub fitted: Vec<f64>,
+    /// Observation less prediction.
+    pub residuals: Vec<f64>,
+    /// How much each observation counts: 1 with least squares, less for an outlier in a robust fit.
+    pub weights: Vec<f64>,
+    /// Root of the mean square of the residuals, all counted alike.
+    pub residual_rms: f64,
+    /// Share of the observations' variance that the model explains; `None` where they do not vary.
+    pub r_squared: Option<f64>,
+    /// Standard deviation of the noise: in the observations' unit if it was estimated, else in units of the given sigmas.
+    pub noise: f64,
+    /// Observations less the parameters that they determine (a prior determines its share).
+    pub degrees_of_freedom: f64,
+    /// Whether the noise was estimated, so that intervals rest on Student's t.
+    pub noise_estimated: bool,
+    /// Deviance at the optimum.
+    pub deviance: f64,
+    /// Model runs.
+    pub evaluations: usize,
+    /// Iterations of the descent that led to the optimum.
+    pub iterations: u64,
+    /// What the user should know.
+    pub warnings: Vec<Warning>,
+    /// The optimum in free variables and the derivatives of the standardised residuals by them.
+    pub(crate) free: Vec<f64>,
+    pub(crate) jacobian: DMatrix<f64>,
+    /// Half the second derivative of the deviance by each prediction.
+    pub(crate) curvatures: Vec<f64>,
+    /// Covariance of the free variables.
+    pub(crate) covariance: DMatrix<f64>,
+}
+
+impl Fit {
+    /// The best values, in the order of the parameters.
+    pub fn values(&self) -> Vec<f64> {
+        self.estimates.iter().map(|estimate| estimate.value).collect()
+    }
+
+    /// By how many standard errors each estimate would move, to first order, if the model predicted `change` more, in the
+    /// observations' unit: what an error of the model does to the parameters. 0 for what has no standard error.
+    pub fn shift(&self, change: &[f64]) -> Vec<f64> {
+        let count = self.free.len();
+        let mut gradient = DVector::zeros(count);
+        for (row, (change, curvature)) in change.iter().zip(&self.curvatures).enumerate() {
+            for k in 0..count {
+                gradient[k] -= self.jacobian[(row, k)] * curvature * change;
+            }
+        }
+        let moved = &self.covariance * gradient;
+        (0..count)
+            .map(|k| {
+                let error = self.covariance[(k, k)].sqrt();
+                if error > 0.0 { moved[k] / error } else { 0.0 }
+            })
+            .collect()
+    }
+
+    /// The estimate of the parameter called `name`.
+    pub fn estimate(&self, name: &str) -> Option<&Estimate> {
+        self.estimates.iter().find(|estimate| estimate.name == name)
+    }
+}

@@ -1,0 +1,27 @@
+//! What is fitted: a map from parameters to predicted observations.
+
+/// Why a model could not predict.
+pub type ModelError = Box<dyn std::error::Error + Send + Sync>;
+
+/// A model with parameters, such as a cable in a duct with an unknown friction coefficient.
+///
+/// Every function `Fn(&[f64]) -> Result<Vec<f64>, ModelError>` is one. Several series are fitted jointly by one model that
+/// predicts them all, one after the other.
+pub trait Model: Sync {
+    /// Predicted observations, in the order of the observations, for `parameters` in their physical units and in the order in
+    /// which they were given to the calibration.
+    ///
+    /// # Errors
+    ///
+    /// Where the model has no answer. A fit avoids such corners; it fails only if no start has an answer.
+    fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError>;
+}
+
+impl<F> Model for F
+where
+    F: Fn(&[f64]) -> Result<Vec<f64>, ModelError> + Sync,
+{
+    fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError> {
+        self(parameters)
+    }
+}

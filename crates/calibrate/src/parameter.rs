@@ -1,0 +1,210 @@
+//! Parameters, their bounds, and what is known of them before the data.
+//!
+//! A parameter is fitted in a *coordinate* s, its value or the logarithm of it. Bounds hold by a transformation: the fit
+//! moves a free variable z without bounds,
+//!
+//! s = s_lower + (s_upper − s_lower)/(1 + e^(−z)).
+
+use crate::CalibrationError;
+
+/// Farthest that the free variable goes: within a thousandth of the range from a bound.
+pub(crate) const FARTHEST: f64 = 7.0;
+
+/// In what a parameter is fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scale {
+    /// Its value.
+    Linear,
+    /// The logarithm of its value, for what may vary by powers of ten.
+    Logarithmic,
+}
+
+/// Knowledge of a parameter that does not come from the data: a Gaussian in its coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Prior {
+    /// Most likely value, in the parameter's unit.
+    pub value: f64,
+    /// Standard deviation: in the parameter's unit if its scale is linear, relative (of the logarithm) if logarithmic.
+    pub sigma: f64,
+}
+
+/// A parameter to be fitted.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Parameter {
+    name: String,
+    lower: f64,
+    upper: f64,
+    scale: Scale,
+    prior: Option<Prior>,
+}
+
+impl Parameter {
+    /// A parameter between `lower` and `upper`.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError::InvalidParameter`] unless the bounds are finite, in order, and positive with a logarithmic scale.
+    pub fn new(name: &str, lower: f64, upper: f64, scale: Scale) -> Result<Self, CalibrationError> {
+        let error = |quantity, value, allowed| CalibrationError::InvalidParameter {
+            name: name.to_owned(),
+            quantity,
+            value,
+            allowed,
+        };
+        let positive = scale == Scale::Logarithmic;
+        if !lower.is_finite() || (positive && lower <= 0.0) {
+            let allowed = "finite, and positive with a logarithmic scale";
+            return Err(error("lower bound", lower, allowed));
+        }
+        let range = upper - lower;
+        if !(range.is_finite() && range > 0.0) {
+            return Err(error("upper bound", upper, "finite and above the lower bound"));
+        }
+        Ok(Self {
+            name: name.to_owned(),
+            lower,
+            upper,
+            scale,
+            prior: None,
+        })
+    }
+
+    /// The same parameter with prior knowledge.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError::InvalidParameter`] unless the prior's value lies within the bounds and its sigma is finite and
+    /// positive.
+    pub fn with_prior(mut self, prior: Prior) -> Result<Self, CalibrationError> {
+        let error = |quantity, value, allowed| CalibrationError::InvalidParameter {
+            name: self.name.clone(),
+            quantity,
+            value,
+            allowed,
+        };
+        if !(self.lower..=self.upper).contains(&prior.value) {
+            return Err(error("prior", prior.value, "a value within the bounds"));
+        }
+        if !(prior.sigma.is_finite() && prior.sigma > 0.0) {
+            return Err(error("sigma of the prior", prior.sigma, "finite and positive"));
+        }
+        self.prior = Some(prior);
+        Ok(self)
+    }
+
+    /// Name.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Lower bound.
+    pub fn lower(&self) -> f64 {
+        self.lower
+    }
+
+    /// Upper bound.
+    pub fn upper(&self) -> f64 {
+        self.upper
+    }
+
+    /// In what it is fitted.
+    pub fn scale(&self) -> Scale {
+        self.scale
+    }
+
+    /// What is known beforehand.
+    pub fn prior(&self) -> Option<Prior> {
+        self.prior
+    }
+
+    /// s of a value.
+    pub(crate) fn coordinate(&self, value: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => value,
+            Scale::Logarithmic => value.ln(),
+        }
+    }
+
+    /// Value at s.
+    pub(crate) fn value(&self, coordinate: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => coordinate,
+            Scale::Logarithmic => coordinate.exp(),
+        }
+        .clamp(self.lower, self.upper)
+    }
+
+    /// d value/ds.
+    pub(crate) fn value_slope(&self, coordinate: f64) -> f64 {
+        match self.scale {
+            Scale::Linear => 1.0,
+            Scale::Logarithmic => coordinate.exp(),
+        }
+    }
+
+    /// Lowest s and the range of s.
+    fn range(&self) -> (f64, f64) {
+        let lower = self.coordinate(self.lower);
+        (lower, self.coordinate(self.upper) - lower)
+    }
+
+    /// s at z.
+    pub(crate) fn bounded(&self, free: f64) -> f64 {
+        let (lower, range) = self.range();
+        lower + range / (1.0 + (-free).exp())
+    }
+
+    /// z at s; at most [`FARTHEST`] from 0.
+    pub(crate) fn free(&self, coordinate: f64) -> f64 {
+        let (lower, range) = self.range();
+        let share = ((coordinate - lower) / range).clamp(0.0, 1.0);
+        (share / (1.0 - share)).ln().clamp(-FARTHEST, FARTHEST)
+    }
+
+    /// Whether a value is as close to a bound as the fit goes.
+    pub(crate) fn is_at_bound(&self, value: f64) -> bool {
+        self.free(self.coordinate(value)).abs() > FARTHEST - 0.5
+    }
+
+    /// ds/dz at z.
+    pub(crate) fn bounded_slope(&self, free: f64) -> f64 {
+        let share = 1.0 / (1.0 + (-free).exp());
+        self.range().1 * share * (1.0 - share)
+    }
+
+    /// Distance of s at z from the prior, in its sigmas.
+    pub(crate) fn prior_residual(&self, free: f64) -> Option<f64> {
+        self.prior
+            .map(|prior| (self.bounded(free) - self.coordinate(prior.value)) / prior.sigma)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::{FARTHEST, Parameter, Scale};
+
+    proptest! {
+        /// There and back, within the bounds, with the slope that differences give.
+        #[test]
+        fn transformation(lower in 1e-3..10.0_f64, ratio in 1.5..1e6_f64, z in -6.5..6.5_f64, logarithmic: bool) {
+            let scale = if logarithmic { Scale::Logarithmic } else { Scale::Linear };
+            let parameter = Parameter::new("p", lower, lower * ratio, scale).unwrap();
+            let s = parameter.bounded(z);
+            prop_assert!((parameter.free(s) - z).abs() < 1e-6);
+            let value = parameter.value(s);
+            prop_assert!((lower..=lower * ratio).contains(&value));
+            prop_assert!((parameter.coordinate(value) - s).abs() < 1e-9 * s.abs().max(1.0));
+            let h = 1e-4;
+            let slope = (parameter.bounded(z + h) - parameter.bounded(z - h)) / (2.0 * h);
+            prop_assert!((slope / parameter.bounded_slope(z) - 1.0).abs() < 1e-5);
+            let slope = (parameter.value(s + 1e-5) - parameter.value(s - 1e-5)) / 2e-5;
+            // Clamped at the bounds, where differences see only one side.
+            if z.abs() < 5.0 && ratio < 1e3 {
+                prop_assert!((slope / parameter.value_slope(s) - 1.0).abs() < 1e-3);
+            }
+            prop_assert!(parameter.free(parameter.coordinate(lower)) == -FARTHEST);
+        }
+    }
+}

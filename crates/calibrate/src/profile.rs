@@ -1,0 +1,263 @@
+//! Intervals from the profile likelihood.
+//!
+//! The parameter is held at a value, all others are fitted anew, and the rise of the deviance above its minimum is compared
+//! with the square of Student's t (of Gauss's z where the noise is known), which is the likelihood-ratio test. Such an interval
+//! needs no symmetry and may stay open on a side (D. M. Bates, D. G. Watts, Nonlinear Regression Analysis and Its
+//! Applications, 1988, section 6.1; A. Raue et al., Bioinformatics 25, 2009).
+//!
+//! An end is closed only if the data exclude what lies beyond it, up to the bound, by twice the distance that makes an interval: by
+//! four standard errors. For a true value at the bound itself, one such distance would close one of forty intervals by chance.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::CalibrationError;
+use crate::levenberg_marquardt::LevenbergMarquardt;
+use crate::parameter::FARTHEST;
+use crate::search::{BETTER, Optimum, Point, Search};
+use crate::uncertainty::{Covariance, quantile};
+
+/// Distance at which the bound is excluded, in those that make an interval.
+const EXCLUSION: f64 = 2.0;
+/// Accuracy of an end, as a share of its distance from the estimate.
+const END_ACCURACY: f64 = 0.03;
+/// Steps that close in on an end.
+const MAX_STEPS: usize = 12;
+/// Accuracy of the other parameters, in standard errors: an eighth of a squared one, which is a sixtieth of an end's distance.
+const TOLERANCE: f64 = 0.35;
+/// Iterations of the others at one value.
+const MAX_ITERATIONS: u64 = 10;
+/// First point, in distances that would make the interval if the deviance were a parabola, and the least and largest factors by
+/// which the next lies further from the estimate.
+const FIRST: f64 = 1.1;
+const STRIDES: (f64, f64) = (1.3, 4.0);
+
+/// A point of the profile: the parameter's free variable, the others fitted to it, and the rise of the deviance.
+#[derive(Debug, Clone)]
+struct Station {
+    point: Point,
+    /// J there, where the other parameters were fitted.
+    jacobian: Option<DMatrix<f64>>,
+    /// Distance from the estimate in the parameter's coordinate.
+    distance: f64,
+    rise: f64,
+}
+
+/// The profile of one parameter.
+pub(crate) struct ProfileInterval {
+    /// Ends in the parameter's coordinate; `None` where the likelihood does not close.
+    pub lower: Option<f64>,
+    pub upper: Option<f64>,
+    /// Coordinates and rises that were computed, ascending.
+    pub curve: Vec<(f64, f64)>,
+}
+
+/// What a profile found.
+pub(crate) enum Outcome {
+    Interval(ProfileInterval),
+    /// A point lower than the optimum.
+    Better(Point),
+}
+
+/// Profiles parameters around an optimum.
+pub(crate) struct Profiler<'a> {
+    pub search: &'a Search<'a>,
+    pub optimum: &'a Optimum,
+    pub covariance: &'a Covariance,
+    pub degrees_of_freedom: Option<f64>,
+    /// Probability outside of the interval.
+    pub tail: f64,
+}
+
+/// One side of an interval.
+enum Side {
+    Closed(f64),
+    Open,
+    Better(Point),
+}
+
+impl Profiler<'_> {
+    /// The interval of parameter `k`.
+    pub fn interval(&self, k: usize) -> Result<Outcome, CalibrationError> {
+        let here = self.coordinate(k);
+        let mut curve = vec![(here, 0.0)];
+        let mut ends = [None, None];
+        for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
+            let mut stations = Vec::new();
+            match self.side(k, sign, &mut stations)? {
+                Side::Closed(distance) => *end = Some(here + sign * distance),
+                Side::Open => {}
+                Side::Better(point) => return Ok(Outcome::Better(point)),
+            }
+            curve.extend(
+                stations
+                    .iter()
+                    .map(|station| (here + sign * station.distance, station.rise)),
+            );
+        }
+        curve.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let [lower, upper] = ends;
+        Ok(Outcome::Interval(ProfileInterval { lower, upper, curve }))
+    }
+
+    fn coordinate(&self, k: usize) -> f64 {
+        self.search.evaluator.parameters[k].bounded(self.optimum.point.free[k])
+    }
+
+    fn side(&self, k: usize, sign: f64, stations: &mut Vec<Station>) -> Result<Side, CalibrationError> {
+        let parameter = &self.search.evaluator.parameters[k];
+        let wanted = quantile(0.5 * self.tail, self.degrees_of_freedom);
+        let excluded = EXCLUSION * wanted;
+        let farthest = (parameter.bounded(sign * FARTHEST) - self.coordinate(k)).abs();
+        let error = self
+            .covariance
+            .standard_error(k)
+            .map(|error| error * parameter.bounded_slope(self.optimum.point.free[k]));
+        let mut distance = error.map_or(farthest, |error| (FIRST * wanted * error).min(farthest));
+        loop {
+            let station = match self.station(k, sign, distance, stations.last())? {
+                Ok(station) => station,
+                Err(better) => return Ok(Side::Better(better)),
+            };
+            let rise = station.rise;
+            stations.push(station);
+            if rise.sqrt() >= excluded {
+                break;
+            }
+            if distance >= farthest {
+                return Ok(Side::Open);
+            }
+            let stride = (FIRST * excluded / rise.sqrt()).clamp(STRIDES.0, STRIDES.1);
+            distance = (stride * distance).min(farthest);
+        }
+        for _ in 0..MAX_STEPS {
+            let (inner, outer) = bracket(stations, wanted);
+            let distance = crossing(stations, inner, outer, wanted);
+            let near = |(_, root): (f64, f64)| (root - wanted).abs() < END_ACCURACY * wanted;
+            if near(inner) || near(outer) || (outer.0 - inner.0) < END_ACCURACY * outer.0 {
+                return Ok(Side::Closed(distance));
+            }
+            let nearest = stations
+                .iter()
+                .min_by(|a, b| {
+                    (a.distance - distance)
+                        .abs()
+                        .total_cmp(&(b.distance - distance).abs())
+                })
+                .cloned();
+            match self.station(k, sign, distance, nearest.as_ref())? {
+                Ok(station) => stations.push(station),
+                Err(better) => return Ok(Side::Better(better)),
+            }
+        }
+        // The outer end of what is left is on the safe side.
+        Ok(Side::Closed(bracket(stations, wanted).1.0))
+    }
+
+    /// Fits all parameters but `k`, which lies `distance` away from its estimate.
+    fn station(
+        &self,
+        k: usize,
+        sign: f64,
+        distance: f64,
+        near: Option<&Station>,
+    ) -> Result<Result<Station, Point>, CalibrationError> {
+        let evaluator = self.search.evaluator;
+        let parameter = &evaluator.parameters[k];
+        let here = &self.optimum.point.free;
+        let held = parameter.free(self.coordinate(k) + sign * distance);
+        let mut free = match near {
+            Some(near) => here + (&near.point.free - here) * (distance / near.distance),
+            None => here + self.drift(k) * (held - here[k]),
+        };
+        for z in free.iter_mut() {
+            *z = z.clamp(-FARTHEST, FARTHEST);
+        }
+        free[k] = held;
+        let mut fixed = vec![false; free.len()];
+        fixed[k] = true;
+        let residuals = evaluator.residuals(&free)?;
+        let start = Point { free, residuals };
+        let deviance = self.optimum.deviance;
+        // Without an answer there, it is as good as excluded; without other parameters, there is nothing to fit.
+        let done = !deviance.total(&start.residuals).is_finite() || fixed.len() == 1;
+        let mut left = 0.0;
+        let (point, jacobian) = if done {
+            (start, None)
+        } else {
+            // Toward the estimate the Jacobian of a station further out is good enough.
+            let known = near.and_then(|near| near.jacobian.clone().filter(|_| distance < near.distance));
+            let trusted = known.is_some();
+            let jacobian = known.unwrap_or_else(|| self.optimum.jacobian.clone());
+            let mut solver = LevenbergMarquardt::new(deviance, fixed.clone(), TOLERANCE)
+                .with_jacobian(Some(jacobian), false);
+            if trusted {
+                solver = solver.unverified();
+            }
+            let found = self
+                .search
+                .attempt(solver, &fixed, deviance, start, MAX_ITERATIONS)?;
+            // What the others might still gain is taken as gained, which widens the interval at most.
+            left = found.offset.powi(2);
+            (found.point, Some(found.jacobian))
+        };
+        let found = deviance.total(&point.residuals) - self.optimum.value();
+        if found < -BETTER {
+            return Ok(Err(point));
+        }
+        Ok(Ok(Station {
+            point,
+            jacobian,
+            distance,
+            rise: (found - left).max(0.0),
+        }))
+    }
+
+    /// How the other free variables follow that of `k`, to first order.
+    fn drift(&self, k: usize) -> DVector<f64> {
+        let matrix = &self.covariance.matrix;
+        let own = matrix[(k, k)];
+        if own > 0.0 {
+            matrix.column(k) / own
+        } else {
+            DVector::zeros(matrix.nrows())
+        }
+    }
+}
+
+/// Where the root of the rise should be `wanted`. It is nearly a straight line through the estimate; where it is not, the line
+/// through the two stations next to the wanted root is better than the one through the bracket's ends.
+fn crossing(stations: &[Station], inner: (f64, f64), outer: (f64, f64), wanted: f64) -> f64 {
+    let mut next: Vec<(f64, f64)> = stations
+        .iter()
+        .map(|station| (station.distance, station.rise.sqrt()))
+        .filter(|(_, root)| root.is_finite())
+        .collect();
+    next.push((0.0, 0.0));
+    next.sort_by(|a, b| (a.1 - wanted).abs().total_cmp(&(b.1 - wanted).abs()));
+    let line = |a: (f64, f64), b: (f64, f64)| a.0 + (wanted - a.1) / (b.1 - a.1) * (b.0 - a.0);
+    let inside = |distance: &f64| *distance > inner.0 && *distance < outer.0;
+    let secant = next.first().zip(next.get(1)).map(|(a, b)| line(*a, *b));
+    secant
+        .filter(inside)
+        .or(Some(line(inner, outer)).filter(inside))
+        .unwrap_or(0.5 * (inner.0 + outer.0))
+}
+
+/// The stations on either side of the `wanted` root of the rise, as distance and root.
+fn bracket(stations: &[Station], wanted: f64) -> ((f64, f64), (f64, f64)) {
+    let mut inner = (0.0, 0.0);
+    let mut outer = (f64::INFINITY, f64::INFINITY);
+    for station in stations {
+        let root = station.rise.sqrt();
+        if root >= wanted && station.distance < outer.0 {
+            outer = (station.distance, root);
+        }
+    }
+    for station in stations {
+        let root = station.rise.sqrt();
+        if root < wanted && station.distance > inner.0 && station.distance < outer.0 {
+            inner = (station.distance, root);
+        }
+    }
+    (inner, outer)
+}

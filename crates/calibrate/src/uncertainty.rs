@@ -1,0 +1,100 @@
+//! Covariance of the free variables from the Jacobian at the optimum.
+//!
+//! The inverse covariance is half the second derivative of the deviance, Jᵀ diag(c) J. Directions of which neither data nor
+//! priors know anything have no covariance: parameters along them are told apart from the others, not given a large number.
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
+
+use crate::deviance::{Deviance, information};
+
+/// Eigenvalues of the information, scaled to a unit diagonal, below which a direction counts as unknown.
+const UNKNOWN: f64 = 1e-12;
+/// Share of an unknown direction that makes a parameter unknown.
+const INVOLVED: f64 = 1e-4;
+
+/// Covariance of the free variables.
+#[derive(Debug, Clone)]
+pub(crate) struct Covariance {
+    pub matrix: DMatrix<f64>,
+    /// Whether anything is known of each.
+    pub known: Vec<bool>,
+}
+
+impl Covariance {
+    pub fn new(jacobian: &DMatrix<f64>, curvatures: &DVector<f64>) -> Self {
+        let information = information(jacobian, curvatures);
+        let count = information.nrows();
+        let scale: Vec<f64> = (0..count)
+            .map(|k| information[(k, k)].sqrt())
+            .map(|size| if size > 0.0 && size.is_finite() { size } else { 0.0 })
+            .collect();
+        let scaled = DMatrix::from_fn(count, count, |i, j| {
+            let size = scale[i] * scale[j];
+            if size > 0.0 {
+                information[(i, j)] / size
+            } else {
+                0.0
+            }
+        });
+        let mut known: Vec<bool> = scale.iter().map(|&size| size > 0.0).collect();
+        let eigen = SymmetricEigen::new(scaled);
+        let mut matrix = DMatrix::zeros(count, count);
+        for (index, &value) in eigen.eigenvalues.iter().enumerate() {
+            let direction = eigen.eigenvectors.column(index);
+            if value > UNKNOWN {
+                matrix += direction * direction.transpose() / value;
+            } else {
+                for (known, share) in known.iter_mut().zip(direction.iter()) {
+                    *known &= share.abs() < INVOLVED;
+                }
+            }
+        }
+        for i in 0..count {
+            for j in 0..count {
+                let size = scale[i] * scale[j];
+                matrix[(i, j)] = if known[i] && known[j] {
+                    matrix[(i, j)] / size
+                } else {
+                    0.0
+                };
+            }
+        }
+        Self { matrix, known }
+    }
+
+    /// Standard error of a free variable.
+    pub fn standard_error(&self, k: usize) -> Option<f64> {
+        self.known[k].then(|| self.matrix[(k, k)].max(0.0).sqrt())
+    }
+
+    /// Correlation of two.
+    pub fn correlation(&self, i: usize, j: usize) -> Option<f64> {
+        if i == j {
+            return Some(1.0);
+        }
+        let size = (self.matrix[(i, i)] * self.matrix[(j, j)]).sqrt();
+        (self.known[i] && self.known[j] && size > 0.0).then(|| (self.matrix[(i, j)] / size).clamp(-1.0, 1.0))
+    }
+}
+
+/// Number of parameters that the data determine; the rest is the priors' doing.
+pub(crate) fn parameters_from_data(
+    jacobian: &DMatrix<f64>,
+    deviance: &Deviance,
+    residuals: &DVector<f64>,
+) -> f64 {
+    let covariance = Covariance::new(jacobian, &deviance.curvatures(residuals));
+    let priors = jacobian.rows(deviance.data, jacobian.nrows() - deviance.data);
+    jacobian.ncols() as f64 - (covariance.matrix * priors.transpose() * priors).trace()
+}
+
+/// The value that a standardised estimate exceeds with probability `tail`: Student's t where the noise was estimated with so
+/// many degrees of freedom, else Gauss's.
+pub(crate) fn quantile(tail: f64, degrees_of_freedom: Option<f64>) -> f64 {
+    let student = degrees_of_freedom.and_then(|freedom| StudentsT::new(0.0, 1.0, freedom).ok());
+    match student {
+        Some(student) => student.inverse_cdf(1.0 - tail),
+        None => Normal::standard().inverse_cdf(1.0 - tail),
+    }
+}

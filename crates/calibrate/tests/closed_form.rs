@@ -1,0 +1,565 @@
+//! Fits of closed forms: exact answers, exact covariances, coverage, and what cannot be known.
+
+mod common;
+
+use calibrate::{
+    BootstrapOptions, Calibration, CalibrationError, Loss, Model, ModelError, Observer, Options, Parameter,
+    Prior, Profiles, Resampling, Scale, Warning,
+};
+use common::{noisy, passes, saturation, saturation_parameters};
+
+fn options(loss: Loss) -> Options {
+    Options {
+        loss,
+        ..Options::default()
+    }
+}
+
+#[test]
+fn exact_data_return_the_parameters() {
+    let model = saturation(&passes(40));
+    for truth in [[550.0, 20.0], [900.0, 3.0], [40.0, 200.0]] {
+        let data = model.predict(&truth).unwrap();
+        let fit = Calibration::new(&model, saturation_parameters(), data)
+            .unwrap()
+            .fit()
+            .unwrap();
+        for (found, wanted) in fit.values().iter().zip(truth) {
+            assert!((found / wanted - 1.0).abs() < 1e-6, "{found} instead of {wanted}");
+        }
+        assert!(fit.evaluations <= 200, "{}", fit.evaluations);
+    }
+}
+
+/// A straight line has the textbook's variances (N. R. Draper, H. Smith, Applied Regression Analysis, 1998, section 1.4) and an
+/// interval by Student's t that is exact.
+#[test]
+fn straight_line_has_the_textbook_errors() {
+    let x = passes(12);
+    let model =
+        |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(x.iter().map(|x| p[0] + p[1] * x).collect()) };
+    let data = noisy(&model(&[3.0, 2.0]).unwrap(), 0.5, 5);
+    let parameters = vec![
+        Parameter::new("intercept", -100.0, 100.0, Scale::Linear).unwrap(),
+        Parameter::new("slope", -50.0, 50.0, Scale::Linear).unwrap(),
+    ];
+    let fit = Calibration::new(&model, parameters, data.clone())
+        .unwrap()
+        .fit()
+        .unwrap();
+
+    let count = x.len() as f64;
+    let (mean_x, mean_y) = (x.iter().sum::<f64>() / count, data.iter().sum::<f64>() / count);
+    let sxx: f64 = x.iter().map(|x| (x - mean_x).powi(2)).sum();
+    let sxy: f64 = x
+        .iter()
+        .zip(&data)
+        .map(|(x, y)| (x - mean_x) * (y - mean_y))
+        .sum();
+    let slope = sxy / sxx;
+    let intercept = mean_y - slope * mean_x;
+    let square: f64 = x
+        .iter()
+        .zip(&data)
+        .map(|(x, y)| (y - intercept - slope * x).powi(2))
+        .sum();
+    let variance = square / (count - 2.0);
+    let error = (variance / sxx).sqrt();
+    // t for 10 degrees of freedom at 97.5 %, from tables.
+    let reach = 2.228_139 * error;
+
+    let estimate = fit.estimate("slope").unwrap();
+    assert!((estimate.value - slope).abs() < 0.02 * error);
+    assert!((estimate.standard_error.unwrap() / error - 1.0).abs() < 1e-3);
+    let (lower, upper) = (estimate.interval.lower.unwrap(), estimate.interval.upper.unwrap());
+    assert!(
+        (lower - (slope - reach)).abs() < 0.03 * reach,
+        "{lower} {}",
+        slope - reach
+    );
+    assert!((upper - (slope + reach)).abs() < 0.03 * reach);
+    assert!(
+        (fit.estimates[0].standard_error.unwrap()
+            / (variance * (1.0 / count + mean_x * mean_x / sxx)).sqrt()
+            - 1.0)
+            .abs()
+            < 1e-3
+    );
+    let correlation = -mean_x / (sxx / count + mean_x * mean_x).sqrt();
+    assert!((fit.correlation[0][1].unwrap() - correlation).abs() < 1e-3);
+    assert!((fit.noise - variance.sqrt()).abs() < 1e-3 * variance.sqrt());
+    assert!((fit.degrees_of_freedom - 10.0).abs() < 1e-6);
+}
+
+/// Standard errors against those of the analytic Jacobian.
+#[test]
+fn covariance_is_that_of_the_analytic_jacobian() {
+    let n = passes(40);
+    let model = saturation(&n);
+    let sigma = 4.0;
+    let data = noisy(&model.predict(&[550.0, 15.0]).unwrap(), sigma, 11);
+    for relative_noise in [1e-12, 1e-9, 1e-6] {
+        let fit = Calibration::new(&model, saturation_parameters(), data.clone())
+            .unwrap()
+            .with_sigmas(vec![sigma; n.len()])
+            .unwrap()
+            .with_options(Options {
+                relative_noise,
+                ..Options::default()
+            })
+            .unwrap()
+            .fit()
+            .unwrap();
+        let (force, tau) = (fit.estimates[0].value, fit.estimates[1].value);
+        let (mut a, mut b, mut c) = (0.0, 0.0, 0.0);
+        for n in &n {
+            let decay = (-n / tau).exp();
+            let by_force = (1.0 - decay) / sigma;
+            let by_tau = -force * decay * n / (tau * tau) / sigma;
+            a += by_force * by_force;
+            b += by_force * by_tau;
+            c += by_tau * by_tau;
+        }
+        let determinant = a * c - b * b;
+        let (error_force, error_tau) = ((c / determinant).sqrt(), (a / determinant).sqrt());
+        assert!((fit.estimates[0].standard_error.unwrap() / error_force - 1.0).abs() < 2e-3);
+        assert!((fit.estimates[1].standard_error.unwrap() / error_tau - 1.0).abs() < 2e-3);
+        assert!((fit.correlation[0][1].unwrap() + b / (a * c).sqrt()).abs() < 2e-3);
+    }
+}
+
+/// 95 % intervals hold the truth in 95 % of the cases: with 400 cases the count's standard deviation is 4.4.
+#[test]
+fn intervals_cover_the_truth() {
+    let model = saturation(&passes(30));
+    let truth = [550.0, 12.0];
+    let exact = model.predict(&truth).unwrap();
+    let cases: u64 = 400;
+    for known in [false, true] {
+        let mut covered = [0; 2];
+        for seed in 0..cases {
+            let mut calibration =
+                Calibration::new(&model, saturation_parameters(), noisy(&exact, 8.0, 1000 + seed)).unwrap();
+            if known {
+                calibration = calibration.with_sigmas(vec![8.0; exact.len()]).unwrap();
+            }
+            let fit = calibration.fit().unwrap();
+            for (covered, (estimate, truth)) in covered.iter_mut().zip(fit.estimates.iter().zip(truth)) {
+                *covered += u64::from(estimate.interval.contains(truth));
+            }
+        }
+        for covered in covered {
+            assert!((364..=394).contains(&covered), "{covered} of {cases}");
+        }
+    }
+}
+
+/// Beyond saturation the time constant shows no more: its upper end stays open only where it should.
+#[test]
+fn what_the_data_do_not_hold_is_called_so() {
+    // After 60 passes and more with τ = 1 only an upper limit of τ is known.
+    let n: Vec<f64> = (60..90).map(f64::from).collect();
+    let model = saturation(&n);
+    for seed in 0..50 {
+        let data = noisy(&model.predict(&[550.0, 1.0]).unwrap(), 5.0, seed);
+        let fit = Calibration::new(&model, saturation_parameters(), data)
+            .unwrap()
+            .fit()
+            .unwrap();
+        let tau = fit.estimate("passes").unwrap();
+        assert!(!tau.identifiable && tau.interval.lower.is_none(), "{tau:?}");
+        assert!(tau.interval.contains(1.0));
+        assert!(fit.estimate("force").unwrap().identifiable);
+        assert!(
+            fit.warnings
+                .iter()
+                .any(|w| matches!(w, Warning::NotIdentifiable { name, .. } if name == "passes"))
+        );
+    }
+}
+
+/// Only the product of two parameters shows: neither is identifiable, and neither gets a standard error.
+#[test]
+fn two_parameters_that_show_as_a_product() {
+    let n = passes(20);
+    let model =
+        |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(n.iter().map(|n| p[0] * p[1] * n).collect()) };
+    let parameters = vec![
+        Parameter::new("a", 0.1, 10.0, Scale::Logarithmic).unwrap(),
+        Parameter::new("b", 0.1, 10.0, Scale::Logarithmic).unwrap(),
+    ];
+    let data = noisy(&model(&[1.0, 2.0]).unwrap(), 0.3, 3);
+    let fit = Calibration::new(&model, parameters, data).unwrap().fit().unwrap();
+    for estimate in &fit.estimates {
+        assert!(!estimate.identifiable, "{estimate:?}");
+    }
+    let product = fit.estimates[0].value * fit.estimates[1].value;
+    assert!((product / 2.0 - 1.0).abs() < 0.02, "{product}");
+}
+
+/// A prior and the data weigh by their variances.
+#[test]
+fn prior_and_data_weigh_by_their_variances() {
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(vec![p[0]; 4]) };
+    let parameter = Parameter::new("level", 0.0, 100.0, Scale::Linear)
+        .unwrap()
+        .with_prior(Prior {
+            value: 50.0,
+            sigma: 2.0,
+        })
+        .unwrap();
+    let fit = Calibration::new(&model, vec![parameter], vec![60.0; 4])
+        .unwrap()
+        .with_sigmas(vec![6.0; 4])
+        .unwrap()
+        .fit()
+        .unwrap();
+    // Mean of the data 60 ± 3, prior 50 ± 2.
+    let weights: (f64, f64) = (1.0 / 9.0, 1.0 / 4.0);
+    let mean = (60.0 * weights.0 + 50.0 * weights.1) / (weights.0 + weights.1);
+    let error = (weights.0 + weights.1).sqrt().recip();
+    let level = &fit.estimates[0];
+    assert!((level.value - mean).abs() < 0.02 * error, "{}", level.value);
+    assert!((level.standard_error.unwrap() / error - 1.0).abs() < 1e-3);
+    assert!((fit.degrees_of_freedom - (4.0 - weights.0 / (weights.0 + weights.1))).abs() < 1e-3);
+}
+
+/// 5 % of points off by 30 % move a robust fit by less than 1 %, and a least-squares fit by more.
+#[test]
+fn outliers_hardly_move_a_robust_fit() {
+    let model = saturation(&passes(40));
+    let exact = model.predict(&[550.0, 12.0]).unwrap();
+    let mut misled = 0;
+    for seed in 0..20 {
+        let clean = noisy(&exact, 5.0, 500 + seed);
+        let mut spoiled = clean.clone();
+        for index in [17, 33] {
+            spoiled[index] *= 1.3;
+        }
+        let force = |data: &[f64], loss| {
+            let fit = Calibration::new(&model, saturation_parameters(), data.to_vec())
+                .unwrap()
+                .with_options(options(loss))
+                .unwrap()
+                .fit()
+                .unwrap();
+            (fit.estimates[0].value, fit.warnings)
+        };
+        for loss in [Loss::HUBER, Loss::TUKEY] {
+            let ((before, _), (after, warnings)) = (force(&clean, loss), force(&spoiled, loss));
+            assert!((after / before - 1.0).abs() < 0.01, "{loss:?}: {before} {after}");
+            let named = warnings.iter().find_map(|w| match w {
+                Warning::Outliers { indices } => Some(indices.clone()),
+                _ => None,
+            });
+            assert!(named.is_some_and(|named| named.contains(&17) && named.contains(&33)));
+        }
+        let (before, after) = (force(&clean, Loss::Squares).0, force(&spoiled, Loss::Squares).0);
+        misled += u32::from((after / before - 1.0).abs() > 0.01);
+    }
+    assert!(misled > 15, "{misled}");
+}
+
+/// Under Gaussian noise a robust fit has its 95 % too.
+#[test]
+fn robust_intervals_cover_the_truth() {
+    let model = saturation(&passes(30));
+    let truth = [550.0, 12.0];
+    let exact = model.predict(&truth).unwrap();
+    let mut covered = [0; 2];
+    for seed in 0..200 {
+        let fit = Calibration::new(&model, saturation_parameters(), noisy(&exact, 8.0, 7000 + seed))
+            .unwrap()
+            .with_options(options(Loss::HUBER))
+            .unwrap()
+            .fit()
+            .unwrap();
+        for (covered, (estimate, truth)) in covered.iter_mut().zip(fit.estimates.iter().zip(truth)) {
+            *covered += u32::from(estimate.interval.contains(truth));
+        }
+    }
+    for covered in covered {
+        assert!((178..=199).contains(&covered), "{covered} of 200");
+    }
+}
+
+/// Given sigmas that the residuals cannot be squared with are not believed.
+#[test]
+fn too_small_sigmas_are_told() {
+    let model = saturation(&passes(40));
+    let exact = model.predict(&[550.0, 12.0]).unwrap();
+    let data = noisy(&exact, 8.0, 9);
+    let fit = |sigma| {
+        Calibration::new(&model, saturation_parameters(), data.clone())
+            .unwrap()
+            .with_sigmas(vec![sigma; data.len()])
+            .unwrap()
+            .fit()
+            .unwrap()
+    };
+    let (honest, small) = (fit(8.0), fit(2.0));
+    assert!(
+        !honest
+            .warnings
+            .iter()
+            .any(|w| matches!(w, Warning::Misfit { .. }))
+    );
+    assert!(small.warnings.iter().any(|w| matches!(w, Warning::Misfit { .. })));
+    let ratio = small.estimates[0].standard_error.unwrap() / honest.estimates[0].standard_error.unwrap();
+    assert!((0.7..1.4).contains(&ratio), "{ratio}");
+}
+
+/// A second minimum does not trap the fit: a wave of unknown length, whose squares have many minima.
+#[test]
+fn many_minima_do_not_trap_the_fit() {
+    let x = passes(30);
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        Ok(x.iter().map(|x| (p[0] * x).sin() * p[1]).collect())
+    };
+    let data = noisy(&model(&[0.31, 2.0]).unwrap(), 0.1, 4);
+    let parameters = vec![
+        Parameter::new("wavenumber", 0.05, 1.0, Scale::Linear).unwrap(),
+        Parameter::new("amplitude", 0.1, 10.0, Scale::Logarithmic).unwrap(),
+    ];
+    let fit = Calibration::new(&model, parameters, data)
+        .unwrap()
+        .with_options(Options {
+            scan: Some(200),
+            ..Options::default()
+        })
+        .unwrap()
+        .fit()
+        .unwrap();
+    assert!((fit.values()[0] - 0.31).abs() < 0.002, "{:?}", fit.values());
+}
+
+/// The best of a model that cannot reach the data: at its maximum, where no slope tells a step.
+#[test]
+fn data_beyond_the_models_reach() {
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(vec![10.0 - (p[0] - 3.0).powi(2)]) };
+    let parameter = Parameter::new("a", 0.0, 8.0, Scale::Linear).unwrap();
+    let fit = Calibration::new(&model, vec![parameter], vec![20.0])
+        .unwrap()
+        .with_sigmas(vec![2.0])
+        .unwrap()
+        .fit()
+        .unwrap();
+    // The deviance ((10 + (a − 3)²)/2)² has its minimum at 3, where it rises by 5 (a − 3)²: by 0.01 up to 0.045.
+    assert!((fit.values()[0] - 3.0).abs() < 0.05, "{:?}", fit.values());
+    assert!((fit.fitted[0] - 10.0).abs() < 0.01);
+}
+
+/// Corners in which the model has no answer are avoided.
+#[test]
+fn failing_corners_are_avoided() {
+    let inner = saturation(&passes(30));
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        if p[0] > 1000.0 || p[1] < 3.0 {
+            return Err("no equilibrium".into());
+        }
+        if p[1] > 100.0 {
+            return Ok(vec![f64::NAN; 30]);
+        }
+        inner(p)
+    };
+    let data = noisy(&inner(&[550.0, 12.0]).unwrap(), 5.0, 21);
+    let fit = Calibration::new(&model, saturation_parameters(), data)
+        .unwrap()
+        .fit()
+        .unwrap();
+    assert!((fit.values()[0] / 550.0 - 1.0).abs() < 0.02);
+    assert!(fit.estimates.iter().all(|estimate| estimate.identifiable));
+}
+
+#[test]
+fn a_model_that_always_fails_is_an_error_with_its_reason() {
+    let model = |_: &[f64]| -> Result<Vec<f64>, ModelError> { Err("no equilibrium".into()) };
+    let error = Calibration::new(&model, saturation_parameters(), vec![1.0; 5])
+        .unwrap()
+        .fit()
+        .unwrap_err();
+    assert!(
+        matches!(&error, CalibrationError::NoFeasibleStart { starts: 24, .. }),
+        "{error}"
+    );
+    assert!(error.to_string().contains("no equilibrium"));
+}
+
+/// What an error of the model does to the parameters, against a fit of the wrong model.
+#[test]
+fn shift_is_that_of_a_refit() {
+    let n = passes(40);
+    let model = saturation(&n);
+    let wrong = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        Ok(model(p)?
+            .iter()
+            .zip(&n)
+            .map(|(force, n)| force + 0.02 * n)
+            .collect())
+    };
+    let data = noisy(&model(&[550.0, 12.0]).unwrap(), 5.0, 8);
+    let fit = |model: &dyn Model| {
+        Calibration::new(model, saturation_parameters(), data.clone())
+            .unwrap()
+            .with_sigmas(vec![5.0; 40])
+            .unwrap()
+            .fit()
+            .unwrap()
+    };
+    let (right, misled) = (fit(&model), fit(&wrong));
+    let change: Vec<f64> = n.iter().map(|n| 0.02 * n).collect();
+    for (k, shift) in right.shift(&change).iter().enumerate() {
+        let moved = misled.values()[k] - right.values()[k];
+        let found = moved / right.estimates[k].standard_error.unwrap();
+        assert!(
+            (shift - found).abs() < 0.05 * found.abs().max(0.2),
+            "{shift} {found}"
+        );
+    }
+}
+
+/// The bootstrap's standard error of a mean is σ/√n, and does not change with the order of the threads.
+#[test]
+fn bootstrap_of_a_mean() {
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(vec![p[0]; 50]) };
+    let parameter = Parameter::new("level", 0.0, 100.0, Scale::Linear).unwrap();
+    let data = noisy(&[40.0; 50], 5.0, 77);
+    let calibration = Calibration::new(&model, vec![parameter], data.clone()).unwrap();
+    let fit = calibration.fit().unwrap();
+    let mean = data.iter().sum::<f64>() / 50.0;
+    let variance = data.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / 49.0;
+    let error = (variance / 50.0).sqrt();
+    assert!((fit.estimates[0].standard_error.unwrap() / error - 1.0).abs() < 1e-3);
+    for resampling in [Resampling::Residuals, Resampling::Gaussian] {
+        let options = BootstrapOptions {
+            replicates: 1000,
+            seed: 3,
+            resampling,
+        };
+        let bootstrap = calibration.bootstrap(&fit, &options).unwrap();
+        // The standard error of a standard deviation from 1000 samples is 2.2 %.
+        assert!(
+            (bootstrap.standard_errors[0] / error - 1.0).abs() < 0.08,
+            "{bootstrap:?}"
+        );
+        let interval = bootstrap.intervals[0];
+        assert!((interval.lower.unwrap() - (mean - 1.96 * error)).abs() < 0.3 * error);
+        assert!((interval.upper.unwrap() - (mean + 1.96 * error)).abs() < 0.3 * error);
+        assert_eq!(bootstrap, calibration.bootstrap(&fit, &options).unwrap());
+    }
+    let few = BootstrapOptions {
+        replicates: 3,
+        seed: 3,
+        resampling: Resampling::Gaussian,
+    };
+    assert!(matches!(
+        calibration.bootstrap(&fit, &few),
+        Err(CalibrationError::InvalidOption { .. })
+    ));
+}
+
+#[test]
+fn limits_are_kept_and_observers_hear() {
+    use std::sync::Arc;
+    use std::sync::atomic::{AtomicUsize, Ordering};
+
+    let runs = AtomicUsize::new(0);
+    let inner = saturation(&passes(30));
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        runs.fetch_add(1, Ordering::Relaxed);
+        inner(p)
+    };
+    let data = noisy(&inner(&[550.0, 12.0]).unwrap(), 5.0, 21);
+    let heard = Arc::new(AtomicUsize::new(0));
+    let listener = heard.clone();
+    let calibration = |options| {
+        Calibration::new(&model, saturation_parameters(), data.clone())
+            .unwrap()
+            .with_options(options)
+            .unwrap()
+    };
+    let fit = calibration(Options {
+        observer: Some(Observer::new(move |progress| {
+            assert!(progress.parameters.len() == 2 && progress.deviance.is_finite());
+            listener.fetch_add(1, Ordering::Relaxed);
+        })),
+        ..Options::default()
+    })
+    .fit()
+    .unwrap();
+    assert_eq!(fit.evaluations, runs.load(Ordering::Relaxed));
+    assert!(fit.evaluations <= 120, "{}", fit.evaluations);
+    assert!(heard.load(Ordering::Relaxed) as u64 >= fit.iterations);
+
+    let limited = Options {
+        max_evaluations: 30,
+        ..Options::default()
+    };
+    let error = calibration(limited).fit().unwrap_err();
+    assert!(
+        matches!(error, CalibrationError::EvaluationLimit { limit: 30 }),
+        "{error}"
+    );
+
+    let rough = calibration(Options {
+        profiles: Profiles::None,
+        ..Options::default()
+    })
+    .fit()
+    .unwrap();
+    assert!(rough.evaluations < fit.evaluations);
+}
+
+#[test]
+fn bad_input_is_named() {
+    let model = saturation(&passes(5));
+    let new = |data: Vec<f64>| Calibration::new(&model, saturation_parameters(), data);
+    assert!(matches!(
+        new(vec![1.0, f64::NAN]),
+        Err(CalibrationError::InvalidObservation { index: 1, .. })
+    ));
+    assert!(matches!(
+        new(vec![1.0, 2.0]).unwrap().fit(),
+        Err(CalibrationError::TooFewObservations {
+            observations: 2,
+            parameters: 2,
+            needed: 3
+        })
+    ));
+    assert!(matches!(
+        new(vec![1.0; 4]).unwrap().fit(),
+        Err(CalibrationError::PredictionLength {
+            expected: 4,
+            found: 5
+        })
+    ));
+    assert!(matches!(
+        new(vec![1.0; 5]).unwrap().with_sigmas(vec![1.0; 4]),
+        Err(CalibrationError::SigmaCount {
+            sigmas: 4,
+            observations: 5
+        })
+    ));
+    assert!(matches!(
+        new(vec![1.0; 5])
+            .unwrap()
+            .with_sigmas(vec![1.0, 1.0, 0.0, 1.0, 1.0]),
+        Err(CalibrationError::InvalidObservation { index: 2, .. })
+    ));
+    for bad in [
+        Parameter::new("a", 1.0, 1.0, Scale::Linear),
+        Parameter::new("a", f64::NAN, 1.0, Scale::Linear),
+        Parameter::new("a", 0.0, f64::INFINITY, Scale::Linear),
+        Parameter::new("a", 0.0, 1.0, Scale::Logarithmic),
+    ] {
+        assert!(matches!(bad, Err(CalibrationError::InvalidParameter { .. })));
+    }
+    let same = vec![
+        saturation_parameters().remove(0),
+        saturation_parameters().remove(0),
+    ];
+    assert!(matches!(
+        Calibration::new(&model, same, vec![1.0; 5]),
+        Err(CalibrationError::DuplicateParameter { .. })
+    ));
+}

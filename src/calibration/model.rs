@@ -1,0 +1,195 @@
+//! Scenes as a model to be fitted: from friction and ground to the forces that load cells would read.
+//!
+//! The motion of the duct is computed once. A fit needs forces that are smooth in the parameters, so the mesh is fixed: where it
+//! is chosen by a run's tolerance, it may change from one run to the next.
+
+use std::borrow::Cow;
+
+use cable_dem::{End, Mesh};
+use calibrate::{Model, ModelError, Reading};
+use ground_field::DuctMotion;
+use rayon::prelude::*;
+
+use super::Series;
+use super::unknown::{Quantity, Unknown};
+use crate::analysis::cable::PassMethod;
+use crate::analysis::passes::simulate;
+use crate::analysis::{law, motion};
+use crate::planner::{ground, plan};
+use crate::{Error, Scene};
+
+/// Nodes per depth of the duct on the coarsest mesh; every rung above has twice as many.
+const COARSEST: f64 = 6.0;
+/// Steps of the vehicle per node spacing.
+const STEPS_PER_SPACING: f64 = 2.0;
+/// Passes below which the pass law is rough.
+const LAW_FROM: u64 = 10;
+
+/// The end of the cable that pressed on the load cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum CellEnd {
+    Upstream,
+    Downstream,
+}
+
+/// One series, ready to be predicted.
+pub(super) struct SeriesModel {
+    scene: Scene,
+    motions: Vec<DuctMotion>,
+    pub method: PassMethod,
+    pub end: CellEnd,
+    /// Passes of the readings, in their order.
+    passes: Vec<u64>,
+}
+
+impl SeriesModel {
+    pub fn new(series: &Series<'_>) -> Result<Self, Error> {
+        let mut scene = series.scene.clone();
+        let end = match (scene.ends.upstream, scene.ends.downstream) {
+            (End::Free, End::Free) => {
+                return Err(Error::Unfit {
+                    key: "ends",
+                    found: "both free",
+                    reason: "a load cell was at an end that is held".into(),
+                });
+            }
+            (_, End::Free) => CellEnd::Upstream,
+            _ => CellEnd::Downstream,
+        };
+        scene.traffic.passes = series.readings.last_pass();
+        let method = plan(&scene)?.method.method;
+        let (_, field, accuracy) = ground::exact(&scene)?;
+        let ground = motion::Ground::new(&*field, accuracy);
+        let motions = motion::motions(&scene, &ground, motion::reach(&scene))?;
+        Ok(Self {
+            scene,
+            motions,
+            method,
+            end,
+            passes: series
+                .readings
+                .readings()
+                .iter()
+                .map(|reading: &Reading| reading.pass)
+                .collect(),
+        })
+    }
+
+    /// Largest vertical displacement of the duct under the first vehicle \[m\].
+    pub fn peak_vertical(&self) -> f64 {
+        self.motions[0].peak_vertical()
+    }
+
+    /// What an early reading means to the pass law.
+    pub fn concern(&self) -> Option<String> {
+        let early = self.passes.iter().filter(|&&pass| pass < LAW_FROM).count();
+        (self.method == PassMethod::Law && early > 0).then(|| {
+            format!(
+                "{early} readings before pass {LAW_FROM}, where the pass law is rough, are fitted with it"
+            )
+        })
+    }
+
+    /// Whether the scene says how fine to be.
+    pub fn is_meshed(&self) -> bool {
+        self.scene.solver.node_spacing.is_some() || self.scene.solver.vehicle_step.is_some()
+    }
+
+    fn nodes_per_depth(rung: u32) -> f64 {
+        COARSEST * f64::from(1 << rung)
+    }
+
+    /// The mesh of a rung. One that the scene names is the first, and every further one halves it.
+    pub fn mesh(&self, rung: u32) -> Result<Mesh, Error> {
+        let Scene { duct, solver, .. } = &self.scene;
+        let finer = f64::from(1 << rung);
+        let natural = (duct.depth / COARSEST).min(duct.length / 8.0);
+        let spacing = solver
+            .node_spacing
+            .unwrap_or_else(|| natural.max(solver.vehicle_step.unwrap_or(0.0)))
+            / finer;
+        let step = solver
+            .vehicle_step
+            .map_or(spacing / STEPS_PER_SPACING, |step| step / finer);
+        Ok(Mesh::new(duct.length, spacing, step)?)
+    }
+
+    /// Forces at the load cell after each reading's pass.
+    fn predict(&self, scene: &Scene, stiffness: f64, rung: u32) -> Result<Vec<f64>, Error> {
+        let motions: Cow<'_, [DuctMotion]> = if stiffness == 1.0 {
+            Cow::Borrowed(&self.motions)
+        } else {
+            let softer = |motion: &DuctMotion| motion.clone().scaled(1.0 / stiffness);
+            self.motions.iter().map(softer).collect()
+        };
+        let downstream = self.end == CellEnd::Downstream;
+        match self.method {
+            PassMethod::EveryPass(method) => {
+                let passes = simulate(scene, method, &motions, self.mesh(rung)?, || {})?;
+                let force = |&pass: &u64| {
+                    let force = passes.outcomes[pass as usize - 1].force;
+                    if downstream {
+                        force.downstream
+                    } else {
+                        force.upstream
+                    }
+                };
+                Ok(self.passes.iter().map(force).collect())
+            }
+            PassMethod::Law => {
+                let mut wanted = self.passes.clone();
+                wanted.sort_unstable();
+                wanted.dedup();
+                let records = law::records(scene, &motions, Self::nodes_per_depth(rung), &wanted)?;
+                let force = |pass: &u64| {
+                    let record = &records[wanted.partition_point(|other| other < pass)];
+                    if downstream {
+                        record.downstream_force_n
+                    } else {
+                        record.upstream_force_n
+                    }
+                };
+                Ok(self.passes.iter().map(force).collect())
+            }
+        }
+    }
+}
+
+/// All series on one rung of meshes.
+pub(super) struct CableModel<'a> {
+    pub series: &'a [SeriesModel],
+    pub unknowns: &'a [Unknown],
+    pub rung: u32,
+    /// Added to what this rung predicts: the difference to the next one, near the optimum.
+    pub correction: Option<Vec<f64>>,
+}
+
+impl Model for CableModel<'_> {
+    fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError> {
+        let forces: Vec<Vec<f64>> = self
+            .series
+            .par_iter()
+            .enumerate()
+            .map(|(index, series)| {
+                let mut scene = series.scene.clone();
+                let mut stiffness = 1.0;
+                for (unknown, &value) in self.unknowns.iter().zip(parameters) {
+                    if unknown.acts_on(index) {
+                        unknown.quantity.set(&mut scene, value);
+                        if unknown.quantity == Quantity::GroundStiffness {
+                            stiffness = value;
+                        }
+                    }
+                }
+                series.predict(&scene, stiffness, self.rung)
+            })
+            .collect::<Result<_, Error>>()?;
+        let mut forces = forces.concat();
+        if let Some(correction) = &self.correction {
+            for (force, correction) in forces.iter_mut().zip(correction) {
+                *force += correction;
+            }
+        }
+        Ok(forces)
+    }
+}

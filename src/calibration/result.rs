@@ -1,0 +1,122 @@
+//! What a calibration answers. The names of the fields are those of the JSON document, units included.
+
+use serde::Serialize;
+
+/// A calibrated scene.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Calibrated {
+    /// The scenes' titles.
+    pub titles: Vec<String>,
+    /// The fitted parameters.
+    pub parameters: Vec<FittedParameter>,
+    /// Their correlation; null where one of them has no standard error.
+    pub correlation: Vec<Vec<Option<f64>>>,
+    /// Root of the mean square of the residuals \[N\].
+    pub residual_rms_n: f64,
+    /// Share of the forces' variance that the model explains; null where they do not vary.
+    pub r_squared: Option<f64>,
+    /// Runs of the model, all meshes together, without those of the bootstrap.
+    pub evaluations: usize,
+    /// What the user should know before trusting the answer.
+    pub warnings: Vec<String>,
+    /// Standard deviation of the noise \[N\] as estimated; null where every reading has its own.
+    pub noise_n: Option<f64>,
+    /// Readings less the parameters that they determine.
+    pub degrees_of_freedom: f64,
+    /// How it was fitted.
+    pub method: FitMethod,
+    /// What the meshes do to the answer.
+    pub model_error: ModelErrorEstimate,
+    /// Readings and what the calibrated model says to them.
+    pub fit: Vec<FittedReading>,
+    /// Spread of refits to data drawn anew, where it was asked for.
+    pub bootstrap: Option<BootstrapSummary>,
+}
+
+/// A fitted parameter.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FittedParameter {
+    /// Its name.
+    pub name: String,
+    /// Its unit; 1 for a number.
+    pub unit: &'static str,
+    /// Best value.
+    pub value: f64,
+    /// Standard error; null where the readings say nothing about it.
+    pub standard_error: Option<f64>,
+    /// Interval that holds the true value in 95 % of all cases; null is an end that the readings do not close.
+    pub interval_95: [Option<f64>; 2],
+    /// Whether the interval is closed on both sides.
+    pub identifiable: bool,
+    /// Likelihood along the parameter.
+    pub profile: Vec<ProfilePoint>,
+}
+
+/// A point of a profile.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ProfilePoint {
+    /// Value of the parameter.
+    pub value: f64,
+    /// Rise of the deviance above its minimum with all other parameters fitted, in squared standard errors.
+    pub rise: f64,
+}
+
+/// How it was fitted.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FitMethod {
+    /// Solver of the cable.
+    pub cable: String,
+    /// The end at which the forces are compared, of each series.
+    pub load_cell: Vec<&'static str>,
+    /// Distance between nodes \[m\], of each series.
+    pub node_spacing_m: Vec<f64>,
+    /// Advance of the vehicle per step \[m\], of each series.
+    pub vehicle_step_m: Vec<f64>,
+    /// Loss.
+    pub loss: &'static str,
+    /// How sure the intervals are, and what they are made of.
+    pub intervals: String,
+}
+
+/// What is left of the error of the mesh, half the difference to one twice as fine.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ModelErrorEstimate {
+    /// Of a force, as a share of the largest.
+    pub relative: f64,
+    /// Of each parameter, in standard errors.
+    pub standard_errors: Vec<f64>,
+}
+
+/// A reading and what the calibrated model says to it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct FittedReading {
+    /// Number of the series, from 1.
+    pub series: usize,
+    /// Number of the pass, from 1.
+    pub pass: u64,
+    /// Measured force \[N\].
+    pub force_n: f64,
+    /// Force of the calibrated model \[N\].
+    pub fitted_n: f64,
+    /// Measured less fitted \[N\].
+    pub residual_n: f64,
+    /// How much the reading counts: 1, less for an outlier in a robust fit.
+    pub weight: f64,
+}
+
+/// Spread of refits to data drawn anew.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct BootstrapSummary {
+    /// Refits that succeeded and that failed.
+    pub replicates: usize,
+    /// Refits that failed.
+    pub failed: usize,
+    /// Seed of the generator.
+    pub seed: u64,
+    /// Standard deviation of each parameter.
+    pub standard_errors: Vec<f64>,
+    /// Percentile interval of each parameter; null is an end at a bound.
+    pub interval_95: Vec<[Option<f64>; 2]>,
+    /// Model runs.
+    pub evaluations: usize,
+}

@@ -1,0 +1,144 @@
+//! What can be fitted, and between which bounds.
+
+use std::fmt;
+use std::str::FromStr;
+
+use calibrate::{CalibrationError, Parameter, Prior, Scale};
+
+use crate::scene::{FrictionLaw, Scene};
+
+/// A quantity that can be fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Quantity {
+    /// μ_d, dynamic friction coefficient.
+    DynamicCoefficient,
+    /// b \[1/m\], how steeply friction builds up before the cable slips. From about 1e9 1/m on no force tells it from Coulomb's
+    /// law, which is the upper bound's meaning.
+    ShapeFactor,
+    /// How many times stiffer the ground is than the scene says: the duct's motion is divided by it.
+    GroundStiffness,
+}
+
+impl Quantity {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::DynamicCoefficient, Self::ShapeFactor, Self::GroundStiffness];
+
+    /// Its name, as on the command line and in JSON.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::DynamicCoefficient => "dynamic_coefficient",
+            Self::ShapeFactor => "shape_factor",
+            Self::GroundStiffness => "ground_stiffness",
+        }
+    }
+
+    /// Its unit; 1 for a number.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::ShapeFactor => "1/m",
+            Self::DynamicCoefficient | Self::GroundStiffness => "1",
+        }
+    }
+
+    /// Least and largest value that a fit considers.
+    pub fn bounds(self) -> (f64, f64) {
+        match self {
+            Self::DynamicCoefficient => (0.03, 1.5),
+            Self::ShapeFactor => (1e5, 1e9),
+            Self::GroundStiffness => (0.1, 10.0),
+        }
+    }
+
+    /// Its value in a scene.
+    pub(super) fn value(self, scene: &Scene) -> f64 {
+        match self {
+            Self::DynamicCoefficient => scene.friction.dynamic_coefficient,
+            Self::ShapeFactor => scene.friction.law.shape_factor(),
+            Self::GroundStiffness => 1.0,
+        }
+    }
+
+    /// Sets its value in a scene; the ground's stiffness acts on the motion instead.
+    pub(super) fn set(self, scene: &mut Scene, value: f64) {
+        match (self, &mut scene.friction.law) {
+            (Self::DynamicCoefficient, _) => scene.friction.dynamic_coefficient = value,
+            (
+                Self::ShapeFactor,
+                FrictionLaw::ElasticPlastic { shape_factor } | FrictionLaw::Sigmoid { shape_factor },
+            ) => *shape_factor = value,
+            _ => {}
+        }
+    }
+}
+
+/// No such quantity.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("found \"{found}\"; allowed: dynamic_coefficient, shape_factor, ground_stiffness")]
+pub struct UnknownQuantity {
+    /// What was found.
+    pub found: String,
+}
+
+impl FromStr for Quantity {
+    type Err = UnknownQuantity;
+
+    fn from_str(text: &str) -> Result<Self, UnknownQuantity> {
+        let found = text.trim();
+        Self::ALL
+            .into_iter()
+            .find(|quantity| quantity.name() == found)
+            .ok_or_else(|| UnknownQuantity { found: found.into() })
+    }
+}
+
+/// A quantity to be fitted, of one series or of all.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Unknown {
+    /// The quantity.
+    pub quantity: Quantity,
+    /// Index of the series that it belongs to; `None` where all share one value.
+    pub series: Option<usize>,
+}
+
+impl Unknown {
+    /// One value for all series.
+    pub fn shared(quantity: Quantity) -> Self {
+        Self {
+            quantity,
+            series: None,
+        }
+    }
+
+    /// A value of one series alone.
+    pub fn of(quantity: Quantity, series: usize) -> Self {
+        Self {
+            quantity,
+            series: Some(series),
+        }
+    }
+
+    /// Whether it acts on the series of this index.
+    pub(super) fn acts_on(self, series: usize) -> bool {
+        self.series.is_none_or(|own| own == series)
+    }
+
+    pub(super) fn parameter(self, prior: Option<Prior>) -> Result<Parameter, CalibrationError> {
+        let (lower, upper) = self.quantity.bounds();
+        let parameter = Parameter::new(&self.to_string(), lower, upper, Scale::Logarithmic)?;
+        match prior {
+            Some(prior) => parameter.with_prior(prior),
+            None => Ok(parameter),
+        }
+    }
+}
+
+/// The quantity's name, with the number of its series, from 1, where it has one.
+impl fmt::Display for Unknown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.series {
+            None => write!(f, "{}", self.quantity.name()),
+            Some(series) => write!(f, "{}_{}", self.quantity.name(), series + 1),
+        }
+    }
+}
