@@ -58,16 +58,20 @@ fn main() -> Result<(), Failure> {
         chart =
             chart.with(Series::line(format!("{name}, without inertia"), numbered(&quasi_static)).look(look));
         print!("{name:5}  pass      ");
-        LISTED.iter().for_each(|pass| print!("{pass:8}"));
+        for pass in &LISTED {
+            print!("{pass:8}");
+        }
         print!("\n       no inertia");
-        LISTED
-            .iter()
-            .for_each(|pass| print!("{:8.1}", quasi_static[pass - 1]));
+        for pass in &LISTED {
+            print!("{:8.1}", quasi_static[pass - 1]);
+        }
         println!();
         for (k, speed) in SPEEDS.into_iter().enumerate() {
             let found = forces(file, &with_inertia(speed))?;
             print!("       {speed} km/h   ");
-            LISTED.iter().for_each(|pass| print!("{:8.1}", found[pass - 1]));
+            for pass in &LISTED {
+                print!("{:8.1}", found[pass - 1]);
+            }
             println!();
             // Each speed at other passes, so that the markers do not hide one another.
             let points = numbered(&found).into_iter().skip(3 + 5 * k).step_by(15);

@@ -89,7 +89,9 @@ fn main() -> Result<(), Failure> {
     )
     .refer(Reference::horizontal(DUCT * 1e6, "duct of Table 3: 35.7 µm"));
     print!("ΔC, um                 X =");
-    LENGTHS.iter().for_each(|length| print!("{length:9.1} m"));
+    for length in &LENGTHS {
+        print!("{length:9.1} m");
+    }
     println!("   follows the duct's 35.7 um on");
     for (look, bar) in BARS.iter().enumerate() {
         let solved = LENGTHS
@@ -97,14 +99,14 @@ fn main() -> Result<(), Failure> {
             .map(|x| bar.by_solver(*x))
             .collect::<Result<Vec<_>, _>>()?;
         print!("{:21} formula", bar.name);
-        LENGTHS
-            .iter()
-            .for_each(|x| print!(" {:9.3}", bar.by_formula(*x) * 1e6));
+        for x in &LENGTHS {
+            print!(" {:9.3}", bar.by_formula(*x) * 1e6);
+        }
         println!("   {:.2} m", bar.following_length());
         print!("{:21} solver ", "");
-        solved
-            .iter()
-            .for_each(|displacement| print!(" {:9.3}", displacement * 1e6));
+        for displacement in &solved {
+            print!(" {:9.3}", displacement * 1e6);
+        }
         println!();
         let curve = even(LENGTHS[0].ln(), LENGTHS[4].ln(), 8)
             .map(|place| (place.exp(), bar.by_formula(place.exp()) * 1e6));

@@ -171,16 +171,18 @@ fn main() -> Result<(), Failure> {
     let cases = cases(PASSES)?;
     let listed = [1, 5, 10, 20, 40, 60, 80, 100];
     print!("largest force, N          pass");
-    listed.iter().for_each(|pass| print!("{pass:8}"));
+    for pass in &listed {
+        print!("{pass:8}");
+    }
     println!();
     for case in &cases {
         print!(
             "{:.1} m  {:11}  mu = {:.1}     ",
             case.depth, case.kind, case.friction
         );
-        listed
-            .iter()
-            .for_each(|pass| print!("{:8.1}", case.forces[pass - 1]));
+        for pass in &listed {
+            print!("{:8.1}", case.forces[pass - 1]);
+        }
         println!();
     }
     println!("\nTable 4 of the paper, after {PASSES} passes:");

@@ -25,8 +25,9 @@ pub const LIMIT: f64 = 0.25 * 108.8;
 /// Vehicles come from this far beyond the duct \[m\].
 const APPROACH: f64 = 15.0;
 
-/// EA of the cable, and of one that does not follow its duct \[N\].
+/// EA of the cable \[N\].
 pub const AXIAL_STIFFNESS: f64 = 8.01e6;
+/// EA of one that does not follow its duct \[N\].
 pub const STIFF: f64 = 1e4 * AXIAL_STIFFNESS;
 
 /// Friction with the vehicle over the middle of the duct.

@@ -36,7 +36,7 @@ pub mod template;
 
 pub use analysis::profile::{Profile, profile, profile_at};
 pub use analysis::result::{
-    Cost, DuctMotionSummary, ErrorEstimate, PassRecord, PlanSummary, Run, Saturation,
+    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, Run, Saturation,
 };
 pub use analysis::run::{RunOptions, check, run, run_with};
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};

@@ -6,7 +6,7 @@ use pass_law::{Concern, Evolution, PassLaw, Resolution, concerns_before};
 
 use super::cable::cable;
 use super::motion::approach;
-use super::result::{ErrorEstimate, ForceProfile, PassRecord, RestraintRecord, Saturation};
+use super::result::{ErrorEstimate, ErrorShares, ForceProfile, PassRecord, RestraintRecord, Saturation};
 use crate::scene::{End, Scene};
 use crate::{Cost, Error};
 
@@ -88,6 +88,11 @@ pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
             method:
                 "half the difference to cells half as fine, and 1 % for the law itself beyond the tenth pass"
                     .into(),
+            parts: ErrorShares {
+                mesh: 0.5 * share,
+                law: ERROR,
+                ..ErrorShares::default()
+            },
         },
         cost: Cost::of_law(evolution.statistics),
         passes: records,

@@ -7,8 +7,8 @@ use super::cable::PassMethod;
 use super::levels::{Ladder, Solved};
 use super::passes::Passes;
 use super::result::{
-    Cost, DuctMotionSummary, ErrorEstimate, ForceProfile, PassRecord, PlanSummary, RestraintRecord, Run,
-    SlipRecord,
+    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, PassRecord, PlanSummary,
+    RestraintRecord, Run, SlipRecord,
 };
 use super::saturation::saturation;
 use super::{law, motion};
@@ -159,6 +159,12 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         error_estimate: ErrorEstimate {
             relative: solved.error.total(),
             method: solved.error.to_string(),
+            parts: ErrorShares {
+                mesh: solved.error.mesh.unwrap_or(1.0),
+                ground: solved.error.ground,
+                inertia: solved.error.inertia,
+                law: 0.0,
+            },
         },
         cost: Cost::new(&solved.statistics),
         warnings,

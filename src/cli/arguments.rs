@@ -65,6 +65,9 @@ pub enum Command {
         json: bool,
     },
     /// Fit friction and ground to what a load cell measured
+    #[command(after_help = "Examples:
+  creepage calibrate my-duct.toml --data forces.csv
+  creepage calibrate my-duct.toml --data forces.csv --fit dynamic_coefficient,shape_factor --json")]
     Calibrate {
         #[command(flatten)]
         scene: SceneArguments,

@@ -214,7 +214,11 @@ fn what_is_no_number_is_refused() {
         "depth = \"1.2 m\"",
         "depth = \"1,2 m\"",
         "1,2",
-        &["`duct.depth`", "found the text \"1,2 m\"", "allowed: a length"],
+        &[
+            "`duct.depth`",
+            "found the text \"1,2 m\"",
+            "a length greater than 0",
+        ],
     );
     assert_refused(
         "depth = \"1.2 m\"",
@@ -354,7 +358,7 @@ fn a_value_of_the_wrong_kind_is_refused() {
         "[cable]",
         "[[cable]]",
         "[[cable]]",
-        &["`cable`", "a table with the keys weight"],
+        &["`cable`", "a table with the keys preset, weight"],
     );
     assert_refused(
         "  { x = \"-2.5 m\", y = \"-0.9 m\", load = \"7 kN\" },",
