@@ -82,10 +82,10 @@ fn cases(kind: &'static str, seed: u64) -> Vec<Case> {
     // Enough passes for the force to build up, few enough for a reference of sixty times the work.
     let inertia = kind != "many" && has_inertia(&scene);
     let (passes, refinement) = match kind {
-        "many" => (scene.traffic.passes, 2.0),
-        _ if inertia => (4, 8.0),
-        "long" => (15, 16.0),
-        _ => (30, 16.0),
+        "many" => (3000, 2.0),
+        _ if inertia => (3, 8.0),
+        "long" => (5, 16.0),
+        _ => (10, 16.0),
     };
     scene.traffic.passes = passes.min(scene.traffic.passes);
     let exact = reference(&scene, refinement, inertia);
@@ -124,7 +124,7 @@ fn cases(kind: &'static str, seed: u64) -> Vec<Case> {
 }
 
 #[test]
-#[ignore = "a quarter of an hour of references on two cores: cargo test --release --test planner -- --ignored --nocapture"]
+#[ignore = "minutes of references on two cores: cargo test --release --test planner -- --ignored --nocapture"]
 fn the_tolerance_holds_on_random_scenes_and_the_estimate_is_honest() {
     use rayon::prelude::*;
     let count: u64 = std::env::var("SCENES")
