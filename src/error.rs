@@ -8,6 +8,7 @@ use ground_field::GroundError;
 use pass_law::LawError;
 
 use crate::SceneError;
+use crate::scene::{Location, SceneFile};
 
 /// Error of an analysis.
 #[derive(Debug, thiserror::Error)]
@@ -54,19 +55,44 @@ pub enum Error {
         /// Why it does not fit.
         reason: Cow<'static, str>,
     },
+    /// An error whose cause stands in a scene file.
+    #[error("{location}: {source}{}", .location.excerpt())]
+    Located {
+        /// Where.
+        location: Box<Location>,
+        /// The error.
+        source: Box<Error>,
+    },
 }
 
 impl Error {
+    /// This error with the line of the key at fault, where one is at fault and the scene came from `file`.
+    #[must_use]
+    pub fn located(self, file: &SceneFile) -> Self {
+        let location = match &self {
+            Self::Unfit { key, .. } => file.locate(key),
+            _ => None,
+        };
+        match location {
+            Some(location) => Self::Located {
+                location: Box::new(location),
+                source: Box::new(self),
+            },
+            None => self,
+        }
+    }
+
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
-        matches!(self, Self::Calibration(error) if error.is_bad_input())
-            || matches!(
-                self,
-                Self::Scene(_)
-                    | Self::Data(_)
-                    | Self::Unfit { .. }
-                    | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
-                    | Self::Cable(CableError::InvalidParameter { .. } | CableError::UnsupportedLaw { .. })
-            )
+        match self {
+            Self::Located { source, .. } => source.is_bad_input(),
+            Self::Calibration(error) => error.is_bad_input(),
+            Self::Scene(_)
+            | Self::Data(_)
+            | Self::Unfit { .. }
+            | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
+            | Self::Cable(CableError::InvalidParameter { .. } | CableError::UnsupportedLaw { .. }) => true,
+            _ => false,
+        }
     }
 }

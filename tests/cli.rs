@@ -458,6 +458,406 @@ fn help_and_version_are_no_errors() {
     );
 }
 
+// presets
+
+#[test]
+fn presets_are_listed_with_their_sources() {
+    let list = printed(&["presets"]);
+    let document = json(&["presets"]);
+    let presets = document.as_array().expect("a list");
+    assert!(presets.len() > 15);
+    for preset in presets {
+        for field in ["kind", "name", "summary", "toml"] {
+            assert!(preset[field].is_string(), "{field}");
+        }
+        assert!(list.contains(preset["name"].as_str().expect("a name")), "{list}");
+        for source in preset["sources"].as_array().expect("a list") {
+            let line = format!(
+                "{}: {}{}\n",
+                source["key"].as_str().expect("a key"),
+                if source["assumed"] == true {
+                    "ASSUMED, "
+                } else {
+                    ""
+                },
+                source["source"].as_str().expect("a source")
+            );
+            assert!(list.contains(&line), "{line} is not in\n{list}");
+        }
+    }
+    let one = printed(&["presets", "t-25"]);
+    assert!(
+        one.contains("load = \"100 kN\"") && one.contains("ASSUMED") && !one.contains("t-20"),
+        "{one}"
+    );
+    assert_eq!(json(&["presets", "t-25"]).as_array().map(Vec::len), Some(1));
+    assert_fails(&["presets", "t-52"], 2, &["`t-52`", "allowed: t-25"]);
+}
+
+// sweep
+
+/// A sweep of 48 points of a few passes each.
+fn sweep_arguments(out: &Path) -> Vec<String> {
+    let vary = [
+        "friction.dynamic_coefficient=0.05:0.6:0.05",
+        "duct.depth=0.9m,1.2m,1.5m,2m",
+    ];
+    let mut arguments = vec![
+        "sweep".to_owned(),
+        UPPER.to_owned(),
+        "--set".to_owned(),
+        "traffic.passes=4".to_owned(),
+    ];
+    for vary in vary {
+        arguments.extend(["--vary".to_owned(), vary.to_owned()]);
+    }
+    arguments.extend(["--out".to_owned(), text(out).to_owned()]);
+    arguments
+}
+
+#[test]
+fn a_killed_sweep_loses_nothing_finished_and_ends_with_the_same_file() {
+    let folder = folder("sweep_killed");
+    for format in ["csv", "parquet"] {
+        let [calm, killed] = ["calm", "killed"].map(|name| folder.join(format!("{name}.{format}")));
+        let journal = folder.join(format!("killed.{format}.journal"));
+        for file in [&calm, &killed, &journal] {
+            let _ = fs::remove_file(file);
+        }
+        let arguments = sweep_arguments(&calm);
+        let said = printed(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+        assert!(said.contains("calm") && said.contains("48 points\n"), "{said}");
+
+        let arguments = sweep_arguments(&killed);
+        let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+        let lines = || fs::read_to_string(&journal).unwrap_or_default().lines().count();
+        // Twice, each time with some more points done.
+        let mut kept = 0;
+        for _ in 0..2 {
+            let mut child = command(&arguments)
+                .stdout(Stdio::null())
+                .spawn()
+                .expect("the command starts");
+            while lines() < kept + 6 {
+                assert!(
+                    child.try_wait().expect("a state").is_none(),
+                    "it ended before it was killed"
+                );
+                std::thread::sleep(std::time::Duration::from_millis(2));
+            }
+            child.kill().expect("SIGKILL");
+            child.wait().expect("it ends");
+            assert!(!killed.exists());
+            kept = fs::read_to_string(&journal)
+                .expect("the journal")
+                .matches('\n')
+                .count()
+                - 1;
+        }
+        assert!(kept >= 10, "{kept}");
+        let summary = json(&arguments);
+        assert_eq!(summary["points"], 48);
+        assert_eq!(summary["resumed"].as_u64(), Some(kept as u64));
+        assert_eq!(summary["failed"], 0);
+        assert!(fs::read(&killed).expect("a table") == fs::read(&calm).expect("a table"));
+        assert!(!journal.exists());
+    }
+}
+
+#[test]
+fn a_sweep_tells_its_failing_points_and_fails_where_all_do() {
+    let out = folder("sweep_failing").join("out.csv");
+    let sweep = |vary: &str| {
+        let arguments = [
+            "sweep",
+            UPPER,
+            "--set",
+            "traffic.passes=1",
+            "--out",
+            text(&out),
+            "--vary",
+            vary,
+        ];
+        output(&arguments)
+    };
+    let some = sweep("friction.dynamic_coefficient=0.2,-1,0.3");
+    let errors = String::from_utf8(some.stderr).expect("UTF-8");
+    assert_eq!(some.status.code(), Some(0), "{errors}");
+    assert!(
+        errors.contains("1 of 3 points failed") && errors.contains("found -1"),
+        "{errors}"
+    );
+    assert_eq!(fs::read_to_string(&out).expect("the table").lines().count(), 4);
+    let all = sweep("friction.dynamic_coefficient=-1,-2");
+    assert_eq!(all.status.code(), Some(1));
+    // A bare number that looks like a slip of units is told here too.
+    let slip = sweep("vehicles.0.load=20,30");
+    let errors = String::from_utf8(slip.stderr).expect("UTF-8");
+    assert!(errors.contains("20 without a unit is 20 N"), "{errors}");
+}
+
+#[test]
+fn bad_sweeps_have_status_2() {
+    let folder = folder("sweep_bad");
+    let out = folder.join("out.csv");
+    let _ = fs::remove_file(&out);
+    let nowhere = folder.join("no-such-folder").join("out.csv");
+    let depth = "duct.depth=1:2:1";
+    let text_file = folder.join("out.txt");
+    let cases: &[(&[&str], &str)] = &[
+        (&["--vary", depth], "--out"),
+        (&["--out", text(&out)], "--vary"),
+        (&["--out", text(&text_file), "--vary", depth], ".csv"),
+        (&["--out", text(&out), "--vary", "duct.depth"], "no `=`"),
+        (
+            &["--out", text(&out), "--vary", "duct.depth=1:2:0"],
+            "a STEP that leads",
+        ),
+        (
+            &["--out", text(&out), "--vary", "duct.deepth=1,2"],
+            "did you mean `depth`?",
+        ),
+        (
+            &["--out", text(&out), "--vary", "duct.depth=normal(1, 0.1)"],
+            "samples",
+        ),
+        (
+            &["--out", text(&out), "--vary", depth, "--samples", "5"],
+            "samples and no distribution",
+        ),
+        (
+            &["--out", text(&out), "--vary", depth, "--threads", "0"],
+            "--threads",
+        ),
+    ];
+    for (arguments, part) in cases {
+        assert_fails(&[&["sweep", UPPER], *arguments].concat(), 2, &[part]);
+    }
+    assert_fails(
+        &["sweep", UPPER, "--vary", depth, "--out", text(&nowhere)],
+        2,
+        &["no-such-folder"],
+    );
+    assert!(!out.exists());
+}
+
+#[test]
+fn a_sweep_prints_the_quantiles_of_drawn_keys() {
+    let out = folder("sweep_bands").join("out.csv");
+    let drawn = "friction.dynamic_coefficient=normal(0.25, 0.03)";
+    let mut arguments = vec![
+        "sweep",
+        UPPER,
+        "--set",
+        "traffic.passes=1",
+        "--out",
+        text(&out),
+        "--vary",
+        drawn,
+    ];
+    arguments.extend(["--samples", "20", "--seed", "4"]);
+    let said = printed(&arguments);
+    let document = json(&arguments);
+    let quantiles = &document["bands"][0]["downstream_force_n"];
+    assert_eq!(document["bands"][0]["samples"], 20);
+    for field in ["mean", "p05", "p50", "p95"] {
+        let value = format!("{:.1}", number(&quantiles[field]));
+        assert!(said.contains(&value), "{field} {value}: {said}");
+    }
+    assert!(number(&quantiles["p05"]) < number(&quantiles["p95"]));
+}
+
+#[test]
+fn a_sweep_draws_a_map_of_two_keys() {
+    let folder = folder("sweep_map");
+    let [out, map] = ["out.csv", "map.svg"].map(|name| folder.join(name));
+    let sweep = |vary: &[&str]| {
+        let mut arguments = vec![
+            "sweep",
+            UPPER,
+            "--set",
+            "traffic.passes=1",
+            "--set",
+            "solver.node_spacing=0.5 m",
+        ];
+        for vary in vary {
+            arguments.extend(["--vary", vary]);
+        }
+        arguments.extend(["--out", text(&out), "--map", text(&map)]);
+        output(&arguments)
+    };
+    let depths = "duct.depth=1m:2m:0.5m";
+    let done = sweep(&[depths, "ends.upstream=free,fixed"]);
+    assert_eq!(
+        done.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&done.stderr)
+    );
+    let svg = fs::read_to_string(&map).expect("a map");
+    for part in ["duct.depth, m", "ends.upstream", "fixed", "force, N"] {
+        assert!(svg.contains(part), "{part}");
+    }
+    for vary in [
+        &[depths][..],
+        &[depths, "duct.length=20m,30m", "duct.lateral_offset=0,1"],
+    ] {
+        assert_eq!(sweep(vary).status.code(), Some(2), "{vary:?}");
+    }
+}
+
+// design
+
+#[test]
+fn design_answers_in_words_and_as_json() {
+    let set = [
+        "--set",
+        "traffic.passes=8",
+        "--set",
+        "duct.length=15 m",
+        "--set",
+        "solver.node_spacing=0.25 m",
+    ];
+    let design = |more: &[&'static str]| [&["design", UPPER][..], &set, more].concat();
+    let said = printed(&design(&["--limit-force", "150 N"]));
+    let document = json(&design(&["--limit-force", "150 N"]));
+    let answer = &document["answer"];
+    assert!(number(&answer["force_n"]) <= 150.0 && number(&answer["stiffness_n_per_m"]) > 0.0);
+    assert!(
+        said.contains(&format!(
+            "answer: a spring of {:.3e} N/m",
+            number(&answer["stiffness_n_per_m"])
+        )),
+        "{said}"
+    );
+    let curve = document["curve"].as_array().expect("a list");
+    assert!(curve.len() > 10 && said.lines().count() > curve.len());
+
+    let fixed = printed(&design(&["--limit-force", "10 kN"]));
+    assert!(fixed.contains("answer: fixed"), "{fixed}");
+    let none = printed(&design(&["--limit-force", "1 N", "--limit-movement", "0.1 mm"]));
+    assert!(none.contains("no stiffness keeps the limits"), "{none}");
+    for (more, part) in [
+        (&["--limit-force", "3 m"][..], "force"),
+        (&["--limit-force", "-3"], "limit-force"),
+        (&["--limit-force", "0"], "greater than 0"),
+        (&["--limit-force", "1", "--at", "nowhere"], "upstream, downstream"),
+        (&["--limit-force", "1", "--at", "99 m"], "position"),
+        (&["--limit-force", "1", "--years", "3"], "--trucks-per-day"),
+        (&[], "--limit-force"),
+    ] {
+        assert_fails(&design(more), 2, &[part]);
+    }
+}
+
+// new, completions
+
+#[test]
+fn a_new_scene_passes_the_check_and_runs() {
+    let folder = folder("new");
+    let flags: [&[&str]; 4] = [
+        &[],
+        &[
+            "--length",
+            "40 m",
+            "--depth",
+            "0.9",
+            "--vehicle",
+            "t-20",
+            "--friction",
+            "0.3",
+        ],
+        &[
+            "--pavement",
+            "n6-cbr6",
+            "--length",
+            "20 m",
+            "--downstream",
+            "3 MN/m",
+        ],
+        &[
+            "--modulus",
+            "100 MPa",
+            "--title",
+            "\"Quoted\"",
+            "--cable",
+            "xlpe-150-triplex",
+        ],
+    ];
+    for (index, flags) in flags.into_iter().enumerate() {
+        let file = folder.join(format!("new-{index}.toml"));
+        let _ = fs::remove_file(&file);
+        let said = printed(&[&["new", text(&file), "--passes", "3"], flags].concat());
+        assert!(said.contains(&format!("creepage run {}", text(&file))), "{said}");
+        let written = fs::read_to_string(&file).expect("the scene");
+        assert!(
+            written.matches('#').count() > 15 && written.contains("passes = 3"),
+            "{written}"
+        );
+        printed(&["check", text(&file)]);
+        assert!(last_force(&json(&["run", text(&file)])).is_finite());
+        // It is there now, and stays as it is.
+        assert_fails(&["new", text(&file)], 2, &["exists", "nothing is overwritten"]);
+        assert_eq!(fs::read_to_string(&file).expect("the scene"), written);
+    }
+}
+
+#[test]
+fn a_bad_flag_of_a_new_scene_writes_no_file() {
+    let file = folder("new_bad").join("bad.toml");
+    let _ = fs::remove_file(&file);
+    let cases: [(&[&str], &[&str]); 4] = [
+        (&["--depth", "1.2 kN"], &["`duct.depth`", "a force", "^^^"]),
+        (
+            &["--vehicle", "t25"],
+            &["`vehicles.0.preset`", "did you mean `t-25`?"],
+        ),
+        (
+            &["--pavement", "300 MPa"],
+            &["`ground.preset`", "allowed: \"n5-cbr3\""],
+        ),
+        (
+            &["--modulus", "1 MPa", "--pavement", "n6-cbr6"],
+            &["cannot be used with"],
+        ),
+    ];
+    for (flags, parts) in cases {
+        assert_fails(&[&["new", text(&file)], flags].concat(), 2, parts);
+        assert!(!file.exists(), "{flags:?}");
+    }
+    let nowhere = file.with_file_name("no-such-folder").join("new.toml");
+    assert_fails(&["new", text(&nowhere)], 2, &["cannot be written"]);
+}
+
+#[test]
+fn completions_name_every_command() {
+    let help = printed(&["--help"]);
+    let commands: Vec<&str> = help
+        .split("Commands:\n")
+        .nth(1)
+        .expect("the commands")
+        .lines()
+        .map_while(|line| line.strip_prefix("  "))
+        // Long descriptions go on in lines of their own.
+        .filter(|line| !line.starts_with(' '))
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    assert!(
+        commands.contains(&"run") && commands.contains(&"completions"),
+        "{commands:?}"
+    );
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let script = printed(&["completions", shell]);
+        for command in &commands {
+            assert!(script.contains(command), "{shell}: {command}");
+        }
+    }
+    for command in commands.into_iter().filter(|command| *command != "help") {
+        assert!(printed(&[command, "--help"]).contains("Examples:"), "{command}");
+    }
+    assert_fails(&["completions", "cmd"], 2, &["bash"]);
+}
+
 // what fails
 
 #[test]
@@ -660,6 +1060,81 @@ fn a_scene_that_does_not_fit_together_has_status_2() {
 }
 
 #[test]
+fn what_does_not_fit_is_shown_in_the_file_or_the_override() {
+    let scene = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(UPPER)).expect("the scene");
+    let faulty = scene
+        .replace("law = \"elastic-plastic\"", "law = \"sigmoid\"")
+        .replace("passes = 200", "passes = 20\n[solver]\nmethod = \"quasi-static\"");
+    let file = folder("unfit").join("unfit.toml");
+    fs::write(&file, &faulty).expect("a file");
+    let line = 1 + faulty
+        .lines()
+        .position(|line| line.starts_with("method"))
+        .expect("the method");
+    let place = format!("{}, line {line}: solver.method: quasi-static", text(&file));
+    let marked = format!("{line} | method = \"quasi-static\" ");
+    for command in ["run", "check"] {
+        assert_fails(
+            &[command, text(&file)],
+            2,
+            &[&place, &marked, "|          ^^^^^^^^^^^^^^"],
+        );
+        assert_fails(
+            &[command, text(&file), "--set", "solver.method=quasi-static"],
+            2,
+            &["--set solver.method=quasi-static: solver.method", "^^^^^^^^^^^^"],
+        );
+    }
+}
+
+#[test]
+fn bare_numbers_that_look_like_slips_are_told() {
+    let arguments = ["--set", "vehicles.0.speed=40", "--set", "traffic.passes=2"];
+    let output = output(&[&["run", UPPER, "--json"], &arguments[..]].concat());
+    assert_eq!(output.status.code(), Some(0));
+    let errors = String::from_utf8(output.stderr).expect("UTF-8");
+    let run: Value = serde_json::from_slice(&output.stdout).expect("JSON and nothing else");
+    let warning = "`vehicles.0.speed`: 40 without a unit is 40 m/s, 144 km/h: did you mean \"40 km/h\"?";
+    assert!(errors.contains(warning) && errors.contains("^^"), "{errors}");
+    assert!(
+        run["warnings"][0].as_str().expect("a text").ends_with(warning),
+        "{run}"
+    );
+
+    // Light and fast vehicles whose unit is written are meant.
+    for (set, warned) in [
+        ("vehicles.0.load=20", true),
+        ("vehicles.0.load=20 N", false),
+        ("vehicles.0.load=196133", false),
+        ("vehicles.0.load=0", false),
+        ("vehicles.0.wheels=[{ load = 50 }]", true),
+        ("vehicles.0.speed=36", false),
+        ("vehicles.0.speed=200 km/h", false),
+    ] {
+        let output = command(&["check", UPPER, "--set", set])
+            .output()
+            .expect("the command");
+        assert_eq!(output.status.code(), Some(0), "{set}");
+        assert_eq!(!output.stderr.is_empty(), warned, "{set}");
+    }
+}
+
+#[test]
+fn a_table_on_standard_output_stands_alone() {
+    let file = folder("csv_stdout").join("forces.csv");
+    for arguments in [
+        &["run", UPPER, "--set", "traffic.passes=3"][..],
+        &["profile", UPPER, "--positions", "0,1"],
+    ] {
+        printed(&[arguments, &["--csv", text(&file)]].concat());
+        let table = printed(&[arguments, &["--csv", "-"]].concat());
+        assert_eq!(table, fs::read_to_string(&file).expect("the table"));
+        let both = [arguments, &["--csv", "-", "--json"]].concat();
+        assert_fails(&both, 2, &["--csv", "standard output", "--json"]);
+    }
+}
+
+#[test]
 fn a_csv_file_that_cannot_be_written_has_status_2_before_anything_is_computed() {
     let folder = folder("csv_unwritable");
     let nowhere = folder.join("no-such-folder").join("forces.csv");
@@ -775,28 +1250,116 @@ fn the_scene_in_the_readme_runs() {
 #[test]
 fn the_commands_in_the_readme_work() {
     let readme = readme();
+    let _ = fs::remove_dir_all(folder("readme_commands"));
     let folder = folder("readme_commands");
     let file = folder.join("my-duct.toml");
     fs::write(&file, blocks(&readme, "toml")[0]).expect("a file");
-    let commands: Vec<&str> = blocks(&readme, "sh")
-        .into_iter()
-        .flat_map(str::lines)
-        .filter_map(|line| line.strip_prefix("creepage "))
-        .collect();
+    let commands: Vec<&str> = blocks(&readme, "sh").into_iter().flat_map(commands).collect();
     assert!(commands.len() >= 5, "{commands:?}");
     for line in commands {
-        let words = line.split('#').next().unwrap_or_default();
-        let arguments: Vec<&str> = words
-            .split_whitespace()
-            .map(|word| word.trim_matches('"'))
-            .collect();
-        let output = command(&arguments)
-            .current_dir(&folder)
-            .output()
-            .expect("the command");
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "creepage {line}: {errors}");
+        run_in(&folder, line);
     }
+}
+
+/// Lines of a block of `sh` that call the program, without its name.
+fn commands(block: &str) -> impl Iterator<Item = &str> {
+    block.lines().filter_map(|line| line.strip_prefix("creepage "))
+}
+
+/// What a command of a page prints; it has to succeed.
+#[track_caller]
+fn run_in(folder: &Path, line: &str) -> String {
+    let words = line.split('#').next().unwrap_or_default();
+    // What stands in quotes is one word.
+    let arguments: Vec<&str> = words
+        .split('"')
+        .enumerate()
+        .flat_map(|(index, part)| match index % 2 {
+            0 => part.split_whitespace().collect(),
+            _ => vec![part],
+        })
+        .collect();
+    let output = command(&arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the command");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "creepage {line}: {errors}");
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+/// The commands of every page of docs/ run, a page in one folder with the README's scene as `my-duct.toml`; a block of
+/// `csv` whose first line is `# NAME.csv` is a file there. A block of `text` after a block of `sh` shows lines that its
+/// commands print, in their order; a line `...` stands for what is left out. A block marked `sh slow` is not run.
+#[test]
+fn the_commands_in_the_documentation_work_and_print_what_it_shows() {
+    let scene = readme();
+    let scene = blocks(&scene, "toml")[0];
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let mut run = 0;
+    for entry in fs::read_dir(docs).expect("docs/") {
+        let page = entry.expect("an entry").path();
+        if page.extension().is_none_or(|extension| extension != "md") {
+            continue;
+        }
+        let name = Path::new("docs").join(page.file_stem().expect("a name"));
+        let _ = fs::remove_dir_all(folder(text(&name)));
+        let folder = folder(text(&name));
+        fs::write(folder.join("my-duct.toml"), scene).expect("a file");
+        let page = fs::read_to_string(&page).expect("a page");
+        let mut printed = String::new();
+        // Fences open and close in turn: every second part is a block, with its language in the first line.
+        for block in page.split("```").skip(1).step_by(2) {
+            let (language, block) = block.split_once('\n').expect("a block");
+            match language {
+                "sh" => {
+                    printed = commands(block).map(|line| run_in(&folder, line)).collect();
+                    run += commands(block).count();
+                }
+                "csv" => {
+                    let name = block.lines().next().and_then(|line| line.strip_prefix("# "));
+                    let name = name.and_then(|line| line.split(':').next()).expect("a name");
+                    fs::write(folder.join(name), block).expect("a file");
+                }
+                "text" => assert_shows(block, &printed),
+                _ => {}
+            }
+        }
+    }
+    assert!(run >= 5, "{run} commands in docs/");
+}
+
+/// Every line of `shown` is printed, one after the other; numbers may differ by 0.2 % from machine to machine.
+#[track_caller]
+fn assert_shows(shown: &str, printed: &str) {
+    let mut lines = printed.lines();
+    let mut left_out = true;
+    for wanted in shown.lines() {
+        if wanted.trim() == "..." {
+            left_out = true;
+        } else if left_out {
+            assert!(
+                lines.any(|line| alike(wanted, line)),
+                "{wanted}\nis not in\n{printed}"
+            );
+            left_out = false;
+        } else {
+            let line = lines.next().unwrap_or_default();
+            assert!(alike(wanted, line), "shown:\n{wanted}\nprinted:\n{line}");
+        }
+    }
+}
+
+/// Whether two lines have the same words, and numbers within 0.2 %.
+fn alike(shown: &str, printed: &str) -> bool {
+    let (shown, printed) = (shown.split_whitespace(), printed.split_whitespace());
+    shown.clone().count() == printed.clone().count()
+        && shown
+            .zip(printed)
+            .all(|(a, b)| match (a.parse::<f64>(), b.parse::<f64>()) {
+                (Ok(a), Ok(b)) => (a - b).abs() <= 2e-3 * b.abs() + 1e-3,
+                _ => a == b,
+            })
 }
 
 #[test]

@@ -1,21 +1,17 @@
-//! Which solver a scene's cable gets, and how it lets one vehicle pass.
+//! A scene's cable, its solver, and how that lets one vehicle pass.
 
 use cable_dem::{
     CableError, CableState, DuctedCable, Dynamic, Explicit, ExplicitOptions, Friction, Mesh, MovingDuct,
-    PassOutcome, Passage, QuasiStatic, SigmoidLeak, SlipLengths, inertia_ratio,
+    PassOutcome, Passage, QuasiStatic, SigmoidLeak, SlipLengths,
 };
 use ground_field::DuctMotion;
 
-use super::law;
 use super::motion::approach;
 use crate::Error;
-use crate::scene::{Scene, SolverMethod};
+use crate::scene::Scene;
 
 /// Standard acceleration of gravity \[m/s²\], which makes a weight of a mass.
 const GRAVITY: f64 = 9.80665;
-
-/// Depths of duct passed over by all vehicles together from which the pass law is taken: a minute or two one by one.
-const MANY_DEPTHS: f64 = 2.5e6;
 
 /// How all passes are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -55,57 +51,6 @@ impl CableMethod {
     }
 }
 
-/// The method the scene names, or the cheapest that is accurate enough, and why.
-pub fn choose(scene: &Scene) -> Result<(PassMethod, String), Error> {
-    let asked = |method| Ok((PassMethod::EveryPass(method), "the scene asks for it".to_owned()));
-    match scene.solver.method {
-        SolverMethod::Auto => {
-            if !scene.friction.law.has_memory() {
-                let reason = "the sigmoid law has no state of rest: its friction depends on the time step";
-                return Ok((PassMethod::EveryPass(CableMethod::Dynamic), reason.into()));
-            }
-            let cable = cable(scene)?;
-            let mut ratio = 0.0_f64;
-            for traffic in &scene.vehicles {
-                ratio = ratio.max(inertia_ratio(&cable, mass(scene), traffic.vehicle.speed())?);
-            }
-            let share = format!("inertia changes the force by at most {ratio:.2e} of it, (v/c)²");
-            if ratio > scene.solver.tolerance {
-                let reason = format!("{share}, above the tolerance");
-                return Ok((PassMethod::EveryPass(CableMethod::Dynamic), reason));
-            }
-            if by_law(scene)? {
-                let reason = format!("{} passes one by one would take minutes", scene.traffic.passes);
-                return Ok((PassMethod::Law, reason));
-            }
-            Ok((PassMethod::EveryPass(CableMethod::QuasiStatic), share))
-        }
-        SolverMethod::QuasiStatic if !scene.friction.law.has_memory() => Err(Error::Unfit {
-            key: "solver.method",
-            found: "quasi-static",
-            reason: "the sigmoid law has no state of rest: its friction depends on the time step".into(),
-        }),
-        SolverMethod::QuasiStatic => asked(CableMethod::QuasiStatic),
-        SolverMethod::Dynamic => asked(CableMethod::Dynamic),
-        SolverMethod::Explicit => asked(CableMethod::Explicit),
-        SolverMethod::PassLaw => match law::refusal(scene)? {
-            Some(concern) => Err(Error::Unfit {
-                key: "solver.method",
-                found: "pass-law",
-                reason: concern.to_string().into(),
-            }),
-            None => Ok((PassMethod::Law, "the scene asks for it".into())),
-        },
-    }
-}
-
-/// Whether the pass law is the better choice: so many passes that one by one they would take minutes, and nothing that
-/// speaks against it.
-fn by_law(scene: &Scene) -> Result<bool, Error> {
-    let road = scene.traffic.passes as f64 * scene.duct.length / scene.duct.depth;
-    Ok(road > MANY_DEPTHS && scene.restraints.is_empty() && law::refusal(scene)?.is_none())
-}
-
 /// A scene's cable: friction by its law with the limit q = μ_d N′, ends and clamps.
 pub fn cable(scene: &Scene) -> Result<DuctedCable, Error> {
     let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
@@ -118,7 +63,7 @@ pub fn cable(scene: &Scene) -> Result<DuctedCable, Error> {
 }
 
 /// Mass per metre \[kg/m\]: the cable's own weight's, whatever presses it down.
-fn mass(scene: &Scene) -> f64 {
+pub fn mass(scene: &Scene) -> f64 {
     scene.cable.weight / GRAVITY
 }
 

@@ -6,7 +6,7 @@ use pass_law::{Concern, Evolution, PassLaw, Resolution, concerns_before};
 
 use super::cable::cable;
 use super::motion::approach;
-use super::result::{ErrorEstimate, ForceProfile, PassRecord, RestraintRecord, Saturation};
+use super::result::{ErrorEstimate, ErrorShares, ForceProfile, PassRecord, RestraintRecord, Saturation};
 use crate::scene::{End, Scene};
 use crate::{Cost, Error};
 
@@ -14,7 +14,7 @@ use crate::{Cost, Error};
 const FINE: f64 = 12.0;
 const COARSE: f64 = 6.0;
 /// Largest error of the law itself beyond the tenth pass, measured against the simulation of every pass.
-const LAW_ERROR: f64 = 0.01;
+pub const ERROR: f64 = 0.01;
 /// The law resolves the passes from this one on.
 const FIRST_GOOD: u64 = 10;
 /// The first passes are all listed, then each this much later than the one before.
@@ -84,10 +84,15 @@ pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
         force_profile: force_profile(&cable, &evolution),
         restraints: restraints(&cable, &evolution),
         error: ErrorEstimate {
-            relative: 0.5 * share + LAW_ERROR,
+            relative: 0.5 * share + ERROR,
             method:
                 "half the difference to cells half as fine, and 1 % for the law itself beyond the tenth pass"
                     .into(),
+            parts: ErrorShares {
+                mesh: 0.5 * share,
+                law: ERROR,
+                ..ErrorShares::default()
+            },
         },
         cost: Cost::of_law(evolution.statistics),
         passes: records,

@@ -1,8 +1,9 @@
 //! From a scene to its answer: ground, motion of the duct, cable, passes, and how wrong they may be.
 
 pub mod cable;
-pub mod ground;
+pub mod error;
 pub mod law;
+pub mod levels;
 pub mod motion;
 pub mod passes;
 pub mod profile;

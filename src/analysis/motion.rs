@@ -1,8 +1,7 @@
 //! Motion of the duct under each of a scene's vehicles.
 
-use ground_field::{DuctLine, DuctMotion};
+use ground_field::{DuctLine, DuctMotion, GroundField};
 
-use super::ground::ChosenGround;
 use crate::Error;
 use crate::scene::{PeakScaling, Scene};
 
@@ -11,6 +10,18 @@ use crate::scene::{PeakScaling, Scene};
 const APPROACH: f64 = 15.0;
 /// Every wheel passes this many depths beyond the ends at least, in deep ducts and with long vehicles.
 const APPROACH_DEPTHS: f64 = 6.0;
+
+/// A ground model, and the accuracy to which the duct's motion follows it as a share of its peak.
+pub struct Ground<'a> {
+    pub field: &'a dyn GroundField,
+    pub accuracy: f64,
+}
+
+impl<'a> Ground<'a> {
+    pub fn new(field: &'a dyn GroundField, accuracy: f64) -> Self {
+        Self { field, accuracy }
+    }
+}
 
 /// How far beyond the duct's ends the vehicles' origins come from \[m\].
 pub fn approach(scene: &Scene) -> f64 {
@@ -32,12 +43,12 @@ pub fn reach(scene: &Scene) -> f64 {
 }
 
 /// The motion under every vehicle for |ξ| up to `reach` \[m\], scaled to a measured peak where the scene has one.
-pub fn motions(scene: &Scene, ground: &ChosenGround<'_>, reach: f64) -> Result<Vec<DuctMotion>, Error> {
+pub fn motions(scene: &Scene, ground: &Ground<'_>, reach: f64) -> Result<Vec<DuctMotion>, Error> {
     let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
     let mut motions = Vec::new();
     for traffic in &scene.vehicles {
         motions.push(DuctMotion::new(
-            &*ground.field,
+            ground.field,
             &traffic.vehicle,
             line,
             reach,

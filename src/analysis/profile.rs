@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use super::{ground, motion};
+use super::motion::{self, Ground};
+use crate::planner::ground;
 use crate::{Error, Scene};
 
 /// Displacement and velocity of the duct at positions ξ = x − x_v along it.
@@ -38,14 +39,14 @@ pub fn profile(scene: &Scene) -> Result<Profile, Error> {
 ///
 /// As for [`profile`].
 pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
-    let ground = ground::choose(scene)?;
+    let (name, field, accuracy) = ground::exact(scene)?;
     let reach = positions
         .iter()
         .fold(scene.duct.depth, |reach, xi| reach.max(xi.abs()));
-    let motions = motion::motions(scene, &ground, reach)?;
+    let motions = motion::motions(scene, &Ground::new(&*field, accuracy), reach)?;
     let first = &motions[0];
     Ok(Profile {
-        ground: ground.name.into(),
+        ground: name.into(),
         positions_m: positions.to_vec(),
         longitudinal_m: positions.iter().map(|&xi| first.longitudinal(xi)).collect(),
         vertical_m: positions.iter().map(|&xi| first.vertical(xi)).collect(),

@@ -128,13 +128,28 @@ pub struct Cost {
     pub node_updates: u64,
 }
 
-/// How wrong the forces may be, discretisation alone.
+/// How wrong the forces may be: how well the equations are solved, not how well they describe a duct.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ErrorEstimate {
     /// Largest error of a force as a share of it.
     pub relative: f64,
     /// How that was found.
     pub method: String,
+    /// What it is the sum of.
+    pub parts: ErrorShares,
+}
+
+/// Error by its causes, each as a share of the force.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct ErrorShares {
+    /// Node spacing and vehicle step; all of it where they cannot be told.
+    pub mesh: f64,
+    /// What the ground model leaves out.
+    pub ground: f64,
+    /// Inertia of the cable, where it is left out: a bound.
+    pub inertia: f64,
+    /// The pass law itself, where it was used.
+    pub law: f64,
 }
 
 impl Cost {

@@ -1,59 +1,34 @@
-//! A whole run: ground, motion, passes, and their discretisation error.
-//!
-//! The passes are computed on a mesh, on one twice and on one four times as coarse. From the differences between them the
-//! error is estimated; where it exceeds the tolerance all meshes are halved. A scheme of second order leaves a third of the
-//! first difference and a twelfth of the second; more than twice that is counted, and the larger of both, as two meshes
-//! may agree by chance.
+//! Carrying a plan out: ground, motion, passes, and what the answer holds.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-use std::thread;
-
-use cable_dem::{Mesh, PassOutcome};
+use cable_dem::PassOutcome;
 use ground_field::{DuctMotion, GroundField};
 
-use super::cable::{self, CableMethod, PassMethod};
-use super::passes::{Passes, simulate};
+use super::cable::PassMethod;
+use super::levels::{Ladder, Solved};
+use super::passes::Passes;
 use super::result::{
-    Cost, DuctMotionSummary, ErrorEstimate, ForceProfile, PassRecord, PlanSummary, RestraintRecord, Run,
-    SlipRecord,
+    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, PassRecord, PlanSummary,
+    RestraintRecord, Run, SlipRecord,
 };
 use super::saturation::saturation;
-use super::{ground, law, motion};
+use super::{law, motion};
+use crate::planner::{Plan, plan, plan_on};
 use crate::scene::End;
 use crate::{Error, Scene};
 
-/// Nodes per depth of the duct at a tolerance of 1 %; the error falls with the square of the spacing.
-const NODES_PER_DEPTH: f64 = 12.0;
-/// Steps of the vehicle per node spacing.
-const STEPS_PER_SPACING: f64 = 2.0;
-/// Shares of the differences to the mesh twice as coarse, and between that and the one four times as coarse, that count as
-/// error.
-const ERROR_SHARES: [f64; 2] = [0.75, 0.3];
-/// What the error is beside the difference to a mesh half as coarse, at second order.
-const VERIFIED_SHARE: f64 = 4.0 / 3.0;
-/// Halvings of the mesh after which a run gives its best answer with a warning, and nodes eliminated in all passes beyond
-/// which it halves no more: about ten seconds.
-const MAX_HALVINGS: usize = 4;
-const MAX_NODE_UPDATES: usize = 500_000_000;
-/// A mesh half as coarse takes about this many times the node updates.
-const HALVING_COST: usize = 4;
-/// A larger error than this, or the tolerance if that is larger still, is no answer.
-const DOUBTFUL: f64 = 0.1;
 /// A law that loses more than this share of the stored force in one pass gives no answer.
 const LARGEST_LEAK: f64 = 0.9;
 /// Most passes that are computed one by one.
 const MAX_PASSES: u64 = 1_000_000;
 /// Passes up to which every one is listed.
 const ALL_LISTED: u64 = 10_000;
-/// Forces below this share of the largest transient count as nothing when errors are compared.
-const SMALL_FORCE: f64 = 0.02;
 
 /// How to run.
 #[derive(Default)]
 pub struct RunOptions<'a> {
-    /// Measure the error by a run on a mesh half as coarse instead of estimating it.
+    /// Measure the error by a run one rung finer instead of estimating it.
     pub verify: bool,
-    /// Hears of the share of the work done so far, in \[0, 1\].
+    /// Hears of the share of the work done so far, in \[0, 1\]; begins again where a finer mesh proves needed.
     pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
     /// A ground model of one's own, in place of the scene's.
     pub ground: Option<&'a dyn GroundField>,
@@ -74,36 +49,60 @@ pub fn run(scene: &Scene) -> Result<Run, Error> {
 ///
 /// As for [`run`].
 pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
-    let (method, reason) = cable::choose(scene)?;
-    let ground = match options.ground {
-        Some(field) => ground::own(field),
-        None => ground::choose(scene)?,
-    };
-    let motions = motion::motions(scene, &ground, motion::reach(scene))?;
+    plan_on(scene, options.ground)?.run_with(options)
+}
+
+/// Checks that the parts of `scene` fit together, without computing any pass.
+///
+/// # Errors
+///
+/// As for [`run`].
+pub fn check(scene: &Scene) -> Result<(), Error> {
+    plan(scene).map(|_| ())
+}
+
+/// Passes are computed one by one, and all are kept.
+pub fn check_passes(scene: &Scene) -> Result<(), Error> {
+    if scene.traffic.passes > MAX_PASSES {
+        return Err(Error::Unfit {
+            key: "traffic.passes",
+            found: "more than a million passes",
+            reason: "one by one they would take days, and the pass law does not apply here".into(),
+        });
+    }
+    Ok(())
+}
+
+/// Carries `plan` out.
+pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
+    let scene = plan.scene;
+    let motions = plan.ground.motions(scene)?;
+    let exact = plan.ground.exact().unwrap_or(&motions);
     let duct_motion = DuctMotionSummary {
-        peak_longitudinal_m: motions[0].peak_longitudinal(),
-        peak_vertical_m: motions[0].peak_vertical(),
+        peak_longitudinal_m: exact[0].peak_longitudinal(),
+        peak_vertical_m: exact[0].peak_vertical(),
     };
-    let mut plan = PlanSummary {
-        ground: ground.name.into(),
-        cable: method.name().into(),
+    let mut summary = PlanSummary {
+        ground: plan.ground.name.into(),
+        cable: plan.method.method.name().into(),
         node_spacing_m: 0.0,
         vehicle_step_m: 0.0,
-        reasons: vec![
-            format!("ground {}: {}", ground.name, ground.reason),
-            format!("cable {}: {reason}", method.name()),
-            approach_reason(scene, &motions),
-        ],
+        reasons: plan.reasons(),
     };
+    summary.reasons.push(approach_reason(scene, exact));
+    let mut warnings = plan.warnings.clone();
     let title = scene.title.clone();
-    let method = match method {
+    let method = match plan.method.method {
         PassMethod::EveryPass(method) => method,
         PassMethod::Law => {
-            let law = law::run(scene, &motions)?;
-            (plan.node_spacing_m, plan.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
+            // Its time does not depend on the motion: nothing is gained by leaving anything out.
+            let law = law::run(scene, exact)?;
+            summary.ground = plan.ground.exact_name.into();
+            (summary.node_spacing_m, summary.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
+            warnings.extend(law.warnings);
             return Ok(Run {
                 title,
-                plan,
+                plan: summary,
                 duct_motion,
                 passes: law.passes,
                 saturation: law.saturation,
@@ -112,18 +111,21 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
                 slip_lengths: None,
                 error_estimate: law.error,
                 cost: law.cost,
-                warnings: law.warnings,
+                warnings,
             });
         }
     };
-    let task = Task {
+    let ladder = Ladder {
         scene,
         method,
+        levels: plan.levels,
         motions: &motions,
+        exact: plan.ground.exact(),
+        motion_error: plan.ground.error,
+        method_error: plan.method.error,
         progress: options.progress,
     };
-    let mut warnings = Vec::new();
-    let solved = task.solve(options.verify, &mut warnings)?;
+    let solved = ladder.climb(options.verify, &mut warnings)?;
     for leak in solved.passes.leaks.iter().filter(|leak| leak.matters()) {
         if leak.loss_per_pass > LARGEST_LEAK {
             return Err(Error::Unfit {
@@ -134,14 +136,17 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
         }
         warnings.push(leak.to_string());
     }
-    (plan.node_spacing_m, plan.vehicle_step_m) = (solved.mesh.spacing(), solved.mesh.vehicle_step());
-    plan.reasons.push(solved.reason.clone());
-    plan.reasons.extend(solved.passes.step_limits.clone());
+    (summary.node_spacing_m, summary.vehicle_step_m) = (solved.mesh.spacing(), solved.mesh.vehicle_step());
+    summary.reasons.extend(solved.reasons.iter().cloned());
+    summary.reasons.extend(solved.passes.step_limits.clone());
+    if solved.ground_is_exact && plan.ground.exact().is_some() {
+        summary.ground = plan.ground.exact_name.into();
+    }
     let passes = &solved.passes.outcomes;
     let (series, scale) = force_series(scene, passes);
     Ok(Run {
         title,
-        plan,
+        plan: summary,
         duct_motion,
         passes: listed(passes),
         saturation: saturation(&series, scale),
@@ -151,8 +156,17 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
             forward_m: slip.forward,
             backward_m: slip.backward,
         }),
-        error_estimate: solved.error.clone(),
-        cost: Cost::new(&solved.passes.statistics),
+        error_estimate: ErrorEstimate {
+            relative: solved.error.total(),
+            method: solved.error.to_string(),
+            parts: ErrorShares {
+                mesh: solved.error.mesh.unwrap_or(1.0),
+                ground: solved.error.ground,
+                inertia: solved.error.inertia,
+                law: 0.0,
+            },
+        },
+        cost: Cost::new(&solved.statistics),
         warnings,
     })
 }
@@ -176,243 +190,6 @@ fn approach_reason(scene: &Scene, motions: &[DuctMotion]) -> String {
          from its place",
         100.0 * left
     )
-}
-
-/// Checks that the parts of `scene` fit together, without computing any pass.
-///
-/// # Errors
-///
-/// As for [`run`].
-pub fn check(scene: &Scene) -> Result<(), Error> {
-    ground::choose(scene)?;
-    cable::cable(scene)?;
-    first_mesh(scene)?;
-    match cable::choose(scene)?.0 {
-        PassMethod::EveryPass(_) => check_passes(scene),
-        PassMethod::Law => Ok(()),
-    }
-}
-
-/// Passes are computed one by one, and all are kept.
-fn check_passes(scene: &Scene) -> Result<(), Error> {
-    if scene.traffic.passes > MAX_PASSES {
-        return Err(Error::Unfit {
-            key: "traffic.passes",
-            found: "more than a million passes",
-            reason: "one by one they would take days, and the pass law does not apply here".into(),
-        });
-    }
-    Ok(())
-}
-
-/// Passes on the mesh that was good enough.
-struct Solved {
-    mesh: Mesh,
-    passes: Passes,
-    error: ErrorEstimate,
-    reason: String,
-}
-
-/// What is to be computed on whatever mesh.
-#[derive(Clone, Copy)]
-struct Task<'a> {
-    scene: &'a Scene,
-    method: CableMethod,
-    motions: &'a [DuctMotion],
-    progress: Option<&'a (dyn Fn(f64) + Sync)>,
-}
-
-impl Task<'_> {
-    /// Refines until the estimated error is within the tolerance, unless the scene says how fine to be.
-    fn solve(&self, verify: bool, warnings: &mut Vec<String>) -> Result<Solved, Error> {
-        let Self { scene, .. } = *self;
-        check_passes(scene)?;
-        let tolerance = scene.solver.tolerance;
-        // A law without memory is one of the time step: there is no limit to refine towards.
-        let chosen = scene.solver.node_spacing.is_some()
-            || scene.solver.vehicle_step.is_some()
-            || (self.method == CableMethod::Explicit && scene.solver.time_step.is_some())
-            || !scene.friction.law.has_memory();
-        let mut mesh = first_mesh(scene)?;
-        let (mut passes, (mut coarse, mut coarser)) = both(
-            || self.simulate(mesh, true),
-            || {
-                let simulate = |mesh: Option<Mesh>| mesh.map(|mesh| self.simulate(mesh, false)).transpose();
-                let twice = self.coarser(mesh);
-                Ok((
-                    simulate(twice)?,
-                    simulate(twice.and_then(|mesh| self.coarser(mesh)))?,
-                ))
-            },
-        )?;
-        let mut halvings = 0;
-        let mut estimate;
-        loop {
-            estimate = coarse.as_ref().map(|coarse| {
-                let second = coarser
-                    .as_ref()
-                    .map_or(0.0, |coarser| difference(coarse, coarser));
-                (ERROR_SHARES[0] * difference(&passes, coarse)).max(ERROR_SHARES[1] * second)
-            });
-            let enough = estimate.is_none_or(|estimate| estimate <= tolerance);
-            let costly = HALVING_COST.saturating_mul(passes.statistics.node_updates) > MAX_NODE_UPDATES;
-            if enough || chosen || costly || halvings == MAX_HALVINGS {
-                break;
-            }
-            let finer = halved(scene, mesh)?;
-            coarser = coarse;
-            coarse = Some(std::mem::replace(&mut passes, self.simulate(finer, true)?));
-            mesh = finer;
-            halvings += 1;
-        }
-        let error = if verify {
-            let finer = self.simulate(halved(scene, mesh)?, true)?;
-            ErrorEstimate {
-                relative: VERIFIED_SHARE * difference(&passes, &finer),
-                method: "measured against a run with half the node spacing and vehicle step".into(),
-            }
-        } else if let Some(relative) = estimate {
-            ErrorEstimate {
-                relative,
-                method: if scene.friction.law.has_memory() {
-                    "from runs with two and four times the node spacing and vehicle step".into()
-                } else {
-                    "of the node spacing alone: the sigmoid's answer is one of its time step".into()
-                },
-            }
-        } else {
-            warnings.push("the node spacing is too coarse to estimate the error".into());
-            ErrorEstimate {
-                relative: 1.0,
-                method: "none: the duct is too short for a mesh twice as coarse".into(),
-            }
-        };
-        if !chosen && error.relative > tolerance.max(DOUBTFUL) {
-            return Err(Error::Inaccurate {
-                reached: error.relative,
-                asked: tolerance,
-            });
-        }
-        if error.relative > tolerance {
-            warnings.push(format!(
-                "the estimated error of {:.2} % exceeds the tolerance of {:.2} %",
-                100.0 * error.relative,
-                100.0 * tolerance
-            ));
-        }
-        let depths = format!(
-            "node spacing and vehicle step: {:.0} nodes per depth of the duct",
-            scene.duct.depth / mesh.spacing()
-        );
-        let reason = if scene.solver.node_spacing.is_some() || scene.solver.vehicle_step.is_some() {
-            format!("{depths}, as the scene asks")
-        } else {
-            format!("{depths}; {} % asked", 100.0 * tolerance)
-        };
-        Ok(Solved {
-            mesh,
-            passes,
-            error,
-            reason,
-        })
-    }
-
-    /// All passes on `mesh`; `shown` ones report their progress.
-    fn simulate(&self, mesh: Mesh, shown: bool) -> Result<Passes, Error> {
-        let done = AtomicU64::new(0);
-        simulate(self.scene, self.method, self.motions, mesh, || {
-            if let (true, Some(progress)) = (shown, self.progress) {
-                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                progress(done as f64 / self.scene.traffic.passes as f64);
-            }
-        })
-    }
-
-    /// The mesh twice as coarse; `None` where the duct is too short for one.
-    fn coarser(&self, mesh: Mesh) -> Option<Mesh> {
-        let step = if self.scene.friction.law.has_memory() {
-            2.0
-        } else {
-            1.0
-        };
-        Mesh::new(
-            self.scene.duct.length,
-            2.0 * mesh.spacing(),
-            step * mesh.vehicle_step(),
-        )
-        .ok()
-    }
-}
-
-/// Runs two computations side by side; the first error wins.
-fn both<A: Send, B: Send>(
-    first: impl FnOnce() -> Result<A, Error> + Send,
-    second: impl FnOnce() -> Result<B, Error> + Send,
-) -> Result<(A, B), Error> {
-    thread::scope(|scope| {
-        let handle = scope.spawn(second);
-        let first = first();
-        // A panic of the other thread goes on in this one.
-        let second = handle
-            .join()
-            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        Ok((first?, second?))
-    })
-}
-
-fn first_mesh(scene: &Scene) -> Result<Mesh, Error> {
-    let length = scene.duct.length;
-    let natural =
-        scene.duct.depth / NODES_PER_DEPTH * (scene.solver.tolerance / 0.01).sqrt().clamp(0.25, 2.0);
-    let spacing = scene.solver.node_spacing.unwrap_or_else(|| {
-        let step = scene.solver.vehicle_step.unwrap_or(0.0);
-        natural.max(step).min(length / 8.0)
-    });
-    let step = scene.solver.vehicle_step.unwrap_or(spacing / STEPS_PER_SPACING);
-    Ok(Mesh::new(length, spacing, step)?)
-}
-
-fn halved(scene: &Scene, mesh: Mesh) -> Result<Mesh, Error> {
-    Ok(Mesh::new(
-        scene.duct.length,
-        0.5 * mesh.spacing(),
-        0.5 * mesh.vehicle_step(),
-    )?)
-}
-
-/// Largest difference of a force after a pass, as a share of the largest force after that pass.
-fn difference(a: &Passes, b: &Passes) -> f64 {
-    let transient = a.outcomes.iter().fold(0.0_f64, |largest, outcome| {
-        [
-            outcome.peak.upstream,
-            outcome.peak.downstream,
-            outcome.lowest.upstream,
-            outcome.lowest.downstream,
-        ]
-        .into_iter()
-        .map(f64::abs)
-        .fold(largest.max(outcome.max_compression.abs()), f64::max)
-    });
-    let forces = |outcome: &PassOutcome| {
-        [
-            outcome.force.upstream,
-            outcome.force.downstream,
-            outcome.max_compression,
-        ]
-    };
-    let mut worst = 0.0_f64;
-    for (a, b) in a.outcomes.iter().zip(&b.outcomes) {
-        let scale = forces(a)
-            .into_iter()
-            .map(f64::abs)
-            .fold(SMALL_FORCE * transient, f64::max);
-        for (a, b) in forces(a).into_iter().zip(forces(b)) {
-            if a != b {
-                worst = worst.max((a - b).abs() / scale);
-            }
-        }
-    }
-    worst
 }
 
 /// The force that a load cell would show: at the end that is held, the larger one of two, and inside the cable where none

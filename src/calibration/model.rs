@@ -12,9 +12,10 @@ use rayon::prelude::*;
 
 use super::Series;
 use super::unknown::{Quantity, Unknown};
-use crate::analysis::cable::{self, PassMethod};
+use crate::analysis::cable::PassMethod;
 use crate::analysis::passes::simulate;
-use crate::analysis::{ground, law, motion};
+use crate::analysis::{law, motion};
+use crate::planner::{ground, plan};
 use crate::{Error, Scene};
 
 /// Nodes per depth of the duct on the coarsest mesh; every rung above has twice as many.
@@ -56,8 +57,9 @@ impl SeriesModel {
             _ => CellEnd::Downstream,
         };
         scene.traffic.passes = series.readings.last_pass();
-        let (method, _) = cable::choose(&scene)?;
-        let ground = ground::choose(&scene)?;
+        let method = plan(&scene)?.method.method;
+        let (_, field, accuracy) = ground::exact(&scene)?;
+        let ground = motion::Ground::new(&*field, accuracy);
         let motions = motion::motions(&scene, &ground, motion::reach(&scene))?;
         Ok(Self {
             scene,

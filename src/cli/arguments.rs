@@ -1,6 +1,6 @@
 //! Arguments of the command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand};
 
@@ -16,7 +16,8 @@ pub struct Arguments {
 }
 
 const EXAMPLES: &str = "Examples:
-  creepage run examples/scenes/full-scale-upper.toml
+  creepage new my-duct.toml
+  creepage run my-duct.toml
   creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --csv forces.csv
   creepage profile my-duct.toml --positions -1.5,0,1.5 --json
   creepage calibrate my-duct.toml --data load-cell.csv --robust";
@@ -24,16 +25,25 @@ const EXAMPLES: &str = "Examples:
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Compute the force in the cable after every pass
+    #[command(after_help = "Examples:
+  creepage run my-duct.toml
+  creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --set vehicles.0.load=15tf
+  creepage run my-duct.toml --json > answer.json
+  creepage run my-duct.toml --csv forces.csv --verify")]
     Run {
         #[command(flatten)]
         scene: SceneArguments,
-        /// Measure the error by a second run with half the node spacing and vehicle step
+        /// Measure the error by a second run one rung finer: half the node spacing and vehicle step, nothing left out of the ground
         #[arg(long)]
         verify: bool,
         #[command(flatten)]
         output: OutputArguments,
     },
     /// Show the motion of the duct under the first vehicle
+    #[command(after_help = "Examples:
+  creepage profile my-duct.toml
+  creepage profile my-duct.toml --positions -1.5,0,1.5 --json
+  creepage profile my-duct.toml --csv motion.csv")]
     Profile {
         #[command(flatten)]
         scene: SceneArguments,
@@ -43,7 +53,21 @@ pub enum Command {
         #[command(flatten)]
         output: OutputArguments,
     },
+    /// Show which models would be used and why, with estimated error and time, the rejected ones too
+    #[command(after_help = "Examples:
+  creepage plan my-duct.toml
+  creepage plan my-duct.toml --set solver.tolerance=0.05 --json")]
+    Plan {
+        #[command(flatten)]
+        scene: SceneArguments,
+        /// Print one JSON document on standard output and nothing else there
+        #[arg(long)]
+        json: bool,
+    },
     /// Fit friction and ground to what a load cell measured
+    #[command(after_help = "Examples:
+  creepage calibrate my-duct.toml --data forces.csv
+  creepage calibrate my-duct.toml --data forces.csv --fit dynamic_coefficient,shape_factor --json")]
     Calibrate {
         #[command(flatten)]
         scene: SceneArguments,
@@ -53,9 +77,28 @@ pub enum Command {
         output: OutputArguments,
     },
     /// Check a scene without computing
+    #[command(after_help = "Examples:
+  creepage check my-duct.toml
+  creepage check my-duct.toml --set ground.model=boussinesq")]
     Check {
         #[command(flatten)]
         scene: SceneArguments,
+    },
+    /// Compute a scene with many values of some keys, on all cores
+    Sweep(Box<super::sweep::Arguments>),
+    /// Find the end spring or clamp that keeps limits of force and movement
+    Design(Box<super::design::Arguments>),
+    /// Write a commented scene to start from
+    New(Box<super::new::Arguments>),
+    /// List named values for vehicles, cables, friction and pavements, with their sources
+    Presets(super::presets::Arguments),
+    /// Print a script that completes commands and flags in a shell
+    #[command(after_help = "Examples:
+  creepage completions bash > ~/.local/share/bash-completion/completions/creepage
+  creepage completions fish > ~/.config/fish/completions/creepage.fish")]
+    Completions {
+        /// The shell
+        shell: clap_complete::Shell,
     },
 }
 
@@ -102,9 +145,19 @@ pub struct OutputArguments {
     /// Print one JSON document on standard output and nothing else there
     #[arg(long)]
     pub json: bool,
-    /// Write a table to this file
+    /// Write a table to this file; - is standard output, where nothing else is printed then
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+}
+
+/// What stands for standard output in place of a file.
+pub const STDOUT: &str = "-";
+
+impl OutputArguments {
+    /// Whether the table goes to standard output.
+    pub fn is_on_stdout(&self) -> bool {
+        self.csv.as_deref() == Some(Path::new(STDOUT))
+    }
 }
 
 fn finite(text: &str) -> Result<f64, String> {

@@ -3,7 +3,8 @@
 use std::io::{self, IsTerminal, Write};
 
 use super::arguments::{CalibrateArguments, OutputArguments, SceneArguments};
-use super::{Failure, read, write};
+use super::input::Input;
+use super::{Failure, write};
 use crate::calibration::{
     BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Observer, Readings,
     Resampling, Unknown,
@@ -18,9 +19,10 @@ pub fn execute(
     arguments: &CalibrateArguments,
     output: &OutputArguments,
 ) -> Result<(), Failure> {
-    let scene = read(scene)?;
+    let input = Input::read(scene)?;
+    let scene = &input.scene;
     let readings = Readings::from_file(&arguments.data).map_err(crate::Error::from)?;
-    write::writable(output.csv.as_deref())?;
+    write::writable(output)?;
     let (bar, observer) = progress();
     let options = CalibrateOptions {
         unknowns: arguments.fit.iter().copied().map(Unknown::shared).collect(),
@@ -41,17 +43,20 @@ pub fn execute(
         max_evaluations: arguments.max_evaluations,
         observer,
     };
-    let answer = crate::calibrate(&scene, &readings, &options);
+    let answer = crate::calibrate(scene, &readings, &options);
     bar.finish_and_clear();
-    let answer = answer?;
+    let mut answer = input.judged(answer)?;
     for warning in &answer.warnings {
         let _ = writeln!(io::stderr(), "warning: {warning}");
     }
+    answer.warnings.splice(0..0, input.warnings);
     if let Some(file) = &output.csv {
         write::rows(file, answer.fit.iter())?;
     }
     if output.json {
         write::json(&answer)
+    } else if output.is_on_stdout() {
+        Ok(())
     } else {
         print(&answer, scene.friction.law)
     }

@@ -2,22 +2,43 @@
 
 mod arguments;
 mod calibrate;
+mod design;
+mod input;
+mod new;
+mod presets;
 mod print;
+mod sweep;
 mod write;
 
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 
-use crate::{Profile, Run, RunOptions, Scene};
-use arguments::{Arguments, Command, SceneArguments};
+use crate::{Run, RunOptions, Scene};
+use arguments::{Arguments, Command};
+use input::Input;
 
 /// Something that keeps a command from finishing.
 #[derive(Debug, thiserror::Error)]
 enum Failure {
     #[error(transparent)]
     Analysis(#[from] crate::Error),
+    #[error(transparent)]
+    Sweep(#[from] crate::sweep::SweepError),
+    #[cfg(feature = "plot")]
+    #[error("the figure: {0}")]
+    Figure(#[from] crate::figure::FigureError),
+    #[error(transparent)]
+    Design(#[from] crate::design::DesignError),
+    #[error("no point of the sweep has an answer")]
+    Nothing,
+    #[error("{argument}: found {found}; allowed: {allowed}")]
+    Usage {
+        argument: String,
+        found: String,
+        allowed: String,
+    },
     #[error("{file}: cannot be written: {source}")]
     Unwritable { file: String, source: std::io::Error },
     #[error("{file}: cannot be written: {source}")]
@@ -45,7 +66,9 @@ pub fn main() -> ExitCode {
             // A closed standard error leaves nobody to tell.
             let _ = writeln!(std::io::stderr(), "error: {failure}");
             match failure {
-                Failure::Unwritable { .. } => ExitCode::from(2),
+                Failure::Usage { .. } | Failure::Unwritable { .. } => ExitCode::from(2),
+                Failure::Design(error) if error.is_bad_input() => ExitCode::from(2),
+                Failure::Sweep(error) if error.is_bad_input() => ExitCode::from(2),
                 Failure::Analysis(error) if error.is_bad_input() => ExitCode::from(2),
                 _ => ExitCode::from(1),
             }
@@ -60,17 +83,20 @@ fn execute(command: &Command) -> Result<(), Failure> {
             verify,
             output,
         } => {
-            let scene = read(scene)?;
-            write::writable(output.csv.as_deref())?;
-            let answer = run(&scene, *verify)?;
+            let input = Input::read(scene)?;
+            write::writable(output)?;
+            let mut answer = input.judged(run(&input.scene, *verify))?;
             for warning in &answer.warnings {
                 let _ = writeln!(std::io::stderr(), "warning: {warning}");
             }
+            answer.warnings.splice(0..0, input.warnings);
             if let Some(file) = &output.csv {
                 write::passes(file, &answer.passes)?;
             }
             if output.json {
                 write::json(&answer)
+            } else if output.is_on_stdout() {
+                Ok(())
             } else {
                 print::run(&answer)
             }
@@ -80,19 +106,34 @@ fn execute(command: &Command) -> Result<(), Failure> {
             positions,
             output,
         } => {
-            let scene = read(scene)?;
-            write::writable(output.csv.as_deref())?;
-            let answer: Profile = match positions {
-                Some(positions) => crate::profile_at(&scene, positions).map_err(Failure::from)?,
-                None => crate::profile(&scene)?,
-            };
+            let input = Input::read(scene)?;
+            write::writable(output)?;
+            let answer = input.judged(match positions {
+                Some(positions) => crate::profile_at(&input.scene, positions),
+                None => crate::profile(&input.scene),
+            })?;
             if let Some(file) = &output.csv {
                 write::profile(file, &answer)?;
             }
             if output.json {
                 write::json(&answer)
+            } else if output.is_on_stdout() {
+                Ok(())
             } else {
                 print::profile(&answer)
+            }
+        }
+        Command::Plan { scene, json } => {
+            let input = Input::read(scene)?;
+            let mut plan = input.judged(crate::plan(&input.scene).map(|plan| plan.report()))?;
+            for warning in &plan.warnings {
+                let _ = writeln!(std::io::stderr(), "warning: {warning}");
+            }
+            plan.warnings.splice(0..0, input.warnings);
+            if *json {
+                write::json(&plan)
+            } else {
+                print::plan(&plan)
             }
         }
         Command::Calibrate {
@@ -101,19 +142,24 @@ fn execute(command: &Command) -> Result<(), Failure> {
             output,
         } => calibrate::execute(scene, calibrate, output),
         Command::Check { scene } => {
-            let scene = read(scene)?;
-            crate::check(&scene)?;
-            print::checked(&scene)
+            let input = Input::read(scene)?;
+            input.judged(crate::check(&input.scene))?;
+            print::checked(&input.scene)
+        }
+        Command::Design(arguments) => design::execute(arguments),
+        Command::Sweep(arguments) => sweep::execute(arguments),
+        Command::Presets(arguments) => presets::execute(arguments),
+        Command::New(arguments) => new::execute(arguments),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Arguments::command(), "creepage", &mut script);
+            Ok(std::io::stdout().lock().write_all(&script)?)
         }
     }
 }
 
-fn read(arguments: &SceneArguments) -> Result<Scene, Failure> {
-    Ok(Scene::from_file_with(&arguments.scene, &arguments.set)?)
-}
-
 /// Runs the scene, with a progress bar on a terminal.
-fn run(scene: &Scene, verify: bool) -> Result<Run, Failure> {
+fn run(scene: &Scene, verify: bool) -> Result<Run, crate::Error> {
     const TICKS: f64 = 1000.0;
     let bar = if std::io::stderr().is_terminal() {
         indicatif::ProgressBar::new(TICKS as u64)
@@ -128,5 +174,5 @@ fn run(scene: &Scene, verify: bool) -> Result<Run, Failure> {
     };
     let answer = crate::run_with(scene, &options);
     bar.finish_and_clear();
-    Ok(answer?)
+    answer
 }

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use super::Failure;
-use crate::{PassRecord, Profile, Run, Scene};
+use crate::{PassRecord, PlanReport, Profile, Run, Scene};
 
 /// Leading digits of the passes in a shortened table.
 const STEPS: [u64; 3] = [1, 2, 5];
@@ -109,6 +109,67 @@ fn selected(passes: &[PassRecord]) -> Vec<&PassRecord> {
         })
         .map(|(_, record)| record)
         .collect()
+}
+
+/// The ladders, the rungs taken marked.
+pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    writeln!(out, "{}", plan.title)?;
+    let error = plan.estimated_error.map_or_else(
+        || "not known before the run".to_owned(),
+        |error| format!("about {:.2} %", 100.0 * error),
+    );
+    writeln!(
+        out,
+        "ground {}, cable {}, node spacing {:.3} m, vehicle step {:.3} m; error {error}, time {}",
+        plan.ground,
+        plan.cable,
+        plan.node_spacing_m,
+        plan.vehicle_step_m,
+        time(plan.estimated_seconds)
+    )?;
+    for part in ["ground", "cable", "mesh"] {
+        let rungs: Vec<_> = plan.ladder.iter().filter(|rung| rung.part == part).collect();
+        if rungs.is_empty() {
+            continue;
+        }
+        writeln!(out)?;
+        writeln!(
+            out,
+            "{part:<14} {:>10} {:>10}  why, or why not",
+            "error", "time"
+        )?;
+        for rung in rungs {
+            writeln!(
+                out,
+                "{} {:<12} {:>10} {:>10}  {}",
+                if rung.chosen { '→' } else { ' ' },
+                rung.name,
+                rung.estimated_error.map_or_else(String::new, share),
+                rung.estimated_seconds.map_or_else(String::new, time),
+                rung.reason
+            )?;
+        }
+    }
+    Ok(())
+}
+
+fn share(error: f64) -> String {
+    if error > 0.0 && error < 5e-5 {
+        "< 0.01 %".into()
+    } else {
+        format!("{:.2} %", 100.0 * error)
+    }
+}
+
+fn time(seconds: f64) -> String {
+    match seconds {
+        s if s < 1e-3 => "< 1 ms".into(),
+        s if s < 1.0 => format!("{:.0} ms", 1e3 * s),
+        s if s < 120.0 => format!("{s:.1} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.0} h", s / 3600.0),
+    }
 }
 
 pub fn profile(profile: &Profile) -> Result<(), Failure> {

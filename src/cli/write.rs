@@ -6,20 +6,46 @@ use std::path::Path;
 use serde::Serialize;
 
 use super::Failure;
+use super::arguments::{OutputArguments, STDOUT};
 use crate::{PassRecord, Profile};
 
-/// Makes sure that a table can be written to `file`, before hours of computing; an older table stays as it is.
-pub fn writable(file: Option<&Path>) -> Result<(), Failure> {
-    let Some(file) = file else { return Ok(()) };
+/// Makes sure that the table can be written, before hours of computing; an older table stays as it is.
+pub fn writable(output: &OutputArguments) -> Result<(), Failure> {
+    let Some(file) = &output.csv else { return Ok(()) };
+    if output.is_on_stdout() {
+        if output.json {
+            return Err(Failure::Usage {
+                argument: "--csv".into(),
+                found: "`-`, standard output, where --json prints".into(),
+                allowed: "a file beside --json".into(),
+            });
+        }
+        return Ok(());
+    }
+    creatable(file)
+}
+
+/// Makes sure that `file` can be written, and leaves what is in it.
+pub fn creatable(file: &Path) -> Result<(), Failure> {
     std::fs::OpenOptions::new()
         .append(true)
         .create(true)
         .open(file)
         .map(drop)
-        .map_err(|source| Failure::Unwritable {
-            file: file.display().to_string(),
-            source,
-        })
+        .map_err(|source| unwritable(file, source))
+}
+
+/// Writes a text file.
+#[cfg(feature = "plot")]
+pub fn text(file: &Path, text: &str) -> Result<(), Failure> {
+    std::fs::write(file, text).map_err(|source| unwritable(file, source))
+}
+
+fn unwritable(file: &Path, source: std::io::Error) -> Failure {
+    Failure::Unwritable {
+        file: file.display().to_string(),
+        source,
+    }
 }
 
 /// One JSON document on standard output.
@@ -60,15 +86,28 @@ pub fn profile(file: &Path, profile: &Profile) -> Result<(), Failure> {
 /// One row a record, with the record's fields as columns.
 pub fn rows<T: Serialize>(file: &Path, rows: impl Iterator<Item = T>) -> Result<(), Failure> {
     let write = || -> Result<(), csv::Error> {
-        let mut writer = csv::Writer::from_path(file)?;
+        let out: Box<dyn Write> = if file == Path::new(STDOUT) {
+            Box::new(std::io::stdout().lock())
+        } else {
+            Box::new(std::fs::File::create(file)?)
+        };
+        let mut writer = csv::Writer::from_writer(out);
         for row in rows {
             writer.serialize(row)?;
         }
         writer.flush()?;
         Ok(())
     };
-    write().map_err(|source| Failure::Write {
-        file: file.display().to_string(),
-        source,
+    write().map_err(|source| {
+        if file != Path::new(STDOUT) {
+            return Failure::Write {
+                file: file.display().to_string(),
+                source,
+            };
+        }
+        match source.into_kind() {
+            csv::ErrorKind::Io(source) => Failure::Output(source),
+            kind => Failure::Output(std::io::Error::other(format!("{kind:?}"))),
+        }
     })
 }

@@ -5,13 +5,15 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::syntax::hint;
 use super::table::Table;
 use super::{Location, SceneError};
+use crate::presets::Preset;
 
 /// Where something was written: which source, which bytes of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Place {
-    /// 0 is the file, then the overrides in turn: what has the larger number was set later.
+    /// 0 is the file; then overrides, and presets where they were named.
     pub source: usize,
     pub span: Range<usize>,
 }
@@ -45,15 +47,36 @@ pub(super) struct Entry {
     pub value: Node,
 }
 
-/// A file or an override.
-#[derive(Debug)]
+impl Entry {
+    fn move_to(&mut self, source: usize) {
+        self.key_place.source = source;
+        self.value.move_to(source);
+    }
+}
+
+impl Node {
+    /// Says that this was written in the source of that number.
+    fn move_to(&mut self, source: usize) {
+        self.place.source = source;
+        match &mut self.content {
+            Content::Array(items) => items.iter_mut().for_each(|item| item.move_to(source)),
+            Content::Table(entries) => entries.iter_mut().for_each(|entry| entry.move_to(source)),
+            _ => {}
+        }
+    }
+}
+
+/// A file, an override or a preset.
+#[derive(Debug, Clone)]
 struct Source {
     name: String,
     text: String,
+    /// What ranks higher was set later. Files and overrides have odd ranks, and a preset the even one below what names it.
+    rank: usize,
 }
 
 /// A scene file with its overrides.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Document {
     sources: Vec<Source>,
     pub root: Node,
@@ -61,15 +84,20 @@ pub(super) struct Document {
 
 impl Document {
     pub fn parse(name: &str, text: &str) -> Result<Self, SceneError> {
-        let table = DeTable::parse(text).map_err(|error| SceneError::Syntax {
-            location: Location::new(name, text, error.span().unwrap_or(0..0), true),
-            message: error.message().to_owned(),
+        let table = DeTable::parse(text).map_err(|error| {
+            let location = Location::new(name, text, error.span().unwrap_or(0..0), true);
+            let hint = hint(&location.text).map_or_else(String::new, |hint| format!("; {hint}"));
+            SceneError::Syntax {
+                message: format!("{}{hint}", error.message()),
+                location,
+            }
         })?;
         let end = text.trim_end().len();
         Ok(Self {
             sources: vec![Source {
                 name: name.to_owned(),
                 text: text.to_owned(),
+                rank: 1,
             }],
             root: Node {
                 // What the top level lacks would be added at the end.
@@ -84,11 +112,46 @@ impl Document {
 
     /// Adds an override as a source and returns its number.
     pub fn add_source(&mut self, text: &str) -> usize {
+        let highest = self.sources.iter().map(|source| source.rank).max();
         self.sources.push(Source {
             name: format!("--set {text}"),
             text: text.to_owned(),
+            rank: highest.unwrap_or_default() + 2,
         });
         self.sources.len() - 1
+    }
+
+    /// Adds a preset that was named at `place` as a source and returns its values.
+    pub fn add_preset(&mut self, preset: &Preset, place: &Place) -> Result<Vec<Entry>, SceneError> {
+        let values = Self::parse(&format!("preset {}", preset.name), &preset.toml)?.root;
+        self.sources.push(Source {
+            name: format!("preset {}", preset.name),
+            text: preset.toml.clone(),
+            rank: self.rank(place) - 1,
+        });
+        let Content::Table(mut entries) = values.content else {
+            return Ok(Vec::new());
+        };
+        for entry in &mut entries {
+            entry.move_to(self.sources.len() - 1);
+        }
+        Ok(entries)
+    }
+
+    /// What was written in the file, the overrides and the presets.
+    #[cfg(feature = "sweep")]
+    pub fn texts(&self) -> impl Iterator<Item = &str> {
+        self.sources.iter().map(|source| source.text.as_str())
+    }
+
+    /// What ranks higher was set later.
+    pub fn rank(&self, place: &Place) -> usize {
+        self.sources[place.source].rank
+    }
+
+    /// Whether a preset gave what stands at this place.
+    pub fn is_preset(&self, place: &Place) -> bool {
+        self.rank(place).is_multiple_of(2)
     }
 
     /// The whole document as a table that may hold only the keys `known`.

@@ -17,6 +17,7 @@ pub(super) const SCENE: &[&str] = &[
 pub(super) const DUCT: &[&str] = &["length", "depth", "lateral_offset"];
 /// `[ground]`
 pub(super) const GROUND: &[&str] = &[
+    "preset",
     "model",
     "rigid_base_depth",
     "longitudinal_peak",
@@ -28,9 +29,9 @@ pub(super) const LAYER: &[&str] = &["thickness", "young_modulus", "poisson_ratio
 /// `young_modulus = { … }`
 pub(super) const GRADED: &[&str] = &["top", "bottom"];
 /// `[cable]`
-pub(super) const CABLE: &[&str] = &["weight", "axial_stiffness", "normal_load_factor"];
+pub(super) const CABLE: &[&str] = &["preset", "weight", "axial_stiffness", "normal_load_factor"];
 /// `[friction]`
-pub(super) const FRICTION: &[&str] = &["law", "dynamic_coefficient", "shape_factor"];
+pub(super) const FRICTION: &[&str] = &["preset", "law", "dynamic_coefficient", "shape_factor"];
 /// `[ends]`
 pub(super) const ENDS: &[&str] = &["upstream", "downstream"];
 /// `upstream = { … }`
@@ -38,7 +39,7 @@ pub(super) const SPRING: &[&str] = &["spring"];
 /// `[[restraints]]`
 pub(super) const RESTRAINT: &[&str] = &["position", "stiffness"];
 /// `[[vehicles]]`
-pub(super) const VEHICLE: &[&str] = &["name", "speed", "load", "wheels", "direction", "share"];
+pub(super) const VEHICLE: &[&str] = &["preset", "name", "speed", "load", "wheels", "direction", "share"];
 /// `wheels = [ { … } ]`
 pub(super) const WHEEL: &[&str] = &["x", "y", "load", "contact_radius"];
 /// `[traffic]`

@@ -60,7 +60,7 @@ impl Location {
     }
 
     /// The line with its number and the faulty part underlined; it begins with a line break.
-    pub(super) fn excerpt(&self) -> String {
+    pub fn excerpt(&self) -> String {
         if self.text.trim().is_empty() {
             return String::new();
         }

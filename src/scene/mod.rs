@@ -14,6 +14,11 @@
 //!   out of its range: the first one found is reported with file, line, key, what was found and what is allowed
 //!   ([`SceneError`]).
 //!
+//! # Presets
+//!
+//! `preset = "t-25"` in a vehicle, the cable, the friction or the ground stands for values with a known source
+//! ([`crate::presets`]); what is given beside it counts instead.
+//!
 //! # Overrides
 //!
 //! `KEY=VALUE` sets one key on top of the file: `friction.dynamic_coefficient=0.3`, `vehicles.0.speed=30 km/h`,
@@ -40,21 +45,23 @@ mod cable;
 mod data;
 mod document;
 mod error;
+mod file;
 mod ground;
 mod keys;
 mod location;
 mod nearest;
 mod overrides;
+mod preset;
 mod quantity;
 mod range;
+mod slips;
 mod solver;
+mod syntax;
 mod table;
 mod traffic;
 mod units;
 mod value;
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
 pub use data::{
@@ -62,13 +69,12 @@ pub use data::{
     Solver, SolverMethod, Traffic, TrafficVehicle,
 };
 pub use error::SceneError;
+pub use file::SceneFile;
 pub use location::Location;
 pub use quantity::{Dimension, QuantityError};
+pub use slips::UnitSlip;
 
 use document::Document;
-
-/// A scene file larger than this \[bytes\] is not a scene file.
-const LARGEST_FILE: u64 = 16 << 20;
 
 impl Scene {
     /// Reads the scene file at `path`.
@@ -86,23 +92,7 @@ impl Scene {
     ///
     /// As for [`Scene::from_file`]; a value from an override is located as `--set KEY=VALUE`.
     pub fn from_file_with(path: &Path, overrides: &[String]) -> Result<Self, SceneError> {
-        let file = path.display().to_string();
-        let unreadable = |source| SceneError::Unreadable {
-            file: file.clone(),
-            source,
-        };
-        let mut bytes = Vec::new();
-        File::open(path)
-            .and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
-            .map_err(unreadable)?;
-        if bytes.len() as u64 > LARGEST_FILE {
-            return Err(SceneError::TooLarge {
-                file,
-                allowed: LARGEST_FILE,
-            });
-        }
-        let text = String::from_utf8(bytes).map_err(|e| error::not_utf8(&file, &e))?;
-        Self::from_toml_with(&file, &text, overrides)
+        SceneFile::read(path)?.with(overrides)?.scene()
     }
 
     /// Reads a scene from TOML `text`; `name` stands for the file in error messages.
@@ -120,11 +110,7 @@ impl Scene {
     ///
     /// As for [`Scene::from_file_with`].
     pub fn from_toml_with(name: &str, text: &str, overrides: &[String]) -> Result<Self, SceneError> {
-        let mut document = Document::parse(name, text)?;
-        for text in overrides {
-            overrides::apply(&mut document, text)?;
-        }
-        read(name, &document)
+        SceneFile::from_toml(name, text)?.with(overrides)?.scene()
     }
 }
 

@@ -4,6 +4,7 @@
 //! binary number, so that `"35.7 um"` is exactly the number written `35.7e-6`.
 
 use super::nearest::nearest;
+use super::syntax::with_point;
 use super::units::{UNITS, normalised};
 
 /// Physical dimension of a quantity in a scene.
@@ -34,6 +35,12 @@ pub enum QuantityError {
     /// The text does not begin with a number.
     #[error("not a number with a unit")]
     NotANumber,
+    /// The number is written with commas.
+    #[error("decimals are written with a point: {with_point}")]
+    Comma {
+        /// The text with a point for the comma.
+        with_point: String,
+    },
     /// There is a number but no unit.
     #[error("the unit is missing")]
     MissingUnit,
@@ -98,7 +105,10 @@ impl Dimension {
     /// assert!(Dimension::Force.parse("20 m").is_err());
     /// ```
     pub fn parse(self, text: &str) -> Result<f64, QuantityError> {
-        let (number, rest) = split(text.trim()).ok_or(QuantityError::NotANumber)?;
+        let (number, rest) = split(text.trim()).ok_or_else(|| match with_point(text.trim()) {
+            Some(with_point) => QuantityError::Comma { with_point },
+            None => QuantityError::NotANumber,
+        })?;
         let written = rest.trim();
         if written.is_empty() {
             return Err(QuantityError::MissingUnit);
@@ -279,10 +289,12 @@ mod tests {
     fn what_is_no_quantity_is_refused() {
         let length = |text| Dimension::Length.parse(text).unwrap_err();
         for text in [
-            "", "m", "abc", "1,2 m", "1.2.3 m", "1_000 m", "--1 m", "+", ".", "１ m", "e5 m", "nano m",
+            "", "m", "abc", "1.2.3 m", "1_000 m", "--1 m", "+", ".", "１ m", "e5 m", "nano m",
         ] {
             assert_eq!(length(text), QuantityError::NotANumber, "{text}");
         }
+        let with_point = "1.2 m".to_owned();
+        assert_eq!(length("1,2 m"), QuantityError::Comma { with_point });
         for text in ["1.2", "1e3", "-4 ", "inf"] {
             assert_eq!(length(text), QuantityError::MissingUnit, "{text}");
         }

@@ -125,10 +125,14 @@ impl<'d> Table<'d> {
         self.optional(key).map_or(Ok(default), |value| value.word(words))
     }
 
+    fn rank(&self, value: &Value) -> usize {
+        self.document.rank(&value.node.place)
+    }
+
     /// Two keys that exclude each other. Of two that were set at different times the later one stands.
     pub fn alternatives(&self, first: &str, second: &str) -> Result<[Option<Value<'d>>; 2], SceneError> {
         match [self.optional(first), self.optional(second)] {
-            [Some(a), Some(b)] => match a.node.place.source.cmp(&b.node.place.source) {
+            [Some(a), Some(b)] => match self.rank(&a).cmp(&self.rank(&b)) {
                 std::cmp::Ordering::Greater => Ok([Some(a), None]),
                 std::cmp::Ordering::Less => Ok([None, Some(b)]),
                 std::cmp::Ordering::Equal => {
@@ -148,7 +152,7 @@ impl<'d> Table<'d> {
         let chosen = self.optional(choice);
         if chosen
             .as_ref()
-            .is_some_and(|chosen| chosen.node.place.source > value.node.place.source)
+            .is_some_and(|chosen| self.rank(chosen) > self.rank(&value))
         {
             return Ok(());
         }

@@ -3,6 +3,7 @@
 use super::document::{Content, Document, Node};
 use super::nearest::nearest;
 use super::range::{Range, allowed_number, allowed_quantity};
+use super::syntax::with_point;
 use super::table::{Table, joined};
 use super::{Dimension, QuantityError, SceneError};
 
@@ -62,10 +63,14 @@ impl<'d> Value<'d> {
 
     pub fn number(&self, range: Range) -> Result<f64, SceneError> {
         let allowed = || allowed_number(range);
-        let Content::Number { value, .. } = &self.node.content else {
-            return Err(self.wrong_type(allowed()));
-        };
-        self.within(*value, range, allowed)
+        match &self.node.content {
+            Content::Number { value, .. } => self.within(*value, range, allowed),
+            Content::Text(text) => Err(self.wrong_type(match bare(text) {
+                Some(number) => format!("{number}: {}", allowed()),
+                None => allowed(),
+            })),
+            _ => Err(self.wrong_type(allowed())),
+        }
     }
 
     /// A whole number of at least `least`.
@@ -130,6 +135,9 @@ impl<'d> Value<'d> {
         let found = self.written();
         match error {
             QuantityError::NotANumber => self.wrong_type(allowed),
+            QuantityError::Comma { with_point } => {
+                self.wrong_type(format!("a decimal point, \"{with_point}\": {allowed}"))
+            }
             QuantityError::MissingUnit => SceneError::MissingUnit {
                 location,
                 key,
@@ -187,4 +195,14 @@ impl<'d> Value<'d> {
             allowed: allowed.into(),
         }
     }
+}
+
+/// A dimensionless number that was written as a percentage or with a comma, as it is to be written.
+fn bare(text: &str) -> Option<f64> {
+    let point = with_point(text).unwrap_or_else(|| text.to_owned());
+    let number = Dimension::Ratio
+        .parse(&point)
+        .ok()
+        .or_else(|| point.trim().parse().ok());
+    number.filter(|number: &f64| number.is_finite())
 }

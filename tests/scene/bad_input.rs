@@ -137,6 +137,63 @@ fn a_missing_unit_is_refused() {
 }
 
 #[test]
+fn a_decimal_comma_is_told() {
+    assert_refused(
+        "depth = \"1.2 m\"",
+        "depth = \"1,2 m\"",
+        "1,2 m",
+        &[
+            "`duct.depth`",
+            "found the text \"1,2 m\"",
+            "allowed: a decimal point, \"1.2 m\": a length",
+        ],
+    );
+    assert_refused(
+        "depth = \"1.2 m\"",
+        "depth = 1,2",
+        "depth = 1,2",
+        &["not valid TOML", "decimals are written with a point: depth = 1.2"],
+    );
+    assert_refused(
+        "dynamic_coefficient = 0.25",
+        "dynamic_coefficient = \"0,25\"",
+        "0,25",
+        &["allowed: 0.25: a number from 0 to 10"],
+    );
+}
+
+#[test]
+fn percent_where_a_number_belongs_is_told_its_number() {
+    assert_refused(
+        "dynamic_coefficient = 0.25",
+        "dynamic_coefficient = \"25 %\"",
+        "25 %",
+        &[
+            "`friction.dynamic_coefficient`",
+            "allowed: 0.25: a number from 0 to 10",
+        ],
+    );
+    assert_refused(
+        "tolerance = \"2 %\"",
+        "tolerance = 2 %",
+        "tolerance = 2 %",
+        &["not valid TOML", "stands in quotes: tolerance = \"2 %\""],
+    );
+    assert_refused(
+        "tolerance = \"2 %\"",
+        "tolerance = 2",
+        "tolerance",
+        &["out of range: found 2", "such as 0.01 or \"1 %\""],
+    );
+    assert_refused(
+        "depth = \"1.2 m\"",
+        "depth = 1.2 m",
+        "depth = 1.2 m",
+        &["not valid TOML", "stands in quotes: depth = \"1.2 m\""],
+    );
+}
+
+#[test]
 fn an_unknown_unit_is_refused() {
     assert_refused(
         "young_modulus = \"800 MPa\"",
@@ -157,7 +214,11 @@ fn what_is_no_number_is_refused() {
         "depth = \"1.2 m\"",
         "depth = \"1,2 m\"",
         "1,2",
-        &["`duct.depth`", "found the text \"1,2 m\"", "allowed: a length"],
+        &[
+            "`duct.depth`",
+            "found the text \"1,2 m\"",
+            "a length greater than 0",
+        ],
     );
     assert_refused(
         "depth = \"1.2 m\"",
@@ -297,7 +358,7 @@ fn a_value_of_the_wrong_kind_is_refused() {
         "[cable]",
         "[[cable]]",
         "[[cable]]",
-        &["`cable`", "a table with the keys weight"],
+        &["`cable`", "a table with the keys preset, weight"],
     );
     assert_refused(
         "  { x = \"-2.5 m\", y = \"-0.9 m\", load = \"7 kN\" },",

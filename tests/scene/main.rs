@@ -4,6 +4,7 @@ mod any_input;
 mod bad_input;
 mod contradictions;
 mod overrides;
+mod presets;
 
 use std::path::Path;
 

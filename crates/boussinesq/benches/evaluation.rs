@@ -39,6 +39,18 @@ fn evaluation(criterion: &mut Criterion) {
             bencher.iter(|| odemark.displacement(black_box(load), black_box(0.8), black_box(depth)));
         });
     }
+    let radii: Vec<f64> = (0..200).map(|i| 0.1 * f64::from(i)).collect();
+    for (name, depth) in [
+        ("odemark, disc, 200 radii, layer 4", 2.0),
+        ("odemark, disc, 200 radii, layer 1", 0.1),
+    ] {
+        group.bench_function(name, |bencher| {
+            bencher.iter(|| odemark.displacements(black_box(disc), &radii, black_box(depth)));
+        });
+    }
+    group.bench_function("odemark, made for four layers", |bencher| {
+        bencher.iter(|| Odemark::new(black_box(&profile)));
+    });
     group.finish();
 }
 

@@ -13,6 +13,19 @@ const MODEL: &str = "odemark";
 
 /// Layered ground by Odemark's equivalent thickness: a closed form, cheap and approximate.
 ///
+/// ```
+/// use boussinesq::{HalfSpace, Odemark};
+/// use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
+///
+/// let subgrade = Soil::new(50e6, 0.4)?;
+/// let asphalt = SoilLayer::uniform(0.2, Soil::new(5e9, 0.35)?)?;
+/// let road = Odemark::new(&SoilProfile::new(vec![asphalt], Base::HalfSpace(subgrade))?)?;
+/// let wheel = SurfaceLoad::new(49e3, 0.15)?;
+/// let (with, without) = (road.displacement(wheel, 0.0, 1.2)?, HalfSpace::new(subgrade).displacement(wheel, 0.0, 1.2)?);
+/// assert!(with.vertical < 0.8 * without.vertical);
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
+///
 /// # The idea
 ///
 /// Seen from layer k, the layers above it act like a thickness of layer k's own soil that bends alike:
@@ -104,6 +117,9 @@ const MODEL: &str = "odemark";
 /// | rising | 15 %, 38 %, 46 % | 7 %, 13 %, 16 % |
 /// | up and down | 15 %, 41 %, 82 % | 5 %, 12 %, 26 % |
 ///
+/// A soft layer between stiff ones is the worst ground: with 0.2 m of 5 MPa in 200 MPa, u_r at a duct 0.1 m below is four times its
+/// own peak off. How far off a given ground is, `burmister::odemark_error_bound` measures in a few ten microseconds.
+///
 /// # Limits
 ///
 /// Uniform layers only: a modulus that varies within a layer is [`GroundError::Unsupported`]. A point load's own place
@@ -134,6 +150,19 @@ impl Odemark {
             layers.push(Layer::new(&above, soil, None));
         }
         Ok(Self { layers })
+    }
+
+    /// The approximation in the Hankel transform, at `depth` \[m\] under a point load of 1 N: a function that takes a wavenumber
+    /// \[1/m\] to (U, W), such that u_r = ∫ U J1(mr) dm and u_z = ∫ W J0(mr) dm over 0 < m < ∞. Compared with an exact transform
+    /// it tells the error at the cost of a few exponentials.
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::InvalidParameter`] unless the depth is finite and not negative.
+    pub fn transform_at(&self, depth: f64) -> Result<impl Fn(f64) -> (f64, f64) + use<>, GroundError> {
+        check_place(0.0, depth)?;
+        let (radial, vertical) = self.transforms(depth);
+        Ok(move |wavenumber: f64| (sum::at(&radial, wavenumber), sum::at(&vertical, wavenumber)))
     }
 
     /// Transforms of u_r and u_z at `depth`; empty in rock.

@@ -56,6 +56,7 @@ mod lamina;
 mod layered_half_space;
 mod levin;
 mod matrix;
+mod odemark_error;
 mod oscillatory;
 mod panel;
 mod remainder;
@@ -64,7 +65,12 @@ mod statistics;
 mod transform;
 
 pub use layered_half_space::{DEFAULT_ACCURACY, LayeredHalfSpace};
+pub use odemark_error::{OdemarkErrorBound, odemark_error_bound};
 pub use statistics::Statistics;
 
 /// The model's name in errors.
 const MODEL: &str = "layered half-space";
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -1,7 +1,7 @@
 //! The cable in its duct: length, stiffness, friction, and what holds it.
 
 use crate::error::checked;
-use crate::{CableError, Friction};
+use crate::{CableError, Friction, Mesh};
 
 /// What holds an end of the cable.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -33,6 +33,17 @@ pub struct Restraint {
     pub position: f64,
     /// Stiffness \[N/m\].
     pub stiffness: f64,
+}
+
+impl Restraint {
+    /// The clamp as springs \[N/m\] on the two nodes around it, by the lever rule.
+    pub(crate) fn by_node(&self, mesh: &Mesh) -> [(usize, f64); 2] {
+        let (left, share) = mesh.place(self.position);
+        [
+            (left, (1.0 - share) * self.stiffness),
+            (left + 1, share * self.stiffness),
+        ]
+    }
 }
 
 /// A straight cable in a duct from x = 0 (upstream) to x = length (downstream).

@@ -35,11 +35,15 @@
 //! ```
 
 mod cable;
+mod course;
 mod dynamic;
+mod ends;
 mod error;
 mod explicit;
 mod friction;
+mod held;
 mod mesh;
+mod outcome;
 mod quasi_static;
 mod state;
 mod traffic;
@@ -47,11 +51,17 @@ mod transient;
 
 pub use cable::{DuctedCable, End, Restraint};
 pub use dynamic::Dynamic;
+pub use ends::EndForces;
 pub use error::CableError;
 pub use explicit::{Explicit, ExplicitOptions, StepLimit, StepLimits};
 pub use friction::{Friction, FrictionLaw};
 pub use mesh::Mesh;
-pub use quasi_static::{PassOutcome, Passage, QuasiStatic, SlipLengths, Statistics, StepView};
-pub use state::{CableState, EndForces};
+pub use outcome::{PassOutcome, Statistics};
+pub use quasi_static::{Passage, QuasiStatic, SlipLengths, StepView};
+pub use state::CableState;
 pub use traffic::{Order, Traffic};
 pub use transient::{EnergyBalance, MovingDuct, SigmoidLeak, TransientOutcome, inertia_ratio};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -1,7 +1,8 @@
 //! What the cable keeps from one pass to the next.
 
+use crate::ends::{Balance, EndReader};
 use crate::error::checked;
-use crate::{CableError, DuctedCable, End, Mesh};
+use crate::{CableError, DuctedCable, EndForces, Mesh};
 
 /// The cable at rest: displacement and friction of every node, with no vehicle near.
 #[derive(Debug, Clone, PartialEq)]
@@ -65,21 +66,10 @@ impl CableState {
             .map(move |pair| stiffness * (pair[0] - pair[1]))
     }
 
-    /// Force \[N\] on what holds each end, compression positive: the reading of a load cell there.
+    /// Force \[N\] on what holds each end, compression positive: the reading of a load cell there. What clamps on the same
+    /// node carry is not part of it.
     pub fn end_forces(&self, cable: &DuctedCable, mesh: &Mesh) -> EndForces {
-        let n = mesh.elements();
-        let stiffness = cable.axial_stiffness() / mesh.spacing();
-        let (u, f) = (&self.displacement, &self.friction);
-        // A spring carries what the cable and its last node's friction bring; its own s u has no digits when it is stiff.
-        let upstream = match cable.upstream() {
-            End::Free => 0.0,
-            End::Spring(_) | End::Fixed => stiffness * (u[0] - u[1]) - mesh.tributary_length(0) * f[0],
-        };
-        let downstream = match cable.downstream() {
-            End::Free => 0.0,
-            End::Spring(_) | End::Fixed => stiffness * (u[n - 1] - u[n]) + mesh.tributary_length(n) * f[n],
-        };
-        EndForces { upstream, downstream }
+        EndReader::new(cable, mesh).read(Balance::AtRest, |i| self.displacement[i], |i| self.friction[i])
     }
 
     /// Force \[N\] of the cable on each of its clamps, positive toward growing x, in the order of
@@ -89,9 +79,10 @@ impl CableState {
             .restraints()
             .iter()
             .map(|restraint| {
-                let (left, share) = mesh.place(restraint.position);
-                let u = (1.0 - share) * self.displacement[left] + share * self.displacement[left + 1];
-                restraint.stiffness * u
+                let springs = restraint.by_node(mesh).into_iter();
+                springs
+                    .map(|(node, stiffness)| stiffness * self.displacement[node])
+                    .sum()
             })
             .collect()
     }
@@ -135,15 +126,6 @@ impl CableState {
             }
         }
     }
-}
-
-/// Forces at both ends \[N\], compression positive.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct EndForces {
-    /// At x = 0.
-    pub upstream: f64,
-    /// At x = length.
-    pub downstream: f64,
 }
 
 #[cfg(test)]

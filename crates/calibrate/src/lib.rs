@@ -66,7 +66,6 @@ pub use options::{Options, Profiles};
 pub use parameter::{Parameter, Prior, Scale};
 pub use search::{Observer, Progress};
 
-/// The README's example is a test too.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct ReadmeExamples;

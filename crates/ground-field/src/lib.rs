@@ -34,3 +34,7 @@ pub use motion::{DuctLine, DuctMotion};
 pub use profile::RadialProfile;
 pub use soil::{Base, Modulus, Soil, SoilLayer, SoilProfile};
 pub use vehicle::{Direction, Vehicle, Wheel};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -4,6 +4,16 @@ use crate::GroundError;
 use crate::error::checked;
 
 /// A vertical load on the surface: a point load, or uniform pressure on a disc.
+///
+/// ```
+/// use ground_field::SurfaceLoad;
+///
+/// let wheel = SurfaceLoad::new(49e3, 0.15)?;
+/// assert!((wheel.pressure() - 693e3).abs() < 1e3);
+/// assert!(SurfaceLoad::point(49e3)?.is_point());
+/// assert!(SurfaceLoad::point(f64::NAN).is_err());
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfaceLoad {
     force: f64,

@@ -44,6 +44,32 @@ impl DuctLine {
 /// The duct's displacement in a vehicle's frame; see the module's text for the equations.
 ///
 /// ξ is measured along x, whichever way the vehicle drives: for a reverse vehicle the duct ahead of it has ξ < 0.
+///
+/// ```
+/// use ground_field::{Displacement, DuctLine, DuctMotion, GroundError, GroundField, SurfaceLoad, Vehicle};
+///
+/// /// Incompressible soil of 300 MPa under a point load: u_r = c r z/R³, u_z = c (z²/R³ + 1/R), c = 3P/(4πE).
+/// struct Clay;
+///
+/// impl GroundField for Clay {
+///     fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
+///         let distance = radius.hypot(depth);
+///         let scale = 3.0 * load.force() / (4.0 * std::f64::consts::PI * 300e6);
+///         Ok(Displacement {
+///             radial: scale * radius * depth / distance.powi(3),
+///             vertical: scale * (depth * depth / distance.powi(3) + 1.0 / distance),
+///         })
+///     }
+/// }
+///
+/// let truck = Vehicle::point("truck", 196_133.0, 11.1)?;
+/// let motion = DuctMotion::new(&Clay, &truck, DuctLine::new(1.2, 0.0)?, 30.0, 1e-6)?;
+/// // Ahead of the truck the duct is pushed forward, behind it backward; r z/R³ is largest at r = z/√2.
+/// assert!(motion.longitudinal(1.0) > 0.0 && motion.longitudinal(-1.0) < 0.0);
+/// let largest = motion.longitudinal(1.2 / 2.0_f64.sqrt());
+/// assert!((motion.peak_longitudinal() / largest - 1.0).abs() < 1e-6);
+/// # Ok::<(), GroundError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct DuctMotion {
     profiles: Vec<RadialProfile>,

@@ -149,6 +149,18 @@ pub enum Base {
 }
 
 /// The ground: bonded layers from the surface down, on a half-space or on rock.
+///
+/// ```
+/// use ground_field::{Base, Modulus, Soil, SoilLayer, SoilProfile};
+///
+/// let asphalt = SoilLayer::uniform(0.1, Soil::new(4e9, 0.35)?)?;
+/// let fill = SoilLayer::new(2.0, Modulus::Linear { top: 40e6, bottom: 120e6 }, 0.35)?;
+/// let ground = SoilProfile::new(vec![asphalt, fill], Base::Rigid)?;
+/// assert_eq!(ground.base_depth(), 2.1);
+/// assert_eq!(ground.homogeneous(), None);
+/// assert!(Soil::new(4e9, 0.51).is_err());
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct SoilProfile {
     layers: Vec<SoilLayer>,

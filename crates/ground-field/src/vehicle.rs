@@ -35,6 +35,16 @@ impl Direction {
 }
 
 /// A vehicle: wheels in fixed places relative to each other, a speed and a direction.
+///
+/// ```
+/// use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
+///
+/// let load = SurfaceLoad::new(50e3, 0.15)?;
+/// let axle = vec![Wheel { x: 0.0, y: -0.9, load }, Wheel { x: 0.0, y: 0.9, load }];
+/// let trailer = Vehicle::new("trailer", axle, 11.1, Direction::Reverse)?;
+/// assert_eq!((trailer.weight(), trailer.velocity()), (100e3, -11.1));
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Vehicle {
     name: String,

@@ -122,6 +122,23 @@ impl Quadrilateral {
         2 * self.nodes()
     }
 
+    /// Elements along one interval between the lines of a rectangular mesh, whose nodes are the lines and the mid-points.
+    pub(crate) fn per_interval(self) -> usize {
+        match self {
+            Self::Linear4 => 2,
+            Self::Quadratic9 => 1,
+        }
+    }
+
+    /// Shape functions at `x` in \[−1, 1\] of an edge, along which its nodes are even.
+    /// Of two nodes the third entry is unused.
+    pub(crate) fn edge_shape(self, x: f64) -> [f64; 3] {
+        match self {
+            Self::Linear4 => [0.5 * (1.0 - x), 0.5 * (1.0 + x), 0.0],
+            Self::Quadratic9 => [0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0)],
+        }
+    }
+
     /// Terms of the projected dilatation: {1} or {1, ξ, η}.
     fn pressure_terms(self) -> usize {
         match self {

@@ -13,7 +13,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use ground_field::{Base, SoilProfile};
 
 use crate::FemError;
-use crate::element::Volumetric;
+use crate::element::{Quadrilateral, Volumetric};
 use crate::grading::Lines;
 use crate::half_space::HalfSpace;
 use crate::line::DepthLine;
@@ -77,6 +77,14 @@ impl Ground {
     }
 }
 
+/// Moduli in `element` of a rectangular mesh of `kind` at depth `z`.
+fn elasticity(ground: &Ground, lines: &Lines, kind: Quadrilateral, element: usize, z: f64) -> Elasticity {
+    let across = (lines.radii.len() - 1) * kind.per_interval();
+    let row = element / across / kind.per_interval();
+    let (young_modulus, poisson_ratio) = ground.at(lines.layer_of_row[row], z);
+    Elasticity::new(young_modulus, poisson_ratio)
+}
+
 /// A factored mesh.
 #[derive(Debug)]
 pub(crate) struct Level {
@@ -88,6 +96,8 @@ pub(crate) struct Level {
     /// Depths of all rows of nodes.
     rows: Vec<f64>,
     system: System,
+    /// Largest change by which a solution may still be corrected.
+    rounding: f64,
     far_displacement: Vec<f64>,
     far_force: Vec<f64>,
     /// Solutions u* under a unit load by the bits of the contact radius.
@@ -95,9 +105,14 @@ pub(crate) struct Level {
 }
 
 impl Level {
-    pub(crate) fn new(profile: &SoilProfile, lines: Lines) -> Result<Self, FemError> {
+    pub(crate) fn new(
+        profile: &SoilProfile,
+        kind: Quadrilateral,
+        rounding: f64,
+        lines: Lines,
+    ) -> Result<Self, FemError> {
         let ground = Ground::new(profile);
-        let mesh = Mesh::rectangular(&lines.radii, &lines.depths);
+        let mesh = Mesh::rectangular(kind, &lines.radii, &lines.depths);
         let (columns, rows) = (with_midpoints(&lines.radii), with_midpoints(&lines.depths));
         let width = columns.len();
         let mut prescribed = vec![false; mesh.dofs()];
@@ -116,13 +131,10 @@ impl Level {
                 prescribed[2 * index] = true;
             }
         }
-        let across = lines.radii.len() - 1;
-        let elasticity = |element: usize, _: f64, z: f64| {
-            let (young_modulus, poisson_ratio) = ground.at(lines.layer_of_row[element / across], z);
-            Elasticity::new(young_modulus, poisson_ratio)
-        };
+        let elasticity = |element: usize, _: f64, z: f64| elasticity(&ground, &lines, kind, element, z);
         let system = System::new(&mesh, Volumetric::Projected, &prescribed, elasticity)?;
-        let last_row = lines.layer_of_row.len() - 1;
+        let across = (lines.radii.len() - 1) * kind.per_interval();
+        let last_row = lines.layer_of_row.len() * kind.per_interval() - 1;
         let far_force = prescribed_force(
             &mesh,
             Volumetric::Projected,
@@ -137,6 +149,7 @@ impl Level {
             columns,
             rows,
             system,
+            rounding,
             far_displacement,
             far_force,
             solutions: Mutex::default(),
@@ -168,18 +181,13 @@ impl Level {
         if let Some(found) = solutions.get(&contact_radius.to_bits()) {
             return Ok(Arc::clone(found));
         }
-        let across = self.lines.radii.len() - 1;
         let mut force = if contact_radius == 0.0 {
             load::point(
                 &self.mesh,
                 &self.lines,
                 Volumetric::Projected,
                 self.ground.near(),
-                |element, _, z| {
-                    let (young_modulus, poisson_ratio) =
-                        self.ground.at(self.lines.layer_of_row[element / across], z);
-                    Elasticity::new(young_modulus, poisson_ratio)
-                },
+                |element, _, z| elasticity(&self.ground, &self.lines, self.mesh.kind(), element, z),
                 |z| self.ground.at(0, z).0,
             )?
         } else {
@@ -188,7 +196,10 @@ impl Level {
         for (value, far) in force.iter_mut().zip(&self.far_force) {
             *value += far;
         }
-        let solved = Arc::new(self.system.solve(&force, &self.far_displacement)?);
+        let solved = Arc::new(
+            self.system
+                .solve_within(&force, &self.far_displacement, self.rounding)?,
+        );
         solutions.insert(contact_radius.to_bits(), Arc::clone(&solved));
         Ok(solved)
     }
@@ -298,16 +309,18 @@ impl Level {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::system::LARGEST_CHANGE;
     use ground_field::Soil;
 
     #[test]
-    fn whole_model_converges_with_order_three() {
+    fn whole_model_converges_with_the_order_of_its_elements() {
         let soil = Soil::new(80e6, 0.35).unwrap();
         let profile = SoilProfile::half_space(soil);
         let exact = HalfSpace::new(80e6, 0.35);
         // Largest error of u_r over depths and radii, each depth by its own peak.
-        let error = |parts: usize| {
-            let level = Level::new(&profile, Lines::new(&profile, 0.4, parts, usize::MAX).unwrap()).unwrap();
+        let error = |kind, parts: usize| {
+            let lines = Lines::new(&profile, 0.4, parts, usize::MAX).unwrap();
+            let level = Level::new(&profile, kind, LARGEST_CHANGE, lines).unwrap();
             let depths = (0..15).map(|k| 0.6 + 0.1 * f64::from(k));
             let shares = depths.map(|depth| {
                 let line = level.line(0.0, depth).unwrap();
@@ -322,10 +335,12 @@ mod tests {
             });
             shares.fold(0.0, f64::max)
         };
-        let errors = [1, 2, 4].map(error);
-        for pair in errors.windows(2) {
-            let order = (pair[0] / pair[1]).log2();
-            assert!(order > 2.7, "order {order} of {errors:?}");
+        for (kind, least) in [(Quadrilateral::Quadratic9, 2.7), (Quadrilateral::Linear4, 1.7)] {
+            let errors = [1, 2, 4].map(|parts| error(kind, parts));
+            for pair in errors.windows(2) {
+                let order = (pair[0] / pair[1]).log2();
+                assert!(order > least, "{kind:?}: order {order} of {errors:?}");
+            }
         }
     }
 }

@@ -23,15 +23,25 @@
 use std::f64::consts::PI;
 
 use crate::FemError;
-use crate::element::{GAUSS_3, GAUSS_6, Volumetric};
+use crate::element::{GAUSS_3, GAUSS_6, Quadrilateral, Volumetric};
 use crate::grading::Lines;
 use crate::half_space::HalfSpace;
 use crate::material::Elasticity;
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, with_midpoints};
 
-/// Shape functions on an edge with nodes at −1, 0, 1.
-fn edge_shape(x: f64) -> [f64; 3] {
-    [0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0)]
+/// Edges of elements along `lines`: the lattice index of the first node, and both ends \[m\].
+fn edges(kind: Quadrilateral, lines: &[f64]) -> impl Iterator<Item = (usize, f64, f64)> {
+    let lattice = with_midpoints(lines);
+    let step = 2 / kind.per_interval();
+    (0..lattice.len().saturating_sub(1))
+        .step_by(step)
+        .map(move |first| (first, lattice[first], lattice[first + step]))
+}
+
+/// Shape functions of an edge of `kind` with their places along it.
+fn edge_shape(kind: Quadrilateral, x: f64) -> impl Iterator<Item = (usize, f64)> {
+    let nodes = 1 + 2 / kind.per_interval();
+    kind.edge_shape(x).into_iter().take(nodes).enumerate()
 }
 
 /// Node (column, row) of the lattice of corners and mid-points.
@@ -44,8 +54,7 @@ pub(crate) fn disc(mesh: &Mesh, lines: &Lines, contact_radius: f64) -> Vec<f64> 
     let mut force = vec![0.0; mesh.dofs()];
     // Per radian the pressure 1/(π a²) acts on ∫ r dr.
     let pressure = 1.0 / (PI * contact_radius * contact_radius);
-    for (column, pair) in lines.radii.windows(2).enumerate() {
-        let (left, right) = (pair[0], pair[1]);
+    for (first, left, right) in edges(mesh.kind(), &lines.radii) {
         let end = right.min(contact_radius);
         if end <= left {
             break;
@@ -53,9 +62,8 @@ pub(crate) fn disc(mesh: &Mesh, lines: &Lines, contact_radius: f64) -> Vec<f64> 
         for (x, weight) in GAUSS_3 {
             let half = 0.5 * (end - left);
             let r = left + half * (1.0 + x);
-            let shape = edge_shape(2.0 * (r - left) / (right - left) - 1.0);
-            for (k, value) in shape.into_iter().enumerate() {
-                force[2 * node(lines, 2 * column + k, 0) + 1] += pressure * weight * half * r * value;
+            for (k, value) in edge_shape(mesh.kind(), 2.0 * (r - left) / (right - left) - 1.0) {
+                force[2 * node(lines, first + k, 0) + 1] += pressure * weight * half * r * value;
             }
         }
     }
@@ -76,15 +84,20 @@ pub(crate) fn point(
     young_modulus: impl Fn(f64) -> f64,
 ) -> Result<Vec<f64>, FemError> {
     let mut force = vec![0.0; mesh.dofs()];
-    let columns = lines.radii.len() - 1;
+    let per_interval = mesh.kind().per_interval();
+    let columns = (lines.radii.len() - 1) * per_interval;
+    let (block_columns, block_rows) = (
+        lines.block_columns * per_interval,
+        lines.block_rows * per_interval,
+    );
     let (last_column, last_row) = (2 * lines.block_columns, 2 * lines.block_rows);
     let edge = edge_displacement(mesh, lines, near);
-    for row in 0..lines.block_rows {
-        for column in 0..lines.block_columns {
+    for row in 0..block_rows {
+        for column in 0..block_columns {
             let element = column + row * columns;
             let coordinates = mesh.element_nodes(element);
             let nodes = mesh.element(element);
-            if row + 1 == lines.block_rows || column + 1 == lines.block_columns {
+            if row + 1 == block_rows || column + 1 == block_columns {
                 let matrix = mesh.kind().stiffness(element, &coordinates, volumetric, |r, z| {
                     elasticity(element, r, z)
                 })?;
@@ -106,24 +119,24 @@ pub(crate) fn point(
     }
     // −∮ (σ_B n)·v: downward normal at the bottom, outward at the side.
     let (outer, bottom) = (lines.radii[lines.block_columns], lines.depths[lines.block_rows]);
-    for (column, pair) in lines.radii.windows(2).take(lines.block_columns).enumerate() {
-        let half = 0.5 * (pair[1] - pair[0]);
+    for (first, left, right) in edges(mesh.kind(), &lines.radii[..=lines.block_columns]) {
+        let half = 0.5 * (right - left);
         for (x, weight) in GAUSS_6 {
-            let r = pair[0] + half * (1.0 + x);
+            let r = left + half * (1.0 + x);
             let stress = near.stress(r, bottom);
-            for (k, value) in edge_shape(x).into_iter().enumerate() {
-                let at = node(lines, 2 * column + k, last_row);
+            for (k, value) in edge_shape(mesh.kind(), x) {
+                let at = node(lines, first + k, last_row);
                 force[2 * at] -= weight * half * r * value * stress[3];
                 force[2 * at + 1] -= weight * half * r * value * stress[1];
             }
         }
     }
-    for (row, pair) in lines.depths.windows(2).take(lines.block_rows).enumerate() {
-        let half = 0.5 * (pair[1] - pair[0]);
+    for (first, top, end) in edges(mesh.kind(), &lines.depths[..=lines.block_rows]) {
+        let half = 0.5 * (end - top);
         for (x, weight) in GAUSS_6 {
-            let stress = near.stress(outer, pair[0] + half * (1.0 + x));
-            for (k, value) in edge_shape(x).into_iter().enumerate() {
-                let at = node(lines, last_column, 2 * row + k);
+            let stress = near.stress(outer, top + half * (1.0 + x));
+            for (k, value) in edge_shape(mesh.kind(), x) {
+                let at = node(lines, last_column, first + k);
                 force[2 * at] -= weight * half * outer * value * stress[0];
                 force[2 * at + 1] -= weight * half * outer * value * stress[3];
             }

@@ -41,11 +41,13 @@ impl Mesh {
         })
     }
 
-    /// Nine-node rectangles between the lines `radii` and `depths` \[m\], both strictly increasing.
+    /// Rectangles of `kind` between the lines `radii` and `depths` \[m\], both strictly increasing, and the lines half-way
+    /// between these: nine-node elements fill an interval, four-node elements half of one, so that both kinds have the same
+    /// nodes.
     ///
     /// Nodes are numbered along r first: the node in column `i` and row `j` of the (2n+1) × (2m+1) lattice of corners and
-    /// mid-points has the index `i + (2n+1) j`.
-    pub fn rectangular(radii: &[f64], depths: &[f64]) -> Self {
+    /// mid-points has the index `i + (2n+1) j`; so are the elements.
+    pub fn rectangular(kind: Quadrilateral, radii: &[f64], depths: &[f64]) -> Self {
         let across = with_midpoints(radii);
         let down = with_midpoints(depths);
         let width = across.len();
@@ -53,27 +55,31 @@ impl Mesh {
             .iter()
             .flat_map(|&z| across.iter().map(move |&r| [r, z]))
             .collect();
-        let (n, m) = (radii.len().saturating_sub(1), depths.len().saturating_sub(1));
-        let mut connectivity = Vec::with_capacity(9 * n * m);
-        for j in 0..m {
-            for i in 0..n {
-                let first = 2 * i + 2 * j * width;
-                let at = |a: usize, b: usize| first + a + b * width;
-                connectivity.extend([
-                    at(0, 0),
-                    at(2, 0),
-                    at(2, 2),
-                    at(0, 2),
-                    at(1, 0),
-                    at(2, 1),
-                    at(1, 2),
-                    at(0, 1),
-                    at(1, 1),
-                ]);
+        let step = 2 / kind.per_interval();
+        // Columns and rows of an element's nodes, from its first.
+        let offsets: &[(usize, usize)] = match kind {
+            Quadrilateral::Linear4 => &[(0, 0), (1, 0), (1, 1), (0, 1)],
+            Quadrilateral::Quadratic9 => &[
+                (0, 0),
+                (2, 0),
+                (2, 2),
+                (0, 2),
+                (1, 0),
+                (2, 1),
+                (1, 2),
+                (0, 1),
+                (1, 1),
+            ],
+        };
+        let mut connectivity = Vec::with_capacity(9 * radii.len() * depths.len());
+        for row in (0..down.len().saturating_sub(1)).step_by(step) {
+            for column in (0..width.saturating_sub(1)).step_by(step) {
+                let first = column + row * width;
+                connectivity.extend(offsets.iter().map(|&(a, b)| first + a + b * width));
             }
         }
         Self {
-            kind: Quadrilateral::Quadratic9,
+            kind,
             nodes,
             connectivity,
         }

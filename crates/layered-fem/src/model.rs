@@ -114,7 +114,7 @@ impl LayeredFem {
         while alpha < most && Lines::new(profile, alpha, RATIO, options.max_unknowns()).is_err() {
             alpha *= 1.2;
         }
-        let make = |parts| Step::new(profile, alpha, parts, options.max_unknowns()).map_err(in_model);
+        let make = |parts| Step::new(profile, options, alpha, parts).map_err(in_model);
         let meshes = Meshes {
             alpha,
             coarse: make(1)?,
@@ -219,8 +219,7 @@ impl LayeredFem {
                 depth,
             });
         }
-        let finer =
-            Step::new(&self.profile, meshes.alpha, next, self.options.max_unknowns()).map_err(in_model)?;
+        let finer = Step::new(&self.profile, self.options, meshes.alpha, next).map_err(in_model)?;
         meshes.coarse = std::mem::replace(&mut meshes.fine, finer);
         meshes.factorisations += 1;
         Ok(())
@@ -251,11 +250,11 @@ impl GroundField for LayeredFem {
 }
 
 impl Step {
-    fn new(profile: &SoilProfile, alpha: f64, parts: usize, max_unknowns: usize) -> Result<Self, FemError> {
-        let lines = Lines::new(profile, alpha, parts, max_unknowns)?;
+    fn new(profile: &SoilProfile, options: FemOptions, alpha: f64, parts: usize) -> Result<Self, FemError> {
+        let lines = Lines::new(profile, alpha, parts, options.max_unknowns())?;
         Ok(Self {
             parts,
-            level: Level::new(profile, lines)?,
+            level: Level::new(profile, options.element(), options.rounding(), lines)?,
         })
     }
 }

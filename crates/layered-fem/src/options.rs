@@ -2,14 +2,27 @@
 
 use ground_field::GroundError;
 
+use crate::element::Quadrilateral;
+use crate::system::LARGEST_CHANGE;
+
 /// Loosest and tightest accuracy that can be asked.
 const ACCURACY_ALLOWED: &str = "between 1e-6 and 0.1";
 
 /// Accuracy and limits of a [`crate::LayeredFem`].
+///
+/// ```
+/// use layered_fem::FemOptions;
+///
+/// let options = FemOptions::new(1e-3)?.with_max_unknowns(200_000);
+/// assert_eq!(options.accuracy(), 1e-3);
+/// assert!(FemOptions::new(1e-9).is_err());
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FemOptions {
     accuracy: f64,
     max_unknowns: usize,
+    element: Quadrilateral,
 }
 
 impl FemOptions {
@@ -27,6 +40,7 @@ impl FemOptions {
             Ok(Self {
                 accuracy,
                 max_unknowns: Self::DEFAULT_MAX_UNKNOWNS,
+                element: Quadrilateral::Quadratic9,
             })
         } else {
             Err(GroundError::InvalidParameter {
@@ -45,9 +59,28 @@ impl FemOptions {
         self
     }
 
+    /// The same with another kind of element on the same nodes: the order of the method. Quadratic elements, the default, are
+    /// cheaper at every accuracy; linear ones are there to be compared with.
+    #[must_use]
+    pub fn with_element(mut self, element: Quadrilateral) -> Self {
+        self.element = element;
+        self
+    }
+
     /// Asked error, as a share of the peak at a depth.
     pub fn accuracy(self) -> f64 {
         self.accuracy
+    }
+
+    /// How much of a solution a last correction may still change: rounding, a thousandth of the accuracy. Where λ is large beside a
+    /// stiff layer rounding is felt long before it matters.
+    pub(crate) fn rounding(self) -> f64 {
+        (1e-3 * self.accuracy).max(LARGEST_CHANGE)
+    }
+
+    /// Kind of the elements.
+    pub fn element(self) -> Quadrilateral {
+        self.element
     }
 
     /// Most unknowns a mesh may have.

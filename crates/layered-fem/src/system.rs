@@ -139,6 +139,20 @@ impl System {
     ///
     /// [`FemError::Length`] or [`FemError::Inaccurate`].
     pub fn solve(&self, force: &[f64], displacement: &[f64]) -> Result<Vec<f64>, FemError> {
+        self.solve_within(force, displacement, LARGEST_CHANGE)
+    }
+
+    /// The same with another limit in the place of [`LARGEST_CHANGE`].
+    ///
+    /// # Errors
+    ///
+    /// As for [`System::solve`].
+    pub fn solve_within(
+        &self,
+        force: &[f64],
+        displacement: &[f64],
+        allowed: f64,
+    ) -> Result<Vec<f64>, FemError> {
         check_length("force", force.len(), self.unknown.len())?;
         check_length("displacement", displacement.len(), self.unknown.len())?;
         let mut right = vec![0.0; self.pattern.ncols()];
@@ -158,11 +172,8 @@ impl System {
             }
             change = largest(&correction) / largest(&solution).max(f64::MIN_POSITIVE);
         }
-        if change.is_nan() || change > LARGEST_CHANGE {
-            return Err(FemError::Inaccurate {
-                change,
-                allowed: LARGEST_CHANGE,
-            });
+        if change.is_nan() || change > allowed {
+            return Err(FemError::Inaccurate { change, allowed });
         }
         let mut out = displacement.to_vec();
         for (value, &unknown) in out.iter_mut().zip(&self.unknown) {

@@ -257,7 +257,7 @@ fn rectangle(kind: Quadrilateral, n: usize, r: (f64, f64), z: (f64, f64)) -> Mes
             .collect()
     };
     if kind == Quadrilateral::Quadratic9 {
-        return Mesh::rectangular(&lines(r, n), &lines(z, n));
+        return Mesh::rectangular(kind, &lines(r, n), &lines(z, n));
     }
     let (radii, depths) = (lines(r, n), lines(z, n));
     let nodes = depths

@@ -355,3 +355,31 @@ fn one_factorisation_serves_every_load_and_depth() {
     );
     assert!(statistics.bytes < 100_000_000);
 }
+
+/// Work at the default accuracy on the paper's road: the mesh has (2n+1)(2m+1) nodes for n and m intervals that grow with the
+/// distance to the load, about 60 each, on two meshes; the Cholesky factor of such a plane mesh fills in by less than a factor of
+/// ten over the matrix. A finer mesh than that means that the estimate has become worse.
+#[test]
+fn the_work_stays_within_bounds() {
+    let ground = LayeredFem::new(&task3(), ACCURACY).unwrap();
+    let load = SurfaceLoad::new(196_133.0, 0.15).unwrap();
+    ground.displacements(load, &radii(), 1.2).unwrap();
+    let statistics = ground.statistics();
+    assert_eq!((statistics.factorisations, statistics.solves), (2, 2));
+    assert!(statistics.unknowns <= 25_000, "{statistics:?}");
+    assert!(
+        statistics.factor_entries <= 10 * statistics.matrix_entries,
+        "{statistics:?}"
+    );
+}
+
+/// A stiff layer that hardly changes its volume is answered: rounding is far below the accuracy asked.
+#[test]
+fn nearly_incompressible_stiff_layers_are_answered() {
+    let ground = on_soil(vec![layer(0.3, 1e5, 0.5)], 100.0, 0.5);
+    let load = SurfaceLoad::new(1e5, 0.15).unwrap();
+    let fem = LayeredFem::new(&ground, ACCURACY).unwrap();
+    let u = fem.displacements(load, &radii(), 1.2).unwrap();
+    assert!(u.iter().all(|u| u.is_finite()));
+    assert!(fem.error_estimate(load, 1.2).unwrap().largest() <= ACCURACY);
+}

@@ -1,4 +1,4 @@
-//! Ten million passes over 300 m: cells, ends and evolution from scratch, and the evolution alone.
+//! Ten million passes over 300 m: cells, ends and evolution from scratch, the cells' table alone, and the evolution alone.
 
 use std::hint::black_box;
 
@@ -6,7 +6,7 @@ use boussinesq::HalfSpace;
 use cable_dem::{DuctedCable, End, Friction, FrictionLaw};
 use criterion::{Criterion, criterion_group, criterion_main};
 use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
-use pass_law::{PassLaw, Resolution};
+use pass_law::{AdvanceLaw, PassLaw, Resolution};
 
 type Setup = Result<(DuctedCable, [(DuctMotion, f64); 1], Resolution), Box<dyn std::error::Error>>;
 
@@ -34,6 +34,9 @@ fn bench(criterion: &mut Criterion) {
             let law = PassLaw::new(black_box(&cable), &traffic, resolution).expect("a law");
             law.run(&[10_000_000]).expect("an evolution")
         });
+    });
+    group.bench_function("cells alone", |bencher| {
+        bencher.iter(|| AdvanceLaw::new(black_box(&cable), &traffic[0].0, resolution).expect("a law"));
     });
     let law = PassLaw::new(&cable, &traffic, resolution).expect("a law");
     group.bench_function("evolution alone", |bencher| {

@@ -41,6 +41,15 @@ pub(super) fn scaled(transform: &[Term], factor: f64, shift: f64) -> impl Iterat
     })
 }
 
+/// Value of `transform` at `wavenumber`.
+pub(super) fn at(transform: &[Term], wavenumber: f64) -> f64 {
+    let value = |term: &Term| {
+        let [constant, linear, square] = term.powers;
+        (constant + wavenumber * (linear + wavenumber * square)) * (-wavenumber * term.depth).exp()
+    };
+    transform.iter().map(value).sum()
+}
+
 /// The terms at one depth.
 #[derive(Debug, Clone, Copy)]
 struct Level {

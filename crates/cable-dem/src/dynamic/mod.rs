@@ -21,10 +21,12 @@ mod history;
 mod prediction;
 mod sigmoid;
 
+use crate::outcome::Recorder;
 use crate::transient::{
-    EnergyBalance, Lumped, MovingDuct, Record, Settler, SigmoidLeak, StepSolver, TransientOutcome, tolerance,
+    Departed, EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, StepSolver, TransientOutcome,
+    tolerance,
 };
-use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome};
+use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 use history::History;
 use prediction::Prediction;
 use sigmoid::SigmoidSolver;
@@ -94,8 +96,7 @@ impl Dynamic {
     }
 
     fn steps(&self, duct: &MovingDuct) -> f64 {
-        let steps = duct.duration() * duct.speed() / self.lumped.mesh.vehicle_step();
-        (steps * (1.0 - 1e-12)).ceil().max(1.0)
+        duct.steps(self.lumped.mesh.vehicle_step() / duct.speed())
     }
 
     /// Lets one vehicle pass and carries `state` on. When it fails, `state` is as it was.
@@ -114,45 +115,29 @@ impl Dynamic {
         state.check(&self.lumped.mesh)?;
         duct.check(&self.lumped.mesh)?;
         let time_step = self.time_step(duct);
-        let start = self.lumped.end_forces(&state.displacement, &state.friction);
-        let mut record = Record::new(start);
         if self.lumped.cable.friction().limit() == 0.0 {
             // Nothing drags the cable.
-            let outcome = record.outcome(&self.lumped, state);
-            return Ok(TransientOutcome::untouched(outcome, time_step));
+            return Ok(TransientOutcome::untouched(&self.lumped, state, time_step));
         }
         self.lumped.check(state, duct.peak())?;
         self.prepare(time_step);
-        let energy = self.run(duct, state, &mut record)?;
+        let start = self.lumped.end_forces(&state.displacement, &state.friction);
+        let mut recorder = Recorder::new(start);
+        let energy = self.run(duct, state, &mut recorder)?;
         energy.check(false)?;
-
-        let mut after = state.clone();
-        after.displacement.copy_from_slice(&self.history.displacement);
-        after.friction.copy_from_slice(&self.friction);
-        let force_before_rest = self.end_forces();
-        if self.lumped.cable.friction().law().has_memory() {
-            let largest = after.displacement.iter().fold(duct.peak(), |l, u| l.max(u.abs()));
-            let tolerance = tolerance(&self.lumped, largest);
-            let at_end = duct.vehicle_position(duct.duration());
-            self.settler.settle(
-                &self.lumped,
-                tolerance,
-                &mut after,
-                at_end,
-                &mut record.statistics,
-            )?;
-        }
-        *state = after;
-        Ok(TransientOutcome {
-            pass: PassOutcome {
-                dissipated: energy.dissipated,
-                ..record.outcome(&self.lumped, state)
-            },
+        let mut moving = state.clone();
+        moving.displacement.copy_from_slice(&self.history.displacement);
+        moving.friction.copy_from_slice(&self.friction);
+        let departed = Departed {
+            duct,
             time_step,
             energy,
-            force_before_rest,
-            leak: self.leak(duct),
-        })
+            moving,
+            recorder,
+        };
+        let (after, outcome) = departed.close(&self.lumped, &mut self.settler)?;
+        *state = after;
+        Ok(outcome)
     }
 
     /// Has a solver for this time step ready.
@@ -178,7 +163,7 @@ impl Dynamic {
         &mut self,
         duct: &MovingDuct,
         state: &CableState,
-        record: &mut Record,
+        recorder: &mut Recorder,
     ) -> Result<EnergyBalance, CableError> {
         let nodes = self.lumped.mesh.nodes();
         let steps = self.steps(duct) as usize;
@@ -205,18 +190,18 @@ impl Dynamic {
             duct.at(t, nodes).advance(&mut self.duct, &mut self.increment);
             self.before.copy_from_slice(&self.friction);
             self.prediction.advance();
-            self.step(time_step, tolerance, record)
+            self.step(time_step, tolerance, recorder)
                 .map_err(|violation| CableError::NoConvergence {
                     vehicle_position: duct.vehicle_position(t),
                     violation,
                 })?;
             self.account(&mut energy);
-            record.add(self.end_forces());
+            recorder.record(self.end_forces());
         }
         energy.elastic = self.lumped.elastic_energy(&self.history.displacement) - elastic;
         energy.stored = self.lumped.stored_energy(&self.friction) - stored;
-        record.statistics.steps = steps;
-        record.statistics.widest_window = nodes;
+        recorder.statistics.steps = steps;
+        recorder.statistics.widest_window = nodes;
         Ok(energy)
     }
 
@@ -225,7 +210,7 @@ impl Dynamic {
         &mut self,
         time_step: f64,
         tolerance: crate::quasi_static::Tolerance,
-        record: &mut Record,
+        recorder: &mut Recorder,
     ) -> Result<(), f64> {
         let Self {
             lumped,
@@ -236,7 +221,7 @@ impl Dynamic {
             increment,
             ..
         } = self;
-        let statistics = &mut record.statistics;
+        let statistics = &mut recorder.statistics;
         let Some((_, solver)) = solver else {
             return Err(f64::INFINITY);
         };
@@ -280,7 +265,12 @@ impl Dynamic {
         let nodes = f.len();
         energy.duct_work += self.lumped.weighted(nodes, |i| acting(i) * duct[i]);
         energy.dissipated += self.lumped.weighted(nodes, heat);
-        energy.returned += self.lumped.weighted(nodes, |i| (-heat(i)).max(0.0));
+        // A held node cannot chatter; what its friction returns is the stretch of the cable within its half element.
+        let fixed = self.lumped.fixed;
+        let held = |i: usize| (i == 0 && fixed[0]) || (i + 1 == nodes && fixed[1]);
+        energy.returned += self
+            .lumped
+            .weighted(nodes, |i| if held(i) { 0.0 } else { (-heat(i)).max(0.0) });
         energy.kinetic = self.lumped.kinetic_energy(&self.history.velocity);
         energy.peak_kinetic = energy.peak_kinetic.max(energy.kinetic);
     }

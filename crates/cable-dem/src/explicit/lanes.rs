@@ -110,6 +110,12 @@ impl Lanes {
         // Slip minus its elastic part is plastic.
         unload(&mut self.slip, &self.before, &self.friction, compliance);
         account_heat(&mut self.heat, &mut self.gross, acting, &self.plastic, &self.slip);
+        // A held node cannot chatter; what its friction returns is the stretch of the cable within its half element.
+        for (end, node) in [0, n - 1].into_iter().enumerate() {
+            if lumped.fixed[end] {
+                self.gross[node] = self.heat[node];
+            }
+        }
         std::mem::swap(&mut self.plastic, &mut self.slip);
         std::mem::swap(&mut self.earlier, &mut self.increment);
     }
@@ -120,10 +126,7 @@ impl Lanes {
         for (end, node) in [0, last].into_iter().enumerate() {
             if lumped.fixed[end] {
                 self.velocity[node] = 0.0;
-                self.friction[node] = lumped
-                    .cable
-                    .friction()
-                    .after_slip(self.before[node], self.increment[node]);
+                self.friction[node] = lumped.held.after_slip(self.before[node], self.increment[node]);
             }
         }
     }

@@ -23,10 +23,9 @@ mod tanh;
 pub use limits::{StepLimit, StepLimits};
 
 use crate::error::checked;
-use crate::transient::{
-    EnergyBalance, Lumped, MovingDuct, Record, Settler, SigmoidLeak, TransientOutcome, tolerance,
-};
-use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, PassOutcome};
+use crate::outcome::Recorder;
+use crate::transient::{Departed, EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, TransientOutcome};
+use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh};
 use lanes::Lanes;
 use law::{Constants, ContactLaw, Coulomb, ElasticPlastic, Sigmoid};
 
@@ -42,16 +41,20 @@ pub struct ExplicitOptions {
     /// Whether a step beyond the limit is refused. Without the limit the energy balance still is watched: that is what
     /// this switch is there to show.
     pub check_limits: bool,
+    /// Whether a pass whose energy does not balance is an error. Without either check the scheme may return any number: only
+    /// to show what they are for.
+    pub check_energy: bool,
     /// Most node updates (steps × nodes) that one pass may take.
     pub max_node_updates: f64,
 }
 
 impl Default for ExplicitOptions {
-    /// The longest safe step, limits checked, at most 2e11 node updates: about ten minutes.
+    /// The longest safe step, limits and energy checked, at most 2e11 node updates: about ten minutes.
     fn default() -> Self {
         Self {
             time_step: None,
             check_limits: true,
+            check_energy: true,
             max_node_updates: 2e11,
         }
     }
@@ -137,9 +140,7 @@ impl Explicit {
     fn steps(&self, duct: &MovingDuct) -> f64 {
         let advance = self.lumped.mesh.vehicle_step() / duct.speed();
         let longest = self.limits.advised().min(advance);
-        (duct.duration() / self.options.time_step.unwrap_or(longest))
-            .ceil()
-            .max(1.0)
+        duct.steps(self.options.time_step.unwrap_or(longest))
     }
 
     /// Lets one vehicle pass and carries `state` on. When it fails, `state` is as it was.
@@ -160,13 +161,9 @@ impl Explicit {
         duct.check(&self.lumped.mesh)?;
         let steps = self.steps(duct);
         let time_step = duct.duration() / steps;
-        let start = self.lumped.end_forces(&state.displacement, &state.friction);
         if self.lumped.cable.friction().limit() == 0.0 {
             // Nothing drags the cable.
-            return Ok(TransientOutcome::untouched(
-                Record::new(start).outcome(&self.lumped, state),
-                time_step,
-            ));
+            return Ok(TransientOutcome::untouched(&self.lumped, state, time_step));
         }
         self.lumped.check(state, duct.peak())?;
         let node_updates = steps * self.lumped.mesh.nodes() as f64;
@@ -199,7 +196,13 @@ impl Explicit {
         law: L,
         steps: usize,
     ) -> Result<TransientOutcome, CableError> {
-        let Self { lumped, lanes, .. } = self;
+        let Self {
+            lumped,
+            lanes,
+            settler,
+            options,
+            ..
+        } = self;
         let nodes = lumped.mesh.nodes();
         let time_step = duct.duration() / steps as f64;
         let remembers = lumped.cable.friction().law().has_memory();
@@ -210,13 +213,13 @@ impl Explicit {
         };
         lanes.start(state);
         duct.at(0.0, nodes).advance(&mut lanes.duct, &mut lanes.increment);
-        let mut record = Record::new(lanes.end_forces(lumped));
+        let mut recorder = Recorder::new(lanes.end_forces(lumped));
         let mut peak_kinetic = 0.0_f64;
         for step in 1..=steps {
             duct.at(time_step * step as f64, nodes)
                 .advance(&mut lanes.duct, &mut lanes.increment);
             lanes.step(lumped, law, time_step, compliance);
-            record.add(lanes.end_forces(lumped));
+            recorder.record(lanes.end_forces(lumped));
             if step % LOOK == 0 || step == steps {
                 let kinetic = lanes.kinetic_energy(lumped);
                 if !kinetic.is_finite() {
@@ -232,31 +235,24 @@ impl Explicit {
             reference: lumped.reference_work(duct.peak()),
             ..lanes.energy(lumped, state, peak_kinetic)
         };
-        energy.check(true)?;
-
-        record.statistics.steps = steps;
-        record.statistics.node_updates = steps * nodes;
-        record.statistics.widest_window = nodes;
-        let mut after = state.clone();
-        lanes.store(&mut after);
-        let force_before_rest = lumped.end_forces(&after.displacement, &after.friction);
-        if remembers {
-            let largest = after.displacement.iter().fold(duct.peak(), |l, u| l.max(u.abs()));
-            let at_end = duct.vehicle_position(duct.duration());
-            let tolerance = tolerance(lumped, largest);
-            self.settler
-                .settle(lumped, tolerance, &mut after, at_end, &mut record.statistics)?;
+        if options.check_energy {
+            energy.check(true)?;
         }
-        *state = after;
-        Ok(TransientOutcome {
-            pass: PassOutcome {
-                dissipated: energy.dissipated,
-                ..record.outcome(&self.lumped, state)
-            },
+
+        recorder.statistics.steps = steps;
+        recorder.statistics.node_updates = steps * nodes;
+        recorder.statistics.widest_window = nodes;
+        let mut moving = state.clone();
+        lanes.store(&mut moving);
+        let departed = Departed {
+            duct,
             time_step,
             energy,
-            force_before_rest,
-            leak: self.leak(duct),
-        })
+            moving,
+            recorder,
+        };
+        let (after, outcome) = departed.close(lumped, settler)?;
+        *state = after;
+        Ok(outcome)
     }
 }

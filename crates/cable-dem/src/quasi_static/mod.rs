@@ -9,6 +9,7 @@
 mod active_set;
 mod chain;
 mod exact;
+mod graph;
 mod memory;
 mod passage;
 mod settle;
@@ -28,7 +29,8 @@ pub(crate) use support::Support;
 
 use ground_field::Direction;
 
-use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
+use crate::outcome::Recorder;
+use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
 use sweeper::Sweeper;
 
 /// Share of the friction limit up to which rounding may blur equilibrium.
@@ -42,55 +44,6 @@ pub struct QuasiStatic {
     forward: Sweeper,
     /// The cable seen in the mirror, for reverse traffic; made when first needed.
     reverse: Option<Sweeper>,
-}
-
-/// What one pass did.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct PassOutcome {
-    /// Force on each end after the pass \[N\], compression positive.
-    pub force: EndForces,
-    /// Largest force on each end during the pass \[N\].
-    pub peak: EndForces,
-    /// Smallest force on each end during the pass \[N\]: the largest tension where it is negative.
-    pub lowest: EndForces,
-    /// Largest compression along the cable after the pass \[N\].
-    pub max_compression: f64,
-    /// Displacement at x = 0 after the pass \[m\].
-    pub upstream_displacement: f64,
-    /// Displacement at x = length after the pass \[m\].
-    pub downstream_displacement: f64,
-    /// Work that slip has turned into heat \[J\].
-    pub dissipated: f64,
-    /// What the pass cost.
-    pub statistics: Statistics,
-}
-
-/// Counts of work that do not depend on the machine.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Statistics {
-    /// Vehicle positions.
-    pub steps: usize,
-    /// Windows solved.
-    pub windows: usize,
-    /// Linear solves over a window.
-    pub sweeps: usize,
-    /// Nodes eliminated in these.
-    pub node_updates: usize,
-    /// Windows for which the iteration gave up and the exact step was taken.
-    pub exact_steps: usize,
-    /// Most nodes in one window before the vehicle had left.
-    pub widest_window: usize,
-}
-
-impl std::ops::AddAssign for Statistics {
-    fn add_assign(&mut self, other: Self) {
-        self.steps += other.steps;
-        self.windows += other.windows;
-        self.sweeps += other.sweeps;
-        self.node_updates += other.node_updates;
-        self.exact_steps += other.exact_steps;
-        self.widest_window = self.widest_window.max(other.widest_window);
-    }
 }
 
 impl QuasiStatic {
@@ -191,23 +144,9 @@ impl QuasiStatic {
         Ok(self.outcome(state, recorder))
     }
 
-    fn outcome(&self, state: &CableState, mut recorder: Recorder) -> PassOutcome {
+    fn outcome(&self, state: &CableState, recorder: Recorder) -> PassOutcome {
         let force = state.end_forces(&self.cable, &self.mesh);
-        recorder.record(force);
-        let max_compression = state
-            .element_forces(&self.cable, &self.mesh)
-            .chain([force.upstream, force.downstream])
-            .fold(f64::NEG_INFINITY, f64::max);
-        PassOutcome {
-            force,
-            peak: recorder.peak,
-            lowest: recorder.lowest,
-            max_compression,
-            upstream_displacement: state.displacement()[0],
-            downstream_displacement: state.displacement()[self.mesh.elements()],
-            dissipated: recorder.dissipated,
-            statistics: recorder.statistics,
-        }
+        recorder.outcome(&self.cable, &self.mesh, state, force)
     }
 
     /// Rounding of k (2 u_i − u_{i−1} − u_{i+1}) beside the friction on one element.
@@ -226,38 +165,5 @@ impl QuasiStatic {
                 spacing: self.mesh.spacing(),
             })
         }
-    }
-}
-
-/// End forces as the vehicle passes.
-#[derive(Debug, Clone, Copy)]
-struct Recorder {
-    peak: EndForces,
-    lowest: EndForces,
-    dissipated: f64,
-    statistics: Statistics,
-}
-
-impl Recorder {
-    fn new(start: EndForces) -> Self {
-        Self {
-            peak: start,
-            lowest: start,
-            dissipated: 0.0,
-            statistics: Statistics::default(),
-        }
-    }
-
-    fn record(&mut self, force: EndForces) {
-        self.peak.upstream = self.peak.upstream.max(force.upstream);
-        self.peak.downstream = self.peak.downstream.max(force.downstream);
-        self.lowest.upstream = self.lowest.upstream.min(force.upstream);
-        self.lowest.downstream = self.lowest.downstream.min(force.downstream);
-    }
-
-    /// Seen in the mirror the ends change places; compression stays compression.
-    fn mirror(&mut self) {
-        std::mem::swap(&mut self.peak.upstream, &mut self.peak.downstream);
-        std::mem::swap(&mut self.lowest.upstream, &mut self.lowest.downstream);
     }
 }

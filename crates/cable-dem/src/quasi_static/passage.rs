@@ -18,6 +18,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use ground_field::{Direction, DuctMotion};
 
 use super::window::NEGLIGIBLE;
+use crate::course::as_driven;
 use crate::error::checked;
 use crate::{CableError, DuctedCable, Friction, Mesh};
 
@@ -81,19 +82,8 @@ impl Passage {
         approach: f64,
     ) -> Result<Self, CableError> {
         // The solver always drives forward; reverse traffic is its mirror image.
-        let direction = if motion.velocity() < 0.0 {
-            Direction::Reverse
-        } else {
-            Direction::Forward
-        };
-        let sign = direction.sign();
-        Self::from_shape(
-            cable,
-            mesh,
-            direction,
-            |xi| sign * motion.longitudinal(sign * xi),
-            approach,
-        )
+        let (direction, shape) = as_driven(motion);
+        Self::from_shape(cable, mesh, direction, shape, approach)
     }
 
     /// The passage of a travelling longitudinal displacement `shape`(ξ) \[m\], ξ positive ahead of the vehicle and the

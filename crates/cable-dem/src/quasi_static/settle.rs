@@ -1,18 +1,13 @@
-//! Solving one window: guess, iterate, and if that cycles, a softer sheath first or the exact step.
+//! Solving one window: guess, iterate, and where that cycles, take the exact step.
 
 use super::active_set::Outcome;
-use super::chain::{Chain, Contact, Load, Stretch, Tolerance, Trial};
+use super::chain::{Contact, Load, Stretch, Tolerance, Trial};
+use super::exact;
 use super::passage::{Passage, Snapshot};
 use super::sweeper::{MAX_GROWTH, Sweeper};
 use super::window::{NEGLIGIBLE, Window};
-use super::{Recorder, exact};
 use crate::CableError;
-
-/// Softnesses γ k/h through which a step is led that does not converge from its first guess: from the first down to the
-/// real one, or to the last, which is as good as rigid.
-const SOFTEST: f64 = 100.0;
-const HARDEST: f64 = 1e-6;
-const SOFTENING: f64 = 0.1;
+use crate::outcome::Recorder;
 
 impl Sweeper {
     /// Sets anchors and guesses the contact states of a window's nodes: those of the last pass at this vehicle position,
@@ -99,38 +94,20 @@ impl Sweeper {
             support: &self.support_load,
             anchor: &self.anchor,
         };
-        let mut attempt = |chain: &Chain, load: &Load<'_>, trial: &mut Trial| {
-            let (outcome, sweeps) = self.elimination.iterate(chain, load, stretch, tolerance, trial);
+        let mut attempt = |trial: &mut Trial| {
+            let (outcome, sweeps) = self
+                .elimination
+                .iterate(&self.chain, &load, stretch, tolerance, trial);
             recorder.statistics.sweeps += sweeps;
             recorder.statistics.node_updates += sweeps * (stretch.hi - stretch.lo + 1);
             outcome
         };
-        if attempt(&self.chain, &load, &mut self.trial) == Outcome::Solved {
-            return Ok(());
-        }
-        // A softer sheath has a smoother energy: its contact states lead to those of the real one.
-        let mut softness = SOFTEST;
-        let real = self.chain.compliance * self.chain.stiffness / self.mesh.spacing();
-        self.trial.contact[stretch.lo..=stretch.hi].fill(Contact::Stuck);
-        while softness > real.max(HARDEST) {
-            self.softened
-                .soften(softness * self.mesh.spacing() / self.chain.stiffness);
-            for i in stretch.lo..=stretch.hi {
-                self.soft_anchor[i] = self.r[i] + self.softened.compliance * self.g[i];
-            }
-            let soft_load = Load {
-                anchor: &self.soft_anchor,
-                ..load
-            };
-            attempt(&self.softened, &soft_load, &mut self.trial);
-            softness *= SOFTENING;
-        }
-        if attempt(&self.chain, &load, &mut self.trial) == Outcome::Solved {
+        if attempt(&mut self.trial) == Outcome::Solved {
             return Ok(());
         }
         exact::contacts(&self.chain, &load, stretch, &mut self.trial);
         recorder.statistics.exact_steps += 1;
-        match attempt(&self.chain, &load, &mut self.trial) {
+        match attempt(&mut self.trial) {
             Outcome::Solved => Ok(()),
             Outcome::Violated(violation) => Err(CableError::NoConvergence {
                 vehicle_position: self.mesh.lattice_step() * snapshot.position as f64,

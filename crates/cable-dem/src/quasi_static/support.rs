@@ -18,6 +18,8 @@ pub(super) struct Forcing {
     pub cut: f64,
     /// Adherent displacement \[m\], against which the ground holds the node.
     pub adherent: f64,
+    /// Adhesion \[N/m\], which a held node's friction has beside its own.
+    pub adhesion: f64,
 }
 
 impl Support {
@@ -36,11 +38,7 @@ impl Support {
             },
         ];
         for restraint in cable.restraints() {
-            let (left, share) = mesh.place(restraint.position);
-            for (node, stiffness) in [
-                (left, (1.0 - share) * restraint.stiffness),
-                (left + 1, share * restraint.stiffness),
-            ] {
+            for (node, stiffness) in restraint.by_node(mesh) {
                 if stiffness == 0.0 {
                     continue;
                 }
@@ -73,6 +71,7 @@ impl Support {
                 _ => 0.0,
             },
             adherent: snapshot.adherent[index],
+            adhesion: snapshot.adhesion[index],
         }
     }
 

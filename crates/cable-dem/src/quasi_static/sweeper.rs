@@ -1,18 +1,21 @@
 //! One pass, forward: the cable's state, its supports, and the steps of the vehicle.
 
-use super::Recorder;
 use super::active_set::Elimination;
 use super::chain::{Chain, Contact, Stretch, Tolerance, Trial};
 use super::memory::PassMemory;
 use super::passage::{Passage, Snapshot};
 use super::support::{Forcing, Support};
 use super::window::{NEGLIGIBLE, Window};
+use crate::ends::{Balance, EndReader};
+use crate::held::HeldNode;
+use crate::outcome::Recorder;
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
 /// Accuracy of friction and equilibrium inside the windows, as a share of the friction limit.
-const FRICTION_ACCURACY: f64 = 1e-6;
-/// Accuracy of slip, as a share of the largest displacement.
-const SLIP_ACCURACY: f64 = 1e-7;
+const FRICTION_ACCURACY: f64 = 1e-9;
+/// Accuracy of slip, as a share of the largest displacement. What a slipping node may slip the wrong way adds up over
+/// thousands of steps: it has to be far below the slip of one step.
+const SLIP_ACCURACY: f64 = 1e-12;
 /// Most nodes that a disturbed window grows by at once on each side.
 pub(super) const MAX_GROWTH: usize = 256;
 
@@ -26,10 +29,9 @@ pub(super) fn rounding(cable: &DuctedCable, mesh: &Mesh, largest: f64) -> f64 {
 pub(super) struct Sweeper {
     pub(super) cable: DuctedCable,
     pub(super) mesh: Mesh,
+    ends: EndReader,
+    held: HeldNode,
     pub(super) chain: Chain,
-    /// The same chain with a softer sheath.
-    pub(super) softened: Chain,
-    pub(super) soft_anchor: Vec<f64>,
     pub(super) supports: Vec<SupportWindow>,
     /// Unknown nodes: all but fixed ends.
     pub(super) free: Stretch,
@@ -61,8 +63,8 @@ pub(super) struct SupportWindow {
     pub(super) solved: Forcing,
     /// Whether the forcing has changed since.
     pub(super) due: bool,
-    /// Adherent displacement up to which a fixed node's own friction has followed \[m\].
-    pub(super) followed: f64,
+    /// Forcing up to which a fixed node's own friction has followed.
+    pub(super) followed: Forcing,
     /// Force on the cable per displacement of the duct \[N/m\].
     pub(super) grip: f64,
 }
@@ -111,7 +113,7 @@ impl Sweeper {
                 },
                 solved: Forcing::default(),
                 due: false,
-                followed: 0.0,
+                followed: Forcing::default(),
                 grip: support
                     .stiffness
                     .map_or(held_stiffness, |s| 1.0 / (1.0 / s + 1.0 / sheath_stiffness)),
@@ -121,8 +123,8 @@ impl Sweeper {
         Self {
             cable: cable.clone(),
             mesh: *mesh,
-            softened: chain.clone(),
-            soft_anchor: vec![0.0; nodes],
+            ends: EndReader::new(cable, mesh),
+            held: HeldNode::new(cable, mesh),
             chain,
             supports,
             free,
@@ -164,8 +166,8 @@ impl Sweeper {
             .r
             .iter()
             .fold(passage.peak(), |largest, u| largest.max(u.abs()));
-        let friction =
-            (FRICTION_ACCURACY * self.chain.limit).max(16.0 * rounding(&self.cable, &self.mesh, largest));
+        let friction = (FRICTION_ACCURACY * self.chain.limit)
+            .max(16.0 * (rounding(&self.cable, &self.mesh, largest) + self.support_rounding(largest)));
         let tolerance = Tolerance {
             friction,
             slip: SLIP_ACCURACY * largest + self.chain.compliance * friction,
@@ -248,6 +250,16 @@ impl Sweeper {
         self.g[node] + snapshot.adhesion[node + 1]
     }
 
+    /// Rounding error of the stiffest support's force, per metre of its node \[N/m\], when displacements reach `largest` \[m\].
+    fn support_rounding(&self, largest: f64) -> f64 {
+        self.supports
+            .iter()
+            .filter_map(|SupportWindow { support, .. }| {
+                Some(4.0 * f64::EPSILON * support.stiffness? * largest / self.chain.tributary[support.node])
+            })
+            .fold(0.0, f64::max)
+    }
+
     /// Takes the state into the adherent frame of the vehicle's first position. The cable does not move by this.
     fn arrive(&mut self, snapshot: &Snapshot<'_>) {
         for node in 0..self.r.len() {
@@ -261,7 +273,7 @@ impl Sweeper {
             let forcing = support.forcing(snapshot, self.chain.stiffness, last);
             self.support_load[support.node] = support.load(forcing);
             self.supports[index].solved = forcing;
-            self.supports[index].followed = forcing.adherent;
+            self.supports[index].followed = forcing;
         }
     }
 
@@ -284,9 +296,9 @@ impl Sweeper {
             let (node, fixed, load) = (support.node, support.stiffness.is_none(), support.load(forcing));
             if fixed {
                 // Its friction turns at slips far smaller than those that matter to its neighbours.
-                let slip = forcing.adherent - followed;
-                self.drag(node, slip, snapshot.adhesion[node + 1]);
-                self.supports[index].followed = forcing.adherent;
+                let followed = *followed;
+                self.drag(node, followed, forcing);
+                self.supports[index].followed = forcing;
             }
             if due {
                 if fixed {
@@ -301,22 +313,15 @@ impl Sweeper {
         }
     }
 
-    /// Friction on a fixed node as the duct slips past it by `slip`.
-    fn drag(&mut self, node: usize, slip: f64, adhesion: f64) {
-        let g = if self.chain.compliance > 0.0 {
-            self.g[node] + slip / self.chain.compliance
-        } else if slip == 0.0 {
-            self.g[node]
-        } else {
-            f64::INFINITY.copysign(slip)
-        };
-        let g = g.clamp(
-            self.chain.bound(Contact::Backward, adhesion),
-            self.chain.bound(Contact::Forward, adhesion),
-        );
-        let elastic = self.chain.compliance * (g - self.g[node]);
-        self.dissipated += self.chain.tributary[node] * (g + adhesion) * (slip - elastic);
-        self.g[node] = g;
+    /// Friction on a fixed node as the duct moves on past it from the forcing that it has followed so far.
+    fn drag(&mut self, node: usize, followed: Forcing, forcing: Forcing) {
+        let compliance = self.chain.compliance;
+        let before = self.g[node] + followed.adhesion;
+        // D = a + γ A.
+        let slip = forcing.adherent - followed.adherent + compliance * (forcing.adhesion - followed.adhesion);
+        let after = self.held.after_slip(before, slip);
+        self.dissipated += self.chain.tributary[node] * after * (slip - compliance * (after - before));
+        self.g[node] = after - forcing.adhesion;
     }
 
     /// Takes out the memory of a passage's last pass; empty for its first.
@@ -356,21 +361,11 @@ impl Sweeper {
 
     /// Force on each end \[N\] with the vehicle at the snapshot's position, compression positive.
     fn end_forces(&self, snapshot: &Snapshot<'_>) -> EndForces {
-        let last = self.mesh.elements();
-        let u = |i: usize| self.displacement(i, snapshot);
-        let force = |node: usize, inner: usize, outward: f64, end: crate::End| match end {
-            crate::End::Free => 0.0,
-            // A spring carries what the cable and its last node's friction bring: s u itself has no digits for a stiff one.
-            crate::End::Spring(_) | crate::End::Fixed => {
-                let friction = self.friction(node, snapshot);
-                outward
-                    * (self.chain.stiffness * (u(inner) - u(node)) + self.chain.tributary[node] * friction)
-            }
-        };
-        EndForces {
-            upstream: force(0, 1, -1.0, self.cable.upstream()),
-            downstream: force(last, last - 1, 1.0, self.cable.downstream()),
-        }
+        self.ends.read(
+            Balance::AtRest,
+            |node| self.displacement(node, snapshot),
+            |node| self.friction(node, snapshot),
+        )
     }
 }
 

@@ -23,6 +23,10 @@ const MAX_RETURNED: f64 = 1e-3;
 /// Largest share of the energy that may be out of balance. Sound explicit passes measured below 1e-5.
 const MAX_UNBALANCED: f64 = 0.01;
 
+/// Share of the work that friction could do at its limit below which the energies of a cable that hardly slips count as
+/// nothing.
+const NEGLIGIBLE: f64 = 0.05;
+
 /// Energies of one pass \[J\]: changes from its start to its end, before the cable is brought to rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EnergyBalance {
@@ -61,7 +65,7 @@ impl EnergyBalance {
             + self.peak_kinetic.max(self.kinetic)
             + self.stored.abs()
             + self.gross_heat();
-        share(self.residual().abs(), scale)
+        share(self.residual().abs(), scale.max(NEGLIGIBLE * self.reference))
     }
 
     /// Negative heat as a share of its gross amount (or of [`Self::reference`], if greater): 0 for a sound pass, near ½

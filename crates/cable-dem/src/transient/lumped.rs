@@ -4,7 +4,9 @@
 //! and hangs on its neighbours by springs k = EA/h. End springs and clamps are springs S to the ground; a fixed end does
 //! not move.
 
+use crate::ends::{Balance, EndReader};
 use crate::error::checked;
+use crate::held::HeldNode;
 use crate::quasi_static::Support;
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
@@ -24,6 +26,9 @@ pub(crate) struct Lumped {
     pub springs: Vec<(usize, f64)>,
     /// Whether the first and the last node are held.
     pub fixed: [bool; 2],
+    /// Friction of the held ones.
+    pub held: HeldNode,
+    ends: EndReader,
 }
 
 impl Lumped {
@@ -45,6 +50,8 @@ impl Lumped {
                 .iter()
                 .filter_map(|support| Some((support.node, support.stiffness.filter(|s| *s > 0.0)?)))
                 .collect(),
+            held: HeldNode::new(&cable, &mesh),
+            ends: EndReader::new(&cable, &mesh),
             cable,
             mesh,
         })
@@ -88,19 +95,9 @@ impl Lumped {
         self.mesh.spacing() * (sum - 0.5 * (value(0) + value(nodes - 1)))
     }
 
-    /// Force on each end \[N\], compression positive, from displacement and friction.
+    /// Force on each end \[N\], compression positive, from displacement and friction of a cable that may be moving.
     pub fn end_forces(&self, u: &[f64], f: &[f64]) -> EndForces {
-        let last = u.len() - 1;
-        let half = 0.5 * self.mesh.spacing();
-        let force = |node: usize, inner: usize, outward: f64, end: crate::End| match end {
-            crate::End::Free => 0.0,
-            crate::End::Spring(stiffness) => outward * stiffness * u[node],
-            crate::End::Fixed => outward * (self.stiffness * (u[inner] - u[node]) + half * f[node]),
-        };
-        EndForces {
-            upstream: force(0, 1, -1.0, self.cable.upstream()),
-            downstream: force(last, last - 1, 1.0, self.cable.downstream()),
-        }
+        self.ends.read(Balance::Moving, |i| u[i], |i| f[i])
     }
 
     /// Refuses a state whose elastic forces rounding would blur when displacements reach `largest` \[m\].

@@ -15,5 +15,5 @@ pub use moving_duct::MovingDuct;
 pub use outcome::TransientOutcome;
 
 pub(crate) use lumped::Lumped;
-pub(crate) use outcome::Record;
+pub(crate) use outcome::Departed;
 pub(crate) use rest::{Settler, StepSolver, tolerance};

@@ -10,6 +10,7 @@
 
 use ground_field::{Direction, DuctMotion};
 
+use crate::course::as_driven;
 use crate::error::checked;
 use crate::{CableError, DuctedCable, Mesh};
 
@@ -69,19 +70,8 @@ impl MovingDuct {
         motion: &DuctMotion,
         approach: f64,
     ) -> Result<Self, CableError> {
-        let direction = if motion.velocity() < 0.0 {
-            Direction::Reverse
-        } else {
-            Direction::Forward
-        };
-        let sign = direction.sign();
-        Self::from_shape(
-            cable,
-            mesh,
-            (direction, motion.velocity().abs()),
-            |xi| sign * motion.longitudinal(sign * xi),
-            approach,
-        )
+        let (direction, shape) = as_driven(motion);
+        Self::from_shape(cable, mesh, (direction, motion.velocity().abs()), shape, approach)
     }
 
     /// The duct under a travelling displacement `shape`(ξ) \[m\], ξ positive ahead of the vehicle and the displacement
@@ -195,6 +185,11 @@ impl MovingDuct {
         } else {
             Err(CableError::PassageMismatch)
         }
+    }
+
+    /// How many steps of at most `longest` \[s\] a pass takes; one that divides it to rounding is taken as it is.
+    pub(crate) fn steps(&self, longest: f64) -> f64 {
+        (self.duration() / longest * (1.0 - 1e-12)).ceil().max(1.0)
     }
 
     /// Position of the vehicle \[m\] at time `t` \[s\] after the start.

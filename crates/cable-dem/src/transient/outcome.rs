@@ -1,7 +1,8 @@
 //! What a pass with inertia reports.
 
-use super::{EnergyBalance, Lumped, SigmoidLeak};
-use crate::{CableState, EndForces, PassOutcome, Statistics};
+use super::{EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, tolerance};
+use crate::outcome::Recorder;
+use crate::{CableError, CableState, EndForces, PassOutcome};
 
 /// What one pass with inertia did.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,57 +24,64 @@ pub struct TransientOutcome {
 
 impl TransientOutcome {
     /// Of a pass that touched nothing.
-    pub(crate) fn untouched(pass: PassOutcome, time_step: f64) -> Self {
+    pub(crate) fn untouched(lumped: &Lumped, state: &CableState, time_step: f64) -> Self {
+        let force = lumped.end_forces(&state.displacement, &state.friction);
         Self {
-            pass,
+            pass: Recorder::new(force).outcome(&lumped.cable, &lumped.mesh, state, force),
             time_step,
             energy: EnergyBalance::default(),
-            force_before_rest: pass.force,
+            force_before_rest: force,
             leak: None,
         }
     }
 }
 
-/// End forces as the vehicle passes.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Record {
-    pub peak: EndForces,
-    pub lowest: EndForces,
-    pub statistics: Statistics,
+/// A pass whose vehicle has left, the cable still moving.
+#[derive(Debug)]
+pub(crate) struct Departed<'a> {
+    pub duct: &'a MovingDuct,
+    pub time_step: f64,
+    pub energy: EnergyBalance,
+    /// The cable at the last instant.
+    pub moving: CableState,
+    pub recorder: Recorder,
 }
 
-impl Record {
-    pub fn new(start: EndForces) -> Self {
-        Self {
-            peak: start,
-            lowest: start,
-            statistics: Statistics::default(),
+impl Departed<'_> {
+    /// Brings the cable to rest, if its law knows one, and reports: the state it is left in, and the outcome.
+    pub fn close(
+        self,
+        lumped: &Lumped,
+        settler: &mut Settler,
+    ) -> Result<(CableState, TransientOutcome), CableError> {
+        let Self {
+            duct,
+            time_step,
+            energy,
+            moving: mut state,
+            mut recorder,
+        } = self;
+        let force_before_rest = lumped.end_forces(&state.displacement, &state.friction);
+        if lumped.cable.friction().law().has_memory() {
+            let largest = state.displacement.iter().fold(duct.peak(), |l, u| l.max(u.abs()));
+            let at_end = duct.vehicle_position(duct.duration());
+            settler.settle(
+                lumped,
+                tolerance(lumped, largest),
+                &mut state,
+                at_end,
+                &mut recorder.statistics,
+            )?;
         }
-    }
-
-    pub fn add(&mut self, force: EndForces) {
-        self.peak.upstream = self.peak.upstream.max(force.upstream);
-        self.peak.downstream = self.peak.downstream.max(force.downstream);
-        self.lowest.upstream = self.lowest.upstream.min(force.upstream);
-        self.lowest.downstream = self.lowest.downstream.min(force.downstream);
-    }
-
-    /// The outcome of a pass that left the cable in `state`.
-    pub fn outcome(mut self, lumped: &Lumped, state: &CableState) -> PassOutcome {
-        let force = lumped.end_forces(state.displacement(), state.friction());
-        self.add(force);
-        PassOutcome {
-            force,
-            peak: self.peak,
-            lowest: self.lowest,
-            max_compression: state
-                .element_forces(&lumped.cable, &lumped.mesh)
-                .chain([force.upstream, force.downstream])
-                .fold(f64::NEG_INFINITY, f64::max),
-            upstream_displacement: state.displacement()[0],
-            downstream_displacement: state.displacement()[lumped.mesh.elements()],
-            dissipated: 0.0,
-            statistics: self.statistics,
-        }
+        recorder.dissipated = energy.dissipated;
+        let force = lumped.end_forces(&state.displacement, &state.friction);
+        let outcome = TransientOutcome {
+            pass: recorder.outcome(&lumped.cable, &lumped.mesh, &state, force),
+            time_step,
+            energy,
+            force_before_rest,
+            leak: SigmoidLeak::new(&lumped.cable, time_step, duct),
+        };
+        Ok((state, outcome))
     }
 }

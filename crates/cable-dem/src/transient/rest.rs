@@ -17,9 +17,10 @@ use crate::transient::Lumped;
 use crate::{CableError, CableState, Statistics};
 
 /// Accuracy of friction and equilibrium, as a share of the friction limit.
-const FRICTION_ACCURACY: f64 = 1e-6;
-/// Accuracy of slip, as a share of the largest displacement.
-const SLIP_ACCURACY: f64 = 1e-7;
+const FRICTION_ACCURACY: f64 = 1e-9;
+/// Accuracy of slip, as a share of the largest displacement. What a slipping node may slip the wrong way adds up over
+/// thousands of steps: it has to be far below the slip of one step.
+const SLIP_ACCURACY: f64 = 1e-12;
 /// Softnesses γ k/h through which a step is led that does not converge from its first guess.
 const SOFTNESSES: [f64; 9] = [100.0, 10.0, 1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
@@ -124,10 +125,9 @@ impl StepSolver {
             return Err(violation);
         }
         f[self.free.lo..=self.free.hi].copy_from_slice(&self.trial.g[self.free.lo..=self.free.hi]);
-        let friction = lumped.cable.friction();
         for (end, node) in [0, f.len() - 1].into_iter().enumerate() {
             if lumped.fixed[end] {
-                f[node] = friction.after_slip(f[node], duct[node]);
+                f[node] = lumped.held.after_slip(f[node], duct[node]);
             }
         }
         Ok(())

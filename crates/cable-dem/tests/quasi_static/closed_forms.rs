@@ -99,6 +99,44 @@ fn a_short_bar_is_fully_mobilised() {
     }
 }
 
+/// When the duct turns back by s, friction turns over along √(EA s/q) from the fixed end and takes 2 q √(EA s/q) off the
+/// force: over a small part of an element as over many.
+#[test]
+fn the_least_turn_of_the_duct_takes_its_own_part_off_a_fixed_end() {
+    let pushed = Q * anchored_length();
+    for nodes_per_length in [10.7, 21.9, 43.1] {
+        let spacing = anchored_length() / nodes_per_length;
+        for zone in [
+            0.02,
+            0.1,
+            0.3,
+            0.5,
+            0.8,
+            1.0,
+            1.3,
+            1.5,
+            2.4,
+            3.5,
+            6.5,
+            0.5 * nodes_per_length,
+        ] {
+            let turned = zone * spacing;
+            let back = Q * turned * turned / EA;
+            let forces = anchored_forces(coulomb(Q), nodes_per_length, &[D, -back]);
+            let fallen = (forces[0] - forces[1]) / (Q * spacing);
+            // Within the last element the law is exact; farther in, the zone's border falls between two nodes: at most
+            // (h/2)² q/X.
+            let border = if zone <= 1.0 { 0.0 } else { 0.25 / zone };
+            // Windows, and the ratchet of a front of 20 anchored lengths.
+            let others = (1e-4 + 1.0 / 16e3) * pushed / (Q * spacing);
+            assert!(
+                (fallen - 2.0 * zone).abs() <= border + others,
+                "{zone}: {fallen} q h"
+            );
+        }
+    }
+}
+
 #[test]
 fn a_long_bar_is_anchored_by_coulomb_friction() {
     let exact = Q * anchored_length();

@@ -5,9 +5,11 @@
 
 mod against_full_newton;
 mod closed_forms;
+mod end_clamps;
 mod friction_symmetry;
 mod full_newton;
 mod reference;
 mod robustness;
 mod scenes;
+mod slow_turn;
 mod windows;

@@ -181,8 +181,15 @@ fn every_spring_and_clamp_is_solved() {
                 run_with(End::Spring(stiffness), End::Free, vec![clamp, clamp]);
             }
         }
+        // On a spring, however stiff, Coulomb friction on the last half element turns over with the least slip; on a fixed
+        // end, where the slip is known, it does so bit by bit.
+        let turning = if friction.compliance() == 0.0 {
+            LIMITS[1] * mesh.spacing()
+        } else {
+            0.0
+        };
         assert!(
-            (last / fixed - 1.0).abs() < 1e-3,
+            (last - fixed).abs() < 1e-3 * fixed + turning,
             "the stiffest, {last} N, is as good as fixed, {fixed} N"
         );
     }

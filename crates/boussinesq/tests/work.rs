@@ -1,0 +1,38 @@
+//! What a profile costs, counted: evaluations do not depend on the machine.
+
+use boussinesq::{HalfSpace, Odemark};
+use ground_field::{
+    Base, Direction, DuctLine, DuctMotion, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle,
+    Wheel,
+};
+
+fn evaluations(field: &dyn GroundField, accuracy: f64) -> usize {
+    let load = SurfaceLoad::new(196_133.0, 0.15).expect("a load");
+    let wheel = Wheel { x: 0.0, y: 0.0, load };
+    let vehicle = Vehicle::new("wheel", vec![wheel], 11.0, Direction::Forward).expect("a vehicle");
+    let line = DuctLine::new(1.2, 0.0).expect("a duct");
+    DuctMotion::new(field, &vehicle, line, 15.0, accuracy)
+        .expect("a motion")
+        .samples()
+}
+
+/// Nine cells grow with the distance from the axis to 15 m; with 11 evaluations each they are right to 6e-9 without any bisection.
+/// Each further factor of 100 may halve the cells once.
+#[test]
+fn a_closed_form_is_asked_a_hundred_times() {
+    let soil = Soil::new(800e6, 0.4).expect("soil");
+    let ground = HalfSpace::new(soil);
+    assert_eq!(evaluations(&ground, 1e-6), 9 * 11);
+    assert!(evaluations(&ground, 1e-10) <= 3 * 9 * 11);
+    assert!(evaluations(&ground, 1e-12) <= 7 * 9 * 11);
+}
+
+/// Equivalent thickness lies deeper than the duct, so layers ask for no more cells than one soil.
+#[test]
+fn layers_by_odemark_cost_no_more_evaluations() {
+    let soil = |modulus| Soil::new(modulus, 0.35).expect("soil");
+    let layer = SoilLayer::uniform(0.19, soil(5e9)).expect("a layer");
+    let profile = SoilProfile::new(vec![layer], Base::HalfSpace(soil(1e8))).expect("a profile");
+    let ground = Odemark::new(&profile).expect("uniform layers");
+    assert_eq!(evaluations(&ground, 1e-6), 9 * 11);
+}

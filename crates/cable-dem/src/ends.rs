@@ -1,0 +1,95 @@
+//! What a load cell at an end of the cable reads.
+//!
+//! The half element beyond the middle of the last one balances
+//!
+//! F = k (u_inner − u_end) + w f,  w = h/2,
+//!
+//! the chain's force and the friction on that half: what arrives at the end, of second order in the spacing h wherever the
+//! slip near the end is resolved. What of it the end reads depends on what else holds its node:
+//!
+//! | end | reading at rest | while masses move |
+//! |---|---|---|
+//! | free | 0 | 0 |
+//! | fixed | F: a clamp on a node that does not move carries nothing | F |
+//! | spring s, beside clamps with c on that node | F s/(s + c) | s u: F also accelerates the half element |
+//!
+//! At rest s u is the same, but for a stiff spring u is a small difference of large numbers and has no digits left.
+
+use crate::{DuctedCable, End, Mesh};
+
+/// Forces at both ends \[N\], compression positive.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct EndForces {
+    /// At x = 0.
+    pub upstream: f64,
+    /// At x = length.
+    pub downstream: f64,
+}
+
+/// Whether inertia takes part in the balance of the end nodes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Balance {
+    AtRest,
+    Moving,
+}
+
+/// Reads the ends of one cable on one mesh.
+#[derive(Debug, Clone)]
+pub(crate) struct EndReader {
+    /// k = EA/h \[N/m\].
+    stiffness: f64,
+    /// w = h/2 \[m\].
+    tributary: f64,
+    last: usize,
+    ends: [Reading; 2],
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Reading {
+    end: End,
+    /// s/(s + c) of a spring, beside clamps on the same node.
+    share: f64,
+}
+
+impl EndReader {
+    pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
+        let last = mesh.elements();
+        let reading = |node: usize, end: End| {
+            let shares = cable.restraints().iter().flat_map(|clamp| clamp.by_node(mesh));
+            let clamps: f64 = shares.filter(|(at, _)| *at == node).map(|(_, c)| c).sum();
+            let share = match end {
+                End::Spring(spring) if spring > 0.0 => 1.0 / (1.0 + clamps / spring),
+                End::Free | End::Spring(_) => 0.0,
+                End::Fixed => 1.0,
+            };
+            Reading { end, share }
+        };
+        Self {
+            stiffness: cable.axial_stiffness() / mesh.spacing(),
+            tributary: mesh.tributary_length(0),
+            last,
+            ends: [reading(0, cable.upstream()), reading(last, cable.downstream())],
+        }
+    }
+
+    /// Force on each end, from the displacement \[m\] and friction \[N/m\] of any node.
+    pub fn read(
+        &self,
+        balance: Balance,
+        displacement: impl Fn(usize) -> f64,
+        friction: impl Fn(usize) -> f64,
+    ) -> EndForces {
+        let force = |Reading { end, share }: Reading, node: usize, inner: usize, outward: f64| match end {
+            End::Free => 0.0,
+            End::Spring(spring) if balance == Balance::Moving => outward * spring * displacement(node),
+            End::Spring(_) | End::Fixed => {
+                let chain = self.stiffness * (displacement(inner) - displacement(node));
+                outward * share * (chain + self.tributary * friction(node))
+            }
+        };
+        EndForces {
+            upstream: force(self.ends[0], 0, 1, -1.0),
+            downstream: force(self.ends[1], self.last, self.last - 1, 1.0),
+        }
+    }
+}

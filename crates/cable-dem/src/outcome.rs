@@ -1,0 +1,109 @@
+//! What a pass reports: forces, peaks, movements, and what it cost.
+
+use crate::{CableState, DuctedCable, EndForces, Mesh};
+
+/// What one pass did.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct PassOutcome {
+    /// Force on each end after the pass \[N\], compression positive.
+    pub force: EndForces,
+    /// Largest force on each end during the pass \[N\].
+    pub peak: EndForces,
+    /// Smallest force on each end during the pass \[N\]: the largest tension where it is negative.
+    pub lowest: EndForces,
+    /// Largest compression along the cable after the pass \[N\].
+    pub max_compression: f64,
+    /// Displacement at x = 0 after the pass \[m\].
+    pub upstream_displacement: f64,
+    /// Displacement at x = length after the pass \[m\].
+    pub downstream_displacement: f64,
+    /// Work that slip has turned into heat \[J\].
+    pub dissipated: f64,
+    /// What the pass cost.
+    pub statistics: Statistics,
+}
+
+/// Counts of work that do not depend on the machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Statistics {
+    /// Vehicle positions, or steps of time.
+    pub steps: usize,
+    /// Windows solved.
+    pub windows: usize,
+    /// Linear solves over a window.
+    pub sweeps: usize,
+    /// Nodes eliminated in these, or advanced in time.
+    pub node_updates: usize,
+    /// Windows for which the iteration gave up and the exact step was taken.
+    pub exact_steps: usize,
+    /// Most nodes in one window before the vehicle had left.
+    pub widest_window: usize,
+}
+
+impl std::ops::AddAssign for Statistics {
+    fn add_assign(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.windows += other.windows;
+        self.sweeps += other.sweeps;
+        self.node_updates += other.node_updates;
+        self.exact_steps += other.exact_steps;
+        self.widest_window = self.widest_window.max(other.widest_window);
+    }
+}
+
+/// What gathers as the vehicle passes.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Recorder {
+    pub peak: EndForces,
+    pub lowest: EndForces,
+    pub dissipated: f64,
+    pub statistics: Statistics,
+}
+
+impl Recorder {
+    pub fn new(start: EndForces) -> Self {
+        Self {
+            peak: start,
+            lowest: start,
+            dissipated: 0.0,
+            statistics: Statistics::default(),
+        }
+    }
+
+    pub fn record(&mut self, force: EndForces) {
+        self.peak.upstream = self.peak.upstream.max(force.upstream);
+        self.peak.downstream = self.peak.downstream.max(force.downstream);
+        self.lowest.upstream = self.lowest.upstream.min(force.upstream);
+        self.lowest.downstream = self.lowest.downstream.min(force.downstream);
+    }
+
+    /// Seen in the mirror the ends change places; compression stays compression.
+    pub fn mirror(&mut self) {
+        std::mem::swap(&mut self.peak.upstream, &mut self.peak.downstream);
+        std::mem::swap(&mut self.lowest.upstream, &mut self.lowest.downstream);
+    }
+
+    /// The outcome of a pass that left the cable in `state` with `force` on its ends.
+    pub fn outcome(
+        mut self,
+        cable: &DuctedCable,
+        mesh: &Mesh,
+        state: &CableState,
+        force: EndForces,
+    ) -> PassOutcome {
+        self.record(force);
+        PassOutcome {
+            force,
+            peak: self.peak,
+            lowest: self.lowest,
+            max_compression: state
+                .element_forces(cable, mesh)
+                .chain([force.upstream, force.downstream])
+                .fold(f64::NEG_INFINITY, f64::max),
+            upstream_displacement: state.displacement()[0],
+            downstream_displacement: state.displacement()[mesh.elements()],
+            dissipated: self.dissipated,
+            statistics: self.statistics,
+        }
+    }
+}

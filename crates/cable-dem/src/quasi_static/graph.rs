@@ -1,0 +1,369 @@
+//! A monotone piecewise linear graph p(u) that remembers how it came about.
+//!
+//! Its corners stand on two stacks that meet at a gap: below it those of smaller u, above it those of greater u. What
+//! happens to all corners of a stack is written to the stack's [`Map`] only, and what happens to a part of the graph
+//! first moves the gap to its border. A step of [`super::exact`] so costs the corners that the gap passes, few where the
+//! cable's displacement is smooth, and not all there are.
+//!
+//! Every step can be undone, the last one first: the way back needs no copies of the graphs passed.
+
+use std::cmp::Ordering;
+
+/// Corner of a graph: displacement and force.
+#[derive(Debug, Clone, Copy)]
+struct Corner {
+    u: f64,
+    p: f64,
+}
+
+/// (u, p) → (u + s p + u₀, p + p₀), s = springs/k.
+#[derive(Debug, Clone, Copy, Default)]
+struct Map {
+    springs: f64,
+    u: f64,
+    p: f64,
+}
+
+#[derive(Debug, Clone, Default)]
+struct Stack {
+    corners: Vec<Corner>,
+    map: Map,
+}
+
+/// Friction of one node: +`upper` below the displacement `forward`, `lower` above `backward`, linear between them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Friction {
+    pub forward: f64,
+    pub backward: f64,
+    pub upper: f64,
+    pub lower: f64,
+}
+
+/// What one node's friction did to the stacks.
+#[derive(Debug, Clone, Copy)]
+struct Inserted {
+    /// Corners that the gap passed, upward positive.
+    passed: isize,
+    /// Corners on the slope between both limits.
+    sloped: usize,
+    friction: Friction,
+}
+
+/// The graph; beyond its corners it goes on with one slope on either side.
+#[derive(Debug, Clone)]
+pub(super) struct Graph {
+    stiffness: f64,
+    below: Stack,
+    above: Stack,
+    /// Slope outside the corners; infinite for a held displacement.
+    outer: f64,
+    /// What has been done, for undoing it.
+    inserted: Vec<Inserted>,
+    sloped: Vec<Corner>,
+    outers: Vec<f64>,
+    supported: Vec<Option<[Stack; 2]>>,
+    /// Corners touched: the work done.
+    pub touched: usize,
+}
+
+impl Graph {
+    /// A single corner at (u, 0) on a chain of springs of `stiffness` k \[N/m\].
+    pub fn new(stiffness: f64, u: f64, outer: f64) -> Self {
+        let below = Stack {
+            corners: vec![Corner { u, p: 0.0 }],
+            map: Map::default(),
+        };
+        Self {
+            stiffness,
+            below,
+            above: Stack::default(),
+            outer,
+            inserted: Vec::new(),
+            sloped: Vec::new(),
+            outers: Vec::new(),
+            supported: Vec::new(),
+            touched: 0,
+        }
+    }
+
+    /// The graph behind one more spring.
+    pub fn add_spring(&mut self) {
+        self.outers.push(self.outer);
+        self.outer = 1.0 / (1.0 / self.outer + 1.0 / self.stiffness);
+        for stack in [&mut self.below, &mut self.above] {
+            stack.map.springs += 1.0;
+            stack.map.u += stack.map.p / self.stiffness;
+        }
+    }
+
+    /// Takes the last spring off again.
+    pub fn remove_spring(&mut self) {
+        self.outer = self.outers.pop().unwrap_or(self.outer);
+        for stack in [&mut self.below, &mut self.above] {
+            stack.map.springs -= 1.0;
+            stack.map.u -= stack.map.p / self.stiffness;
+        }
+    }
+
+    /// Adds a spring to the ground and its load at the node where the graph stands. This does touch all corners.
+    pub fn add_support(&mut self, stiffness: f64, load: f64) {
+        self.outers.push(self.outer);
+        if stiffness == 0.0 && load == 0.0 {
+            self.supported.push(None);
+            return;
+        }
+        let k = self.stiffness;
+        self.supported
+            .push(Some([self.below.clone(), self.above.clone()]));
+        for stack in [&mut self.below, &mut self.above] {
+            let map = std::mem::take(&mut stack.map);
+            for corner in &mut stack.corners {
+                *corner = map.forth(*corner, k);
+                corner.p += stiffness * corner.u - load;
+            }
+            self.touched += stack.corners.len();
+        }
+        self.outer += stiffness;
+    }
+
+    /// Takes the last support off again.
+    pub fn remove_support(&mut self) {
+        if let Some(Some([below, above])) = self.supported.pop() {
+            (self.below, self.above) = (below, above);
+        }
+        self.outer = self.outers.pop().unwrap_or(self.outer);
+    }
+
+    /// Takes a node's friction from the graph: two corners more.
+    pub fn add_friction(&mut self, friction: Friction) {
+        let Friction {
+            forward,
+            backward,
+            upper,
+            lower,
+        } = friction;
+        let k = self.stiffness;
+        let mut passed = 0_isize;
+        while self.below.top(k).is_some_and(|corner| corner.u >= forward) {
+            self.below.hand_over(&mut self.above, k);
+            passed -= 1;
+        }
+        while self.above.top(k).is_some_and(|corner| corner.u < forward) {
+            self.above.hand_over(&mut self.below, k);
+            passed += 1;
+        }
+        let start = Corner {
+            u: forward,
+            p: self.force(forward) - upper,
+        };
+        let stop = Corner {
+            u: backward,
+            p: self.force(backward) - lower,
+        };
+        let before = self.sloped.len();
+        while let Some(corner) = self.above.top(k).filter(|corner| corner.u <= backward) {
+            self.above.corners.pop();
+            self.sloped.push(corner);
+        }
+        self.below.map.p -= upper;
+        self.above.map.p -= lower;
+        self.below.push(start, k);
+        for &corner in &self.sloped[before..] {
+            let share = if backward > forward {
+                (corner.u - forward) / (backward - forward)
+            } else {
+                0.5
+            };
+            let p = corner.p - upper + share * (upper - lower);
+            self.below.push(Corner { p, ..corner }, k);
+        }
+        self.above.push(stop, k);
+        let sloped = self.sloped.len() - before;
+        self.touched += passed.unsigned_abs() + sloped + 2;
+        self.inserted.push(Inserted {
+            passed,
+            sloped,
+            friction,
+        });
+    }
+
+    /// Where `u` lies beside the last node's slip limits, by its corners as they stand now: their maps, undone and done
+    /// again, leave rounding that a comparison with the limits themselves would take for slip.
+    pub fn side_of_last(&self, u: f64) -> Ordering {
+        let sloped = self.inserted.last().map_or(0, |inserted| inserted.sloped);
+        let stop = self.below.corners.len();
+        let limits = (stop - sloped - 1..=stop).map(|index| self.corner(index).u);
+        let (least, most) = limits.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), at| {
+            (least.min(at), most.max(at))
+        });
+        if u < least {
+            Ordering::Less
+        } else if u > most {
+            Ordering::Greater
+        } else {
+            Ordering::Equal
+        }
+    }
+
+    /// Takes the last node's friction out again.
+    pub fn remove_friction(&mut self) {
+        let Some(Inserted {
+            passed,
+            sloped,
+            friction,
+        }) = self.inserted.pop()
+        else {
+            return;
+        };
+        let k = self.stiffness;
+        self.above.corners.pop();
+        self.below
+            .corners
+            .truncate(self.below.corners.len().saturating_sub(sloped + 1));
+        self.below.map.p += friction.upper;
+        self.above.map.p += friction.lower;
+        for _ in 0..sloped {
+            if let Some(corner) = self.sloped.pop() {
+                self.above.push(corner, k);
+            }
+        }
+        for _ in 0..passed.unsigned_abs() {
+            if passed < 0 {
+                self.above.hand_over(&mut self.below, k);
+            } else {
+                self.below.hand_over(&mut self.above, k);
+            }
+        }
+        self.touched += passed.unsigned_abs() + sloped + 2;
+    }
+
+    /// The u for which u + p(u)/k is `beyond`, the displacement behind a spring.
+    pub fn displacement_before_spring(&self, beyond: f64) -> f64 {
+        let k = self.stiffness;
+        self.crossing(|corner| corner.u + corner.p / k - beyond, 1.0 + self.outer / k)
+    }
+
+    /// The u for which p(u) = 0; of a whole range, the one nearest to `wanted`.
+    pub fn rest_displacement(&self, wanted: f64) -> f64 {
+        if self.outer > 0.0 {
+            return self.crossing(|corner| corner.p, self.outer);
+        }
+        let low = self.partition_point(|corner| corner.p < 0.0);
+        let high = self.partition_point(|corner| corner.p <= 0.0);
+        let last = self.len() - 1;
+        let from = if low == 0 {
+            f64::NEG_INFINITY
+        } else {
+            self.zero_between(low - 1, low.min(last))
+        };
+        let to = if high > last {
+            f64::INFINITY
+        } else {
+            self.zero_between(high.max(1) - 1, high)
+        };
+        wanted.max(from).min(to)
+    }
+
+    fn zero_between(&self, left: usize, right: usize) -> f64 {
+        let (a, b) = (self.corner(left), self.corner(right));
+        if b.p > a.p {
+            a.u + (b.u - a.u) * (-a.p / (b.p - a.p)).clamp(0.0, 1.0)
+        } else {
+            a.u
+        }
+    }
+
+    /// p at `u`.
+    fn force(&self, u: f64) -> f64 {
+        let index = self.partition_point(|corner| corner.u < u);
+        let left = index.checked_sub(1).map(|i| self.corner(i));
+        let right = (index < self.len()).then(|| self.corner(index));
+        match (left, right) {
+            (Some(left), Some(right)) if right.u > left.u => {
+                left.p + (right.p - left.p) * (u - left.u) / (right.u - left.u)
+            }
+            (_, Some(right)) if right.u == u => right.p,
+            (_, Some(right)) if index == 0 => right.p + self.outer * (u - right.u),
+            (Some(left), _) => left.p + self.outer * (u - left.u),
+            _ => 0.0,
+        }
+    }
+
+    /// Zero of a growing function that is linear between the corners and has slope `outer` in u beyond them.
+    fn crossing(&self, value: impl Fn(&Corner) -> f64, outer: f64) -> f64 {
+        let index = self.partition_point(|corner| value(corner) < 0.0);
+        let last = self.len() - 1;
+        if index == 0 || index > last {
+            let corner = self.corner(index.min(last));
+            return corner.u - value(&corner) / outer;
+        }
+        let (a, b) = (self.corner(index - 1), self.corner(index));
+        let (at, bt) = (value(&a), value(&b));
+        a.u + (b.u - a.u) * (-at / (bt - at)).clamp(0.0, 1.0)
+    }
+
+    fn len(&self) -> usize {
+        self.below.corners.len() + self.above.corners.len()
+    }
+
+    /// Corner by its place, from the smallest u on.
+    fn corner(&self, index: usize) -> Corner {
+        let below = self.below.corners.len();
+        let (stack, place) = if index < below {
+            (&self.below, index)
+        } else {
+            (&self.above, self.len() - 1 - index)
+        };
+        stack.map.forth(stack.corners[place], self.stiffness)
+    }
+
+    /// How many corners come before the first that does not satisfy `holds`.
+    fn partition_point(&self, holds: impl Fn(&Corner) -> bool) -> usize {
+        let (mut low, mut high) = (0, self.len());
+        while low < high {
+            let middle = usize::midpoint(low, high);
+            if holds(&self.corner(middle)) {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+}
+
+impl Stack {
+    fn top(&self, stiffness: f64) -> Option<Corner> {
+        self.corners
+            .last()
+            .map(|&corner| self.map.forth(corner, stiffness))
+    }
+
+    fn push(&mut self, corner: Corner, stiffness: f64) {
+        self.corners.push(self.map.back(corner, stiffness));
+    }
+
+    /// Gives its top corner to `other`.
+    fn hand_over(&mut self, other: &mut Self, stiffness: f64) {
+        if let Some(corner) = self.corners.pop() {
+            other.push(self.map.forth(corner, stiffness), stiffness);
+        }
+    }
+}
+
+impl Map {
+    fn forth(self, corner: Corner, stiffness: f64) -> Corner {
+        Corner {
+            u: corner.u + self.springs * corner.p / stiffness + self.u,
+            p: corner.p + self.p,
+        }
+    }
+
+    fn back(self, corner: Corner, stiffness: f64) -> Corner {
+        let p = corner.p - self.p;
+        Corner {
+            u: corner.u - self.springs * p / stiffness - self.u,
+            p,
+        }
+    }
+}

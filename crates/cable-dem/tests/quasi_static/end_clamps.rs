@@ -1,0 +1,156 @@
+//! Clamps on the node of an end, and within its element: who carries what.
+
+use cable_dem::{CableState, DuctedCable, Dynamic, End, Mesh, MovingDuct, Passage, Restraint};
+use ground_field::Direction;
+
+use super::full_newton::{FullChain, vehicle_distances};
+use super::scenes::{APPROACH, AXIAL_STIFFNESS, LIMITS, Run, cable, reference_motion, sheathed};
+
+const LENGTH: f64 = 15.0;
+const SPACING: f64 = 0.2;
+const PASSES: usize = 4;
+/// Of q L: what the windows leave out.
+const ACCURACY: f64 = 1e-3;
+
+fn clamped(ends: (End, End), clamps: &[(f64, f64)]) -> DuctedCable {
+    let clamps = clamps
+        .iter()
+        .map(|&(position, stiffness)| Restraint { position, stiffness });
+    cable(LENGTH, AXIAL_STIFFNESS, sheathed(LIMITS[0]), ends.0, ends.1)
+        .with_restraints(clamps.collect())
+        .expect("valid clamps")
+}
+
+fn mesh() -> Mesh {
+    Mesh::new(LENGTH, SPACING, 0.5 * SPACING).expect("a valid mesh")
+}
+
+/// Ends and clamps \[N\] by the solver and by the whole-chain Newton method, in one list each.
+fn readings(cable: &DuctedCable) -> [Vec<f64>; 2] {
+    let (mesh, motion) = (mesh(), reference_motion());
+    let passage = Passage::new(cable, &mesh, &motion, APPROACH).expect("a valid passage");
+    let mut run = Run::new(cable.clone(), mesh);
+    let mut oracle = FullChain::new(cable, &mesh);
+    let distances = vehicle_distances(&mesh, APPROACH);
+    for _ in 0..PASSES {
+        run.pass(&passage);
+        oracle.pass(&distances, Direction::Forward, |xi| motion.longitudinal(xi));
+    }
+    let clamp = |clamp: &Restraint| {
+        let place = clamp.position / SPACING;
+        let left = (place as usize).min(mesh.elements() - 1);
+        let share = place - left as f64;
+        let u = &oracle.displacement;
+        clamp.stiffness * ((1.0 - share) * u[left] + share * u[left + 1])
+    };
+    let (found, expected) = (run.state.end_forces(cable, &mesh), oracle.end_forces());
+    let forces = run.state.restraint_forces(cable, &mesh).into_iter();
+    [
+        [found.upstream, found.downstream]
+            .into_iter()
+            .chain(forces)
+            .collect(),
+        [expected.upstream, expected.downstream]
+            .into_iter()
+            .chain(cable.restraints().iter().map(clamp))
+            .collect(),
+    ]
+}
+
+fn assert_readings_agree(cable: &DuctedCable) {
+    let [found, expected] = readings(cable);
+    let allowed = ACCURACY * LIMITS[0] * LENGTH;
+    for (one, other) in found.iter().zip(&expected) {
+        assert!((one - other).abs() < allowed, "{found:.3?}, {expected:.3?} N");
+    }
+}
+
+#[test]
+fn a_sprung_end_reads_its_spring_alone() {
+    for spring in [1e5, 1e6, 1e9] {
+        let ends = (End::Spring(spring), End::Spring(spring));
+        for beside in [0.0, 0.5 * SPACING, SPACING] {
+            for clamp in [0.3 * spring, 3.0 * spring] {
+                assert_readings_agree(&clamped(ends, &[(beside, clamp), (LENGTH - beside, clamp)]));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_clamp_beside_a_fixed_end_takes_its_part_and_one_on_it_none() {
+    for beside in [0.0, 0.5 * SPACING, SPACING] {
+        let clamps = [(beside, 1e8), (LENGTH - beside, 1e8)];
+        let cable = clamped((End::Fixed, End::Fixed), &clamps);
+        assert_readings_agree(&cable);
+        let [found, _] = readings(&cable);
+        for clamp in &found[2..] {
+            assert_eq!(*clamp == 0.0, beside == 0.0, "{found:?}");
+        }
+    }
+    // What does not move cannot feel the clamp: the joint carries all, to the last digit.
+    let [with, _] = readings(&clamped((End::Free, End::Fixed), &[(LENGTH, 1e8)]));
+    let [without, _] = readings(&clamped((End::Free, End::Fixed), &[]));
+    assert_eq!(with[..2], without[..2]);
+}
+
+#[test]
+fn a_free_end_reads_nothing_and_its_clamp_all() {
+    for beside in [0.0, 0.5 * SPACING] {
+        let cable = clamped((End::Free, End::Free), &[(LENGTH - beside, 1e7)]);
+        assert_readings_agree(&cable);
+        let [found, _] = readings(&cable);
+        assert_eq!(found[..2], [0.0, 0.0]);
+        assert!(found[2] > 20.0, "{found:?}");
+    }
+}
+
+#[test]
+fn ends_and_clamps_together_carry_the_friction() {
+    let place = |share: f64| LENGTH - share * SPACING;
+    for ends in [
+        (End::Spring(1e6), End::Spring(1e6)),
+        (End::Free, End::Fixed),
+        (End::Spring(1e4), End::Fixed),
+    ] {
+        let cable = clamped(
+            ends,
+            &[(place(0.0), 2e6), (place(0.3), 1e6), (0.5 * SPACING, 1e6)],
+        );
+        let mesh = mesh();
+        let passage = Passage::new(&cable, &mesh, &reference_motion(), APPROACH).expect("a valid passage");
+        let mut run = Run::new(cable.clone(), mesh);
+        run.passes(PASSES, &passage);
+        let force = run.state.end_forces(&cable, &mesh);
+        let held: f64 = run.state.restraint_forces(&cable, &mesh).iter().sum();
+        let friction = run.state.friction().iter().enumerate();
+        let rubbed: f64 = friction.map(|(node, f)| mesh.tributary_length(node) * f).sum();
+        let unbalanced = force.downstream - force.upstream + held - rubbed;
+        assert!(unbalanced.abs() < 1e-5 * LIMITS[0] * LENGTH, "{unbalanced} N");
+    }
+}
+
+#[test]
+fn a_cable_that_has_come_to_rest_reads_the_same_by_balance_and_by_its_springs() {
+    for (spring, clamp) in [(1e5, 1e6), (1e7, 1e7)] {
+        let ends = (End::Spring(spring), End::Spring(spring));
+        let cable = clamped(ends, &[(0.5 * SPACING, clamp), (LENGTH, clamp)]);
+        let mesh = mesh();
+        let duct = MovingDuct::new(&cable, &mesh, &reference_motion(), APPROACH).expect("a valid duct");
+        let mut solver = Dynamic::new(cable.clone(), mesh, 11.1).expect("a valid solver");
+        let mut state = CableState::at_rest(&mesh);
+        for _ in 0..PASSES {
+            let moving = solver.pass(&duct, &mut state).expect("an answer").pass.force;
+            let resting = state.end_forces(&cable, &mesh);
+            for (one, other) in [
+                (moving.upstream, resting.upstream),
+                (moving.downstream, resting.downstream),
+            ] {
+                assert!(
+                    (one - other).abs() < 1e-4 * LIMITS[0] * SPACING,
+                    "{moving:?} {resting:?}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! How much work the solvers do, in counts that do not depend on the machine: a change that makes one of them slower shows
+//! here, where times would only flicker.
+//!
+//! Every bound is what the method must need on the scene, with a margin of a tenth to a quarter, and the reason beside it.
+
+mod common;
+
+use std::cell::Cell;
+
+use cable_dem::{
+    DuctedCable, End, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh, MovingDuct, Passage, Statistics,
+};
+use common::{APPROACH, EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, truck};
+use ground_field::Direction;
+
+const SIGMOID: FrictionLaw = FrictionLaw::Sigmoid { shape_factor: 1e8 };
+
+/// Asserts that `count` is at most `most` for each of `each`.
+fn assert_at_most(name: &str, count: usize, most: f64, each: usize, work: Statistics) {
+    let found = count as f64 / each as f64;
+    assert!(found <= most, "{name}: {found:.3}, not {most}: {work:?}");
+}
+
+#[test]
+fn a_quasi_static_pass() -> Outcome {
+    let motion = truck(40.0)?;
+    let spacing = 0.1;
+    for law in [STIFF_SHEATH, FrictionLaw::Coulomb] {
+        for length in [30.0, 300.0] {
+            let scene = Scene::new((law, LIMIT), EA, End::Fixed, (length, spacing, 0.05), &motion)?;
+            let positions = ((length + 2.0 * APPROACH) / scene.mesh.vehicle_step()).round() as usize;
+            for passes in [1, 10] {
+                let work = scene.quasi_static(passes)?.statistics;
+                assert_eq!(work.steps, positions, "one step a vehicle position");
+                // Where the vehicle is, at either end, and now and then once more for a window that has grown.
+                assert_at_most("windows a step", work.windows, 2.6, work.steps, work);
+                // One linear solve where the prediction of the contact states is right: mostly, from the second pass on.
+                let solves = if passes == 1 { 2.0 } else { 1.4 };
+                assert_at_most("solves a window", work.sweeps, solves, work.windows, work);
+                // The zone that slips is some 20 m long, whatever the duct.
+                let zone = 20.0 / spacing * 1.25;
+                assert_at_most("nodes a step", work.node_updates, zone, work.steps, work);
+                // The iteration cycles where contact begins, and next to never once the last pass is remembered.
+                let cycles = if passes == 1 { 0.01 } else { 0.001 };
+                assert_at_most(
+                    "exact steps a window",
+                    work.exact_steps,
+                    cycles,
+                    work.windows,
+                    work,
+                );
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A cable so stiff that it slides as a whole, under Coulomb's law: half the duct is one window, and the iteration cycles
+/// often. What it then costs is the failed iteration (24 solves) and the exact step.
+#[test]
+fn a_quasi_static_pass_of_a_stiff_cable() -> Outcome {
+    let size = (300.0, 0.2, 0.1);
+    let scene = Scene::new(
+        (FrictionLaw::Coulomb, LIMIT),
+        1e10,
+        End::Fixed,
+        size,
+        &truck(40.0)?,
+    )?;
+    for passes in [1, 2, 3] {
+        let work = scene.quasi_static(passes)?.statistics;
+        assert_at_most("exact steps a window", work.exact_steps, 0.08, work.windows, work);
+        // One, and 24 and one more where it cycles.
+        let solves = 1.25 + 25.0 * 0.08;
+        assert_at_most("solves a window", work.sweeps, solves, work.windows, work);
+        let nodes = 2.5 * scene.mesh.nodes() as f64;
+        assert_at_most("nodes a step", work.node_updates, nodes, work.steps, work);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_dynamic_pass() -> Outcome {
+    let motion = truck(40.0)?;
+    // Contact states are predicted, so that two or three solves find them; Newton's method on the sigmoid, whose error falls
+    // by squares to 1e-9 of the friction limit, takes five on the mean.
+    for (law, solves) in [(STIFF_SHEATH, 3.0), (FrictionLaw::Coulomb, 3.75), (SIGMOID, 5.0)] {
+        let scene = Scene::thirty_metres(law, 0.2, &motion)?;
+        let positions = ((30.0 + 2.0 * APPROACH) / scene.mesh.vehicle_step()).round() as usize;
+        for passes in [1, 10] {
+            let work = scene.dynamic(passes)?.pass.statistics;
+            assert_eq!(work.steps, positions, "one step a vehicle position");
+            assert_at_most("solves a step", work.sweeps, solves, work.steps, work);
+            // The whole cable in every one.
+            assert!(work.node_updates <= work.sweeps * scene.mesh.nodes(), "{work:?}");
+            assert_eq!(work.exact_steps, 0);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn an_explicit_pass() -> Outcome {
+    let motion = truck(40.0)?;
+    for law in [STIFF_SHEATH, FrictionLaw::Coulomb, SIGMOID] {
+        let scene = Scene::thirty_metres(law, 0.2, &motion)?;
+        let work = scene.explicit(2, ExplicitOptions::default())?.pass.statistics;
+        // 0.9 of what waves and half the friction limit allow together, from their formulas.
+        let waves = scene.mesh.spacing() * (MASS / EA).sqrt();
+        let rate = LIMIT * law.shape_factor() / MASS;
+        let friction = match law {
+            FrictionLaw::Coulomb => f64::INFINITY,
+            FrictionLaw::ElasticPlastic { .. } => (8.0 / rate).sqrt(),
+            _ => (4.0 / rate).sqrt(),
+        };
+        let time_step = 0.9 / (1.0 / waves).hypot(2.0 / friction);
+        let duration = (30.0 + 2.0 * APPROACH) / scene.duct.speed();
+        assert!((work.steps as f64) < 1.001 * duration / time_step, "{work:?}");
+        // And a few linear solves that bring it to rest.
+        assert!(work.sweeps <= 5, "{work:?}");
+        let nodes = scene.mesh.nodes();
+        assert!(
+            work.node_updates <= (work.steps + work.sweeps) * nodes,
+            "{work:?}"
+        );
+        let solver = Explicit::new(scene.cable.clone(), scene.mesh, MASS, ExplicitOptions::default())?;
+        assert!(solver.time_step(&scene.duct) <= solver.limits().advised());
+    }
+    Ok(())
+}
+
+#[test]
+fn evaluations_of_the_duct() -> Outcome {
+    for length in [30.0, 300.0] {
+        let cable = DuctedCable::new(length, EA, Friction::new(STIFF_SHEATH, LIMIT)?)?;
+        let mesh = Mesh::new(length, 0.2, 0.05)?;
+        let calls = Cell::new(0_usize);
+        let shape = |xi: f64| {
+            calls.set(calls.get() + 1);
+            1e-5 * xi / (1.0 + xi * xi)
+        };
+        // Every distance that a node can have from the vehicle once, on lattices of 50 and 20 mm.
+        let distances = 2.0 * (length + APPROACH);
+        Passage::from_shape(&cable, &mesh, Direction::Forward, shape, APPROACH)?;
+        assert!((calls.take() as f64) < 1.05 * distances / 0.05);
+        MovingDuct::from_shape(&cable, &mesh, (Direction::Forward, 10.0), shape, APPROACH)?;
+        assert!((calls.take() as f64) < 1.05 * distances / 0.02);
+    }
+    Ok(())
+}

@@ -1,0 +1,36 @@
+//! Speed against accuracy, drawn: `cargo run --release --example charts [NAME]` writes CSV and SVG to `docs/charts/`.
+//!
+//! Each chart is a file here. Accuracy is measured against independent or far finer answers, cost in seconds and in a count that
+//! knows no machine. Without a name all charts are drawn.
+
+#[path = "../shared/ground_reference.rs"]
+mod ground_reference;
+
+mod ground;
+
+use std::error::Error;
+use std::path::Path;
+
+/// A chart's name and what draws it into a folder.
+type Entry = (&'static str, fn(&Path) -> Result<(), Box<dyn Error>>);
+
+const CHARTS: &[Entry] = &[("ground", ground::run)];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let out = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/charts");
+    std::fs::create_dir_all(&out)?;
+    let wanted = std::env::args().nth(1);
+    if let Some(name) = &wanted
+        && CHARTS.iter().all(|(known, _)| known != name)
+    {
+        let names: Vec<&str> = CHARTS.iter().map(|(name, _)| *name).collect();
+        return Err(format!("no chart {name}; there are: {}", names.join(", ")).into());
+    }
+    for (name, draw) in CHARTS {
+        if wanted.as_deref().is_none_or(|wanted| wanted == *name) {
+            draw(&out)?;
+            println!("{name}: drawn");
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,222 @@
+//! The passes of a scene on one mesh after the other, until their error is within the tolerance.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+
+use cable_dem::{Mesh, Statistics};
+use ground_field::DuctMotion;
+
+use super::cable::CableMethod;
+use super::error::{ErrorParts, difference, measured, of_mesh};
+use super::passes::{Passes, simulate};
+use crate::planner::mesh::Levels;
+use crate::{Error, Scene};
+
+/// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: a minute or two.
+const MAX_NODE_UPDATES: usize = 5_000_000_000;
+/// A mesh twice as fine takes about this many times the node updates.
+const REFINEMENT_COST: usize = 4;
+/// A larger error than this, or the tolerance if that is larger still, is no answer.
+const DOUBTFUL: f64 = 0.1;
+/// Share of the tolerance that what the ground model leaves out may take of the force.
+const GROUND_SHARE: f64 = 0.5;
+/// The first passes tell what the ground model leaves out: this part of all, and at least so many.
+const FIRST_PASSES: (u64, u64) = (8, 10);
+
+/// A scene's passes, to be computed on whatever level.
+pub struct Ladder<'a> {
+    pub scene: &'a Scene,
+    pub method: CableMethod,
+    pub levels: Levels,
+    pub motions: &'a [DuctMotion],
+    /// Motions that leave nothing out, where `motions` do.
+    pub exact: Option<&'a [DuctMotion]>,
+    /// Accuracy of the motions, as a share of their peak.
+    pub motion_error: f64,
+    /// What the method leaves out, as a share of the force.
+    pub method_error: f64,
+    pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
+}
+
+/// Passes on the mesh that was good enough.
+pub struct Solved {
+    pub mesh: Mesh,
+    pub passes: Passes,
+    pub error: ErrorParts,
+    /// Whether the motions left nothing out in the end.
+    pub ground_is_exact: bool,
+    /// What was found on the way.
+    pub reasons: Vec<String>,
+    /// Work on all meshes together.
+    pub statistics: Statistics,
+}
+
+impl Ladder<'_> {
+    /// Refines until the estimated error is within the tolerance, unless the scene says how fine to be.
+    pub fn climb(mut self, verify: bool, warnings: &mut Vec<String>) -> Result<Solved, Error> {
+        let tolerance = self.scene.solver.tolerance;
+        let mut statistics = Statistics::default();
+        let mut reasons = Vec::new();
+        let ground = self.ground_error(&mut statistics, &mut reasons)?;
+        let other = ground + self.method_error;
+
+        let mut level = self.levels.first();
+        let (finest, coarser) = both(|| self.simulate(level, true), || self.coarser(level))?;
+        let mut passes: Vec<Passes> = coarser;
+        passes.push(finest);
+        let mut mesh_error = error_of(&passes, level);
+        loop {
+            let last = passes.last().map_or(0, |passes| passes.statistics.node_updates);
+            let enough = mesh_error.is_none_or(|error| error + other <= tolerance);
+            let costly = REFINEMENT_COST.saturating_mul(last) > MAX_NODE_UPDATES;
+            if enough || costly || level >= self.levels.finest() {
+                break;
+            }
+            level += 1;
+            passes.push(self.simulate(level, true)?);
+            mesh_error = error_of(&passes, level);
+        }
+        for passes in &passes {
+            statistics += passes.statistics;
+        }
+        let mesh = self.levels.mesh(level)?;
+        let finest = passes.pop().expect("the first level was computed");
+        let mut error = ErrorParts {
+            mesh: mesh_error,
+            ground,
+            inertia: self.method_error,
+            measured: verify,
+        };
+        if verify {
+            if let Some(exact) = self.exact.take() {
+                self.motions = exact;
+            }
+            let finer = self.simulate(level + 1, true)?;
+            statistics += finer.statistics;
+            error.mesh = Some(measured(&finest, &finer));
+            error.ground = 0.0;
+        }
+        self.judge(&error, warnings)?;
+        reasons.push(self.mesh_reason(&mesh));
+        Ok(Solved {
+            mesh,
+            passes: finest,
+            error,
+            ground_is_exact: self.exact.is_none(),
+            reasons,
+            statistics,
+        })
+    }
+
+    /// What the ground model leaves out, as it comes through in the force after the first passes on the coarsest mesh. Where
+    /// it is too much, the exact motions take over.
+    fn ground_error(&mut self, statistics: &mut Statistics, reasons: &mut Vec<String>) -> Result<f64, Error> {
+        let level = (0..self.levels.first()).find(|&level| self.levels.mesh(level).is_ok());
+        let (Some(exact), Some(level)) = (self.exact, level) else {
+            return Ok(self.motion_error);
+        };
+        let mut scene = self.scene.clone();
+        let (part, least) = FIRST_PASSES;
+        scene.traffic.passes = scene.traffic.passes.min(least.max(scene.traffic.passes / part));
+        let mut first_passes = |motions| {
+            let passes = simulate(&scene, self.method, motions, self.levels.mesh(level)?, || {})?;
+            *statistics += passes.statistics;
+            Ok::<_, Error>(passes)
+        };
+        let error = difference(&first_passes(exact)?, &first_passes(self.motions)?);
+        if error <= GROUND_SHARE * self.scene.solver.tolerance {
+            return Ok(error);
+        }
+        reasons.push(format!(
+            "what the ground model leaves out changes the force by {:.2} %: the exact motion was taken after all",
+            100.0 * error
+        ));
+        self.motions = exact;
+        self.exact = None;
+        Ok(0.0)
+    }
+
+    /// The passes on all levels below `level` that the duct is long enough for.
+    fn coarser(&self, level: usize) -> Result<Vec<Passes>, Error> {
+        (0..level)
+            .filter(|&coarser| self.levels.mesh(coarser).is_ok())
+            .map(|coarser| self.simulate(coarser, false))
+            .collect()
+    }
+
+    /// All passes on `level`; `shown` ones report their progress.
+    fn simulate(&self, level: usize, shown: bool) -> Result<Passes, Error> {
+        let done = AtomicU64::new(0);
+        simulate(
+            self.scene,
+            self.method,
+            self.motions,
+            self.levels.mesh(level)?,
+            || {
+                if let (true, Some(progress)) = (shown, self.progress) {
+                    let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                    progress(done as f64 / self.scene.traffic.passes as f64);
+                }
+            },
+        )
+    }
+
+    /// Refuses an answer that is none, and warns of one that is not as good as asked.
+    fn judge(&self, error: &ErrorParts, warnings: &mut Vec<String>) -> Result<(), Error> {
+        let tolerance = self.scene.solver.tolerance;
+        let total = error.total();
+        if error.mesh.is_none() {
+            warnings.push("the node spacing is too coarse to estimate the error".into());
+        } else if !self.levels.named() && total > tolerance.max(DOUBTFUL) {
+            return Err(Error::Inaccurate {
+                reached: total,
+                asked: tolerance,
+            });
+        }
+        if total > tolerance {
+            warnings.push(format!(
+                "the estimated error of {:.2} % exceeds the tolerance of {:.2} %",
+                100.0 * total,
+                100.0 * tolerance
+            ));
+        }
+        if !self.scene.friction.law.has_memory() {
+            warnings.push(
+                "the error is of the node spacing alone: the sigmoid's answer is one of its time step".into(),
+            );
+        }
+        Ok(())
+    }
+
+    fn mesh_reason(&self, mesh: &Mesh) -> String {
+        let depths = format!(
+            "node spacing and vehicle step: {:.0} nodes per depth of the duct",
+            self.scene.duct.depth / mesh.spacing()
+        );
+        if self.levels.named() {
+            format!("{depths}, as the scene asks")
+        } else {
+            format!("{depths}; {} % asked", 100.0 * self.scene.solver.tolerance)
+        }
+    }
+}
+
+fn error_of(passes: &[Passes], level: usize) -> Option<f64> {
+    of_mesh(&passes.iter().collect::<Vec<_>>(), level)
+}
+
+/// Runs two computations side by side; the first error wins.
+fn both<A: Send, B: Send>(
+    first: impl FnOnce() -> Result<A, Error> + Send,
+    second: impl FnOnce() -> Result<B, Error> + Send,
+) -> Result<(A, B), Error> {
+    thread::scope(|scope| {
+        let handle = scope.spawn(second);
+        let first = first();
+        // A panic of the other thread goes on in this one.
+        let second = handle
+            .join()
+            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+        Ok((first?, second?))
+    })
+}

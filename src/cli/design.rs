@@ -1,0 +1,180 @@
+//! `creepage design`: the end spring or clamp that keeps limits of force and movement.
+
+use std::io::{self, IsTerminal, Write};
+
+use indicatif::ProgressBar;
+
+use super::Failure;
+use super::arguments::SceneArguments;
+use super::input::Input;
+use super::write;
+use crate::design::{Design, DesignError, DesignOptions, Limits, Place, TradeOff, design, passes};
+use crate::scene::Dimension;
+
+/// Arguments of `creepage design`.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "The answer is found by runs of the scene; the force is the largest on either end, during and after the passes, the movement \
+the largest of either end. A number without a unit is SI.
+
+Examples:
+  creepage design my-duct.toml --limit-force \"3 kN\"
+  creepage design my-duct.toml --limit-force 300N --limit-movement 2mm --at upstream
+  creepage design my-duct.toml --limit-force \"3 kN\" --years 20 --trucks-per-day 800
+  creepage design my-duct.toml --limit-force \"3 kN\" --at \"95 m\" --json"
+)]
+pub struct Arguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// Largest force on an end
+    #[arg(long, value_name = "FORCE", value_parser = force)]
+    pub limit_force: f64,
+    /// Largest displacement of an end
+    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    pub limit_movement: Option<f64>,
+    /// Where the spring is: upstream, downstream (at these ends), or a position for a clamp
+    #[arg(long, value_name = "PLACE", default_value = "downstream", value_parser = place)]
+    pub at: Place,
+    /// Years of traffic, in place of the scene's number of passes
+    #[arg(long, value_name = "N", requires = "trucks_per_day")]
+    pub years: Option<f64>,
+    /// Trucks a day
+    #[arg(long, value_name = "N", requires = "years")]
+    pub trucks_per_day: Option<f64>,
+    /// Print one JSON document on standard output and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+fn force(text: &str) -> Result<f64, String> {
+    Dimension::Force
+        .parse_argument(text)
+        .map_err(|error| error.to_string())
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    Dimension::Length
+        .parse_argument(text)
+        .map_err(|error| error.to_string())
+}
+
+fn place(text: &str) -> Result<Place, String> {
+    match text {
+        "upstream" => Ok(Place::Upstream),
+        "downstream" => Ok(Place::Downstream),
+        _ => length(text)
+            .map(Place::Clamp)
+            .map_err(|_| "allowed: upstream, downstream or a position such as \"20 m\"".to_owned()),
+    }
+}
+
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let mut input = Input::read(&arguments.scene)?;
+    if let (Some(years), Some(trucks)) = (arguments.years, arguments.trucks_per_day) {
+        input.scene.traffic.passes = passes(years, trucks)?;
+    }
+    let bar = if io::stderr().is_terminal() {
+        ProgressBar::new_spinner()
+    } else {
+        ProgressBar::hidden()
+    };
+    let progress = |runs: usize| bar.set_message(format!("{runs} runs"));
+    let options = DesignOptions {
+        place: arguments.at,
+        limits: Limits {
+            force_n: arguments.limit_force,
+            movement_m: arguments.limit_movement,
+        },
+        progress: Some(&progress),
+    };
+    let answer = design(&input.scene, &options);
+    bar.finish_and_clear();
+    let answer = match answer {
+        Err(DesignError::Analysis(error)) => input.judged(Err(error))?,
+        answer => answer?,
+    };
+    if arguments.json {
+        write::json(&answer)
+    } else {
+        print(&answer)
+    }
+}
+
+fn print(design: &Design) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    let place = match design.place {
+        Place::Upstream => "spring at the upstream end".to_owned(),
+        Place::Downstream => "spring at the downstream end".to_owned(),
+        Place::Clamp(position) => format!("clamp at {position} m"),
+    };
+    writeln!(out, "{}: {place}, {} passes", design.title, design.passes)?;
+    write!(out, "limits: {} N", design.limits.force_n)?;
+    if let Some(movement) = design.limits.movement_m {
+        write!(out, ", {} mm", 1e3 * movement)?;
+    }
+    writeln!(out, "\n")?;
+    writeln!(
+        out,
+        "{:>16} {:>14} {:>16} {:>14}",
+        "stiffness, N/m", "force, N", "movement, mm", "within limits"
+    )?;
+    for point in &design.curve {
+        writeln!(
+            out,
+            "{:>16} {:>14.1} {:>16.4} {:>14}",
+            stiffness(design.place, point.stiffness_n_per_m),
+            point.force_n,
+            1e3 * point.movement_m,
+            if point.within_limits { "yes" } else { "no" }
+        )?;
+    }
+    writeln!(out)?;
+    let (
+        Some(TradeOff {
+            stiffness_n_per_m,
+            force_n,
+            movement_m,
+            error_estimate,
+            ..
+        }),
+        Some((from, to)),
+    ) = (&design.answer, design.range_n_per_m)
+    else {
+        writeln!(out, "no stiffness keeps the limits")?;
+        return Ok(());
+    };
+    writeln!(
+        out,
+        "answer: {}; force {force_n:.1} N, movement {:.4} mm, estimated error {:.2} %",
+        match (stiffness(design.place, *stiffness_n_per_m), design.place) {
+            (text, _) if text.parse::<f64>().is_err() => text,
+            (text, Place::Clamp(_)) => format!("a clamp of {text} N/m"),
+            (text, _) => format!("a spring of {text} N/m"),
+        },
+        1e3 * movement_m,
+        100.0 * error_estimate
+    )?;
+    let softest = stiffness(design.place, Some(from));
+    match to {
+        None => writeln!(
+            out,
+            "the limits are kept from {softest} on, by everything stiffer"
+        )?,
+        Some(to) if to > from => writeln!(
+            out,
+            "the limits are kept from {softest} to {} N/m",
+            stiffness(design.place, Some(to))
+        )?,
+        Some(_) => {}
+    }
+    Ok(())
+}
+
+fn stiffness(place: Place, value: Option<f64>) -> String {
+    match (value, place) {
+        (None, _) => "fixed".to_owned(),
+        (Some(0.0), Place::Clamp(_)) => "no clamp".to_owned(),
+        (Some(0.0), _) => "free".to_owned(),
+        (Some(value), _) => format!("{value:.3e}"),
+    }
+}

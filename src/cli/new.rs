@@ -1,0 +1,190 @@
+//! `creepage new`: a commented scene to start from.
+
+use std::fs::OpenOptions;
+use std::io::{self, BufRead, ErrorKind, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+
+use super::Failure;
+use crate::Scene;
+use crate::template::{Template, TemplateGround};
+
+/// Arguments of `creepage new`.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "What is not given is asked for at a terminal, and else has the value shown there in brackets.
+
+Examples:
+  creepage new my-duct.toml
+  creepage new my-duct.toml --length \"250 m\" --depth 0.9 --vehicle t-20 --friction 0.3
+  creepage new my-duct.toml --pavement n6-cbr6 --downstream \"3 MN/m\" --passes 1000"
+)]
+pub struct Arguments {
+    /// File to write; it must not exist
+    pub file: PathBuf,
+    /// Title of the scene
+    #[arg(long)]
+    pub title: Option<String>,
+    /// Length of the duct
+    #[arg(long)]
+    pub length: Option<String>,
+    /// Depth of the cable below the road surface
+    #[arg(long)]
+    pub depth: Option<String>,
+    /// Young's modulus of the ground, where it is one soil
+    #[arg(long, conflicts_with = "pavement")]
+    pub modulus: Option<String>,
+    /// Preset of a pavement, in place of one soil
+    #[arg(long, value_name = "PRESET")]
+    pub pavement: Option<String>,
+    /// Preset of the cable
+    #[arg(long, value_name = "PRESET")]
+    pub cable: Option<String>,
+    /// Dynamic friction coefficient
+    #[arg(long, value_name = "NUMBER")]
+    pub friction: Option<String>,
+    /// What holds the end where vehicles come in: free, fixed or a spring's stiffness
+    #[arg(long, value_name = "END")]
+    pub upstream: Option<String>,
+    /// What holds the other end
+    #[arg(long, value_name = "END")]
+    pub downstream: Option<String>,
+    /// Preset of the vehicle
+    #[arg(long, value_name = "PRESET")]
+    pub vehicle: Option<String>,
+    /// Speed of the vehicle
+    #[arg(long)]
+    pub speed: Option<String>,
+    /// Number of passes
+    #[arg(long)]
+    pub passes: Option<String>,
+}
+
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let name = arguments.file.display().to_string();
+    if arguments.file.exists() {
+        return Err(exists(&name));
+    }
+    let mut template = Template::default();
+    let ask = io::stdin().is_terminal() && io::stderr().is_terminal();
+    for question in questions(arguments) {
+        match question.given {
+            Some(given) => (question.set)(&mut template, given),
+            None if ask => answer(&question, &name, &mut template)?,
+            None => {}
+        }
+    }
+    // An answer tells by itself whether it is a modulus or a preset, a flag by its name.
+    if let Some(modulus) = &arguments.modulus {
+        template.ground = TemplateGround::Modulus(modulus.clone());
+    } else if let Some(pavement) = &arguments.pavement {
+        template.ground = TemplateGround::Pavement(pavement.clone());
+    }
+    let text = template.to_toml(&name)?;
+    crate::check(&Scene::from_toml(&name, &text)?)?;
+    write(&arguments.file, &text)?;
+    writeln!(
+        io::stdout().lock(),
+        "{name} is written; to compute: creepage run {name}"
+    )?;
+    Ok(())
+}
+
+/// How an answer goes into the template, and what is there now.
+type Set = fn(&mut Template, &str);
+type Now = fn(&Template) -> &str;
+
+struct Question<'a> {
+    words: &'static str,
+    given: Option<&'a String>,
+    now: Now,
+    set: Set,
+}
+
+macro_rules! question {
+    ($words:expr, $given:ident, $field:ident) => {
+        Question {
+            words: $words,
+            given: $given.$field.as_ref(),
+            now: |template| &template.$field,
+            set: |template, text| text.clone_into(&mut template.$field),
+        }
+    };
+}
+
+fn questions(given: &Arguments) -> [Question<'_>; 11] {
+    [
+        question!("title", given, title),
+        question!("length of the duct", given, length),
+        question!("depth of the cable below the road", given, depth),
+        Question {
+            words: "modulus of the ground, or a pavement's preset",
+            given: given.modulus.as_ref().or(given.pavement.as_ref()),
+            now: |template| match &template.ground {
+                TemplateGround::Modulus(text) | TemplateGround::Pavement(text) => text,
+            },
+            set: |template, text| {
+                template.ground = if text.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
+                    TemplateGround::Modulus(text.to_owned())
+                } else {
+                    TemplateGround::Pavement(text.to_owned())
+                };
+            },
+        },
+        question!("cable (preset)", given, cable),
+        question!("friction coefficient", given, friction),
+        question!("upstream end: free, fixed or a stiffness", given, upstream),
+        question!("downstream end: free, fixed or a stiffness", given, downstream),
+        question!("vehicle (preset)", given, vehicle),
+        question!("its speed", given, speed),
+        question!("passes", given, passes),
+    ]
+}
+
+/// Asks until the answer makes a scene; nothing keeps what is shown in brackets.
+fn answer(question: &Question, name: &str, template: &mut Template) -> Result<(), Failure> {
+    loop {
+        let mut err = io::stderr().lock();
+        write!(err, "{} [{}]: ", question.words, (question.now)(template))?;
+        err.flush()?;
+        let mut line = String::new();
+        let end = io::stdin().lock().read_line(&mut line)? == 0;
+        let text = line.trim();
+        if end || text.is_empty() {
+            return Ok(());
+        }
+        let mut changed = template.clone();
+        (question.set)(&mut changed, text);
+        match changed.to_toml(name) {
+            Ok(_) => {
+                *template = changed;
+                return Ok(());
+            }
+            Err(error) => writeln!(err, "{error}")?,
+        }
+    }
+}
+
+fn write(file: &Path, text: &str) -> Result<(), Failure> {
+    let unwritable = |source| Failure::Unwritable {
+        file: file.display().to_string(),
+        source,
+    };
+    // Whoever made the file meanwhile keeps it.
+    let mut open = OpenOptions::new()
+        .write(true)
+        .create_new(true)
+        .open(file)
+        .map_err(|error| match error.kind() {
+            ErrorKind::AlreadyExists => exists(&file.display().to_string()),
+            _ => unwritable(error),
+        })?;
+    open.write_all(text.as_bytes()).map_err(unwritable)
+}
+
+fn exists(name: &str) -> Failure {
+    Failure::Usage {
+        argument: "FILE".into(),
+        found: format!("{name}, which exists"),
+        allowed: "the name of a new file: nothing is overwritten".into(),
+    }
+}

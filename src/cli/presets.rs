@@ -1,0 +1,75 @@
+//! `creepage presets`: the named values and where they are from.
+
+use std::io::{self, Write};
+
+use super::Failure;
+use super::write;
+use crate::presets::{Preset, PresetKind, all};
+
+/// Arguments of `creepage presets`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  creepage presets
+  creepage presets t-25
+  creepage presets --json")]
+pub struct Arguments {
+    /// Show this preset with its values as a scene file has them
+    pub name: Option<String>,
+    /// Print one JSON document on standard output and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let chosen: Vec<&Preset> = match &arguments.name {
+        None => all().iter().collect(),
+        Some(name) => vec![find(name)?],
+    };
+    if arguments.json {
+        return write::json(&chosen);
+    }
+    let mut out = io::stdout().lock();
+    let mut kind = None;
+    for group in chosen.chunk_by(|a, b| a.kind == b.kind && a.sources == b.sources) {
+        if kind != Some(group[0].kind) {
+            kind = Some(group[0].kind);
+            writeln!(out, "{}", heading(group[0].kind))?;
+        }
+        for preset in group {
+            writeln!(out, "  {:<22} {}", preset.name, preset.summary)?;
+            if arguments.name.is_some() {
+                writeln!(out, "\n{}", preset.toml)?;
+            }
+        }
+        for source in &group[0].sources {
+            let mark = if source.assumed { "ASSUMED, " } else { "" };
+            writeln!(out, "      {}: {mark}{}", source.key, source.source)?;
+        }
+        writeln!(out)?;
+    }
+    writeln!(
+        out,
+        "In a scene: preset = \"NAME\" in that section; what stands beside it counts instead of the preset's value."
+    )?;
+    Ok(())
+}
+
+fn heading(kind: PresetKind) -> &'static str {
+    match kind {
+        PresetKind::Vehicle => "[[vehicles]]",
+        PresetKind::Cable => "[cable]",
+        PresetKind::Friction => "[friction]",
+        PresetKind::Pavement => "[ground]",
+    }
+}
+
+fn find(name: &str) -> Result<&'static Preset, Failure> {
+    all().iter().find(|preset| preset.name == name).ok_or_else(|| {
+        let names: Vec<&str> = all().iter().map(|preset| preset.name.as_str()).collect();
+        Failure::Usage {
+            argument: "NAME".into(),
+            found: format!("`{name}`"),
+            allowed: names.join(", "),
+        }
+    })
+}

@@ -1,0 +1,214 @@
+//! `creepage sweep`: one scene with many values of some keys.
+
+use std::cell::RefCell;
+use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::Failure;
+use super::arguments::SceneArguments;
+use super::write;
+use crate::SceneFile;
+use crate::sweep::{Axis, Band, Progress, Quantiles, Samples, Sweep, SweepOptions, SweepSummary};
+#[cfg(feature = "plot")]
+use crate::sweep::{MapValue, Row, SweepMap};
+
+/// Arguments of `creepage sweep`.
+#[derive(Debug, clap::Args)]
+#[command(
+    after_help = "A sweep that was interrupted goes on where it was when the same command is given again. A point that fails is a row with \
+its error. Numbers in the table are SI.
+
+Examples:
+  creepage sweep my-duct.toml --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out friction.csv
+  creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary vehicles.0.load=10tf,15tf,20tf --out grid.parquet
+  creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out map.csv --map map.svg
+  creepage sweep my-duct.toml --vary \"friction.dynamic_coefficient=normal(0.25, 0.03)\" --samples 500 --out bands.csv"
+)]
+pub struct Arguments {
+    #[command(flatten)]
+    pub scene: SceneArguments,
+    /// A key and its values, A:B:STEP or V1,V2,… or normal(MEAN, SD), lognormal(MEDIAN, SIGMA of the logarithm), uniform(LOW, HIGH); may
+    /// be repeated, for every combination
+    #[arg(long, value_name = "KEY=VALUES", required = true, allow_hyphen_values = true)]
+    pub vary: Vec<String>,
+    /// Table to write, FILE.csv or FILE.parquet
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Samples of the keys that have a distribution
+    #[arg(long, value_name = "N")]
+    pub samples: Option<usize>,
+    /// Another seed draws other samples
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    pub seed: u64,
+    /// Threads; all cores if left out
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+    /// Draw a map over two varied keys to this file (SVG)
+    #[cfg(feature = "plot")]
+    #[arg(long, value_name = "FILE.svg")]
+    pub map: Option<PathBuf>,
+    /// What colours the map
+    #[cfg(feature = "plot")]
+    #[arg(long, value_name = "VALUE", default_value = "force", requires = "map")]
+    pub map_of: MapOf,
+    /// Print the summary as one JSON document on standard output and nothing else there
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What colours a map.
+#[cfg(feature = "plot")]
+#[derive(Debug, Clone, Copy, clap::ValueEnum)]
+pub enum MapOf {
+    /// The larger force on an end
+    Force,
+    /// The larger movement of an end
+    Movement,
+}
+
+#[cfg(feature = "plot")]
+impl From<MapOf> for MapValue {
+    fn from(of: MapOf) -> Self {
+        match of {
+            MapOf::Force => Self::Force,
+            MapOf::Movement => Self::Movement,
+        }
+    }
+}
+
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let file = SceneFile::read(&arguments.scene.scene)?.with(&arguments.scene.set)?;
+    let axes = arguments
+        .vary
+        .iter()
+        .map(|text| Axis::parse(text))
+        .collect::<Result<Vec<_>, _>>()?;
+    let samples = Samples {
+        count: arguments.samples.unwrap_or(0),
+        seed: arguments.seed,
+    };
+    let sweep = Sweep::new(file, axes, samples)?;
+    for slip in sweep.file_at(0)?.unit_slips() {
+        let _ = writeln!(io::stderr(), "warning: {slip}{}", slip.location.excerpt());
+    }
+    let bar = RefCell::new(None);
+    let progress = |progress: Progress| show(&mut bar.borrow_mut(), progress);
+    let options = SweepOptions {
+        threads: arguments.threads.map(usize::from),
+        progress: io::stderr().is_terminal().then_some(&progress),
+        ..SweepOptions::default()
+    };
+    #[cfg(feature = "plot")]
+    let map = match &arguments.map {
+        Some(file) => {
+            write::creatable(file)?;
+            Some((file, SweepMap::new(&sweep, arguments.map_of.into())?))
+        }
+        None => None,
+    };
+    #[cfg(feature = "plot")]
+    let each = map.as_ref().map(|(_, map)| |row: &Row| map.add(row));
+    #[cfg(feature = "plot")]
+    let options = SweepOptions {
+        each: each.as_ref().map(|each| each as &dyn Fn(&Row)),
+        ..options
+    };
+    let summary = sweep.run(&arguments.out, &options);
+    if let Some(bar) = bar.take() {
+        bar.finish_and_clear();
+    }
+    let summary = summary?;
+    if let Some(error) = &summary.first_error {
+        let SweepSummary { failed, points, .. } = summary;
+        let _ = writeln!(
+            io::stderr(),
+            "warning: {failed} of {points} points failed, the first with: {error}"
+        );
+    }
+    if summary.failed == summary.points {
+        return Err(Failure::Nothing);
+    }
+    #[cfg(feature = "plot")]
+    if let Some((file, map)) = map {
+        write::text(file, &map.to_svg()?)?;
+    }
+    if arguments.json {
+        write::json(&summary)
+    } else {
+        print(&summary, arguments)
+    }
+}
+
+/// The bar, which tells the time left from the points of this run alone.
+fn show(bar: &mut Option<ProgressBar>, progress: Progress) {
+    let bar = bar.get_or_insert_with(|| {
+        let bar = ProgressBar::new(progress.count as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len}, {eta} left") {
+            bar.set_style(style);
+        }
+        bar.set_position(progress.resumed as u64);
+        bar.reset_eta();
+        bar
+    });
+    bar.set_position(progress.done as u64);
+}
+
+fn print(summary: &SweepSummary, arguments: &Arguments) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    write!(out, "{}: {} points", arguments.out.display(), summary.points)?;
+    if summary.resumed > 0 {
+        write!(out, ", {} of them done before", summary.resumed)?;
+    }
+    writeln!(out)?;
+    for band in &summary.bands {
+        bands(&mut out, band)?;
+    }
+    Ok(())
+}
+
+fn bands(out: &mut impl Write, band: &Band) -> Result<(), Failure> {
+    let at: Vec<String> = band
+        .at
+        .iter()
+        .map(|(key, value)| format!("{key} = {value}"))
+        .collect();
+    writeln!(out, "\n{}", at.join(", "))?;
+    writeln!(
+        out,
+        "{:<12} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}",
+        "force, N", "mean", "deviation", "5 %", "25 %", "50 %", "75 %", "95 %"
+    )?;
+    let forces = [
+        ("downstream", band.downstream_force_n),
+        ("upstream", band.upstream_force_n),
+        ("largest", band.max_compression_n),
+    ];
+    for (name, quantiles) in forces {
+        if let Some(q) = quantiles {
+            let Quantiles {
+                mean,
+                standard_deviation,
+                p05,
+                p25,
+                p50,
+                p75,
+                p95,
+            } = q;
+            writeln!(
+                out,
+                "{name:<12} {mean:>10.1} {standard_deviation:>10.1} {p05:>10.1} {p25:>10.1} {p50:>10.1} {p75:>10.1} {p95:>10.1}"
+            )?;
+        }
+    }
+    if band.failed > 0 {
+        let all = band.failed + band.samples;
+        writeln!(
+            out,
+            "{} of {all} samples failed; the quantiles leave them out",
+            band.failed
+        )?;
+    }
+    Ok(())
+}

@@ -1,0 +1,158 @@
+//! What is asked of a design, and what can be wrong with that.
+
+use serde::Serialize;
+
+use crate::scene::{End, Restraint};
+use crate::{Error, Scene};
+
+/// Days of a year, on average.
+const DAYS_PER_YEAR: f64 = 365.25;
+
+/// Where a spring is put.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Place {
+    /// At the upstream end, in place of what holds it in the scene.
+    Upstream,
+    /// At the downstream end, in place of what holds it in the scene.
+    Downstream,
+    /// A clamp at this position along the duct \[m\], beside what is in the scene.
+    Clamp(f64),
+}
+
+/// What must not be exceeded.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Limits {
+    /// Largest force on an end \[N\], positive.
+    pub force_n: f64,
+    /// Largest displacement of an end \[m\], positive, if it is limited.
+    pub movement_m: Option<f64>,
+}
+
+/// How to design.
+pub struct DesignOptions<'a> {
+    /// Where the spring is.
+    pub place: Place,
+    /// What it has to keep.
+    pub limits: Limits,
+    /// Hears of the number of runs done so far.
+    pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
+}
+
+/// Error of a design.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum DesignError {
+    /// A run of the scene failed.
+    #[error(transparent)]
+    Analysis(#[from] Error),
+    /// A limit, a position or an amount of traffic that has no meaning.
+    #[error("{name}: found {found}; allowed: {allowed}")]
+    Invalid {
+        /// What it is.
+        name: &'static str,
+        /// Its value.
+        found: f64,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// A limit is crossed more than once as the stiffness grows.
+    #[error(
+        "the {what} crosses its limit {crossings} times as the stiffness grows: there is no single range of stiffness to tell"
+    )]
+    NotMonotone {
+        /// Force or movement.
+        what: &'static str,
+        /// How often.
+        crossings: usize,
+    },
+    /// The stiffness at a limit was not found.
+    #[error("the stiffness at the limit of {what} was not found: {source}")]
+    Search {
+        /// Force or movement.
+        what: &'static str,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+}
+
+impl DesignError {
+    /// Whether the input is at fault, not the computation.
+    pub fn is_bad_input(&self) -> bool {
+        match self {
+            Self::Analysis(error) => error.is_bad_input(),
+            Self::Invalid { .. } => true,
+            _ => false,
+        }
+    }
+}
+
+impl Limits {
+    pub(super) fn check(&self) -> Result<(), DesignError> {
+        positive("limit of force", self.force_n)?;
+        self.movement_m
+            .map_or(Ok(()), |movement| positive("limit of movement", movement))
+    }
+}
+
+fn positive(name: &'static str, found: f64) -> Result<(), DesignError> {
+    if found > 0.0 && found.is_finite() {
+        return Ok(());
+    }
+    Err(DesignError::Invalid {
+        name,
+        found,
+        allowed: "a finite number greater than 0",
+    })
+}
+
+impl Place {
+    pub(super) fn check(self, scene: &Scene) -> Result<(), DesignError> {
+        match self {
+            Self::Clamp(position) if !(0.0..=scene.duct.length).contains(&position) => {
+                Err(DesignError::Invalid {
+                    name: "position of the clamp",
+                    found: position,
+                    allowed: "a position in the duct, from 0 to its length",
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The scene with a spring of this stiffness \[N/m\] here: none at 0, and a fixed end at infinity.
+    pub(super) fn held(self, scene: &Scene, stiffness: f64) -> Scene {
+        let mut scene = scene.clone();
+        let end = match stiffness {
+            0.0 => End::Free,
+            f64::INFINITY => End::Fixed,
+            _ => End::Spring(stiffness),
+        };
+        match self {
+            Self::Upstream => scene.ends.upstream = end,
+            Self::Downstream => scene.ends.downstream = end,
+            Self::Clamp(_) if stiffness == 0.0 => {}
+            Self::Clamp(position) => scene.restraints.push(Restraint { position, stiffness }),
+        }
+        scene
+    }
+}
+
+/// The passes of so many years with so many trucks a day.
+///
+/// # Errors
+///
+/// [`DesignError::Invalid`] unless both are positive and make at least one pass and at most 10¹⁵.
+pub fn passes(years: f64, trucks_per_day: f64) -> Result<u64, DesignError> {
+    positive("years", years)?;
+    positive("trucks per day", trucks_per_day)?;
+    let passes = (years * DAYS_PER_YEAR * trucks_per_day).round();
+    if !(1.0..=1e15).contains(&passes) {
+        return Err(DesignError::Invalid {
+            name: "passes of all years",
+            found: passes,
+            allowed: "from 1 to 1e15",
+        });
+    }
+    Ok(passes as u64)
+}

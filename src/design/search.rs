@@ -1,0 +1,276 @@
+//! The curve of force against movement, and where it crosses the limits.
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use argmin::core::{CostFunction, Executor};
+use argmin::solver::brent::BrentRoot;
+use rayon::prelude::*;
+
+use super::{Design, DesignError, DesignOptions, Limits, Place, TradeOff};
+use crate::{Error, Run, Scene};
+
+/// The curve goes from this part of the cable's own stiffness EA/L to its inverse, in half decades.
+const DECADES: i32 = 2;
+const POINTS_PER_DECADE: i32 = 2;
+/// Width of the last bracket around a stiffness, as a share of it.
+const ACCURACY: f64 = 0.01;
+/// Name of the law, which has a mesh of its own.
+const PASS_LAW: &str = "pass-law";
+const MOST_STEPS: u64 = 40;
+/// Stiffnesses that differ by less than this share are the same: a logarithm there and back.
+const SAME: f64 = 1e-9;
+
+/// A limited quantity: its name, and what of a point it is beside its limit, at most 1 where the limit is kept.
+type Share = (&'static str, Box<dyn Fn(&TradeOff) -> f64 + Sync>);
+
+/// Finds the stiffnesses that keep the limits.
+///
+/// # Errors
+///
+/// [`DesignError`] where limits or place have no meaning, a run fails, or a limit is crossed more than once.
+pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, DesignError> {
+    options.limits.check()?;
+    options.place.check(scene)?;
+    let scene = on_one_mesh(scene, options.place)?;
+    let search = Search {
+        scene: &scene,
+        options,
+        points: Mutex::new(Vec::new()),
+        runs: AtomicUsize::new(0),
+    };
+    let own = scene.cable.axial_stiffness / scene.duct.length;
+    let steps = DECADES * POINTS_PER_DECADE;
+    let grid = (-steps..=steps).map(|i| own * 10_f64.powf(f64::from(i) / f64::from(POINTS_PER_DECADE)));
+    let last = match options.place {
+        Place::Clamp(_) => None,
+        _ => Some(f64::INFINITY),
+    };
+    let stiffnesses: Vec<f64> = [0.0].into_iter().chain(grid).chain(last).collect();
+    let curve = stiffnesses
+        .par_iter()
+        .map(|&stiffness| search.run(stiffness))
+        .collect::<Result<Vec<_>, _>>()?;
+
+    let mut range = Some((0.0, f64::INFINITY));
+    for share in shares(options.limits) {
+        let kept = search.kept(&stiffnesses, &curve, &share)?;
+        range = range
+            .zip(kept)
+            .map(|((a, b), (c, d))| (f64::max(a, c), f64::min(b, d)));
+    }
+    let range = range.filter(|(from, to)| from <= to);
+    let answer = range
+        .map(|range| search.run(choice(options.place, range)))
+        .transpose()?;
+    let points = search.points.into_inner().unwrap_or_default();
+    Ok(Design {
+        title: scene.title.clone(),
+        place: options.place,
+        passes: scene.traffic.passes,
+        limits: options.limits,
+        range_n_per_m: range.map(|(from, to)| (from, to.is_finite().then_some(to))),
+        // Between two stiffnesses that keep a limit every other does; the run has the last word.
+        answer: answer.filter(|answer| answer.within_limits),
+        curve: sorted(points),
+    })
+}
+
+/// The scene on the mesh that its stiffest variant needs: runs that are to be compared are made on the same one, and where the end
+/// is nearly free there is no force whose relative error a finer mesh could make small.
+fn on_one_mesh(scene: &Scene, place: Place) -> Result<Scene, Error> {
+    let reference = match place {
+        Place::Clamp(_) => crate::run(scene)?,
+        _ => crate::run(&place.held(scene, f64::INFINITY))?,
+    };
+    let mut scene = scene.clone();
+    if reference.plan.cable != PASS_LAW {
+        scene
+            .solver
+            .node_spacing
+            .get_or_insert(reference.plan.node_spacing_m);
+        scene
+            .solver
+            .vehicle_step
+            .get_or_insert(reference.plan.vehicle_step_m);
+    }
+    Ok(scene)
+}
+
+/// What to take of the stiffnesses that keep the limits. An end that may be fixed is fixed, and a clamp that is not needed is left
+/// out; an end is held as stiffly as the force allows, or in the middle of the range where movement is limited too; a clamp
+/// is as soft as may be.
+fn choice(place: Place, (from, to): (f64, f64)) -> f64 {
+    match place {
+        Place::Clamp(_) => from,
+        _ if to.is_infinite() || from == 0.0 => to,
+        _ => (from * to).sqrt(),
+    }
+}
+
+fn shares(limits: Limits) -> Vec<Share> {
+    let mut shares: Vec<Share> = vec![("force", Box::new(move |point| point.force_n / limits.force_n))];
+    if let Some(limit) = limits.movement_m {
+        shares.push(("movement", Box::new(move |point| point.movement_m / limit)));
+    }
+    shares
+}
+
+fn sorted(mut points: Vec<TradeOff>) -> Vec<TradeOff> {
+    let key = |point: &TradeOff| point.stiffness_n_per_m.unwrap_or(f64::INFINITY);
+    points.sort_by(|a, b| key(a).total_cmp(&key(b)));
+    points
+}
+
+struct Search<'a> {
+    scene: &'a Scene,
+    options: &'a DesignOptions<'a>,
+    points: Mutex<Vec<TradeOff>>,
+    runs: AtomicUsize,
+}
+
+impl Search<'_> {
+    /// Runs the scene with this stiffness, or finds the run in what was done.
+    fn run(&self, stiffness: f64) -> Result<TradeOff, Error> {
+        let told = stiffness.is_finite().then_some(stiffness);
+        let points = || {
+            self.points
+                .lock()
+                .unwrap_or_else(std::sync::PoisonError::into_inner)
+        };
+        let same = |done: Option<f64>| match (done, told) {
+            (Some(a), Some(b)) => (a - b).abs() <= SAME * b,
+            (a, b) => a == b,
+        };
+        if let Some(done) = points().iter().find(|point| same(point.stiffness_n_per_m)) {
+            return Ok(done.clone());
+        }
+        let scene = self.options.place.held(self.scene, stiffness);
+        let point = self.judged(&crate::run(&scene)?, told);
+        points().push(point.clone());
+        if let Some(progress) = self.options.progress {
+            progress(self.runs.fetch_add(1, Ordering::Relaxed) + 1);
+        }
+        Ok(point)
+    }
+
+    fn judged(&self, run: &Run, stiffness_n_per_m: Option<f64>) -> TradeOff {
+        let largest = |values: fn(&crate::PassRecord) -> [f64; 4]| {
+            run.passes
+                .iter()
+                .flat_map(values)
+                .fold(0.0, |largest: f64, value| largest.max(value.abs()))
+        };
+        let clamped = matches!(self.options.place, Place::Clamp(_)) && stiffness_n_per_m != Some(0.0);
+        let mut point = TradeOff {
+            stiffness_n_per_m,
+            force_n: largest(|pass| {
+                let (upstream, downstream) = (pass.upstream_peak_n, pass.downstream_peak_n);
+                [
+                    pass.upstream_force_n,
+                    pass.downstream_force_n,
+                    upstream,
+                    downstream,
+                ]
+            }),
+            movement_m: largest(|pass| {
+                let (upstream, downstream) = (pass.upstream_displacement_m, pass.downstream_displacement_m);
+                [upstream, downstream, 0.0, 0.0]
+            }),
+            clamp_force_n: run
+                .restraints
+                .last()
+                .filter(|_| clamped)
+                .map(|clamp| clamp.force_n),
+            error_estimate: run.error_estimate.relative,
+            within_limits: true,
+        };
+        point.within_limits = shares(self.options.limits)
+            .iter()
+            .all(|(_, share)| share(&point) <= 1.0);
+        point
+    }
+
+    /// The stiffnesses from and to which one limit is kept; `None` where none keeps it.
+    fn kept(
+        &self,
+        stiffnesses: &[f64],
+        curve: &[TradeOff],
+        (what, share): &Share,
+    ) -> Result<Option<(f64, f64)>, DesignError> {
+        let kept: Vec<bool> = curve.iter().map(|point| share(point) <= 1.0).collect();
+        let crossings: Vec<usize> = (1..kept.len()).filter(|&i| kept[i] != kept[i - 1]).collect();
+        match crossings[..] {
+            [] => Ok(kept[0].then_some((0.0, f64::INFINITY))),
+            [at] => {
+                let edge = self.edge(stiffnesses[at - 1], stiffnesses[at], kept[at], (what, share))?;
+                Ok(Some(if kept[at] {
+                    (edge, f64::INFINITY)
+                } else {
+                    (0.0, edge)
+                }))
+            }
+            _ => Err(DesignError::NotMonotone {
+                what,
+                crossings: crossings.len(),
+            }),
+        }
+    }
+
+    /// The stiffness on the side that keeps the limit, next to where it is crossed between two.
+    fn edge(
+        &self,
+        low: f64,
+        high: f64,
+        kept_above: bool,
+        (what, share): (&'static str, &(dyn Fn(&TradeOff) -> f64 + Sync)),
+    ) -> Result<f64, DesignError> {
+        let safe = if kept_above { high } else { low };
+        if low == 0.0 || high.is_infinite() {
+            // Beyond the ends of the curve a stiffness means as little as none, or as much as a fixed end.
+            return Ok(safe);
+        }
+        let failed = |source: argmin::core::Error| DesignError::Search {
+            what,
+            source: source.to_string().into(),
+        };
+        let solver = BrentRoot::new(low.ln(), high.ln(), ACCURACY);
+        Executor::new(Excess { search: self, share }, solver)
+            .configure(|state| state.param(low.ln()).max_iters(MOST_STEPS))
+            .run()
+            .map_err(failed)?;
+        // Brent's last bracket holds a run on either side of the limit: the one that keeps it is the edge.
+        let points = self
+            .points
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        let edge = points
+            .iter()
+            .filter(|point| share(point) <= 1.0)
+            .filter_map(|point| point.stiffness_n_per_m)
+            .filter(|stiffness| (low..=high).contains(stiffness))
+            .fold(safe, |edge, stiffness| {
+                if kept_above {
+                    edge.min(stiffness)
+                } else {
+                    edge.max(stiffness)
+                }
+            });
+        Ok(edge)
+    }
+}
+
+/// By how much a limit is exceeded, over the logarithm of the stiffness.
+struct Excess<'a, 'b> {
+    search: &'a Search<'b>,
+    share: &'a (dyn Fn(&TradeOff) -> f64 + Sync),
+}
+
+impl CostFunction for Excess<'_, '_> {
+    type Param = f64;
+    type Output = f64;
+
+    fn cost(&self, logarithm: &f64) -> Result<f64, argmin::core::Error> {
+        Ok((self.share)(&self.search.run(logarithm.exp())?) - 1.0)
+    }
+}

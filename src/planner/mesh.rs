@@ -1,0 +1,133 @@
+//! Meshes of a scene, from coarse to fine.
+//!
+//! The natural length is the duct's depth. Level 0 has three nodes a depth and two steps of the vehicle a node spacing, each
+//! level after it twice as many of both. Every tolerance climbs the same levels and stops at its own, so that a looser
+//! one never costs more, and the levels passed on the way tell the error of the last.
+
+use cable_dem::Mesh;
+
+use crate::Error;
+use crate::scene::Scene;
+
+/// Nodes per depth of the duct on level 0.
+const COARSEST: f64 = 3.0;
+/// Fewest elements of a short duct on level 0.
+const FEWEST: f64 = 8.0;
+/// Steps of the vehicle per node spacing.
+const STEPS_PER_SPACING: f64 = 2.0;
+/// Typical errors of the force on the first levels: medians over random scenes, measured against far finer runs.
+const EXPECTED: [f64; 6] = [5e-2, 1.5e-2, 4e-3, 1e-3, 3e-4, 8e-5];
+/// The finest level that is tried.
+const FINEST: usize = 6;
+/// The level that a mesh named by the scene counts as: two coarser ones tell its error.
+const NAMED: usize = 2;
+/// Length of cable that one step of the vehicle moves \[depths of the duct\], solves and all; it is within a factor of three.
+const MOVED: f64 = 8.0;
+
+/// The meshes that a scene may be computed on.
+#[derive(Debug, Clone, Copy)]
+pub struct Levels {
+    length: f64,
+    depth: f64,
+    /// How far vehicles drive in one pass \[m\].
+    road: f64,
+    /// Spacing and vehicle step on level 0 \[m\].
+    spacing: f64,
+    step: f64,
+    /// Whether the vehicle's step follows the spacing; a law without memory depends on it.
+    steps_follow: bool,
+    /// The level to begin with, and the finest one to try.
+    first: usize,
+    finest: usize,
+    /// Whether the scene says how fine to be.
+    named: bool,
+}
+
+impl Levels {
+    pub fn new(scene: &Scene, approach: f64, by_time_step: bool) -> Self {
+        let solver = &scene.solver;
+        let length = scene.duct.length;
+        let steps_follow = scene.friction.law.has_memory();
+        let named = solver.node_spacing.is_some() || solver.vehicle_step.is_some();
+        // A law without memory is one of its time step: there is no limit to refine towards.
+        let named = named || by_time_step || !steps_follow;
+        let natural = (scene.duct.depth / COARSEST).min(length / FEWEST);
+        let refinement = f64::from(1 << NAMED);
+        let (spacing, step) = if named {
+            let spacing = solver.node_spacing.unwrap_or_else(|| {
+                (natural / refinement)
+                    .max(solver.vehicle_step.unwrap_or(0.0))
+                    .min(length / FEWEST)
+            });
+            let step = solver.vehicle_step.unwrap_or(spacing / STEPS_PER_SPACING);
+            (
+                refinement * spacing,
+                if steps_follow { refinement * step } else { step },
+            )
+        } else {
+            (natural, natural / STEPS_PER_SPACING)
+        };
+        let wanted = EXPECTED
+            .iter()
+            .position(|&error| error <= solver.tolerance)
+            .unwrap_or(EXPECTED.len() - 1);
+        Self {
+            length,
+            depth: scene.duct.depth,
+            road: length + 2.0 * approach,
+            spacing,
+            step,
+            steps_follow,
+            first: if named { NAMED } else { wanted.max(1) },
+            finest: if named { NAMED } else { FINEST },
+            named,
+        }
+    }
+
+    /// The level to begin with.
+    pub fn first(&self) -> usize {
+        self.first
+    }
+
+    /// The finest level to try.
+    pub fn finest(&self) -> usize {
+        self.finest
+    }
+
+    /// Whether the scene says how fine to be.
+    pub fn named(&self) -> bool {
+        self.named
+    }
+
+    /// The mesh of `level`; an error where the duct is too short for one so coarse, or what the scene asks for is out of
+    /// range.
+    pub fn mesh(&self, level: usize) -> Result<Mesh, Error> {
+        let share = 0.5_f64.powi(level as i32);
+        let step = if self.steps_follow {
+            share * self.step
+        } else {
+            self.step
+        };
+        Ok(Mesh::new(self.length, share * self.spacing, step)?)
+    }
+
+    /// Error to expect on `level`, before anything is computed; `None` on a mesh that the scene names.
+    pub fn expected_error(&self, level: usize) -> Option<f64> {
+        (!self.named).then(|| EXPECTED[level.min(EXPECTED.len() - 1)])
+    }
+
+    /// About so many nodes are solved for in `passes` passes on `level`, without inertia.
+    pub fn node_updates(&self, level: usize, passes: u64) -> f64 {
+        let share = 0.5_f64.powi(level as i32);
+        let (spacing, step) = (share * self.spacing, share * self.step);
+        let moved = (MOVED * self.depth).min(self.length);
+        passes as f64 * self.road / step * moved / spacing
+    }
+
+    /// Nodes of the whole cable times steps of the vehicle in `passes` passes on `level`.
+    pub fn lattice(&self, level: usize, passes: u64) -> f64 {
+        let share = 0.5_f64.powi(level as i32);
+        let (spacing, step) = (share * self.spacing, share * self.step);
+        passes as f64 * self.road / step * self.length / spacing
+    }
+}

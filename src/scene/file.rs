@@ -1,0 +1,129 @@
+//! A scene file with its overrides, which knows where each value was written.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use super::document::{Content, Document, Node};
+use super::slips::{self, UnitSlip};
+use super::{Location, Scene, SceneError, error, overrides, preset};
+
+/// A scene file larger than this \[bytes\] is not a scene file.
+const LARGEST_FILE: u64 = 16 << 20;
+
+/// The text of a scene and what was set on top of it.
+///
+/// A [`Scene`] is plain data; this is for who needs many scenes of one file, or the line of a key.
+///
+/// ```
+/// use creepage::scene::SceneFile;
+///
+/// let text = std::fs::read_to_string("examples/scenes/full-scale-upper.toml")?;
+/// let file = SceneFile::from_toml("upper.toml", &text)?;
+/// let deeper = file.with(&["duct.depth=2 m"])?.scene()?;
+/// assert_eq!((file.scene()?.duct.depth, deeper.duct.depth), (1.2, 2.0));
+/// assert!(file.locate("duct.depth").unwrap().text.starts_with("depth = \"1.2 m\""));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct SceneFile {
+    name: String,
+    document: Document,
+}
+
+impl SceneFile {
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] where the file cannot be read, is not TOML, or names a preset that is not known.
+    pub fn read(path: &Path) -> Result<Self, SceneError> {
+        let file = path.display().to_string();
+        let unreadable = |source| SceneError::Unreadable {
+            file: file.clone(),
+            source,
+        };
+        let mut bytes = Vec::new();
+        File::open(path)
+            .and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
+            .map_err(unreadable)?;
+        if bytes.len() as u64 > LARGEST_FILE {
+            return Err(SceneError::TooLarge {
+                file,
+                allowed: LARGEST_FILE,
+            });
+        }
+        let text = String::from_utf8(bytes).map_err(|e| error::not_utf8(&file, &e))?;
+        Self::from_toml(&file, &text)
+    }
+
+    /// Takes `text` for the file; `name` stands for it in error messages.
+    ///
+    /// # Errors
+    ///
+    /// As for [`SceneFile::read`].
+    pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
+        let mut document = Document::parse(name, text)?;
+        preset::expand(&mut document)?;
+        Ok(Self {
+            name: name.to_owned(),
+            document,
+        })
+    }
+
+    /// The file with each `KEY=VALUE` of `overrides` set in turn.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] where an override is not `KEY=VALUE`, or there is nothing at its key.
+    pub fn with<T: AsRef<str>>(&self, overrides: &[T]) -> Result<Self, SceneError> {
+        let mut file = self.clone();
+        for text in overrides {
+            overrides::apply(&mut file.document, text.as_ref())?;
+            preset::expand(&mut file.document)?;
+        }
+        Ok(file)
+    }
+
+    /// The scene.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] with the first thing that is wrong, and where.
+    pub fn scene(&self) -> Result<Scene, SceneError> {
+        super::read(&self.name, &self.document)
+    }
+
+    /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
+    pub fn locate(&self, key: &str) -> Option<Location> {
+        let mut found = None;
+        let mut node = &self.document.root;
+        for segment in key.split('.') {
+            let Some(inner) = child(node, segment) else {
+                break;
+            };
+            node = inner;
+            found = Some(&node.place);
+        }
+        found.map(|place| *self.document.locate(place))
+    }
+
+    /// Numbers without a unit that someone may have meant in another one.
+    pub fn unit_slips(&self) -> Vec<UnitSlip> {
+        slips::unit_slips(&self.document)
+    }
+
+    /// What the file and the overrides say, to tell one scene from another.
+    #[cfg(feature = "sweep")]
+    pub(crate) fn texts(&self) -> impl Iterator<Item = &str> {
+        self.document.texts()
+    }
+}
+
+fn child<'n>(node: &'n Node, segment: &str) -> Option<&'n Node> {
+    match &node.content {
+        Content::Table(entries) => Some(&entries.iter().find(|entry| entry.key == segment)?.value),
+        Content::Array(items) => items.get(segment.parse::<usize>().ok()?),
+        _ => None,
+    }
+}

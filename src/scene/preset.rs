@@ -1,0 +1,69 @@
+//! `preset = "…"`: the values of a preset, below those that the scene gives itself.
+//!
+//! What the same file gives beside the preset counts instead of the preset's value, whichever stands first. A preset that
+//! an override names later wins over what was written before it.
+
+use super::SceneError;
+use super::document::{Content, Document, Node};
+use super::table::joined;
+use super::value::Value;
+use crate::presets::{Preset, PresetKind, of};
+
+const KEY: &str = "preset";
+const SECTIONS: [(&str, PresetKind); 4] = [
+    ("cable", PresetKind::Cable),
+    ("friction", PresetKind::Friction),
+    ("ground", PresetKind::Pavement),
+    ("vehicles", PresetKind::Vehicle),
+];
+
+/// Puts the values of presets into the sections that name one.
+pub(super) fn expand(document: &mut Document) -> Result<(), SceneError> {
+    let mut root = document.root.clone();
+    if let Content::Table(entries) = &mut root.content {
+        for entry in entries {
+            let Some((section, kind)) = SECTIONS.iter().find(|(section, _)| entry.key == *section) else {
+                continue;
+            };
+            match &mut entry.value.content {
+                Content::Array(items) => {
+                    for (index, item) in items.iter_mut().enumerate() {
+                        fill(document, &joined(section, &index.to_string()), *kind, item)?;
+                    }
+                }
+                _ => fill(document, section, *kind, &mut entry.value)?,
+            }
+        }
+    }
+    document.root = root;
+    Ok(())
+}
+
+fn fill(document: &mut Document, path: &str, kind: PresetKind, section: &mut Node) -> Result<(), SceneError> {
+    let Content::Table(entries) = &mut section.content else {
+        return Ok(());
+    };
+    let Some(index) = entries.iter().position(|entry| entry.key == KEY) else {
+        return Ok(());
+    };
+    let named = entries.remove(index);
+    let words: Vec<(&str, &Preset)> = of(kind).map(|preset| (preset.name.as_str(), preset)).collect();
+    let preset = Value {
+        document,
+        path: joined(path, KEY),
+        node: &named.value,
+    }
+    .word(&words)?;
+    let given = document.add_preset(preset, &named.key_place)?;
+    // An earlier preset goes, and so does what was set before this one was named.
+    entries.retain(|entry| !document.is_preset(&entry.key_place));
+    for entry in given {
+        let rank = document.rank(&entry.key_place);
+        match entries.iter_mut().find(|present| present.key == entry.key) {
+            Some(present) if document.rank(&present.key_place) < rank => *present = entry,
+            Some(_) => {}
+            None => entries.push(entry),
+        }
+    }
+    Ok(())
+}

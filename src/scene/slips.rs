@@ -1,0 +1,92 @@
+//! Bare numbers that were probably meant in another unit.
+//!
+//! A number without a unit is SI: `load = 20` is 20 N, the weight of two bricks, and `speed = 40` is 144 km/h. Both are
+//! valid, so they are told and not refused.
+
+use std::fmt;
+
+use super::Location;
+use super::document::{Content, Document, Node};
+use super::table::joined;
+
+/// Loads below this \[N\] are lighter than any vehicle.
+const LIGHT: f64 = 1e3;
+/// Speeds above this \[m/s\] are faster than any truck: 130 km/h.
+const FAST: f64 = 130.0 / 3.6;
+
+/// A bare number that was probably meant in another unit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnitSlip {
+    /// Where it stands.
+    pub location: Location,
+    /// The key, with its section.
+    pub key: String,
+    /// The number as written.
+    pub found: String,
+    /// What it means, and what may have been meant.
+    pub meaning: String,
+}
+
+impl fmt::Display for UnitSlip {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            location,
+            key,
+            found,
+            meaning,
+        } = self;
+        write!(f, "{location}: `{key}`: {found} without a unit is {meaning}")
+    }
+}
+
+/// Every one in the vehicles of `document`.
+pub(super) fn unit_slips(document: &Document) -> Vec<UnitSlip> {
+    let mut slips = Vec::new();
+    let mut judge = |path: String, node: &Node| {
+        let (Content::Number { value, .. }, Some(key)) = (&node.content, path.rsplit('.').next()) else {
+            return;
+        };
+        let found = document.written(&node.place);
+        let meaning = match key {
+            "load" if *value > 0.0 && *value < LIGHT => {
+                format!("{value} N, less than 1 kN: did you mean \"{found} tf\" or \"{found} kN\"?")
+            }
+            "speed" if *value > FAST => {
+                format!(
+                    "{value} m/s, {:.0} km/h: did you mean \"{found} km/h\"?",
+                    3.6 * value
+                )
+            }
+            _ => return,
+        };
+        slips.push(UnitSlip {
+            location: *document.locate(&node.place),
+            key: path,
+            found,
+            meaning,
+        });
+    };
+    if let Content::Table(entries) = &document.root.content {
+        for entry in entries.iter().filter(|entry| entry.key == "vehicles") {
+            each_value(&entry.value, &entry.key, &mut judge);
+        }
+    }
+    slips
+}
+
+/// Calls `visit` with every value that is no table and no list, and its key.
+fn each_value(node: &Node, path: &str, visit: &mut impl FnMut(String, &Node)) {
+    match &node.content {
+        Content::Table(entries) => {
+            for entry in entries {
+                each_value(&entry.value, &joined(path, &entry.key), visit);
+            }
+        }
+        Content::Array(items) => {
+            for (index, item) in items.iter().enumerate() {
+                each_value(item, &joined(path, &index.to_string()), visit);
+            }
+        }
+        _ => visit(path.to_owned(), node),
+    }
+}

@@ -1,0 +1,354 @@
+//! One varied key: a list of values, or a distribution to draw from.
+
+use statrs::distribution::{ContinuousCDF, LogNormal, Normal, Uniform};
+
+use super::SweepError;
+use crate::scene::Dimension;
+
+/// Most values of one key.
+const MOST_VALUES: f64 = 1e7;
+/// Digits kept of A + i·STEP: the decimals that were written, without the binary dust of their sum.
+const DIGITS: usize = 12;
+
+const DIMENSIONS: [Dimension; 8] = [
+    Dimension::Length,
+    Dimension::Force,
+    Dimension::Pressure,
+    Dimension::ForcePerLength,
+    Dimension::InverseLength,
+    Dimension::Speed,
+    Dimension::Time,
+    Dimension::Ratio,
+];
+
+/// A key and the values it takes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Axis {
+    /// The scene's key.
+    pub key: String,
+    /// Its values.
+    pub values: AxisValues,
+}
+
+/// The values of a key.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AxisValues {
+    /// These, as they would stand after `--set KEY=`.
+    List(Vec<String>),
+    /// Drawn anew for every sample.
+    Drawn(Distribution),
+}
+
+/// A distribution of a key's value.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Distribution {
+    law: Law,
+    /// Unit behind every drawn number; may be empty.
+    unit: String,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Law {
+    Normal(Normal),
+    LogNormal(LogNormal),
+    Uniform(Uniform),
+}
+
+impl Axis {
+    /// Reads `KEY=A:B:STEP`, `KEY=V1,V2,…`, or `KEY=` with a distribution: `normal(MEAN, SD)`, `lognormal(MEDIAN, SIGMA)` with the
+    /// standard deviation SIGMA of the logarithm, `uniform(LOW, HIGH)`. Numbers may have a unit: `0.6m:2m:0.2m`.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError::Axis`] with what is allowed.
+    pub fn parse(text: &str) -> Result<Self, SweepError> {
+        let error = |found: &str, allowed: &str| SweepError::Axis {
+            text: text.to_owned(),
+            found: found.to_owned(),
+            allowed: allowed.to_owned(),
+        };
+        let Some((key, written)) = text.split_once('=') else {
+            return Err(error(
+                "no `=`",
+                "KEY=A:B:STEP, KEY=V1,V2,… or KEY=normal(MEAN, SD)",
+            ));
+        };
+        let (key, written) = (key.trim(), written.trim());
+        if key.is_empty() || written.is_empty() {
+            return Err(error(
+                "no key or no value",
+                "a key such as duct.depth, and its values",
+            ));
+        }
+        let values = if let Some((name, parameters)) = call(written) {
+            AxisValues::Drawn(distribution(name, parameters).map_err(|allowed| error(written, allowed))?)
+        } else if let Some(range) = range(written) {
+            AxisValues::List(range.map_err(|allowed| error(written, allowed))?)
+        } else {
+            let list: Vec<String> = split(written).into_iter().map(|v| v.trim().to_owned()).collect();
+            if list.iter().any(String::is_empty) {
+                return Err(error("an empty value", "values between commas"));
+            }
+            AxisValues::List(list)
+        };
+        Ok(Self {
+            key: key.to_owned(),
+            values,
+        })
+    }
+
+    /// How many values the key takes; those of a distribution are counted as samples.
+    pub fn count(&self) -> usize {
+        match &self.values {
+            AxisValues::List(list) => list.len(),
+            AxisValues::Drawn(_) => 1,
+        }
+    }
+}
+
+impl Distribution {
+    /// The value below which the share `probability` of all draws lies, and its text with the unit.
+    pub fn quantile(&self, probability: f64) -> (f64, String) {
+        let value = match &self.law {
+            Law::Normal(law) => law.inverse_cdf(probability),
+            Law::LogNormal(law) => law.inverse_cdf(probability),
+            Law::Uniform(law) => law.inverse_cdf(probability),
+        };
+        (value, format!("{value:?} {}", self.unit).trim_end().to_owned())
+    }
+}
+
+/// The SI value of a number with or without a unit; `None` for any other text.
+pub fn si(text: &str) -> Option<f64> {
+    let text = text.trim().trim_matches(['"', '\'']);
+    // No unit belongs to two dimensions.
+    let value = DIMENSIONS
+        .iter()
+        .find_map(|dimension| dimension.parse_argument(text).ok())?;
+    value.is_finite().then_some(value)
+}
+
+/// The SI unit of a number with a unit.
+#[cfg(feature = "plot")]
+pub fn si_unit(text: &str) -> Option<&'static str> {
+    let text = text.trim().trim_matches(['"', '\'']);
+    DIMENSIONS
+        .iter()
+        .find(|dimension| dimension.parse(text).is_ok())?
+        .units()
+        .next()
+}
+
+/// The parts of a list; commas inside brackets and quotes part nothing.
+fn split(text: &str) -> Vec<&str> {
+    let mut parts = Vec::new();
+    let (mut start, mut depth, mut quote) = (0, 0_usize, None);
+    for (at, c) in text.char_indices() {
+        match (quote, c) {
+            (Some(open), _) => quote = Some(open).filter(|&open| c != open),
+            (None, '"' | '\'') => quote = Some(c),
+            (None, '{' | '[' | '(') => depth += 1,
+            (None, '}' | ']' | ')') => depth = depth.saturating_sub(1),
+            (None, ',') if depth == 0 => {
+                parts.push(&text[start..at]);
+                start = at + 1;
+            }
+            _ => {}
+        }
+    }
+    parts.push(&text[start..]);
+    parts
+}
+
+/// A number and its unit.
+fn number(text: &str) -> Option<(f64, &str)> {
+    let text = text.trim();
+    (1..=text.len())
+        .rev()
+        .filter(|&end| text.is_char_boundary(end))
+        .find_map(|end| Some((text[..end].parse::<f64>().ok()?, text[end..].trim())))
+        .filter(|(value, _)| value.is_finite())
+}
+
+/// Numbers and the one unit that all of them have, or all but none.
+fn numbers<const N: usize>(texts: &[&str]) -> Option<([f64; N], String)> {
+    let texts: [&str; N] = texts.try_into().ok()?;
+    let mut unit = "";
+    let mut values = [0.0; N];
+    for (value, text) in values.iter_mut().zip(texts) {
+        let (number, written) = number(text)?;
+        if !unit.is_empty() && !written.is_empty() && unit != written {
+            return None;
+        }
+        unit = if written.is_empty() { unit } else { written };
+        *value = number;
+    }
+    Some((values, unit.to_owned()))
+}
+
+/// The values of A:B:STEP, both ends included; `None` for what is not of this form.
+fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
+    let parts: Vec<&str> = text.split(':').collect();
+    if parts.len() != 3 || parts.iter().any(|part| number(part).is_none()) {
+        return None;
+    }
+    let Some(([first, last, step], unit)) = numbers(&parts) else {
+        return Some(Err("A:B:STEP in one unit"));
+    };
+    let steps = (last - first) / step;
+    if !steps.is_finite() || steps < 0.0 {
+        return Some(Err("a STEP that leads from A to B"));
+    }
+    if steps > MOST_VALUES {
+        return Some(Err("at most ten million values"));
+    }
+    // The end counts where rounding alone keeps a step from it.
+    let count = (steps * (1.0 + 1e-12) + 1e-9).floor() as u64;
+    let value = |i: u64| {
+        let value = first + i as f64 * step;
+        let rounded = format!("{value:.DIGITS$e}").parse().unwrap_or(value);
+        // Next to the steps themselves, zero is zero.
+        if rounded.abs() < 1e-9 * step.abs() {
+            0.0
+        } else {
+            rounded
+        }
+    };
+    Some(Ok((0..=count)
+        .map(|i| format!("{} {unit}", value(i)).trim_end().to_owned())
+        .collect()))
+}
+
+/// The name and the parameters of `name(…)`.
+fn call(text: &str) -> Option<(&str, &str)> {
+    let (name, rest) = text.split_once('(')?;
+    let parameters = rest.strip_suffix(')')?;
+    name.trim()
+        .chars()
+        .all(|c| c.is_ascii_alphabetic())
+        .then_some((name.trim(), parameters))
+}
+
+fn distribution(name: &str, parameters: &str) -> Result<Distribution, &'static str> {
+    let parts: Vec<&str> = parameters.split(',').collect();
+    let (law, unit) = match name {
+        "normal" => {
+            let allowed = "normal(MEAN, SD) with SD > 0, in one unit";
+            let ([mean, deviation], unit) = numbers(&parts).ok_or(allowed)?;
+            (
+                Law::Normal(Normal::new(mean, deviation).map_err(|_| allowed)?),
+                unit,
+            )
+        }
+        "lognormal" => {
+            let allowed = "lognormal(MEDIAN, SIGMA) with MEDIAN > 0 and SIGMA > 0, the standard deviation of the logarithm, a bare number";
+            let [median, sigma] = parts[..] else {
+                return Err(allowed);
+            };
+            let ((median, unit), (sigma, none)) =
+                (number(median).ok_or(allowed)?, number(sigma).ok_or(allowed)?);
+            if median <= 0.0 || !none.is_empty() {
+                return Err(allowed);
+            }
+            let law = LogNormal::new(median.ln(), sigma).map_err(|_| allowed)?;
+            (Law::LogNormal(law), unit.to_owned())
+        }
+        "uniform" => {
+            let allowed = "uniform(LOW, HIGH) with LOW < HIGH, in one unit";
+            let ([low, high], unit) = numbers(&parts).ok_or(allowed)?;
+            (Law::Uniform(Uniform::new(low, high).map_err(|_| allowed)?), unit)
+        }
+        _ => return Err("normal(MEAN, SD), lognormal(MEDIAN, SIGMA) or uniform(LOW, HIGH)"),
+    };
+    Ok(Distribution { law, unit })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[track_caller]
+    fn list(text: &str) -> Vec<String> {
+        match Axis::parse(text).expect("an axis").values {
+            AxisValues::List(list) => list,
+            AxisValues::Drawn(_) => panic!("a list"),
+        }
+    }
+
+    #[test]
+    fn ranges_hold_both_ends_as_they_would_be_written() {
+        assert_eq!(list("a=0.1:0.5:0.1"), ["0.1", "0.2", "0.3", "0.4", "0.5"]);
+        assert_eq!(list("a = 1:2:0.4"), ["1", "1.4", "1.8"]);
+        assert_eq!(list("a=-0.2:0.2:0.1"), ["-0.2", "-0.1", "0", "0.1", "0.2"]);
+        assert_eq!(list("a=2m:1m:-0.5m"), ["2 m", "1.5 m", "1 m"]);
+        assert_eq!(list("a=1:3:1 MN/m"), ["1 MN/m", "2 MN/m", "3 MN/m"]);
+        assert_eq!(
+            list("a=1e6 N:2e6 N:5e5 N"),
+            ["1000000 N", "1500000 N", "2000000 N"]
+        );
+        assert_eq!(list("a=5:5:1"), ["5"]);
+        assert_eq!(list("a=0:0.3:0.1").len(), 4);
+        assert_eq!(list("a=0:1:0.001").len(), 1001);
+    }
+
+    #[test]
+    fn lists_keep_what_stands_in_brackets_together() {
+        assert_eq!(list("a=1,2, 3"), ["1", "2", "3"]);
+        assert_eq!(
+            list("ends.downstream={ spring = \"3 MN/m\", x = 1 },fixed"),
+            ["{ spring = \"3 MN/m\", x = 1 }", "fixed"]
+        );
+        assert_eq!(list("title=\"a,b\",c"), ["\"a,b\"", "c"]);
+        assert_eq!(list("v=t-25"), ["t-25"]);
+    }
+
+    #[test]
+    fn what_is_no_axis_is_refused() {
+        for text in [
+            "a",
+            "=1",
+            "a=",
+            "a=1,,2",
+            "a=1:2:0",
+            "a=1:2:-1",
+            "a=1m:2km:1m",
+            "a=0:1:1e-9",
+            "a=normal(1)",
+            "a=normal(1, 0)",
+            "a=normal(1, -1)",
+            "a=normal(1, nan)",
+            "a=lognormal(-1, 1)",
+            "a=lognormal(1, 1 m)",
+            "a=uniform(2, 1)",
+            "a=triangle(1, 2)",
+            "a=uniform(1 m, 2 N)",
+        ] {
+            assert!(Axis::parse(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn quantiles_of_distributions_are_theirs() {
+        // Standard normal deviate of 97.5 %.
+        let z = 1.959963984540054;
+        let quantile = |text: &str, p| match Axis::parse(text).expect("an axis").values {
+            AxisValues::Drawn(distribution) => distribution.quantile(p),
+            AxisValues::List(_) => panic!("a distribution"),
+        };
+        let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+        close(quantile("a=normal(0.25, 0.03)", 0.975).0, 0.25 + 0.03 * z);
+        close(quantile("a=lognormal(2, 0.5)", 0.975).0, 2.0 * (0.5 * z).exp());
+        close(quantile("a=uniform(3, 7)", 0.25).0, 4.0);
+        assert_eq!(quantile("a=uniform(10 tf, 20 tf)", 0.5).1, "15.0 tf");
+    }
+
+    #[test]
+    fn values_with_units_become_si() {
+        assert_eq!(si("2 m"), Some(2.0));
+        assert_eq!(si("\"3 MN/m\""), Some(3e6));
+        assert_eq!(si("0.25"), Some(0.25));
+        for text in ["t-25", "fixed", "{ spring = 3 }", "nan", ""] {
+            assert_eq!(si(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! Quantiles of the forces where a sweep draws samples.
+
+use serde::Serialize;
+use statrs::statistics::{Data, Distribution, OrderStatistics};
+
+use super::row::{Answer, Row};
+
+/// What the samples at one point of the grid say.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Band {
+    /// The listed keys and their values.
+    pub at: Vec<(String, String)>,
+    /// Samples with an answer.
+    pub samples: usize,
+    /// Samples that failed, which the quantiles leave out.
+    pub failed: usize,
+    /// Force on the downstream end \[N\]; `None` where fewer than two samples have an answer.
+    pub downstream_force_n: Option<Quantiles>,
+    /// Force on the upstream end \[N\].
+    pub upstream_force_n: Option<Quantiles>,
+    /// Largest compression along the cable \[N\].
+    pub max_compression_n: Option<Quantiles>,
+}
+
+/// Mean, standard deviation and quantiles of the samples.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Quantiles {
+    /// Mean.
+    pub mean: f64,
+    /// Standard deviation.
+    pub standard_deviation: f64,
+    /// 5 % of the samples are below.
+    pub p05: f64,
+    /// A quarter is below.
+    pub p25: f64,
+    /// Half is below.
+    pub p50: f64,
+    /// Three quarters are below.
+    pub p75: f64,
+    /// 95 % are below.
+    pub p95: f64,
+}
+
+/// Gathers the samples of one point of the grid.
+#[derive(Default)]
+pub struct Gatherer {
+    answers: Vec<Answer>,
+    failed: usize,
+}
+
+impl Gatherer {
+    pub fn add(&mut self, row: &Row) {
+        match row.outcome {
+            Ok(answer) => self.answers.push(answer),
+            Err(_) => self.failed += 1,
+        }
+    }
+
+    /// The band of what was gathered, and forgets it.
+    pub fn band(&mut self, at: Vec<(String, String)>) -> Band {
+        let quantiles = |force: fn(&Answer) -> f64| quantiles(self.answers.iter().map(force).collect());
+        let band = Band {
+            at,
+            samples: self.answers.len(),
+            failed: self.failed,
+            downstream_force_n: quantiles(|answer| answer.downstream_force_n),
+            upstream_force_n: quantiles(|answer| answer.upstream_force_n),
+            max_compression_n: quantiles(|answer| answer.max_compression_n),
+        };
+        self.answers.clear();
+        self.failed = 0;
+        band
+    }
+}
+
+/// Quantiles are the median-unbiased ones (R. J. Hyndman and Y. Fan, The American Statistician 50 (1996) 361, type 8).
+fn quantiles(values: Vec<f64>) -> Option<Quantiles> {
+    if values.len() < 2 {
+        return None;
+    }
+    let mut data = Data::new(values);
+    Some(Quantiles {
+        mean: data.mean()?,
+        standard_deviation: data.std_dev()?,
+        p05: data.quantile(0.05),
+        p25: data.quantile(0.25),
+        p50: data.quantile(0.5),
+        p75: data.quantile(0.75),
+        p95: data.quantile(0.95),
+    })
+}

@@ -1,0 +1,69 @@
+//! What can go wrong in a sweep as a whole; what goes wrong at one point is recorded there.
+
+use crate::SceneError;
+
+/// Error of a sweep.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SweepError {
+    /// The scene or a varied key is wrong at every point.
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    /// A varied key is not written as it has to be.
+    #[error("--vary {text}: found {found}; allowed: {allowed}")]
+    Axis {
+        /// As written.
+        text: String,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
+    /// The sweep as a whole makes no sense.
+    #[error("found {found}; allowed: {allowed}")]
+    Unfit {
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// The journal beside the output belongs to something else.
+    #[error(
+        "{journal}: found the journal of {found}; allowed: that of this sweep, or none: remove it or name another output"
+    )]
+    OtherJournal {
+        /// The journal.
+        journal: String,
+        /// What it belongs to.
+        found: &'static str,
+    },
+    /// Another process writes the same output.
+    #[error("{journal}: another sweep is writing it")]
+    Busy {
+        /// The journal.
+        journal: String,
+    },
+    /// The journal cannot be opened, and so the output could not be written.
+    #[error("{journal}: cannot be written: {source}")]
+    Unwritable {
+        /// The journal.
+        journal: String,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A file cannot be written or read back.
+    #[error("{file}: {source}")]
+    File {
+        /// The file.
+        file: String,
+        /// Why.
+        source: std::io::Error,
+    },
+}
+
+impl SweepError {
+    /// Whether the input is at fault, not the computation.
+    pub fn is_bad_input(&self) -> bool {
+        !matches!(self, Self::File { .. } | Self::Busy { .. })
+    }
+}

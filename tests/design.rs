@@ -1,0 +1,193 @@
+//! Springs and clamps that keep limits: the answer is checked by runs of its own.
+
+use std::path::Path;
+
+use creepage::design::{Design, DesignError, DesignOptions, Limits, Place, design, passes};
+use creepage::scene::End;
+use creepage::{Run, Scene};
+
+/// A short scene on a mesh that is good enough: the limits are kept and broken on the same one.
+fn scene() -> Scene {
+    let overrides = [
+        "traffic.passes=12",
+        "duct.length=15 m",
+        "solver.node_spacing=0.25 m",
+    ]
+    .map(str::to_owned);
+    Scene::from_file_with(Path::new("examples/scenes/full-scale-upper.toml"), &overrides).unwrap()
+}
+
+fn designed(
+    scene: &Scene,
+    place: Place,
+    force_n: f64,
+    movement_m: Option<f64>,
+) -> Result<Design, DesignError> {
+    let limits = Limits { force_n, movement_m };
+    design(
+        scene,
+        &DesignOptions {
+            place,
+            limits,
+            progress: None,
+        },
+    )
+}
+
+fn largest_force(run: &Run) -> f64 {
+    run.passes
+        .iter()
+        .flat_map(|p| {
+            [
+                p.upstream_force_n,
+                p.downstream_force_n,
+                p.upstream_peak_n,
+                p.downstream_peak_n,
+            ]
+        })
+        .fold(0.0, |largest: f64, force| largest.max(force.abs()))
+}
+
+fn largest_movement(run: &Run) -> f64 {
+    run.passes
+        .iter()
+        .flat_map(|p| [p.upstream_displacement_m, p.downstream_displacement_m])
+        .fold(0.0, |largest: f64, moved| largest.max(moved.abs()))
+}
+
+fn held(scene: &Scene, stiffness: f64) -> Run {
+    let mut scene = scene.clone();
+    scene.ends.downstream = End::Spring(stiffness);
+    creepage::run(&scene).unwrap()
+}
+
+#[test]
+fn a_softer_spring_trades_force_for_movement() {
+    let design = designed(&scene(), Place::Downstream, 150.0, None).unwrap();
+    let curve = &design.curve;
+    assert!(curve.len() >= 11);
+    assert_eq!((curve[0].stiffness_n_per_m, curve[0].force_n), (Some(0.0), 0.0));
+    assert_eq!(curve[curve.len() - 1].stiffness_n_per_m, None);
+    for pair in curve.windows(2) {
+        let allowed = 1.0 + 2.0 * (pair[0].error_estimate + pair[1].error_estimate);
+        assert!(pair[0].force_n <= allowed * pair[1].force_n, "{pair:?}");
+        assert!(pair[1].movement_m <= allowed * pair[0].movement_m, "{pair:?}");
+    }
+}
+
+#[test]
+fn the_answer_keeps_the_limit_and_a_stiffer_spring_does_not() {
+    let scene = scene();
+    for limit in [100.0, 200.0] {
+        let design = designed(&scene, Place::Downstream, limit, None).unwrap();
+        let answer = design.answer.unwrap();
+        let stiffness = answer.stiffness_n_per_m.unwrap();
+        let run = held(&scene, stiffness);
+        assert_eq!(largest_force(&run), answer.force_n);
+        assert_eq!(largest_movement(&run), answer.movement_m);
+        assert!(answer.force_n <= limit && answer.within_limits);
+        assert!(largest_force(&held(&scene, 1.02 * stiffness)) > limit);
+        assert_eq!(design.range_n_per_m, Some((0.0, Some(stiffness))));
+        // A spring carries what it was compressed by.
+        let last = run.passes.last().unwrap();
+        assert!((last.downstream_force_n / (stiffness * last.downstream_displacement_m) - 1.0).abs() < 1e-6);
+    }
+}
+
+#[test]
+fn both_limits_leave_a_range_or_none() {
+    let scene = scene();
+    let free = designed(&scene, Place::Downstream, 1.0, None).unwrap();
+    // Movement with a spring that just keeps 200 N, a little loosened.
+    let tight = designed(&scene, Place::Downstream, 200.0, None)
+        .unwrap()
+        .answer
+        .unwrap();
+    let limit = 1.1 * tight.movement_m;
+    let design = designed(&scene, Place::Downstream, 200.0, Some(limit)).unwrap();
+    let (from, to) = design.range_n_per_m.unwrap();
+    let to = to.unwrap();
+    let answer = design.answer.unwrap();
+    let stiffness = answer.stiffness_n_per_m.unwrap();
+    assert!(from < stiffness && stiffness < to);
+    assert!(answer.force_n <= 200.0 && answer.movement_m <= limit);
+    assert!(largest_movement(&held(&scene, 0.98 * from)) > limit);
+    assert!(largest_force(&held(&scene, 1.02 * to)) > 200.0);
+
+    let none = designed(&scene, Place::Downstream, 200.0, Some(0.8 * tight.movement_m)).unwrap();
+    assert_eq!((none.range_n_per_m, none.answer), (None, None));
+    assert!(none.curve.iter().all(|point| !point.within_limits));
+    assert!(free.curve[0].within_limits);
+}
+
+#[test]
+fn an_end_that_may_be_fixed_is_fixed() {
+    let design = designed(&scene(), Place::Downstream, 1e4, None).unwrap();
+    assert_eq!(design.range_n_per_m, Some((0.0, None)));
+    assert_eq!(design.answer.unwrap().stiffness_n_per_m, None);
+}
+
+#[test]
+fn a_clamp_is_as_soft_as_the_limit_allows() {
+    let scene = scene();
+    let fixed = largest_force(&creepage::run(&scene).unwrap());
+    let limit = 0.5 * fixed;
+    let place = Place::Clamp(14.0);
+    let design = designed(&scene, place, limit, None).unwrap();
+    let answer = design.answer.unwrap();
+    let stiffness = answer.stiffness_n_per_m.unwrap();
+    assert!(answer.force_n <= limit && answer.clamp_force_n.unwrap() > 0.0);
+    assert_eq!(design.range_n_per_m, Some((stiffness, None)));
+    let clamped = |stiffness: f64| {
+        let mut scene = scene.clone();
+        scene.restraints.push(creepage::scene::Restraint {
+            position: 14.0,
+            stiffness,
+        });
+        largest_force(&creepage::run(&scene).unwrap())
+    };
+    assert_eq!(clamped(stiffness), answer.force_n);
+    assert!(clamped(0.98 * stiffness) > limit);
+    // None is needed where the ends keep the limit without one.
+    let none = designed(&scene, place, 2.0 * fixed, None).unwrap();
+    assert_eq!(none.answer.unwrap().stiffness_n_per_m, Some(0.0));
+}
+
+#[test]
+fn years_of_traffic_are_passes_of_the_law() {
+    assert_eq!(passes(20.0, 800.0).unwrap(), 5_844_000);
+    let mut scene = scene();
+    scene.solver.tolerance = 0.05;
+    scene.duct.length = 30.0;
+    scene.traffic.passes = passes(20.0, 800.0).unwrap();
+    let design = designed(&scene, Place::Downstream, 520.0, None).unwrap();
+    let answer = design.answer.unwrap();
+    let run = held(&scene, answer.stiffness_n_per_m.unwrap());
+    assert_eq!(run.plan.cable, "pass-law");
+    assert!(answer.force_n <= 520.0 && largest_force(&run) == answer.force_n);
+}
+
+#[test]
+fn what_has_no_meaning_is_refused() {
+    let scene = scene();
+    for (force, movement, place) in [
+        (0.0, None, Place::Downstream),
+        (f64::NAN, None, Place::Downstream),
+        (f64::INFINITY, None, Place::Upstream),
+        (1.0, Some(-1.0), Place::Downstream),
+        (1.0, Some(f64::NAN), Place::Downstream),
+        (1.0, None, Place::Clamp(15.5)),
+        (1.0, None, Place::Clamp(f64::NAN)),
+    ] {
+        assert!(designed(&scene, place, force, movement).is_err_and(|error| error.is_bad_input()));
+    }
+    for (years, trucks) in [
+        (0.0, 1.0),
+        (1.0, -1.0),
+        (f64::NAN, 1.0),
+        (1e-6, 1.0),
+        (1e300, 1e300),
+    ] {
+        assert!(passes(years, trucks).is_err_and(|error| error.is_bad_input()));
+    }
+}

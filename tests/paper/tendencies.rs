@@ -1,0 +1,58 @@
+//! Section 5: what makes a cable creep.
+
+use crate::{figure_13, figure_14};
+
+/// Figure 13: ΔC is proportional to μ X²/(EA).
+#[test]
+fn elastic_displacement_of_the_cable() {
+    for bar in &figure_13::BARS {
+        for length in figure_13::LENGTHS {
+            let (solved, formula) = (bar.by_solver(length).expect("solved"), bar.by_formula(length));
+            // The quasi-static solver leaves out of its windows what moves the answer by less than 1e-4.
+            assert!(
+                (solved / formula - 1.0).abs() < 1e-4,
+                "{} {length} m: {solved} {formula}",
+                bar.name
+            );
+        }
+        // Where friction stretches it by as much as the duct moves.
+        assert!((bar.by_formula(bar.following_length()) / 35.7e-6 - 1.0).abs() < 1e-12);
+    }
+}
+
+/// Table 3: one displacement of the duct at all depths. Table 4: the tendencies.
+#[test]
+fn occurrence_of_creepage() {
+    let cases = figure_14::cases(20).expect("cases");
+    assert_eq!(cases.len(), 15);
+    for case in &cases {
+        // From a table of the displacement, to its accuracy.
+        assert!(
+            (case.duct_displacement / 35.7e-6 - 1.0).abs() < 1e-6,
+            "{} {}",
+            case.kind,
+            case.depth
+        );
+    }
+    for (tendency, found) in figure_14::tendencies(&cases) {
+        assert!(found, "{tendency}");
+    }
+    // "The creepage force of the triplex cable was much smaller than that of the single-core cable."
+    for single in cases
+        .iter()
+        .filter(|case| case.kind == "single core" && case.friction < 0.45)
+    {
+        let triplex = cases
+            .iter()
+            .find(|case| {
+                case.kind == "triplex" && (case.depth, case.friction) == (single.depth, single.friction)
+            })
+            .expect("a triplex cable");
+        assert!(
+            triplex.last() < 0.6 * single.last(),
+            "{} m, {}",
+            single.depth,
+            single.friction
+        );
+    }
+}

@@ -1,0 +1,183 @@
+//! No more model than a scene needs, and no less.
+
+use creepage::{PlanReport, Scene};
+
+use crate::scenes;
+
+fn plan(text: &str) -> PlanReport {
+    let scene = Scene::from_toml("scene", text).expect("a valid scene");
+    creepage::plan(&scene).expect("a plan").report()
+}
+
+/// A duct of 60 m under one truck on the given ground, with further lines at the end.
+fn on(ground: &str, wheels: &str, more: &str) -> String {
+    format!(
+        "[duct]\nlength = 60\ndepth = 1.2\n[ground]\n{ground}\n\
+         [cable]\nweight = 108.8\naxial_stiffness = 8.01e6\n\
+         [friction]\ndynamic_coefficient = 0.25\nshape_factor = 7.4e6\n\
+         [ends]\nupstream = \"free\"\ndownstream = \"fixed\"\n\
+         [[vehicles]]\nname = \"truck\"\nspeed = \"40 km/h\"\n{wheels}\n{more}"
+    )
+}
+
+fn layer(thickness: f64, modulus: f64) -> String {
+    format!("[[ground.layers]]\nthickness = {thickness}\nyoung_modulus = {modulus}\npoisson_ratio = 0.35\n")
+}
+
+const SOIL: &str = "[[ground.layers]]\nyoung_modulus = 3e8\npoisson_ratio = 0.4\n";
+const POINT: &str = "load = \"20 tf\"";
+const PASSES: &str = "[traffic]\npasses = 20\n";
+
+fn with_tolerance(tolerance: f64) -> String {
+    format!("{PASSES}[solver]\ntolerance = {tolerance}\n")
+}
+
+#[test]
+fn a_homogeneous_ground_never_takes_more_than_the_closed_form() {
+    for seed in 0..20 {
+        for tolerance in [0.1, 0.01, 0.001] {
+            let text = scenes::scene("homogeneous", seed) + &format!("[solver]\ntolerance = {tolerance}\n");
+            assert_eq!(plan(&text).ground, "boussinesq", "{text}");
+        }
+    }
+}
+
+#[test]
+fn forty_km_per_hour_never_needs_inertia() {
+    for tolerance in [0.1, 0.01, 0.002] {
+        assert_eq!(
+            plan(&on(SOIL, POINT, &with_tolerance(tolerance))).cable,
+            "quasi-static"
+        );
+    }
+}
+
+#[test]
+fn ten_million_passes_go_by_the_law() {
+    for tolerance in ["0.05", "0.01", "0.002"] {
+        let more = format!("[traffic]\npasses = 10000000\n[solver]\ntolerance = {tolerance}\n");
+        assert_eq!(plan(&on(SOIL, POINT, &more)).cable, "pass-law");
+    }
+}
+
+#[test]
+fn a_thin_layer_is_left_out_and_a_thick_stiff_one_is_not() {
+    // A seal of 3 mm bends with the ground; 25 cm of asphalt spread the load.
+    let thin = on(&(layer(0.003, 1e9) + SOIL), POINT, &with_tolerance(0.01));
+    let thick = on(&(layer(0.25, 5e9) + SOIL), POINT, &with_tolerance(0.01));
+    let (thin, thick) = (plan(&thin), plan(&thick));
+    assert_eq!(thin.ground, "boussinesq", "{:?}", thin.reasons);
+    assert_eq!(thick.ground, "burmister", "{:?}", thick.reasons);
+}
+
+#[test]
+fn every_layer_that_is_left_out_changes_the_longitudinal_motion_by_less_than_the_tolerance() {
+    for thickness in [0.002, 0.01, 0.05, 0.2] {
+        for tolerance in [0.2, 0.05, 0.01, 0.002] {
+            let report = plan(&on(
+                &(layer(thickness, 3e9) + SOIL),
+                POINT,
+                &with_tolerance(tolerance),
+            ));
+            let rung = |name: &str| {
+                let rung = report
+                    .ladder
+                    .iter()
+                    .find(|rung| rung.part == "ground" && rung.name == name);
+                rung.expect("this rung").clone()
+            };
+            let left_out = rung("boussinesq").estimated_error.expect("a measured error");
+            assert_eq!(
+                rung("boussinesq").chosen,
+                left_out <= tolerance,
+                "{thickness} m at {tolerance}: {left_out}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_modulus_that_hardly_varies_is_uniform() {
+    let graded = |bottom: f64| {
+        let ground = format!(
+            "rigid_base_depth = 8\n[[ground.layers]]\nyoung_modulus = {{ top = 3e8, bottom = {bottom} }}\npoisson_ratio = 0.4\n"
+        );
+        plan(&on(&ground, POINT, &with_tolerance(0.01))).ground
+    };
+    assert_eq!(graded(3.003e8), "burmister");
+    assert_eq!(graded(9e8), "fem");
+}
+
+#[test]
+fn a_small_disc_counts_as_a_point_and_a_large_one_does_not() {
+    let chosen = |radius: f64| {
+        let wheels = format!("wheels = [{{ x = 0, y = 0, load = 1e5, contact_radius = {radius} }}]");
+        let report = plan(&on(SOIL, &wheels, &with_tolerance(0.01)));
+        let rung = report
+            .ladder
+            .into_iter()
+            .find(|rung| rung.part == "ground" && rung.chosen);
+        rung.expect("one rung is taken").reason
+    };
+    assert!(chosen(0.05).contains("as points"), "{}", chosen(0.05));
+    assert!(!chosen(0.4).contains("as points"), "{}", chosen(0.4));
+}
+
+#[test]
+fn what_the_scene_asks_for_is_taken_and_said() {
+    let more = format!("{PASSES}[solver]\nmethod = \"explicit\"\nnode_spacing = 0.3\n");
+    let report = plan(&on(&format!("model = \"burmister\"\n{SOIL}"), POINT, &more));
+    assert_eq!(
+        (report.ground.as_str(), report.cable.as_str()),
+        ("burmister", "explicit")
+    );
+    assert!((report.node_spacing_m - 0.3).abs() < 1e-12);
+    for reason in &report.reasons {
+        assert!(reason.contains("the scene asks for it"), "{reason}");
+    }
+    let mesh = report
+        .ladder
+        .iter()
+        .find(|rung| rung.part == "mesh" && rung.chosen);
+    assert_eq!(mesh.expect("a mesh").reason, "as the scene asks");
+}
+
+#[test]
+fn one_rung_of_every_ladder_is_taken_and_every_other_has_a_reason() {
+    for (seed, kind) in scenes::KINDS.iter().enumerate() {
+        let report = plan(&scenes::scene(kind, seed as u64));
+        for part in ["ground", "cable"] {
+            let chosen = report
+                .ladder
+                .iter()
+                .filter(|rung| rung.part == part && rung.chosen);
+            assert_eq!(chosen.count(), 1, "{kind}: {part}");
+        }
+        assert!(report.ladder.iter().all(|rung| !rung.reason.is_empty()));
+    }
+}
+
+#[test]
+fn a_vehicle_near_the_speed_of_the_grounds_waves_is_warned_of() {
+    let soft = "[[ground.layers]]\nyoung_modulus = 2e7\npoisson_ratio = 0.4\n";
+    // Shear waves at √(7.1 MPa / 1800 kg/m³) = 63 m/s.
+    let at = |speed: &str| {
+        let text = on(soft, POINT, PASSES).replace("40 km/h", speed);
+        plan(&text).warnings
+    };
+    assert!(at("60 km/h").is_empty());
+    assert!(at("90 km/h")[0].contains("shear waves"), "{:?}", at("90 km/h"));
+}
+
+#[test]
+fn a_run_reports_the_ground_and_the_cable_of_its_plan() {
+    for (ground, expected) in [
+        (layer(0.003, 1e9) + SOIL, "boussinesq"),
+        (layer(0.25, 5e9) + SOIL, "burmister"),
+    ] {
+        let scene = Scene::from_toml("scene", &on(&ground, POINT, PASSES)).expect("a valid scene");
+        let run = creepage::run(&scene).expect("an answer");
+        assert_eq!(run.plan.ground, expected);
+        assert_eq!(run.plan.cable, "quasi-static");
+    }
+}

@@ -1,0 +1,57 @@
+//! Looser tolerances never cost more, and planning costs little.
+
+use std::time::{Duration, Instant};
+
+use creepage::Scene;
+
+use crate::scenes;
+
+#[test]
+fn doubling_the_tolerance_never_costs_more() {
+    for (seed, kind) in ["homogeneous", "layered", "axles", "short", "mixed", "coulomb"]
+        .iter()
+        .enumerate()
+    {
+        let mut scene = Scene::from_toml("scene", &scenes::scene(kind, seed as u64)).expect("a valid scene");
+        scene.traffic.passes = 10;
+        let mut before = u64::MAX;
+        for tolerance in [0.005, 0.01, 0.02, 0.04, 0.08, 0.16, 0.32] {
+            scene.solver.tolerance = tolerance;
+            // No answer is no cheaper an answer.
+            let Ok(run) = creepage::run(&scene) else { continue };
+            // What a simpler ground leaves out is measured on a few passes more.
+            assert!(
+                run.cost.node_updates as f64 <= 1.1 * before as f64,
+                "{kind}: {} node updates at {tolerance}, {before} at half of it",
+                run.cost.node_updates
+            );
+            before = run.cost.node_updates;
+        }
+        assert!(before < u64::MAX, "{kind}: no answer at any tolerance");
+    }
+}
+
+#[test]
+fn planning_takes_less_than_a_tenth_of_the_run_or_five_milliseconds() {
+    let fastest = |mut action: Box<dyn FnMut() + '_>| {
+        (0..7)
+            .map(|_| {
+                let start = Instant::now();
+                action();
+                start.elapsed()
+            })
+            .min()
+            .expect("seven times")
+    };
+    for (seed, kind) in scenes::KINDS.iter().enumerate() {
+        let mut scene = Scene::from_toml("scene", &scenes::scene(kind, seed as u64)).expect("a valid scene");
+        scene.traffic.passes = scene.traffic.passes.min(20);
+        let plan = fastest(Box::new(|| drop(creepage::plan(&scene).expect("a plan"))));
+        if plan > Duration::from_millis(5) {
+            let start = Instant::now();
+            creepage::run(&scene).expect("an answer");
+            let run = start.elapsed();
+            assert!(10 * plan < run, "{kind}: planned in {plan:?}, run in {run:?}");
+        }
+    }
+}

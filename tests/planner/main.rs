@@ -1,0 +1,6 @@
+//! The planner: what it chooses, that looser tolerances never cost more, and that its errors are honest.
+
+mod choices;
+mod cost;
+mod scenes;
+mod statistics;

@@ -1,0 +1,249 @@
+//! `preset = "…"`: what it gives, what counts instead of it, and where its values are from.
+
+use std::f64::consts::PI;
+
+use creepage::presets::{Preset, PresetKind, all, of};
+use creepage::scene::{End, Scene};
+use ground_field::{Base, Modulus};
+
+use super::read;
+
+/// A scene whose sections are presets where there is one.
+const SCENE: &str = r#"
+[duct]
+length = "30 m"
+depth = "1.2 m"
+[ground]
+preset = "n6-cbr6"
+[cable]
+preset = "xlpe-800-single-core"
+[friction]
+preset = "sheath-on-sheath"
+law = "coulomb"
+[ends]
+upstream = "free"
+downstream = "fixed"
+[[vehicles]]
+preset = "t-25"
+[traffic]
+passes = 10
+"#;
+
+fn read_with(text: &str, overrides: &[&str]) -> Scene {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    Scene::from_toml_with("presets.toml", text, &overrides).unwrap_or_else(|error| panic!("{error}"))
+}
+
+fn section(kind: PresetKind) -> &'static str {
+    match kind {
+        PresetKind::Vehicle => "vehicles.0",
+        PresetKind::Cable => "cable",
+        PresetKind::Friction => "friction",
+        PresetKind::Pavement => "ground",
+    }
+}
+
+#[test]
+fn every_preset_makes_a_scene_and_is_as_good_as_its_values() {
+    let mut count = [0; 4];
+    for preset in all() {
+        let section = section(preset.kind);
+        let named = read_with(SCENE, &[&format!("{section}.preset={}", preset.name)]);
+        // The same values written out in the file.
+        let heading = if section == "vehicles.0" {
+            "[[vehicles]]".to_owned()
+        } else {
+            format!("[{section}]")
+        };
+        let start = SCENE.find(&heading).unwrap() + heading.len();
+        let length = SCENE[start + 1..].find('\n').unwrap() + 1;
+        let law = if preset.kind == PresetKind::Friction {
+            ""
+        } else {
+            "\n"
+        };
+        let written = format!(
+            "{}\n{}{law}{}",
+            &SCENE[..start],
+            preset.toml,
+            &SCENE[start + length..]
+        );
+        assert_eq!(read_with(&written, &[]), named, "{}", preset.name);
+        count[preset.kind as usize] += 1;
+    }
+    assert_eq!(count, [6, 2, 4, 9]);
+}
+
+#[test]
+fn every_value_has_a_source_or_is_marked_as_assumed() {
+    for preset in all() {
+        let keys = |key: &str| {
+            preset
+                .sources
+                .iter()
+                .any(|s| s.key.split(['.', ' ']).next() == Some(key))
+        };
+        for line in preset.toml.lines() {
+            if let Some((key, _)) = line
+                .split_once(" = ")
+                .filter(|(key, _)| !key.starts_with([' ', '{']))
+            {
+                assert!(keys(key), "{}: {key} has no source", preset.name);
+            }
+        }
+        for source in &preset.sources {
+            let key = source.key.split(['.', ' ']).next().unwrap();
+            assert!(
+                preset.toml.contains(&format!("{key} = ")),
+                "{}: {key}",
+                preset.name
+            );
+            assert!(source.source.len() > 10);
+        }
+    }
+    let wheelbase = |s: &&creepage::presets::Source| s.key == "wheels.x";
+    let truck = of(PresetKind::Vehicle).find(|p| p.name == "t-25").unwrap();
+    assert!(truck.sources.iter().find(wheelbase).unwrap().assumed);
+}
+
+#[test]
+fn design_trucks_weigh_their_gross_load_on_discs_of_the_tyres_area() {
+    for (name, gross) in [("t-25", 250e3), ("t-20", 200e3), ("t-14", 140e3)] {
+        let scene = read_with(SCENE, &[&format!("vehicles.0.preset={name}")]);
+        let vehicle = &scene.vehicles[0].vehicle;
+        assert!((vehicle.weight() - gross).abs() < 1e-6);
+        for wheel in vehicle.wheels() {
+            let area = PI * wheel.load.contact_radius().powi(2);
+            assert!((area / (0.2 * 0.5) - 1.0).abs() < 1e-3, "{area} m²");
+            // A rear wheel has four times the load of a front wheel, four metres before it.
+            let front = wheel.x > 0.0;
+            assert!((wheel.load.force() - if front { 0.1 } else { 0.4 } * gross).abs() < 1e-6);
+        }
+    }
+}
+
+#[test]
+fn pavements_have_the_equivalent_thickness_of_their_class() {
+    // T_A = 3.84 N^0.16 / CBR^0.3 cm (Japanese design at 90 % reliability), with a centimetre of bituminous base worth 0.8 and of
+    // stone at least 0.3 (graded) and 0.2 (crusher-run) centimetres of hot mix.
+    let worth = |preset: &Preset| {
+        let scene = read_with(SCENE, &[&format!("ground.preset={}", preset.name)]);
+        let layers = scene.ground.profile.layers().to_vec();
+        let bituminous = layers.len() - 2;
+        let factors = if bituminous == 1 {
+            vec![1.0, 0.3, 0.2]
+        } else {
+            vec![1.0, 0.8, 0.3, 0.2]
+        };
+        let sum: f64 = layers
+            .iter()
+            .zip(factors)
+            .map(|(layer, factor)| 100.0 * layer.thickness() * factor)
+            .sum();
+        let Base::HalfSpace(subgrade) = scene.ground.profile.base() else {
+            panic!("a subgrade without end")
+        };
+        (sum, subgrade.young_modulus() / 10e6)
+    };
+    for (class, passes) in [("n5", 1e6_f64), ("n6", 7e6), ("n7", 35e6)] {
+        for cbr in [3.0_f64, 6.0, 12.0] {
+            let name = format!("{class}-cbr{cbr}");
+            let preset = of(PresetKind::Pavement).find(|p| p.name == name).unwrap();
+            let (found, found_cbr) = worth(preset);
+            assert!((found_cbr - cbr).abs() < 1e-9);
+            let needed = 3.84 * passes.powf(0.16) / cbr.powf(0.3);
+            assert!(
+                found > needed - 0.5 && found < needed + 3.0,
+                "{name}: {found} cm where {needed} are needed"
+            );
+        }
+    }
+}
+
+#[test]
+fn what_stands_beside_a_preset_counts_instead_of_it() {
+    let text = SCENE.replace(
+        "preset = \"xlpe-800-single-core\"",
+        "weight = \"200 N/m\"\npreset = \"xlpe-800-single-core\"",
+    );
+    let text = text.replace(
+        "preset = \"t-25\"",
+        "preset = \"t-25\"\nload = \"15 tf\"\nspeed = 5",
+    );
+    let scene = read_with(&text, &[]);
+    assert_eq!((scene.cable.weight, scene.cable.axial_stiffness), (200.0, 8.01e6));
+    // A load excludes wheels: the one that the scene gives itself stands.
+    assert_eq!(scene.vehicles[0].vehicle.wheels().len(), 1);
+    assert_eq!(scene.vehicles[0].vehicle.speed(), 5.0);
+}
+
+#[test]
+fn overrides_change_presets_and_what_is_in_them() {
+    let scene = read_with(
+        SCENE,
+        &[
+            "vehicles.0.wheels.0.load=1 kN",
+            "ground.layers.4.young_modulus=300 MPa",
+            "cable.weight=150",
+            "ends.upstream=fixed",
+        ],
+    );
+    assert_eq!(scene.vehicles[0].vehicle.weight(), 226e3);
+    assert_eq!(scene.cable.weight, 150.0);
+    assert_eq!(scene.ends.upstream, End::Fixed);
+    let Base::HalfSpace(subgrade) = scene.ground.profile.base() else {
+        panic!("a subgrade without end")
+    };
+    assert_eq!(subgrade.young_modulus(), 300e6);
+
+    // A preset named later wins over what was written before it, but not over what is set after it.
+    let text = SCENE.replace("preset = \"t-25\"", "load = \"15 tf\"\nspeed = 5");
+    let scene = read_with(&text, &["vehicles.0.preset=t-20", "vehicles.0.speed=7"]);
+    assert_eq!(scene.vehicles[0].vehicle.weight(), 200e3);
+    assert_eq!(scene.vehicles[0].vehicle.speed(), 7.0);
+    let scene = read_with(
+        SCENE,
+        &["ground.preset=n7-cbr12", "ground.layers.0.thickness=1 m"],
+    );
+    assert_eq!(scene.ground.profile.layers()[0].thickness(), 1.0);
+    assert_eq!(scene.ground.profile.layers().len(), 4);
+    assert_eq!(
+        scene.ground.profile.layers()[0].modulus(),
+        Modulus::Uniform(2411e6)
+    );
+}
+
+#[test]
+fn an_unknown_preset_suggests_the_nearest() {
+    let message = |old: &str, new: &str| read(&SCENE.replace(old, new)).unwrap_err().to_string();
+    let cases = [
+        ("\"t-25\"", "\"t25\"", "vehicles.0.preset", "did you mean `t-25`?"),
+        (
+            "\"n6-cbr6\"",
+            "\"n6-cbr\"",
+            "ground.preset",
+            "did you mean `n6-cbr",
+        ),
+        (
+            "\"xlpe-800-single-core\"",
+            "\"xlpe-800\"",
+            "cable.preset",
+            "xlpe-800-single-core",
+        ),
+    ];
+    for (old, new, key, suggestion) in cases {
+        let message = message(old, new);
+        let place = format!("`{key}`: found {new}");
+        assert!(
+            message.contains(&place) && message.contains(suggestion),
+            "{message}"
+        );
+        assert!(
+            message.starts_with("bad.toml, line ") && message.contains("^^^"),
+            "{message}"
+        );
+    }
+    // A cable is no vehicle.
+    assert!(message("\"t-25\"", "\"xlpe-800-single-core\"").contains("allowed: \"t-25\""));
+    assert!(message("\"t-25\"", "25").contains("found the number 25"));
+}

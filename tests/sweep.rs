@@ -1,0 +1,469 @@
+//! Sweeps: the grid, its table, what survives an interruption, and quantiles of drawn keys.
+
+#![cfg(feature = "sweep")]
+
+use std::collections::HashSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use creepage::sweep::{Axis, Band, Quantiles, Samples, Sweep, SweepError, SweepOptions, SweepSummary};
+use creepage::{Error, Run, Scene, SceneFile};
+
+const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+const FRICTION: &str = "friction.dynamic_coefficient";
+
+fn sweep_of(axes: &[&str], samples: Samples) -> Result<Sweep, SweepError> {
+    let file = SceneFile::read(Path::new(UPPER))
+        .unwrap()
+        .with(&["traffic.passes=1"])
+        .unwrap();
+    let axes = axes
+        .iter()
+        .map(|text| Axis::parse(text))
+        .collect::<Result<_, _>>()?;
+    Sweep::new(file, axes, samples)
+}
+
+fn sweep(axes: &[&str]) -> Sweep {
+    sweep_of(axes, Samples::default()).unwrap()
+}
+
+/// A path for a test's output, with nothing there.
+fn output(name: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("sweep").join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder.join("out.csv")
+}
+
+fn journal(output: &Path) -> PathBuf {
+    output.with_extension("csv.journal")
+}
+
+/// A run whose downstream force follows from the scene by a formula; the rest is that of a real run.
+fn formula(force: impl Fn(&Scene) -> f64 + Sync) -> impl Fn(&Scene) -> Result<Run, Error> + Sync {
+    let template = creepage::run(&sweep(&["traffic.passes=1"]).scene(0).unwrap()).unwrap();
+    move |scene| {
+        let mut run = template.clone();
+        run.passes[0].downstream_force_n = force(scene);
+        Ok(run)
+    }
+}
+
+fn run_by(
+    sweep: &Sweep,
+    output: &Path,
+    threads: usize,
+    evaluate: &(dyn Fn(&Scene) -> Result<Run, Error> + Sync),
+) -> Result<SweepSummary, SweepError> {
+    let options = SweepOptions {
+        threads: Some(threads),
+        evaluate: Some(evaluate),
+        ..SweepOptions::default()
+    };
+    sweep.run(output, &options)
+}
+
+/// Header and rows of a CSV file.
+fn table(file: &Path) -> (Vec<String>, Vec<Vec<String>>) {
+    let mut reader = csv::Reader::from_path(file).unwrap();
+    let header = reader.headers().unwrap().iter().map(String::from).collect();
+    let rows = reader
+        .records()
+        .map(|row| row.unwrap().iter().map(String::from).collect())
+        .collect();
+    (header, rows)
+}
+
+#[test]
+fn the_last_key_changes_fastest() {
+    let sweep = sweep(&["friction.dynamic_coefficient=0.2:0.4:0.1", "duct.depth=1m,2m"]);
+    assert_eq!(sweep.count(), 6);
+    let values: Vec<Vec<String>> = (0..6).map(|i| sweep.values(i)).collect();
+    let expected = [
+        ["0.2", "1m"],
+        ["0.2", "2m"],
+        ["0.3", "1m"],
+        ["0.3", "2m"],
+        ["0.4", "1m"],
+        ["0.4", "2m"],
+    ];
+    assert_eq!(values, expected);
+    let scene = sweep.scene(3).unwrap();
+    assert_eq!((scene.friction.dynamic_coefficient, scene.duct.depth), (0.3, 2.0));
+}
+
+#[test]
+fn a_row_is_the_run_of_its_point_and_a_failing_point_stops_nothing() {
+    let output = output("rows");
+    let sweep = sweep(&[
+        "friction.dynamic_coefficient=0.2,-1,0.3",
+        "ends.downstream=fixed,{ spring = \"3 MN/m\" }",
+        "vehicles.0.load=10 tf,200 kN",
+    ]);
+    let summary = sweep.run(&output, &SweepOptions::default()).unwrap();
+    assert_eq!((summary.points, summary.failed, summary.resumed), (12, 4, 0));
+    assert!(summary.first_error.unwrap().contains("found -1"));
+    let (header, rows) = table(&output);
+    let column = |name: &str| header.iter().position(|h| h == name).unwrap();
+    assert_eq!(header[..3], [FRICTION, "ends.downstream", "vehicles.0.load"]);
+    assert_eq!(rows.len(), 12);
+    for (index, row) in rows.iter().enumerate() {
+        let number = |name: &str| row[column(name)].parse::<f64>().unwrap();
+        if (4..8).contains(&index) {
+            assert_eq!(row[column("status")], "error");
+            assert!(row[column("error")].contains("out of range: found -1"), "{row:?}");
+            assert!(row[column("downstream_force_n")].is_empty());
+            continue;
+        }
+        let run = creepage::run(&sweep.scene(index).unwrap()).unwrap();
+        let last = run.passes.last().unwrap();
+        assert_eq!(row[column("status")], "ok");
+        assert_eq!(number("downstream_force_n"), last.downstream_force_n);
+        assert_eq!(number("upstream_displacement_m"), last.upstream_displacement_m);
+        assert_eq!(
+            number("downstream_displacement_m"),
+            last.downstream_displacement_m
+        );
+        assert_eq!(number("max_compression_n"), last.max_compression_n);
+        assert_eq!(number("error_estimate"), run.error_estimate.relative);
+        // In SI, whatever the unit of the list.
+        assert_eq!(number("vehicles.0.load"), [98_066.5, 200e3][index % 2]);
+    }
+    assert!(!journal(&output).exists());
+}
+
+#[test]
+fn saturation_comes_from_the_run() {
+    let output = output("saturation");
+    let file = SceneFile::read(Path::new(UPPER))
+        .unwrap()
+        .with(&["traffic.passes=150"])
+        .unwrap();
+    let sweep = Sweep::new(
+        file,
+        vec![Axis::parse("duct.length=20m").unwrap()],
+        Samples::default(),
+    )
+    .unwrap();
+    sweep.run(&output, &SweepOptions::default()).unwrap();
+    let expected = creepage::run(&sweep.scene(0).unwrap())
+        .unwrap()
+        .saturation
+        .unwrap();
+    let (header, rows) = table(&output);
+    let value = |name: &str| {
+        rows[0][header.iter().position(|h| h == name).unwrap()]
+            .parse::<f64>()
+            .unwrap()
+    };
+    assert_eq!(value("saturation_force_n"), expected.force_n);
+    assert_eq!(
+        value("passes_to_95_percent"),
+        expected.passes_to_95_percent as f64
+    );
+}
+
+#[test]
+fn a_point_that_panics_is_a_failing_point() {
+    let output = output("panic");
+    let sweep = sweep(&["friction.dynamic_coefficient=0.1:0.5:0.1"]);
+    let good = formula(|scene| scene.friction.dynamic_coefficient);
+    let evaluate = |scene: &Scene| {
+        assert!(
+            scene.friction.dynamic_coefficient != 0.3,
+            "a panic that this test wants"
+        );
+        good(scene)
+    };
+    let summary = run_by(&sweep, &output, 2, &evaluate).unwrap();
+    assert_eq!((summary.points, summary.failed), (5, 1));
+}
+
+#[test]
+fn wherever_a_sweep_was_cut_off_it_ends_with_the_same_file() {
+    let output = output("resume");
+    let sweep = sweep(&["friction.dynamic_coefficient=0.1:1:0.1", "duct.length=20m,30m"]);
+    let force = formula(|scene| scene.duct.length * scene.friction.dynamic_coefficient.sqrt());
+    let calls = AtomicUsize::new(0);
+    let computed = Mutex::new(HashSet::new());
+    let evaluate = |scene: &Scene| {
+        calls.fetch_add(1, Ordering::SeqCst);
+        let key = (
+            scene.friction.dynamic_coefficient.to_bits(),
+            scene.duct.length.to_bits(),
+        );
+        computed.lock().unwrap().insert(key);
+        if scene.friction.dynamic_coefficient == 0.5 {
+            // Fails, and stays failed: a finished point is not redone.
+            return Err(Error::Inaccurate {
+                reached: 1.0,
+                asked: 0.1,
+            });
+        }
+        force(scene)
+    };
+    run_by(&sweep, &output, 2, &evaluate).unwrap();
+    let undisturbed = fs::read(&output).unwrap();
+    assert_eq!(calls.swap(0, Ordering::SeqCst), 20);
+
+    // With a folder in its place the table cannot be written: the journal of all points is left.
+    fs::remove_file(&output).unwrap();
+    fs::create_dir(output.with_extension("csv.partial")).unwrap();
+    assert!(run_by(&sweep, &output, 2, &evaluate).is_err());
+    fs::remove_dir(output.with_extension("csv.partial")).unwrap();
+    let whole = fs::read(journal(&output)).unwrap();
+    calls.store(0, Ordering::SeqCst);
+
+    for cut in (0..=whole.len()).step_by(37).chain([whole.len()]) {
+        fs::write(journal(&output), &whole[..cut]).unwrap();
+        let kept = whole[..cut]
+            .split(|&byte| byte == b'\n')
+            .count()
+            .saturating_sub(2);
+        let summary = run_by(&sweep, &output, 3, &evaluate).unwrap();
+        assert_eq!(summary.resumed, kept, "cut at {cut}");
+        assert_eq!(calls.swap(0, Ordering::SeqCst), 20 - kept, "cut at {cut}");
+        assert_eq!((summary.points, summary.failed), (20, 2));
+        assert_eq!(fs::read(&output).unwrap(), undisturbed, "cut at {cut}");
+        assert!(!journal(&output).exists());
+    }
+
+    // A line that was damaged costs what follows it, and nothing else.
+    let mut damaged = whole.clone();
+    let middle = damaged.len() / 2;
+    damaged[middle] ^= 1;
+    fs::write(journal(&output), &damaged).unwrap();
+    let summary = run_by(&sweep, &output, 1, &evaluate).unwrap();
+    assert!((5..15).contains(&summary.resumed), "{}", summary.resumed);
+    assert_eq!(fs::read(&output).unwrap(), undisturbed);
+}
+
+#[test]
+fn a_journal_of_something_else_is_refused_and_kept() {
+    let output = output("other");
+    let first = sweep(&["friction.dynamic_coefficient=0.1:1:0.1"]);
+    let evaluate = formula(|_| 1.0);
+    fs::create_dir(output.with_extension("csv.partial")).unwrap();
+    assert!(run_by(&first, &output, 1, &evaluate).is_err());
+    let left = fs::read(journal(&output)).unwrap();
+    for other in [
+        sweep(&["friction.dynamic_coefficient=0.1:1:0.3"]),
+        sweep(&["duct.length=10m:100m:10m"]),
+    ] {
+        let error = run_by(&other, &output, 1, &evaluate).unwrap_err();
+        assert!(
+            matches!(error, SweepError::OtherJournal { .. }) && error.is_bad_input(),
+            "{error}"
+        );
+        assert_eq!(fs::read(journal(&output)).unwrap(), left);
+    }
+    fs::write(journal(&output), "my notes\n").unwrap();
+    assert!(matches!(
+        run_by(&first, &output, 1, &evaluate),
+        Err(SweepError::OtherJournal { .. })
+    ));
+    assert_eq!(fs::read(journal(&output)).unwrap(), b"my notes\n");
+}
+
+#[test]
+fn two_sweeps_do_not_write_the_same_file() {
+    let output = output("busy");
+    let sweep = sweep(&["friction.dynamic_coefficient=0.1,0.2"]);
+    let force = formula(|_| 1.0);
+    let inner = Mutex::new(None);
+    let evaluate = |scene: &Scene| {
+        inner
+            .lock()
+            .unwrap()
+            .get_or_insert_with(|| run_by(&sweep, &output, 1, &force));
+        force(scene)
+    };
+    run_by(&sweep, &output, 1, &evaluate).unwrap();
+    let inner = inner.into_inner().unwrap().unwrap();
+    assert!(matches!(inner, Err(SweepError::Busy { .. })), "{inner:?}");
+}
+
+#[test]
+fn what_is_no_sweep_is_refused() {
+    let none = Samples::default();
+    let some = Samples { count: 5, seed: 1 };
+    let drawn = "friction.dynamic_coefficient=uniform(0.1, 0.2)";
+    let cases: [(&[&str], Samples); 7] = [
+        (&[], none),
+        (&["duct.depth=1,2", "duct.depth=3"], none),
+        (&[drawn], none),
+        (&["duct.depth=1,2"], some),
+        (&["duct.deepth=1,2"], none),
+        (&["vehicles.7.load=1,2"], none),
+        (&["duct.depth=1:4000:1", "duct.length=1:4000:1"], none),
+    ];
+    for (axes, samples) in cases {
+        assert!(
+            sweep_of(axes, samples).is_err_and(|error| error.is_bad_input()),
+            "{axes:?}"
+        );
+    }
+    let sweep = sweep(&["duct.depth=1,2"]);
+    for name in ["out.txt", "out", "csv"] {
+        let error = sweep.run(&output("format").with_file_name(name), &SweepOptions::default());
+        assert!(error.is_err_and(|error| error.is_bad_input()), "{name}");
+    }
+}
+
+/// Runs a Monte Carlo sweep of the friction coefficient and answers its only band.
+fn band(name: &str, axes: &[&str], samples: Samples, threads: usize) -> (Band, Vec<u8>) {
+    let output = output(name);
+    let sweep = sweep_of(axes, samples).unwrap();
+    let evaluate = formula(|scene| 1000.0 * scene.friction.dynamic_coefficient);
+    let summary = run_by(&sweep, &output, threads, &evaluate).unwrap();
+    assert_eq!(summary.bands.len(), 1);
+    (summary.bands[0].clone(), fs::read(&output).unwrap())
+}
+
+#[test]
+fn quantiles_of_a_linear_key_are_those_of_its_distribution() {
+    // z of 75 % and 95 % of the standard normal distribution.
+    let (z75, z95) = (0.674489750196082, 1.644853626951473);
+    let (mean, deviation, median, sigma) = (250.0, 30.0, 250.0_f64, 0.2_f64);
+    let normal = |z: f64| mean + deviation * z;
+    let lognormal = |z: f64| median * (sigma * z).exp();
+    let cases: [(&str, [f64; 5]); 3] = [
+        ("normal(0.25, 0.03)", [-z95, -z75, 0.0, z75, z95].map(normal)),
+        ("lognormal(0.25, 0.2)", [-z95, -z75, 0.0, z75, z95].map(lognormal)),
+        ("uniform(0.2, 0.3)", [205.0, 225.0, 250.0, 275.0, 295.0]),
+    ];
+    let count = 4000;
+    for (law, expected) in cases {
+        let axis = format!("{FRICTION}={law}");
+        let (band, _) = band("quantiles", &[&axis], Samples { count, seed: 3 }, 2);
+        assert_eq!((band.samples, band.failed), (count, 0));
+        let Quantiles {
+            p05,
+            p25,
+            p50,
+            p75,
+            p95,
+            ..
+        } = band.downstream_force_n.unwrap();
+        let found = [p05, p25, p50, p75, p95];
+        for i in 0..5 {
+            // Four times the standard error of a sample quantile, √(p(1−p)/n)/density, the density from the neighbouring
+            // quantiles; the tails of the normal laws are thinner than that by at most a factor of three.
+            let p = [0.05_f64, 0.25, 0.5, 0.75, 0.95][i];
+            let slope = match i {
+                0 => (expected[1] - expected[0]) / 0.2,
+                4 => (expected[4] - expected[3]) / 0.2,
+                _ => {
+                    (expected[i + 1] - expected[i - 1])
+                        / ([0.05, 0.25, 0.5, 0.75, 0.95][i + 1] - [0.05, 0.25, 0.5, 0.75, 0.95][i - 1])
+                }
+            };
+            let allowed = 4.0 * (p * (1.0 - p) / count as f64).sqrt() * slope * 3.0_f64.sqrt();
+            assert!(
+                (found[i] - expected[i]).abs() < allowed,
+                "{law}: {found:?}, expected {expected:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn samples_follow_from_the_seed_alone() {
+    let axis = "friction.dynamic_coefficient=normal(0.25, 0.03)";
+    let samples = Samples { count: 200, seed: 1 };
+    let (one, file) = band("seed_1", &[axis], samples, 1);
+    let (same, same_file) = band("seed_2", &[axis], samples, 3);
+    assert_eq!((&one, &file), (&same, &same_file));
+    let (other, _) = band("seed_3", &[axis], Samples { seed: 2, ..samples }, 1);
+    assert_ne!(one.downstream_force_n, other.downstream_force_n);
+    // Another drawn key leaves them as they are.
+    let (with_another, _) = band("seed_4", &["duct.depth=uniform(1, 2)", axis], samples, 1);
+    assert_eq!(one.downstream_force_n, with_another.downstream_force_n);
+    // And is drawn on its own.
+    let sweep = sweep_of(
+        &["duct.depth=uniform(1, 2)", "duct.length=uniform(1, 2)"],
+        samples,
+    )
+    .unwrap();
+    let pairs: Vec<[f64; 2]> = (0..200)
+        .map(|i| {
+            sweep
+                .values(i)
+                .iter()
+                .map(|v| v.parse().unwrap())
+                .collect::<Vec<_>>()
+                .try_into()
+                .unwrap()
+        })
+        .collect();
+    let covariance: f64 = pairs.iter().map(|[a, b]| (a - 1.5) * (b - 1.5)).sum::<f64>() / 200.0;
+    // Of two independent uniform keys: zero, with a standard error of (1/12)/√200.
+    assert!(covariance.abs() < 4.0 / 12.0 / 200.0_f64.sqrt(), "{covariance}");
+}
+
+#[test]
+fn every_point_of_the_grid_has_a_band_and_failed_samples_are_counted() {
+    let output = output("bands");
+    let samples = Samples { count: 300, seed: 5 };
+    let axes = [
+        "friction.dynamic_coefficient=normal(0, 0.1)",
+        "duct.length=10m,20m",
+    ];
+    let sweep = sweep_of(&axes, samples).unwrap();
+    let evaluate = formula(|scene| scene.duct.length * scene.friction.dynamic_coefficient);
+    let summary = run_by(&sweep, &output, 2, &evaluate).unwrap();
+    assert_eq!(summary.bands.len(), 2);
+    for (band, length) in summary.bands.iter().zip(["10m", "20m"]) {
+        assert_eq!(band.at, [("duct.length".to_owned(), length.to_owned())]);
+        // Half the draws are below 0, which no friction coefficient is.
+        assert_eq!(band.samples + band.failed, 300);
+        assert!((100..200).contains(&band.failed), "{}", band.failed);
+    }
+    assert_eq!(summary.failed, summary.bands[0].failed + summary.bands[1].failed);
+    // The same samples at both points.
+    let p50 = |band: &Band| band.downstream_force_n.unwrap().p50;
+    assert!((p50(&summary.bands[1]) / p50(&summary.bands[0]) - 2.0).abs() < 1e-12);
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn parquet_holds_what_csv_holds() {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::Field;
+
+    let csv = output("parquet");
+    let file = csv.with_extension("parquet");
+    // More rows than one group of the file holds.
+    let axes = [
+        "friction.dynamic_coefficient=-0.1,0.3",
+        "duct.depth=1:4500:1",
+        "ends.upstream=free,fixed",
+    ];
+    let sweep = sweep(&axes);
+    let evaluate = formula(|scene| scene.duct.depth.sqrt());
+    run_by(&sweep, &csv, 2, &evaluate).unwrap();
+    run_by(&sweep, &file, 2, &evaluate).unwrap();
+    let (header, rows) = table(&csv);
+    let reader = SerializedFileReader::new(fs::File::open(&file).unwrap()).unwrap();
+    assert!(reader.metadata().num_row_groups() > 1);
+    let mut count = 0;
+    for (row, expected) in reader.get_row_iter(None).unwrap().zip(&rows) {
+        let row = row.unwrap();
+        let names: Vec<&String> = row.get_column_iter().map(|(name, _)| name).collect();
+        assert_eq!(names, header.iter().collect::<Vec<_>>());
+        for ((_, field), text) in row.get_column_iter().zip(expected) {
+            match field {
+                Field::Double(value) => assert_eq!(*value, text.parse::<f64>().unwrap()),
+                Field::Long(value) => assert_eq!(*value, text.parse::<i64>().unwrap()),
+                Field::Str(value) => assert_eq!(value, text),
+                Field::Null => assert_eq!(text, ""),
+                other => panic!("{other:?}"),
+            }
+        }
+        count += 1;
+    }
+    assert_eq!((count, rows.len()), (18_000, 18_000));
+}
