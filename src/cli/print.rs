@@ -136,8 +136,8 @@ pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
         writeln!(out)?;
         writeln!(
             out,
-            "{:<14} {:>10} {:>10}  {}",
-            part, "error", "time", "why, or why not"
+            "{part:<14} {:>10} {:>10}  why, or why not",
+            "error", "time"
         )?;
         for rung in rungs {
             writeln!(
