@@ -4,6 +4,7 @@ use cable_dem::PassOutcome;
 use ground_field::{DuctMotion, GroundField};
 
 use super::cable::{CableMethod, PassMethod};
+use super::law::LawRun;
 use super::levels::{Ladder, Solved};
 use super::passes::Passes;
 use super::result::{
@@ -100,20 +101,7 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
             if law.error.relative <= scene.solver.tolerance || !plan.method.one_by_one {
                 summary.ground = plan.ground.exact_name.into();
                 (summary.node_spacing_m, summary.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
-                warnings.extend(law.warnings);
-                return Ok(Run {
-                    title,
-                    plan: summary,
-                    duct_motion,
-                    passes: law.passes,
-                    saturation: law.saturation,
-                    force_profile: law.force_profile,
-                    restraints: law.restraints,
-                    slip_lengths: None,
-                    error_estimate: law.error,
-                    cost: law.cost,
-                    warnings,
-                });
+                return Ok(by_law(title, summary, duct_motion, law, warnings));
             }
             summary.cable = CableMethod::QuasiStatic.name().into();
             summary.reasons.push(format!(
@@ -177,6 +165,30 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         cost: Cost::new(&solved.statistics),
         warnings,
     })
+}
+
+/// The law's answer.
+fn by_law(
+    title: String,
+    plan: PlanSummary,
+    duct_motion: DuctMotionSummary,
+    law: LawRun,
+    mut warnings: Vec<String>,
+) -> Run {
+    warnings.extend(law.warnings);
+    Run {
+        title,
+        plan,
+        duct_motion,
+        passes: law.passes,
+        saturation: law.saturation,
+        force_profile: law.force_profile,
+        restraints: law.restraints,
+        slip_lengths: None,
+        error_estimate: law.error,
+        cost: law.cost,
+        warnings,
+    }
 }
 
 /// From where vehicles come, and what is left out of account by that.
