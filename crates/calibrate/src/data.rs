@@ -225,11 +225,7 @@ impl Readings {
 
     /// The last pass that was read.
     pub fn last_pass(&self) -> u64 {
-        self.list
-            .iter()
-            .map(|reading| reading.pass)
-            .max()
-            .unwrap_or(0)
+        self.list.iter().map(|reading| reading.pass).max().unwrap_or(0)
     }
 
     /// The forces \[N\].
