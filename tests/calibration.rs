@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use creepage::calibration::{
     BootstrapOptions, Deflection, Loss, Quantity, Reading, Readings, Resampling, Unknown,
 };
-use creepage::scene::{End, FrictionLaw, SolverMethod};
+use creepage::scene::{End, FrictionLaw, PeakScaling, SolverMethod};
 use creepage::{CalibrateOptions, Calibrated, Error, Scene, Series, calibrate, calibrate_jointly};
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
@@ -14,15 +14,15 @@ fn upper() -> Scene {
     Scene::from_file(UPPER.as_ref()).unwrap()
 }
 
-/// Forces after 40 passes of the upper phase, by the solver with inertia on twice as fine a mesh as any that the fit stands on.
+/// Forces after 40 passes of the upper phase, by the solver with inertia on a mesh twice as fine as the fit's first.
 fn forces(dynamic_coefficient: f64, shape_factor: f64) -> Vec<f64> {
     let mut scene = upper();
     scene.friction.dynamic_coefficient = dynamic_coefficient;
     scene.friction.law = FrictionLaw::ElasticPlastic { shape_factor };
     scene.traffic.passes = 40;
     scene.solver.method = SolverMethod::Dynamic;
-    scene.solver.node_spacing = Some(0.05);
-    scene.solver.vehicle_step = Some(0.025);
+    scene.solver.node_spacing = Some(0.1);
+    scene.solver.vehicle_step = Some(0.05);
     let run = creepage::run(&scene).unwrap();
     run.passes.iter().map(|pass| pass.downstream_force_n).collect()
 }
@@ -145,25 +145,24 @@ fn outliers_do_not_move_a_robust_fit() {
     }
 }
 
-/// A ground twice as stiff and the friction of both cables, from two series and a measured deflection.
+/// A softer ground and the friction of both cables, from two series and a measured deflection.
 #[test]
+#[ignore = "half a minute: see calibration_coverage.rs for the command"]
 fn two_series_share_their_ground() {
     let scenes = ["upper", "lower"]
         .map(|cable| Scene::from_file(format!("examples/scenes/full-scale-{cable}.toml").as_ref()).unwrap());
-    let deflection = creepage::profile_at(&scenes[0], &[0.0]).unwrap().vertical_m[0];
-    let measured = scenes.clone().map(|mut scene| {
-        scene.traffic.passes = 30;
-        scene.ground.scaling = Some(creepage::scene::PeakScaling::Vertical(0.5 * deflection));
-        let run = creepage::run(&scene).unwrap();
-        readings(&noisy(
-            &run.passes
-                .iter()
-                .map(|pass| pass.downstream_force_n)
-                .collect::<Vec<_>>(),
-            1.0,
-            5,
-        ))
-    });
+    let deflection = 1.25 * creepage::profile_at(&scenes[0], &[0.0]).unwrap().vertical_m[0];
+    let measured: Vec<Readings> = (0..)
+        .zip(&scenes)
+        .map(|(seed, scene)| {
+            let mut scene = scene.clone();
+            scene.traffic.passes = 100;
+            scene.ground.scaling = Some(PeakScaling::Vertical(deflection));
+            let run = creepage::run(&scene).unwrap();
+            let forces: Vec<f64> = run.passes.iter().map(|pass| pass.downstream_force_n).collect();
+            readings(&noisy(&forces, 4.0, seed))
+        })
+        .collect();
     let series: Vec<Series<'_>> = scenes
         .iter()
         .zip(&measured)
@@ -175,8 +174,8 @@ fn two_series_share_their_ground() {
             Unknown::of(Quantity::DynamicCoefficient, 1),
         ],
         deflection: Some(Deflection {
-            value: 0.5 * deflection,
-            sigma: 0.05 * deflection,
+            value: deflection,
+            sigma: 0.1 * deflection,
         }),
         ..CalibrateOptions::default()
     };
@@ -194,16 +193,17 @@ fn two_series_share_their_ground() {
             "ground_stiffness"
         ]
     );
-    for (parameter, truth) in answer.parameters.iter().zip([0.25, 0.27, 2.0]) {
-        assert!((parameter.value / truth - 1.0).abs() < 0.02, "{parameter:?}");
-        assert!(parameter.identifiable);
+    for (parameter, truth) in answer.parameters.iter().zip([0.25, 0.27, 0.8]) {
+        let error = parameter.standard_error.unwrap();
+        assert!((parameter.value - truth).abs() < 3.0 * error, "{parameter:?}");
+        assert!(parameter.identifiable && error < 0.03 * truth, "{parameter:?}");
     }
-    assert_eq!(answer.fit.len(), 60);
-    assert_eq!(answer.fit[59].series, 2);
+    assert_eq!((answer.fit.len(), answer.fit[199].series), (200, 2));
 }
 
 /// The bootstrap agrees with the curvature where the model is nearly linear.
 #[test]
+#[ignore = "half a minute: see calibration_coverage.rs for the command"]
 fn bootstrap_agrees_with_the_standard_error() {
     let data = readings(&noisy(&series()[..12], 2.0, 8));
     let options = CalibrateOptions {
