@@ -1254,6 +1254,15 @@ fn the_commands_in_the_readme_work() {
     let folder = folder("readme_commands");
     let file = folder.join("my-duct.toml");
     fs::write(&file, blocks(&readme, "toml")[0]).expect("a file");
+    // Commands on files that come with the project find them where they stand.
+    for example in [
+        "examples/scenes/full-scale-upper.toml",
+        "examples/data/synthetic-upper.csv",
+    ] {
+        let copy = folder.join(example);
+        fs::create_dir_all(copy.parent().expect("a folder")).expect("a folder");
+        fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join(example), copy).expect("a copy");
+    }
     let commands: Vec<&str> = blocks(&readme, "sh").into_iter().flat_map(commands).collect();
     assert!(commands.len() >= 5, "{commands:?}");
     for line in commands {
