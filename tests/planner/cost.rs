@@ -31,7 +31,9 @@ fn doubling_the_tolerance_never_costs_more() {
     }
 }
 
+// Alone on a quiet machine: cargo test --release --test planner planning -- --ignored
 #[test]
+#[ignore = "a time, which other work on the machine disturbs"]
 fn planning_takes_less_than_a_tenth_of_the_run_or_five_milliseconds() {
     let fastest = |mut action: Box<dyn FnMut() + '_>| {
         (0..7)
