@@ -14,12 +14,12 @@
 
 use creepage::calibration::{Calibrated, Deflection, Quantity, Reading, Readings, Unknown};
 use creepage::scene::PeakScaling;
-use creepage::{CalibrateOptions, Scene, Series, calibrate_jointly};
+use creepage::{CalibrateOptions, Scene, Series, calibrate, calibrate_jointly};
 
 type Failure = Box<dyn std::error::Error>;
 
 /// Passes after which the force has levelled off.
-const SATURATED: u64 = 300;
+const SATURATED: u64 = 200;
 /// Assumed standard deviation of a force read from the text, as a share of it.
 const FORCE_SIGMA: f64 = 0.05;
 /// Measured deflections \[m\].
@@ -34,31 +34,21 @@ fn main() -> Result<(), Failure> {
     let readings: Vec<Readings> = forces.iter().map(|&force| saturated(force)).collect();
     let friction = [0, 1].map(|series| Unknown::of(Quantity::DynamicCoefficient, series));
 
-    println!("Friction that gives 550 N and 900 N, for a given deflection (95 % intervals)");
-    println!("{:>12} {:>28} {:>28}", "deflection", "upper", "lower");
+    println!(
+        "Friction that gives 550 N (upper) and 900 N (lower) where the duct goes down by so much, 95 % intervals"
+    );
     for micrometres in [90.0, 100.0, 115.0, 125.0, 140.0] {
-        let scaled = scenes.clone().map(|mut scene| {
+        for (scene, readings) in scenes.iter().zip(&readings) {
+            let mut scene = scene.clone();
             scene.ground.scaling = Some(PeakScaling::Vertical(1e-6 * micrometres));
-            scene
-        });
-        let answer = fit(&scaled, &readings, friction.to_vec(), None)?;
-        println!(
-            "{:>9} um {:>28} {:>28}   {}",
-            micrometres,
-            value(&answer, 0),
-            value(&answer, 1),
-            misses(&answer)
-        );
+            let answer = calibrate(&scene, readings, &only(Quantity::DynamicCoefficient))?;
+            println!("{micrometres:>5} um  {}", told(&answer));
+        }
     }
 
     println!();
     println!("The paper's friction (0.25 and 0.27) and one ground for both cables");
-    let answer = fit(
-        &scenes,
-        &readings,
-        vec![Unknown::shared(Quantity::GroundStiffness)],
-        None,
-    )?;
+    let answer = fit(&scenes, &readings, &only(Quantity::GroundStiffness))?;
     let stiffness = answer.parameters[0].value;
     let table_1 = creepage::profile_at(&scenes[0], &[0.0])?.vertical_m[0];
     println!(
@@ -78,7 +68,12 @@ fn main() -> Result<(), Failure> {
     };
     let mut unknowns = friction.to_vec();
     unknowns.push(Unknown::shared(Quantity::GroundStiffness));
-    let answer = fit(&scenes, &readings, unknowns, Some(deflection))?;
+    let options = CalibrateOptions {
+        unknowns,
+        deflection: Some(deflection),
+        ..CalibrateOptions::default()
+    };
+    let answer = fit(&scenes, &readings, &options)?;
     for (index, paper) in [0.25, 0.27].into_iter().enumerate() {
         let parameter = &answer.parameters[index];
         let error = parameter.standard_error.unwrap_or(f64::INFINITY);
@@ -105,20 +100,22 @@ fn main() -> Result<(), Failure> {
 fn fit(
     scenes: &[Scene; 2],
     readings: &[Readings],
-    unknowns: Vec<Unknown>,
-    deflection: Option<Deflection>,
+    options: &CalibrateOptions,
 ) -> Result<Calibrated, Failure> {
     let series: Vec<Series<'_>> = scenes
         .iter()
         .zip(readings)
         .map(|(scene, readings)| Series { scene, readings })
         .collect();
-    let options = CalibrateOptions {
-        unknowns,
-        deflection,
+    Ok(calibrate_jointly(&series, options)?)
+}
+
+/// Fits one quantity.
+fn only(quantity: Quantity) -> CalibrateOptions {
+    CalibrateOptions {
+        unknowns: vec![Unknown::shared(quantity)],
         ..CalibrateOptions::default()
-    };
-    Ok(calibrate_jointly(&series, &options)?)
+    }
 }
 
 /// The forces of both cables, the upper one first.
@@ -155,11 +152,25 @@ fn value(answer: &Calibrated, index: usize) -> String {
     format!("{:.3} ({} to {})", parameter.value, end(lower), end(upper))
 }
 
+/// The first parameter, the forces that come out, and what to know.
+fn told(answer: &Calibrated) -> String {
+    let warnings = answer
+        .warnings
+        .iter()
+        .map(|warning| format!("\n          {warning}"));
+    format!(
+        "{:<26} {}{}",
+        value(answer, 0),
+        misses(answer),
+        warnings.collect::<String>()
+    )
+}
+
 fn misses(answer: &Calibrated) -> String {
     let forces: Vec<String> = answer
         .fit
         .iter()
         .map(|reading| format!("{:.0} N", reading.fitted_n))
         .collect();
-    format!("forces {}", forces.join(" and "))
+    format!("{} ({} runs)", forces.join(" and "), answer.evaluations)
 }

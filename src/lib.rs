@@ -16,6 +16,34 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! The same without scene files, from the crates alone: a ground ([`boussinesq`]), the motion of the duct in it
+//! ([`ground_field`]), and the cable ([`cable_dem`]):
+//!
+//! ```
+//! use boussinesq::HalfSpace;
+//! use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
+//! use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
+//!
+//! fn main() -> Result<(), Box<dyn std::error::Error>> {
+//!     let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
+//!     let truck = Vehicle::point("20 tf", 196_133.0, 11.1)?;
+//!     let motion = DuctMotion::new(&ground, &truck, DuctLine::new(1.2, 0.0)?, 50.0, 1e-6)?;
+//!     let limit = 0.25 * 108.8; // friction coefficient × weight, N/m
+//!     let law = FrictionLaw::ElasticPlastic { shape_factor: 2e8 / limit };
+//!     let cable = DuctedCable::new(30.0, 8.01e6, Friction::new(law, limit)?)?;
+//!     let cable = cable.with_ends(End::Free, End::Fixed)?;
+//!     let mesh = Mesh::new(30.0, 0.1, 0.05)?;
+//!     let passage = Passage::new(&cable, &mesh, &motion, 15.0)?;
+//!     let mut solver = QuasiStatic::new(cable, mesh)?;
+//!     let mut state = CableState::at_rest(&mesh);
+//!     let force = solver.pass(&passage, &mut state)?.force.downstream;
+//!     println!("{force:.1} N on the joint after the first truck");
+//! #   // An independent computation of the first pass: 113.35 N.
+//! #   assert!((force / 113.35 - 1.0).abs() < 0.01, "{force} N");
+//!     Ok(())
+//! }
+//! ```
+//!
 //! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `burmister` (layers by
 //! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable), `pass-law` (many passes), `calibrate` (parameters from measurements).
 

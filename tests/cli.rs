@@ -1254,29 +1254,128 @@ fn the_commands_in_the_readme_work() {
     let folder = folder("readme_commands");
     let file = folder.join("my-duct.toml");
     fs::write(&file, blocks(&readme, "toml")[0]).expect("a file");
-    let commands: Vec<&str> = blocks(&readme, "sh")
-        .into_iter()
-        .flat_map(str::lines)
-        .filter_map(|line| line.strip_prefix("creepage "))
-        .collect();
+    // Commands on files that come with the project find them where they stand.
+    for example in [
+        "examples/scenes/full-scale-upper.toml",
+        "examples/data/synthetic-upper.csv",
+    ] {
+        let copy = folder.join(example);
+        fs::create_dir_all(copy.parent().expect("a folder")).expect("a folder");
+        fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join(example), copy).expect("a copy");
+    }
+    let commands: Vec<&str> = blocks(&readme, "sh").into_iter().flat_map(commands).collect();
     assert!(commands.len() >= 5, "{commands:?}");
     for line in commands {
-        let words = line.split('#').next().unwrap_or_default();
-        // What stands in quotes is one word.
-        let arguments: Vec<&str> = words
-            .split('"')
-            .enumerate()
-            .flat_map(|(index, part)| match index % 2 {
-                0 => part.split_whitespace().collect(),
-                _ => vec![part],
+        run_in(&folder, line);
+    }
+}
+
+/// Lines of a block of `sh` that call the program, without its name.
+fn commands(block: &str) -> impl Iterator<Item = &str> {
+    block.lines().filter_map(|line| line.strip_prefix("creepage "))
+}
+
+/// What a command of a page prints; it has to succeed.
+#[track_caller]
+fn run_in(folder: &Path, line: &str) -> String {
+    let words = line.split('#').next().unwrap_or_default();
+    // What stands in quotes is one word.
+    let arguments: Vec<&str> = words
+        .split('"')
+        .enumerate()
+        .flat_map(|(index, part)| match index % 2 {
+            0 => part.split_whitespace().collect(),
+            _ => vec![part],
+        })
+        .collect();
+    let output = command(&arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the command");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "creepage {line}: {errors}");
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+/// The commands of every page of docs/ run, a page in one folder with the README's scene as `my-duct.toml`; a block of
+/// `csv` whose first line is `# NAME.csv` is a file there. A block of `text` after a block of `sh` shows lines that its
+/// commands print, in their order; a line `...` stands for what is left out. A block marked `sh slow` is not run.
+#[test]
+fn the_commands_in_the_documentation_work_and_print_what_it_shows() {
+    let scene = readme();
+    let scene = blocks(&scene, "toml")[0];
+    let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
+    let mut run = 0;
+    for entry in fs::read_dir(docs).expect("docs/") {
+        let page = entry.expect("an entry").path();
+        if page.extension().is_none_or(|extension| extension != "md") {
+            continue;
+        }
+        let name = Path::new("docs").join(page.file_stem().expect("a name"));
+        let _ = fs::remove_dir_all(folder(text(&name)));
+        let folder = folder(text(&name));
+        fs::write(folder.join("my-duct.toml"), scene).expect("a file");
+        let page = fs::read_to_string(&page).expect("a page");
+        let mut printed = String::new();
+        // Fences open and close in turn: every second part is a block, with its language in the first line.
+        for block in page.split("```").skip(1).step_by(2) {
+            let (language, block) = block.split_once('\n').expect("a block");
+            match language {
+                "sh" => {
+                    printed = commands(block).map(|line| run_in(&folder, line)).collect();
+                    run += commands(block).count();
+                }
+                "csv" => {
+                    let name = block.lines().next().and_then(|line| line.strip_prefix("# "));
+                    let name = name.and_then(|line| line.split(':').next()).expect("a name");
+                    fs::write(folder.join(name), block).expect("a file");
+                }
+                "text" => assert_shows(block, &printed),
+                _ => {}
+            }
+        }
+    }
+    assert!(run >= 5, "{run} commands in docs/");
+}
+
+/// Every line of `shown` is printed, one after the other; numbers may differ a little from machine to machine.
+#[track_caller]
+fn assert_shows(shown: &str, printed: &str) {
+    let mut lines = printed.lines();
+    let mut left_out = true;
+    for wanted in shown.lines() {
+        if wanted.trim() == "..." {
+            left_out = true;
+        } else if left_out {
+            assert!(
+                lines.any(|line| alike(wanted, line)),
+                "{wanted}\nis not in\n{printed}"
+            );
+            left_out = false;
+        } else {
+            let line = lines.next().unwrap_or_default();
+            assert!(alike(wanted, line), "shown:\n{wanted}\nprinted:\n{line}");
+        }
+    }
+}
+
+/// Whether two lines have the same words, and numbers within 0.2 % or one of their last decimals.
+fn alike(shown: &str, printed: &str) -> bool {
+    let (shown, printed) = (shown.split_whitespace(), printed.split_whitespace());
+    shown.clone().count() == printed.clone().count()
+        && shown
+            .zip(printed)
+            .all(|(a, b)| match (a.parse::<f64>(), b.parse::<f64>()) {
+                (Ok(x), Ok(y)) => (x - y).abs() <= (2e-3 * y.abs()).max(1.01 * last_decimal(a)),
+                _ => a == b,
             })
-            .collect();
-        let output = command(&arguments)
-            .current_dir(&folder)
-            .output()
-            .expect("the command");
-        let errors = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(0), "creepage {line}: {errors}");
+}
+
+/// 0.01 for "3.58"; 0 for a whole number or one with an exponent.
+fn last_decimal(number: &str) -> f64 {
+    match number.split_once('.') {
+        Some((_, decimals)) if !decimals.contains('e') => 0.1_f64.powf(decimals.len() as f64),
+        _ => 0.0,
     }
 }
 

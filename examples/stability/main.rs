@@ -2,13 +2,18 @@
 //!
 //! Each map is a file here: a grid of runs coloured by outcome. Without a name all maps are drawn.
 
+#[path = "../shared/cable_map.rs"]
+mod cable_map;
 #[path = "../shared/ground_map.rs"]
 mod ground_map;
 #[path = "../shared/ground_reference.rs"]
 mod ground_reference;
 
 mod burmister;
+mod explicit;
 mod fem;
+mod implicit;
+mod pass_law;
 
 use std::error::Error;
 use std::path::Path;
@@ -16,7 +21,13 @@ use std::path::Path;
 /// A map's name and what draws it into a folder.
 type Entry = (&'static str, fn(&Path) -> Result<(), Box<dyn Error>>);
 
-const MAPS: &[Entry] = &[("fem", fem::run), ("burmister", burmister::run)];
+const MAPS: &[Entry] = &[
+    ("explicit", explicit::run),
+    ("implicit", implicit::run),
+    ("fem", fem::run),
+    ("burmister", burmister::run),
+    ("pass-law", pass_law::run),
+];
 
 fn main() -> Result<(), Box<dyn Error>> {
     let out = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/charts");

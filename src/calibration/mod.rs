@@ -179,7 +179,7 @@ struct Ladder<'a> {
 
 /// A fit on one rung and its difference to the next.
 struct Rung {
-    rung: u32,
+    level: u32,
     values: Vec<f64>,
     difference: Vec<f64>,
     shift: Vec<f64>,
@@ -189,7 +189,7 @@ impl Ladder<'_> {
     fn climb(&self) -> Result<Calibrated, Error> {
         let mut evaluations = 0;
         let rung = self.find_rung(&mut evaluations)?;
-        let model = self.model(rung.rung, Some(rung.difference.clone()));
+        let model = self.model(rung.level, Some(rung.difference.clone()));
         let calibration = self.calibration(&model, Some(rung.values.clone()), Profiles::All, evaluations)?;
         let fit = calibration.fit()?;
         evaluations += fit.evaluations;
@@ -220,7 +220,7 @@ impl Ladder<'_> {
             let enough = shift.iter().all(|shift| shift.abs() <= MESH_SHIFT);
             if enough || rung == LAST_RUNG || self.models.iter().any(SeriesModel::is_meshed) {
                 return Ok(Rung {
-                    rung,
+                    level: rung,
                     values,
                     difference,
                     shift,
@@ -326,7 +326,7 @@ impl Ladder<'_> {
         let meshes = self
             .models
             .iter()
-            .map(|series| series.mesh(rung.rung))
+            .map(|series| series.mesh(rung.level))
             .collect::<Result<Vec<_>, _>>()?;
         let largest = fit
             .fitted

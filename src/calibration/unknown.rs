@@ -44,7 +44,7 @@ impl Quantity {
     /// Least and largest value that a fit considers.
     pub fn bounds(self) -> (f64, f64) {
         match self {
-            Self::DynamicCoefficient => (0.03, 1.5),
+            Self::DynamicCoefficient => (0.03, 1.0),
             Self::ShapeFactor => (1e5, 1e9),
             Self::GroundStiffness => (0.1, 10.0),
         }

@@ -134,11 +134,7 @@ pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
             continue;
         }
         writeln!(out)?;
-        writeln!(
-            out,
-            "{:<14} {:>10} {:>10}  {}",
-            part, "error", "time", "why, or why not"
-        )?;
+        writeln!(out, "{part:<14} {:>10} {:>10}  why, or why not", "error", "time")?;
         for rung in rungs {
             writeln!(
                 out,

@@ -61,3 +61,7 @@ pub use quasi_static::{Passage, QuasiStatic, SlipLengths, StepView};
 pub use state::CableState;
 pub use traffic::{Order, Traffic};
 pub use transient::{EnergyBalance, MovingDuct, SigmoidLeak, TransientOutcome, inertia_ratio};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -178,7 +178,7 @@ impl<'a> Calibration<'a> {
         let start = self.options.start.as_ref().map(|start| self.free(start));
         let count = self.options.scan.unwrap_or(SCAN * (1 + self.parameters.len()));
         let scan = search.scan(start, if start_only(&self.options) { 0 } else { count })?;
-        let mut optimum = search.best(&scan, self.options.restart)?;
+        let (mut optimum, rival) = search.best(&scan, self.options.restart)?;
         let mut warnings = Vec::new();
         if let Some(misfit) = self.misfit(&optimum) {
             // The sigmas are not believed: only their ratios are.
@@ -189,6 +189,7 @@ impl<'a> Calibration<'a> {
         for _ in 0..MAX_OPTIMA {
             match self.describe(&search, &optimum)? {
                 Described::Estimates(estimates, covariance) => {
+                    warnings.extend(rival.and_then(|rival| self.ambiguity(&estimates, &rival.free)));
                     return Ok(self.answer(&search, &optimum, estimates, &covariance, warnings));
                 }
                 Described::Better(point) => optimum = search.refine(point, None)?,
@@ -227,6 +228,21 @@ impl<'a> Calibration<'a> {
                 parameter.free(parameter.coordinate(inside))
             }),
         )
+    }
+
+    /// A rival outside of the intervals.
+    fn ambiguity(&self, estimates: &[Estimate], rival: &DVector<f64>) -> Option<Warning> {
+        let values: Vec<f64> = self
+            .parameters
+            .iter()
+            .zip(rival.iter())
+            .map(|(parameter, &free)| parameter.value(parameter.bounded(free)))
+            .collect();
+        let outside = estimates
+            .iter()
+            .zip(&values)
+            .any(|(estimate, &value)| !estimate.interval.contains(value));
+        outside.then_some(Warning::Ambiguous { values })
     }
 
     /// Whether the residuals are larger than known sigmas allow. A robust loss judges its own spread.

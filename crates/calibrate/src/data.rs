@@ -29,7 +29,7 @@ pub struct Reading {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Readings {
     file: String,
-    readings: Vec<Reading>,
+    list: Vec<Reading>,
     skipped: usize,
 }
 
@@ -190,7 +190,7 @@ impl Readings {
         }
         Ok(Self {
             file: file.to_owned(),
-            readings,
+            list: readings,
             skipped,
         })
     }
@@ -201,13 +201,13 @@ impl Readings {
     ///
     /// [`DataError::TooFew`].
     pub fn check_count(&self, parameters: usize, needed: usize) -> Result<(), DataError> {
-        if self.readings.len() >= needed {
+        if self.list.len() >= needed {
             return Ok(());
         }
         Err(DataError::TooFew {
             file: self.file.clone(),
-            readings: self.readings.len(),
-            line: self.readings.last().map_or(0, |reading| reading.line),
+            readings: self.list.len(),
+            line: self.list.last().map_or(0, |reading| reading.line),
             parameters,
             needed,
         })
@@ -215,7 +215,7 @@ impl Readings {
 
     /// The readings, in the order of the file.
     pub fn readings(&self) -> &[Reading] {
-        &self.readings
+        &self.list
     }
 
     /// Rows without a force.
@@ -225,21 +225,17 @@ impl Readings {
 
     /// The last pass that was read.
     pub fn last_pass(&self) -> u64 {
-        self.readings
-            .iter()
-            .map(|reading| reading.pass)
-            .max()
-            .unwrap_or(0)
+        self.list.iter().map(|reading| reading.pass).max().unwrap_or(0)
     }
 
     /// The forces \[N\].
     pub fn forces(&self) -> Vec<f64> {
-        self.readings.iter().map(|reading| reading.force).collect()
+        self.list.iter().map(|reading| reading.force).collect()
     }
 
     /// The standard deviations \[N\], where the file gives them.
     pub fn sigmas(&self) -> Option<Vec<f64>> {
-        self.readings.iter().map(|reading| reading.sigma).collect()
+        self.list.iter().map(|reading| reading.sigma).collect()
     }
 }
 
@@ -247,7 +243,7 @@ impl FromIterator<Reading> for Readings {
     fn from_iter<I: IntoIterator<Item = Reading>>(readings: I) -> Self {
         Self {
             file: "readings".into(),
-            readings: readings.into_iter().collect(),
+            list: readings.into_iter().collect(),
             skipped: 0,
         }
     }

@@ -86,6 +86,11 @@ pub enum Warning {
         /// How far the next step would still go, in standard errors.
         offset: f64,
     },
+    /// Other values, outside of the intervals, fit about as well.
+    Ambiguous {
+        /// These values, in the order of the parameters.
+        values: Vec<f64>,
+    },
     /// Few degrees of freedom: the noise itself is hardly known.
     FewObservations {
         /// Degrees of freedom.
@@ -130,6 +135,10 @@ impl fmt::Display for Warning {
                 f,
                 "noise of the model hides the last {offset:.2} standard errors on the way to the best fit"
             ),
+            Self::Ambiguous { values } => {
+                write!(f, "other values fit about as well, outside of the intervals:")?;
+                values.iter().try_for_each(|value| write!(f, " {value:.4e}"))
+            }
             Self::FewObservations { degrees_of_freedom } => write!(
                 f,
                 "only {degrees_of_freedom:.1} degrees of freedom are left to estimate the noise"

@@ -65,3 +65,7 @@ pub use model::{Model, ModelError};
 pub use options::{Options, Profiles};
 pub use parameter::{Parameter, Prior, Scale};
 pub use search::{Observer, Progress};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -25,7 +25,7 @@ const MAX_STEPS: usize = 12;
 /// Accuracy of the other parameters, in standard errors: an eighth of a squared one, which is a sixtieth of an end's distance.
 const TOLERANCE: f64 = 0.35;
 /// Iterations of the others at one value.
-const MAX_ITERATIONS: u64 = 10;
+const MAX_ITERATIONS: u64 = 6;
 /// First point, in distances that would make the interval if the deviance were a parabola, and the least and largest factors by
 /// which the next lies further from the estimate.
 const FIRST: f64 = 1.1;

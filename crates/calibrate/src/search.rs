@@ -32,6 +32,8 @@ const NORMALISATION_TOLERANCE: f64 = 0.1;
 const FREE_ROUNDS: usize = 4;
 /// Fall of the deviance that makes another optimum the better one.
 pub(crate) const BETTER: f64 = 0.05;
+/// Rise of the deviance up to which another minimum counts as a rival: two standard errors.
+const RIVAL: f64 = 4.0;
 /// Distance from an optimum, in free variables, of a start worth a second descent.
 const ELSEWHERE: f64 = 0.7;
 /// Descents from elsewhere, and their iterations.
@@ -297,7 +299,7 @@ impl Search<'_> {
     }
 
     /// Points all over the range, by the generalised golden ratio (M. Roberts, "The unreasonable effectiveness of
-    /// quasirandom sequences", 2018), and the start if there is one, the best first.
+    /// quasirandom sequences", 2018), the best first; before them the start, if there is one.
     pub fn scan(&self, start: Option<DVector<f64>>, count: usize) -> Result<Vec<Point>, CalibrationError> {
         let dimensions = self.count();
         let mut ratio = 2.0_f64;
@@ -305,6 +307,7 @@ impl Search<'_> {
             ratio = (1.0 + ratio).powf(1.0 / (dimensions as f64 + 1.0));
         }
         let mut points: Vec<DVector<f64>> = start.into_iter().collect();
+        let started = points.len();
         for index in 0..count {
             points.push(DVector::from_fn(dimensions, |k, _| {
                 let share = (0.5 + (index + 1) as f64 * ratio.powi(-(k as i32) - 1)).fract();
@@ -315,8 +318,17 @@ impl Search<'_> {
         let mut scored: Vec<(f64, Point)> = points
             .into_iter()
             .zip(residuals)
-            .filter(|(_, residuals)| feasible(residuals))
-            .map(|(free, residuals)| (self.score(&residuals), Point { free, residuals }))
+            .enumerate()
+            .filter(|(_, (_, residuals))| feasible(residuals))
+            .map(|(index, (free, residuals))| {
+                // Of several minima that are as good, the one next to the start is wanted.
+                let score = if index < started {
+                    f64::NEG_INFINITY
+                } else {
+                    self.score(&residuals)
+                };
+                (score, Point { free, residuals })
+            })
             .collect();
         scored.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(scored.into_iter().map(|(_, point)| point).collect())
@@ -334,8 +346,10 @@ impl Search<'_> {
         }
     }
 
-    /// Descends from the best point of `scan`, and from others to see whether they lead lower.
-    pub fn best(&self, scan: &[Point], restart: bool) -> Result<Optimum, CalibrationError> {
+    /// Descends from the first point of `scan`, and from the best of the others to see whether they lead lower.
+    ///
+    /// The second answer is a minimum elsewhere that is hardly higher.
+    pub fn best(&self, scan: &[Point], restart: bool) -> Result<(Optimum, Option<Point>), CalibrationError> {
         let mut failure = None;
         let mut optimum = None;
         for point in scan.iter().take(1 + MAX_RESTARTS) {
@@ -359,16 +373,23 @@ impl Search<'_> {
             }
         };
         let restarts = if restart { MAX_RESTARTS } else { 0 };
+        let mut rival = None;
         for _ in 0..restarts {
             match self.descend_elsewhere(scan, &optimum)? {
-                Some(better) => optimum = better,
+                Some(other) if other.value() < optimum.value() - BETTER => {
+                    optimum = self.refine(other.point, None)?;
+                }
+                Some(other) => {
+                    rival = Some(other.point);
+                    break;
+                }
                 None => break,
             }
         }
-        Ok(optimum)
+        Ok((optimum, rival))
     }
 
-    /// A lower optimum than `optimum`, if a descent from the best point far from it leads to one.
+    /// A minimum elsewhere that is lower than `optimum` or hardly higher, if a descent from the best point far from it leads to one.
     fn descend_elsewhere(
         &self,
         scan: &[Point],
@@ -387,7 +408,8 @@ impl Search<'_> {
             start.clone(),
             RESTART_ITERATIONS,
         ) {
-            Ok(other) if other.value() < optimum.value() - BETTER => self.refine(other.point, None).map(Some),
+            Ok(other) if other.value() < optimum.value() - BETTER => Ok(Some(other)),
+            Ok(other) if other.value() < optimum.value() + RIVAL && far(&&other.point) => Ok(Some(other)),
             Err(error @ CalibrationError::EvaluationLimit { .. }) => Err(error),
             Ok(_) | Err(_) => Ok(None),
         }

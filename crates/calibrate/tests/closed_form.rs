@@ -349,6 +349,31 @@ fn data_beyond_the_models_reach() {
     assert!((fit.fitted[0] - 10.0).abs() < 0.01);
 }
 
+/// Two values that fit alike: the one that was not chosen is named.
+#[test]
+fn a_second_minimum_is_told() {
+    let x = passes(6);
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        Ok(x.iter().map(|x| x * (10.0 - (p[0] - 3.0).powi(2))).collect())
+    };
+    let parameter = Parameter::new("a", 0.0, 6.0, Scale::Linear).unwrap();
+    let data = noisy(&model(&[2.0]).unwrap(), 0.3, 6);
+    let fit = Calibration::new(&model, vec![parameter], data)
+        .unwrap()
+        .fit()
+        .unwrap();
+    let rival = fit.warnings.iter().find_map(|w| match w {
+        Warning::Ambiguous { values } => Some(values[0]),
+        _ => None,
+    });
+    // The parabola is symmetric about 3.
+    assert!(
+        (fit.values()[0] + rival.unwrap() - 6.0).abs() < 0.05,
+        "{:?} {rival:?}",
+        fit.values()
+    );
+}
+
 /// Corners in which the model has no answer are avoided.
 #[test]
 fn failing_corners_are_avoided() {

@@ -7,7 +7,7 @@
 
 use cable_dem::End;
 
-use crate::slow::{SlowEnd, SlowProblem};
+use crate::slow::{SlowEnd, SlowProblem, greatest};
 use crate::tridiagonal::Tridiagonal;
 use crate::{LawError, PassLaw};
 
@@ -244,7 +244,8 @@ impl<'a> March<'a> {
                 outcome => {
                     // No answer, or not accurate enough: a shorter step.
                     self.statistics.rejected += 1;
-                    let shrink = outcome.map_or(0.25, |error| (0.9 / error.sqrt()).clamp(0.1, 0.7));
+                    let found = outcome.ok().filter(|error| error.is_finite());
+                    let shrink = found.map_or(0.25, |error| (0.9 / error.sqrt()).clamp(0.1, 0.7));
                     self.step = step * shrink;
                     if self.step < SMALLEST {
                         return Err(LawError::NoConvergence {
@@ -279,10 +280,7 @@ impl<'a> March<'a> {
                 .implicit(&memory, &self.base, implicit, accuracy, second, &mut self.system)?;
         let slow = first.iter().zip(&self.u).map(|(stage, u)| stage - u);
         let fast = second.iter().zip(&self.base).map(|(stage, base)| stage - base);
-        let error = fast
-            .zip(slow)
-            .map(|(fast, slow)| (fast - slow).abs())
-            .fold(0.0, f64::max);
+        let error = greatest(fast.zip(slow).map(|(fast, slow)| (fast - slow).abs()));
         let largest = second.iter().fold(self.peak, |m, u| m.max(u.abs()));
         Ok(error / (STEP_ACCURACY * largest))
     }

@@ -69,3 +69,7 @@ pub use mix::MixedLaw;
 pub use pass_law::{PassLaw, Preparation};
 pub use resolution::Resolution;
 pub use saturation::Saturation;
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

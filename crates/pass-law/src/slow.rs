@@ -217,7 +217,7 @@ impl SlowProblem {
                 system.right[i] = right;
             }
             system.solve();
-            let change = system.right.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+            let change = greatest(system.right.iter().map(|d| d.abs()));
             for (value, change) in u.iter_mut().zip(&system.right) {
                 *value += change;
             }
@@ -229,5 +229,28 @@ impl SlowProblem {
             }
         }
         Err(LawError::NoConvergence { pass: 0.0, step })
+    }
+}
+
+/// The largest of `values`, NaN if any of them is: `f64::max` would drop it.
+pub(crate) fn greatest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |most: f64, value| {
+        if value > most || value.is_nan() || most.is_nan() {
+            if most.is_nan() { most } else { value }
+        } else {
+            most
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::greatest;
+
+    #[test]
+    fn nothing_hides_what_is_not_a_number() {
+        assert_eq!(greatest([1.0, 3.0, 2.0].into_iter()), 3.0);
+        assert!(greatest([f64::NAN, 3.0].into_iter()).is_nan());
+        assert!(greatest([3.0, f64::NAN].into_iter()).is_nan());
     }
 }

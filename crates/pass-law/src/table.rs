@@ -42,7 +42,10 @@ impl Table {
                 return (value + self.slopes[i] * (x - node), self.slopes[i]);
             }
         }
-        let i = self.nodes.partition_point(|node| node[0] <= x) - 1;
+        // None of the nodes for what is not a number.
+        let Some(i) = self.nodes.partition_point(|node| node[0] <= x).checked_sub(1) else {
+            return (f64::NAN, f64::NAN);
+        };
         let ([x0, y0], [x1, y1]) = (self.nodes[i], self.nodes[i + 1]);
         let h = x1 - x0;
         let t = (x - x0) / h;

@@ -3,8 +3,9 @@
 mod common;
 
 use cable_dem::{CableError, DuctedCable, End, Friction, FrictionLaw};
-use common::{Outcome, TRUCK, cable, motion, resolution};
+use common::{APPROACH, DEPTH, Outcome, TRUCK, cable, motion, resolution};
 use ground_field::Direction::{Forward, Reverse};
+use ground_field::DuctMotion;
 use pass_law::{AdvanceLaw, Concern, LawError, MixedLaw, PassLaw, Resolution, concerns_before};
 
 #[test]
@@ -196,5 +197,44 @@ fn passes_must_ascend() -> Outcome {
     assert_eq!(law.run(&[0])?.records[0].downstream_force, 0.0);
     let (once, twice) = (law.run(&[500])?.records[0], law.run(&[3, 40, 500])?.records[2]);
     assert!((once.downstream_force / twice.downstream_force - 1.0).abs() < 2e-3);
+    Ok(())
+}
+
+/// A cable of the experiment of `depths` depths, and a duct that moves so far that EA·D/(q z²) is `number`.
+fn of_friction_number(
+    depths: f64,
+    number: f64,
+) -> Result<(DuctedCable, DuctMotion), Box<dyn std::error::Error>> {
+    let cable = cable(depths * DEPTH, 0.25, 108.8)?;
+    let motion = motion(TRUCK, Forward)?;
+    let peak = number * cable.friction().limit() * DEPTH * DEPTH / cable.axial_stiffness();
+    let factor = peak / motion.peak_longitudinal();
+    Ok((cable, motion.scaled(factor)))
+}
+
+#[test]
+fn near_shakedown_the_law_says_so() -> Outcome {
+    for (number, near) in [(0.5, true), (1.0, false)] {
+        let (cable, motion) = of_friction_number(30.0, number)?;
+        let law = PassLaw::new(&cable, &[(motion, 1.0)], resolution()?)?;
+        let concerns = law.concerns();
+        let found = concerns
+            .iter()
+            .any(|concern| matches!(concern, Concern::NearShakedown { .. }));
+        assert_eq!(found, near, "{number}: {concerns:?}");
+    }
+    Ok(())
+}
+
+/// A duct that moves much farther than friction can stretch the cable: Newton's method leaves all numbers behind, which once
+/// was taken for an answer.
+#[test]
+fn an_evolution_without_an_answer_is_an_error() -> Outcome {
+    let (cable, motion) = of_friction_number(3.16, 56.2)?;
+    let law = PassLaw::new(&cable, &[(motion, 1.0)], resolution()?.with_approach(APPROACH)?)?;
+    match law.run(&[20, 60, 200]) {
+        Ok(evolution) => assert!(evolution.records.iter().all(|r| r.downstream_force.is_finite())),
+        Err(error) => assert!(matches!(error, LawError::NoConvergence { .. }), "{error}"),
+    }
     Ok(())
 }

@@ -1,0 +1,211 @@
+//! Map 1: the explicit solver over time step and shape factor b, and over time step and speed.
+//!
+//! First pass over 15 m of duct with nodes 0.2 m apart. Right is the force of an unconditionally stable solver with the same
+//! law: quasi-static for the elastic-plastic law, dynamic implicit with the same time step for the sigmoid, whose answer is one
+//! of the time step. Without guards neither the step limits nor the energy are checked.
+
+use std::error::Error;
+use std::path::Path;
+
+use cable_dem::{
+    CableError, CableState, Dynamic, Explicit, ExplicitOptions, FrictionLaw, Mesh, MovingDuct, Passage,
+    QuasiStatic, StepLimits,
+};
+use creepage::figure::{GridAxis, Panels, Series};
+use ground_field::DuctMotion;
+
+use crate::cable_map::{Cell, DEPTH, Grid, LIMIT, MASS, cable, decades, judge, silent, truck, unanswered};
+
+const LENGTH: f64 = 15.0;
+const SPACING: f64 = 0.2;
+const APPROACH: f64 = 15.0;
+/// Speed of the maps over b \[m/s\]: fast, so that passes are short; inertia changes the force by 0.1 %.
+const SPEED: f64 = 100.0 / 3.6;
+/// Shape factor of the map over speed \[1/m\].
+const SHAPE_FACTOR: f64 = 1e8;
+
+/// Which law is mapped.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Law {
+    ElasticPlastic,
+    Sigmoid,
+}
+
+impl Law {
+    fn with(self, shape_factor: f64) -> FrictionLaw {
+        match self {
+            Self::ElasticPlastic => FrictionLaw::ElasticPlastic { shape_factor },
+            Self::Sigmoid => FrictionLaw::Sigmoid { shape_factor },
+        }
+    }
+
+    fn name(self) -> &'static str {
+        self.with(1.0).name()
+    }
+}
+
+/// The mesh on which the vehicle advances by a `parts`-th of the spacing a step.
+fn mesh(parts: f64) -> Result<Mesh, CableError> {
+    Mesh::new(LENGTH, SPACING, SPACING / parts * (1.0 + 1e-9))
+}
+
+/// The right force \[N\]; `parts` time steps take the vehicle from node to node.
+fn expected(law: FrictionLaw, parts: f64, motion: &DuctMotion) -> Result<f64, CableError> {
+    let cable = cable(LENGTH, law)?;
+    if law.has_memory() {
+        let mesh = mesh(2.0)?;
+        let passage = Passage::new(&cable, &mesh, motion, APPROACH)?;
+        let outcome = QuasiStatic::new(cable, mesh)?.pass(&passage, &mut CableState::at_rest(&mesh))?;
+        return Ok(outcome.force.downstream);
+    }
+    let mesh = mesh(parts)?;
+    let duct = MovingDuct::new(&cable, &mesh, motion, APPROACH)?;
+    let outcome = Dynamic::new(cable, mesh, MASS)?.pass(&duct, &mut CableState::at_rest(&mesh))?;
+    Ok(outcome.pass.force.downstream)
+}
+
+/// Outcomes of one run without guards and with them; `parts` time steps take the vehicle from node to node.
+fn outcomes(law: FrictionLaw, parts: f64, motion: &DuctMotion) -> Result<[Cell; 2], CableError> {
+    let expected = expected(law, parts, motion)?;
+    let (cable, mesh) = (cable(LENGTH, law)?, mesh(2.0)?);
+    let duct = MovingDuct::new(&cable, &mesh, motion, APPROACH)?;
+    // The scale is what friction could do at most: with a leaking sigmoid hardly any force is left to be a share of.
+    let scale = expected.abs().max(0.02 * LIMIT * LENGTH);
+    Ok([false, true].map(|guarded| {
+        let options = ExplicitOptions {
+            time_step: Some(SPACING / parts / duct.speed()),
+            check_limits: guarded,
+            check_energy: guarded,
+            ..ExplicitOptions::default()
+        };
+        let run = Explicit::new(cable.clone(), mesh, MASS, options)
+            .and_then(|mut solver| solver.pass(&duct, &mut CableState::at_rest(&mesh)));
+        match run {
+            Ok(outcome) => judge(outcome.pass.force.downstream, expected, scale, false),
+            Err(error) => silent(unanswered(&error), expected),
+        }
+    }))
+}
+
+/// Time steps in which the vehicle gets from node to node, ascending in length: at most `finest`.
+fn parts(finest: u32, count: usize) -> Vec<f64> {
+    let all = decades(f64::from(finest).log10(), 3.0_f64.log10(), count);
+    all.into_iter().map(f64::round).collect()
+}
+
+/// The same grid over time steps \[s\].
+fn over_time_steps(mut grid: Grid, speed: f64) -> Grid {
+    for parts in &mut grid.x {
+        *parts = SPACING / *parts / speed;
+    }
+    grid
+}
+
+/// The maps over time steps and shape factors, without and with guards.
+///
+/// # Errors
+///
+/// None for these scenes.
+pub fn over_shape_factor(law: Law, steps: usize, factors: usize) -> Result<[Grid; 2], Box<dyn Error>> {
+    let motion = truck(DEPTH, SPEED)?;
+    let grids = Grid::fill_pair(
+        &parts(160, steps),
+        &decades(5.0, 10.5, factors),
+        |parts, factor| outcomes(law.with(factor), parts, &motion),
+    )?;
+    Ok(grids.map(|grid| over_time_steps(grid, SPEED)))
+}
+
+/// The maps over time steps and speeds, without and with guards.
+///
+/// # Errors
+///
+/// None for these scenes.
+pub fn over_speed(law: Law, steps: usize, speeds: usize) -> Result<[Grid; 2], Box<dyn Error>> {
+    let speeds = decades(1.0, 2.0, speeds);
+    let motions = speeds
+        .iter()
+        .map(|&speed| truck(DEPTH, speed))
+        .collect::<Result<Vec<_>, _>>()?;
+    let grids = Grid::fill_pair(&parts(100, steps), &speeds, |parts, speed| {
+        let motion = &motions[speeds.partition_point(|&other| other < speed)];
+        // The time step of the column, whatever the speed.
+        let parts = (parts * SPEED / speed).max(1.0).round();
+        outcomes(law.with(SHAPE_FACTOR), parts, motion)
+    })?;
+    Ok(grids.map(|grid| over_time_steps(grid, SPEED)))
+}
+
+/// Step limits of the scene for one shape factor.
+fn limits(law: Law, shape_factor: f64) -> Result<StepLimits, CableError> {
+    let cable = cable(LENGTH, law.with(shape_factor))?;
+    Ok(*Explicit::new(cable, mesh(2.0)?, MASS, ExplicitOptions::default())?.limits())
+}
+
+/// Draws the map.
+///
+/// # Errors
+///
+/// As for writing files and for [`creepage::figure::Map`].
+pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
+    let (steps, factors, speeds) = (15, 12, 8);
+    let mut figure = Panels::new("Explicit solver: force after one pass over 15 m, by time step")
+        .columns(2)
+        .panel_size(700.0, 480.0);
+    let mut table =
+        String::from("map,time_step_s,shape_factor_per_m_or_speed_m_per_s,outcome,force_n,right_force_n\n");
+    let steps_axis = |grid: &Grid| GridAxis::logarithmic("time step", grid.x.clone()).prefixes("s");
+    for law in [Law::ElasticPlastic, Law::Sigmoid] {
+        for (grid, guards) in over_shape_factor(law, steps, factors)?
+            .into_iter()
+            .zip(["off", "on"])
+        {
+            let name = format!("{}, guards {guards}", law.name());
+            println!("{name}: {}", grid.summary());
+            let (mut elastic, mut friction, mut together) = (Vec::new(), Vec::new(), Vec::new());
+            for b in decades(4.8, 10.7, 60) {
+                let limits = limits(law, b)?;
+                elastic.push((limits.elastic.time_step, b));
+                friction.push((limits.friction.time_step, b));
+                together.push((limits.together(), b));
+            }
+            let inside = |point: &(f64, f64)| (3e-5..2.9e-3).contains(&point.0);
+            friction.retain(inside);
+            together.retain(inside);
+            let map = grid
+                .map(
+                    &name,
+                    steps_axis(&grid),
+                    GridAxis::logarithmic("shape factor b, 1/m", grid.y.clone()),
+                )
+                .with(Series::line("elastic limit", elastic))
+                .with(Series::line("friction limit", friction).dashed())
+                .with(Series::line("both together", together).dotted());
+            figure = figure.with(map);
+            table += &grid.csv(&name);
+        }
+    }
+    for (grid, guards) in over_speed(Law::Sigmoid, steps, speeds)?
+        .into_iter()
+        .zip(["off", "on"])
+    {
+        let name = format!("sigmoid, b = 1e8 1/m, guards {guards}");
+        println!("{name}: {}", grid.summary());
+        let limits = limits(Law::Sigmoid, SHAPE_FACTOR)?;
+        let line = |limit: f64| [(limit, 10.0), (limit, 100.0)];
+        let map = grid
+            .map(
+                &name,
+                steps_axis(&grid),
+                GridAxis::logarithmic("speed, m/s", grid.y.clone()),
+            )
+            .with(Series::line("elastic limit", line(limits.elastic.time_step)))
+            .with(Series::line("friction limit", line(limits.friction.time_step)).dashed())
+            .with(Series::line("both together", line(limits.together())).dotted());
+        figure = figure.with(map);
+        table += &grid.csv(&name);
+    }
+    std::fs::write(out.join("stability-explicit.csv"), table)?;
+    std::fs::write(out.join("stability-explicit.svg"), figure.to_svg()?)?;
+    Ok(())
+}

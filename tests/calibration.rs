@@ -1,0 +1,301 @@
+//! Calibration of scenes: readings made by another solver, on a finer mesh, give back their friction.
+
+use std::sync::OnceLock;
+
+use creepage::calibration::{
+    BootstrapOptions, Deflection, Loss, Quantity, Reading, Readings, Resampling, Unknown,
+};
+use creepage::scene::{End, FrictionLaw, PeakScaling, SolverMethod};
+use creepage::{CalibrateOptions, Calibrated, Error, Scene, Series, calibrate, calibrate_jointly};
+
+const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+
+fn upper() -> Scene {
+    Scene::from_file(UPPER.as_ref()).unwrap()
+}
+
+/// Forces after 40 passes of the upper phase, by the solver with inertia on a mesh twice as fine as the fit's first.
+fn forces(dynamic_coefficient: f64, shape_factor: f64) -> Vec<f64> {
+    let mut scene = upper();
+    scene.friction.dynamic_coefficient = dynamic_coefficient;
+    scene.friction.law = FrictionLaw::ElasticPlastic { shape_factor };
+    scene.traffic.passes = 40;
+    scene.solver.method = SolverMethod::Dynamic;
+    scene.solver.node_spacing = Some(0.1);
+    scene.solver.vehicle_step = Some(0.05);
+    let run = creepage::run(&scene).unwrap();
+    run.passes.iter().map(|pass| pass.downstream_force_n).collect()
+}
+
+/// The series that most tests share.
+fn series() -> &'static [f64] {
+    static FORCES: OnceLock<Vec<f64>> = OnceLock::new();
+    FORCES.get_or_init(|| forces(0.25, 2e6))
+}
+
+/// Gaussian noise (G. E. P. Box, M. E. Muller, 1958).
+fn noisy(forces: &[f64], sigma: f64, seed: u64) -> Vec<f64> {
+    let mut random = fastrand::Rng::with_seed(seed);
+    let mut gaussian = || {
+        let radius = (-2.0 * (1.0 - random.f64()).ln()).sqrt();
+        radius * (std::f64::consts::TAU * random.f64()).cos()
+    };
+    forces.iter().map(|force| force + sigma * gaussian()).collect()
+}
+
+fn readings(forces: &[f64]) -> Readings {
+    (1..)
+        .zip(forces)
+        .map(|(pass, &force)| Reading {
+            pass,
+            force,
+            sigma: None,
+            line: pass,
+        })
+        .collect()
+}
+
+fn value(answer: &Calibrated, name: &str) -> f64 {
+    answer
+        .parameters
+        .iter()
+        .find(|parameter| parameter.name == name)
+        .unwrap()
+        .value
+}
+
+#[test]
+fn friction_comes_back_from_another_solver() {
+    let data = readings(&noisy(series(), 2.0, 1));
+    let answer = calibrate(&upper(), &data, &CalibrateOptions::default()).unwrap();
+    assert!(
+        (value(&answer, "dynamic_coefficient") / 0.25 - 1.0).abs() < 0.02,
+        "{:?}",
+        answer.parameters
+    );
+    assert!(
+        (value(&answer, "shape_factor") / 2e6 - 1.0).abs() < 0.1,
+        "{:?}",
+        answer.parameters
+    );
+    assert!(answer.parameters.iter().all(|parameter| parameter.identifiable));
+    assert!(answer.evaluations <= 200, "{}", answer.evaluations);
+    assert!(
+        (1.0..3.0).contains(&answer.residual_rms_n),
+        "{}",
+        answer.residual_rms_n
+    );
+    assert!(answer.r_squared.unwrap() > 0.999);
+    assert!(
+        answer
+            .fit
+            .iter()
+            .all(|row| (row.force_n - row.fitted_n - row.residual_n).abs() < 1e-9)
+    );
+    assert!(answer.model_error.relative < 0.01);
+}
+
+/// From 1e9 1/m on, forces differ from Coulomb's by less than any load cell shows.
+#[test]
+fn a_steep_law_is_called_not_identifiable() {
+    let exact = forces(0.25, 1e9);
+    for (seed, sigma) in [(1, 3.0), (2, 6.0)] {
+        let data = readings(&noisy(&exact, sigma, seed));
+        let answer = calibrate(&upper(), &data, &CalibrateOptions::default()).unwrap();
+        let shape = &answer.parameters[1];
+        assert!(!shape.identifiable, "{shape:?}");
+        let [lower, open] = shape.interval_95;
+        assert!(
+            open.is_none() && lower.is_some_and(|lower| (1e6..1e9).contains(&lower)),
+            "{shape:?}"
+        );
+        assert!(
+            answer
+                .warnings
+                .iter()
+                .any(|warning| warning.contains("shape_factor is not identifiable"))
+        );
+        assert!(answer.evaluations <= 200, "{}", answer.evaluations);
+    }
+}
+
+/// 5 % of the readings off by 30 %.
+#[test]
+fn outliers_do_not_move_a_robust_fit() {
+    let clean = noisy(series(), 2.0, 3);
+    let mut spoiled = clean.clone();
+    spoiled[11] *= 1.3;
+    spoiled[29] *= 0.7;
+    let friction = |forces: &[f64], loss| {
+        let options = CalibrateOptions {
+            unknowns: vec![Unknown::shared(Quantity::DynamicCoefficient)],
+            loss,
+            ..CalibrateOptions::default()
+        };
+        let mut scene = upper();
+        scene.friction.law = FrictionLaw::ElasticPlastic { shape_factor: 2e6 };
+        let answer = calibrate(&scene, &readings(forces), &options).unwrap();
+        (value(&answer, "dynamic_coefficient"), answer)
+    };
+    let (before, _) = friction(&clean, Loss::HUBER);
+    let (after, answer) = friction(&spoiled, Loss::HUBER);
+    assert!((after / before - 1.0).abs() < 0.01, "{before} {after}");
+    for (row, reading) in answer.fit.iter().enumerate() {
+        assert_eq!(reading.weight < 0.2, row == 11 || row == 29, "{reading:?}");
+    }
+}
+
+/// A softer ground and the friction of both cables, from two series and a measured deflection.
+#[test]
+#[ignore = "half a minute: see calibration_coverage.rs for the command"]
+fn two_series_share_their_ground() {
+    let scenes = ["upper", "lower"]
+        .map(|cable| Scene::from_file(format!("examples/scenes/full-scale-{cable}.toml").as_ref()).unwrap());
+    let deflection = 1.25 * creepage::profile_at(&scenes[0], &[0.0]).unwrap().vertical_m[0];
+    let measured: Vec<Readings> = (0..)
+        .zip(&scenes)
+        .map(|(seed, scene)| {
+            let mut scene = scene.clone();
+            scene.traffic.passes = 100;
+            scene.ground.scaling = Some(PeakScaling::Vertical(deflection));
+            let run = creepage::run(&scene).unwrap();
+            let forces: Vec<f64> = run.passes.iter().map(|pass| pass.downstream_force_n).collect();
+            readings(&noisy(&forces, 4.0, seed))
+        })
+        .collect();
+    let series: Vec<Series<'_>> = scenes
+        .iter()
+        .zip(&measured)
+        .map(|(scene, readings)| Series { scene, readings })
+        .collect();
+    let options = CalibrateOptions {
+        unknowns: vec![
+            Unknown::of(Quantity::DynamicCoefficient, 0),
+            Unknown::of(Quantity::DynamicCoefficient, 1),
+        ],
+        deflection: Some(Deflection {
+            value: deflection,
+            sigma: 0.1 * deflection,
+        }),
+        ..CalibrateOptions::default()
+    };
+    let answer = calibrate_jointly(&series, &options).unwrap();
+    let names: Vec<&str> = answer
+        .parameters
+        .iter()
+        .map(|parameter| parameter.name.as_str())
+        .collect();
+    assert_eq!(
+        names,
+        [
+            "dynamic_coefficient_1",
+            "dynamic_coefficient_2",
+            "ground_stiffness"
+        ]
+    );
+    for (parameter, truth) in answer.parameters.iter().zip([0.25, 0.27, 0.8]) {
+        let error = parameter.standard_error.unwrap();
+        assert!((parameter.value - truth).abs() < 3.0 * error, "{parameter:?}");
+        assert!(parameter.identifiable && error < 0.03 * truth, "{parameter:?}");
+    }
+    assert_eq!((answer.fit.len(), answer.fit[199].series), (200, 2));
+}
+
+/// The bootstrap agrees with the curvature where the model is nearly linear.
+#[test]
+#[ignore = "half a minute: see calibration_coverage.rs for the command"]
+fn bootstrap_agrees_with_the_standard_error() {
+    let data = readings(&noisy(&series()[..12], 2.0, 8));
+    let options = CalibrateOptions {
+        unknowns: vec![Unknown::shared(Quantity::ShapeFactor)],
+        bootstrap: Some(BootstrapOptions {
+            replicates: 60,
+            seed: 2,
+            resampling: Resampling::Gaussian,
+        }),
+        ..CalibrateOptions::default()
+    };
+    let answer = calibrate(&upper(), &data, &options).unwrap();
+    let bootstrap = answer.bootstrap.unwrap();
+    let ratio = bootstrap.standard_errors[0] / answer.parameters[0].standard_error.unwrap();
+    // The standard error of a standard deviation from 60 samples is 9 %.
+    assert!((0.65..1.4).contains(&ratio), "{ratio}");
+    assert_eq!((bootstrap.replicates, bootstrap.failed), (60, 0));
+}
+
+#[test]
+fn what_does_not_fit_is_named() {
+    let data = readings(&series()[..6]);
+    let with = |change: &dyn Fn(&mut Scene), options: &CalibrateOptions| {
+        let mut scene = upper();
+        change(&mut scene);
+        calibrate(&scene, &data, options)
+    };
+    let free = with(
+        &|scene| scene.ends.downstream = End::Free,
+        &CalibrateOptions::default(),
+    )
+    .unwrap_err();
+    assert!(
+        free.is_bad_input() && free.to_string().contains("load cell"),
+        "{free}"
+    );
+
+    let shape = CalibrateOptions {
+        unknowns: vec![Unknown::shared(Quantity::ShapeFactor)],
+        ..CalibrateOptions::default()
+    };
+    let coulomb = with(&|scene| scene.friction.law = FrictionLaw::Coulomb, &shape).unwrap_err();
+    assert!(
+        matches!(
+            coulomb,
+            Error::Unfit {
+                key: "friction.law",
+                ..
+            }
+        ),
+        "{coulomb}"
+    );
+
+    let few = calibrate(&upper(), &readings(&series()[..2]), &CalibrateOptions::default()).unwrap_err();
+    assert!(
+        few.is_bad_input() && few.to_string().contains("2 readings"),
+        "{few}"
+    );
+
+    let limited = CalibrateOptions {
+        max_evaluations: 10,
+        ..CalibrateOptions::default()
+    };
+    let error = calibrate(&upper(), &data, &limited).unwrap_err();
+    assert!(
+        !error.is_bad_input() && error.to_string().contains("model runs are not enough"),
+        "{error}"
+    );
+}
+
+/// With Coulomb's law there is only the coefficient to fit; the load cell may be at the upstream end.
+#[test]
+fn coulomb_and_an_upstream_load_cell() {
+    let mut scene = upper();
+    scene.friction.law = FrictionLaw::Coulomb;
+    (scene.ends.upstream, scene.ends.downstream) = (End::Fixed, End::Free);
+    scene.traffic.passes = 30;
+    let forces: Vec<f64> = creepage::run(&scene)
+        .unwrap()
+        .passes
+        .iter()
+        .map(|pass| pass.upstream_force_n)
+        .collect();
+    let mut start = scene.clone();
+    start.friction.dynamic_coefficient = 0.4;
+    let data = readings(&noisy(&forces, 1.0, 4));
+    let answer = calibrate(&start, &data, &CalibrateOptions::default()).unwrap();
+    assert_eq!(answer.parameters.len(), 1);
+    assert_eq!(answer.method.load_cell, ["upstream"]);
+    assert!(
+        (answer.parameters[0].value / 0.25 - 1.0).abs() < 0.02,
+        "{:?}",
+        answer.parameters
+    );
+}

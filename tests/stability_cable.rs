@@ -1,0 +1,59 @@
+//! With guards on no cell of the cable's stability maps is wrong: coarse grids of the maps that `examples/stability` draws.
+
+#[path = "../examples/shared/cable_map.rs"]
+#[allow(dead_code, reason = "the example draws what the test only counts")]
+mod cable_map;
+#[path = "../examples/stability/explicit.rs"]
+#[allow(dead_code, reason = "the example draws what the test only counts")]
+mod explicit;
+#[path = "../examples/stability/implicit.rs"]
+#[allow(dead_code, reason = "the example draws what the test only counts")]
+mod implicit;
+#[path = "../examples/stability/pass_law.rs"]
+#[allow(dead_code, reason = "the example draws what the test only counts")]
+mod pass_law;
+
+use cable_map::{Grid, Outcome};
+
+type Tested = Result<(), Box<dyn std::error::Error>>;
+
+/// Asserts that guards leave nothing wrong, that without them something is, and that they do not refuse everything.
+fn assert_guarded(name: &str, [bare, guarded]: &[Grid; 2]) {
+    assert_eq!(guarded.count(Outcome::Wrong), 0, "{name}: {}", guarded.csv(name));
+    assert!(bare.count(Outcome::Wrong) > 0, "{name}: {}", bare.summary());
+    assert!(guarded.count(Outcome::Right) > 0, "{name}: {}", guarded.summary());
+}
+
+#[test]
+fn the_explicit_solver_is_right_or_says_that_it_is_not() -> Tested {
+    for law in [explicit::Law::ElasticPlastic, explicit::Law::Sigmoid] {
+        let grids = explicit::over_shape_factor(law, 5, 5)?;
+        assert_guarded(&format!("{law:?}"), &grids);
+        // Guards refuse what may be wrong, not what is right, but for cells at the limits.
+        let [bare, guarded] = grids;
+        assert!(4 * guarded.count(Outcome::Right) >= 3 * bare.count(Outcome::Right));
+    }
+    let grids = explicit::over_speed(explicit::Law::Sigmoid, 4, 2)?;
+    assert_guarded("speed", &grids);
+    Ok(())
+}
+
+#[test]
+fn the_quasi_static_solver_is_right_where_plain_newton_cycles() -> Tested {
+    let grids = implicit::maps(0, 4)?;
+    assert_guarded("implicit", &grids);
+    let [_, library] = grids;
+    assert_eq!(
+        library.count(Outcome::Right),
+        library.cells.len(),
+        "{}",
+        library.summary()
+    );
+    Ok(())
+}
+
+#[test]
+fn the_pass_law_is_right_or_says_that_it_is_not() -> Tested {
+    assert_guarded("pass law", &pass_law::maps(3, 5)?);
+    Ok(())
+}
