@@ -34,8 +34,10 @@ pub struct Statistics {
     pub sweeps: usize,
     /// Nodes eliminated in these, or advanced in time.
     pub node_updates: usize,
-    /// Windows for which the iteration gave up and the exact step was taken.
+    /// Windows for which the iteration gave up, or was not wanted, and the exact step was taken.
     pub exact_steps: usize,
+    /// Corners of graphs that these touched, each about as much work as a node.
+    pub corners: usize,
     /// Most nodes in one window before the vehicle had left.
     pub widest_window: usize,
 }
@@ -47,6 +49,7 @@ impl std::ops::AddAssign for Statistics {
         self.sweeps += other.sweeps;
         self.node_updates += other.node_updates;
         self.exact_steps += other.exact_steps;
+        self.corners += other.corners;
         self.widest_window = self.widest_window.max(other.widest_window);
     }
 }

@@ -44,6 +44,7 @@ pub struct QuasiStatic {
     forward: Sweeper,
     /// The cable seen in the mirror, for reverse traffic; made when first needed.
     reverse: Option<Sweeper>,
+    without_iteration: bool,
 }
 
 impl QuasiStatic {
@@ -71,9 +72,19 @@ impl QuasiStatic {
         Ok(Self {
             forward: Sweeper::new(&cable, &mesh),
             reverse: None,
+            without_iteration: false,
             cable,
             mesh,
         })
+    }
+
+    /// The same solver, which takes the exact step (dynamic programming along the cable) in every window instead of
+    /// iterating first. The answer is the same and costs more: it is there to check the iteration by another method.
+    #[must_use]
+    pub fn without_iteration(mut self) -> Self {
+        self.without_iteration = true;
+        self.forward.without_iteration = true;
+        self
     }
 
     /// The mesh.
@@ -120,8 +131,11 @@ impl QuasiStatic {
         self.check_precision(passage, state)?;
         let mirrored = passage.direction() == Direction::Reverse;
         let sweeper = if mirrored {
-            self.reverse
-                .get_or_insert_with(|| Sweeper::new(&self.cable.mirrored(), &self.mesh))
+            let reverse = self
+                .reverse
+                .get_or_insert_with(|| Sweeper::new(&self.cable.mirrored(), &self.mesh));
+            reverse.without_iteration = self.without_iteration;
+            reverse
         } else {
             &mut self.forward
         };

@@ -1,4 +1,4 @@
-//! Solving one window: guess, iterate, and where that cycles, take the exact step.
+//! Solving one window: guess, iterate, and where that cycles, or nobody wants it, take the exact step.
 
 use super::active_set::Outcome;
 use super::chain::{Contact, Load, Stretch, Tolerance, Trial};
@@ -7,7 +7,7 @@ use super::passage::{Passage, Snapshot};
 use super::sweeper::{MAX_GROWTH, Sweeper};
 use super::window::{NEGLIGIBLE, Window};
 use crate::CableError;
-use crate::outcome::Recorder;
+use crate::outcome::{Recorder, Statistics};
 
 impl Sweeper {
     /// Sets anchors and guesses the contact states of a window's nodes: those of the last pass at this vehicle position,
@@ -94,20 +94,21 @@ impl Sweeper {
             support: &self.support_load,
             anchor: &self.anchor,
         };
-        let mut attempt = |trial: &mut Trial| {
+        let mut attempt = |trial: &mut Trial, statistics: &mut Statistics| {
             let (outcome, sweeps) = self
                 .elimination
                 .iterate(&self.chain, &load, stretch, tolerance, trial);
-            recorder.statistics.sweeps += sweeps;
-            recorder.statistics.node_updates += sweeps * (stretch.hi - stretch.lo + 1);
+            statistics.sweeps += sweeps;
+            statistics.node_updates += sweeps * (stretch.hi - stretch.lo + 1);
             outcome
         };
-        if attempt(&mut self.trial) == Outcome::Solved {
+        if !self.without_iteration && attempt(&mut self.trial, &mut recorder.statistics) == Outcome::Solved {
             return Ok(());
         }
-        exact::contacts(&self.chain, &load, stretch, &mut self.trial);
+        let touched = exact::contacts(&self.chain, &load, stretch, &mut self.trial);
         recorder.statistics.exact_steps += 1;
-        match attempt(&mut self.trial) {
+        recorder.statistics.corners += touched;
+        match attempt(&mut self.trial, &mut recorder.statistics) {
             Outcome::Solved => Ok(()),
             Outcome::Violated(violation) => Err(CableError::NoConvergence {
                 vehicle_position: self.mesh.lattice_step() * snapshot.position as f64,

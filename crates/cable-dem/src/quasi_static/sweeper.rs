@@ -38,6 +38,8 @@ pub(super) struct Sweeper {
     /// Nodes over which a stuck cable's response fades to a hundredth.
     pub(super) margin: usize,
     pub(super) elimination: Elimination,
+    /// Whether every window is solved by the exact step at once.
+    pub(super) without_iteration: bool,
     pub(super) r: Vec<f64>,
     pub(super) g: Vec<f64>,
     pub(super) trial: Trial,
@@ -130,6 +132,7 @@ impl Sweeper {
             free,
             margin,
             elimination: Elimination::new(nodes),
+            without_iteration: false,
             r: vec![0.0; nodes],
             g: vec![0.0; nodes],
             trial: Trial {

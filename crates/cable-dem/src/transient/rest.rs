@@ -116,7 +116,7 @@ impl StepSolver {
                 support: &self.load,
                 anchor: &self.anchor,
             };
-            contacts(&self.chain, &load, self.free, &mut self.trial);
+            statistics.corners += contacts(&self.chain, &load, self.free, &mut self.trial);
             statistics.exact_steps += 1;
             outcome = self.attempt(tolerance, statistics);
         }

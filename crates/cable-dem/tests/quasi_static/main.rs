@@ -13,3 +13,4 @@ mod robustness;
 mod scenes;
 mod slow_turn;
 mod windows;
+mod without_iteration;
