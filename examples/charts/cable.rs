@@ -2,13 +2,13 @@
 //!
 //! The full-scale experiment's upper cable in its duct of 30 m, and the same in 300 m, on the ground's closed form. The error is the
 //! largest difference of the force at the load cell over the last half of 10, 100 and 1000 passes, as a share of it. Methods and
-//! knobs: quasi-static, dynamic and explicit on one mesh of so many nodes a depth of the duct, the pass law with so many nodes in
-//! its cells, and the paper's own chain, explicit with the sigmoid law and its b.
+//! knobs: quasi-static, exact step, dynamic and explicit on one mesh of so many nodes a depth of the duct, the pass law with so many
+//! nodes in its cells, and the paper's own chain, explicit with the sigmoid law and its b.
 //!
-//! *Truth.* Quasi-static on a mesh at least three times as fine as any quasi-static point of its panel; no chart is drawn unless it
-//! agrees with the figures of an independent program that solves the whole cable at every step. The sigmoid remembers nothing and
-//! tends to Coulomb's law as b grows, so it is held against that. The exact step (dynamic programming along the cable) is no method
-//! of its own here: solvers take it where their iteration gives up, and it cannot be asked for.
+//! *Truth.* Quasi-static on a mesh at least three times as fine as any point that shares its method; how far it may be off is drawn
+//! and stands in the table. No chart is drawn unless it agrees with the figures of an independent program that solves the whole cable
+//! at every step, and with the finest explicit and dynamic answers. The sigmoid remembers nothing and tends to Coulomb's law as b
+//! grows, so it is held against that.
 
 use std::error::Error;
 use std::fmt::Write as _;
@@ -20,22 +20,25 @@ use creepage::figure::{Axis, Chart, Panels, Reference, Series};
 use creepage::scene::FrictionLaw;
 use ground_field::DuctMotion;
 use pass_law::{PassLaw, Resolution};
+use rayon::prelude::*;
 
-use crate::passes::{APPROACH_KEY, Solver, cable, error, motion, simulate};
+use crate::passes::{APPROACH_KEY, Solver, cable, error, motion, simulate, truth};
 use crate::stopwatch::timed;
 
 /// Accuracy of the duct's motion, as a share of its peak.
 const MOTION: f64 = 1e-9;
+/// Cells that take longer than this are left out \[s\].
+const BUDGET: f64 = 5.0;
+const LENGTHS: [f64; 2] = [30.0, 300.0];
 const PASSES: [usize; 3] = [10, 100, 1000];
-/// Lengths of the duct \[m\], and nodes a depth of the truth after [`PASSES`].
-const DUCTS: [(f64, [f64; 3]); 2] = [(30.0, [96.0, 96.0, 48.0]), (300.0, [48.0, 48.0, 24.0])];
+/// Nodes a depth of the truth, by length and passes; and of Coulomb's law with the most passes that the sigmoid is held against.
+const TRUTHS: [[f64; 3]; 2] = [[96.0, 96.0, 48.0], [96.0, 48.0, 24.0]];
+const COULOMB: [(f64, usize); 2] = [(48.0, 100), (48.0, 10)];
 /// A quasi-static point is at least so many times coarser than the truth.
 const COARSER: f64 = 3.0;
-/// Coulomb's law, for the sigmoid, needs no finer mesh than this.
-const COULOMB_DENSITY: f64 = 24.0;
 /// Nodes a depth.
-const DENSITIES: [f64; 8] = [2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0];
-const LAW_DENSITIES: [f64; 5] = [3.0, 4.0, 6.0, 12.0, 24.0];
+const DENSITIES: [f64; 7] = [2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 24.0];
+const LAW_DENSITIES: [f64; 4] = [3.0, 6.0, 12.0, 24.0];
 /// b of the sigmoid \[1/m\], and nodes a depth.
 const SHAPE_FACTORS: [f64; 6] = [1e7, 1e8, 1e9, 1e10, 1e11, 1e12];
 const SIGMOID_DENSITY: f64 = 6.0;
@@ -43,6 +46,10 @@ const SIGMOID_DENSITY: f64 = 6.0;
 const INDEPENDENT: [(usize, f64); 5] = [(1, 113.35), (5, 223.25), (10, 297.5), (60, 534.8), (200, 542.2)];
 /// By how much the truth may differ from them: that program's mesh is coarser.
 const AGREEMENT: f64 = 3e-3;
+/// Share of the force down to which errors are drawn.
+const FLOOR: f64 = 1e-5;
+
+type Failure = Box<dyn Error + Send + Sync>;
 
 /// A duct with its motion.
 struct Case {
@@ -51,8 +58,11 @@ struct Case {
     motion: DuctMotion,
 }
 
+/// Forces after the passes, and how far they may be off.
+type Truth = (Vec<f64>, f64);
+
 impl Case {
-    fn new(length: f64) -> Result<Self, Box<dyn Error>> {
+    fn new(length: f64) -> Result<Self, Failure> {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/full-scale-upper.toml");
         let set = [format!("duct.length={length} m"), APPROACH_KEY.to_owned()];
         let scene = Scene::from_file_with(&path, &set)?;
@@ -68,29 +78,24 @@ impl Case {
     }
 
     /// Forces after the last half of `passes` passes, `None` where they take too long, and the count of the work.
-    fn answer(&self, method: Method, knob: f64, passes: usize) -> Result<Option<Found>, Box<dyn Error>> {
-        let (solver, density, scene) = match method {
+    fn answer(&self, method: Method, knob: f64, passes: usize) -> Result<Option<Found>, Failure> {
+        let mut scene = self.scene.clone();
+        let (solver, density) = match method {
             Method::PassLaw => return self.law(knob, passes).map(Some),
-            Method::Solver(solver) => (solver, knob, &self.scene),
+            Method::Solver(solver) => (solver, knob),
             Method::Sigmoid => {
-                let mut scene = self.scene.clone();
                 scene.friction.law = FrictionLaw::Sigmoid { shape_factor: knob };
-                let found = simulate(
-                    &scene,
-                    &self.motion,
-                    Solver::Explicit,
-                    SIGMOID_DENSITY,
-                    passes,
-                    true,
-                )?;
-                return Ok(found.map(|answer| Found::new(&answer.forces, answer.node_updates)));
+                (Solver::Explicit, SIGMOID_DENSITY)
             }
         };
-        let found = simulate(scene, &self.motion, solver, density, passes, true)?;
-        Ok(found.map(|answer| Found::new(&answer.forces, answer.node_updates)))
+        let found = simulate(&scene, &self.motion, solver, density, passes, BUDGET)?;
+        Ok(found.map(|answer| Found {
+            forces: last_half(&answer.forces).to_vec(),
+            node_updates: Some(answer.node_updates),
+        }))
     }
 
-    fn law(&self, density: f64, passes: usize) -> Result<Found, Box<dyn Error>> {
+    fn law(&self, density: f64, passes: usize) -> Result<Found, Failure> {
         let resolution = Resolution::new(self.scene.duct.depth)?
             .with_nodes_per_depth(density)?
             .with_approach(self.scene.solver.approach.ok_or("the scene has no approach")?)?;
@@ -98,17 +103,12 @@ impl Case {
         if let Some(concern) = law.concerns().into_iter().find(|concern| concern.is_fatal()) {
             return Err(concern.to_string().into());
         }
-        let wanted: Vec<u64> = (passes.div_ceil(2)..=passes).map(|pass| pass as u64).collect();
+        let wanted: Vec<u64> = (half(passes)..=passes).map(|pass| pass as u64).collect();
         let run = law.run(&wanted)?;
         Ok(Found {
             forces: run.records.iter().map(|record| record.downstream_force).collect(),
             node_updates: None,
         })
-    }
-
-    fn truth(&self, scene: &Scene, density: f64, passes: usize) -> Result<Vec<f64>, Box<dyn Error>> {
-        let answer = simulate(scene, &self.motion, Solver::QuasiStatic, density, passes, false)?;
-        Ok(answer.ok_or("the truth has no limit")?.forces)
     }
 }
 
@@ -119,17 +119,13 @@ struct Found {
     node_updates: Option<usize>,
 }
 
-impl Found {
-    fn new(forces: &[f64], node_updates: usize) -> Self {
-        Self {
-            forces: last_half(forces).to_vec(),
-            node_updates: Some(node_updates),
-        }
-    }
+/// The first pass that counts.
+fn half(passes: usize) -> usize {
+    passes.div_ceil(2)
 }
 
 fn last_half(forces: &[f64]) -> &[f64] {
-    &forces[forces.len().div_ceil(2) - 1..]
+    &forces[half(forces.len()) - 1..]
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -140,8 +136,9 @@ enum Method {
 }
 
 /// Name, method and knobs.
-const METHODS: [(&str, Method, &[f64]); 5] = [
+const METHODS: [(&str, Method, &[f64]); 6] = [
     ("quasi-static", Method::Solver(Solver::QuasiStatic), &DENSITIES),
+    ("exact step", Method::Solver(Solver::ExactStep), &DENSITIES),
     ("dynamic", Method::Solver(Solver::Dynamic), &DENSITIES),
     ("explicit", Method::Solver(Solver::Explicit), &DENSITIES),
     ("pass law", Method::PassLaw, &LAW_DENSITIES),
@@ -157,66 +154,115 @@ struct Point {
     node_updates: Option<usize>,
 }
 
-pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
+/// One panel: a duct, a number of passes, and what is right there.
+struct Panel<'a> {
+    case: &'a Case,
+    length: f64,
+    passes: usize,
+    density: f64,
+    truth: Truth,
+    coulomb: Option<&'a Truth>,
+}
+
+impl Panel<'_> {
+    /// Measures every method; the rows of the table go to `table`.
+    fn measure(&self, panel: usize, table: &mut String) -> Result<Vec<Point>, Failure> {
+        let mut points = Vec::new();
+        let (length, passes) = (self.length, self.passes);
+        let (forces, uncertainty) = &self.truth;
+        writeln!(
+            table,
+            "{length},{passes},truth,{},nodes a depth,{uncertainty:.3e},,,its own error",
+            self.density
+        )?;
+        for (number, (name, method, knobs)) in METHODS.iter().enumerate() {
+            let same = matches!(method, Method::Solver(Solver::QuasiStatic | Solver::ExactStep));
+            let finest = if same {
+                self.density / COARSER
+            } else {
+                f64::INFINITY
+            };
+            let (unit, right) = match method {
+                Method::Sigmoid => ("1/m", self.coulomb.map(|(forces, _)| &forces[..passes])),
+                _ => ("nodes a depth", Some(&forces[..])),
+            };
+            for &knob in knobs.iter().filter(|&&knob| knob <= finest) {
+                let row = format!("{length},{passes},\"{name}\",{knob:e},{unit}");
+                let (found, seconds) = match timed(|| self.case.answer(*method, knob, passes)) {
+                    Ok((Some(found), seconds)) => (found, seconds),
+                    Ok((None, _)) => {
+                        writeln!(table, "{row},,,,left out: more than {BUDGET} s")?;
+                        continue;
+                    }
+                    Err(refusal) => {
+                        writeln!(table, "{row},,,,\"refused: {refusal}\"")?;
+                        continue;
+                    }
+                };
+                let right = right.ok_or_else(|| format!("{name}, {passes} passes: no truth"))?;
+                let error = error(&found.forces, last_half(right));
+                let count = found
+                    .node_updates
+                    .map_or_else(String::new, |count| count.to_string());
+                writeln!(table, "{row},{error:.3e},{seconds:.3e},{count},answered")?;
+                points.push(Point {
+                    panel,
+                    method: number,
+                    error,
+                    seconds,
+                    node_updates: found.node_updates,
+                });
+            }
+        }
+        Ok(points)
+    }
+}
+
+pub fn run(out: &Path) -> Result<(), Failure> {
+    let cases = LENGTHS
+        .map(Case::new)
+        .into_iter()
+        .collect::<Result<Vec<_>, _>>()?;
+    // What is right takes longest and is not timed: on all cores, the longest first.
+    let mut jobs: Vec<(usize, Option<usize>)> = vec![(1, Some(2)), (1, Some(1)), (0, Some(2)), (0, Some(1))];
+    jobs.extend([(1, None), (0, None), (1, Some(0)), (0, Some(0))]);
+    let found = jobs
+        .par_iter()
+        .with_max_len(1)
+        .map(|&(duct, column)| {
+            let case = &cases[duct];
+            let (scene, density, passes) = match column {
+                Some(column) => (&case.scene, TRUTHS[duct][column], PASSES[column]),
+                None => (&case.coulomb, COULOMB[duct].0, COULOMB[duct].1),
+            };
+            truth(scene, &case.motion, density, passes, half(passes))
+        })
+        .collect::<Result<Vec<Truth>, _>>()?;
+    let truth = |duct, column| {
+        let job = jobs.iter().position(|&job| job == (duct, column));
+        &found[job.expect("every truth is computed")]
+    };
+
     let mut points = Vec::new();
     let mut table = String::from(
         "duct_m,passes,method,knob,knob_unit,error_share_of_force,processor_seconds,node_updates,outcome\n",
     );
-    let mut panel = 0;
-    for (length, densities) in DUCTS {
-        let case = Case::new(length)?;
-        let coulomb = case.truth(
-            &case.coulomb,
-            COULOMB_DENSITY,
-            PASSES[2].min(passes_of_coulomb(length)),
-        )?;
-        for (passes, density) in PASSES.into_iter().zip(densities) {
-            let truth = case.truth(&case.scene, density, passes)?;
-            if length == DUCTS[0].0 {
-                agree(&truth)?;
+    let mut uncertainties = Vec::new();
+    for (duct, case) in cases.iter().enumerate() {
+        for (column, &passes) in PASSES.iter().enumerate() {
+            let panel = Panel {
+                case,
+                length: LENGTHS[duct],
+                passes,
+                density: TRUTHS[duct][column],
+                truth: truth(duct, Some(column)).clone(),
+                coulomb: (passes <= COULOMB[duct].1).then(|| truth(duct, None)),
+            };
+            if duct == 0 {
+                agree(&panel.truth.0)?;
             }
-            for (number, (name, method, knobs)) in METHODS.iter().enumerate() {
-                let unit = if *method == Method::Sigmoid {
-                    "1/m"
-                } else {
-                    "nodes a depth"
-                };
-                let truth = match method {
-                    Method::Sigmoid if passes > coulomb.len() => continue,
-                    Method::Sigmoid => last_half(&coulomb[..passes]),
-                    _ => last_half(&truth),
-                };
-                let finest = match method {
-                    Method::Solver(Solver::QuasiStatic) => density / COARSER,
-                    _ => f64::INFINITY,
-                };
-                for &knob in knobs.iter().filter(|&&knob| knob <= finest) {
-                    let row = format!("{length},{passes},\"{name}\",{knob:e},{unit}");
-                    let found = match timed(|| case.answer(*method, knob, passes)) {
-                        Ok((Some(found), seconds)) => (found, seconds),
-                        Ok((None, _)) => {
-                            writeln!(table, "{row},,,,left out: more than ten seconds")?;
-                            continue;
-                        }
-                        Err(refusal) => {
-                            writeln!(table, "{row},,,,\"refused: {refusal}\"")?;
-                            continue;
-                        }
-                    };
-                    let (Found { forces, node_updates }, seconds) = found;
-                    let error = error(&forces, truth);
-                    let count = node_updates.map_or_else(String::new, |count| count.to_string());
-                    writeln!(table, "{row},{error:.3e},{seconds:.3e},{count},answered")?;
-                    points.push(Point {
-                        panel,
-                        method: number,
-                        error,
-                        seconds,
-                        node_updates,
-                    });
-                }
-            }
-            panel += 1;
+            points.extend(panel.measure(uncertainties.len(), &mut table)?);
+            uncertainties.push(panel.truth.1);
         }
     }
     std::fs::write(out.join("cable.csv"), table)?;
@@ -224,8 +270,9 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         out.join("cable.svg"),
         figure(
             &points,
+            &uncertainties,
             "Force at the load cell: error against processor time, by method",
-            "processor time of all passes, s",
+            ("processor time of all passes, s", (1e-3, 10.0)),
             |point| Some(point.seconds),
         )?,
     )?;
@@ -233,21 +280,17 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         out.join("cable-count.svg"),
         figure(
             &points,
+            &uncertainties,
             "Force at the load cell: error against work, by method",
-            "nodes solved for or advanced",
+            ("nodes solved for or advanced", (1e4, 3e9)),
             |point| point.node_updates.map(|count| count as f64),
         )?,
     )?;
     Ok(())
 }
 
-/// The sigmoid in the long duct is followed for 100 passes: more would take minutes.
-fn passes_of_coulomb(length: f64) -> usize {
-    if length > DUCTS[0].0 { PASSES[1] } else { PASSES[2] }
-}
-
 /// Refuses a truth that the independent program does not confirm.
-fn agree(truth: &[f64]) -> Result<(), Box<dyn Error>> {
+fn agree(truth: &[f64]) -> Result<(), Failure> {
     for (pass, force) in INDEPENDENT {
         if let Some(found) = truth.get(pass - 1)
             && (found / force - 1.0).abs() > AGREEMENT
@@ -260,26 +303,31 @@ fn agree(truth: &[f64]) -> Result<(), Box<dyn Error>> {
 
 fn figure(
     points: &[Point],
+    uncertainties: &[f64],
     title: &str,
-    label: &str,
+    (label, range): (&str, (f64, f64)),
     cost: impl Fn(&Point) -> Option<f64>,
-) -> Result<String, Box<dyn Error>> {
+) -> Result<String, Failure> {
     let mut panels = Panels::new(title).columns(2);
     for (row, passes) in PASSES.into_iter().enumerate() {
-        for (column, (length, _)) in DUCTS.into_iter().enumerate() {
+        for (column, length) in LENGTHS.into_iter().enumerate() {
+            let panel = PASSES.len() * column + row;
             let mut chart = Chart::new(
                 format!("duct of {length} m, {passes} passes"),
-                Axis::logarithmic(label),
-                Axis::logarithmic("error, share of the force").range(1e-4, 2.0),
+                Axis::logarithmic(label).range(range.0, range.1),
+                Axis::logarithmic("error, share of the force").range(FLOOR, 2.0),
             )
             .refer(Reference::horizontal(1e-2, "1 %"))
             .refer(Reference::horizontal(1e-3, "0.1 %"));
+            if uncertainties[panel] > FLOOR {
+                chart = chart.refer(Reference::horizontal(uncertainties[panel], "truth may be off"));
+            }
             for (number, (name, ..)) in METHODS.iter().enumerate() {
                 let mine: Vec<(f64, f64)> = points
                     .iter()
-                    .filter(|point| point.panel == PASSES.len() * column + row && point.method == number)
-                    .filter_map(|point| Some((cost(point)?, point.error)))
-                    .filter(|(_, error)| error.is_finite() && *error > 0.0)
+                    .filter(|point| point.panel == panel && point.method == number)
+                    .filter_map(|point| Some((cost(point)?, point.error.max(FLOOR))))
+                    .filter(|(_, error)| error.is_finite())
                     .collect();
                 if !mine.is_empty() {
                     chart = chart.with(Series::line_points(*name, mine).look(number));

@@ -197,7 +197,7 @@ fn grounds() -> Result<Vec<(&'static str, SoilProfile)>, GroundError> {
 }
 
 /// Exact D_l at the positions.
-fn exact(name: &str, profile: &SoilProfile) -> Result<Vec<f64>, Box<dyn Error>> {
+fn exact(name: &str, profile: &SoilProfile) -> Result<Vec<f64>, Box<dyn Error + Send + Sync>> {
     let radii: Vec<f64> = positions().iter().map(|xi| xi.abs()).collect();
     let signed = |values: Vec<Displacement>| -> Vec<f64> {
         let pairs = positions().into_iter().zip(values);
@@ -261,7 +261,7 @@ fn measure(method: &Method, profile: &SoilProfile, knob: f64, exact: &[f64]) -> 
     }
 }
 
-pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
+pub fn run(out: &Path) -> Result<(), Box<dyn Error + Send + Sync>> {
     let grounds = grounds()?;
     let mut points = Vec::new();
     let mut table =

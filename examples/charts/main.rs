@@ -18,7 +18,10 @@ use std::error::Error;
 use std::path::Path;
 
 /// A chart's name and what draws it into a folder.
-type Entry = (&'static str, fn(&Path) -> Result<(), Box<dyn Error>>);
+type Entry = (
+    &'static str,
+    fn(&Path) -> Result<(), Box<dyn Error + Send + Sync>>,
+);
 
 const CHARTS: &[Entry] = &[
     ("ground", ground::run),
@@ -26,7 +29,7 @@ const CHARTS: &[Entry] = &[
     ("whole", whole::run),
 ];
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn Error + Send + Sync>> {
     let out = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/charts");
     std::fs::create_dir_all(&out)?;
     let wanted = std::env::args().nth(1);

@@ -17,22 +17,28 @@ const GRAVITY: f64 = 9.80665;
 const APPROACH: f64 = 15.0;
 /// The same as an override of a scene.
 pub const APPROACH_KEY: &str = "solver.approach=15 m";
+/// Passes after which it is known what all of them will take.
+const PROBE: usize = 3;
 
 /// Which solver takes the passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Solver {
     QuasiStatic,
+    /// The same, every window by dynamic programming instead of iteration.
+    ExactStep,
     Dynamic,
     Explicit,
 }
 
 impl Solver {
-    /// Most nodes that may be advanced for one answer: some ten seconds.
-    fn most_updates(self) -> f64 {
+    /// Nodes advanced in a second of a small machine, about: what an answer may take is counted, so that the same cells are left
+    /// out everywhere.
+    fn updates_per_second(self) -> f64 {
         match self {
-            Self::QuasiStatic => 6e8,
-            Self::Dynamic => 2e8,
-            Self::Explicit => 8e9,
+            Self::QuasiStatic => 7e7,
+            Self::ExactStep => 4e7,
+            Self::Dynamic => 2e7,
+            Self::Explicit => 3e8,
         }
     }
 }
@@ -49,7 +55,7 @@ pub struct Answer {
 /// # Errors
 ///
 /// None for a scene that was read from a file.
-pub fn cable(scene: &Scene) -> Result<DuctedCable, Box<dyn Error>> {
+pub fn cable(scene: &Scene) -> Result<DuctedCable, Box<dyn Error + Send + Sync>> {
     let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
     let friction = Friction::new(scene.friction.law, limit)?;
     Ok(
@@ -63,7 +69,11 @@ pub fn cable(scene: &Scene) -> Result<DuctedCable, Box<dyn Error>> {
 /// # Errors
 ///
 /// Those of the ground model.
-pub fn motion(scene: &Scene, field: &dyn GroundField, accuracy: f64) -> Result<DuctMotion, Box<dyn Error>> {
+pub fn motion(
+    scene: &Scene,
+    field: &dyn GroundField,
+    accuracy: f64,
+) -> Result<DuctMotion, Box<dyn Error + Send + Sync>> {
     let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
     let reach = scene.duct.length + 2.0 * APPROACH;
     Ok(DuctMotion::new(
@@ -76,7 +86,7 @@ pub fn motion(scene: &Scene, field: &dyn GroundField, accuracy: f64) -> Result<D
 }
 
 /// `passes` passes of the first vehicle, with `density` nodes a depth of the duct and two steps of the vehicle a node spacing.
-/// `None` where that would take more than about ten seconds and `limited`.
+/// `None` where the first passes show that all of them would take longer than `seconds`, about.
 ///
 /// # Errors
 ///
@@ -87,17 +97,20 @@ pub fn simulate(
     solver: Solver,
     density: f64,
     passes: usize,
-    limited: bool,
-) -> Result<Option<Answer>, Box<dyn Error>> {
+    seconds: f64,
+) -> Result<Option<Answer>, Box<dyn Error + Send + Sync>> {
     let (cable, mass) = (cable(scene)?, scene.cable.weight / GRAVITY);
     let spacing = scene.duct.depth / density;
     let mesh = Mesh::new(scene.duct.length, spacing, 0.5 * spacing)?;
     let mut state = CableState::at_rest(&mesh);
     let mut pass: Box<dyn FnMut() -> Result<PassOutcome, cable_dem::CableError>> = match solver {
-        Solver::QuasiStatic => {
+        Solver::QuasiStatic | Solver::ExactStep => {
             let passage = Passage::new(&cable, &mesh, motion, APPROACH)?;
-            let mut solver = QuasiStatic::new(cable, mesh)?;
-            Box::new(move || solver.pass(&passage, &mut state))
+            let mut quasi_static = QuasiStatic::new(cable, mesh)?;
+            if solver == Solver::ExactStep {
+                quasi_static = quasi_static.without_iteration();
+            }
+            Box::new(move || quasi_static.pass(&passage, &mut state))
         }
         Solver::Dynamic => {
             let duct = MovingDuct::new(&cable, &mesh, motion, APPROACH)?;
@@ -114,9 +127,9 @@ pub fn simulate(
     for done in 1..=passes {
         let outcome = pass()?;
         answer.forces.push(outcome.force.downstream);
-        answer.node_updates += outcome.statistics.node_updates;
+        answer.node_updates += outcome.statistics.node_updates + outcome.statistics.corners;
         let expected = answer.node_updates as f64 * passes as f64 / done as f64;
-        if limited && done <= 3 && expected > solver.most_updates() {
+        if done <= PROBE && expected > seconds * solver.updates_per_second() {
             return Ok(None);
         }
     }
@@ -140,4 +153,26 @@ pub fn error(found: &[f64], truth: &[f64]) -> f64 {
             worst.max(share)
         }
     })
+}
+
+/// Forces by quasi-static passes on a fine mesh, and how far they may be off: a third of their difference to those on a mesh half
+/// as fine, which is what a scheme of second order leaves, over the passes from `from` on.
+///
+/// # Errors
+///
+/// Those of the solver.
+pub fn truth(
+    scene: &Scene,
+    motion: &DuctMotion,
+    density: f64,
+    passes: usize,
+    from: usize,
+) -> Result<(Vec<f64>, f64), Box<dyn Error + Send + Sync>> {
+    let at = |density| -> Result<Vec<f64>, Box<dyn Error + Send + Sync>> {
+        let answer = simulate(scene, motion, Solver::QuasiStatic, density, passes, f64::INFINITY)?;
+        Ok(answer.expect("there is no limit").forces)
+    };
+    let (fine, coarse) = (at(density)?, at(0.5 * density)?);
+    let gap = error(&coarse[from - 1..], &fine[from - 1..]);
+    Ok((fine, gap / 3.0))
 }
