@@ -30,7 +30,7 @@ const MOST_CHECKS: f64 = 10.0;
 const CHECK_LEVEL: usize = 2;
 /// Forces below this share of the last one count as nothing when errors are compared.
 const SMALL_FORCE: f64 = 0.1;
-/// The law resolves the passes from this one on.
+/// The law resolves the passes from this one on; those before it are simulated.
 const FIRST_GOOD: u64 = 10;
 /// The first passes are all listed, then each this much later than the one before.
 const GROWTH: f64 = 1.03;
@@ -89,7 +89,6 @@ fn first_passes(scene: &Scene, motions: &[DuctMotion]) -> Result<Option<Vec<Pass
     Ok(Some(
         records
             .map(|(outcome, pass)| PassRecord::new(pass, outcome))
-            .filter(|record| record.pass >= FIRST_GOOD)
             .collect(),
     ))
 }
@@ -123,11 +122,8 @@ fn evolve(
     if evolution.left_table {
         warnings.push("the locked friction left the range in which the law was tabulated".into());
     }
-    if scene.traffic.passes < FIRST_GOOD {
-        warnings.push("the first ten passes are rough by the pass law".into());
-    }
     let swing = swing(scene);
-    let records: Vec<PassRecord> = evolution.records.iter().map(|record| of(record, swing)).collect();
+    let mut records: Vec<PassRecord> = evolution.records.iter().map(|record| of(record, swing)).collect();
     let share = difference(
         &records,
         &coarse
@@ -137,17 +133,30 @@ fn evolve(
             .collect::<Vec<_>>(),
     );
     let measured = match checked()? {
-        Some(simulated) if !simulated.is_empty() => {
-            let wanted: Vec<u64> = simulated.iter().map(|record| record.pass).collect();
-            let by_law: Vec<PassRecord> = law
-                .run(&wanted)?
-                .records
-                .iter()
-                .map(|record| of(record, swing))
-                .collect();
-            Some((difference(&simulated, &by_law), wanted[wanted.len() - 1]))
+        Some(mut simulated) => {
+            let good = simulated.partition_point(|record| record.pass < FIRST_GOOD);
+            let checked = simulated.split_off(good);
+            // Before that pass the law is rough, and the simulation knows better.
+            let early = records.partition_point(|record| record.pass < FIRST_GOOD);
+            records.splice(..early.min(simulated.len()), simulated);
+            let wanted: Vec<u64> = checked.iter().map(|record| record.pass).collect();
+            match wanted.last() {
+                Some(&last) => {
+                    let by_law: Vec<PassRecord> = law
+                        .run(&wanted)?
+                        .records
+                        .iter()
+                        .map(|record| of(record, swing))
+                        .collect();
+                    Some((difference(&checked, &by_law), last))
+                }
+                None => None,
+            }
         }
-        _ => None,
+        None => {
+            warnings.push("the first ten passes are rough by the pass law".into());
+            None
+        }
     };
     let law_error = measured.map_or(ERROR, |(error, _)| error.max(ERROR));
     let relative = 0.5 * share + law_error;
