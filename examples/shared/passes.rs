@@ -9,6 +9,7 @@ use cable_dem::{
     Passage, QuasiStatic,
 };
 use creepage::Scene;
+use creepage::figure::Series;
 use ground_field::{DuctLine, DuctMotion, GroundField};
 
 /// Standard acceleration of gravity \[m/s²\].
@@ -17,6 +18,8 @@ const GRAVITY: f64 = 9.80665;
 const APPROACH: f64 = 15.0;
 /// The same as an override of a scene.
 pub const APPROACH_KEY: &str = "solver.approach=15 m";
+/// Look of what is right, in every figure.
+const BLACK: usize = 6;
 /// Passes after which it is known what all of them will take.
 const PROBE: usize = 3;
 
@@ -175,4 +178,11 @@ pub fn truth(
     let (fine, coarse) = (at(density)?, at(0.5 * density)?);
     let gap = error(&coarse[from - 1..], &fine[from - 1..]);
     Ok((fine, gap / 3.0))
+}
+
+/// A line across a chart from `range.0` to `range.1`: below it nothing can be told.
+pub fn own_error(error: f64, range: (f64, f64)) -> Series {
+    Series::line("error of the truth itself", [(range.0, error), (range.1, error)])
+        .look(BLACK)
+        .dotted()
 }

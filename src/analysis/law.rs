@@ -132,32 +132,22 @@ fn evolve(
             .map(|record| of(record, swing))
             .collect::<Vec<_>>(),
     );
-    let measured = match checked()? {
-        Some(mut simulated) => {
-            let good = simulated.partition_point(|record| record.pass < FIRST_GOOD);
-            let checked = simulated.split_off(good);
-            // Before that pass the law is rough, and the simulation knows better.
-            let early = records.partition_point(|record| record.pass < FIRST_GOOD);
-            records.splice(..early.min(simulated.len()), simulated);
-            let wanted: Vec<u64> = checked.iter().map(|record| record.pass).collect();
-            match wanted.last() {
-                Some(&last) => {
-                    let by_law: Vec<PassRecord> = law
-                        .run(&wanted)?
-                        .records
-                        .iter()
-                        .map(|record| of(record, swing))
-                        .collect();
-                    Some((difference(&checked, &by_law), last))
-                }
-                None => None,
-            }
+    let mut measured = None;
+    if let Some(mut simulated) = checked()? {
+        let good = simulated.partition_point(|record| record.pass < FIRST_GOOD);
+        let checked = simulated.split_off(good);
+        // Before that pass the law is rough, and the simulation knows better.
+        let early = records.partition_point(|record| record.pass < FIRST_GOOD);
+        records.splice(..early.min(simulated.len()), simulated);
+        let wanted: Vec<u64> = checked.iter().map(|record| record.pass).collect();
+        if let Some(&last) = wanted.last() {
+            let by_law = law.run(&wanted)?;
+            let by_law: Vec<PassRecord> = by_law.records.iter().map(|record| of(record, swing)).collect();
+            measured = Some((difference(&checked, &by_law), last));
         }
-        None => {
-            warnings.push("the first ten passes are rough by the pass law".into());
-            None
-        }
-    };
+    } else {
+        warnings.push("the first ten passes are rough by the pass law".into());
+    }
     let law_error = measured.map_or(ERROR, |(error, _)| error.max(ERROR));
     let relative = 0.5 * share + law_error;
     if relative > scene.solver.tolerance {
