@@ -7,7 +7,7 @@
 //!
 //! *Truth.* Quasi-static on a mesh at least three times as fine as any point that shares its method; how far it may be off is drawn
 //! and stands in the table. No chart is drawn unless it agrees with the figures of an independent program that solves the whole cable
-//! at every step, and with the finest explicit and dynamic answers. The sigmoid remembers nothing and tends to Coulomb's law as b
+//! at every step. The sigmoid remembers nothing and tends to Coulomb's law as b
 //! grows, so it is held against that.
 
 use std::error::Error;
@@ -280,7 +280,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
             &points,
             &uncertainties,
             "Force at the load cell: error against processor time, by method",
-            ("processor time of all passes, s", (1e-3, 10.0)),
+            ("processor time of all passes, s", (5e-4, 20.0)),
             |point| Some(point.seconds),
         )?,
     )?;
