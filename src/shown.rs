@@ -76,6 +76,33 @@ pub fn quantity(value: f64, unit: &str) -> String {
     format!("{} {prefix}{unit}", significant(value / factor))
 }
 
+/// A whole number in groups of three digits, which do not break: "5 840 000".
+#[cfg(feature = "plot")]
+pub fn count(number: u64) -> String {
+    let digits = number.to_string();
+    if digits.len() <= 4 {
+        return digits;
+    }
+    let mut grouped = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            grouped.push('\u{a0}');
+        }
+        grouped.push(digit);
+    }
+    grouped
+}
+
+/// A length in the unit one would say it in: "0.9 m", "50 mm".
+#[cfg(feature = "plot")]
+pub fn length(metres: f64) -> String {
+    if metres.abs() < 0.1 {
+        quantity(metres, "m")
+    } else {
+        format!("{} m", significant(metres))
+    }
+}
+
 /// Four digits, without zeros at the end; very large and small numbers with an exponent.
 #[cfg(feature = "plot")]
 pub fn significant(value: f64) -> String {
@@ -110,6 +137,11 @@ mod tests {
         ] {
             assert_eq!(quantity(value, unit), expected);
         }
+        assert_eq!(
+            [7, 2000, 5_840_000].map(count),
+            ["7", "2000", "5\u{a0}840\u{a0}000"]
+        );
+        assert_eq!([0.9, 1500.0, 0.05].map(length), ["0.9 m", "1500 m", "50 mm"]);
         assert_eq!(significant(7_352_941.0), "7352941");
         assert_eq!(significant(1e-7), "1.000e-7");
         assert_eq!(significant(120.0), "120");

@@ -36,8 +36,11 @@ impl Html {
         self.element("p", text);
     }
 
-    /// A list of points.
+    /// A list of points, nothing without any.
     pub fn list(&mut self, points: &[String]) {
+        if points.is_empty() {
+            return;
+        }
         self.raw("<ul>");
         for point in points {
             self.element("li", point);

@@ -2,7 +2,7 @@
 
 use crate::design::{DesignError, Measure, Place, TradeOff, compare};
 use crate::scene::End;
-use crate::shown::quantity;
+use crate::shown::{length, quantity};
 use crate::{Run, Scene};
 
 /// Tolerance of these runs, unless the scene's is looser: they are compared with each other, on one mesh.
@@ -69,7 +69,7 @@ impl Way {
         let Measure { place, stiffness } = self.measure;
         let spring = quantity(stiffness, "N/m");
         let name = match place {
-            Place::Clamp(position) => format!("clamp of {spring} at {}", quantity(position, "m")),
+            Place::Clamp(position) => format!("clamp of {spring} at {}", length(position)),
             _ if stiffness == 0.0 => "free end".to_owned(),
             _ if stiffness.is_infinite() => "fixed end".to_owned(),
             _ => format!("spring of {spring}"),
@@ -91,7 +91,7 @@ fn end(scene: &Scene, run: &Run) -> Place {
         (End::Free, End::Free) => -last.upstream_displacement_m > last.downstream_displacement_m,
         (End::Free, _) => false,
         (_, End::Free) => true,
-        _ => last.upstream_force_n > last.downstream_force_n,
+        _ => last.upstream_force_n.abs() > last.downstream_force_n.abs(),
     };
     if upstream {
         Place::Upstream

@@ -35,9 +35,9 @@ use agreement::Agreement;
 use measures::Comparison;
 
 /// Positions at which the motion of the duct is drawn, and how far on either side of the vehicle \[depths\].
-const POSITIONS: i32 = 201;
-const REACH_DEPTHS: f64 = 8.0;
-/// Passes at which the cable is looked at, about.
+const POSITIONS: i32 = 301;
+const REACH_DEPTHS: f64 = 12.5;
+/// Passes at which the cable is looked at, at most.
 const STAGES: i32 = 4;
 
 /// What a report is to hold beside the scene's answer.
@@ -135,7 +135,7 @@ fn positions(scene: &Scene) -> Vec<f64> {
 
 /// The first pass, the last, and round numbers between them.
 fn stages(count: u64) -> Vec<u64> {
-    let mut stages: Vec<u64> = (0..STAGES)
+    let mut stages: Vec<u64> = (0..STAGES - 1)
         .map(|k| round((count as f64).powf(f64::from(k) / f64::from(STAGES - 1))))
         .filter(|&pass| pass < count)
         .collect();
@@ -158,6 +158,12 @@ fn round(number: f64) -> u64 {
 
 /// Friction in the first and the last pass where the run saw it, else in the first alone, by a run of its own.
 fn friction(scene: &Scene, run: &Run) -> Friction {
+    if words::friction_limit(scene) == 0.0 {
+        return Friction {
+            passes: Vec::new(),
+            remark: Some("There is no friction here, so nothing drags the cable along.".into()),
+        };
+    }
     let seen = run.stages.iter();
     let mut passes: Vec<_> = seen
         .filter_map(|stage| Some((stage.pass, stage.friction.clone()?)))
@@ -210,5 +216,6 @@ mod tests {
         assert_eq!(stages(200), [1, 5, 20, 200]);
         assert_eq!(stages(1000), [1, 10, 100, 1000]);
         assert_eq!(stages(10_000_000), [1, 200, 20_000, 10_000_000]);
+        assert_eq!(stages(30), [1, 2, 5, 30]);
     }
 }

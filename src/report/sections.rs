@@ -7,7 +7,7 @@ use super::words;
 use crate::design::Place;
 use crate::figure::Panels;
 use crate::scene::End;
-use crate::shown::{quantity, rounded, selected, share, time};
+use crate::shown::{count, length, rounded, selected, share, time};
 use crate::{FrictionProfile, PassRecord};
 
 const MILLI: f64 = 1e3;
@@ -30,21 +30,29 @@ pub fn heading(html: &mut Html, report: &Report) {
         env!("CARGO_PKG_VERSION")
     ));
     let Some(last) = run.passes.last() else { return };
+    let (force, place) = pressed(report, last);
     let mut headlines = Vec::new();
     if let Some(saturation) = &run.saturation {
         let force = format!("{} N", rounded(saturation.force_n, 1));
-        headlines.push(headline("Saturated force", force, pressed(report)));
+        headlines.push(headline(
+            "Saturated force",
+            force,
+            format!("{place}{}", tension(saturation.force_n)),
+        ));
         headlines.push(headline(
             "Passes to 95 % of it",
-            saturation.passes_to_95_percent.to_string(),
-            format!("of {} computed", last.pass),
+            count(saturation.passes_to_95_percent),
+            format!("of {} computed", count(last.pass)),
         ));
     } else {
-        let force = format!("{} N", rounded(held_force(report, last), 1));
         headlines.push(headline(
             "Force after the last pass",
-            force,
-            format!("{}, not levelled off after {} passes", pressed(report), last.pass),
+            format!("{} N", rounded(force, 1)),
+            format!(
+                "{place}{}, not levelled off after {} passes",
+                tension(force),
+                count(last.pass)
+            ),
         ));
     }
     let (upstream, downstream) = (last.upstream_displacement_m, last.downstream_displacement_m);
@@ -56,7 +64,7 @@ pub fn heading(html: &mut Html, report: &Report) {
     headlines.push(headline(
         "Movement of an end",
         format!("{} mm", rounded(MILLI * moved, 3)),
-        format!("{end} end, after {} passes", last.pass),
+        format!("{end} end, after {} passes", count(last.pass)),
     ));
     headlines.push(headline(
         "Peak motion of the duct",
@@ -74,22 +82,22 @@ pub fn heading(html: &mut Html, report: &Report) {
     html.headlines(&headlines);
 }
 
-/// Where the force of the headline is.
-fn pressed(report: &Report) -> &'static str {
+/// The force of the headline after the last pass \[N\], and where it is.
+fn pressed(report: &Report, last: &PassRecord) -> (f64, &'static str) {
+    let upstream = (last.upstream_force_n, "on the upstream end");
+    let downstream = (last.downstream_force_n, "on the downstream end");
     match (report.scene.ends.upstream, report.scene.ends.downstream) {
-        (End::Free, End::Free) => "largest in the cable",
-        (_, End::Free) => "on the upstream end",
-        (End::Free, _) => "on the downstream end",
-        _ => "on the end pressed harder",
+        (End::Free, End::Free) => (last.max_compression_n, "largest compression in the cable"),
+        (_, End::Free) => upstream,
+        (End::Free, _) => downstream,
+        _ if upstream.0.abs() > downstream.0.abs() => upstream,
+        _ => downstream,
     }
 }
 
-fn held_force(report: &Report, last: &PassRecord) -> f64 {
-    match (report.scene.ends.upstream, report.scene.ends.downstream) {
-        (End::Free, End::Free) => last.max_compression_n,
-        _ if last.upstream_force_n.abs() > last.downstream_force_n.abs() => last.upstream_force_n,
-        _ => last.downstream_force_n,
-    }
+/// What a force does, where that is not what one expects.
+fn tension(force: f64) -> &'static str {
+    if force < 0.0 { ", tension" } else { "" }
 }
 
 pub fn warnings(html: &mut Html, report: &Report) {
@@ -157,35 +165,48 @@ pub fn force(html: &mut Html, report: &Report) {
     for clamp in &report.run.restraints {
         html.paragraph(&format!(
             "The clamp at {} carries {} N.",
-            quantity(clamp.position_m, "m"),
+            length(clamp.position_m),
             rounded(clamp.force_n, 1)
         ));
     }
 }
 
-/// Some passes, as the terminal shows them.
+/// Some passes, as the terminal shows them; without what stays zero, as the force on a free end.
 fn passes(report: &Report) -> Table {
-    let row = |record: &PassRecord| {
-        vec![
-            record.pass.to_string(),
-            rounded(record.upstream_force_n, 1),
-            rounded(record.downstream_force_n, 1),
-            rounded(MILLI * record.upstream_displacement_m, 4),
-            rounded(MILLI * record.downstream_displacement_m, 4),
-        ]
+    type Column = (&'static str, fn(&PassRecord) -> f64, usize);
+    // Soft hyphens: a phone is narrow.
+    const COLUMNS: [Column; 4] = [
+        ("force up\u{ad}stream, N", |record| record.upstream_force_n, 1),
+        ("force down\u{ad}stream, N", |record| record.downstream_force_n, 1),
+        (
+            "moved up\u{ad}stream, mm",
+            |record| MILLI * record.upstream_displacement_m,
+            4,
+        ),
+        (
+            "moved down\u{ad}stream, mm",
+            |record| MILLI * record.downstream_displacement_m,
+            4,
+        ),
+    ];
+    let passes = &report.run.passes;
+    let is_told = |(_, value, _): &Column| passes.iter().any(|record| value(record) != 0.0);
+    let columns: Vec<Column> = if COLUMNS.iter().any(is_told) {
+        COLUMNS.into_iter().filter(is_told).collect()
+    } else {
+        COLUMNS.to_vec()
     };
+    let row = |record: &PassRecord| {
+        let values = columns
+            .iter()
+            .map(|(_, value, decimals)| rounded(value(record), *decimals));
+        std::iter::once(count(record.pass)).chain(values).collect()
+    };
+    let names = columns.iter().map(|(name, ..)| *name);
     Table {
-        head: [
-            "pass",
-            "upstream, N",
-            "downstream, N",
-            "upstream, mm",
-            "downstream, mm",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
-        rows: selected(&report.run.passes).into_iter().map(row).collect(),
-        numbers: vec![true; 5],
+        head: std::iter::once("pass").chain(names).map(str::to_owned).collect(),
+        rows: selected(passes).into_iter().map(row).collect(),
+        numbers: vec![true; 1 + columns.len()],
     }
 }
 
@@ -292,7 +313,7 @@ pub fn measures(html: &mut Html, report: &Report) {
                 answer.clamp_force_n.map_or("–".into(), |force| rounded(force, 1)),
                 share(answer.error_estimate),
             ],
-            Err(error) => [format!("failed: {error}"), "–".into(), "–".into(), "–".into()],
+            Err(_) => ["failed", "–", "–", "–"].map(str::to_owned),
         });
         row
     });
@@ -303,6 +324,11 @@ pub fn measures(html: &mut Html, report: &Report) {
         rows: rows.collect(),
         numbers: vec![false, true, true, true, true],
     });
+    let failures = comparison.ways.iter().filter_map(|way| {
+        let error = way.answer.as_ref().err()?;
+        Some(format!("Failed: {}: {error}", way.name()))
+    });
+    html.list(&failures.collect::<Vec<_>>());
 }
 
 pub fn plan(html: &mut Html, report: &Report) {
@@ -314,24 +340,24 @@ pub fn plan(html: &mut Html, report: &Report) {
     html.list(&run.plan.reasons);
     html.element("h3", "What was weighed");
     let rows = plan.ladder.iter().map(|rung| {
+        let cost = [rung.estimated_error.map(share), rung.estimated_seconds.map(time)];
         vec![
-            format!("{} {}", rung.part, rung.name),
-            if rung.chosen {
-                "taken".into()
-            } else {
-                "rejected".into()
-            },
-            rung.estimated_error.map_or("–".into(), share),
-            rung.estimated_seconds.map_or("–".into(), time),
+            format!(
+                "{} {}: {}",
+                rung.part,
+                rung.name,
+                if rung.chosen { "taken" } else { "rejected" }
+            ),
+            cost.into_iter().flatten().collect::<Vec<_>>().join(", "),
             rung.reason.clone(),
         ]
     });
     html.table(&Table {
-        head: ["model", "", "error", "time", "why, or why not"]
+        head: ["model", "error, time", "why, or why not"]
             .map(str::to_owned)
             .to_vec(),
         rows: rows.collect(),
-        numbers: vec![false, false, true, true, false],
+        numbers: vec![false; 3],
     });
     html.element("h3", "Error of the forces");
     let error = &run.error_estimate;

@@ -5,7 +5,7 @@ use ground_field::{Base, Direction, Modulus, Vehicle};
 use super::html::Table;
 use crate::Scene;
 use crate::scene::{End, FrictionLaw, Order, PeakScaling};
-use crate::shown::{quantity, significant};
+use crate::shown::{count, length, quantity, significant};
 
 /// Kilometres an hour of a metre a second.
 const KILOMETRES_PER_HOUR: f64 = 3.6;
@@ -19,7 +19,7 @@ pub fn scene(scene: &Scene) -> Vec<String> {
         format!(
             "Ends: upstream (x = 0) {}, downstream (x = {}) {}.",
             end(scene.ends.upstream),
-            quantity(scene.duct.length, "m"),
+            length(scene.duct.length),
             end(scene.ends.downstream)
         ),
     ];
@@ -27,7 +27,7 @@ pub fn scene(scene: &Scene) -> Vec<String> {
         points.push(format!(
             "Clamp of {} at {}.",
             quantity(restraint.stiffness, "N/m"),
-            quantity(restraint.position, "m")
+            length(restraint.position)
         ));
     }
     points.push(traffic(scene));
@@ -40,13 +40,13 @@ fn duct(scene: &Scene) -> String {
     } else {
         format!(
             "the vehicles' axis runs {} beside it",
-            quantity(scene.duct.lateral_offset.abs(), "m")
+            length(scene.duct.lateral_offset.abs())
         )
     };
     format!(
         "Duct: {} long, {} from the road surface to the cable; {path}.",
-        quantity(scene.duct.length, "m"),
-        quantity(scene.duct.depth, "m")
+        length(scene.duct.length),
+        length(scene.duct.depth)
     )
 }
 
@@ -75,13 +75,10 @@ fn friction(scene: &Scene) -> String {
     let law = match scene.friction.law {
         FrictionLaw::Coulomb => "Coulomb's law".to_owned(),
         FrictionLaw::ElasticPlastic { shape_factor } => {
-            format!(
-                "elastic-plastic law, shape factor {} 1/m",
-                significant(shape_factor)
-            )
+            format!("elastic-plastic law, shape factor {shape_factor:.3e} 1/m")
         }
         FrictionLaw::Sigmoid { shape_factor } => {
-            format!("sigmoid law, shape factor {} 1/m", significant(shape_factor))
+            format!("sigmoid law, shape factor {shape_factor:.3e} 1/m")
         }
         _ => "a law of its own".to_owned(),
     };
@@ -106,7 +103,7 @@ fn traffic(scene: &Scene) -> String {
     let passes = if passes == 1 {
         "one pass".to_owned()
     } else {
-        format!("{passes} passes")
+        format!("{} passes", count(passes))
     };
     let vehicles = scene.vehicles.len();
     let order = match &scene.traffic.order {
@@ -132,7 +129,11 @@ pub fn ground(scene: &Scene) -> Table {
             }
         };
         rows.push(vec![
-            format!("{} to {}", quantity(top, "m"), quantity(bottom, "m")),
+            format!(
+                "{} to {}",
+                if top == 0.0 { "0".into() } else { length(top) },
+                length(bottom)
+            ),
             modulus,
             significant(layer.poisson_ratio()),
         ]);
@@ -143,13 +144,13 @@ pub fn ground(scene: &Scene) -> Table {
             if top == 0.0 {
                 "everywhere".into()
             } else {
-                format!("below {}", quantity(top, "m"))
+                format!("below {}", length(top))
             },
             quantity(soil.young_modulus(), "Pa"),
             significant(soil.poisson_ratio()),
         ],
         Base::Rigid => vec![
-            format!("below {}", quantity(top, "m")),
+            format!("below {}", length(top)),
             "rock that does not move".into(),
             "–".into(),
         ],

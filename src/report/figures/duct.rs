@@ -4,6 +4,7 @@ use crate::FrictionProfile;
 use crate::figure::{Axis, Chart, Panels, Reference, Series};
 use crate::report::Report;
 use crate::report::words::friction_limit;
+use crate::shown::count;
 
 use super::{single, stacked};
 
@@ -12,7 +13,6 @@ const FRICTION_DEPTHS: f64 = 12.5;
 /// Metres to micrometres, and to millimetres.
 const MICRO: f64 = 1e6;
 const MILLI: f64 = 1e3;
-const POSITION: &str = "vehicle past the point looked at, m";
 
 /// A quantity in the vehicle's direction and against it, both positive.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +30,7 @@ pub fn motion(report: &Report) -> Panels {
         pairs.map(|(xi, value)| (-xi, MICRO * value)).collect()
     };
     let chart = |title, label: &str, values: &[f64], look| {
-        Chart::new(title, Axis::linear(POSITION), Axis::linear(label))
+        Chart::new(title, position(report), Axis::linear(label))
             .with(Series::line("", points(values)).look(look).solid())
     };
     stacked([
@@ -59,12 +59,18 @@ pub fn velocity(report: &Report) -> Panels {
     let Areas { forward, backward } = areas(report);
     let chart = Chart::new(
         "Velocity of the duct along its axis",
-        Axis::linear(POSITION),
+        position(report),
         Axis::linear("velocity, mm/s"),
     )
     .with(Series::area(format!("with the vehicle, {:.1} µm", MICRO * forward), part(sign)).solid())
     .with(Series::area(format!("against it, {:.1} µm", MICRO * backward), part(-sign)).solid());
     single(chart)
+}
+
+/// The axis of the vehicle's position.
+fn position(report: &Report) -> Axis {
+    let half = report.motion.positions_m.last().copied().unwrap_or(1.0);
+    Axis::linear("vehicle past the point looked at, m").range(-half, half)
 }
 
 /// How far the duct runs with the vehicle and against it as it drives by: ∫ V_l dt of either sign \[m\].
@@ -99,8 +105,8 @@ pub fn friction(report: &Report) -> Option<Panels> {
     let half = FRICTION_DEPTHS * report.scene.duct.depth;
     let charts = passes.iter().map(|(pass, friction)| {
         Chart::new(
-            format!("Friction on the cable, pass {pass}"),
-            Axis::linear("place from the vehicle, m"),
+            format!("Friction on the cable, pass {}", count(*pass)),
+            Axis::linear("place from the vehicle, m").range(-half, half),
             Axis::linear("friction, N/m").range(-1.5 * limit, 1.5 * limit),
         )
         .refer(Reference::horizontal(limit, "+μ N′"))

@@ -4,6 +4,7 @@ use crate::PassRecord;
 use crate::figure::{Axis, Chart, Panels, Reference, Series};
 use crate::report::Report;
 use crate::scene::End;
+use crate::shown::count;
 
 use super::{passes_axis, series, single};
 
@@ -77,7 +78,7 @@ pub fn along(report: &Report) -> Panels {
                 let name = if stage.pass == 1 {
                     "pass 1".into()
                 } else {
-                    format!("{}", stage.pass)
+                    count(stage.pass)
                 };
                 chart.with(Series::line(name, points).look(look))
             }),

@@ -6,6 +6,9 @@ use crate::report::Report;
 
 use super::single;
 
+/// Movements of which the largest is so many times the smallest have a logarithmic axis.
+const WIDE: f64 = 50.0;
+
 /// Force against movement of all ways that have an answer; `None` without any.
 pub fn measures(report: &Report) -> Option<Panels> {
     let ways = &report.measures.ways;
@@ -22,9 +25,15 @@ pub fn measures(report: &Report) -> Option<Panels> {
         .filter(|way| way.is_scene)
         .filter_map(|way| way.answer.as_ref().ok().map(point))
         .collect();
+    let movements = || springs.iter().chain(&clamps).map(|(movement, _)| *movement);
+    let (least, most) = movements().fold((f64::INFINITY, 0.0), |(least, most), movement| {
+        (f64::min(least, movement), f64::max(most, movement))
+    });
+    let wide = least > 0.0 && most > WIDE * least;
+    let axis = if wide { Axis::logarithmic } else { Axis::linear };
     let chart = Chart::new(
         "Force against movement",
-        Axis::linear("largest movement of an end, mm"),
+        axis("largest movement of an end, mm"),
         Axis::linear("largest force on an end, N"),
     );
     let series = [

@@ -18,8 +18,9 @@ const HEIGHT: f64 = 330.0;
 const LOW: f64 = 250.0;
 /// Passes from which their axis is logarithmic.
 const MANY: u64 = 2000;
-/// Points of a line, about.
-const POINTS: usize = 300;
+/// Passes that are all drawn, and by what share the next ones are later than the one before.
+const ALL_DRAWN: u64 = 1000;
+const GROWTH: f64 = 1.01;
 
 /// One chart.
 fn single(chart: Chart) -> Panels {
@@ -42,15 +43,15 @@ fn passes_axis(last: u64) -> Axis {
     }
 }
 
-/// A value of each pass, of very many only as many as can be told apart on a line: all of the first, then ever fewer.
+/// A value of each pass; of very many, all of the first and then ever fewer.
 fn series(passes: &[PassRecord], value: impl Fn(&PassRecord) -> f64) -> Vec<(f64, f64)> {
-    let growth = 1.0 + 8.0 / POINTS as f64;
     let mut next = 0.0;
     let mut points = Vec::new();
     for (index, record) in passes.iter().enumerate() {
-        if record.pass as f64 >= next || index + 1 == passes.len() {
-            points.push((record.pass as f64, value(record)));
-            next = (record.pass as f64 * growth).max(next + 1.0);
+        let pass = record.pass as f64;
+        if record.pass <= ALL_DRAWN || pass >= next || index + 1 == passes.len() {
+            points.push((pass, value(record)));
+            next = GROWTH * pass;
         }
     }
     points
