@@ -1,6 +1,6 @@
 //! `creepage report`: a scene's answer as one page of HTML.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::arguments::SceneArguments;
 use super::input::Input;
@@ -37,6 +37,18 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         .map(Readings::from_file)
         .transpose()
         .map_err(crate::Error::from)?;
+    let sources = [Some(&arguments.scene.scene), arguments.data.as_ref()];
+    if sources
+        .into_iter()
+        .flatten()
+        .any(|source| same_file(source, &arguments.output))
+    {
+        return Err(Failure::Usage {
+            argument: "--output".into(),
+            found: format!("{}, which is read", arguments.output.display()),
+            allowed: "another file".into(),
+        });
+    }
     let page = write::Replacement::of(&arguments.output)?;
     let report = super::with_progress(|progress| {
         Report::new(
@@ -52,4 +64,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let report = input.judged(report)?;
     super::warn(&report.run().warnings);
     page.write(&report.to_html())
+}
+
+fn same_file(one: &Path, other: &Path) -> bool {
+    match (one.canonicalize(), other.canonicalize()) {
+        (Ok(one), Ok(other)) => one == other,
+        _ => false,
+    }
 }

@@ -111,7 +111,7 @@ pub fn escaped(text: &str) -> String {
             '<' => safe.push_str("&lt;"),
             '>' => safe.push_str("&gt;"),
             '"' => safe.push_str("&quot;"),
-            '\'' => safe.push_str("&#39;"),
+            '\'' => safe.push_str("&apos;"),
             '\n' | '\t' => safe.push(' '),
             letter if letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}') => {
                 safe.push('\u{fffd}');
@@ -129,7 +129,7 @@ mod tests {
     #[test]
     fn every_text_is_escaped() {
         let nasty = "<script>alert('1')</script> & \"\u{0}";
-        let safe = "&lt;script&gt;alert(&#39;1&#39;)&lt;/script&gt; &amp; &quot;\u{fffd}";
+        let safe = "&lt;script&gt;alert(&apos;1&apos;)&lt;/script&gt; &amp; &quot;\u{fffd}";
         let text = nasty.to_owned();
         let mut html = Html::default();
         html.paragraph(nasty);

@@ -3,6 +3,7 @@
 use super::Report;
 use super::figures::{self, Areas};
 use super::html::{Headline, Html, Table};
+use super::measures::Way;
 use super::words;
 use crate::design::Place;
 use crate::figure::Panels;
@@ -295,14 +296,13 @@ pub fn measures(html: &mut Html, report: &Report) {
         html.paragraph(&format!("The comparison failed: {failure}"));
         return;
     }
+    html.raw("<div class=\"figures\">");
     if let Some(panels) = figures::measures(report) {
-        html.raw("<div class=\"figures\">");
         figure(
             html,
             &panels,
             "Largest force against largest movement: a softer end moves more and is pressed less.",
         );
-        html.raw("</div>");
     }
     let rows = comparison.ways.iter().map(|way| {
         let mut row = vec![way.name()];
@@ -324,11 +324,25 @@ pub fn measures(html: &mut Html, report: &Report) {
         rows: rows.collect(),
         numbers: vec![false, true, true, true, true],
     });
-    let failures = comparison.ways.iter().filter_map(|way| {
-        let error = way.answer.as_ref().err()?;
-        Some(format!("Failed: {}: {error}", way.name()))
-    });
-    html.list(&failures.collect::<Vec<_>>());
+    html.raw("</div>");
+    html.list(&failures(&comparison.ways));
+}
+
+/// Ways that failed and why, those with the same reason together.
+fn failures(ways: &[Way]) -> Vec<String> {
+    let mut reasons: Vec<(String, String)> = Vec::new();
+    for way in ways {
+        let Err(error) = &way.answer else { continue };
+        let error = error.to_string();
+        match reasons.iter_mut().find(|(reason, _)| *reason == error) {
+            Some((_, names)) => names.push_str(&format!("; {}", way.name())),
+            None => reasons.push((error, way.name())),
+        }
+    }
+    let told = reasons
+        .into_iter()
+        .map(|(reason, names)| format!("Failed: {names}: {reason}"));
+    told.collect()
 }
 
 pub fn plan(html: &mut Html, report: &Report) {
