@@ -24,8 +24,8 @@ pub fn compare(
     scene: &Scene,
     measures: &[Measure],
 ) -> Result<Vec<Result<TradeOff, DesignError>>, DesignError> {
-    let ends = measures.iter().map(|measure| measure.place);
-    let end = ends.filter(|place| !matches!(place, Place::Clamp(_))).last();
+    let mut places = measures.iter().map(|measure| measure.place);
+    let end = places.find(|place| !matches!(place, Place::Clamp(_)));
     let scene = on_one_mesh(scene, end.unwrap_or(Place::Clamp(0.0)))?;
     Ok(measures
         .par_iter()

@@ -51,19 +51,16 @@ impl Html {
     /// A table as wide as its content.
     pub fn table(&mut self, table: &Table) {
         let row = |tag: &str, cells: &[String]| {
-            let cells: String = cells
-                .iter()
-                .enumerate()
-                .map(|(column, text)| {
-                    let class = if table.numbers.get(column) == Some(&true) {
-                        " class=\"number\""
-                    } else {
-                        ""
-                    };
-                    format!("<{tag}{class}>{}</{tag}>", escaped(text))
-                })
-                .collect();
-            format!("<tr>{cells}</tr>")
+            let cell = |(column, text): (usize, &String)| {
+                let class = if table.numbers.get(column) == Some(&true) {
+                    " class=\"number\""
+                } else {
+                    ""
+                };
+                format!("<{tag}{class}>{}</{tag}>", escaped(text))
+            };
+            let cells: Vec<String> = cells.iter().enumerate().map(cell).collect();
+            format!("<tr>{}</tr>", cells.concat())
         };
         self.raw("<table>");
         self.raw(&format!("<thead>{}</thead>", row("th", &table.head)));

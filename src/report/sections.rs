@@ -330,19 +330,19 @@ pub fn measures(html: &mut Html, report: &Report) {
 
 /// Ways that failed and why, those with the same reason together.
 fn failures(ways: &[Way]) -> Vec<String> {
-    let mut reasons: Vec<(String, String)> = Vec::new();
+    let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
     for way in ways {
         let Err(error) = &way.answer else { continue };
         let error = error.to_string();
         match reasons.iter_mut().find(|(reason, _)| *reason == error) {
-            Some((_, names)) => names.push_str(&format!("; {}", way.name())),
-            None => reasons.push((error, way.name())),
+            Some((_, names)) => names.push(way.name()),
+            None => reasons.push((error, vec![way.name()])),
         }
     }
-    let told = reasons
+    reasons
         .into_iter()
-        .map(|(reason, names)| format!("Failed: {names}: {reason}"));
-    told.collect()
+        .map(|(reason, names)| format!("Failed: {}: {reason}", names.join("; ")))
+        .collect()
 }
 
 pub fn plan(html: &mut Html, report: &Report) {
