@@ -262,12 +262,12 @@ fn texts_of_the_user_stay_texts() {
 fn readings_are_drawn_and_compared() {
     let run = creepage::run(&scene(&["traffic.passes=6"])).expect("a run");
     // Ten newtons above what is computed, and one reading beyond the passes.
-    let rows: String = run
+    let rows: Vec<String> = run
         .passes
         .iter()
         .map(|record| format!("{},{},5\n", record.pass, record.downstream_force_n + 10.0))
         .collect();
-    let csv = format!("pass,force_n,sigma_n\n{rows}9,500,5\n");
+    let csv = format!("pass,force_n,sigma_n\n{}9,500,5\n", rows.concat());
     let readings = Readings::from_csv("cell.csv", csv.as_bytes()).expect("readings");
     let options = ReportOptions {
         readings: Some(&readings),

@@ -1,8 +1,8 @@
 //! Ways to hold the cable, each by a run of the scene.
 
 use crate::design::{DesignError, Measure, Place, TradeOff, compare};
+use crate::report::quantity::{length, quantity};
 use crate::scene::End;
-use crate::shown::{length, quantity};
 use crate::{Run, Scene};
 
 /// Tolerance of these runs, unless the scene's is looser: they are compared with each other, on one mesh.

@@ -24,6 +24,7 @@ mod figures;
 mod html;
 mod measures;
 mod page;
+mod quantity;
 mod sections;
 mod words;
 

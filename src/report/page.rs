@@ -40,7 +40,7 @@ const SECTIONS: [Section; 7] = [
     ("Scene", sections::scene),
     ("Force and movement", sections::force),
     ("Why the cable creeps", sections::cause),
-    ("Ways to hold the cable", sections::measures),
+    ("Ways to hold the cable", sections::holding),
     ("How it was computed", sections::plan),
     ("What is left out", sections::limits),
 ];

@@ -4,8 +4,8 @@ use ground_field::{Base, Direction, Modulus, Vehicle};
 
 use super::html::Table;
 use crate::Scene;
+use crate::report::quantity::{count, length, quantity, significant};
 use crate::scene::{End, FrictionLaw, Order, PeakScaling};
-use crate::shown::{count, length, quantity, significant};
 
 /// Kilometres an hour of a metre a second.
 const KILOMETRES_PER_HOUR: f64 = 3.6;

@@ -3,8 +3,8 @@
 use crate::FrictionProfile;
 use crate::figure::{Axis, Chart, Panels, Reference, Series};
 use crate::report::Report;
+use crate::report::quantity::count;
 use crate::report::words::friction_limit;
-use crate::shown::count;
 
 use super::{single, stacked};
 

@@ -3,8 +3,8 @@
 use crate::PassRecord;
 use crate::figure::{Axis, Chart, Panels, Reference, Series};
 use crate::report::Report;
+use crate::report::quantity::count;
 use crate::scene::End;
-use crate::shown::count;
 
 use super::{passes_axis, series, single};
 
