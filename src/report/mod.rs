@@ -147,9 +147,10 @@ fn stages(count: u64) -> Vec<u64> {
 
 /// The largest of 1, 2, 5, 10, 20, … that is not above `number`, which is at least 1.
 fn round(number: f64) -> u64 {
+    // The cube root of a thousand comes out a little below ten.
+    let number = number * (1.0 + 1e-9);
     let power = 10_f64.powf(number.log10().floor());
-    // A power of ten may come out a little too small.
-    let leading = number / power * (1.0 + 1e-9);
+    let leading = number / power;
     let step = [5.0, 2.0]
         .into_iter()
         .find(|step| leading >= *step)
