@@ -206,6 +206,7 @@ fn ways_are_compared_by_runs_of_their_own() {
             measure(Place::Clamp(7.5), f64::INFINITY),
             measure(Place::Upstream, f64::NAN),
         ],
+        None,
     )
     .unwrap();
     let spring = ways[1].as_ref().unwrap();

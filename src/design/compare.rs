@@ -1,5 +1,7 @@
 //! Several ways to hold a cable beside each other, each by a run of the scene.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 
 use super::search::on_one_mesh;
@@ -15,7 +17,8 @@ pub struct Measure {
     pub stiffness: f64,
 }
 
-/// Runs `scene` once with each of `measures`, all on one mesh, on all cores. A run that fails is an error in its own place.
+/// Runs `scene` once with each of `measures`, all on one mesh, on all cores. A run that fails is an error in its own
+/// place; `progress` hears of the number of runs done so far.
 ///
 /// # Errors
 ///
@@ -23,17 +26,26 @@ pub struct Measure {
 pub fn compare(
     scene: &Scene,
     measures: &[Measure],
+    progress: Option<&(dyn Fn(usize) + Sync)>,
 ) -> Result<Vec<Result<TradeOff, DesignError>>, DesignError> {
     let mut places = measures.iter().map(|measure| measure.place);
     let end = places.find(|place| !matches!(place, Place::Clamp(_)));
     let scene = on_one_mesh(scene, end.unwrap_or(Place::Clamp(0.0)))?;
+    let done = AtomicUsize::new(0);
+    let answer = |measure: &Measure| {
+        measure.check(&scene)?;
+        let run = crate::run(&measure.place.held(&scene, measure.stiffness))?;
+        let told = measure.stiffness.is_finite().then_some(measure.stiffness);
+        Ok(TradeOff::of(&run, measure.place, told, NO_LIMITS))
+    };
     Ok(measures
         .par_iter()
         .map(|measure| {
-            measure.check(&scene)?;
-            let run = crate::run(&measure.place.held(&scene, measure.stiffness))?;
-            let told = measure.stiffness.is_finite().then_some(measure.stiffness);
-            Ok(TradeOff::of(&run, measure.place, told, NO_LIMITS))
+            let answer = answer(measure);
+            if let Some(progress) = progress {
+                progress(done.fetch_add(1, Ordering::Relaxed) + 1);
+            }
+            answer
         })
         .collect())
 }

@@ -2,6 +2,7 @@
 
 use crate::design::{DesignError, Measure, Place, TradeOff, compare};
 use crate::report::quantity::{length, quantity};
+use crate::report::{RUN_SHARE, ReportOptions};
 use crate::scene::End;
 use crate::{Run, Scene};
 
@@ -34,18 +35,26 @@ pub struct Way {
 }
 
 impl Comparison {
-    /// Runs `scene` with `measures`, or with those that suit it.
-    pub fn new(scene: &Scene, run: &Run, measures: Option<&[Measure]>) -> Self {
+    /// Runs `scene` with the measures of `options`, or with those that suit it.
+    pub fn new(scene: &Scene, run: &Run, options: &ReportOptions<'_>) -> Self {
         let mut scene = scene.clone();
         let tolerance = scene.solver.tolerance.max(TOLERANCE);
         scene.solver.tolerance = tolerance;
         let end = end(&scene, run);
-        let measures = measures.map_or_else(|| suitable(&scene, end), <[Measure]>::to_vec);
+        let measures = options
+            .measures
+            .map_or_else(|| suitable(&scene, end), <[Measure]>::to_vec);
+        let progress = |done: usize| {
+            if let Some(progress) = options.progress {
+                let share = done as f64 / measures.len() as f64;
+                progress(RUN_SHARE + (1.0 - RUN_SHARE) * share);
+            }
+        };
         let held = match end {
             Place::Upstream => scene.ends.upstream,
             _ => scene.ends.downstream,
         };
-        let (answers, failure) = match compare(&scene, &measures) {
+        let (answers, failure) = match compare(&scene, &measures, Some(&progress)) {
             Ok(answers) => (answers, None),
             Err(error) => (Vec::new(), Some(error.to_string())),
         };
