@@ -37,7 +37,9 @@ use measures::Comparison;
 
 /// Positions at which the motion of the duct is drawn, and how far on either side of the vehicle \[depths\].
 const POSITIONS: i32 = 301;
-const REACH_DEPTHS: f64 = 12.5;
+const REACH_DEPTHS: f64 = 10.0;
+/// Lengths that are called round, in powers of ten.
+const ROUND_LENGTHS: [f64; 7] = [1.0, 1.5, 2.0, 2.5, 3.0, 5.0, 7.5];
 /// Passes at which the cable is looked at, at most.
 const STAGES: i32 = 4;
 
@@ -132,10 +134,19 @@ impl Report {
     }
 }
 
+/// How far on either side of the vehicle the figures go \[m\]: a round length, so that their axes have ticks on both sides.
+fn reach(scene: &Scene) -> f64 {
+    let wheels = scene.vehicles[0].vehicle.wheels();
+    let longest = wheels.iter().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
+    let reach = REACH_DEPTHS * scene.duct.depth + longest;
+    let power = 10_f64.powf(reach.log10().floor());
+    let above = ROUND_LENGTHS.into_iter().find(|length| length * power >= reach);
+    above.unwrap_or(10.0) * power
+}
+
 /// Positions ξ \[m\] of the figures of the duct's motion.
 fn positions(scene: &Scene) -> Vec<f64> {
-    let wheels = scene.vehicles[0].vehicle.wheels();
-    let half = REACH_DEPTHS * scene.duct.depth + wheels.iter().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
+    let half = reach(scene);
     let middle = POSITIONS / 2;
     (-middle..=middle)
         .map(|k| half * f64::from(k) / f64::from(middle))

@@ -2,14 +2,12 @@
 
 use crate::FrictionProfile;
 use crate::figure::{Axis, Chart, Panels, Reference, Series};
-use crate::report::Report;
 use crate::report::quantity::count;
 use crate::report::words::friction_limit;
+use crate::report::{Report, reach};
 
 use super::{single, stacked};
 
-/// Friction is drawn this far from the vehicle \[depths\].
-const FRICTION_DEPTHS: f64 = 12.5;
 /// Metres to micrometres, and to millimetres.
 const MICRO: f64 = 1e6;
 const MILLI: f64 = 1e3;
@@ -69,7 +67,7 @@ pub fn velocity(report: &Report) -> Panels {
 
 /// The axis of the vehicle's position.
 fn position(report: &Report) -> Axis {
-    let half = report.motion.positions_m.last().copied().unwrap_or(1.0);
+    let half = reach(&report.scene);
     Axis::linear("vehicle past the point looked at, m").range(-half, half)
 }
 
@@ -102,7 +100,7 @@ pub fn friction(report: &Report) -> Option<Panels> {
         return None;
     }
     let limit = friction_limit(&report.scene);
-    let half = FRICTION_DEPTHS * report.scene.duct.depth;
+    let half = reach(&report.scene);
     let charts = passes.iter().map(|(pass, friction)| {
         Chart::new(
             format!("Friction on the cable, pass {}", count(*pass)),

@@ -1,6 +1,6 @@
 //! Ways to hold the cable.
 
-use crate::design::Place;
+use crate::design::{Place, TradeOff};
 use crate::report::Report;
 use crate::report::figures;
 use crate::report::html::{Html, Table};
@@ -40,7 +40,7 @@ pub fn holding(html: &mut Html, report: &Report) {
                 rounded(answer.force_n, 1),
                 rounded(MILLI * answer.movement_m, 3),
                 answer.clamp_force_n.map_or("–".into(), |force| rounded(force, 1)),
-                share(answer.error_estimate),
+                error(answer),
             ],
             Err(_) => ["failed", "–", "–", "–"].map(str::to_owned),
         });
@@ -55,6 +55,15 @@ pub fn holding(html: &mut Html, report: &Report) {
     });
     html.raw("</div>");
     html.list(&failures(&comparison.ways));
+}
+
+/// Error of the forces; where no end is pressed there is none to tell.
+fn error(answer: &TradeOff) -> String {
+    if answer.force_n == 0.0 {
+        "–".into()
+    } else {
+        share(answer.error_estimate)
+    }
 }
 
 /// Ways that failed and why, those with the same reason together.
