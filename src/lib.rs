@@ -57,14 +57,19 @@ mod error;
 pub mod figure;
 mod planner;
 pub mod presets;
+#[cfg(feature = "plot")]
+pub mod report;
 pub mod scene;
+#[cfg(any(feature = "cli", feature = "plot"))]
+mod shown;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 pub mod template;
 
 pub use analysis::profile::{Profile, profile, profile_at};
 pub use analysis::result::{
-    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, Run, Saturation,
+    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, FrictionProfile, PassRecord,
+    PlanSummary, RestraintRecord, Run, Saturation, SlipRecord, Stage,
 };
 pub use analysis::run::{RunOptions, check, run, run_with};
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};

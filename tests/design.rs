@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use creepage::design::{Design, DesignError, DesignOptions, Limits, Place, design, passes};
+use creepage::design::{Design, DesignError, DesignOptions, Limits, Measure, Place, compare, design, passes};
 use creepage::scene::End;
 use creepage::{Run, Scene};
 
@@ -189,5 +189,39 @@ fn what_has_no_meaning_is_refused() {
         (1e300, 1e300),
     ] {
         assert!(passes(years, trucks).is_err_and(|error| error.is_bad_input()));
+    }
+}
+
+#[test]
+fn ways_are_compared_by_runs_of_their_own() {
+    let scene = scene();
+    let measure = |place, stiffness| Measure { place, stiffness };
+    let ways = compare(
+        &scene,
+        &[
+            measure(Place::Downstream, 0.0),
+            measure(Place::Downstream, 1e6),
+            measure(Place::Downstream, f64::INFINITY),
+            measure(Place::Clamp(7.5), 1e6),
+            measure(Place::Clamp(7.5), f64::INFINITY),
+            measure(Place::Upstream, f64::NAN),
+        ],
+        None,
+    )
+    .unwrap();
+    let spring = ways[1].as_ref().unwrap();
+    let run = held(&scene, 1e6);
+    assert_eq!(
+        (spring.force_n, spring.movement_m),
+        (largest_force(&run), largest_movement(&run))
+    );
+    assert_eq!(ways[0].as_ref().unwrap().force_n, 0.0);
+    let fixed = ways[2].as_ref().unwrap();
+    assert_eq!(fixed.force_n, largest_force(&creepage::run(&scene).unwrap()));
+    // The scene's end is fixed: the clamp takes some of what presses on it.
+    let clamped = ways[3].as_ref().unwrap();
+    assert!(clamped.force_n < fixed.force_n && clamped.clamp_force_n.unwrap() > 0.0);
+    for way in &ways[4..] {
+        assert!(matches!(way, Err(DesignError::Invalid { .. })), "{way:?}");
     }
 }

@@ -153,3 +153,68 @@ fn a_ground_model_of_ones_own_takes_the_scenes_place() {
     assert_eq!(own.plan.ground, "own");
     assert!((force_after(&own, 3) / force_after(&soft, 3) - 1.0).abs() < 1e-4);
 }
+
+#[test]
+fn a_run_is_looked_at_in_stages() {
+    let scene = scene(&["traffic.passes=4", "solver.node_spacing=0.2 m"]);
+    let looked = |stages: &[u64]| {
+        let options = RunOptions {
+            stages,
+            ..RunOptions::default()
+        };
+        creepage::run_with(&scene, &options).expect("an answer")
+    };
+    let run = looked(&[1, 4, 9]);
+    assert_eq!(
+        run.stages.iter().map(|stage| stage.pass).collect::<Vec<_>>(),
+        [1, 4]
+    );
+    assert_eq!(
+        creepage::Run {
+            stages: Vec::new(),
+            ..run.clone()
+        },
+        looked(&[]),
+        "looking changes nothing"
+    );
+    assert_eq!(run.stages[1].force_profile, run.force_profile);
+    let mut first = scene.clone();
+    first.traffic.passes = 1;
+    let first = creepage::run(&first).expect("an answer");
+    assert_eq!(run.stages[0].force_profile, first.force_profile);
+
+    let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
+    for stage in &run.stages {
+        let friction = stage.friction.as_ref().expect("seen");
+        assert!((friction.vehicle_position_m - 15.0).abs() <= run.plan.vehicle_step_m);
+        assert_eq!(friction.positions_m.len(), friction.friction_n_per_m.len());
+        let most = friction
+            .friction_n_per_m
+            .iter()
+            .fold(0.0_f64, |most, q| most.max(q.abs()));
+        assert!((most / limit - 1.0).abs() < 1e-6, "{most} N/m, limit {limit} N/m");
+    }
+    let last = run.stages[1].friction.as_ref().expect("seen");
+    assert_eq!(Some(last.slip_lengths), run.slip_lengths);
+}
+
+#[test]
+fn stages_of_the_pass_law_end_with_its_answer() {
+    let scene = scene(&["traffic.passes=300", "solver.method=pass-law"]);
+    let options = RunOptions {
+        stages: &[1, 300],
+        ..RunOptions::default()
+    };
+    let run = creepage::run_with(&scene, &options).expect("an answer");
+    assert_eq!(run.stages.len(), 2);
+    let (last, profile) = (&run.stages[1].force_profile, &run.force_profile);
+    assert_eq!(last.positions_m, profile.positions_m);
+    let largest = profile
+        .force_n
+        .iter()
+        .fold(0.0_f64, |most, force| most.max(*force));
+    for (a, b) in last.force_n.iter().zip(&profile.force_n) {
+        assert!((a - b).abs() < 1e-3 * largest, "{a} N, {b} N");
+    }
+    assert!(run.stages[0].force_profile.force_n[0].abs() < largest);
+}

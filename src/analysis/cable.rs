@@ -2,11 +2,12 @@
 
 use cable_dem::{
     CableError, CableState, DuctedCable, Dynamic, Explicit, ExplicitOptions, Friction, Mesh, MovingDuct,
-    PassOutcome, Passage, QuasiStatic, SigmoidLeak, SlipLengths,
+    PassOutcome, Passage, QuasiStatic, SigmoidLeak,
 };
 use ground_field::DuctMotion;
 
 use super::motion::approach;
+use super::result::FrictionProfile;
 use crate::Error;
 use crate::scene::Scene;
 
@@ -120,27 +121,35 @@ impl PassSolver {
         }
     }
 
-    /// As [`PassSolver::pass`], and measures the lengths of slip with the vehicle nearest to `position` \[m\], where the
-    /// solver can be looked at.
+    /// As [`PassSolver::pass`], and looks at the friction with the vehicle nearest to `position` \[m\], where the solver can be
+    /// looked at.
     pub fn pass_and_look(
         &mut self,
         vehicle: usize,
         state: &mut CableState,
         position: f64,
-    ) -> Result<(PassOutcome, Option<SlipLengths>), CableError> {
+    ) -> Result<(PassOutcome, Option<FrictionProfile>), CableError> {
         let Self::QuasiStatic(solver, passages) = self else {
             return Ok((self.pass(vehicle, state)?, None));
         };
         let mut nearest = f64::INFINITY;
-        let mut slip = None;
+        let mut seen = None;
+        let nodes = solver.mesh().nodes();
+        let spacing = solver.mesh().spacing();
         let outcome = solver.pass_observed(&passages[vehicle], state, |view| {
             let distance = (view.vehicle_position() - position).abs();
             if distance < nearest {
                 nearest = distance;
-                slip = Some(view.slip_lengths());
+                seen = Some(FrictionProfile {
+                    vehicle,
+                    vehicle_position_m: view.vehicle_position(),
+                    positions_m: (0..nodes).map(|node| spacing * node as f64).collect(),
+                    friction_n_per_m: (0..nodes).map(|node| view.friction(node)).collect(),
+                    slip_lengths: view.slip_lengths().into(),
+                });
             }
         })?;
-        Ok((outcome, slip))
+        Ok((outcome, seen))
     }
 
     /// The time step of an explicit solver and what limits it.

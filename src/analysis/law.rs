@@ -9,7 +9,9 @@ use pass_law::{Concern, Evolution, PassLaw, Resolution, concerns_before};
 use super::cable::{CableMethod, cable};
 use super::motion::approach;
 use super::passes::simulate;
-use super::result::{ErrorEstimate, ErrorShares, ForceProfile, PassRecord, RestraintRecord, Saturation};
+use super::result::{
+    ErrorEstimate, ErrorShares, ForceProfile, PassRecord, RestraintRecord, Saturation, Stage,
+};
 use crate::planner::mesh::Levels;
 use crate::scene::{End, Scene};
 use crate::{Cost, Error};
@@ -43,6 +45,7 @@ pub struct LawRun {
     pub saturation: Option<Saturation>,
     pub force_profile: ForceProfile,
     pub restraints: Vec<RestraintRecord>,
+    pub stages: Vec<Stage>,
     pub error: ErrorEstimate,
     pub cost: Cost,
     pub warnings: Vec<String>,
@@ -54,11 +57,11 @@ pub fn refusal(scene: &Scene) -> Result<Option<Concern>, Error> {
     Ok(concerns.into_iter().find(|concern| concern.is_fatal()))
 }
 
-/// Runs all passes of `scene` by the law.
-pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
+/// Runs all passes of `scene` by the law, and looks at the cable after the passes `stages`.
+pub fn run(scene: &Scene, motions: &[DuctMotion], stages: &[u64]) -> Result<LawRun, Error> {
     thread::scope(|scope| {
         let check = scope.spawn(|| first_passes(scene, motions));
-        evolve(scene, motions, || {
+        evolve(scene, motions, stages, || {
             // A panic of the other thread goes on in this one.
             check
                 .join()
@@ -83,6 +86,7 @@ fn first_passes(scene: &Scene, motions: &[DuctMotion]) -> Result<Option<Vec<Pass
         CableMethod::QuasiStatic,
         motions,
         levels.mesh(CHECK_LEVEL)?,
+        &[],
         || {},
     )?;
     let records = passes.outcomes.iter().zip(1..);
@@ -97,6 +101,7 @@ fn first_passes(scene: &Scene, motions: &[DuctMotion]) -> Result<Option<Vec<Pass
 fn evolve(
     scene: &Scene,
     motions: &[DuctMotion],
+    stages: &[u64],
     checked: impl FnOnce() -> Result<Option<Vec<PassRecord>>, Error>,
 ) -> Result<LawRun, Error> {
     let cable = cable(scene)?;
@@ -163,6 +168,7 @@ fn evolve(
         saturation: saturation(scene, &law),
         force_profile: force_profile(&cable, &evolution),
         restraints: restraints(&cable, &evolution),
+        stages: self::stages(&cable, &law, scene, stages)?,
         error: ErrorEstimate {
             relative,
             method: match measured {
@@ -306,6 +312,21 @@ fn restraints(cable: &DuctedCable, evolution: &Evolution) -> Vec<RestraintRecord
                 stiffness_n_per_m: restraint.stiffness,
                 force_n: restraint.stiffness * (u[0] + share * (u[1] - u[0])),
             }
+        })
+        .collect()
+}
+
+/// The cable after each of the passes `wanted` that the traffic has.
+fn stages(cable: &DuctedCable, law: &PassLaw, scene: &Scene, wanted: &[u64]) -> Result<Vec<Stage>, Error> {
+    wanted
+        .iter()
+        .filter(|pass| (1..=scene.traffic.passes).contains(*pass))
+        .map(|&pass| {
+            Ok(Stage {
+                pass,
+                force_profile: force_profile(cable, &law.run(&[pass])?),
+                friction: None,
+            })
         })
         .collect()
 }

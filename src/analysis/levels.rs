@@ -36,6 +36,8 @@ pub struct Ladder<'a> {
     /// What the method leaves out, as a share of the force.
     pub method_error: f64,
     pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
+    /// Passes at which the cable is looked at.
+    pub stages: &'a [u64],
 }
 
 /// Passes on the mesh that was good enough.
@@ -119,7 +121,7 @@ impl Ladder<'_> {
         let (part, least) = FIRST_PASSES;
         scene.traffic.passes = scene.traffic.passes.min(least.max(scene.traffic.passes / part));
         let mut first_passes = |motions| {
-            let passes = simulate(&scene, self.method, motions, self.levels.mesh(level)?, || {})?;
+            let passes = simulate(&scene, self.method, motions, self.levels.mesh(level)?, &[], || {})?;
             *statistics += passes.statistics;
             Ok::<_, Error>(passes)
         };
@@ -144,7 +146,7 @@ impl Ladder<'_> {
             .collect()
     }
 
-    /// All passes on `level`; `shown` ones report their progress.
+    /// All passes on `level`; `shown` ones report their progress and their stages.
     fn simulate(&self, level: usize, shown: bool) -> Result<Passes, Error> {
         let done = AtomicU64::new(0);
         simulate(
@@ -152,6 +154,7 @@ impl Ladder<'_> {
             self.method,
             self.motions,
             self.levels.mesh(level)?,
+            if shown { self.stages } else { &[] },
             || {
                 if let (true, Some(progress)) = (shown, self.progress) {
                     let done = done.fetch_add(1, Ordering::Relaxed) + 1;

@@ -1,9 +1,10 @@
 //! All passes of a scene on one mesh.
 
-use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, SlipLengths, Statistics, Traffic};
+use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statistics, Traffic};
 use ground_field::DuctMotion;
 
 use super::cable::{CableMethod, PassSolver, cable};
+use super::result::{ForceProfile, SlipRecord, Stage};
 use crate::Error;
 use crate::scene::Scene;
 
@@ -13,7 +14,9 @@ pub struct Passes {
     pub cable: DuctedCable,
     pub state: CableState,
     /// With the vehicle over the duct's middle in the last pass, where the solver can be looked at.
-    pub slip: Option<SlipLengths>,
+    pub slip: Option<SlipRecord>,
+    /// The cable at the passes that were asked for.
+    pub stages: Vec<Stage>,
     /// What a law without memory loses.
     pub leaks: Vec<SigmoidLeak>,
     /// The explicit solver's time step and what limits it.
@@ -21,12 +24,25 @@ pub struct Passes {
     pub statistics: Statistics,
 }
 
-/// Lets the scene's traffic pass over its cable meshed by `mesh`; `passed` hears of every pass.
+/// Force along the cable as it is left in `state`.
+pub fn force_profile(cable: &DuctedCable, mesh: &Mesh, state: &CableState) -> ForceProfile {
+    let force_n: Vec<f64> = state.element_forces(cable, mesh).collect();
+    ForceProfile {
+        positions_m: (0..force_n.len())
+            .map(|i| mesh.spacing() * (i as f64 + 0.5))
+            .collect(),
+        force_n,
+    }
+}
+
+/// Lets the scene's traffic pass over its cable meshed by `mesh`, and looks at the cable at the passes `stages`; `passed`
+/// hears of every pass.
 pub fn simulate(
     scene: &Scene,
     method: CableMethod,
     motions: &[DuctMotion],
     mesh: Mesh,
+    stages: &[u64],
     mut passed: impl FnMut(),
 ) -> Result<Passes, Error> {
     let mut solver = PassSolver::new(scene, method, motions, mesh)?;
@@ -36,11 +52,22 @@ pub fn simulate(
     let mut statistics = Statistics::default();
     let mut outcomes = Vec::new();
     let count = usize::try_from(scene.traffic.passes).unwrap_or(usize::MAX);
+    let cable = cable(scene)?;
     let mut slip = None;
+    let mut seen_stages = Vec::new();
     for (index, vehicle) in traffic.take(count).enumerate() {
-        let outcome = if index + 1 == count {
-            let (outcome, seen) = solver.pass_and_look(vehicle, &mut state, 0.5 * scene.duct.length)?;
-            slip = seen;
+        let pass = index as u64 + 1;
+        let wanted = stages.contains(&pass);
+        let outcome = if wanted || index + 1 == count {
+            let (outcome, friction) = solver.pass_and_look(vehicle, &mut state, 0.5 * scene.duct.length)?;
+            slip = friction.as_ref().map(|friction| friction.slip_lengths);
+            if wanted {
+                seen_stages.push(Stage {
+                    pass,
+                    force_profile: force_profile(&cable, &mesh, &state),
+                    friction,
+                });
+            }
             outcome
         } else {
             solver.pass(vehicle, &mut state)?
@@ -51,9 +78,10 @@ pub fn simulate(
     }
     Ok(Passes {
         outcomes,
-        cable: cable(scene)?,
+        cable,
         state,
         slip,
+        stages: seen_stages,
         leaks: solver.leaks(),
         step_limits: solver.step_limits(),
         statistics,

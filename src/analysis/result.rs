@@ -1,6 +1,6 @@
 //! What a run answers. The names of the fields are those of the JSON document, units included.
 
-use cable_dem::{PassOutcome, Statistics};
+use cable_dem::{PassOutcome, SlipLengths, Statistics};
 use pass_law::EvolutionStatistics;
 use serde::Serialize;
 
@@ -21,6 +21,10 @@ pub struct Run {
     pub force_profile: ForceProfile,
     /// What each clamp carries after the last pass.
     pub restraints: Vec<RestraintRecord>,
+    /// The cable after the passes that [`RunOptions::stages`](crate::RunOptions::stages) names; not in the JSON document
+    /// where none are.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<Stage>,
     /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure 7); not from solvers
     /// with inertia.
     pub slip_lengths: Option<SlipRecord>,
@@ -88,6 +92,32 @@ pub struct ForceProfile {
     pub force_n: Vec<f64>,
 }
 
+/// The cable at one pass.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Stage {
+    /// Number of the pass, from 1.
+    pub pass: u64,
+    /// Force along the cable after it.
+    pub force_profile: ForceProfile,
+    /// Friction on the cable during it; not from solvers with inertia, nor from the pass law.
+    pub friction: Option<FrictionProfile>,
+}
+
+/// Friction along the cable with the vehicle over the duct's middle (Kashiro et al., Figure 7).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct FrictionProfile {
+    /// Place of the vehicle in the scene's list, from 0.
+    pub vehicle: usize,
+    /// Position of the vehicle's origin along the duct \[m\].
+    pub vehicle_position_m: f64,
+    /// Positions along the duct \[m\]: the nodes.
+    pub positions_m: Vec<f64>,
+    /// Friction on the cable there \[N/m\], positive toward growing x.
+    pub friction_n_per_m: Vec<f64>,
+    /// Lengths at the limit.
+    pub slip_lengths: SlipRecord,
+}
+
 /// What a clamp carries after the last pass.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct RestraintRecord {
@@ -99,7 +129,7 @@ pub struct RestraintRecord {
     pub force_n: f64,
 }
 
-/// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle in the last pass.
+/// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct SlipRecord {
     /// Friction at its limit toward growing x \[m\].
@@ -150,6 +180,15 @@ pub struct ErrorShares {
     pub inertia: f64,
     /// The pass law itself, where it was used.
     pub law: f64,
+}
+
+impl From<SlipLengths> for SlipRecord {
+    fn from(lengths: SlipLengths) -> Self {
+        Self {
+            forward_m: lengths.forward,
+            backward_m: lengths.backward,
+        }
+    }
 }
 
 impl Cost {

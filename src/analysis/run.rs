@@ -6,10 +6,9 @@ use ground_field::{DuctMotion, GroundField};
 use super::cable::{CableMethod, PassMethod};
 use super::law::LawRun;
 use super::levels::{Ladder, Solved};
-use super::passes::Passes;
+use super::passes::{Passes, force_profile};
 use super::result::{
-    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, PassRecord, PlanSummary,
-    RestraintRecord, Run, SlipRecord,
+    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
 };
 use super::saturation::saturation;
 use super::{law, motion};
@@ -33,6 +32,8 @@ pub struct RunOptions<'a> {
     pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
     /// A ground model of one's own, in place of the scene's.
     pub ground: Option<&'a dyn GroundField>,
+    /// Passes at which to look at the cable, for [`Run::stages`]; those beyond the scene's are left out.
+    pub stages: &'a [u64],
 }
 
 /// Computes all passes of `scene`.
@@ -97,7 +98,7 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         PassMethod::EveryPass(method) => method,
         PassMethod::Law => {
             // Its time does not depend on the motion: nothing is gained by leaving anything out.
-            let law = law::run(scene, exact)?;
+            let law = law::run(scene, exact, options.stages)?;
             if law.error.relative <= scene.solver.tolerance || !plan.method.one_by_one {
                 summary.ground = plan.ground.exact_name.into();
                 (summary.node_spacing_m, summary.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
@@ -120,6 +121,7 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         motion_error: plan.ground.error,
         method_error: plan.method.inertia,
         progress: options.progress,
+        stages: options.stages,
     };
     let solved = ladder.climb(options.verify, &mut warnings)?;
     for leak in solved.passes.leaks.iter().filter(|leak| leak.matters()) {
@@ -146,12 +148,10 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         duct_motion,
         passes: listed(passes),
         saturation: saturation(&series, scale),
-        force_profile: force_profile(&solved),
+        force_profile: force_profile(&solved.passes.cable, &solved.mesh, &solved.passes.state),
         restraints: restraints(&solved),
-        slip_lengths: solved.passes.slip.map(|slip| SlipRecord {
-            forward_m: slip.forward,
-            backward_m: slip.backward,
-        }),
+        slip_lengths: solved.passes.slip,
+        stages: solved.passes.stages.clone(),
         error_estimate: ErrorEstimate {
             relative: solved.error.total(),
             method: solved.error.to_string(),
@@ -184,6 +184,7 @@ fn by_law(
         saturation: law.saturation,
         force_profile: law.force_profile,
         restraints: law.restraints,
+        stages: law.stages,
         slip_lengths: None,
         error_estimate: law.error,
         cost: law.cost,
@@ -248,17 +249,6 @@ fn force_series(scene: &Scene, outcomes: &[PassOutcome]) -> (Vec<f64>, f64) {
                 downstream()
             }
         }
-    }
-}
-
-fn force_profile(solved: &Solved) -> ForceProfile {
-    let Passes { state, cable, .. } = &solved.passes;
-    let force_n: Vec<f64> = state.element_forces(cable, &solved.mesh).collect();
-    ForceProfile {
-        positions_m: (0..force_n.len())
-            .map(|i| solved.mesh.spacing() * (i as f64 + 0.5))
-            .collect(),
-        force_n,
     }
 }
 

@@ -29,7 +29,8 @@ pub use unknown::{Quantity, Unknown, UnknownQuantity};
 use crate::analysis::cable::PassMethod;
 use crate::scene::FrictionLaw;
 use crate::{Error, Scene};
-use model::{CableModel, CellEnd, SeriesModel};
+pub(crate) use model::CellEnd;
+use model::{CableModel, SeriesModel};
 
 /// Shift of a parameter by the mesh, in standard errors, above which a finer one is taken.
 const MESH_SHIFT: f64 = 0.8;

@@ -27,9 +27,24 @@ const LAW_FROM: u64 = 10;
 
 /// The end of the cable that pressed on the load cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum CellEnd {
+pub(crate) enum CellEnd {
     Upstream,
     Downstream,
+}
+
+impl CellEnd {
+    /// The end that is held in `scene`, the downstream one if both are.
+    pub fn of(scene: &Scene) -> Result<Self, Error> {
+        match (scene.ends.upstream, scene.ends.downstream) {
+            (End::Free, End::Free) => Err(Error::Unfit {
+                key: "ends",
+                found: "both free",
+                reason: "a load cell was at an end that is held".into(),
+            }),
+            (_, End::Free) => Ok(Self::Upstream),
+            _ => Ok(Self::Downstream),
+        }
+    }
 }
 
 /// One series, ready to be predicted.
@@ -45,17 +60,7 @@ pub(super) struct SeriesModel {
 impl SeriesModel {
     pub fn new(series: &Series<'_>) -> Result<Self, Error> {
         let mut scene = series.scene.clone();
-        let end = match (scene.ends.upstream, scene.ends.downstream) {
-            (End::Free, End::Free) => {
-                return Err(Error::Unfit {
-                    key: "ends",
-                    found: "both free",
-                    reason: "a load cell was at an end that is held".into(),
-                });
-            }
-            (_, End::Free) => CellEnd::Upstream,
-            _ => CellEnd::Downstream,
-        };
+        let end = CellEnd::of(&scene)?;
         scene.traffic.passes = series.readings.last_pass();
         let method = plan(&scene)?.method.method;
         let (_, field, accuracy) = ground::exact(&scene)?;
@@ -125,7 +130,7 @@ impl SeriesModel {
         let downstream = self.end == CellEnd::Downstream;
         match self.method {
             PassMethod::EveryPass(method) => {
-                let passes = simulate(scene, method, &motions, self.mesh(rung)?, || {})?;
+                let passes = simulate(scene, method, &motions, self.mesh(rung)?, &[], || {})?;
                 let force = |&pass: &u64| {
                     let force = passes.outcomes[pass as usize - 1].force;
                     if downstream {

@@ -20,7 +20,8 @@ const EXAMPLES: &str = "Examples:
   creepage run my-duct.toml
   creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --csv forces.csv
   creepage profile my-duct.toml --positions -1.5,0,1.5 --json
-  creepage calibrate my-duct.toml --data load-cell.csv --robust";
+  creepage calibrate my-duct.toml --data load-cell.csv --robust
+  creepage report my-duct.toml -o my-duct.html";
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -88,6 +89,9 @@ pub enum Command {
     Sweep(Box<super::sweep::Arguments>),
     /// Find the end spring or clamp that keeps limits of force and movement
     Design(Box<super::design::Arguments>),
+    /// Write one self-contained page with figures: what a meeting needs
+    #[cfg(feature = "plot")]
+    Report(Box<super::report::Arguments>),
     /// Write a commented scene to start from
     New(Box<super::new::Arguments>),
     /// List named values for vehicles, cables, friction and pavements, with their sources

@@ -7,6 +7,8 @@ mod input;
 mod new;
 mod presets;
 mod print;
+#[cfg(feature = "plot")]
+mod report;
 mod sweep;
 mod write;
 
@@ -86,9 +88,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
             let input = Input::read(scene)?;
             write::writable(output)?;
             let mut answer = input.judged(run(&input.scene, *verify))?;
-            for warning in &answer.warnings {
-                let _ = writeln!(std::io::stderr(), "warning: {warning}");
-            }
+            warn(&answer.warnings);
             answer.warnings.splice(0..0, input.warnings);
             if let Some(file) = &output.csv {
                 write::passes(file, &answer.passes)?;
@@ -126,9 +126,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
         Command::Plan { scene, json } => {
             let input = Input::read(scene)?;
             let mut plan = input.judged(crate::plan(&input.scene).map(|plan| plan.report()))?;
-            for warning in &plan.warnings {
-                let _ = writeln!(std::io::stderr(), "warning: {warning}");
-            }
+            warn(&plan.warnings);
             plan.warnings.splice(0..0, input.warnings);
             if *json {
                 write::json(&plan)
@@ -146,6 +144,8 @@ fn execute(command: &Command) -> Result<(), Failure> {
             input.judged(crate::check(&input.scene))?;
             print::checked(&input.scene)
         }
+        #[cfg(feature = "plot")]
+        Command::Report(arguments) => report::execute(arguments),
         Command::Design(arguments) => design::execute(arguments),
         Command::Sweep(arguments) => sweep::execute(arguments),
         Command::Presets(arguments) => presets::execute(arguments),
@@ -158,8 +158,27 @@ fn execute(command: &Command) -> Result<(), Failure> {
     }
 }
 
+/// Tells warnings on standard error.
+fn warn(warnings: &[String]) {
+    for warning in warnings {
+        let _ = writeln!(std::io::stderr(), "warning: {warning}");
+    }
+}
+
 /// Runs the scene, with a progress bar on a terminal.
 fn run(scene: &Scene, verify: bool) -> Result<Run, crate::Error> {
+    with_progress(|progress| {
+        let options = RunOptions {
+            verify,
+            progress: Some(progress),
+            ..RunOptions::default()
+        };
+        crate::run_with(scene, &options)
+    })
+}
+
+/// Computes something that tells the share done, with a progress bar on a terminal.
+fn with_progress<T>(compute: impl FnOnce(&(dyn Fn(f64) + Sync)) -> T) -> T {
     const TICKS: f64 = 1000.0;
     let bar = if std::io::stderr().is_terminal() {
         indicatif::ProgressBar::new(TICKS as u64)
@@ -167,12 +186,7 @@ fn run(scene: &Scene, verify: bool) -> Result<Run, crate::Error> {
         indicatif::ProgressBar::hidden()
     };
     let progress = |share: f64| bar.set_position((TICKS * share) as u64);
-    let options = RunOptions {
-        verify,
-        progress: Some(&progress),
-        ground: None,
-    };
-    let answer = crate::run_with(scene, &options);
+    let answer = compute(&progress);
     bar.finish_and_clear();
     answer
 }

@@ -3,12 +3,8 @@
 use std::io::{self, Write};
 
 use super::Failure;
-use crate::{PassRecord, PlanReport, Profile, Run, Scene};
-
-/// Leading digits of the passes in a shortened table.
-const STEPS: [u64; 3] = [1, 2, 5];
-/// Rows of a table that is read on a terminal.
-const ROWS: usize = 16;
+use crate::shown::{rounded, selected, share, time};
+use crate::{PlanReport, Profile, Run, Scene};
 
 pub fn run(run: &Run) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
@@ -84,33 +80,6 @@ pub fn run(run: &Run) -> Result<(), Failure> {
     Ok(())
 }
 
-/// `value` with so many decimals, and no minus before zeros.
-fn rounded(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    match text.strip_prefix('-') {
-        Some(digits) if digits.bytes().all(|byte| matches!(byte, b'0' | b'.')) => digits.to_owned(),
-        _ => text,
-    }
-}
-
-/// The first passes, then about evenly growing numbers, and the last.
-fn selected(passes: &[PassRecord]) -> Vec<&PassRecord> {
-    if passes.len() <= ROWS {
-        return passes.iter().collect();
-    }
-    let last = passes.len() - 1;
-    passes
-        .iter()
-        .enumerate()
-        .filter(|(index, record)| {
-            let leading = record.pass / 10_u64.pow(record.pass.ilog10());
-            let round = record.pass.is_multiple_of(10_u64.pow(record.pass.ilog10()));
-            *index == last || (round && STEPS.contains(&leading))
-        })
-        .map(|(_, record)| record)
-        .collect()
-}
-
 /// The ladders, the rungs taken marked.
 pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
     let mut out = io::stdout().lock();
@@ -148,24 +117,6 @@ pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
         }
     }
     Ok(())
-}
-
-fn share(error: f64) -> String {
-    if error > 0.0 && error < 5e-5 {
-        "< 0.01 %".into()
-    } else {
-        format!("{:.2} %", 100.0 * error)
-    }
-}
-
-fn time(seconds: f64) -> String {
-    match seconds {
-        s if s < 1e-3 => "< 1 ms".into(),
-        s if s < 1.0 => format!("{:.0} ms", 1e3 * s),
-        s if s < 120.0 => format!("{s:.1} s"),
-        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.0} h", s / 3600.0),
-    }
 }
 
 pub fn profile(profile: &Profile) -> Result<(), Failure> {

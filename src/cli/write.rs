@@ -1,7 +1,11 @@
 //! Answers as JSON and CSV.
 
+#[cfg(feature = "plot")]
+use std::io::ErrorKind;
 use std::io::Write;
 use std::path::Path;
+#[cfg(feature = "plot")]
+use std::path::PathBuf;
 
 use serde::Serialize;
 
@@ -39,6 +43,51 @@ pub fn creatable(file: &Path) -> Result<(), Failure> {
 #[cfg(feature = "plot")]
 pub fn text(file: &Path, text: &str) -> Result<(), Failure> {
     std::fs::write(file, text).map_err(|source| unwritable(file, source))
+}
+
+/// A file to be replaced as a whole: what was there stays until the new text is complete.
+#[cfg(feature = "plot")]
+pub struct Replacement {
+    target: PathBuf,
+    /// Where the text is written first, beside the target.
+    partial: PathBuf,
+}
+
+#[cfg(feature = "plot")]
+impl Replacement {
+    /// Makes sure that `file` can be written, before anything is computed.
+    pub fn of(file: &Path) -> Result<Self, Failure> {
+        // A link stays one, and what it points to is replaced.
+        let target = std::fs::canonicalize(file).unwrap_or_else(|_| file.to_owned());
+        let refused = |kind, reason: &str| unwritable(file, std::io::Error::new(kind, reason));
+        if target.exists() && !target.is_file() {
+            return Err(refused(ErrorKind::InvalidInput, "it is not a file"));
+        }
+        let Some(name) = target.file_name() else {
+            return Err(refused(ErrorKind::InvalidInput, "it has no name"));
+        };
+        let mut partial = std::ffi::OsString::from(".");
+        partial.push(name);
+        partial.push(format!(".{}.partial", std::process::id()));
+        let partial = target.with_file_name(partial);
+        std::fs::write(&partial, "").map_err(|source| unwritable(file, source))?;
+        Ok(Self { target, partial })
+    }
+
+    /// Puts `text` in the file's place.
+    pub fn write(self, text: &str) -> Result<(), Failure> {
+        std::fs::write(&self.partial, text)
+            .and_then(|()| std::fs::rename(&self.partial, &self.target))
+            .map_err(|source| unwritable(&self.target, source))
+    }
+}
+
+#[cfg(feature = "plot")]
+impl Drop for Replacement {
+    /// Leaves nothing behind where the text never came.
+    fn drop(&mut self) {
+        let _ = std::fs::remove_file(&self.partial);
+    }
 }
 
 fn unwritable(file: &Path, source: std::io::Error) -> Failure {

@@ -15,30 +15,17 @@
 //! A limit that is crossed more than once as the stiffness grows is an error, since no range can be told then. Heat, which presses
 //! on the ends too, is left out.
 
+mod compare;
 mod limits;
 mod search;
+mod trade_off;
 
 use serde::Serialize;
 
+pub use compare::{Measure, compare};
 pub use limits::{DesignError, DesignOptions, Limits, Place, passes};
 pub use search::design;
-
-/// A scene's answer with one stiffness.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TradeOff {
-    /// Stiffness \[N/m\]; `None` where the end is fixed.
-    pub stiffness_n_per_m: Option<f64>,
-    /// Largest force on either end \[N\].
-    pub force_n: f64,
-    /// Largest displacement of either end \[m\].
-    pub movement_m: f64,
-    /// Force on the clamp after the last pass \[N\], where there is one.
-    pub clamp_force_n: Option<f64>,
-    /// Estimated relative error of the forces.
-    pub error_estimate: f64,
-    /// Whether it keeps both limits.
-    pub within_limits: bool,
-}
+pub use trade_off::TradeOff;
 
 /// What holds the cable best.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -8,7 +8,7 @@ use argmin::solver::brent::BrentRoot;
 use rayon::prelude::*;
 
 use super::{Design, DesignError, DesignOptions, Limits, Place, TradeOff};
-use crate::{Error, Run, Scene};
+use crate::{Error, Scene};
 
 /// The curve goes from this part of the cable's own stiffness EA/L to its inverse, in half decades.
 const DECADES: i32 = 2;
@@ -78,7 +78,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
 
 /// The scene on the mesh that its stiffest variant needs: runs that are to be compared are made on the same one, and where the end
 /// is nearly free there is no force whose relative error a finer mesh could make small.
-fn on_one_mesh(scene: &Scene, place: Place) -> Result<Scene, Error> {
+pub(super) fn on_one_mesh(scene: &Scene, place: Place) -> Result<Scene, Error> {
     let reference = match place {
         Place::Clamp(_) => crate::run(scene)?,
         _ => crate::run(&place.held(scene, f64::INFINITY))?,
@@ -108,7 +108,7 @@ fn choice(place: Place, (from, to): (f64, f64)) -> f64 {
     }
 }
 
-fn shares(limits: Limits) -> Vec<Share> {
+pub(super) fn shares(limits: Limits) -> Vec<Share> {
     let mut shares: Vec<Share> = vec![("force", Box::new(move |point| point.force_n / limits.force_n))];
     if let Some(limit) = limits.movement_m {
         shares.push(("movement", Box::new(move |point| point.movement_m / limit)));
@@ -146,49 +146,17 @@ impl Search<'_> {
             return Ok(done.clone());
         }
         let scene = self.options.place.held(self.scene, stiffness);
-        let point = self.judged(&crate::run(&scene)?, told);
+        let point = TradeOff::of(
+            &crate::run(&scene)?,
+            self.options.place,
+            told,
+            self.options.limits,
+        );
         points().push(point.clone());
         if let Some(progress) = self.options.progress {
             progress(self.runs.fetch_add(1, Ordering::Relaxed) + 1);
         }
         Ok(point)
-    }
-
-    fn judged(&self, run: &Run, stiffness_n_per_m: Option<f64>) -> TradeOff {
-        let largest = |values: fn(&crate::PassRecord) -> [f64; 4]| {
-            run.passes
-                .iter()
-                .flat_map(values)
-                .fold(0.0, |largest: f64, value| largest.max(value.abs()))
-        };
-        let clamped = matches!(self.options.place, Place::Clamp(_)) && stiffness_n_per_m != Some(0.0);
-        let mut point = TradeOff {
-            stiffness_n_per_m,
-            force_n: largest(|pass| {
-                let (upstream, downstream) = (pass.upstream_peak_n, pass.downstream_peak_n);
-                [
-                    pass.upstream_force_n,
-                    pass.downstream_force_n,
-                    upstream,
-                    downstream,
-                ]
-            }),
-            movement_m: largest(|pass| {
-                let (upstream, downstream) = (pass.upstream_displacement_m, pass.downstream_displacement_m);
-                [upstream, downstream, 0.0, 0.0]
-            }),
-            clamp_force_n: run
-                .restraints
-                .last()
-                .filter(|_| clamped)
-                .map(|clamp| clamp.force_n),
-            error_estimate: run.error_estimate.relative,
-            within_limits: true,
-        };
-        point.within_limits = shares(self.options.limits)
-            .iter()
-            .all(|(_, share)| share(&point) <= 1.0);
-        point
     }
 
     /// The stiffnesses from and to which one limit is kept; `None` where none keeps it.

@@ -28,6 +28,7 @@
 
 mod axis;
 mod chart;
+mod dark;
 mod draw;
 mod error;
 mod map;
@@ -38,6 +39,7 @@ mod series;
 
 pub use axis::Axis;
 pub use chart::Chart;
+pub use dark::dark_style;
 pub use error::FigureError;
 pub use map::{Class, GridAxis, Map};
 pub use panels::{Panel, Panels};

@@ -10,6 +10,10 @@
 use crate::error::checked;
 use crate::{GroundError, GroundField, RadialProfile, Vehicle};
 
+/// Step of the scan for peaks, and how far beyond the wheels it goes, in the distance from a wheel to the duct.
+const SCAN_STEP: f64 = 0.05;
+const SCAN_REACH: f64 = 8.0;
+
 /// Where the duct lies relative to the road and the wheel path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DuctLine {
@@ -239,28 +243,33 @@ impl DuctMotion {
         sum
     }
 
-    /// Scans around the wheels for both peaks, then closes in on each.
+    /// Scans once all that lies around the wheels for both peaks, then closes in on each.
     fn find_peaks(&mut self, depth: f64) {
-        let mut longitudinal = (0.0, 0.0_f64, depth);
-        let mut vertical = (0.0, 0.0_f64, depth);
-        for wheel in &self.wheels {
-            // The field under one wheel has the width of its distance.
-            let step = 0.05 * depth.hypot(wheel.side);
-            for k in -160..=160 {
-                let xi = wheel.x + step * f64::from(k);
+        let mut positions: Vec<f64> = self.wheels.iter().map(|wheel| wheel.x).collect();
+        positions.sort_by(f64::total_cmp);
+        // The field under one wheel has the width of its distance: the nearest wheel's is the narrowest, the farthest one's the widest.
+        let distances = self.wheels.iter().map(|wheel| depth.hypot(wheel.side));
+        let (nearest, farthest) = distances.fold((f64::INFINITY, 0.0_f64), |(low, high), distance| {
+            (low.min(distance), high.max(distance))
+        });
+        let step = SCAN_STEP * nearest;
+        let (mut longitudinal, mut vertical) = ((0.0, 0.0_f64), (0.0, 0.0_f64));
+        let mut xi = f64::NEG_INFINITY;
+        for x in positions {
+            xi = xi.max(x - SCAN_REACH * farthest);
+            while xi <= x + SCAN_REACH * farthest {
                 let point = self.point(xi);
                 if point.longitudinal.abs() > longitudinal.1 {
-                    longitudinal = (xi, point.longitudinal.abs(), step);
+                    longitudinal = (xi, point.longitudinal.abs());
                 }
                 if point.vertical.abs() > vertical.1 {
-                    vertical = (xi, point.vertical.abs(), step);
+                    vertical = (xi, point.vertical.abs());
                 }
+                xi += step;
             }
         }
-        self.peak_longitudinal = largest_near(longitudinal.0, longitudinal.2, |xi| {
-            self.point(xi).longitudinal.abs()
-        });
-        self.peak_vertical = largest_near(vertical.0, vertical.2, |xi| self.point(xi).vertical.abs());
+        self.peak_longitudinal = largest_near(longitudinal.0, step, |xi| self.point(xi).longitudinal.abs());
+        self.peak_vertical = largest_near(vertical.0, step, |xi| self.point(xi).vertical.abs());
     }
 }
 

@@ -1,0 +1,71 @@
+//! Several ways to hold a cable beside each other, each by a run of the scene.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::search::on_one_mesh;
+use super::{DesignError, Limits, Place, TradeOff};
+use crate::Scene;
+
+/// One way to hold the cable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measure {
+    /// Where the spring is.
+    pub place: Place,
+    /// Its stiffness \[N/m\]: 0 is a free end or no clamp, infinity a fixed end.
+    pub stiffness: f64,
+}
+
+/// Runs `scene` once with each of `measures`, all on one mesh, on all cores. A run that fails is an error in its own
+/// place; `progress` hears of the number of runs done so far.
+///
+/// # Errors
+///
+/// [`DesignError`] where the run that chooses the mesh fails.
+pub fn compare(
+    scene: &Scene,
+    measures: &[Measure],
+    progress: Option<&(dyn Fn(usize) + Sync)>,
+) -> Result<Vec<Result<TradeOff, DesignError>>, DesignError> {
+    let mut places = measures.iter().map(|measure| measure.place);
+    let end = places.find(|place| !matches!(place, Place::Clamp(_)));
+    let scene = on_one_mesh(scene, end.unwrap_or(Place::Clamp(0.0)))?;
+    let done = AtomicUsize::new(0);
+    let answer = |measure: &Measure| {
+        measure.check(&scene)?;
+        let run = crate::run(&measure.place.held(&scene, measure.stiffness))?;
+        let told = measure.stiffness.is_finite().then_some(measure.stiffness);
+        Ok(TradeOff::of(&run, measure.place, told, NO_LIMITS))
+    };
+    Ok(measures
+        .par_iter()
+        .map(|measure| {
+            let answer = answer(measure);
+            if let Some(progress) = progress {
+                progress(done.fetch_add(1, Ordering::Relaxed) + 1);
+            }
+            answer
+        })
+        .collect())
+}
+
+const NO_LIMITS: Limits = Limits {
+    force_n: f64::INFINITY,
+    movement_m: None,
+};
+
+impl Measure {
+    fn check(&self, scene: &Scene) -> Result<(), DesignError> {
+        self.place.check(scene)?;
+        let rigid_clamp = matches!(self.place, Place::Clamp(_)) && self.stiffness.is_infinite();
+        if self.stiffness >= 0.0 && !rigid_clamp {
+            return Ok(());
+        }
+        Err(DesignError::Invalid {
+            name: "stiffness",
+            found: self.stiffness,
+            allowed: "at least 0, and finite for a clamp",
+        })
+    }
+}

@@ -1,0 +1,73 @@
+//! Computed force against readings of a load cell.
+
+use crate::calibration::{CellEnd, Reading, Readings};
+use crate::{Error, PassRecord, Run, Scene};
+
+/// Readings beside the force computed at the same passes.
+#[derive(Debug)]
+pub struct Agreement {
+    /// The end that pressed on the load cell.
+    pub end: CellEnd,
+    pub readings: Vec<Reading>,
+    /// Readings of passes that were computed.
+    pub compared: usize,
+    /// Root of the mean square of measured minus computed force over these \[N\].
+    pub rms_n: f64,
+    /// Mean of measured minus computed force \[N\].
+    pub mean_n: f64,
+    /// Largest measured force \[N\].
+    pub largest_n: f64,
+}
+
+impl Agreement {
+    /// Compares the readings with the run.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] where no end of the cable is held.
+    pub fn new(scene: &Scene, run: &Run, readings: &Readings) -> Result<Self, Error> {
+        let end = CellEnd::of(scene)?;
+        let readings = readings.readings().to_vec();
+        let differences: Vec<f64> = readings
+            .iter()
+            .filter_map(|reading| Some(reading.force - force_at(&run.passes, end, reading.pass)?))
+            .collect();
+        let mean = |of: fn(f64) -> f64| {
+            differences.iter().map(|d| of(*d)).sum::<f64>() / differences.len().max(1) as f64
+        };
+        Ok(Self {
+            end,
+            compared: differences.len(),
+            rms_n: mean(|d| d * d).sqrt(),
+            mean_n: mean(|d| d),
+            largest_n: readings
+                .iter()
+                .fold(0.0, |largest: f64, reading| largest.max(reading.force.abs())),
+            readings,
+        })
+    }
+
+    /// Name of the end.
+    pub fn end_name(&self) -> &'static str {
+        match self.end {
+            CellEnd::Upstream => "upstream",
+            CellEnd::Downstream => "downstream",
+        }
+    }
+}
+
+/// Force on the end after `pass` \[N\]; between listed passes along a straight line, `None` beyond the last.
+fn force_at(passes: &[PassRecord], end: CellEnd, pass: u64) -> Option<f64> {
+    let force = |record: &PassRecord| match end {
+        CellEnd::Upstream => record.upstream_force_n,
+        CellEnd::Downstream => record.downstream_force_n,
+    };
+    let next = passes.partition_point(|record| record.pass < pass);
+    let after = passes.get(next)?;
+    if after.pass == pass || next == 0 {
+        return Some(force(after));
+    }
+    let before = &passes[next - 1];
+    let share = (pass - before.pass) as f64 / (after.pass - before.pass) as f64;
+    Some(force(before) + share * (force(after) - force(before)))
+}

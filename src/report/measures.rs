@@ -1,0 +1,146 @@
+//! Ways to hold the cable, each by a run of the scene.
+
+use crate::design::{DesignError, Measure, Place, TradeOff, compare};
+use crate::report::quantity::{length, quantity};
+use crate::report::{RUN_SHARE, ReportOptions};
+use crate::scene::End;
+use crate::{Run, Scene};
+
+/// Tolerance of these runs, unless the scene's is looser: they are compared with each other, on one mesh.
+const TOLERANCE: f64 = 0.05;
+/// Stiffnesses of end springs, as shares of the cable's own EA/L.
+const SPRINGS: [f64; 5] = [0.1, 0.3, 1.0, 3.0, 10.0];
+/// Clamps: place from the end that is held, as a share of the duct's length, and stiffness as a share of EA/L.
+const CLAMPS: [(f64, f64); 3] = [(0.5, 1.0), (0.5, 10.0), (0.1, 10.0)];
+
+/// Ways to hold the cable, and what each of them does.
+#[derive(Debug)]
+pub struct Comparison {
+    /// The end that is varied.
+    pub end: Place,
+    /// Tolerance of the runs.
+    pub tolerance: f64,
+    pub ways: Vec<Way>,
+    /// Why there are none.
+    pub failure: Option<String>,
+}
+
+/// One way to hold the cable.
+#[derive(Debug)]
+pub struct Way {
+    pub measure: Measure,
+    /// Whether that is how the scene holds it.
+    pub is_scene: bool,
+    pub answer: Result<TradeOff, DesignError>,
+}
+
+impl Comparison {
+    /// Runs `scene` with the measures of `options`, or with those that suit it.
+    pub fn new(scene: &Scene, run: &Run, options: &ReportOptions<'_>) -> Self {
+        let mut scene = scene.clone();
+        let tolerance = scene.solver.tolerance.max(TOLERANCE);
+        scene.solver.tolerance = tolerance;
+        let end = end(&scene, run);
+        let measures = options
+            .measures
+            .map_or_else(|| suitable(&scene, end), <[Measure]>::to_vec);
+        let progress = |done: usize| {
+            if let Some(progress) = options.progress {
+                let share = done as f64 / measures.len() as f64;
+                progress(RUN_SHARE + (1.0 - RUN_SHARE) * share);
+            }
+        };
+        let held = match end {
+            Place::Upstream => scene.ends.upstream,
+            _ => scene.ends.downstream,
+        };
+        let (answers, failure) = match compare(&scene, &measures, Some(&progress)) {
+            Ok(answers) => (answers, None),
+            Err(error) => (Vec::new(), Some(error.to_string())),
+        };
+        let ways = measures.into_iter().zip(answers).map(|(measure, answer)| Way {
+            measure,
+            is_scene: measure.place == end && measure.stiffness == stiffness(held),
+            answer,
+        });
+        Self {
+            end,
+            tolerance,
+            ways: ways.collect(),
+            failure,
+        }
+    }
+}
+
+impl Way {
+    /// What it is, in words.
+    pub fn name(&self) -> String {
+        let Measure { place, stiffness } = self.measure;
+        let spring = quantity(stiffness, "N/m");
+        let name = match place {
+            Place::Clamp(position) => format!("clamp of {spring} at {}", length(position)),
+            _ if stiffness == 0.0 => "free end".to_owned(),
+            _ if stiffness.is_infinite() => "fixed end".to_owned(),
+            _ => format!("spring of {spring}"),
+        };
+        if self.is_scene {
+            format!("{name}, as in the scene")
+        } else {
+            name
+        }
+    }
+}
+
+/// The end to be varied: the one that is pressed harder, or toward which the cable creeps where none is.
+fn end(scene: &Scene, run: &Run) -> Place {
+    let Some(last) = run.passes.last() else {
+        return Place::Downstream;
+    };
+    let upstream = match (scene.ends.upstream, scene.ends.downstream) {
+        (End::Free, End::Free) => -last.upstream_displacement_m > last.downstream_displacement_m,
+        (End::Free, _) => false,
+        (_, End::Free) => true,
+        _ => last.upstream_force_n.abs() > last.downstream_force_n.abs(),
+    };
+    if upstream {
+        Place::Upstream
+    } else {
+        Place::Downstream
+    }
+}
+
+/// Free, springs, the scene's own, fixed, and clamps.
+fn suitable(scene: &Scene, end: Place) -> Vec<Measure> {
+    let own = scene.cable.axial_stiffness / scene.duct.length;
+    let held = match end {
+        Place::Upstream => scene.ends.upstream,
+        _ => scene.ends.downstream,
+    };
+    let mut stiffnesses: Vec<f64> = SPRINGS.iter().map(|share| share * own).collect();
+    stiffnesses.extend([0.0, f64::INFINITY, stiffness(held)]);
+    stiffnesses.sort_by(f64::total_cmp);
+    stiffnesses.dedup();
+    let clamps = CLAMPS.iter().map(|&(from_end, share)| {
+        let position = match end {
+            Place::Upstream => from_end * scene.duct.length,
+            _ => (1.0 - from_end) * scene.duct.length,
+        };
+        Measure {
+            place: Place::Clamp(position),
+            stiffness: share * own,
+        }
+    });
+    let springs = stiffnesses.into_iter().map(|stiffness| Measure {
+        place: end,
+        stiffness,
+    });
+    springs.chain(clamps).collect()
+}
+
+fn stiffness(end: End) -> f64 {
+    match end {
+        End::Free => 0.0,
+        End::Spring(stiffness) => stiffness,
+        End::Fixed => f64::INFINITY,
+    }
+}

@@ -1,0 +1,54 @@
+//! How the answer was computed, and how wrong it may be.
+
+use crate::report::Report;
+use crate::report::html::{Html, Table};
+use crate::shown::{share, time};
+
+pub fn plan(html: &mut Html, report: &Report) {
+    let (run, plan) = (&report.run, &report.plan);
+    html.paragraph(&format!(
+        "Ground {}, cable {}, node spacing {:.3} m, vehicle step {:.3} m.",
+        run.plan.ground, run.plan.cable, run.plan.node_spacing_m, run.plan.vehicle_step_m
+    ));
+    html.list(&run.plan.reasons);
+    html.element("h3", "What was weighed");
+    let rows = plan.ladder.iter().map(|rung| {
+        let cost = [rung.estimated_error.map(share), rung.estimated_seconds.map(time)];
+        vec![
+            format!(
+                "{} {}: {}",
+                rung.part,
+                rung.name,
+                if rung.chosen { "taken" } else { "rejected" }
+            ),
+            cost.into_iter().flatten().collect::<Vec<_>>().join(", "),
+            rung.reason.clone(),
+        ]
+    });
+    html.table(&Table {
+        head: ["model", "error, time", "why, or why not"]
+            .map(str::to_owned)
+            .to_vec(),
+        rows: rows.collect(),
+        numbers: vec![false; 3],
+    });
+    html.element("h3", "Error of the forces");
+    let error = &run.error_estimate;
+    html.paragraph(&format!(
+        "{} in all, {}. How well the equations are solved, not how well they describe a duct.",
+        share(error.relative),
+        error.method
+    ));
+    let parts = error.parts;
+    let row = |name: &str, part: f64| vec![name.to_owned(), share(part)];
+    html.table(&Table {
+        head: vec!["part".into(), "error".into()],
+        rows: vec![
+            row("node spacing and vehicle step", parts.mesh),
+            row("ground model", parts.ground),
+            row("inertia of the cable", parts.inertia),
+            row("law of many passes", parts.law),
+        ],
+        numbers: vec![false, true],
+    });
+}

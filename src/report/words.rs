@@ -1,0 +1,213 @@
+//! The scene in words.
+
+use ground_field::{Base, Direction, Modulus, Vehicle};
+
+use super::html::Table;
+use crate::Scene;
+use crate::report::quantity::{count, length, quantity, significant};
+use crate::scene::{End, FrictionLaw, Order, PeakScaling};
+
+/// Kilometres an hour of a metre a second.
+const KILOMETRES_PER_HOUR: f64 = 3.6;
+
+/// What lies where and what holds it, a point for each part.
+pub fn scene(scene: &Scene) -> Vec<String> {
+    let mut points = vec![
+        duct(scene),
+        cable(scene),
+        friction(scene),
+        format!(
+            "Ends: upstream (x = 0) {}, downstream (x = {}) {}.",
+            end(scene.ends.upstream),
+            length(scene.duct.length),
+            end(scene.ends.downstream)
+        ),
+    ];
+    for restraint in &scene.restraints {
+        points.push(format!(
+            "Clamp of {} at {}.",
+            quantity(restraint.stiffness, "N/m"),
+            length(restraint.position)
+        ));
+    }
+    points.push(traffic(scene));
+    points
+}
+
+fn duct(scene: &Scene) -> String {
+    let path = if scene.duct.lateral_offset == 0.0 {
+        "the vehicles' axis runs right above it".to_owned()
+    } else {
+        format!(
+            "the vehicles' axis runs {} beside it",
+            length(scene.duct.lateral_offset.abs())
+        )
+    };
+    format!(
+        "Duct: {} long, {} from the road surface to the cable; {path}.",
+        length(scene.duct.length),
+        length(scene.duct.depth)
+    )
+}
+
+fn cable(scene: &Scene) -> String {
+    let pressed = if scene.cable.normal_load_factor == 1.0 {
+        "it lies on the duct with its own weight".to_owned()
+    } else {
+        format!(
+            "it presses on the duct with {} times its weight",
+            significant(scene.cable.normal_load_factor)
+        )
+    };
+    format!(
+        "Cable: {} heavy, axial stiffness EA {}; {pressed}.",
+        quantity(scene.cable.weight, "N/m"),
+        quantity(scene.cable.axial_stiffness, "N")
+    )
+}
+
+/// Largest friction on the cable μ_d N′ \[N/m\].
+pub fn friction_limit(scene: &Scene) -> f64 {
+    scene.friction.dynamic_coefficient * scene.cable.normal_load()
+}
+
+fn friction(scene: &Scene) -> String {
+    let law = match scene.friction.law {
+        FrictionLaw::Coulomb => "Coulomb's law".to_owned(),
+        FrictionLaw::ElasticPlastic { shape_factor } => {
+            format!("elastic-plastic law, shape factor {shape_factor:.3e} 1/m")
+        }
+        FrictionLaw::Sigmoid { shape_factor } => {
+            format!("sigmoid law, shape factor {shape_factor:.3e} 1/m")
+        }
+        _ => "a law of its own".to_owned(),
+    };
+    format!(
+        "Friction: dynamic coefficient {}, so at most {}; {law}.",
+        significant(scene.friction.dynamic_coefficient),
+        quantity(friction_limit(scene), "N/m")
+    )
+}
+
+/// What holds an end.
+pub fn end(end: End) -> String {
+    match end {
+        End::Free => "free".into(),
+        End::Fixed => "fixed".into(),
+        End::Spring(stiffness) => format!("on a spring of {}", quantity(stiffness, "N/m")),
+    }
+}
+
+fn traffic(scene: &Scene) -> String {
+    let passes = scene.traffic.passes;
+    let passes = if passes == 1 {
+        "one pass".to_owned()
+    } else {
+        format!("{} passes", count(passes))
+    };
+    let vehicles = scene.vehicles.len();
+    let order = match &scene.traffic.order {
+        _ if vehicles == 1 => return format!("Traffic: {passes} of one vehicle."),
+        Order::Interleaved => "mixed evenly by their shares",
+        Order::Random { .. } => "at random by their shares",
+        Order::Sequence(_) => "in a given sequence, over and over",
+    };
+    format!("Traffic: {passes} of {vehicles} kinds of vehicles, {order}.")
+}
+
+/// The layers of the ground from the surface down.
+pub fn ground(scene: &Scene) -> Table {
+    let profile = &scene.ground.profile;
+    let mut rows = Vec::new();
+    let mut top = 0.0;
+    for layer in profile.layers() {
+        let bottom = top + layer.thickness();
+        let modulus = match layer.modulus() {
+            Modulus::Uniform(modulus) => quantity(modulus, "Pa"),
+            Modulus::Linear { top, bottom } => {
+                format!("{} to {}", quantity(top, "Pa"), quantity(bottom, "Pa"))
+            }
+        };
+        rows.push(vec![
+            format!(
+                "{} to {}",
+                if top == 0.0 { "0".into() } else { length(top) },
+                length(bottom)
+            ),
+            modulus,
+            significant(layer.poisson_ratio()),
+        ]);
+        top = bottom;
+    }
+    rows.push(match profile.base() {
+        Base::HalfSpace(soil) => vec![
+            if top == 0.0 {
+                "everywhere".into()
+            } else {
+                format!("below {}", length(top))
+            },
+            quantity(soil.young_modulus(), "Pa"),
+            significant(soil.poisson_ratio()),
+        ],
+        Base::Rigid => vec![
+            format!("below {}", length(top)),
+            "rock that does not move".into(),
+            "–".into(),
+        ],
+    });
+    Table {
+        head: ["ground at depth", "Young’s modulus", "Poisson’s ratio"]
+            .map(str::to_owned)
+            .to_vec(),
+        rows,
+        numbers: vec![false, true, true],
+    }
+}
+
+/// How the ground was scaled to a measurement, if it was.
+pub fn scaling(scene: &Scene) -> Option<String> {
+    Some(match scene.ground.scaling? {
+        PeakScaling::Longitudinal(peak) => format!(
+            "The motion of the duct is scaled so that each vehicle moves it by {} along its axis at most.",
+            quantity(peak, "m")
+        ),
+        PeakScaling::Vertical(peak) => format!(
+            "The motion of the duct is scaled to a measured deflection: {} down under the first vehicle.",
+            quantity(peak, "m")
+        ),
+    })
+}
+
+/// The vehicles.
+pub fn vehicles(scene: &Scene) -> Table {
+    let rows = scene.vehicles.iter().map(|traffic| {
+        let vehicle = &traffic.vehicle;
+        vec![
+            vehicle.name().to_owned(),
+            format!(
+                "{} km/h {}",
+                significant(KILOMETRES_PER_HOUR * vehicle.speed()),
+                match vehicle.direction() {
+                    Direction::Forward => "forward",
+                    Direction::Reverse => "reverse",
+                }
+            ),
+            load(vehicle),
+            format!("{} %", significant(100.0 * traffic.share)),
+        ]
+    });
+    Table {
+        head: ["vehicle", "drives", "load", "share"].map(str::to_owned).to_vec(),
+        rows: rows.collect(),
+        numbers: vec![false, false, false, true],
+    }
+}
+
+fn load(vehicle: &Vehicle) -> String {
+    let whole = quantity(vehicle.weight(), "N");
+    match vehicle.wheels() {
+        [wheel] if wheel.load.is_point() => format!("{whole}, concentrated"),
+        [_] => format!("{whole}, one wheel"),
+        wheels => format!("{whole} on {} wheels", wheels.len()),
+    }
+}

@@ -1,0 +1,454 @@
+//! The report: what it says is what a run says, it is well-formed, loads nothing, and no text of a user becomes markup.
+
+#![cfg(all(feature = "cli", feature = "plot"))]
+
+mod xml;
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use creepage::Scene;
+use creepage::calibration::Readings;
+use creepage::design::{Measure, Place};
+use creepage::report::{Report, ReportOptions};
+use serde_json::Value;
+use xml::{Element, parse};
+
+const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+const FIGURES: [&str; 7] = [
+    "Force against passes",
+    "Force along the cable",
+    "Movement of the ends",
+    "Motion of the duct along its axis; and down",
+    "Velocity of the duct along its axis",
+    "Friction on the cable, pass 1; Friction on the cable, pass 6",
+    "Force against movement",
+];
+
+fn creepage(arguments: &[&str]) -> Output {
+    Command::new(assert_cmd::cargo::cargo_bin!("creepage"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(arguments)
+        .stdin(Stdio::null())
+        .output()
+        .expect("the command starts")
+}
+
+/// An empty folder for files of one test.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report").join(test);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder for the test");
+    folder
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().expect("a path in UTF-8")
+}
+
+fn scene(overrides: &[&str]) -> Scene {
+    let overrides: Vec<String> = overrides.iter().map(|set| (*set).to_owned()).collect();
+    Scene::from_file_with(Path::new(UPPER), &overrides).expect("a scene")
+}
+
+/// The page for a scene of six passes.
+fn page(overrides: &[&str], options: &ReportOptions<'_>) -> String {
+    let scene = scene(&[&["traffic.passes=6"], overrides].concat());
+    Report::new(&scene, options).expect("a report").to_html()
+}
+
+/// The elements of a page, which has to be well-formed.
+fn elements(page: &str) -> Vec<Element> {
+    parse(page.trim().strip_prefix("<!DOCTYPE html>\n").expect("a doctype"))
+}
+
+fn texts<'e>(elements: &'e [Element], name: &str) -> Vec<&'e str> {
+    let named = elements.iter().filter(|element| element.name == name);
+    named.map(|element| element.text.as_str()).collect()
+}
+
+/// Rows of the table that begins with the given heads.
+fn table(page: &str, heads: &[&str]) -> Vec<Vec<String>> {
+    let elements = elements(page);
+    let mut rows: Vec<Vec<String>> = Vec::new();
+    let mut inside = false;
+    let mut head: Vec<String> = Vec::new();
+    for element in &elements {
+        match element.name.as_str() {
+            "table" => {
+                inside = false;
+                head.clear();
+            }
+            "th" => {
+                head.push(element.text.replace('\u{ad}', ""));
+                inside = head == heads;
+            }
+            "tr" if inside => rows.push(Vec::new()),
+            "td" if inside => rows.last_mut().expect("a row").push(element.text.clone()),
+            _ => {}
+        }
+    }
+    assert!(!rows.is_empty(), "no table with {heads:?}");
+    rows
+}
+
+#[track_caller]
+fn number(text: &str) -> f64 {
+    let digits = text.split([' ', '\u{a0}']).next().unwrap_or_default();
+    digits.parse().unwrap_or_else(|_| panic!("{text} is no number"))
+}
+
+#[test]
+fn the_numbers_are_those_of_the_run() {
+    let file = folder("numbers").join("upper.html");
+    let output = creepage(&["report", UPPER, "-o", text(&file)]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(output.stdout.is_empty() && output.stderr.is_empty(), "{output:?}");
+    let page = fs::read_to_string(&file).expect("the page");
+    let run: Value = serde_json::from_slice(&creepage(&["run", UPPER, "--json"]).stdout).expect("JSON");
+    let close = |shown: f64, value: &Value, factor: f64, half_digit: f64| {
+        let value = factor * value.as_f64().expect("a number");
+        assert!(
+            (shown - value).abs() <= half_digit * 1.001,
+            "{shown} where the run says {value}"
+        );
+    };
+
+    let elements = elements(&page);
+    let shown: Vec<&Element> = elements
+        .iter()
+        .filter(|element| element.get("class") == "value")
+        .collect();
+    assert_eq!(shown.len(), 5);
+    let last = &run["passes"][199];
+    close(number(&shown[0].text), &run["saturation"]["force_n"], 1.0, 0.05);
+    assert_eq!(
+        run["saturation"]["passes_to_95_percent"],
+        number(&shown[1].text) as u64
+    );
+    close(
+        number(&shown[2].text),
+        &last["upstream_displacement_m"],
+        1e3,
+        5e-4,
+    );
+    close(
+        number(&shown[3].text),
+        &run["duct_motion"]["peak_longitudinal_m"],
+        1e6,
+        5e-3,
+    );
+    close(
+        number(&shown[4].text),
+        &run["error_estimate"]["relative"],
+        100.0,
+        5e-3,
+    );
+
+    let rows = table(&page, &["pass", "force downstream, N", "moved upstream, mm"]);
+    assert_eq!(rows.len(), 8);
+    for row in rows {
+        let pass = &run["passes"][number(&row[0]) as usize - 1];
+        close(number(&row[1]), &pass["downstream_force_n"], 1.0, 0.05);
+        close(number(&row[2]), &pass["upstream_displacement_m"], 1e3, 5e-5);
+    }
+    let points = texts(&elements, "li");
+    for reason in run["plan"]["reasons"].as_array().expect("a list") {
+        assert!(points.contains(&reason.as_str().expect("a text")), "{reason}");
+    }
+    let parts = table(&page, &["part", "error"]);
+    close(
+        number(&parts[0][1]),
+        &run["error_estimate"]["parts"]["mesh"],
+        100.0,
+        5e-3,
+    );
+    // Table 1 of the paper, in the words of the page.
+    for words in [
+        "Duct: 30 m long, 1.2 m from the road surface to the cable",
+        "108.8 N/m heavy, axial stiffness EA 8.01 MN",
+        "dynamic coefficient 0.25, so at most 27.2 N/m",
+        "upstream (x = 0) free, downstream (x = 30 m) fixed",
+        "200 passes",
+    ] {
+        assert!(points.iter().any(|point| point.contains(words)), "{words}");
+    }
+    let ground = table(&page, &["ground at depth", "Young’s modulus", "Poisson’s ratio"]);
+    assert_eq!(ground, [["everywhere", "800 MPa", "0.4"]]);
+}
+
+#[test]
+fn every_rung_is_shown_with_its_fate() {
+    let layered = [
+        "ground.rigid_base_depth=12 m",
+        r#"ground.layers=[{thickness="50 mm", young_modulus="4000 MPa", poisson_ratio=0.35}, {young_modulus="800 MPa", poisson_ratio=0.4}]"#,
+    ];
+    let page = page(&layered, &ReportOptions::default());
+    let scene = scene(&[&["traffic.passes=6"], &layered[..]].concat());
+    let plan = creepage::plan(&scene).expect("a plan").report();
+    let rows = table(&page, &["model", "error, time", "why, or why not"]);
+    assert_eq!(rows.len(), plan.ladder.len());
+    for (row, rung) in rows.iter().zip(&plan.ladder) {
+        let fate = if rung.chosen { "taken" } else { "rejected" };
+        assert_eq!(row[0], format!("{} {}: {fate}", rung.part, rung.name));
+        assert_eq!(row[2], rung.reason);
+    }
+    assert!(plan.ladder.iter().any(|rung| !rung.chosen));
+    let ground = table(&page, &["ground at depth", "Young’s modulus", "Poisson’s ratio"]);
+    assert_eq!(ground[0], ["0 to 50 mm", "4 GPa", "0.35"]);
+    assert_eq!(ground[2][0], "below 12 m");
+}
+
+#[test]
+fn all_figures_are_there_and_have_dark_colours() {
+    let page = page(&[], &ReportOptions::default());
+    let elements = elements(&page);
+    let names: Vec<&str> = elements
+        .windows(2)
+        .filter(|pair| pair[0].name == "svg")
+        .map(|pair| pair[1].text.as_str())
+        .collect();
+    assert_eq!(names, FIGURES);
+    assert!(!page.contains("could not be drawn"));
+    for element in &elements {
+        for property in ["fill", "stroke"] {
+            let colour = element.get(property);
+            let rule = format!("svg [{property}=\"{colour}\"]{{{property}:#");
+            assert!(
+                ["", "none"].contains(&colour) || page.contains(&rule),
+                "{property} {colour} has no dark colour"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_page_loads_nothing() {
+    let page = page(&[], &ReportOptions::default()).to_lowercase();
+    assert!(page.contains("default-src 'none'; style-src 'unsafe-inline'"));
+    for loads in [
+        "<script", "<link", "<img", "<iframe", "<object", "src=", "href=", "url(", "@import",
+    ] {
+        assert!(!page.contains(loads), "{loads}");
+    }
+    // The name of a dialect, not an address.
+    let page = page.replace("xmlns=\"http://www.w3.org/2000/svg\"", "");
+    assert!(!page.contains("http://") && !page.contains("https://"));
+}
+
+#[test]
+fn texts_of_the_user_stay_texts() {
+    let nasty = "<script>alert('x')</script> & \"é\" </title><b>";
+    let mut scene = scene(&["traffic.passes=2"]);
+    scene.title = nasty.into();
+    let vehicle = &mut scene.vehicles[0].vehicle;
+    *vehicle = ground_field::Vehicle::point(nasty, 1e5, 10.0).expect("a vehicle");
+    let warning = [nasty.to_owned()];
+    let options = ReportOptions {
+        warnings: &warning,
+        ..ReportOptions::default()
+    };
+    let page = Report::new(&scene, &options).expect("a report").to_html();
+    assert!(!page.contains("<script") && !page.contains("<b>"));
+    let elements = elements(&page);
+    assert_eq!(texts(&elements, "h1"), [nasty]);
+    assert!(texts(&elements, "td").contains(&nasty));
+    assert!(texts(&elements, "li").contains(&nasty));
+    assert!(texts(&elements, "title")[0].starts_with(nasty));
+}
+
+#[test]
+fn readings_are_drawn_and_compared() {
+    let run = creepage::run(&scene(&["traffic.passes=6"])).expect("a run");
+    // Ten newtons above what is computed, and one reading beyond the passes.
+    let rows: Vec<String> = run
+        .passes
+        .iter()
+        .map(|record| format!("{},{},5\n", record.pass, record.downstream_force_n + 10.0))
+        .collect();
+    let csv = format!("pass,force_n,sigma_n\n{}9,500,5\n", rows.concat());
+    let readings = Readings::from_csv("cell.csv", csv.as_bytes()).expect("readings");
+    let options = ReportOptions {
+        readings: Some(&readings),
+        ..ReportOptions::default()
+    };
+    let with = page(&[], &options);
+    let said = "7 readings at the downstream end; measured minus computed force of 6 of them: mean 10.0 N, root of the mean square \
+                10.0 N, largest reading 500.0 N.";
+    assert!(with.contains(said), "{with}");
+    let circles = |page: &str| {
+        let orange = |element: &&Element| element.name == "polygon" || element.name == "polyline";
+        let elements = elements(page);
+        let svg = elements
+            .iter()
+            .position(|element| element.name == "svg")
+            .expect("a figure");
+        let end = svg
+            + 1
+            + elements[svg + 1..]
+                .iter()
+                .position(|element| element.name == "svg")
+                .expect("another");
+        elements[svg..end]
+            .iter()
+            .filter(orange)
+            .filter(|element| element.get("stroke") == "#D55E00")
+            .count()
+    };
+    // Each reading is a circle and a bar; the legend shows one circle more.
+    assert_eq!(circles(&with), 2 * 7 + 1);
+    assert_eq!(circles(&page(&[], &ReportOptions::default())), 0);
+
+    let free = scene(&["traffic.passes=6", "ends.downstream=free"]);
+    let error = Report::new(&free, &options).expect_err("no end is held");
+    assert!(
+        error.is_bad_input() && error.to_string().contains("load cell"),
+        "{error}"
+    );
+}
+
+#[test]
+fn a_way_that_fails_is_told_and_the_others_stay() {
+    let measure = |place, stiffness| Measure { place, stiffness };
+    let measures = [
+        measure(Place::Downstream, f64::INFINITY),
+        measure(Place::Downstream, 1e6),
+        measure(Place::Clamp(99.0), 1e6),
+    ];
+    let options = ReportOptions {
+        measures: Some(&measures),
+        ..ReportOptions::default()
+    };
+    let page = page(&[], &options);
+    let rows = table(
+        &page,
+        &["held by", "force, N", "movement, mm", "on clamp, N", "error"],
+    );
+    assert_eq!(
+        rows.iter().map(|row| row[0].as_str()).collect::<Vec<_>>(),
+        [
+            "fixed end, as in the scene",
+            "spring of 1 MN/m",
+            "clamp of 1 MN/m at 99 m"
+        ]
+    );
+    assert!(number(&rows[0][1]) > number(&rows[1][1]) && number(&rows[1][1]) > 0.0);
+    assert_eq!(rows[2][1], "failed");
+    assert!(
+        page.contains("Failed: clamp of 1 MN/m at 99 m: position of the clamp: found 99"),
+        "{page}"
+    );
+}
+
+#[test]
+fn other_scenes_have_their_pages() {
+    // No force at all; both ends free; inertia; more passes than can be computed one by one.
+    for (overrides, said) in [
+        (
+            &["friction.dynamic_coefficient=0"][..],
+            "There is no friction here",
+        ),
+        (&["ends.downstream=free"], "largest compression in the cable"),
+        (
+            &["solver.method=dynamic"],
+            "The method dynamic does not show friction",
+        ),
+        (
+            &["traffic.passes=2000000", "solver.tolerance=0.05"],
+            "2\u{a0}000\u{a0}000 passes",
+        ),
+    ] {
+        let page = page(overrides, &ReportOptions::default());
+        elements(&page);
+        assert!(page.contains(said), "{overrides:?}");
+        assert!(!page.contains("could not be drawn"), "{overrides:?}");
+    }
+}
+
+#[track_caller]
+fn assert_refused(arguments: &[&str], status: i32, parts: &[&str]) {
+    let output = creepage(&[&["report"], arguments].concat());
+    let errors = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(output.status.code(), Some(status), "{arguments:?}: {errors}");
+    assert!(output.stdout.is_empty());
+    for part in parts {
+        assert!(errors.contains(part), "{arguments:?}: {part} is not in\n{errors}");
+    }
+}
+
+#[test]
+fn a_page_that_cannot_be_written_has_status_2_before_anything_is_computed() {
+    let folder = folder("unwritable");
+    let nowhere = folder.join("no-such-folder").join("page.html");
+    // Were it computed first, this would take hours.
+    let hours = [
+        "--set",
+        "traffic.passes=900000",
+        "--set",
+        "solver.method=quasi-static",
+    ];
+    for file in [&nowhere, &folder] {
+        assert_refused(
+            &[&[UPPER, "-o", text(file)], &hours[..]].concat(),
+            2,
+            &[text(file), "cannot be written"],
+        );
+    }
+    #[cfg(unix)]
+    assert_refused(&[UPPER, "-o", "/dev/null"], 2, &["/dev/null", "not a file"]);
+    assert_refused(&[UPPER], 2, &["--output"]);
+    let copy = folder.join("scene.toml");
+    fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join(UPPER), &copy).expect("a copy");
+    assert_refused(&[text(&copy), "-o", text(&copy)], 2, &["which is read"]);
+    assert!(fs::read_to_string(&copy).expect("the scene").contains("[duct]"));
+}
+
+#[test]
+fn bad_input_has_status_2_and_a_failure_leaves_the_older_page() {
+    let folder = folder("older");
+    let file = folder.join("page.html");
+    fs::write(&file, "older").expect("a file");
+    let data = folder.join("data.csv");
+    fs::write(&data, "pass,force_n\n1,many\n").expect("a file");
+    let output = ["-o", text(&file)];
+    assert_refused(
+        &[&[UPPER, "--data", text(&data)], &output[..]].concat(),
+        2,
+        &["data.csv:2", "many"],
+    );
+    assert_refused(
+        &[&["no-such-scene.toml"], &output[..]].concat(),
+        2,
+        &["no-such-scene.toml"],
+    );
+    assert_refused(
+        &[&[UPPER, "--set", "duct.depth=1 kN"], &output[..]].concat(),
+        2,
+        &["duct.depth"],
+    );
+    let too_stiff = [
+        UPPER,
+        "--set",
+        "cable.axial_stiffness=1e15 N",
+        "--set",
+        "solver.node_spacing=1 mm",
+        "--set",
+        "traffic.passes=1",
+    ];
+    assert_refused(&[&too_stiff[..], &output].concat(), 1, &["stiff"]);
+    assert_eq!(fs::read_to_string(&file).expect("the older page"), "older");
+
+    let done = creepage(&[&["report", UPPER, "--set", "traffic.passes=2"], &output[..]].concat());
+    assert_eq!(done.status.code(), Some(0), "{done:?}");
+    assert!(
+        fs::read_to_string(&file)
+            .expect("the page")
+            .starts_with("<!DOCTYPE html>")
+    );
+    let left: Vec<_> = fs::read_dir(&folder)
+        .expect("the folder")
+        .map(|entry| entry.expect("an entry").file_name())
+        .collect();
+    assert_eq!(left.len(), 2, "{left:?}");
+}

@@ -1,0 +1,341 @@
+//! The report in a browser: nothing on the console, every figure seen, no sideways scroll on a phone, legible in light and dark.
+//!
+//! Needs Chromium (Debian's package `chromium`, or `CHROMIUM` in the environment), so it is run by
+//! `cargo test --test report_in_browser -- --ignored`; `.ci/run` does.
+//!
+//! A page is shown in a frame as wide as the screen that it is tested for, since a browser's own window is never as narrow as a
+//! phone. The page around the frame looks into it and writes what it measures into itself, which the browser prints.
+
+#![cfg(feature = "plot")]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use creepage::Scene;
+use creepage::calibration::Readings;
+use creepage::design::{Measure, Place};
+use creepage::report::{Report, ReportOptions};
+use serde_json::Value;
+
+const PHONE: u32 = 390;
+const DESK: u32 = 1200;
+/// Smallest text of a figure that is read on a phone \[px\].
+const SMALLEST_TEXT: f64 = 10.0;
+/// Least contrast of text (WCAG 2.1, success criterion 1.4.3).
+const LEAST_CONTRAST: f64 = 4.5;
+const PATIENCE: Duration = Duration::from_mins(2);
+
+/// Runs in the page around the frame.
+const MEASURE: &str = r#"
+const frame = document.querySelector("iframe");
+const channels = (colour) => colour.match(/[\d.]+/g).slice(0, 3).map((c) => {
+  const share = c / 255;
+  return share <= 0.03928 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4;
+});
+const luminance = (colour) => {
+  const [red, green, blue] = channels(colour);
+  return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+};
+const contrast = (one, other) => {
+  const [low, high] = [luminance(one), luminance(other)].sort((a, b) => a - b);
+  return (high + 0.05) / (low + 0.05);
+};
+const touch = (a, b) =>
+  a.left + 1 < b.right - 1 && b.left + 1 < a.right - 1 && a.top + 1 < b.bottom - 1 && b.top + 1 < a.bottom - 1;
+frame.addEventListener("load", () => {
+  const page = frame.contentDocument, view = frame.contentWindow;
+  const ground = view.getComputedStyle(page.body).backgroundColor;
+  const figures = [...page.querySelectorAll("svg")].map((svg) => {
+    const box = svg.getBoundingClientRect();
+    const scale = box.width / svg.viewBox.baseVal.width;
+    const texts = [...svg.querySelectorAll("text")];
+    const boxes = texts.map((text) => text.getBoundingClientRect());
+    const styles = texts.map((text) => view.getComputedStyle(text));
+    return {
+      width: box.width, height: box.height, right: box.right,
+      text: Math.min(...styles.map((style) => parseFloat(style.fontSize) * scale)),
+      contrast: Math.min(...styles.map((style) => contrast(style.fill, ground))),
+      outside: texts.filter((text, k) => boxes[k].left < box.left - 1 || boxes[k].right > box.right + 1
+        || boxes[k].top < box.top - 1 || boxes[k].bottom > box.bottom + 1).map((text) => text.textContent.trim()),
+      overlapping: texts.filter((text, k) => boxes.some((other, l) => l < k && touch(boxes[k], other)))
+        .map((text) => text.textContent.trim()),
+    };
+  });
+  const root = page.documentElement;
+  const words = [...page.querySelectorAll("h1, h2, p, li, td, th, dt, dd, figcaption")];
+  const result = {
+    width: view.innerWidth, scroll: root.scrollWidth, room: root.clientWidth,
+    dark: view.matchMedia("(prefers-color-scheme: dark)").matches, ground, figures,
+    contrast: Math.min(...words.map((word) => contrast(view.getComputedStyle(word).color, ground))),
+  };
+  const out = document.createElement("pre");
+  out.id = "result";
+  out.textContent = JSON.stringify(result);
+  document.body.append(out);
+});
+"#;
+
+/// What the browser saw of a page.
+struct Seen {
+    result: Value,
+    console: Vec<String>,
+}
+
+fn folder() -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report_in_browser");
+    fs::create_dir_all(&folder).expect("a folder for the test");
+    folder
+}
+
+fn chromium() -> String {
+    std::env::var("CHROMIUM").unwrap_or_else(|_| "chromium".into())
+}
+
+/// Shows `page` in a frame of `width` px.
+fn show(page: &str, width: u32, dark: bool) -> Seen {
+    static COUNT: AtomicUsize = AtomicUsize::new(0);
+    let name = format!("{}-{}", std::process::id(), COUNT.fetch_add(1, Ordering::Relaxed));
+    let folder = folder().join(name);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    fs::write(folder.join("page.html"), page).expect("the page");
+    let frame = folder.join("frame.html");
+    // The script stands first, so that it hears of the frame's loading.
+    let around = format!(
+        "<!DOCTYPE html><meta charset=\"utf-8\"><body style=\"margin:0\"><iframe width=\"{width}\" height=\"844\" style=\"border:0\">\
+         </iframe><script>{MEASURE}\nframe.src = \"page.html\";</script></body>"
+    );
+    fs::write(&frame, around).expect("the frame");
+    let errors = folder.join("errors.txt");
+    let printed = folder.join("printed.html");
+    let mut browser = Command::new(chromium())
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--no-first-run",
+            "--enable-logging=stderr",
+            "--allow-file-access-from-files",
+            "--window-size=1300,900",
+            "--virtual-time-budget=10000",
+            "--dump-dom",
+        ])
+        // Chromium's own name for what a reader prefers: 0 is dark, 1 light.
+        .arg(format!(
+            "--blink-settings=preferredColorScheme={}",
+            u8::from(!dark)
+        ))
+        .arg(format!("--user-data-dir={}", folder.join("profile").display()))
+        .arg(format!("file://{}", frame.display()))
+        .stdin(Stdio::null())
+        .stdout(fs::File::create(&printed).expect("a file"))
+        .stderr(fs::File::create(&errors).expect("a file"))
+        .spawn()
+        .unwrap_or_else(|error| panic!("{} does not start: {error}", chromium()));
+    let start = Instant::now();
+    while browser.try_wait().expect("the browser").is_none() {
+        if start.elapsed() > PATIENCE {
+            let _ = browser.kill();
+            panic!("the browser does not end");
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    let printed = fs::read_to_string(printed).expect("what it printed");
+    let errors = String::from_utf8_lossy(&fs::read(errors).expect("what it logged")).into_owned();
+    let result = printed
+        .split_once("<pre id=\"result\">")
+        .and_then(|(_, rest)| rest.split_once("</pre>"))
+        .unwrap_or_else(|| panic!("nothing was measured:\n{printed}\n{errors}"));
+    let json = result
+        .0
+        .replace("&lt;", "<")
+        .replace("&gt;", ">")
+        .replace("&amp;", "&");
+    let _ = fs::remove_dir_all(&folder);
+    Seen {
+        result: serde_json::from_str(&json).expect("JSON"),
+        console: errors
+            .lines()
+            .filter(|line| line.contains("CONSOLE"))
+            .map(str::to_owned)
+            .collect(),
+    }
+}
+
+/// What is wrong with a page of so many figures; nothing where all is well.
+fn faults(page: &str, width: u32, dark: bool, figures: usize) -> Vec<String> {
+    let Seen { result, console } = show(page, width, dark);
+    let number = |value: &Value| value.as_f64().unwrap_or(f64::NAN);
+    let mut faults = console;
+    let mut check = |holds: bool, fault: String| {
+        if !holds {
+            faults.push(fault);
+        }
+    };
+    check(
+        number(&result["width"]) == f64::from(width),
+        format!("the frame is {} px wide", result["width"]),
+    );
+    check(
+        result["dark"] == dark,
+        format!("dark is {}, asked {dark}", result["dark"]),
+    );
+    check(
+        number(&result["scroll"]) <= number(&result["room"]),
+        format!(
+            "{} px of content in {} px scroll sideways",
+            result["scroll"], result["room"]
+        ),
+    );
+    check(
+        number(&result["contrast"]) >= LEAST_CONTRAST,
+        format!("contrast of words {}", result["contrast"]),
+    );
+    let seen = result["figures"].as_array().expect("a list");
+    check(seen.len() == figures, format!("{} figures", seen.len()));
+    for (k, figure) in seen.iter().enumerate() {
+        check(
+            number(&figure["width"]) > 200.0 && number(&figure["height"]) > 100.0,
+            format!("figure {k} is not seen: {figure}"),
+        );
+        check(
+            number(&figure["right"]) <= f64::from(width),
+            format!("figure {k} is cut off: {figure}"),
+        );
+        check(
+            number(&figure["text"]) >= SMALLEST_TEXT,
+            format!("figure {k}: text of {} px", figure["text"]),
+        );
+        check(
+            number(&figure["contrast"]) >= LEAST_CONTRAST,
+            format!("figure {k}: contrast {}", figure["contrast"]),
+        );
+        for list in ["outside", "overlapping"] {
+            let texts = figure[list].as_array().expect("a list");
+            check(texts.is_empty(), format!("figure {k}: {list} {}", figure[list]));
+        }
+    }
+    faults
+}
+
+fn upper(overrides: &[&str]) -> Scene {
+    let overrides: Vec<String> = overrides.iter().map(|set| (*set).to_owned()).collect();
+    Scene::from_file_with(Path::new("examples/scenes/full-scale-upper.toml"), &overrides).expect("a scene")
+}
+
+/// A page with everything on it: readings, layers, two kinds of vehicles, springs, a clamp, long names, warnings, a failed way.
+fn full() -> String {
+    let long = "AnEndlessNameWithoutAnySpaceInIt".repeat(4);
+    let mut scene = upper(&[
+        "traffic.passes=40",
+        "ground.rigid_base_depth=12 m",
+        "ground.vertical_peak=115 um",
+        r#"ground.layers=[{thickness="50 mm", young_modulus="4000 MPa", poisson_ratio=0.35}, {young_modulus="800 MPa", poisson_ratio=0.4}]"#,
+        "ends.upstream.spring=1 MN/m",
+        "ends.downstream.spring=3 MN/m",
+        r#"restraints=[{position="20 m", stiffness="1 MN/m"}]"#,
+    ]);
+    scene.title = format!("<b>{long}</b>");
+    let mut other = scene.vehicles[0].clone();
+    scene.vehicles[0].share = 0.6;
+    other.share = 0.4;
+    other.vehicle = ground_field::Vehicle::point(&long, 5e4, 15.0)
+        .expect("a vehicle")
+        .driving(ground_field::Direction::Reverse);
+    scene.vehicles.push(other);
+    let readings = Readings::from_csv("cell.csv", b"pass,force_n,sigma_n\n1,50,9\n20,200,9\n40,260,9\n")
+        .expect("readings");
+    let measure = |place, stiffness| Measure { place, stiffness };
+    let measures = [
+        measure(Place::Downstream, 3e6),
+        measure(Place::Downstream, f64::INFINITY),
+        measure(Place::Clamp(15.0), 1e6),
+        measure(Place::Clamp(1e9), 1e6),
+    ];
+    let warnings = [format!("a warning about {long}")];
+    let options = ReportOptions {
+        readings: Some(&readings),
+        measures: Some(&measures),
+        warnings: &warnings,
+        ..ReportOptions::default()
+    };
+    Report::new(&scene, &options).expect("a report").to_html()
+}
+
+fn plain() -> String {
+    Report::new(&upper(&[]), &ReportOptions::default())
+        .expect("a report")
+        .to_html()
+}
+
+#[test]
+#[ignore = "needs Chromium"]
+fn the_page_is_well_on_phones_and_desks_by_day_and_night() {
+    for page in [plain(), full()] {
+        for width in [PHONE, DESK] {
+            for dark in [false, true] {
+                let faults = faults(&page, width, dark, 7);
+                assert!(faults.is_empty(), "{width} px, dark {dark}: {faults:#?}");
+            }
+        }
+    }
+}
+
+#[test]
+#[ignore = "needs Chromium"]
+fn millions_of_passes_and_no_friction_are_well_on_a_phone() {
+    let many = upper(&["traffic.passes=2000000", "solver.tolerance=0.05"]);
+    let none = upper(&["friction.dynamic_coefficient=0", "traffic.passes=3"]);
+    for (scene, figures) in [(many, 7), (none, 6)] {
+        let page = Report::new(&scene, &ReportOptions::default())
+            .expect("a report")
+            .to_html();
+        let faults = faults(&page, PHONE, false, figures);
+        assert!(faults.is_empty(), "{faults:#?}");
+    }
+}
+
+/// The checks find what is wrong.
+#[test]
+#[ignore = "needs Chromium"]
+fn a_fault_is_seen() {
+    let page = Report::new(&upper(&["traffic.passes=2"]), &ReportOptions::default())
+        .expect("a report")
+        .to_html();
+    let with = |old: &str, new: &str| {
+        assert!(page.contains(old), "{old}");
+        page.replacen(old, new, 1)
+    };
+    let body = "<main>";
+    let cases = [
+        (
+            with(body, "<main><div style=\"width:600px\">wide</div>"),
+            "scroll sideways",
+        ),
+        (
+            with("<figure>", "<figure style=\"display:none\">"),
+            "figure 0 is not seen",
+        ),
+        (
+            with(body, "<main><img src=\"http://localhost:9/x.png\" alt=\"\"/>"),
+            "CONSOLE",
+        ),
+        (with(body, "<main><script>broken(</script>"), "CONSOLE"),
+        (
+            with("svg [fill=\"#262626\"]", "svg [fill=\"#000001\"]"),
+            "contrast",
+        ),
+        (with("columns: 2 22rem", "columns: 2"), "text of"),
+    ];
+    for (page, fault) in &cases {
+        let faults = faults(page, PHONE, true, 7);
+        assert!(
+            faults.iter().any(|found| found.contains(fault)),
+            "{fault}: {faults:#?}"
+        );
+    }
+    assert_eq!(faults(&page, PHONE, true, 7), Vec::<String>::new());
+}
