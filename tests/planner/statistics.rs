@@ -135,7 +135,7 @@ fn the_tolerance_holds_on_random_scenes_and_the_estimate_is_honest() {
     let count: u64 = std::env::var("SCENES")
         .ok()
         .and_then(|n| n.parse().ok())
-        .unwrap_or(48);
+        .unwrap_or(72);
     let all: Vec<Case> = (0..count)
         .into_par_iter()
         .flat_map_iter(|seed| {

@@ -25,7 +25,6 @@ pub fn holding(html: &mut Html, report: &Report) {
         html.paragraph(&format!("The comparison failed: {failure}"));
         return;
     }
-    html.raw("<div class=\"figures\">");
     if let Some(panels) = figures::measures(report) {
         figure(
             html,
@@ -53,7 +52,6 @@ pub fn holding(html: &mut Html, report: &Report) {
         rows: rows.collect(),
         numbers: vec![false, true, true, true, true],
     });
-    html.raw("</div>");
     html.list(&failures(&comparison.ways));
 }
 

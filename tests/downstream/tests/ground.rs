@@ -143,6 +143,9 @@ fn a_scene_runs_on_the_strangers_ground() -> Result<(), BoxError> {
         ..Default::default()
     };
     let on_table = creepage::run_with(&scene, &options)?;
-    assert!(on_table.passes[9].downstream_force_n > 1.05 * ours.passes[9].downstream_force_n);
+    // Soil 1.36 times softer at the duct's depth: more from the first pass on, which friction levels off later.
+    let ratio = |pass: usize| on_table.passes[pass].downstream_force_n / ours.passes[pass].downstream_force_n;
+    assert!(ratio(0) > 1.05 && ratio(0) < 1.4, "{}", ratio(0));
+    assert!(ratio(9) > 1.0 && ratio(9) < ratio(0), "{} {}", ratio(9), ratio(0));
     Ok(())
 }
