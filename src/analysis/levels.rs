@@ -20,8 +20,9 @@ const REFINEMENT_COST: usize = 4;
 const DOUBTFUL: f64 = 0.1;
 /// Share of the tolerance that what the ground model leaves out may take of the force.
 const GROUND_SHARE: f64 = 0.5;
-/// The first passes tell what the ground model leaves out: this part of all, and at least so many.
-const FIRST_PASSES: (u64, u64) = (8, 10);
+/// The first passes tell what the ground model leaves out: this part of all, and at least so many. They are computed twice on the
+/// coarsest mesh, which is to cost little beside the run.
+const FIRST_PASSES: (u64, u64) = (16, 2);
 
 /// A scene's passes, to be computed on whatever level.
 pub struct Ladder<'a> {
