@@ -66,7 +66,7 @@ fn value(answer: &Calibrated, name: &str) -> f64 {
 
 #[test]
 fn friction_comes_back_from_another_solver() {
-    let data = readings(&noisy(series(), 2.0, 1));
+    let data = readings(&noisy(series(), 3.0, 1));
     let answer = calibrate(&upper(), &data, &CalibrateOptions::default()).unwrap();
     assert!(
         (value(&answer, "dynamic_coefficient") / 0.25 - 1.0).abs() < 0.02,
@@ -81,7 +81,7 @@ fn friction_comes_back_from_another_solver() {
     assert!(answer.parameters.iter().all(|parameter| parameter.identifiable));
     assert!(answer.evaluations <= 200, "{}", answer.evaluations);
     assert!(
-        (1.0..3.0).contains(&answer.residual_rms_n),
+        (2.0..4.0).contains(&answer.residual_rms_n),
         "{}",
         answer.residual_rms_n
     );
@@ -122,10 +122,9 @@ fn a_steep_law_is_called_not_identifiable() {
 /// 5 % of the readings off by 30 %.
 #[test]
 fn outliers_do_not_move_a_robust_fit() {
-    let clean = noisy(series(), 2.0, 3);
+    let clean = noisy(&series()[..20], 4.0, 3);
     let mut spoiled = clean.clone();
-    spoiled[11] *= 1.3;
-    spoiled[29] *= 0.7;
+    spoiled[13] *= 1.3;
     let friction = |forces: &[f64], loss| {
         let options = CalibrateOptions {
             unknowns: vec![Unknown::shared(Quantity::DynamicCoefficient)],
@@ -141,7 +140,7 @@ fn outliers_do_not_move_a_robust_fit() {
     let (after, answer) = friction(&spoiled, Loss::HUBER);
     assert!((after / before - 1.0).abs() < 0.01, "{before} {after}");
     for (row, reading) in answer.fit.iter().enumerate() {
-        assert_eq!(reading.weight < 0.2, row == 11 || row == 29, "{reading:?}");
+        assert_eq!(reading.weight < 0.2, row == 13, "{reading:?}");
     }
 }
 
