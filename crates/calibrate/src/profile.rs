@@ -15,6 +15,7 @@ use crate::levenberg_marquardt::LevenbergMarquardt;
 use crate::parameter::FARTHEST;
 use crate::search::{BETTER, Optimum, Point, Search};
 use crate::uncertainty::{Covariance, quantile};
+use crate::valley::Valley;
 
 /// Distance at which the bound is excluded, in those that make an interval.
 const EXCLUSION: f64 = 2.0;
@@ -29,7 +30,15 @@ const MAX_ITERATIONS: u64 = 6;
 /// First point, in distances that would make the interval if the deviance were a parabola, and the least and largest factors by
 /// which the next lies further from the estimate.
 const FIRST: f64 = 1.1;
-const STRIDES: (f64, f64) = (1.3, 4.0);
+const STRIDES: (f64, f64) = (1.3, 2.5);
+/// Correlation from which the valley of the deviance is so narrow that it must be followed in shorter steps, and their share.
+const NARROW: f64 = 0.97;
+const NARROW_SHARE: f64 = 0.35;
+/// What the others may still gain, and the share of the rise, at a point that is taken as it is; and how often one that is not so far
+/// is replaced by one halfway.
+const LEFT: f64 = 0.5;
+const LEFT_SHARE: f64 = 0.1;
+const MAX_HALVINGS: usize = 3;
 
 /// A point of the profile: the parameter's free variable, the others fitted to it, and the rise of the deviance.
 #[derive(Debug, Clone)]
@@ -40,6 +49,8 @@ struct Station {
     /// Distance from the estimate in the parameter's coordinate.
     distance: f64,
     rise: f64,
+    /// Whether the others have been fitted so far that the rise means something.
+    settled: bool,
 }
 
 /// The profile of one parameter.
@@ -66,6 +77,8 @@ pub(crate) struct Profiler<'a> {
     pub degrees_of_freedom: Option<f64>,
     /// Probability outside of the interval.
     pub tail: f64,
+    /// What earlier profiles know of the valley.
+    pub valley: Valley,
 }
 
 /// One side of an interval.
@@ -77,7 +90,7 @@ enum Side {
 
 impl Profiler<'_> {
     /// The interval of parameter `k`.
-    pub fn interval(&self, k: usize) -> Result<Outcome, CalibrationError> {
+    pub fn interval(&mut self, k: usize) -> Result<Outcome, CalibrationError> {
         let here = self.coordinate(k);
         let mut curve = vec![(here, 0.0)];
         let mut ends = [None, None];
@@ -103,7 +116,7 @@ impl Profiler<'_> {
         self.search.evaluator.parameters[k].bounded(self.optimum.point.free[k])
     }
 
-    fn side(&self, k: usize, sign: f64, stations: &mut Vec<Station>) -> Result<Side, CalibrationError> {
+    fn side(&mut self, k: usize, sign: f64, stations: &mut Vec<Station>) -> Result<Side, CalibrationError> {
         let parameter = &self.search.evaluator.parameters[k];
         let wanted = quantile(0.5 * self.tail, self.degrees_of_freedom);
         let excluded = EXCLUSION * wanted;
@@ -112,12 +125,24 @@ impl Profiler<'_> {
             .covariance
             .standard_error(k)
             .map(|error| error * parameter.bounded_slope(self.optimum.point.free[k]));
-        let mut distance = error.map_or(farthest, |error| (FIRST * wanted * error).min(farthest));
+        let first = if self.is_narrow(k) {
+            NARROW_SHARE * FIRST
+        } else {
+            FIRST
+        };
+        let mut distance = error.map_or(farthest, |error| (first * wanted * error).min(farthest));
+        let mut halvings = 0;
         loop {
             let station = match self.station(k, sign, distance, stations.last())? {
                 Ok(station) => station,
                 Err(better) => return Ok(Side::Better(better)),
             };
+            if !station.settled && halvings < MAX_HALVINGS {
+                halvings += 1;
+                let reached = stations.last().map_or(0.0, |station| station.distance);
+                distance = 0.5 * (reached + distance);
+                continue;
+            }
             let rise = station.rise;
             stations.push(station);
             if rise.sqrt() >= excluded {
@@ -155,7 +180,7 @@ impl Profiler<'_> {
 
     /// Fits all parameters but `k`, which lies `distance` away from its estimate.
     fn station(
-        &self,
+        &mut self,
         k: usize,
         sign: f64,
         distance: f64,
@@ -163,16 +188,11 @@ impl Profiler<'_> {
     ) -> Result<Result<Station, Point>, CalibrationError> {
         let evaluator = self.search.evaluator;
         let parameter = &evaluator.parameters[k];
-        let here = &self.optimum.point.free;
         let held = parameter.free(self.coordinate(k) + sign * distance);
-        let mut free = match near {
-            Some(near) => here + (&near.point.free - here) * (distance / near.distance),
-            None => here + self.drift(k) * (held - here[k]),
-        };
-        for z in free.iter_mut() {
-            *z = z.clamp(-FARTHEST, FARTHEST);
-        }
-        free[k] = held;
+        let free = self
+            .valley
+            .floor(k, held, &self.drift(k))
+            .map(|z| z.clamp(-FARTHEST, FARTHEST));
         let mut fixed = vec![false; free.len()];
         fixed[k] = true;
         let residuals = evaluator.residuals(&free)?;
@@ -186,13 +206,13 @@ impl Profiler<'_> {
         } else {
             // Toward the estimate the Jacobian of a station further out is good enough.
             let known = near.and_then(|near| near.jacobian.clone().filter(|_| distance < near.distance));
-            let trusted = known.is_some();
-            let jacobian = known.unwrap_or_else(|| self.optimum.jacobian.clone());
-            let mut solver = LevenbergMarquardt::new(deviance, fixed.clone(), TOLERANCE)
-                .with_jacobian(Some(jacobian), false);
-            if trusted {
-                solver = solver.unverified();
-            }
+            let mut solver = LevenbergMarquardt::new(deviance, fixed.clone(), TOLERANCE);
+            solver = match known {
+                Some(known) => solver.with_jacobian(Some(known), false).unverified(),
+                // In a narrow valley the optimum's own only serves for the size of steps.
+                None if self.is_narrow(k) => solver.with_slopes(self.optimum.jacobian.clone()),
+                None => solver.with_jacobian(Some(self.optimum.jacobian.clone()), false),
+            };
             let found = self
                 .search
                 .attempt(solver, &fixed, deviance, start, MAX_ITERATIONS)?;
@@ -204,12 +224,25 @@ impl Profiler<'_> {
         if found < -BETTER {
             return Ok(Err(point));
         }
+        let settled = left <= LEFT.max(LEFT_SHARE * found);
+        if settled && !done {
+            self.valley.add(point.free.clone());
+        }
         Ok(Ok(Station {
             point,
             jacobian,
             distance,
             rise: (found - left).max(0.0),
+            settled,
         }))
+    }
+
+    /// Whether another parameter can make up for nearly all that `k` does.
+    fn is_narrow(&self, k: usize) -> bool {
+        (0..self.covariance.known.len())
+            .filter(|&other| other != k)
+            .filter_map(|other| self.covariance.correlation(k, other))
+            .any(|correlation| correlation.abs() > NARROW)
     }
 
     /// How the other free variables follow that of `k`, to first order.
