@@ -48,7 +48,7 @@ fn main() -> Result<(), Failure> {
 
     println!();
     println!("The paper's friction (0.25 and 0.27) and one ground for both cables");
-    let answer = fit(&scenes, &readings, only(Quantity::GroundStiffness))?;
+    let answer = fit(&scenes, &readings, &only(Quantity::GroundStiffness))?;
     let stiffness = answer.parameters[0].value;
     let table_1 = creepage::profile_at(&scenes[0], &[0.0])?.vertical_m[0];
     println!(
@@ -73,7 +73,7 @@ fn main() -> Result<(), Failure> {
         deflection: Some(deflection),
         ..CalibrateOptions::default()
     };
-    let answer = fit(&scenes, &readings, options)?;
+    let answer = fit(&scenes, &readings, &options)?;
     for (index, paper) in [0.25, 0.27].into_iter().enumerate() {
         let parameter = &answer.parameters[index];
         let error = parameter.standard_error.unwrap_or(f64::INFINITY);
@@ -97,13 +97,17 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
-fn fit(scenes: &[Scene; 2], readings: &[Readings], options: CalibrateOptions) -> Result<Calibrated, Failure> {
+fn fit(
+    scenes: &[Scene; 2],
+    readings: &[Readings],
+    options: &CalibrateOptions,
+) -> Result<Calibrated, Failure> {
     let series: Vec<Series<'_>> = scenes
         .iter()
         .zip(readings)
         .map(|(scene, readings)| Series { scene, readings })
         .collect();
-    Ok(calibrate_jointly(&series, &options)?)
+    Ok(calibrate_jointly(&series, options)?)
 }
 
 /// Fits one quantity.

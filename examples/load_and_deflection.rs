@@ -48,7 +48,7 @@ pub struct Outcome {
 ///
 /// Those of the scene and the run.
 pub fn outcome(file: &str, load: Option<&str>, deflection: Option<f64>) -> Result<Outcome, Failure> {
-    let mut overrides = vec!["traffic.passes=200".into(), "solver.tolerance=2 %".into()];
+    let mut overrides = vec!["traffic.passes=200".into()];
     overrides.extend(load.map(Into::into));
     overrides.extend(deflection.map(|peak| format!("ground.vertical_peak={peak} um")));
     let run = creepage::run(&scene(file, &overrides)?)?;

@@ -1,20 +1,35 @@
 //! A run by the pass law: many passes at the cost of one.
 
+use std::thread;
+
 use cable_dem::{DuctedCable, Order};
 use ground_field::DuctMotion;
 use pass_law::{Concern, Evolution, PassLaw, Resolution, concerns_before};
 
-use super::cable::cable;
+use super::cable::{CableMethod, cable};
 use super::motion::approach;
+use super::passes::simulate;
 use super::result::{ErrorEstimate, ErrorShares, ForceProfile, PassRecord, RestraintRecord, Saturation};
+use crate::planner::mesh::Levels;
 use crate::scene::{End, Scene};
 use crate::{Cost, Error};
 
 /// Nodes per depth of the duct in the law's cells at a tolerance of 1 % or less, and above.
 const FINE: f64 = 12.0;
 const COARSE: f64 = 6.0;
-/// Largest error of the law itself beyond the tenth pass, measured against the simulation of every pass.
+/// Error of the law itself beyond the tenth pass on the ducts it is made for, measured against the simulation of every
+/// pass. What it is on a scene is measured on the scene's first passes.
 pub const ERROR: f64 = 0.01;
+/// Nodes eliminated in the passes that are simulated for that, about: a fifth of a second; and fewest and most of these
+/// passes.
+const CHECK_NODE_UPDATES: f64 = 1.2e7;
+const CHECKED_PASSES: (u64, u64) = (12, 200);
+/// A check that takes so many times as long is not made.
+const MOST_CHECKS: f64 = 10.0;
+/// Level of the mesh for it: twelve nodes a depth.
+const CHECK_LEVEL: usize = 2;
+/// Forces below this share of the last one count as nothing when errors are compared.
+const SMALL_FORCE: f64 = 0.1;
 /// The law resolves the passes from this one on.
 const FIRST_GOOD: u64 = 10;
 /// The first passes are all listed, then each this much later than the one before.
@@ -41,6 +56,50 @@ pub fn refusal(scene: &Scene) -> Result<Option<Concern>, Error> {
 
 /// Runs all passes of `scene` by the law.
 pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
+    thread::scope(|scope| {
+        let check = scope.spawn(|| first_passes(scene, motions));
+        evolve(scene, motions, || {
+            // A panic of the other thread goes on in this one.
+            check
+                .join()
+                .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        })
+    })
+}
+
+/// The first passes by simulation; `None` where even these take long.
+fn first_passes(scene: &Scene, motions: &[DuctMotion]) -> Result<Option<Vec<PassRecord>>, Error> {
+    let mut scene = scene.clone();
+    (scene.solver.node_spacing, scene.solver.vehicle_step) = (None, None);
+    let levels = Levels::new(&scene, approach(&scene), false);
+    let (fewest, most) = CHECKED_PASSES;
+    let affordable = CHECK_NODE_UPDATES / levels.node_updates(CHECK_LEVEL, 1);
+    if affordable * MOST_CHECKS < fewest as f64 {
+        return Ok(None);
+    }
+    scene.traffic.passes = (affordable as u64).clamp(fewest, most).min(scene.traffic.passes);
+    let passes = simulate(
+        &scene,
+        CableMethod::QuasiStatic,
+        motions,
+        levels.mesh(CHECK_LEVEL)?,
+        || {},
+    )?;
+    let records = passes.outcomes.iter().zip(1..);
+    Ok(Some(
+        records
+            .map(|(outcome, pass)| PassRecord::new(pass, outcome))
+            .filter(|record| record.pass >= FIRST_GOOD)
+            .collect(),
+    ))
+}
+
+/// The law, held against the first passes that `checked` brings.
+fn evolve(
+    scene: &Scene,
+    motions: &[DuctMotion],
+    checked: impl FnOnce() -> Result<Option<Vec<PassRecord>>, Error>,
+) -> Result<LawRun, Error> {
     let cable = cable(scene)?;
     let traffic = traffic(scene, motions);
     let nodes = if scene.solver.tolerance <= 0.01 {
@@ -77,6 +136,28 @@ pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
             .map(|record| of(record, swing))
             .collect::<Vec<_>>(),
     );
+    let measured = match checked()? {
+        Some(simulated) if !simulated.is_empty() => {
+            let wanted: Vec<u64> = simulated.iter().map(|record| record.pass).collect();
+            let by_law: Vec<PassRecord> = law
+                .run(&wanted)?
+                .records
+                .iter()
+                .map(|record| of(record, swing))
+                .collect();
+            Some((difference(&simulated, &by_law), wanted[wanted.len() - 1]))
+        }
+        _ => None,
+    };
+    let law_error = measured.map_or(ERROR, |(error, _)| error.max(ERROR));
+    let relative = 0.5 * share + law_error;
+    if relative > scene.solver.tolerance {
+        warnings.push(format!(
+            "the estimated error of {:.2} % exceeds the tolerance of {:.2} %",
+            100.0 * relative,
+            100.0 * scene.solver.tolerance
+        ));
+    }
     Ok(LawRun {
         node_spacing: resolution.node_spacing(),
         vehicle_step: resolution.vehicle_step(),
@@ -84,13 +165,17 @@ pub fn run(scene: &Scene, motions: &[DuctMotion]) -> Result<LawRun, Error> {
         force_profile: force_profile(&cable, &evolution),
         restraints: restraints(&cable, &evolution),
         error: ErrorEstimate {
-            relative: 0.5 * share + ERROR,
-            method:
-                "half the difference to cells half as fine, and 1 % for the law itself beyond the tenth pass"
-                    .into(),
+            relative,
+            method: match measured {
+                Some((_, last)) => format!(
+                    "half the difference to cells half as fine, and that of the law to a simulation of the passes {FIRST_GOOD} to \
+                     {last}, at least 1 %"
+                ),
+                None => "half the difference to cells half as fine, and 1 % for the law itself beyond the tenth pass".into(),
+            },
             parts: ErrorShares {
                 mesh: 0.5 * share,
-                law: ERROR,
+                law: law_error,
                 ..ErrorShares::default()
             },
         },
@@ -149,14 +234,18 @@ fn of(record: &pass_law::PassRecord, swing: f64) -> PassRecord {
     }
 }
 
-/// Largest difference of a force from the tenth pass on, as a share of the largest force after that pass.
+/// Largest difference of a force from the tenth pass on, as a share of the largest force after that pass, or of a tenth of
+/// the last one.
 fn difference(a: &[PassRecord], b: &[PassRecord]) -> f64 {
     let forces = |r: &PassRecord| [r.upstream_force_n, r.downstream_force_n, r.max_compression_n];
+    let largest =
+        |record: &PassRecord, least: f64| forces(record).into_iter().map(f64::abs).fold(least, f64::max);
+    let floor = a.last().map_or(0.0, |last| SMALL_FORCE * largest(last, 0.0));
     a.iter()
         .zip(b)
         .filter(|(record, _)| record.pass >= FIRST_GOOD || a.len() == 1)
         .flat_map(|(a, b)| {
-            let scale = forces(a).into_iter().map(f64::abs).fold(0.0, f64::max);
+            let scale = largest(a, floor);
             forces(a)
                 .into_iter()
                 .zip(forces(b))

@@ -3,7 +3,8 @@
 use cable_dem::PassOutcome;
 use ground_field::{DuctMotion, GroundField};
 
-use super::cable::PassMethod;
+use super::cable::{CableMethod, PassMethod};
+use super::law::LawRun;
 use super::levels::{Ladder, Solved};
 use super::passes::Passes;
 use super::result::{
@@ -97,22 +98,17 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         PassMethod::Law => {
             // Its time does not depend on the motion: nothing is gained by leaving anything out.
             let law = law::run(scene, exact)?;
-            summary.ground = plan.ground.exact_name.into();
-            (summary.node_spacing_m, summary.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
-            warnings.extend(law.warnings);
-            return Ok(Run {
-                title,
-                plan: summary,
-                duct_motion,
-                passes: law.passes,
-                saturation: law.saturation,
-                force_profile: law.force_profile,
-                restraints: law.restraints,
-                slip_lengths: None,
-                error_estimate: law.error,
-                cost: law.cost,
-                warnings,
-            });
+            if law.error.relative <= scene.solver.tolerance || !plan.method.one_by_one {
+                summary.ground = plan.ground.exact_name.into();
+                (summary.node_spacing_m, summary.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
+                return Ok(by_law(title, summary, duct_motion, law, warnings));
+            }
+            summary.cable = CableMethod::QuasiStatic.name().into();
+            summary.reasons.push(format!(
+                "the pass law is {:.1} % off the first passes here: they were computed one by one after all",
+                100.0 * law.error.relative
+            ));
+            CableMethod::QuasiStatic
         }
     };
     let ladder = Ladder {
@@ -122,7 +118,7 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         motions: &motions,
         exact: plan.ground.exact(),
         motion_error: plan.ground.error,
-        method_error: plan.method.error,
+        method_error: plan.method.inertia,
         progress: options.progress,
     };
     let solved = ladder.climb(options.verify, &mut warnings)?;
@@ -169,6 +165,30 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         cost: Cost::new(&solved.statistics),
         warnings,
     })
+}
+
+/// The law's answer.
+fn by_law(
+    title: String,
+    plan: PlanSummary,
+    duct_motion: DuctMotionSummary,
+    law: LawRun,
+    mut warnings: Vec<String>,
+) -> Run {
+    warnings.extend(law.warnings);
+    Run {
+        title,
+        plan,
+        duct_motion,
+        passes: law.passes,
+        saturation: law.saturation,
+        force_profile: law.force_profile,
+        restraints: law.restraints,
+        slip_lengths: None,
+        error_estimate: law.error,
+        cost: law.cost,
+        warnings,
+    }
 }
 
 /// From where vehicles come, and what is left out of account by that.

@@ -225,10 +225,8 @@ impl Ladder<'_> {
     fn layered<'a>(mut self, profile: &SoilProfile) -> Result<GroundChoice<'a>, Error> {
         let field = transform(profile)?;
         let exact = motions(self.scene, &field, TRANSFORM_ACCURACY)?;
+        // Points would spare the transform nothing.
         self.add_closed_forms(profile, &exact)?;
-        self.add_points("burmister", TRANSFORM_SECONDS, |scene| {
-            motions(scene, &field, TRANSFORM_ACCURACY)
-        })?;
         let top = Top {
             name: "burmister",
             reason: "its layers or its base matter, and the Hankel transform is exact for them",
@@ -275,14 +273,17 @@ impl Ladder<'_> {
         })
     }
 
-    /// Adds a model with wheels as points, where there are discs, and with the wheels as they are.
+    /// Adds a model, with points where the wheels are discs.
     fn add(
         &mut self,
         name: &'static str,
         per_sample: f64,
         motions: impl Fn(&Scene) -> Result<Vec<DuctMotion>, Error>,
     ) -> Result<(), Error> {
-        self.add_points(name, per_sample, &motions)?;
+        // Where points are too rough, so is a simpler ground: discs are left to the exact model.
+        if self.points.is_some() {
+            return self.add_points(name, per_sample, motions);
+        }
         let motions = motions(self.scene)?;
         self.candidates.push(Candidate {
             name,

@@ -37,6 +37,10 @@ pub struct MethodChoice {
     /// By what share of the force the method is off, beside its mesh.
     pub error: f64,
     pub rungs: Vec<Rung>,
+    /// By what share of the force leaving inertia out is off at most, where it is left out.
+    pub inertia: f64,
+    /// Whether the passes may be computed one by one where the law proves too rough.
+    pub one_by_one: bool,
 }
 
 /// The method the scene names, or the cheapest that keeps its tolerance.
@@ -56,6 +60,11 @@ pub fn choose(scene: &Scene, levels: &Levels) -> Result<MethodChoice, Error> {
             PassMethod::EveryPass(_) => 0.0,
         },
         rungs: estimates.rungs(scene, method, &reason),
+        inertia: match method {
+            PassMethod::Law | PassMethod::EveryPass(CableMethod::QuasiStatic) => estimates.inertia,
+            PassMethod::EveryPass(_) => 0.0,
+        },
+        one_by_one: scene.solver.method == SolverMethod::Auto && estimates.fine <= LONGEST_SECONDS,
         method,
         reason,
     })

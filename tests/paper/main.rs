@@ -3,6 +3,11 @@
 //!
 //! Table 1's ground by every model is in tests/ground_models/table_1.rs, Table 3's grounds in table_3.rs beside it.
 
+#![allow(
+    clippy::duplicate_mod,
+    reason = "every example brings the same module `common`"
+)]
+
 mod force;
 mod ground;
 mod tendencies;
