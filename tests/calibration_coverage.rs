@@ -4,7 +4,7 @@
 //! cargo test --release --test calibration_coverage --test calibration -- --ignored --nocapture
 //! ```
 //!
-//! Readings are those of the solver with inertia on a fine mesh: 40, after every third of 118 passes, with Gaussian noise of 1 N. Two
+//! Readings are those of the solver with inertia on a fine mesh: 40, after every third of 118 passes, with Gaussian noise of 2 N. Two
 //! hundred fits of each need a fast model: the quasi-static solver tabulated over friction and shape factor. As in the
 //! calibration of a scene, the difference to a fine mesh at one point, here the true one, corrects it. The table's mesh has 24 nodes
 //! a depth: with 6, whose forces are off by up to 5 N where the shape factor is 2.5e7 1/m and by 1 N where it is 1e7 1/m, a second optimum
@@ -24,7 +24,7 @@ use creepage::Scene;
 use ground_field::{DuctLine, DuctMotion};
 use rayon::prelude::*;
 
-const NOISE: f64 = 1.0;
+const NOISE: f64 = 2.0;
 /// What counts as close, in ln b.
 const CLOSE: f64 = 0.1;
 const REPETITIONS: u64 = 200;
@@ -206,7 +206,10 @@ fn intervals_cover_the_truth() {
         } else {
             count.shape_covered >= 180
         };
-        let claims_hold = count.shape_close as f64 >= 0.95 * count.shape_claimed as f64;
+        // One of twenty may miss what its interval claims, three standard deviations of the binomial more are chance.
+        let claimed = count.shape_claimed as f64;
+        let missed = claimed - count.shape_close as f64;
+        let claims_hold = missed <= 0.05 * claimed + 3.0 * (0.05 * 0.95 * claimed).sqrt();
         let friction_close = count.friction_close >= 190;
         if !(covers(count.friction_covered)
             && friction_close

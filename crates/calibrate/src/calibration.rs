@@ -26,7 +26,7 @@ const FEW: f64 = 5.0;
 /// Distance to the minimum, in standard errors, that is worth a warning.
 const ROUGH: f64 = 0.1;
 /// Times that a profile may find a lower optimum before the fit gives up.
-const MAX_OPTIMA: usize = 4;
+const MAX_OPTIMA: usize = 12;
 /// Least noise of the model itself, as a share of its largest prediction: rounding.
 const ROUNDING: f64 = 1e-12;
 

@@ -26,6 +26,13 @@ impl Valley {
         self.points.push(point);
     }
 
+    /// Drops the points that are `wrong`; the optimum stays.
+    pub fn forget(&mut self, wrong: impl Fn(&DVector<f64>) -> bool) {
+        let mut first = true;
+        self.points
+            .retain(|point| std::mem::take(&mut first) || !wrong(point));
+    }
+
     /// Where the floor should be at z_k = `held`; `tangent` is its direction at the optimum per change of z_k.
     pub fn floor(&self, k: usize, held: f64, tangent: &DVector<f64>) -> DVector<f64> {
         let mut points: Vec<&DVector<f64>> = self.points.iter().collect();
