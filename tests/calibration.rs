@@ -14,12 +14,12 @@ fn upper() -> Scene {
     Scene::from_file(UPPER.as_ref()).unwrap()
 }
 
-/// Forces after 40 passes of the upper phase, by the solver with inertia on a mesh twice as fine as the fit's first.
-fn forces(dynamic_coefficient: f64, shape_factor: f64) -> Vec<f64> {
+/// Forces after passes of the upper phase, by the solver with inertia on a mesh twice as fine as the fit's first.
+fn forces(dynamic_coefficient: f64, shape_factor: f64, passes: u64) -> Vec<f64> {
     let mut scene = upper();
     scene.friction.dynamic_coefficient = dynamic_coefficient;
     scene.friction.law = FrictionLaw::ElasticPlastic { shape_factor };
-    scene.traffic.passes = 40;
+    scene.traffic.passes = passes;
     scene.solver.method = SolverMethod::Dynamic;
     scene.solver.node_spacing = Some(0.1);
     scene.solver.vehicle_step = Some(0.05);
@@ -30,7 +30,7 @@ fn forces(dynamic_coefficient: f64, shape_factor: f64) -> Vec<f64> {
 /// The series that most tests share.
 fn series() -> &'static [f64] {
     static FORCES: OnceLock<Vec<f64>> = OnceLock::new();
-    FORCES.get_or_init(|| forces(0.25, 2e6))
+    FORCES.get_or_init(|| forces(0.25, 2e6, 40))
 }
 
 /// Gaussian noise (G. E. P. Box, M. E. Muller, 1958).
@@ -66,7 +66,7 @@ fn value(answer: &Calibrated, name: &str) -> f64 {
 
 #[test]
 fn friction_comes_back_from_another_solver() {
-    let data = readings(&noisy(series(), 2.0, 1));
+    let data = readings(&noisy(series(), 3.0, 1));
     let answer = calibrate(&upper(), &data, &CalibrateOptions::default()).unwrap();
     assert!(
         (value(&answer, "dynamic_coefficient") / 0.25 - 1.0).abs() < 0.02,
@@ -81,7 +81,7 @@ fn friction_comes_back_from_another_solver() {
     assert!(answer.parameters.iter().all(|parameter| parameter.identifiable));
     assert!(answer.evaluations <= 200, "{}", answer.evaluations);
     assert!(
-        (1.0..3.0).contains(&answer.residual_rms_n),
+        (2.0..4.0).contains(&answer.residual_rms_n),
         "{}",
         answer.residual_rms_n
     );
@@ -98,7 +98,7 @@ fn friction_comes_back_from_another_solver() {
 /// From 1e9 1/m on, forces differ from Coulomb's by less than any load cell shows.
 #[test]
 fn a_steep_law_is_called_not_identifiable() {
-    let exact = forces(0.25, 1e9);
+    let exact = forces(0.25, 1e9, 25);
     for (seed, sigma) in [(1, 3.0), (2, 6.0)] {
         let data = readings(&noisy(&exact, sigma, seed));
         let answer = calibrate(&upper(), &data, &CalibrateOptions::default()).unwrap();
@@ -121,27 +121,27 @@ fn a_steep_law_is_called_not_identifiable() {
 
 /// 5 % of the readings off by 30 %.
 #[test]
+#[ignore = "a quarter of a minute: see calibration_coverage.rs for the command"]
 fn outliers_do_not_move_a_robust_fit() {
-    let clean = noisy(series(), 2.0, 3);
-    let mut spoiled = clean.clone();
-    spoiled[11] *= 1.3;
-    spoiled[29] *= 0.7;
-    let friction = |forces: &[f64], loss| {
-        let options = CalibrateOptions {
-            unknowns: vec![Unknown::shared(Quantity::DynamicCoefficient)],
-            loss,
-            ..CalibrateOptions::default()
+    for seed in 0..3 {
+        let clean = noisy(series(), 4.0, seed);
+        let mut spoiled = clean.clone();
+        spoiled[11] *= 1.3;
+        spoiled[29] *= 0.7;
+        let fit = |forces: &[f64]| {
+            let options = CalibrateOptions {
+                loss: Loss::TUKEY,
+                ..CalibrateOptions::default()
+            };
+            calibrate(&upper(), &readings(forces), &options).unwrap()
         };
-        let mut scene = upper();
-        scene.friction.law = FrictionLaw::ElasticPlastic { shape_factor: 2e6 };
-        let answer = calibrate(&scene, &readings(forces), &options).unwrap();
-        (value(&answer, "dynamic_coefficient"), answer)
-    };
-    let (before, _) = friction(&clean, Loss::HUBER);
-    let (after, answer) = friction(&spoiled, Loss::HUBER);
-    assert!((after / before - 1.0).abs() < 0.01, "{before} {after}");
-    for (row, reading) in answer.fit.iter().enumerate() {
-        assert_eq!(reading.weight < 0.2, row == 11 || row == 29, "{reading:?}");
+        let (before, after) = (fit(&clean), fit(&spoiled));
+        let friction = |answer: &Calibrated| value(answer, "dynamic_coefficient");
+        let moved = friction(&after) / friction(&before) - 1.0;
+        assert!(moved.abs() < 0.01, "seed {seed}: {moved}");
+        for (row, reading) in after.fit.iter().enumerate() {
+            assert_eq!(reading.weight < 0.05, row == 11 || row == 29, "{reading:?}");
+        }
     }
 }
 

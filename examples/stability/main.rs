@@ -10,6 +10,7 @@ mod ground_map;
 mod ground_reference;
 
 mod burmister;
+mod calibration;
 mod explicit;
 mod fem;
 mod implicit;
@@ -27,6 +28,7 @@ const MAPS: &[Entry] = &[
     ("fem", fem::run),
     ("burmister", burmister::run),
     ("pass-law", pass_law::run),
+    ("calibration", calibration::run),
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {

@@ -130,7 +130,7 @@ pub struct CalibrateArguments {
     /// Standard deviation of the measured deflection, "15 um"
     #[arg(long, value_name = "LENGTH", requires = "deflection", value_parser = positive_length)]
     pub deflection_sigma: Option<f64>,
-    /// Let outliers count little (Huber's loss)
+    /// Let outliers not count (Tukey's loss)
     #[arg(long)]
     pub robust: bool,
     /// Refit to so many replicates of the data as well, at least 10

@@ -31,7 +31,7 @@ pub fn execute(
             .zip(arguments.deflection_sigma)
             .map(|(value, sigma)| Deflection { value, sigma }),
         loss: if arguments.robust {
-            Loss::HUBER
+            Loss::TUKEY
         } else {
             Loss::Squares
         },

@@ -10,6 +10,7 @@ use crate::parameter::FARTHEST;
 use crate::profile::{Outcome, ProfileInterval, Profiler};
 use crate::search::{Optimum, Search};
 use crate::uncertainty::{Covariance, parameters_from_data, quantile};
+use crate::valley::Valley;
 use crate::{CalibrationError, Loss, Model, Options, Parameter, Profiles};
 
 /// Scanned points: so many, and so many more a parameter.
@@ -25,7 +26,7 @@ const FEW: f64 = 5.0;
 /// Distance to the minimum, in standard errors, that is worth a warning.
 const ROUGH: f64 = 0.1;
 /// Times that a profile may find a lower optimum before the fit gives up.
-const MAX_OPTIMA: usize = 4;
+const MAX_OPTIMA: usize = 12;
 /// Least noise of the model itself, as a share of its largest prediction: rounding.
 const ROUNDING: f64 = 1e-12;
 
@@ -278,15 +279,21 @@ impl<'a> Calibration<'a> {
         let degrees_of_freedom =
             (!search.known_noise || self.options.loss.is_robust()).then(|| self.freedom(optimum).max(0.5));
         let tail = 1.0 - self.options.confidence;
-        let profiler = Profiler {
+        let mut profiler = Profiler {
             search,
             optimum,
             covariance: &covariance,
             degrees_of_freedom,
             tail,
+            valley: Valley::new(&optimum.point.free),
         };
-        let mut estimates = Vec::new();
-        for (k, parameter) in self.parameters.iter().enumerate() {
+        let mut estimates = vec![None; self.parameters.len()];
+        // What is known least first: along it the valley is followed best, and the others follow in its track.
+        let mut order: Vec<usize> = (0..self.parameters.len()).collect();
+        let error = |k: usize| covariance.standard_error(k).unwrap_or(f64::INFINITY);
+        order.sort_by(|&a, &b| error(b).total_cmp(&error(a)));
+        for k in order {
+            let parameter = &self.parameters[k];
             let free = optimum.point.free[k];
             let coordinate = parameter.bounded(free);
             let error = covariance
@@ -311,7 +318,7 @@ impl<'a> Calibration<'a> {
                 lower: interval.lower.map(value),
                 upper: interval.upper.map(value),
             };
-            estimates.push(Estimate {
+            estimates[k] = Some(Estimate {
                 name: parameter.name().to_owned(),
                 value: value(coordinate),
                 standard_error: error.map(|error| error * parameter.value_slope(coordinate)),
@@ -325,6 +332,7 @@ impl<'a> Calibration<'a> {
                     .collect(),
             });
         }
+        let estimates = estimates.into_iter().flatten().collect();
         Ok(Described::Estimates(estimates, covariance))
     }
 

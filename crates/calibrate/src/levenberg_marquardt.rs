@@ -121,6 +121,12 @@ impl LevenbergMarquardt {
         self
     }
 
+    /// Chooses the steps of its first Jacobian by one from nearby.
+    pub fn with_slopes(mut self, near: DMatrix<f64>) -> Self {
+        self.slopes_from = Some(near);
+        self
+    }
+
     /// Trusts an updated Jacobian when convergence is declared.
     pub fn unverified(mut self) -> Self {
         self.verified = false;

@@ -54,6 +54,7 @@ mod parameter;
 mod profile;
 mod search;
 mod uncertainty;
+mod valley;
 
 pub use bootstrap::{Bootstrap, BootstrapOptions, Resampling};
 pub use calibration::Calibration;

@@ -1,0 +1,209 @@
+//! `creepage calibrate`, from outside.
+
+#![cfg(feature = "cli")]
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
+
+const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+const SYNTHETIC: &str = "examples/data/synthetic-upper.csv";
+
+fn creepage(arguments: &[&str]) -> Output {
+    Command::new(assert_cmd::cargo::cargo_bin!("creepage"))
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .args(arguments)
+        .stdin(Stdio::null())
+        .output()
+        .expect("the command starts")
+}
+
+/// A file of this test's own.
+fn file(name: &str, text: &str) -> PathBuf {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    fs::write(&path, text).unwrap();
+    path
+}
+
+#[track_caller]
+fn refused(arguments: &[&str], code: i32, words: &[&str]) {
+    let output = creepage(arguments);
+    let errors = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {errors}");
+    assert!(output.stdout.is_empty());
+    for word in words {
+        assert!(errors.contains(word), "{arguments:?}: no {word:?} in {errors}");
+    }
+}
+
+/// The document's fields, and the values by which the series was made: 0.25 and 2e6 1/m.
+#[test]
+fn json_and_csv_of_the_synthetic_series() {
+    let table = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("calibrate-fit.csv");
+    let output = creepage(&[
+        "calibrate",
+        UPPER,
+        "--data",
+        SYNTHETIC,
+        "--json",
+        "--csv",
+        table.to_str().unwrap(),
+    ]);
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let answer: Value = serde_json::from_slice(&output.stdout).expect("one document and nothing else");
+    let names = ["dynamic_coefficient", "shape_factor"];
+    for ((parameter, name), truth) in answer["parameters"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .zip(names)
+        .zip([0.25, 2e6])
+    {
+        assert_eq!(parameter["name"], name);
+        let number = |value: &Value| value.as_f64().unwrap();
+        let (value, error) = (number(&parameter["value"]), number(&parameter["standard_error"]));
+        assert!((value - truth).abs() < 3.0 * error, "{parameter}");
+        assert!((value / truth - 1.0).abs() < 0.1);
+        let interval = parameter["interval_95"].as_array().unwrap();
+        assert!(number(&interval[0]) < value && value < number(&interval[1]));
+        assert_eq!(parameter["identifiable"], true);
+    }
+    let correlation = answer["correlation"].as_array().unwrap();
+    assert_eq!(correlation.len(), 2);
+    assert_eq!(correlation[0][1], correlation[1][0]);
+    assert_eq!(correlation[0][0], 1.0);
+    let rms = answer["residual_rms_n"].as_f64().unwrap();
+    assert!((2.0..6.0).contains(&rms), "{rms}");
+    assert!(answer["r_squared"].as_f64().unwrap() > 0.99);
+    assert!(answer["evaluations"].as_u64().unwrap() <= 200);
+    assert!(answer["warnings"].as_array().unwrap().is_empty());
+    assert_eq!(answer["fit"].as_array().unwrap().len(), 40);
+
+    let mut rows = csv::Reader::from_path(&table).unwrap();
+    let header = rows
+        .headers()
+        .unwrap()
+        .iter()
+        .map(str::to_owned)
+        .collect::<Vec<_>>();
+    assert_eq!(
+        header,
+        ["series", "pass", "force_n", "fitted_n", "residual_n", "weight"]
+    );
+    let squares: Vec<f64> = rows
+        .records()
+        .map(|row| row.unwrap()[4].parse::<f64>().unwrap().powi(2))
+        .collect();
+    assert!(((squares.iter().sum::<f64>() / squares.len() as f64).sqrt() - rms).abs() < 1e-6);
+}
+
+/// Two readings leave the friction alone, and an open end is null.
+#[test]
+fn open_ends_are_null_and_warned_of() {
+    let data = file(
+        "calibrate-short.csv",
+        "pass,force_n,sigma_n\n1,113,10\n2,152,10\n3,180,10\n",
+    );
+    let output = creepage(&[
+        "calibrate",
+        UPPER,
+        "--data",
+        data.to_str().unwrap(),
+        "--fit",
+        "shape_factor",
+        "--json",
+    ]);
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let parameter = &answer["parameters"][0];
+    assert_eq!(parameter["identifiable"], false);
+    assert!(
+        parameter["interval_95"][0].is_number() && parameter["interval_95"][1].is_null(),
+        "{parameter}"
+    );
+    assert!(
+        String::from_utf8(output.stderr)
+            .unwrap()
+            .contains("not identifiable")
+    );
+}
+
+#[test]
+fn robust_and_overridden() {
+    let spoiled = fs::read_to_string(SYNTHETIC).unwrap().replace("\n13,", "\n13,1");
+    let data = file("calibrate-spoiled.csv", &spoiled);
+    let arguments = ["calibrate", UPPER, "--data", data.to_str().unwrap(), "--robust"];
+    let fixed = [
+        "--fit",
+        "dynamic_coefficient",
+        "--set",
+        "friction.shape_factor=2e6 1/m",
+    ];
+    let output = creepage(&[&arguments[..], &fixed[..]].concat());
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0));
+    let value: f64 = text
+        .lines()
+        .find_map(|line| line.strip_prefix("dynamic_coefficient"))
+        .and_then(|rest| rest.split_whitespace().next())
+        .and_then(|value| value.parse().ok())
+        .expect("a line with the coefficient");
+    assert!((value / 0.25 - 1.0).abs() < 0.02, "{text}");
+    assert!(String::from_utf8(output.stderr).unwrap().contains("index 12"));
+}
+
+#[test]
+fn bad_input_ends_with_two() {
+    let bad = file("calibrate-bad.csv", "pass,force_n\n1,113\n2,many\n");
+    refused(
+        &["calibrate", UPPER, "--data", bad.to_str().unwrap()],
+        2,
+        &["calibrate-bad.csv:3", "many"],
+    );
+    let few = file("calibrate-few.csv", "pass,force_n\n1,113\n");
+    refused(
+        &["calibrate", UPPER, "--data", few.to_str().unwrap()],
+        2,
+        &["1 readings", "needed"],
+    );
+    refused(
+        &["calibrate", UPPER, "--data", "no-such.csv"],
+        2,
+        &["no-such.csv"],
+    );
+    refused(&["calibrate", UPPER], 2, &["--data"]);
+    refused(
+        &["calibrate", UPPER, "--data", SYNTHETIC, "--fit", "friction"],
+        2,
+        &["friction", "shape_factor"],
+    );
+    refused(
+        &["calibrate", UPPER, "--data", SYNTHETIC, "--deflection", "115 um"],
+        2,
+        &["deflection-sigma"],
+    );
+    let free = ["--set", "ends.downstream=free"];
+    refused(
+        &[&["calibrate", UPPER, "--data", SYNTHETIC][..], &free[..]].concat(),
+        2,
+        &["load cell"],
+    );
+    let limit = ["--max-evaluations", "5"];
+    refused(
+        &[&["calibrate", UPPER, "--data", SYNTHETIC][..], &limit[..]].concat(),
+        1,
+        &["5 model runs"],
+    );
+}
