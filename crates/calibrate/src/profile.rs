@@ -232,7 +232,8 @@ impl Profiler<'_> {
         // Without an answer there, it is as good as excluded; without other parameters, there is nothing to fit.
         // Nor where it is so far up that no fit can bring it down.
         let rise = deviance.total(&start.residuals) - self.optimum.value();
-        let done = !(rise < HOPELESS) || fixed.len() == 1;
+        let hopeless = rise.is_nan() || rise > HOPELESS;
+        let done = hopeless || fixed.len() == 1;
         let mut left = 0.0;
         let (point, jacobian) = if done {
             (start, None)
