@@ -88,8 +88,8 @@ pub fn measured(passes: &Passes, finer: &Passes) -> f64 {
     VERIFIED * difference(passes, finer)
 }
 
-/// Largest difference of a force after a pass, as a share of the largest force after that pass, or of a tenth of the
-/// largest in the run.
+/// Largest difference of a force after a pass, as a share of the largest force or tension after that pass, or of a tenth of
+/// the largest in the run.
 pub fn difference(a: &Passes, b: &Passes) -> f64 {
     let forces = |outcome: &PassOutcome| {
         [
@@ -104,6 +104,7 @@ pub fn difference(a: &Passes, b: &Passes) -> f64 {
             outcome.peak.downstream,
             outcome.lowest.upstream,
             outcome.lowest.downstream,
+            outcome.max_tension,
         ]
         .into_iter()
         .chain(forces(outcome))
@@ -113,7 +114,12 @@ pub fn difference(a: &Passes, b: &Passes) -> f64 {
     let floor = SMALL_FORCE * a.outcomes.iter().map(largest).fold(0.0, f64::max);
     let mut worst = 0.0_f64;
     for (a, b) in a.outcomes.iter().zip(&b.outcomes) {
-        let scale = forces(a).into_iter().map(f64::abs).fold(floor, f64::max);
+        // A clamp may hold a cable whose ends are free: what is compressed is then small beside what is stretched.
+        let scale = forces(a)
+            .into_iter()
+            .chain([a.max_tension])
+            .map(f64::abs)
+            .fold(floor, f64::max);
         for (a, b) in forces(a).into_iter().zip(forces(b)) {
             if a != b {
                 worst = worst.max((a - b).abs() / scale);

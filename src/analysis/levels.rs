@@ -171,7 +171,7 @@ impl Ladder<'_> {
         let total = error.total();
         if error.mesh.is_none() {
             warnings.push("the node spacing is too coarse to estimate the error".into());
-        } else if !self.levels.named() && total > tolerance.max(DOUBTFUL) {
+        } else if total.is_infinite() || (!self.levels.named() && total > tolerance.max(DOUBTFUL)) {
             return Err(Error::Inaccurate {
                 reached: total,
                 asked: tolerance,

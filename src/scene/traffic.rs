@@ -11,6 +11,8 @@ const DIRECTIONS: &[(&str, Direction)] = &[("forward", Direction::Forward), ("re
 const LOAD_EXAMPLE: &str = "\"20 tf\"";
 /// Seed of a random order where the file gives none.
 const DEFAULT_SEED: u64 = 1;
+/// More passes than any road sees, and as many as the pass law evolves.
+const MOST_PASSES: u64 = 1_000_000_000_000;
 
 pub(super) fn traffic(
     root: &Table,
@@ -31,8 +33,8 @@ pub(super) fn traffic(
     }
     let table = root.table("traffic", keys::TRAFFIC)?;
     let passes = table
-        .required("passes", "a whole number of at least 1, without quotes")?
-        .integer(1)?;
+        .required("passes", "a whole number from 1 to 1000000000000, without quotes")?
+        .integer(1..=MOST_PASSES)?;
     let order = order(&table, &vehicles)?;
     if let Order::Sequence(sequence) = &order {
         for (index, vehicle) in vehicles.iter_mut().enumerate() {
@@ -134,11 +136,11 @@ fn order(table: &Table, vehicles: &[TrafficVehicle]) -> Result<Order, SceneError
     if random {
         let seed = table
             .optional("seed")
-            .map_or(Ok(DEFAULT_SEED), |seed| seed.integer(0))?;
+            .map_or(Ok(DEFAULT_SEED), |seed| seed.integer(0..=u64::MAX))?;
         return Ok(Order::Random { seed });
     }
     if let Some(seed) = table.optional("seed") {
-        seed.integer(0)?;
+        seed.integer(0..=u64::MAX)?;
     }
     let choice = if sequence.is_some() { "sequence" } else { "order" };
     table.refuse("seed", choice, "`seed` only with order = \"random\"")?;

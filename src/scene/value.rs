@@ -1,5 +1,7 @@
 //! One value of a document, checked.
 
+use std::ops::RangeInclusive;
+
 use super::document::{Content, Document, Node};
 use super::nearest::nearest;
 use super::range::{Range, allowed_number, allowed_quantity};
@@ -73,13 +75,17 @@ impl<'d> Value<'d> {
         }
     }
 
-    /// A whole number of at least `least`.
-    pub fn integer(&self, least: u64) -> Result<u64, SceneError> {
-        let allowed = format!("a whole number of at least {least}, without quotes");
+    /// A whole number in `range`.
+    pub fn integer(&self, range: RangeInclusive<u64>) -> Result<u64, SceneError> {
+        let (least, most) = range.clone().into_inner();
+        let allowed = match most {
+            u64::MAX => format!("a whole number of at least {least}, without quotes"),
+            _ => format!("a whole number from {least} to {most}, without quotes"),
+        };
         match self.node.content {
             Content::Number { integer, .. } => integer
                 .and_then(|integer| u64::try_from(integer).ok())
-                .filter(|integer| *integer >= least)
+                .filter(|integer| range.contains(integer))
                 .ok_or_else(|| self.out_of_range(allowed)),
             _ => Err(self.wrong_type(allowed)),
         }

@@ -280,10 +280,11 @@ load = "7 kN" → load = -7 | vehicles.1.wheels.1.load | a force of at least 0
 contact_radius = "0.15 m" → contact_radius = -1 | vehicles.1.wheels.0.contact_radius | of at least 0
 share = 3 → share = 0 | vehicles.0.share | a number greater than 0
 share = 3 → share = -1 | vehicles.0.share | a number greater than 0
-passes = 60 → passes = 0 | traffic.passes | a whole number of at least 1
-passes = 60 → passes = -60 | traffic.passes | a whole number of at least 1
-passes = 60 → passes = 60.5 | traffic.passes | a whole number of at least 1
-passes = 60 → passes = 1e30 | traffic.passes | a whole number of at least 1
+passes = 60 → passes = 0 | traffic.passes | a whole number from 1 to 1000000000000
+passes = 60 → passes = -60 | traffic.passes | a whole number from 1 to 1000000000000
+passes = 60 → passes = 60.5 | traffic.passes | a whole number from 1 to 1000000000000
+passes = 60 → passes = 1e30 | traffic.passes | a whole number from 1 to 1000000000000
+passes = 60 → passes = 1e13 | traffic.passes | a whole number from 1 to 1000000000000
 seed = 7 → seed = -7 | traffic.seed | a whole number of at least 0
 tolerance = "2 %" → tolerance = 0 | solver.tolerance | greater than 0 and at most 0.5
 tolerance = "2 %" → tolerance = "51 %" | solver.tolerance | greater than 0 and at most 0.5

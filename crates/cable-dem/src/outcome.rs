@@ -13,6 +13,8 @@ pub struct PassOutcome {
     pub lowest: EndForces,
     /// Largest compression along the cable after the pass \[N\].
     pub max_compression: f64,
+    /// Largest tension along the cable after the pass \[N\], negative where all of it is compressed.
+    pub max_tension: f64,
     /// Displacement at x = 0 after the pass \[m\].
     pub upstream_displacement: f64,
     /// Displacement at x = length after the pass \[m\].
@@ -95,14 +97,18 @@ impl Recorder {
         force: EndForces,
     ) -> PassOutcome {
         self.record(force);
+        let (least, largest) = state
+            .element_forces(cable, mesh)
+            .chain([force.upstream, force.downstream])
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, largest), force| {
+                (least.min(force), largest.max(force))
+            });
         PassOutcome {
             force,
             peak: self.peak,
             lowest: self.lowest,
-            max_compression: state
-                .element_forces(cable, mesh)
-                .chain([force.upstream, force.downstream])
-                .fold(f64::NEG_INFINITY, f64::max),
+            max_compression: largest,
+            max_tension: -least,
             upstream_displacement: state.displacement()[0],
             downstream_displacement: state.displacement()[mesh.elements()],
             dissipated: self.dissipated,
