@@ -4,7 +4,7 @@
 //! cargo test --release --test calibration_coverage --test calibration -- --ignored --nocapture
 //! ```
 //!
-//! Readings are those of the solver with inertia: 60, after every second of 119 passes, with Gaussian noise of 2 N. Two hundred fits of each
+//! Readings are those of the solver with inertia: 60, after every second of 119 passes, with Gaussian noise of 2.5 N. Two hundred fits of each
 //! need a fast model: the quasi-static solver tabulated over friction and shape factor. As in the calibration of a scene, the
 //! difference to the solver itself at one point, here the true one, corrects it. Both have 24 nodes a depth: with 6, forces are off by up
 //! to 5 N where the shape factor is 2.5e7 1/m and by 1 N where it is 1e7 1/m, and a second optimum appears.
@@ -21,9 +21,10 @@ use cable_dem::{
 use calibrate::{Calibration, ModelError, Options, Parameter, Scale};
 use creepage::Scene;
 use ground_field::{DuctLine, DuctMotion};
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-const NOISE: f64 = 2.0;
+const NOISE: f64 = 2.5;
 /// What counts as close, in ln b.
 const CLOSE: f64 = 0.1;
 const REPETITIONS: u64 = 200;
@@ -35,9 +36,30 @@ const GRAVITY: f64 = 9.80665;
 const APPROACH: f64 = 15.0;
 /// Node spacing \[m\].
 const SPACING: f64 = 0.05;
-/// Range and number of values of each parameter in the table, evenly spaced in the logarithm.
-const FRICTION: (f64, f64, usize) = (0.14, 0.7, 21);
-const SHAPE_FACTOR: (f64, f64, usize) = (3e5, 1e9, 27);
+/// Degree of the polynomial in each.
+const DEGREE: usize = 9;
+const FRICTION: Range = Range {
+    low: 0.14,
+    high: 0.7,
+    count: 21,
+    bend: f64::INFINITY,
+};
+const SHAPE_FACTOR: Range = Range {
+    low: 3e5,
+    high: 1e9,
+    count: 27,
+    bend: 1e7,
+};
+
+/// Range of a parameter in the table, evenly spaced in the logarithm.
+#[derive(Clone, Copy)]
+struct Range {
+    low: f64,
+    high: f64,
+    count: usize,
+    /// Where one value begins to be as good as another; infinite for one whose logarithm counts everywhere.
+    bend: f64,
+}
 
 /// Forces on the load cell after the passes that are read.
 fn forces(inertia: bool, friction: f64, shape_factor: f64) -> Vec<f64> {
@@ -76,69 +98,90 @@ fn motion() -> &'static DuctMotion {
     })
 }
 
-/// Forces over the logarithms of friction and shape factor, by cubics. (Polynomials through all points would carry the ripple of the
-/// mesh at steep laws all over the table.)
+/// Forces over the logarithms of friction and shape factor: the polynomial nearest to the simulations, which is smooth where the
+/// ripple of their mesh would be taken for information.
 struct Table {
+    friction: Axis,
+    shape_factor: Axis,
     /// The shape factor runs fastest.
     forces: Vec<Vec<f64>>,
 }
 
 impl Table {
     fn new() -> Self {
-        let columns = SHAPE_FACTOR.2;
-        let forces = (0..FRICTION.2 * columns)
+        let columns = SHAPE_FACTOR.count;
+        let forces = (0..FRICTION.count * columns)
             .into_par_iter()
             .map(|index| {
                 forces(
                     false,
-                    place(FRICTION, index / columns),
-                    place(SHAPE_FACTOR, index % columns),
+                    FRICTION.value(index / columns),
+                    SHAPE_FACTOR.value(index % columns),
                 )
             })
             .collect();
-        Self { forces }
+        Self {
+            friction: Axis::new(FRICTION),
+            shape_factor: Axis::new(SHAPE_FACTOR),
+            forces,
+        }
     }
 
     fn at(&self, friction: f64, shape_factor: f64) -> Vec<f64> {
-        let (row, across) = weights(FRICTION, friction);
-        let (column, along) = weights(SHAPE_FACTOR, shape_factor);
+        let across = self.friction.weights(friction);
+        let along = self.shape_factor.weights(shape_factor);
         let mut sum = vec![0.0; READINGS];
-        for (i, a) in across.into_iter().enumerate() {
-            for (j, b) in along.into_iter().enumerate() {
-                let forces = &self.forces[(row + i) * SHAPE_FACTOR.2 + column + j];
-                for (sum, force) in sum.iter_mut().zip(forces) {
-                    *sum += a * b * force;
-                }
+        let weights = across.iter().flat_map(|a| along.iter().map(move |b| a * b));
+        for (weight, row) in weights.zip(&self.forces) {
+            for (sum, force) in sum.iter_mut().zip(row) {
+                *sum += weight * force;
             }
         }
         sum
     }
 }
 
-fn place((low, high, count): (f64, f64, usize), index: usize) -> f64 {
-    low * (high / low).powf(index as f64 / (count - 1) as f64)
+impl Range {
+    fn value(self, index: usize) -> f64 {
+        self.low * (self.high / self.low).powf(index as f64 / (self.count - 1) as f64)
+    }
 }
 
-/// The first of the four points around `value` and their weights: the cubic of E. Catmull and R. Rom (1974). Beyond the ends the
-/// table goes on straight.
-fn weights((low, high, count): (f64, f64, usize), value: f64) -> (usize, [f64; 4]) {
-    let position = (value / low).ln() / (high / low).ln() * (count - 1) as f64;
-    let left = (position.floor() as usize).min(count - 2);
-    let t = position - left as f64;
-    let (t2, t3) = (t * t, t * t * t);
-    let [a, b, c, d] = [
-        0.5 * (-t3 + 2.0 * t2 - t),
-        0.5 * (3.0 * t3 - 5.0 * t2 + 2.0),
-        0.5 * (-3.0 * t3 + 4.0 * t2 + t),
-        0.5 * (t3 - t2),
-    ];
-    if left == 0 {
-        (0, [b + 2.0 * a, c - a, d, 0.0])
-    } else if left == count - 2 {
-        (count - 4, [0.0, a, b - d, c + 2.0 * d])
-    } else {
-        (left - 1, [a, b, c, d])
+/// Least squares by Chebyshev polynomials.
+struct Axis {
+    range: Range,
+    /// From values at the places to the polynomials' factors.
+    fit: DMatrix<f64>,
+}
+
+impl Axis {
+    fn new(range: Range) -> Self {
+        let rows: Vec<f64> = (0..range.count)
+            .flat_map(|index| polynomials(range, range.value(index)))
+            .collect();
+        let basis = DMatrix::from_row_slice(range.count, DEGREE + 1, &rows);
+        Self {
+            range,
+            fit: basis.pseudo_inverse(1e-12).unwrap(),
+        }
     }
+
+    fn weights(&self, value: f64) -> Vec<f64> {
+        let basis = DVector::from_vec(polynomials(self.range, value));
+        (self.fit.transpose() * basis).data.into()
+    }
+}
+
+/// T_0 … T_9 of −ln(1/v + 1/bend) over its range: steep laws, which differ by 1/b, lie close together.
+fn polynomials(range: Range, value: f64) -> Vec<f64> {
+    let place = |v: f64| -(1.0 / v + 1.0 / range.bend).ln();
+    let (low, high) = (place(range.low), place(range.high));
+    let x = 2.0 * (place(value) - low) / (high - low) - 1.0;
+    let mut values = vec![1.0, x];
+    for k in 2..=DEGREE {
+        values.push(2.0 * x * values[k - 1] - values[k - 2]);
+    }
+    values
 }
 
 fn gaussian(random: &mut fastrand::Rng) -> f64 {

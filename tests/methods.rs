@@ -229,10 +229,18 @@ fn a_clamp_between_free_ends_is_judged_by_what_it_holds() {
         "traffic.passes=4",
     ];
     let planned = run(&held);
-    assert!(planned.error_estimate.relative <= 0.01, "{:?}", planned.error_estimate);
+    assert!(
+        planned.error_estimate.relative <= 0.01,
+        "{:?}",
+        planned.error_estimate
+    );
     let clamp = planned.restraints[0].force_n.abs();
     assert!(clamp > 10.0, "{clamp}");
-    let coarse = run(&[&held[..], &["solver.node_spacing=0.4 m", "solver.vehicle_step=0.2 m"]].concat());
+    let coarse = run(&[
+        &held[..],
+        &["solver.node_spacing=0.4 m", "solver.vehicle_step=0.2 m"],
+    ]
+    .concat());
     let off = (coarse.restraints[0].force_n.abs() / clamp - 1.0).abs();
     let stated = coarse.error_estimate.relative;
     assert!(stated.is_finite() && stated >= off, "{stated} stated, {off}");
