@@ -41,7 +41,7 @@ const STRAIGHT: f64 = 1e-3;
 /// is replaced by one halfway.
 const LEFT: f64 = 0.5;
 const LEFT_SHARE: f64 = 0.1;
-const MAX_HALVINGS: usize = 3;
+const MAX_HALVINGS: usize = 1;
 /// Root of the rise from one station to the next that a start may show without a look for a better one.
 const CONTINUED: f64 = 3.0;
 /// Jump of the root across the narrowest bracket, in distances that make an interval, that shows the others stuck; and how often they are
@@ -52,6 +52,8 @@ const MAX_JUMPS: usize = 3;
 const HOPELESS: f64 = 2e4;
 /// Free variable beyond which another parameter counts as near its bound: the outer twentieth of the range.
 const NEAR_BOUND: f64 = 3.0;
+/// Rise up to which such a start is worth a descent.
+const WORTH: f64 = 50.0;
 /// Standard error in the free variable from which the data hardly know a parameter.
 const VAGUE: f64 = 0.5;
 
@@ -109,9 +111,18 @@ impl Profiler<'_> {
         let here = self.coordinate(k);
         let mut curve = vec![(here, 0.0)];
         let mut ends = [None, None];
-        for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
+        // Both bounds first: a lower optimum there spares the rest.
+        let mut bounds = Vec::new();
+        for sign in [-1.0, 1.0] {
+            let farthest = (self.search.evaluator.parameters[k].bounded(sign * FARTHEST) - here).abs();
+            match self.station(k, sign, farthest, &[])? {
+                Ok(bound) => bounds.push((sign, bound)),
+                Err(better) => return Ok(Outcome::Better(better)),
+            }
+        }
+        for (end, (sign, bound)) in ends.iter_mut().zip(bounds) {
             let mut stations = Vec::new();
-            match self.side(k, sign, &mut stations)? {
+            match self.side(k, sign, bound, &mut stations)? {
                 Side::Closed(distance) => *end = Some(here + sign * distance),
                 Side::Open => {}
                 Side::Better(point) => return Ok(Outcome::Better(point)),
@@ -131,11 +142,17 @@ impl Profiler<'_> {
         self.search.evaluator.parameters[k].bounded(self.optimum.point.free[k])
     }
 
-    fn side(&mut self, k: usize, sign: f64, stations: &mut Vec<Station>) -> Result<Side, CalibrationError> {
+    fn side(
+        &mut self,
+        k: usize,
+        sign: f64,
+        bound: Station,
+        stations: &mut Vec<Station>,
+    ) -> Result<Side, CalibrationError> {
         let parameter = &self.search.evaluator.parameters[k];
         let wanted = quantile(0.5 * self.tail, self.degrees_of_freedom);
         let excluded = EXCLUSION * wanted;
-        let farthest = (parameter.bounded(sign * FARTHEST) - self.coordinate(k)).abs();
+        let farthest = bound.distance;
         let error = self
             .covariance
             .standard_error(k)
@@ -146,10 +163,6 @@ impl Profiler<'_> {
             FIRST
         };
         // What the data do not exclude at the bound itself, they do not exclude.
-        let bound = match self.station(k, sign, farthest, stations)? {
-            Ok(station) => station,
-            Err(better) => return Ok(Side::Better(better)),
-        };
         if bound.rise.sqrt() < excluded {
             stations.push(bound);
             return Ok(Side::Open);
@@ -158,11 +171,15 @@ impl Profiler<'_> {
         let (mut halvings, mut jumps) = (0, 0);
         for _ in 0..MAX_STATIONS {
             let reached = stations.last().map_or(0.0, |station| station.distance);
-            let station = match self.station(k, sign, next, stations)? {
-                Ok(station) => station,
-                Err(better) => return Ok(Side::Better(better)),
+            let station = if next >= farthest {
+                bound.clone()
+            } else {
+                match self.station(k, sign, next, stations)? {
+                    Ok(station) => station,
+                    Err(better) => return Ok(Side::Better(better)),
+                }
             };
-            if station.settled {
+            if station.settled && next < farthest {
                 self.valley.add(station.point.free.clone());
             }
             let outward = next > reached;
@@ -253,7 +270,8 @@ impl Profiler<'_> {
             if let Some(free) = self.away_from_bounds(k, &found.point.free) {
                 let residuals = evaluator.residuals(&free)?;
                 let start = Point { free, residuals };
-                if deviance.total(&start.residuals).is_finite() {
+                // A start that is far up leads back to where the first one came.
+                if deviance.total(&start.residuals) - self.optimum.value() < WORTH {
                     let solver = LevenbergMarquardt::new(deviance, fixed.clone(), TOLERANCE);
                     let other = self
                         .search
