@@ -971,7 +971,7 @@ fn a_bad_scene_is_refused_with_file_line_key_found_and_allowed() {
         (
             "passes = 200",
             "passes = 0",
-            &["traffic.passes", "found 0", "at least 1"],
+            &["traffic.passes", "found 0", "from 1 to"],
         ),
         (
             "passes = 200",
