@@ -41,7 +41,7 @@ const STRAIGHT: f64 = 1e-3;
 /// is replaced by one halfway.
 const LEFT: f64 = 0.5;
 const LEFT_SHARE: f64 = 0.1;
-const MAX_HALVINGS: usize = 1;
+const MAX_HALVINGS: usize = 3;
 /// Root of the rise from one station to the next that a start may show without a look for a better one.
 const CONTINUED: f64 = 3.0;
 /// Jump of the root across the narrowest bracket, in distances that make an interval, that shows the others stuck; and how often they are
@@ -111,18 +111,9 @@ impl Profiler<'_> {
         let here = self.coordinate(k);
         let mut curve = vec![(here, 0.0)];
         let mut ends = [None, None];
-        // Both bounds first: a lower optimum there spares the rest.
-        let mut bounds = Vec::new();
-        for sign in [-1.0, 1.0] {
-            let farthest = (self.search.evaluator.parameters[k].bounded(sign * FARTHEST) - here).abs();
-            match self.station(k, sign, farthest, &[])? {
-                Ok(bound) => bounds.push((sign, bound)),
-                Err(better) => return Ok(Outcome::Better(better)),
-            }
-        }
-        for (end, (sign, bound)) in ends.iter_mut().zip(bounds) {
+        for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
             let mut stations = Vec::new();
-            match self.side(k, sign, bound, &mut stations)? {
+            match self.side(k, sign, &mut stations)? {
                 Side::Closed(distance) => *end = Some(here + sign * distance),
                 Side::Open => {}
                 Side::Better(point) => return Ok(Outcome::Better(point)),
@@ -142,17 +133,11 @@ impl Profiler<'_> {
         self.search.evaluator.parameters[k].bounded(self.optimum.point.free[k])
     }
 
-    fn side(
-        &mut self,
-        k: usize,
-        sign: f64,
-        bound: Station,
-        stations: &mut Vec<Station>,
-    ) -> Result<Side, CalibrationError> {
+    fn side(&mut self, k: usize, sign: f64, stations: &mut Vec<Station>) -> Result<Side, CalibrationError> {
         let parameter = &self.search.evaluator.parameters[k];
         let wanted = quantile(0.5 * self.tail, self.degrees_of_freedom);
         let excluded = EXCLUSION * wanted;
-        let farthest = bound.distance;
+        let farthest = (parameter.bounded(sign * FARTHEST) - self.coordinate(k)).abs();
         let error = self
             .covariance
             .standard_error(k)
@@ -163,6 +148,10 @@ impl Profiler<'_> {
             FIRST
         };
         // What the data do not exclude at the bound itself, they do not exclude.
+        let bound = match self.station(k, sign, farthest, stations)? {
+            Ok(station) => station,
+            Err(better) => return Ok(Side::Better(better)),
+        };
         if bound.rise.sqrt() < excluded {
             stations.push(bound);
             return Ok(Side::Open);
@@ -171,15 +160,11 @@ impl Profiler<'_> {
         let (mut halvings, mut jumps) = (0, 0);
         for _ in 0..MAX_STATIONS {
             let reached = stations.last().map_or(0.0, |station| station.distance);
-            let station = if next >= farthest {
-                bound.clone()
-            } else {
-                match self.station(k, sign, next, stations)? {
-                    Ok(station) => station,
-                    Err(better) => return Ok(Side::Better(better)),
-                }
+            let station = match self.station(k, sign, next, stations)? {
+                Ok(station) => station,
+                Err(better) => return Ok(Side::Better(better)),
             };
-            if station.settled && next < farthest {
+            if station.settled {
                 self.valley.add(station.point.free.clone());
             }
             let outward = next > reached;
