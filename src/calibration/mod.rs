@@ -389,7 +389,7 @@ impl Ladder<'_> {
             degrees_of_freedom: fit.degrees_of_freedom,
             method: FitMethod {
                 cable: self.models[0].method.name().into(),
-                load_cell: self.models.iter().map(|series| end_name(series.end)).collect(),
+                load_cell: self.models.iter().map(|series| series.end.name()).collect(),
                 node_spacing_m: meshes.iter().map(cable_dem::Mesh::spacing).collect(),
                 vehicle_step_m: meshes.iter().map(cable_dem::Mesh::vehicle_step).collect(),
                 loss: match self.options.loss {
@@ -441,13 +441,6 @@ impl Ladder<'_> {
                 weight: fit.weights[row],
             })
             .collect()
-    }
-}
-
-fn end_name(end: CellEnd) -> &'static str {
-    match end {
-        CellEnd::Upstream => "upstream",
-        CellEnd::Downstream => "downstream",
     }
 }
 

@@ -16,7 +16,7 @@ use crate::analysis::cable::PassMethod;
 use crate::analysis::passes::simulate;
 use crate::analysis::{law, motion};
 use crate::planner::{ground, plan};
-use crate::{Error, Scene};
+use crate::{Error, PassRecord, Scene};
 
 /// Nodes per depth of the duct on the coarsest mesh; every rung above has twice as many.
 const COARSEST: f64 = 6.0;
@@ -43,6 +43,22 @@ impl CellEnd {
             }),
             (_, End::Free) => Ok(Self::Upstream),
             _ => Ok(Self::Downstream),
+        }
+    }
+
+    /// Its name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Upstream => "upstream",
+            Self::Downstream => "downstream",
+        }
+    }
+
+    /// The force on it after a pass \[N\].
+    pub fn force(self, record: &PassRecord) -> f64 {
+        match self {
+            Self::Upstream => record.upstream_force_n,
+            Self::Downstream => record.downstream_force_n,
         }
     }
 }
@@ -127,16 +143,14 @@ impl SeriesModel {
             let softer = |motion: &DuctMotion| motion.clone().scaled(1.0 / stiffness);
             self.motions.iter().map(softer).collect()
         };
-        let downstream = self.end == CellEnd::Downstream;
         match self.method {
             PassMethod::EveryPass(method) => {
                 let passes = simulate(scene, method, &motions, self.mesh(rung)?, &[], || {})?;
                 let force = |&pass: &u64| {
                     let force = passes.outcomes[pass as usize - 1].force;
-                    if downstream {
-                        force.downstream
-                    } else {
-                        force.upstream
+                    match self.end {
+                        CellEnd::Upstream => force.upstream,
+                        CellEnd::Downstream => force.downstream,
                     }
                 };
                 Ok(self.passes.iter().map(force).collect())
@@ -147,12 +161,8 @@ impl SeriesModel {
                 wanted.dedup();
                 let records = law::records(scene, &motions, Self::nodes_per_depth(rung), &wanted)?;
                 let force = |pass: &u64| {
-                    let record = &records[wanted.partition_point(|other| other < pass)];
-                    if downstream {
-                        record.downstream_force_n
-                    } else {
-                        record.upstream_force_n
-                    }
+                    self.end
+                        .force(&records[wanted.partition_point(|other| other < pass)])
                 };
                 Ok(self.passes.iter().map(force).collect())
             }

@@ -46,28 +46,16 @@ impl Agreement {
             readings,
         })
     }
-
-    /// Name of the end.
-    pub fn end_name(&self) -> &'static str {
-        match self.end {
-            CellEnd::Upstream => "upstream",
-            CellEnd::Downstream => "downstream",
-        }
-    }
 }
 
 /// Force on the end after `pass` \[N\]; between listed passes along a straight line, `None` beyond the last.
 fn force_at(passes: &[PassRecord], end: CellEnd, pass: u64) -> Option<f64> {
-    let force = |record: &PassRecord| match end {
-        CellEnd::Upstream => record.upstream_force_n,
-        CellEnd::Downstream => record.downstream_force_n,
-    };
     let next = passes.partition_point(|record| record.pass < pass);
     let after = passes.get(next)?;
     if after.pass == pass || next == 0 {
-        return Some(force(after));
+        return Some(end.force(after));
     }
     let before = &passes[next - 1];
     let share = (pass - before.pass) as f64 / (after.pass - before.pass) as f64;
-    Some(force(before) + share * (force(after) - force(before)))
+    Some(end.force(before) + share * (end.force(after) - end.force(before)))
 }

@@ -50,17 +50,14 @@ impl Comparison {
                 progress(RUN_SHARE + (1.0 - RUN_SHARE) * share);
             }
         };
-        let held = match end {
-            Place::Upstream => scene.ends.upstream,
-            _ => scene.ends.downstream,
-        };
+        let held = held(&scene, end);
         let (answers, failure) = match compare(&scene, &measures, Some(&progress)) {
             Ok(answers) => (answers, None),
             Err(error) => (Vec::new(), Some(error.to_string())),
         };
         let ways = measures.into_iter().zip(answers).map(|(measure, answer)| Way {
             measure,
-            is_scene: measure.place == end && measure.stiffness == stiffness(held),
+            is_scene: measure.place == end && measure.stiffness == held,
             answer,
         });
         Self {
@@ -112,12 +109,9 @@ fn end(scene: &Scene, run: &Run) -> Place {
 /// Free, springs, the scene's own, fixed, and clamps.
 fn suitable(scene: &Scene, end: Place) -> Vec<Measure> {
     let own = scene.cable.axial_stiffness / scene.duct.length;
-    let held = match end {
-        Place::Upstream => scene.ends.upstream,
-        _ => scene.ends.downstream,
-    };
+    let held = held(scene, end);
     let mut stiffnesses: Vec<f64> = SPRINGS.iter().map(|share| share * own).collect();
-    stiffnesses.extend([0.0, f64::INFINITY, stiffness(held)]);
+    stiffnesses.extend([0.0, f64::INFINITY, held]);
     stiffnesses.sort_by(f64::total_cmp);
     stiffnesses.dedup();
     let clamps = CLAMPS.iter().map(|&(from_end, share)| {
@@ -137,7 +131,12 @@ fn suitable(scene: &Scene, end: Place) -> Vec<Measure> {
     springs.chain(clamps).collect()
 }
 
-fn stiffness(end: End) -> f64 {
+/// Stiffness with which `scene` holds the end \[N/m\].
+fn held(scene: &Scene, end: Place) -> f64 {
+    let end = match end {
+        Place::Upstream => scene.ends.upstream,
+        _ => scene.ends.downstream,
+    };
     match end {
         End::Free => 0.0,
         End::Spring(stiffness) => stiffness,

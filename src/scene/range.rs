@@ -1,5 +1,7 @@
 //! Ranges of values, and how to say what is allowed.
 
+use std::ops::RangeInclusive;
+
 use super::Dimension;
 
 /// A range of values.
@@ -71,6 +73,14 @@ pub(super) fn allowed_quantity(dimension: Dimension, range: Range, example: &str
 /// What is allowed where a dimensionless number belongs.
 pub(super) fn allowed_number(range: Range) -> String {
     format!("a number {}, without quotes or unit", range.words)
+}
+
+/// What is allowed where a whole number belongs.
+pub(super) fn allowed_whole(range: &RangeInclusive<u64>) -> String {
+    match (range.start(), range.end()) {
+        (least, &u64::MAX) => format!("a whole number of at least {least}, without quotes"),
+        (least, most) => format!("a whole number from {least} to {most}, without quotes"),
+    }
 }
 
 /// A value of ours in a message, such as the end of a range.

@@ -1,8 +1,10 @@
 //! `[[vehicles]]` and `[traffic]`: who drives, how often, in which order.
 
+use std::ops::RangeInclusive;
+
 use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
-use super::range::{CONTACT_RADIUS, LOAD, OFFSET, POSITIVE, SPEED};
+use super::range::{CONTACT_RADIUS, LOAD, OFFSET, POSITIVE, SPEED, allowed_whole};
 use super::table::Table;
 use super::value::Value;
 use super::{Dimension, Order, PeakScaling, SceneError, Traffic, TrafficVehicle, keys};
@@ -11,8 +13,8 @@ const DIRECTIONS: &[(&str, Direction)] = &[("forward", Direction::Forward), ("re
 const LOAD_EXAMPLE: &str = "\"20 tf\"";
 /// Seed of a random order where the file gives none.
 const DEFAULT_SEED: u64 = 1;
-/// More passes than any road sees, and as many as the pass law evolves.
-const MOST_PASSES: u64 = 1_000_000_000_000;
+/// Numbers of passes that can be computed, by the pass law at the latest.
+const PASSES: RangeInclusive<u64> = 1..=pass_law::MOST_PASSES;
 
 pub(super) fn traffic(
     root: &Table,
@@ -33,8 +35,8 @@ pub(super) fn traffic(
     }
     let table = root.table("traffic", keys::TRAFFIC)?;
     let passes = table
-        .required("passes", "a whole number from 1 to 1000000000000, without quotes")?
-        .integer(1..=MOST_PASSES)?;
+        .required("passes", &allowed_whole(&PASSES))?
+        .integer(PASSES)?;
     let order = order(&table, &vehicles)?;
     if let Order::Sequence(sequence) = &order {
         for (index, vehicle) in vehicles.iter_mut().enumerate() {

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::document::{Content, Document, Node};
 use super::nearest::nearest;
-use super::range::{Range, allowed_number, allowed_quantity};
+use super::range::{Range, allowed_number, allowed_quantity, allowed_whole};
 use super::syntax::with_point;
 use super::table::{Table, joined};
 use super::{Dimension, QuantityError, SceneError};
@@ -77,11 +77,7 @@ impl<'d> Value<'d> {
 
     /// A whole number in `range`.
     pub fn integer(&self, range: RangeInclusive<u64>) -> Result<u64, SceneError> {
-        let (least, most) = range.clone().into_inner();
-        let allowed = match most {
-            u64::MAX => format!("a whole number of at least {least}, without quotes"),
-            _ => format!("a whole number from {least} to {most}, without quotes"),
-        };
+        let allowed = allowed_whole(&range);
         match self.node.content {
             Content::Number { integer, .. } => integer
                 .and_then(|integer| u64::try_from(integer).ok())

@@ -21,8 +21,8 @@ const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 const SMALLEST: f64 = 1e-9;
 /// In the first passes the friction near a held end is still sharp \[passes\].
 const SETTLED: f64 = 10.0;
-/// Most passes.
-const MOST_PASSES: u64 = 1_000_000_000_000;
+/// The most passes that [`PassLaw::run`] takes: more than any road sees.
+pub const MOST_PASSES: u64 = 1_000_000_000_000;
 
 /// The cable after a number of passes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -85,7 +85,7 @@ impl PassLaw {
     ///
     /// # Errors
     ///
-    /// [`LawError::InvalidParameter`] unless the passes ascend and are at most 1e12; [`LawError::NoConvergence`] where a step
+    /// [`LawError::InvalidParameter`] unless the passes ascend and are at most [`MOST_PASSES`]; [`LawError::NoConvergence`] where a step
     /// found no answer.
     pub fn run(&self, passes: &[u64]) -> Result<Evolution, LawError> {
         let mut last = 0;

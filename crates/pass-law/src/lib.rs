@@ -64,7 +64,7 @@ mod tridiagonal;
 pub use advance::{AdvanceLaw, LawStatistics};
 pub use applicability::{Concern, concerns_before};
 pub use error::LawError;
-pub use evolution::{Evolution, EvolutionStatistics, PassRecord};
+pub use evolution::{Evolution, EvolutionStatistics, MOST_PASSES, PassRecord};
 pub use mix::MixedLaw;
 pub use pass_law::{PassLaw, Preparation};
 pub use resolution::Resolution;

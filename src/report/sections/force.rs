@@ -17,7 +17,7 @@ pub fn force(html: &mut Html, report: &Report) {
             " {} readings at the {} end; measured minus computed force of {} of them: mean {} N, root of the mean square {} N, \
              largest reading {} N.{}",
             agreement.readings.len(),
-            agreement.end_name(),
+            agreement.end.name(),
             agreement.compared,
             rounded(agreement.mean_n, 1),
             rounded(agreement.rms_n, 1),
