@@ -115,8 +115,7 @@ fn a_steep_law_is_called_not_identifiable() {
                 .iter()
                 .any(|warning| warning.contains("shape_factor is not identifiable"))
         );
-        // Both bounds are looked at, and fits that get stuck there are begun again: more than where b is known.
-        assert!(answer.evaluations <= 500, "{}", answer.evaluations);
+        assert!(answer.evaluations <= 200, "{}", answer.evaluations);
     }
 }
 

@@ -4,8 +4,10 @@
 //! about them. The crate `calibrate` does the statistics; here scenes become its model.
 //!
 //! *Mesh.* A fit is repeated on ever finer fixed meshes until the difference to the next one moves no parameter by more than
-//! 0.8 standard errors. That difference is then added to the predictions, so that the answer is that of the finer mesh to first
-//! order; half of it is stated as the error left.
+//! 0.8 standard errors. The answer is a fit on that next one; half of the difference is stated as the error left. On the finest mesh, or one
+//! that the scene names, the difference is added to the predictions instead.
+//!
+//! *Runs.* An emulator learns the forces on each mesh, from what it knows of the coarser one and few runs (`calibrate::Emulator`).
 //!
 //! *Load cell.* At the downstream end if that is held, else at the upstream end; the force after the vehicle has left.
 //!
@@ -16,7 +18,7 @@ mod model;
 mod result;
 mod unknown;
 
-use ::calibrate::{Bootstrap, Calibration, Fit, Model, Options, Prior, Profiles};
+use ::calibrate::{Bootstrap, Calibration, Emulator, Fit, Model, Options, Prior, Profiles};
 
 pub use ::calibrate::{
     BootstrapOptions, CalibrationError, DataError, Loss, Observer, Progress, Reading, Readings, Resampling,
@@ -36,7 +38,7 @@ use model::{CableModel, SeriesModel};
 const MESH_SHIFT: f64 = 0.8;
 /// Distance to the minimum, in standard errors, at which a fit is good enough to look at its mesh, and in the end.
 const PILOT_TOLERANCE: f64 = 0.3;
-const TOLERANCE: f64 = 0.03;
+const TOLERANCE: f64 = 0.1;
 /// Rungs of the ladder of meshes: 6, 12 and 24 nodes per depth, corrected by 48.
 const LAST_RUNG: u32 = 2;
 /// Ripple of the forces as parameters change on a fixed mesh, as a share of them: as a node more slips, their slope jumps.
@@ -178,21 +180,33 @@ struct Ladder<'a> {
     limit: usize,
 }
 
-/// A fit on one rung and its difference to the next.
+/// The rung of the final fit.
 struct Rung {
     level: u32,
+    /// Where a fit on this rung or the one below led.
     values: Vec<f64>,
+    /// What the finer mesh of the last two that were compared says more there, and how many standard errors that moves each parameter.
     difference: Vec<f64>,
     shift: Vec<f64>,
+    /// Whether that is still to be added.
+    corrected: bool,
+    /// What was learned of the forces on the last rung that was fitted.
+    emulator: Emulator,
 }
 
 impl Ladder<'_> {
     fn climb(&self) -> Result<Calibrated, Error> {
         let mut evaluations = 0;
         let rung = self.find_rung(&mut evaluations)?;
-        let model = self.model(rung.level, Some(rung.difference.clone()));
-        let calibration = self.calibration(&model, Some(rung.values.clone()), Profiles::All, evaluations)?;
-        let fit = calibration.fit()?;
+        let model = self.model(rung.level, rung.corrected.then(|| rung.difference.clone()));
+        let calibration = self.calibration(
+            &model,
+            Some(rung.values.clone()),
+            Profiles::All,
+            TOLERANCE,
+            evaluations,
+        )?;
+        let (fit, _) = calibration.fit_emulated(Some(&rung.emulator))?;
         evaluations += fit.evaluations;
         let bootstrap = match &self.options.bootstrap {
             Some(options) => Some(summary(&calibration.bootstrap(&fit, options)?, options)),
@@ -201,15 +215,18 @@ impl Ladder<'_> {
         self.answer(&fit, &rung, evaluations, bootstrap)
     }
 
-    /// The coarsest rung whose mesh hardly moves the parameters.
+    /// The coarsest rung that moves the parameters hardly away from those of the rung below.
     fn find_rung(&self, evaluations: &mut usize) -> Result<Rung, Error> {
         let mut rung = 0;
         let mut start = None;
+        let mut coarser: Option<Emulator> = None;
         loop {
             let model = self.model(rung, None);
-            let fit = self
-                .calibration(&model, start, Profiles::None, *evaluations)?
-                .fit()?;
+            // What is learned on the coarsest mesh costs least: there the intervals are explored too.
+            let profiles = if rung == 0 { Profiles::All } else { Profiles::None };
+            let (fit, emulator) = self
+                .calibration(&model, start, profiles, PILOT_TOLERANCE, *evaluations)?
+                .fit_emulated(coarser.as_ref())?;
             let values = fit.values();
             let finer = self
                 .model(rung + 1, None)
@@ -219,15 +236,19 @@ impl Ladder<'_> {
             let difference: Vec<f64> = finer.iter().zip(&fit.fitted).map(|(a, b)| a - b).collect();
             let shift = fit.shift(&difference);
             let enough = shift.iter().all(|shift| shift.abs() <= MESH_SHIFT);
-            if enough || rung == LAST_RUNG || self.models.iter().any(SeriesModel::is_meshed) {
+            let last = rung == LAST_RUNG || self.models.iter().any(SeriesModel::is_meshed);
+            if enough || last {
                 return Ok(Rung {
-                    level: rung,
+                    level: if last { rung } else { rung + 1 },
+                    corrected: last,
                     values,
                     difference,
                     shift,
+                    emulator,
                 });
             }
             start = Some(values);
+            coarser = Some(emulator);
             rung += 1;
         }
     }
@@ -247,6 +268,7 @@ impl Ladder<'_> {
         model: &'m CableModel<'m>,
         start: Option<Vec<f64>>,
         profiles: Profiles,
+        tolerance: f64,
         evaluations: usize,
     ) -> Result<Calibration<'m>, Error> {
         let parameters = self
@@ -276,11 +298,7 @@ impl Ladder<'_> {
             start: Some(start),
             scan: known.then_some(0),
             restart: !known,
-            tolerance: if profiles == Profiles::None {
-                PILOT_TOLERANCE
-            } else {
-                TOLERANCE
-            },
+            tolerance,
             max_evaluations: self.limit.saturating_sub(evaluations).max(1),
             relative_noise: if law {
                 LAW_RIPPLE

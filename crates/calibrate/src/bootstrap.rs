@@ -175,6 +175,7 @@ impl Calibration<'_> {
             known_noise: self.sigmas().is_some() && !fit.noise_estimated,
             tolerance: options.tolerance,
             loss: options.loss,
+            dear: true,
             least_noise: self.least_noise(&units),
         };
         let free = DVector::from_column_slice(&fit.free);

@@ -68,22 +68,26 @@ impl<'a> Evaluator<'a> {
 
     /// Standardised residuals; all infinite where the model has no answer.
     pub fn residuals(&self, free: &DVector<f64>) -> Result<DVector<f64>, CalibrationError> {
+        Ok(match self.predict(free)? {
+            Some(predicted) => self.standardised(free, &predicted),
+            None => {
+                let priors = self.parameters.iter().filter(|p| p.prior().is_some()).count();
+                DVector::from_element(self.values.len() + priors, f64::INFINITY)
+            }
+        })
+    }
+
+    /// Runs the model; nothing where it has no answer.
+    pub fn predict(&self, free: &DVector<f64>) -> Result<Option<Vec<f64>>, CalibrationError> {
         if self.count.fetch_add(1, Ordering::Relaxed) >= self.limit {
             return Err(CalibrationError::EvaluationLimit { limit: self.limit });
         }
-        let priors: Vec<f64> = self
-            .parameters
-            .iter()
-            .zip(free.iter())
-            .filter_map(|(parameter, &z)| parameter.prior_residual(z))
-            .collect();
-        let infeasible = |error| {
-            self.remember(error);
-            DVector::from_element(self.values.len() + priors.len(), f64::INFINITY)
-        };
         let predicted = match self.model.predict(&self.physical(free)) {
             Ok(predicted) => predicted,
-            Err(error) => return Ok(infeasible(error)),
+            Err(error) => {
+                self.remember(error);
+                return Ok(None);
+            }
         };
         if predicted.len() != self.values.len() {
             return Err(CalibrationError::PredictionLength {
@@ -92,17 +96,25 @@ impl<'a> Evaluator<'a> {
             });
         }
         if let Some(index) = predicted.iter().position(|value| !value.is_finite()) {
-            return Ok(infeasible(Box::new(NotFinite { index })));
+            self.remember(Box::new(NotFinite { index }));
+            return Ok(None);
         }
+        Ok(Some(predicted))
+    }
+
+    /// Residuals of predictions, in sigmas, and of the priors.
+    pub fn standardised(&self, free: &DVector<f64>, predicted: &[f64]) -> DVector<f64> {
         let data = predicted
             .iter()
             .zip(self.values)
             .zip(self.sigmas)
             .map(|((predicted, observed), sigma)| (predicted - observed) / sigma);
-        Ok(DVector::from_iterator(
-            self.values.len() + priors.len(),
-            data.chain(priors.iter().copied()),
-        ))
+        let priors = self
+            .parameters
+            .iter()
+            .zip(free.iter())
+            .filter_map(|(parameter, &z)| parameter.prior_residual(z));
+        DVector::from_vec(data.chain(priors).collect())
     }
 
     /// Residuals at many points, in parallel.
@@ -113,14 +125,7 @@ impl<'a> Evaluator<'a> {
     /// Steps of derivatives: `slopes` are the norms of the weighted residuals' derivatives where something is known of them.
     pub fn steps(&self, weights: &DVector<f64>, slopes: Option<&[f64]>) -> Vec<f64> {
         let least = self.relative_noise.cbrt().clamp(STEPS.0, STEPS.1);
-        let square: f64 = self
-            .values
-            .iter()
-            .zip(self.sigmas)
-            .zip(weights.iter())
-            .map(|((value, sigma), weight)| weight * (self.relative_noise * value / sigma).powi(2))
-            .sum();
-        let noise = CHANGE_TO_NOISE * square.sqrt();
+        let noise = CHANGE_TO_NOISE * self.noise(weights);
         (0..self.parameters.len())
             .map(|k| match slopes {
                 Some(slopes) if slopes[k] > 0.0 => (noise / slopes[k]).clamp(least, LONGEST_STEP),
@@ -128,6 +133,18 @@ impl<'a> Evaluator<'a> {
                 None => least,
             })
             .collect()
+    }
+
+    /// Length of the model's own noise in the weighted residuals.
+    pub fn noise(&self, weights: &DVector<f64>) -> f64 {
+        let square: f64 = self
+            .values
+            .iter()
+            .zip(self.sigmas)
+            .zip(weights.iter())
+            .map(|((value, sigma), weight)| weight * (self.relative_noise * value / sigma).powi(2))
+            .sum();
+        square.sqrt()
     }
 
     /// Derivatives of the residuals by the free variables over `steps`; columns of those that are `fixed` are 0.

@@ -86,7 +86,7 @@ pub enum Warning {
         /// How far the next step would still go, in standard errors.
         offset: f64,
     },
-    /// Other values, outside of the intervals, fit about as well.
+    /// Other values, far from the best ones, fit about as well. The intervals hold both as long as they are as likely as that.
     Ambiguous {
         /// These values, in the order of the parameters.
         values: Vec<f64>,
@@ -136,7 +136,7 @@ impl fmt::Display for Warning {
                 "noise of the model hides the last {offset:.2} standard errors on the way to the best fit"
             ),
             Self::Ambiguous { values } => {
-                write!(f, "other values fit about as well, outside of the intervals:")?;
+                write!(f, "other values, far from the best ones, fit about as well:")?;
                 values.iter().try_for_each(|value| write!(f, " {value:.4e}"))
             }
             Self::FewObservations { degrees_of_freedom } => write!(

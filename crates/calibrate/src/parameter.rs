@@ -148,6 +148,12 @@ impl Parameter {
         (lower, self.coordinate(self.upper) - lower)
     }
 
+    /// Share of the range of s that lies below s.
+    pub(crate) fn share(&self, coordinate: f64) -> f64 {
+        let (lower, range) = self.range();
+        (coordinate - lower) / range
+    }
+
     /// s at z.
     pub(crate) fn bounded(&self, free: f64) -> f64 {
         let (lower, range) = self.range();
@@ -156,8 +162,7 @@ impl Parameter {
 
     /// z at s; at most [`FARTHEST`] from 0.
     pub(crate) fn free(&self, coordinate: f64) -> f64 {
-        let (lower, range) = self.range();
-        let share = ((coordinate - lower) / range).clamp(0.0, 1.0);
+        let share = self.share(coordinate).clamp(0.0, 1.0);
         (share / (1.0 - share)).ln().clamp(-FARTHEST, FARTHEST)
     }
 

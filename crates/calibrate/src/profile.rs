@@ -8,12 +8,10 @@
 //! An end is closed only if the data exclude what lies beyond it, up to the bound, by twice the distance that makes an interval: by
 //! four standard errors. For a true value at the bound itself, one such distance would close one of forty intervals by chance.
 
-use nalgebra::{DMatrix, DVector};
-
 use crate::CalibrationError;
-use crate::levenberg_marquardt::LevenbergMarquardt;
 use crate::parameter::FARTHEST;
-use crate::search::{BETTER, Optimum, Point, Search};
+use crate::search::{Optimum, Point, Search};
+use crate::station::Station;
 use crate::uncertainty::{Covariance, quantile};
 use crate::valley::Valley;
 
@@ -23,52 +21,24 @@ const EXCLUSION: f64 = 2.0;
 const END_ACCURACY: f64 = 0.03;
 /// Stations on one side.
 const MAX_STATIONS: usize = 24;
-/// Accuracy of the other parameters, in standard errors: an eighth of a squared one, which is a sixtieth of an end's distance.
-const TOLERANCE: f64 = 0.35;
-/// Iterations of the others at one value.
-const MAX_ITERATIONS: u64 = 6;
 /// First point, in distances that would make the interval if the deviance were a parabola: then it is the end. The aim of the
 /// further ones beyond what excludes, and the least and largest factors by which the next lies further from the estimate.
 const FIRST: f64 = 1.0;
 const AIM: f64 = 1.1;
 const STRIDES: (f64, f64) = (1.3, 2.5);
-/// Correlation from which the valley of the deviance is so narrow that it must be followed in shorter steps, and their share.
-const NARROW: f64 = 0.97;
+/// The first point's share of that where the valley of the deviance is narrow.
 const NARROW_SHARE: f64 = 0.35;
-/// Standard error in the free variable up to which it is straight all the same.
-const STRAIGHT: f64 = 1e-3;
-/// What the others may still gain, and the share of the rise, at a point that is taken as it is; and how often one that is not so far
-/// is replaced by one halfway.
-const LEFT: f64 = 0.5;
-const LEFT_SHARE: f64 = 0.1;
+/// Least part of a bracket that a step between its ends leaves on either side, and root, in what is wanted, from which an end of it is too
+/// far off for a line.
+const LEAST_STEP: f64 = 0.01;
+const STEEP: f64 = 4.0;
+/// How often a point at which the others are not yet fitted is replaced by one halfway.
 const MAX_HALVINGS: usize = 3;
-/// Root of the rise from one station to the next that a start may show without a look for a better one.
-const CONTINUED: f64 = 3.0;
-/// Jump of the root across the narrowest bracket, in distances that make an interval, that shows the others stuck; and how often they are
+/// Jump of the root, in distances that make an interval, across a bracket this narrow, that shows the others stuck; and how often they are
 /// fitted again from within.
 const JUMP: f64 = 0.5;
+const JUMP_WIDTH: f64 = 0.003;
 const MAX_JUMPS: usize = 3;
-/// Rise that no fit of the others can bring down to what an interval ends at: they may take away all but a thousandth.
-const HOPELESS: f64 = 2e4;
-/// Free variable beyond which another parameter counts as near its bound: the outer twentieth of the range.
-const NEAR_BOUND: f64 = 3.0;
-/// Rise up to which such a start is worth a descent.
-const WORTH: f64 = 50.0;
-/// Standard error in the free variable from which the data hardly know a parameter.
-const VAGUE: f64 = 0.5;
-
-/// A point of the profile: the parameter's free variable, the others fitted to it, and the rise of the deviance.
-#[derive(Debug, Clone)]
-struct Station {
-    point: Point,
-    /// J there, where the other parameters were fitted.
-    jacobian: Option<DMatrix<f64>>,
-    /// Distance from the estimate in the parameter's coordinate.
-    distance: f64,
-    rise: f64,
-    /// Whether the others have been fitted so far that the rise means something.
-    settled: bool,
-}
 
 /// The profile of one parameter.
 pub(crate) struct ProfileInterval {
@@ -94,8 +64,31 @@ pub(crate) struct Profiler<'a> {
     pub degrees_of_freedom: Option<f64>,
     /// Probability outside of the interval.
     pub tail: f64,
+    /// A minimum elsewhere that is hardly higher: an interval reaches beyond it.
+    pub rival: Option<&'a Point>,
     /// What earlier profiles know of the valley.
     pub valley: Valley,
+    /// What the intervals found so far rest on.
+    pub witnesses: Vec<Witness>,
+}
+
+/// A point on which an answer rests.
+pub(crate) struct Witness {
+    pub place: Place,
+    /// Root of the rise that the answer compares it with.
+    pub threshold: f64,
+    pub point: Point,
+}
+
+/// Where a witness stands.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Place {
+    /// At the end of an interval.
+    End,
+    /// At the bound of a parameter, the upper one or the lower.
+    Bound((usize, bool)),
+    /// At another minimum.
+    Rival,
 }
 
 /// One side of an interval.
@@ -112,12 +105,20 @@ impl Profiler<'_> {
         let mut curve = vec![(here, 0.0)];
         let mut ends = [None, None];
         for (end, sign) in ends.iter_mut().zip([-1.0, 1.0]) {
-            let mut stations = Vec::new();
+            let mut stations: Vec<Station> = self.at_rival(k, sign).into_iter().collect();
             match self.side(k, sign, &mut stations)? {
                 Side::Closed(distance) => *end = Some(here + sign * distance),
                 Side::Open => {}
                 Side::Better(point) => return Ok(Outcome::Better(point)),
             }
+            let wanted = self.wanted();
+            let off = |station: &Station| (station.rise.sqrt() - wanted).abs();
+            let nearest = stations.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+            self.witnesses.extend(end.and(nearest).map(|nearest| Witness {
+                place: Place::End,
+                threshold: wanted,
+                point: nearest.point.clone(),
+            }));
             curve.extend(
                 stations
                     .iter()
@@ -129,13 +130,32 @@ impl Profiler<'_> {
         Ok(Outcome::Interval(ProfileInterval { lower, upper, curve }))
     }
 
-    fn coordinate(&self, k: usize) -> f64 {
+    /// The rival, if it lies on this side.
+    fn at_rival(&self, k: usize, sign: f64) -> Option<Station> {
+        let rival = self.rival?;
+        let parameter = &self.search.evaluator.parameters[k];
+        let distance = sign * (parameter.bounded(rival.free[k]) - self.coordinate(k));
+        (distance > 0.0).then(|| Station {
+            point: rival.clone(),
+            jacobian: None,
+            distance,
+            rise: self.rise(rival).max(0.0),
+            settled: true,
+        })
+    }
+
+    /// Distance that makes an interval.
+    fn wanted(&self) -> f64 {
+        quantile(0.5 * self.tail, self.degrees_of_freedom)
+    }
+
+    pub fn coordinate(&self, k: usize) -> f64 {
         self.search.evaluator.parameters[k].bounded(self.optimum.point.free[k])
     }
 
     fn side(&mut self, k: usize, sign: f64, stations: &mut Vec<Station>) -> Result<Side, CalibrationError> {
         let parameter = &self.search.evaluator.parameters[k];
-        let wanted = quantile(0.5 * self.tail, self.degrees_of_freedom);
+        let wanted = self.wanted();
         let excluded = EXCLUSION * wanted;
         let farthest = (parameter.bounded(sign * FARTHEST) - self.coordinate(k)).abs();
         let error = self
@@ -152,6 +172,11 @@ impl Profiler<'_> {
             Ok(station) => station,
             Err(better) => return Ok(Side::Better(better)),
         };
+        self.witnesses.push(Witness {
+            place: Place::Bound((k, sign > 0.0)),
+            threshold: excluded,
+            point: bound.point.clone(),
+        });
         if bound.rise.sqrt() < excluded {
             stations.push(bound);
             return Ok(Side::Open);
@@ -160,9 +185,13 @@ impl Profiler<'_> {
         let (mut halvings, mut jumps) = (0, 0);
         for _ in 0..MAX_STATIONS {
             let reached = stations.last().map_or(0.0, |station| station.distance);
-            let station = match self.station(k, sign, next, stations)? {
-                Ok(station) => station,
-                Err(better) => return Ok(Side::Better(better)),
+            let station = if next >= farthest {
+                bound.clone()
+            } else {
+                match self.station(k, sign, next, stations)? {
+                    Ok(station) => station,
+                    Err(better) => return Ok(Side::Better(better)),
+                }
             };
             if station.settled {
                 self.valley.add(station.point.free.clone());
@@ -186,16 +215,19 @@ impl Profiler<'_> {
                 continue;
             }
             let (inner, outer) = bracket(stations, wanted);
-            let distance = crossing(stations, inner, outer, wanted);
-            let near = |(_, root): (f64, f64)| (root - wanted).abs() < END_ACCURACY * wanted;
-            if near(inner) || near(outer) {
-                return Ok(Side::Closed(distance));
+            let off = |(_, root): (f64, f64)| (root - wanted).abs();
+            let nearest = if off(inner) < off(outer) { inner } else { outer };
+            if off(nearest) < END_ACCURACY * wanted {
+                let secant = secant(stations, wanted).filter(|d| (inner.0..=outer.0).contains(d));
+                return Ok(Side::Closed(secant.unwrap_or(nearest.0)));
             }
-            next = distance;
-            if outer.0 - inner.0 < END_ACCURACY * outer.0 {
-                if outer.1.is_infinite() || outer.1 - inner.1 < JUMP * wanted {
-                    return Ok(Side::Closed(distance));
-                }
+            next = crossing(stations, inner, outer, wanted);
+            let width = (outer.0 - inner.0) / outer.0;
+            let smooth = outer.1.is_infinite() || outer.1 - inner.1 < JUMP * wanted;
+            if smooth && width < END_ACCURACY {
+                return Ok(Side::Closed(next));
+            }
+            if width < JUMP_WIDTH {
                 // The rise has no jumps: beyond this one the others were stuck, and are fitted again from within.
                 if jumps == MAX_JUMPS {
                     return Ok(Side::Open);
@@ -216,146 +248,22 @@ impl Profiler<'_> {
         // Where it did not settle, nothing is excluded.
         Ok(Side::Open)
     }
-
-    /// Fits all parameters but `k`, which lies `distance` away from its estimate, as `stations` nearer or farther do.
-    fn station(
-        &self,
-        k: usize,
-        sign: f64,
-        distance: f64,
-        stations: &[Station],
-    ) -> Result<Result<Station, Point>, CalibrationError> {
-        let evaluator = self.search.evaluator;
-        let deviance = self.optimum.deviance;
-        let held = evaluator.parameters[k].free(self.coordinate(k) + sign * distance);
-        let mut fixed = vec![false; self.optimum.point.free.len()];
-        fixed[k] = true;
-        let start = self.start(k, held, distance, stations)?;
-        // Without an answer there, it is as good as excluded; without other parameters, there is nothing to fit.
-        // Nor where it is so far up that no fit can bring it down.
-        let rise = deviance.total(&start.residuals) - self.optimum.value();
-        let hopeless = rise.is_nan() || rise > HOPELESS;
-        let done = hopeless || fixed.len() == 1;
-        let mut left = 0.0;
-        let (point, jacobian) = if done {
-            (start, None)
-        } else {
-            let mut solver = LevenbergMarquardt::new(deviance, fixed.clone(), TOLERANCE);
-            // Toward the estimate the Jacobian of a station further out is good enough.
-            let outer = stations.iter().find(|station| station.distance > distance);
-            solver = match outer.and_then(|outer| outer.jacobian.clone()) {
-                Some(known) => solver.with_jacobian(Some(known), false).unverified(),
-                // In a narrow valley the optimum's own only serves for the size of steps.
-                None if self.is_narrow(k) => solver.with_slopes(self.optimum.jacobian.clone()).unverified(),
-                None => solver.with_jacobian(Some(self.optimum.jacobian.clone()), false),
-            };
-            let mut found = self
-                .search
-                .attempt(solver, &fixed, deviance, start, MAX_ITERATIONS)?;
-            if let Some(free) = self.away_from_bounds(k, &found.point.free) {
-                let residuals = evaluator.residuals(&free)?;
-                let start = Point { free, residuals };
-                // A start that is far up leads back to where the first one came.
-                if deviance.total(&start.residuals) - self.optimum.value() < WORTH {
-                    let solver = LevenbergMarquardt::new(deviance, fixed.clone(), TOLERANCE);
-                    let other = self
-                        .search
-                        .attempt(solver, &fixed, deviance, start, MAX_ITERATIONS)?;
-                    if other.value() < found.value() {
-                        found = other;
-                    }
-                }
-            }
-            // What the others might still gain is taken as gained, which widens the interval at most.
-            left = found.offset.powi(2);
-            (found.point, Some(found.jacobian))
-        };
-        let found = deviance.total(&point.residuals) - self.optimum.value();
-        if found < -BETTER {
-            return Ok(Err(point));
-        }
-        Ok(Ok(Station {
-            point,
-            jacobian,
-            distance,
-            rise: (found - left).max(0.0),
-            settled: left <= LEFT.max(LEFT_SHARE * found),
-        }))
-    }
-
-    /// Where to fit the others from: the floor of the valley, unless the others as they were nearer to the estimate are better.
-    fn start(
-        &self,
-        k: usize,
-        held: f64,
-        distance: f64,
-        stations: &[Station],
-    ) -> Result<Point, CalibrationError> {
-        let evaluator = self.search.evaluator;
-        let point = |free: DVector<f64>| {
-            let residuals = evaluator.residuals(&free)?;
-            Ok::<_, CalibrationError>(Point { free, residuals })
-        };
-        let rise = |point: &Point| self.optimum.deviance.total(&point.residuals) - self.optimum.value();
-        let floor = self.valley.floor(k, held, &self.drift(k));
-        let floor = point(floor.map(|z| z.clamp(-FARTHEST, FARTHEST)))?;
-        let inner = stations.iter().rev().find(|station| station.distance < distance);
-        let (mut free, known) = match inner {
-            Some(inner) => (inner.point.free.clone(), inner.rise),
-            None => (self.optimum.point.free.clone(), 0.0),
-        };
-        if rise(&floor).max(0.0).sqrt() < known.sqrt() + CONTINUED {
-            return Ok(floor);
-        }
-        free[k] = held;
-        let near = point(free)?;
-        let nearer = rise(&near) < rise(&floor);
-        Ok(if nearer { near } else { floor })
-    }
-
-    /// Another start for the others where one that the data hardly know lies near a bound: in the middle of its range. The deviance
-    /// hardly changes with the free variable at a bound, so that a descent that comes there stays, and the profile would close too
-    /// early.
-    fn away_from_bounds(&self, k: usize, free: &DVector<f64>) -> Option<DVector<f64>> {
-        let stuck = |index: usize| {
-            let vague = |error: f64| error > VAGUE;
-            index != k
-                && free[index].abs() > NEAR_BOUND
-                && self.covariance.standard_error(index).is_none_or(vague)
-        };
-        (0..free.len()).any(stuck).then(|| {
-            DVector::from_fn(
-                free.len(),
-                |index, _| if stuck(index) { 0.0 } else { free[index] },
-            )
-        })
-    }
-
-    /// Whether another parameter can make up for nearly all that `k` does, over a distance at which the valley bends.
-    fn is_narrow(&self, k: usize) -> bool {
-        let bends = |error: f64| error > STRAIGHT;
-        self.covariance.standard_error(k).is_none_or(bends)
-            && (0..self.covariance.known.len())
-                .filter(|&other| other != k)
-                .filter_map(|other| self.covariance.correlation(k, other))
-                .any(|correlation| correlation.abs() > NARROW)
-    }
-
-    /// How the other free variables follow that of `k`, to first order.
-    fn drift(&self, k: usize) -> DVector<f64> {
-        let matrix = &self.covariance.matrix;
-        let own = matrix[(k, k)];
-        if own > 0.0 {
-            matrix.column(k) / own
-        } else {
-            DVector::zeros(matrix.nrows())
-        }
-    }
 }
 
-/// Where the root of the rise should be `wanted`. It is nearly a straight line through the estimate; where it is not, the line
-/// through the two stations next to the wanted root is better than the one through the bracket's ends.
+/// Where the root of the rise should be `wanted`, well inside of the bracket. Where the line through the stations next to the wanted root
+/// leads out of it, the one through its ends is taken, or its middle if one of them is far off.
 fn crossing(stations: &[Station], inner: (f64, f64), outer: (f64, f64), wanted: f64) -> f64 {
+    let margin = LEAST_STEP * (outer.0 - inner.0);
+    let inside = |distance: &f64| *distance > inner.0 + margin && *distance < outer.0 - margin;
+    let chord = (outer.1 < STEEP * wanted).then(|| line(inner, outer, wanted));
+    secant(stations, wanted)
+        .filter(inside)
+        .or(chord.filter(inside))
+        .unwrap_or(0.5 * (inner.0 + outer.0))
+}
+
+/// The same by the line through the two stations next to the wanted root: the root is nearly a straight line through the estimate.
+fn secant(stations: &[Station], wanted: f64) -> Option<f64> {
     let mut next: Vec<(f64, f64)> = stations
         .iter()
         .map(|station| (station.distance, station.rise.sqrt()))
@@ -363,13 +271,12 @@ fn crossing(stations: &[Station], inner: (f64, f64), outer: (f64, f64), wanted: 
         .collect();
     next.push((0.0, 0.0));
     next.sort_by(|a, b| (a.1 - wanted).abs().total_cmp(&(b.1 - wanted).abs()));
-    let line = |a: (f64, f64), b: (f64, f64)| a.0 + (wanted - a.1) / (b.1 - a.1) * (b.0 - a.0);
-    let inside = |distance: &f64| *distance > inner.0 && *distance < outer.0;
-    let secant = next.first().zip(next.get(1)).map(|(a, b)| line(*a, *b));
-    secant
-        .filter(inside)
-        .or(Some(line(inner, outer)).filter(inside))
-        .unwrap_or(0.5 * (inner.0 + outer.0))
+    next.first().zip(next.get(1)).map(|(a, b)| line(*a, *b, wanted))
+}
+
+/// Where the line through two stations, as distance and root, is `wanted`.
+fn line(a: (f64, f64), b: (f64, f64), wanted: f64) -> f64 {
+    a.0 + (wanted - a.1) / (b.1 - a.1) * (b.0 - a.0)
 }
 
 /// The outermost place where the root of the rise crosses what is `wanted`: the stations on either side of it, as distance and root.

@@ -103,6 +103,8 @@ pub(crate) struct Search<'a> {
     /// Next step in standard errors at which a descent has converged.
     pub tolerance: f64,
     pub loss: Loss,
+    /// Whether a run costs so much that the others of a profile are fitted no better than an interval needs.
+    pub dear: bool,
     /// Smallest noise that makes sense, in units of σ.
     pub least_noise: f64,
 }
@@ -298,22 +300,11 @@ impl Search<'_> {
         })
     }
 
-    /// Points all over the range, by the generalised golden ratio (M. Roberts, "The unreasonable effectiveness of
-    /// quasirandom sequences", 2018), the best first; before them the start, if there is one.
+    /// Points all over the range, the best first; before them the start, if there is one.
     pub fn scan(&self, start: Option<DVector<f64>>, count: usize) -> Result<Vec<Point>, CalibrationError> {
-        let dimensions = self.count();
-        let mut ratio = 2.0_f64;
-        for _ in 0..60 {
-            ratio = (1.0 + ratio).powf(1.0 / (dimensions as f64 + 1.0));
-        }
         let mut points: Vec<DVector<f64>> = start.into_iter().collect();
         let started = points.len();
-        for index in 0..count {
-            points.push(DVector::from_fn(dimensions, |k, _| {
-                let share = (0.5 + (index + 1) as f64 * ratio.powi(-(k as i32) - 1)).fract();
-                (share / (1.0 - share)).ln().clamp(-5.0, 5.0)
-            }));
-        }
+        points.extend(all_over(self.count(), count));
         let residuals = self.evaluator.all(&points)?;
         let mut scored: Vec<(f64, Point)> = points
             .into_iter()
@@ -414,4 +405,20 @@ impl Search<'_> {
             Ok(_) | Err(_) => Ok(None),
         }
     }
+}
+
+/// Points all over the range, by the generalised golden ratio (M. Roberts, "The unreasonable effectiveness of quasirandom sequences",
+/// 2018).
+pub(crate) fn all_over(dimensions: usize, count: usize) -> Vec<DVector<f64>> {
+    let mut ratio = 2.0_f64;
+    for _ in 0..60 {
+        ratio = (1.0 + ratio).powf(1.0 / (dimensions as f64 + 1.0));
+    }
+    let point = |index: usize| {
+        DVector::from_fn(dimensions, |k, _| {
+            let share = (0.5 + (index + 1) as f64 * ratio.powi(-(k as i32) - 1)).fract();
+            (share / (1.0 - share)).ln().clamp(-5.0, 5.0)
+        })
+    };
+    (0..count).map(point).collect()
 }

@@ -349,7 +349,7 @@ fn data_beyond_the_models_reach() {
     assert!((fit.fitted[0] - 10.0).abs() < 0.01);
 }
 
-/// Two values that fit alike: the one that was not chosen is named.
+/// Two values that fit alike: the one that was not chosen is named, and the interval holds both.
 #[test]
 fn a_second_minimum_is_told() {
     let x = passes(6);
@@ -372,6 +372,8 @@ fn a_second_minimum_is_told() {
         "{:?} {rival:?}",
         fit.values()
     );
+    let interval = fit.estimates[0].interval;
+    assert!(interval.contains(2.0) && interval.contains(4.0), "{interval:?}");
 }
 
 /// Corners in which the model has no answer are avoided.

@@ -1,0 +1,277 @@
+//! A fit by a stand-in for the model.
+//!
+//! The search runs on an [`Emulator`], where a run costs microseconds; the model itself runs where the answer rests: at the optimum, at
+//! the ends of the intervals, at the bounds that they leave out. What it says there is learned, and the search repeated, until the two
+//! agree at all of these places to the accuracy that is asked of a fit (D. R. Jones, M. Schonlau, W. J. Welch, "Efficient Global
+//! Optimization of Expensive Black-Box Functions", Journal of Global Optimization 13, 1998, for the idea). A model that the
+//! emulator cannot follow, because it has corners without an answer or jumps, is fitted directly.
+
+use nalgebra::DVector;
+use rayon::prelude::*;
+
+use crate::evaluator::Evaluator;
+use crate::profile::{Place, Witness};
+use crate::search::{Point, all_over};
+use crate::solution::{Route, Solution};
+use crate::{Calibration, CalibrationError, Emulator, Fit, Options, Profiles};
+
+/// Rounds of search and learning.
+const MAX_ROUNDS: usize = 24;
+/// Points of the stand-in that are scanned, for each parameter and one more; most of its runs in one search.
+const SCAN: usize = 64;
+const MAX_RUNS: usize = 50_000;
+/// Noise of the stand-in, which is smooth.
+const SMOOTH: f64 = 1e-9;
+/// Accuracy of the root of the rise at an end, as a share of the end's; at a bound, as a share of its distance from what excludes it;
+/// at a rival.
+const END: f64 = 0.03;
+const MARGIN: f64 = 0.5;
+const RIVAL: f64 = 0.5;
+/// Root of the rise at a bound, in that which excludes it, that is worth no second look.
+const FAR: f64 = 2.0;
+/// Distance between prediction and run, in standard errors of all readings together, at the optimum and at an end.
+const NEAR_OPTIMUM: f64 = 0.2;
+const NEAR_END: f64 = 0.5;
+/// Distance, in the model's own noise, that a learned optimum may be off.
+const RIPPLE: f64 = 3.0;
+
+impl Calibration<'_> {
+    /// Fits a model that is dear to run: as [`fit`](Self::fit), with a small part of its runs, to the same accuracy.
+    ///
+    /// `coarse` is what an earlier fit of the same parameters and observations with a coarser model learned; the emulator of
+    /// this one is the second answer.
+    ///
+    /// # Errors
+    ///
+    /// As for [`fit`](Self::fit).
+    pub fn fit_emulated(&self, coarse: Option<&Emulator>) -> Result<(Fit, Emulator), CalibrationError> {
+        self.check_count()?;
+        let units = self.units();
+        let options = self.options();
+        let runs = self.evaluator(&units, options.max_evaluations);
+        let mut emulation = Emulation {
+            calibration: self,
+            emulator: Emulator::new(self.parameters(), coarse),
+            runs: &runs,
+        };
+        let start = options.start.as_ref().map(|start| self.free(start));
+        let mut design: Vec<DVector<f64>> = start.clone().into_iter().collect();
+        if coarse.is_none() || design.is_empty() {
+            design.extend(all_over(self.parameters().len(), self.scan()));
+        }
+        let fit = match emulation.converge(design, start)? {
+            Some(solution) => self.answer(&runs, solution),
+            None => self.fit_directly(runs.count())?,
+        };
+        Ok((fit, emulation.emulator))
+    }
+
+    /// Fits without a stand-in after so many runs in vain.
+    fn fit_directly(&self, runs: usize) -> Result<Fit, CalibrationError> {
+        let limit = self.options().max_evaluations;
+        let left = Options {
+            max_evaluations: limit.saturating_sub(runs).max(1),
+            ..self.options().clone()
+        };
+        match self.clone().with_options(left)?.fit() {
+            Ok(fit) => Ok(Fit {
+                evaluations: fit.evaluations + runs,
+                ..fit
+            }),
+            Err(CalibrationError::EvaluationLimit { .. }) => Err(CalibrationError::EvaluationLimit { limit }),
+            Err(error) => Err(error),
+        }
+    }
+}
+
+/// A stand-in and the model that it learns from.
+struct Emulation<'a> {
+    calibration: &'a Calibration<'a>,
+    runs: &'a Evaluator<'a>,
+    emulator: Emulator,
+}
+
+/// A point at which the model ran.
+struct Run {
+    free: DVector<f64>,
+    predicted: Vec<f64>,
+    residuals: DVector<f64>,
+}
+
+impl Emulation<'_> {
+    /// A solution at whose witnesses the model agrees; nothing where the emulator does not come to one.
+    fn converge(
+        &mut self,
+        design: Vec<DVector<f64>>,
+        mut start: Option<DVector<f64>>,
+    ) -> Result<Option<Solution>, CalibrationError> {
+        let options = self.calibration.options();
+        // Intervals are worth a look around an optimum that holds, or that a coarser model gave.
+        let mut described = self.emulator.is_corrected();
+        let Some(first) = self.run(design)? else {
+            return Ok(None);
+        };
+        self.learn(first);
+        for _ in 0..MAX_ROUNDS {
+            let route = Route {
+                start: start.take(),
+                scan: SCAN * (1 + self.calibration.parameters().len()),
+                restart: true,
+                profiles: if described {
+                    &options.profiles
+                } else {
+                    &Profiles::None
+                },
+                dear: false,
+            };
+            let Some(mut solution) = self.solve(&route) else {
+                return Ok(None);
+            };
+            let optimum = solution.optimum.point.free.clone();
+            let learned = self.emulator.known(&optimum).is_some();
+            let witnesses: Vec<&Witness> = solution
+                .witnesses
+                .iter()
+                .filter(|witness| !self.is_known(&solution, witness))
+                .collect();
+            let mut places = vec![optimum.clone()];
+            places.extend(witnesses.iter().map(|witness| witness.point.free.clone()));
+            let Some(seen) = self.run(places)? else {
+                return Ok(None);
+            };
+            let shift = shift(&solution, &seen[0].residuals);
+            let settled = self.is_settled(&solution, &seen[0], shift, learned);
+            let mut agreed = settled;
+            for (witness, run) in witnesses.iter().zip(&seen[1..]) {
+                agreed &= self.agrees(&solution, &seen[0], witness, run);
+            }
+            if agreed && (described || options.profiles == Profiles::None) {
+                solution.optimum.point.residuals = seen[0].residuals.clone();
+                solution.optimum.offset = solution.optimum.offset.max(shift);
+                return Ok(Some(solution));
+            }
+            described |= settled;
+            start = Some(optimum);
+            self.learn(seen);
+        }
+        Ok(None)
+    }
+
+    /// Searches on the stand-in.
+    fn solve(&self, route: &Route<'_>) -> Option<Solution> {
+        let runs = self.runs;
+        let stand_in = Evaluator::new(
+            &self.emulator,
+            runs.parameters,
+            runs.values,
+            runs.sigmas,
+            SMOOTH,
+            MAX_RUNS,
+        );
+        self.calibration.solve(&stand_in, route).ok()
+    }
+
+    /// Runs the model where it has not run yet; nothing if it has no answer somewhere.
+    fn run(&self, points: Vec<DVector<f64>>) -> Result<Option<Vec<Run>>, CalibrationError> {
+        let run = |free: DVector<f64>| {
+            let known = self.emulator.known(&free).map(<[f64]>::to_vec);
+            let predicted = match known {
+                Some(known) => Some(known),
+                None => self.runs.predict(&free)?,
+            };
+            Ok(predicted.map(|predicted| Run {
+                residuals: self.runs.standardised(&free, &predicted),
+                predicted,
+                free,
+            }))
+        };
+        points.into_par_iter().map(run).collect()
+    }
+
+    fn learn(&mut self, runs: Vec<Run>) {
+        self.emulator
+            .learn(runs.into_iter().map(|run| (run.free, run.predicted)));
+    }
+
+    /// Whether the optimum would hardly move if the stand-in knew what the model said there. Where it has `learned` that, what is
+    /// left is ripple between runs.
+    fn is_settled(&self, solution: &Solution, seen: &Run, shift: f64, learned: bool) -> bool {
+        let off = distance(solution, &solution.optimum.point, seen);
+        let noise = self.noise(solution);
+        if learned {
+            off <= RIPPLE * noise
+        } else {
+            shift <= self.calibration.options().tolerance && off <= NEAR_OPTIMUM.max(noise)
+        }
+    }
+
+    /// The model's own noise, in standard errors of all readings together.
+    fn noise(&self, solution: &Solution) -> f64 {
+        let optimum = &solution.optimum;
+        self.runs
+            .noise(&optimum.deviance.weights(&optimum.point.residuals))
+    }
+
+    /// Whether the model itself has been seen to exclude, by far, what the stand-in says is excluded by far.
+    fn is_known(&self, solution: &Solution, witness: &Witness) -> bool {
+        let Place::Bound(side) = witness.place else {
+            return false;
+        };
+        self.emulator.excludes(side)
+            && root(
+                solution,
+                &witness.point.residuals,
+                &solution.optimum.point.residuals,
+            ) > FAR * witness.threshold
+    }
+
+    /// Whether the model says of a witness what the stand-in says.
+    fn agrees(&mut self, solution: &Solution, at_optimum: &Run, witness: &Witness, seen: &Run) -> bool {
+        let told = root(
+            solution,
+            &witness.point.residuals,
+            &solution.optimum.point.residuals,
+        );
+        let found = root(solution, &seen.residuals, &at_optimum.residuals);
+        let off = (told - found).abs();
+        let noise = self.noise(solution);
+        let margin = (told - witness.threshold).abs();
+        match witness.place {
+            Place::Rival => off <= RIVAL,
+            Place::End => {
+                off <= (END * witness.threshold).max(noise)
+                    && distance(solution, &witness.point, seen) <= NEAR_END.max(noise)
+            }
+            Place::Bound(side) => {
+                if found > FAR * witness.threshold {
+                    self.emulator.exclude(side);
+                }
+                off <= (MARGIN * margin).max(END * witness.threshold)
+            }
+        }
+    }
+}
+
+/// Root of the rise of the deviance from the optimum.
+fn root(solution: &Solution, residuals: &DVector<f64>, at_optimum: &DVector<f64>) -> f64 {
+    let deviance = &solution.optimum.deviance;
+    (deviance.total(residuals) - deviance.total(at_optimum))
+        .max(0.0)
+        .sqrt()
+}
+
+/// Distance between prediction and run, in standard errors of all readings together.
+fn distance(solution: &Solution, told: &Point, seen: &Run) -> f64 {
+    let off = &told.residuals - &seen.residuals;
+    let weights = solution.optimum.deviance.weights(&told.residuals);
+    off.component_mul(&off).dot(&weights).sqrt()
+}
+
+/// How far the optimum would move, in standard errors, if the model everywhere missed the stand-in as it does there.
+fn shift(solution: &Solution, seen: &DVector<f64>) -> f64 {
+    let optimum = &solution.optimum;
+    let off = seen - &optimum.point.residuals;
+    let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
+    let gradient = optimum.jacobian.tr_mul(&off.component_mul(&curvatures));
+    gradient.dot(&(&solution.covariance.matrix * &gradient)).sqrt()
+}

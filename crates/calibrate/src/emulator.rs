@@ -1,0 +1,247 @@
+//! A smooth stand-in for a model that is dear to run: kriging through its runs.
+//!
+//! The predictions are Gaussian processes over the parameters' shares of their ranges: a mean, and deviations from it whose
+//! correlation falls with the distance by B. Matérn's function of order 5/2 (J. Sacks, W. J. Welch, T. J. Mitchell, H. P. Wynn, "Design and Analysis of Computer
+//! Experiments", Statistical Science 4, 1989; C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, 2006, chapter
+//! 2 and equation 4.17). A stand-in for a coarser model serves as the mean of a finer one, whose difference from it takes few
+//! runs to learn (M. C. Kennedy, A. O'Hagan, "Predicting the output from a complex computer code when fast approximations are
+//! available", Biometrika 87, 2000).
+//!
+//! The length of correlation is fixed: where runs lie as close as they do around an optimum, it hardly matters.
+
+use std::sync::Arc;
+
+use nalgebra::{Cholesky, DMatrix, DVector};
+
+use crate::{Model, ModelError, Parameter};
+
+/// Length of correlation, as a share of a parameter's range.
+const LENGTH: f64 = 0.5;
+/// Distance of places that are one, as a share of the range: a thousandth of any standard error worth the name.
+const SAME: f64 = 1e-9;
+/// Nugget, in the variance of the predictions: runs closer than a few ten-thousandths of the ranges are averaged, because ripple is most of
+/// what tells them apart. A larger one, such as the ripple itself measures, would take what a model really does at short range for noise.
+const NUGGET: f64 = 1e-8;
+/// Factor by which it grows where the solution fails.
+const GROWTH: f64 = 100.0;
+
+/// A stand-in for a model, learned from its runs by [`Calibration::fit_emulated`](crate::Calibration::fit_emulated).
+#[derive(Debug, Clone)]
+pub struct Emulator {
+    parameters: Vec<Parameter>,
+    /// What the runs are compared with, if not with their mean alone.
+    coarse: Option<Arc<Emulator>>,
+    /// Shares of the parameters' ranges, a run each.
+    places: Vec<DVector<f64>>,
+    /// What the model predicted there.
+    predictions: Vec<Vec<f64>>,
+    /// Mean of what `coarse` misses, and what each run's neighbourhood adds to it, a row each.
+    mean: DVector<f64>,
+    weights: DMatrix<f64>,
+    /// Parameters and their lower and upper bounds that the data were seen to exclude by far.
+    excluded: Vec<(usize, bool)>,
+}
+
+impl Emulator {
+    pub(crate) fn new(parameters: &[Parameter], coarse: Option<&Self>) -> Self {
+        Self {
+            parameters: parameters.to_vec(),
+            coarse: coarse.cloned().map(Arc::new),
+            places: Vec::new(),
+            predictions: Vec::new(),
+            mean: DVector::zeros(0),
+            weights: DMatrix::zeros(0, 0),
+            excluded: coarse.map_or_else(Vec::new, |coarse| coarse.excluded.clone()),
+        }
+    }
+
+    /// Whether it corrects a coarser one.
+    pub(crate) fn is_corrected(&self) -> bool {
+        self.coarse.is_some()
+    }
+
+    /// Whether the model, or a coarser one, was seen to exclude a bound by far.
+    pub(crate) fn excludes(&self, bound: (usize, bool)) -> bool {
+        self.excluded.contains(&bound)
+    }
+
+    pub(crate) fn exclude(&mut self, bound: (usize, bool)) {
+        self.excluded.push(bound);
+    }
+
+    /// Runs of the model that it rests on, without those of a coarser model.
+    pub fn runs(&self) -> usize {
+        self.places.len()
+    }
+
+    /// Shares of the parameters' ranges at free variables.
+    fn place(&self, free: &DVector<f64>) -> DVector<f64> {
+        DVector::from_iterator(
+            free.len(),
+            self.parameters
+                .iter()
+                .zip(free.iter())
+                .map(|(parameter, &z)| parameter.share(parameter.bounded(z))),
+        )
+    }
+
+    /// What the model predicted at free variables, if it ran there.
+    pub(crate) fn known(&self, free: &DVector<f64>) -> Option<&[f64]> {
+        let place = self.place(free);
+        let same = |other: &DVector<f64>| (other - &place).amax() < SAME;
+        let run = self.places.iter().position(same)?;
+        Some(&self.predictions[run])
+    }
+
+    /// Adds runs at free variables.
+    pub(crate) fn learn(&mut self, runs: impl IntoIterator<Item = (DVector<f64>, Vec<f64>)>) {
+        for (free, predicted) in runs {
+            if self.known(&free).is_some() {
+                continue;
+            }
+            let place = self.place(&free);
+            self.places.push(place);
+            self.predictions.push(predicted);
+        }
+        self.solve();
+    }
+
+    /// Solves (K + nugget) w = y − mean for all predictions at once, the mean by generalised least squares.
+    fn solve(&mut self) {
+        let (count, width) = (self.places.len(), self.predictions.first().map_or(0, Vec::len));
+        let mut missed = DMatrix::from_fn(count, width, |run, column| self.predictions[run][column]);
+        if let Some(coarse) = &self.coarse {
+            for (mut row, place) in missed.row_iter_mut().zip(&self.places) {
+                row -= coarse.at(place).transpose();
+            }
+        }
+        let correlations = DMatrix::from_fn(count, count, |i, j| {
+            correlation((&self.places[i] - &self.places[j]).norm())
+        });
+        let mut nugget = NUGGET;
+        // A larger nugget makes the matrix positive definite whatever the rounding.
+        let solved = loop {
+            let mut matrix = correlations.clone();
+            for i in 0..count {
+                matrix[(i, i)] += nugget;
+            }
+            match Cholesky::new(matrix) {
+                Some(solved) => break solved,
+                None => nugget *= GROWTH,
+            }
+        };
+        let ones = solved.solve(&DVector::from_element(count, 1.0));
+        self.mean = missed.tr_mul(&ones) / ones.sum();
+        for mut row in missed.row_iter_mut() {
+            row -= self.mean.transpose();
+        }
+        self.weights = solved.solve(&missed);
+    }
+
+    /// Predictions at shares of the ranges.
+    fn at(&self, place: &DVector<f64>) -> DVector<f64> {
+        let near = DVector::from_iterator(
+            self.places.len(),
+            self.places
+                .iter()
+                .map(|other| correlation((place - other).norm())),
+        );
+        let mut predicted = self.mean.clone();
+        predicted.gemv_tr(1.0, &self.weights, &near, 1.0);
+        match &self.coarse {
+            Some(coarse) => predicted + coarse.at(place),
+            None => predicted,
+        }
+    }
+}
+
+impl Model for Emulator {
+    fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError> {
+        let place = DVector::from_iterator(
+            parameters.len(),
+            self.parameters
+                .iter()
+                .zip(parameters)
+                .map(|(parameter, &value)| parameter.share(parameter.coordinate(value))),
+        );
+        Ok(self.at(&place).data.into())
+    }
+}
+
+/// Correlation at a distance: Matérn's function of order 5/2.
+fn correlation(distance: f64) -> f64 {
+    let scaled = 5.0_f64.sqrt() * distance / LENGTH;
+    (1.0 + scaled + scaled * scaled / 3.0) * (-scaled).exp()
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DVector, dvector};
+
+    use super::Emulator;
+    use crate::{Model, Parameter, Scale};
+
+    fn parameters() -> Vec<Parameter> {
+        ["a", "b"]
+            .map(|name| Parameter::new(name, 0.0, 1.0, Scale::Linear).unwrap())
+            .to_vec()
+    }
+
+    /// Free variables of a grid, and what the function gives there.
+    fn grid(function: impl Fn(f64, f64) -> f64) -> Vec<(DVector<f64>, Vec<f64>)> {
+        let shares = [0.1, 0.3, 0.5, 0.7, 0.9];
+        let free = |share: f64| (share / (1.0 - share)).ln();
+        shares
+            .iter()
+            .flat_map(|&a| shares.map(|b| (dvector![free(a), free(b)], vec![function(a, b), 1.0])))
+            .collect()
+    }
+
+    /// It returns what it was told, and in between what a smooth function does; a constant everywhere.
+    #[test]
+    fn a_smooth_function_is_followed() {
+        let function = |a: f64, b: f64| (2.0 * a).sin() * (1.0 + b * b);
+        let mut emulator = Emulator::new(&parameters(), None);
+        emulator.learn(grid(function));
+        for (a, b, tolerance) in [(0.3, 0.7, 1e-6), (0.4, 0.6, 5e-3), (0.55, 0.45, 5e-3)] {
+            let found = emulator.predict(&[a, b]).unwrap();
+            assert!((found[0] - function(a, b)).abs() < tolerance, "{found:?}");
+            assert!((found[1] - 1.0).abs() < 1e-9, "{found:?}");
+        }
+        assert_eq!(emulator.runs(), 25);
+    }
+
+    /// What a coarse model misses is learned from few runs.
+    #[test]
+    fn a_coarse_model_is_corrected() {
+        let coarse = |a: f64, b: f64| (2.0 * a).sin() * (1.0 + b * b);
+        let missed = |a: f64| 0.1 + 0.02 * a;
+        let mut first = Emulator::new(&parameters(), None);
+        first.learn(grid(coarse));
+        let mut second = Emulator::new(&parameters(), Some(&first));
+        let fine = grid(|a, b| coarse(a, b) + missed(a));
+        second.learn(fine.into_iter().step_by(4));
+        for (a, b) in [(0.3, 0.7), (0.4, 0.6), (0.8, 0.2)] {
+            let [before, after] = [&first, &second].map(|one| one.predict(&[a, b]).unwrap()[0]);
+            assert!((after - before - missed(a)).abs() < 2e-3, "{before} {after}");
+        }
+        assert_eq!(second.runs(), 7);
+    }
+
+    /// Runs that are nearly one, and runs that are one, do not make it swing.
+    #[test]
+    fn near_runs_are_averaged() {
+        let mut emulator = Emulator::new(&parameters(), None);
+        emulator.learn(grid(|a, b| 1.0 + a + b));
+        let near = [(0.0, 1.0), (0.0, 1.0), (2e-6, -1.0), (4e-6, 1.0)];
+        emulator.learn(near.map(|(off, sign)| {
+            let a: f64 = 0.6 + off;
+            let free = dvector![(a / (1.0 - a)).ln(), 0.0];
+            (free, vec![1.0 + a + 0.5 + sign * 1e-5, 1.0])
+        }));
+        let at = |a: f64| emulator.predict(&[a, 0.5]).unwrap()[0];
+        let slope = (at(0.602) - at(0.6)) / 0.002;
+        assert!((slope - 1.0).abs() < 0.05, "{slope}");
+        assert_eq!(emulator.runs(), 28);
+    }
+}
