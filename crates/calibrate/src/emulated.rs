@@ -152,7 +152,12 @@ impl Emulation<'_> {
             }
             described |= settled;
             start = Some(optimum);
+            let runs = self.emulator.runs();
             self.learn(seen);
+            if self.emulator.runs() == runs && described {
+                // It knows all that it asks for and still says otherwise.
+                return Ok(None);
+            }
         }
         Ok(None)
     }
@@ -198,11 +203,8 @@ impl Emulation<'_> {
     fn is_settled(&self, solution: &Solution, seen: &Run, shift: f64, learned: bool) -> bool {
         let off = distance(solution, &solution.optimum.point, seen);
         let noise = self.noise(solution);
-        if learned {
-            off <= RIPPLE * noise
-        } else {
-            shift <= self.calibration.options().tolerance && off <= NEAR_OPTIMUM.max(noise)
-        }
+        let tolerance = self.calibration.options().tolerance;
+        (learned && off <= RIPPLE * noise) || (shift <= tolerance && off <= NEAR_OPTIMUM.max(noise))
     }
 
     /// The model's own noise, in standard errors of all readings together.

@@ -68,13 +68,11 @@ impl<'a> Evaluator<'a> {
 
     /// Standardised residuals; all infinite where the model has no answer.
     pub fn residuals(&self, free: &DVector<f64>) -> Result<DVector<f64>, CalibrationError> {
-        Ok(match self.predict(free)? {
-            Some(predicted) => self.standardised(free, &predicted),
-            None => {
-                let priors = self.parameters.iter().filter(|p| p.prior().is_some()).count();
-                DVector::from_element(self.values.len() + priors, f64::INFINITY)
-            }
-        })
+        if let Some(predicted) = self.predict(free)? {
+            return Ok(self.standardised(free, &predicted));
+        }
+        let priors = self.parameters.iter().filter(|p| p.prior().is_some()).count();
+        Ok(DVector::from_element(self.values.len() + priors, f64::INFINITY))
     }
 
     /// Runs the model; nothing where it has no answer.

@@ -75,14 +75,13 @@ impl Calibration<'_> {
         };
         let scan = search.scan(route.start.clone(), route.scan)?;
         let (mut optimum, rival) = search.best(&scan, route.restart)?;
-        let mut warnings = Vec::new();
-        if let Some(misfit) = self.misfit(&optimum) {
-            // The sigmas are not believed: only their ratios are.
-            warnings.push(misfit);
-            search.known_noise = false;
-            optimum = search.refine(optimum.point.clone(), Some(optimum.jacobian.clone()))?;
-        }
         for _ in 0..MAX_OPTIMA {
+            let misfit = self.misfit(&optimum);
+            if misfit.is_some() {
+                // The sigmas are not believed: only their ratios are.
+                search.known_noise = false;
+                optimum = search.refine(optimum.point.clone(), Some(optimum.jacobian.clone()))?;
+            }
             match self.describe(&search, &optimum, rival.as_ref(), route.profiles)? {
                 Described::Estimates {
                     estimates,
@@ -101,10 +100,13 @@ impl Calibration<'_> {
                         estimates,
                         rival,
                         witnesses,
-                        warnings,
+                        warnings: misfit.into_iter().collect(),
                     });
                 }
-                Described::Better(point) => optimum = search.refine(point, None)?,
+                Described::Better(point) => {
+                    search.known_noise = self.sigmas().is_some();
+                    optimum = search.refine(point, None)?;
+                }
             }
         }
         Err(CalibrationError::NotConverged {

@@ -1,0 +1,206 @@
+//! Fits by an emulator: the same answers as direct fits, with a part of their model runs, and a direct fit where it cannot follow.
+
+mod common;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use calibrate::{
+    Calibration, CalibrationError, Emulator, Fit, Loss, Model, ModelError, Options, Parameter, Prior,
+    Profiles, Scale, Warning,
+};
+use common::{noisy, passes, saturation, saturation_parameters};
+
+/// Differences of two fits' values and closed ends, in standard errors; what is open in one is open in both.
+fn differences(one: &Fit, other: &Fit) -> Vec<f64> {
+    let mut differences = Vec::new();
+    for (a, b) in one.estimates.iter().zip(&other.estimates) {
+        let error = a.standard_error.unwrap();
+        differences.push((a.value - b.value).abs() / error);
+        let ends = |fit: &calibrate::Estimate| [fit.interval.lower, fit.interval.upper];
+        for pair in ends(a).into_iter().zip(ends(b)) {
+            match pair {
+                (Some(a), Some(b)) => differences.push((a - b).abs() / error),
+                (None, None) => {}
+                _ => panic!("{a:?} {b:?}"),
+            }
+        }
+    }
+    differences
+}
+
+#[test]
+fn the_answer_is_that_of_a_direct_fit() {
+    let model = saturation(&passes(40));
+    for (seed, truth) in (0..).zip([[550.0, 20.0], [900.0, 3.0], [400.0, 45.0], [120.0, 8.0]]) {
+        let data = noisy(&model.predict(&truth).unwrap(), 0.01 * truth[0], seed);
+        for (loss, sigmas) in [
+            (Loss::Squares, None),
+            (Loss::Squares, Some(0.01 * truth[0])),
+            (Loss::HUBER, None),
+            (Loss::TUKEY, None),
+        ] {
+            let mut calibration = Calibration::new(&model, saturation_parameters(), data.clone()).unwrap();
+            if let Some(sigma) = sigmas {
+                calibration = calibration.with_sigmas(vec![sigma; 40]).unwrap();
+            }
+            let options = Options {
+                loss,
+                ..Options::default()
+            };
+            let calibration = calibration.with_options(options).unwrap();
+            let direct = calibration.fit().unwrap();
+            let (fit, emulator) = calibration.fit_emulated(None).unwrap();
+            // 3 % of an interval's end on either side of the comparison.
+            let most = differences(&direct, &fit).into_iter().fold(0.0, f64::max);
+            assert!(most < 0.15, "{truth:?} {loss:?}: {most}");
+            assert!(fit.evaluations <= 80, "{truth:?} {loss:?}: {}", fit.evaluations);
+            assert!(fit.evaluations < direct.evaluations);
+            assert!(emulator.runs() <= fit.evaluations);
+            // The residuals are those of the model itself.
+            let exact = model.predict(&fit.values()).unwrap();
+            for (fitted, exact) in fit.fitted.iter().zip(&exact) {
+                assert!((fitted - exact).abs() < 1e-9 * exact, "{fitted} {exact}");
+            }
+        }
+    }
+}
+
+/// What a coarse model has taught is not learned again.
+#[test]
+fn a_finer_model_takes_few_runs() {
+    let fine = saturation(&passes(40));
+    let coarse = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        let forces = fine.predict(p)?;
+        Ok((0..)
+            .zip(forces)
+            .map(|(n, force)| force + 0.2 * f64::from(n) - 3.0)
+            .collect())
+    };
+    let data = noisy(&fine.predict(&[550.0, 12.0]).unwrap(), 5.0, 3);
+    let fit = |model: &dyn Model, from: Option<(&Fit, &Emulator)>| {
+        let options = Options {
+            start: from.map(|(fit, _)| fit.values()),
+            ..Options::default()
+        };
+        Calibration::new(model, saturation_parameters(), data.clone())
+            .unwrap()
+            .with_options(options)
+            .unwrap()
+            .fit_emulated(from.map(|(_, emulator)| emulator))
+            .unwrap()
+    };
+    let (first, emulator) = fit(&coarse, None);
+    let (second, _) = fit(&fine, Some((&first, &emulator)));
+    let (alone, _) = fit(&fine, None);
+    let most = differences(&alone, &second).into_iter().fold(0.0, f64::max);
+    assert!(most < 0.15, "{most}");
+    assert!(second.evaluations <= 16, "{}", second.evaluations);
+}
+
+/// A parameter without effect stays open, and one known beforehand takes its prior's width.
+#[test]
+fn what_the_data_do_not_hold_is_called_so() {
+    let inner = saturation(&passes(30));
+    let model =
+        |p: &[f64]| -> Result<Vec<f64>, ModelError> { inner.predict(&[p[0], p[1] * (1.0 + 1e-9 * p[2])]) };
+    let data = noisy(&model(&[550.0, 12.0, 0.5]).unwrap(), 5.0, 1);
+    let with = |third: Parameter| {
+        let mut parameters = saturation_parameters();
+        parameters.push(third);
+        Calibration::new(&model, parameters, data.clone())
+            .unwrap()
+            .fit_emulated(None)
+            .unwrap()
+            .0
+    };
+    let third = Parameter::new("nothing", 0.0, 1.0, Scale::Linear).unwrap();
+    let fit = with(third.clone());
+    assert_eq!(
+        (fit.estimates[2].interval.lower, fit.estimates[2].interval.upper),
+        (None, None)
+    );
+    assert!(fit.estimates[0].identifiable && fit.estimates[1].identifiable);
+    let prior = Prior {
+        value: 0.5,
+        sigma: 0.02,
+    };
+    let fit = with(third.with_prior(prior).unwrap());
+    let known = &fit.estimates[2];
+    assert!(
+        (known.standard_error.unwrap() / 0.02 - 1.0).abs() < 0.01,
+        "{known:?}"
+    );
+    assert!(
+        (known.value - 0.5).abs() < 1e-3 && known.identifiable,
+        "{known:?}"
+    );
+}
+
+/// Two values that fit alike: the interval holds both.
+#[test]
+fn a_second_minimum_is_told() {
+    let x = passes(6);
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        Ok(x.iter().map(|x| x * (10.0 - (p[0] - 3.0).powi(2))).collect())
+    };
+    let parameter = Parameter::new("a", 0.0, 6.0, Scale::Linear).unwrap();
+    let data = noisy(&model(&[2.0]).unwrap(), 0.3, 6);
+    let (fit, _) = Calibration::new(&model, vec![parameter], data)
+        .unwrap()
+        .fit_emulated(None)
+        .unwrap();
+    let interval = fit.estimates[0].interval;
+    assert!(interval.contains(2.0) && interval.contains(4.0), "{interval:?}");
+    assert!(
+        fit.warnings
+            .iter()
+            .any(|w| matches!(w, Warning::Ambiguous { .. }))
+    );
+}
+
+/// A model with a corner without an answer is fitted directly, and all runs are counted.
+#[test]
+fn a_model_that_cannot_be_followed_is_fitted_directly() {
+    let inner = saturation(&passes(30));
+    let runs = AtomicUsize::new(0);
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        runs.fetch_add(1, Ordering::Relaxed);
+        if p[0] > 2000.0 {
+            return Err("too strong".into());
+        }
+        inner.predict(p)
+    };
+    let data = noisy(&inner.predict(&[550.0, 12.0]).unwrap(), 5.0, 2);
+    let calibration = Calibration::new(&model, saturation_parameters(), data).unwrap();
+    let direct = calibration.fit().unwrap();
+    runs.store(0, Ordering::Relaxed);
+    let (fit, _) = calibration.fit_emulated(None).unwrap();
+    assert_eq!(fit.values(), direct.values());
+    assert_eq!(fit.evaluations, runs.into_inner());
+}
+
+#[test]
+fn limits_are_kept() {
+    let runs = AtomicUsize::new(0);
+    let inner = saturation(&passes(30));
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        runs.fetch_add(1, Ordering::Relaxed);
+        inner.predict(p)
+    };
+    let data = noisy(&inner.predict(&[550.0, 12.0]).unwrap(), 5.0, 2);
+    let options = Options {
+        max_evaluations: 30,
+        profiles: Profiles::All,
+        ..Options::default()
+    };
+    let found = Calibration::new(&model, saturation_parameters(), data)
+        .unwrap()
+        .with_options(options)
+        .unwrap()
+        .fit_emulated(None);
+    assert!(matches!(
+        found,
+        Err(CalibrationError::EvaluationLimit { limit: 30 })
+    ));
+    assert!(runs.into_inner() <= 30);
+}
