@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use crate::evaluator::Evaluator;
 use crate::profile::{Place, Witness};
-use crate::search::{Point, all_over};
+use crate::search::{Point, all_over, score};
 use crate::solution::{Route, Solution};
 use crate::{Calibration, CalibrationError, Emulator, Fit, Options, Profiles};
 
@@ -20,6 +20,9 @@ const MAX_ROUNDS: usize = 24;
 /// Points of the stand-in that are scanned, for each parameter and one more; most of its runs in one search.
 const SCAN: usize = 64;
 const MAX_RUNS: usize = 50_000;
+/// Score above the least of runs of a coarser model that are repeated, and how many more than the best of them, a parameter.
+const VALLEY: f64 = 16.0;
+const ANCHORS: usize = 2;
 /// Noise of the stand-in, which is smooth.
 const SMOOTH: f64 = 1e-9;
 /// Accuracy of the root of the rise at an end, as a share of the end's; at a bound, as a share of its distance from what excludes it;
@@ -56,8 +59,17 @@ impl Calibration<'_> {
         };
         let start = options.start.as_ref().map(|start| self.free(start));
         let mut design: Vec<DVector<f64>> = start.clone().into_iter().collect();
-        if coarse.is_none() || design.is_empty() {
-            design.extend(all_over(self.parameters().len(), self.scan()));
+        let dimensions = self.parameters().len();
+        match coarse {
+            // Along the whole valley, so that what the coarse model misses is known where it may matter.
+            Some(coarse) => {
+                let score = |free: &DVector<f64>, predicted: &[f64]| {
+                    let residuals = runs.standardised(free, predicted);
+                    score(&residuals, self.observations().len(), self.sigmas().is_some())
+                };
+                design.extend(coarse.low_points(score, VALLEY, ANCHORS * dimensions));
+            }
+            None => design.extend(all_over(dimensions, self.scan())),
         }
         let fit = match emulation.converge(design, start)? {
             Some(solution) => self.answer(&runs, solution),
@@ -150,14 +162,14 @@ impl Emulation<'_> {
                 solution.optimum.offset = solution.optimum.offset.max(shift);
                 return Ok(Some(solution));
             }
-            described |= settled;
             start = Some(optimum);
             let runs = self.emulator.runs();
             self.learn(seen);
-            if self.emulator.runs() == runs && described {
+            if self.emulator.runs() == runs && (described || !settled) {
                 // It knows all that it asks for and still says otherwise.
                 return Ok(None);
             }
+            described |= settled;
         }
         Ok(None)
     }

@@ -31,7 +31,8 @@ pub struct Emulator {
     parameters: Vec<Parameter>,
     /// What the runs are compared with, if not with their mean alone.
     coarse: Option<Arc<Emulator>>,
-    /// Shares of the parameters' ranges, a run each.
+    /// Free variables, a run each, and the shares of the parameters' ranges that they are.
+    points: Vec<DVector<f64>>,
     places: Vec<DVector<f64>>,
     /// What the model predicted there.
     predictions: Vec<Vec<f64>>,
@@ -47,6 +48,7 @@ impl Emulator {
         Self {
             parameters: parameters.to_vec(),
             coarse: coarse.cloned().map(Arc::new),
+            points: Vec::new(),
             places: Vec::new(),
             predictions: Vec::new(),
             mean: DVector::zeros(0),
@@ -85,6 +87,45 @@ impl Emulator {
         )
     }
 
+    /// Where the model fits: of its runs whose `score` is at most `margin` above the least, the best one and up to `count` more, each as
+    /// far as can be from those before it.
+    pub(crate) fn low_points(
+        &self,
+        score: impl Fn(&DVector<f64>, &[f64]) -> f64,
+        margin: f64,
+        count: usize,
+    ) -> Vec<DVector<f64>> {
+        let scores: Vec<f64> = self
+            .points
+            .iter()
+            .zip(&self.predictions)
+            .map(|(free, predicted)| score(free, predicted))
+            .collect();
+        let least = scores.iter().copied().fold(f64::INFINITY, f64::min);
+        let mut low: Vec<usize> = (0..scores.len())
+            .filter(|&run| scores[run] <= least + margin)
+            .collect();
+        low.sort_by(|&a, &b| scores[a].total_cmp(&scores[b]));
+        let mut chosen: Vec<usize> = low.first().copied().into_iter().collect();
+        for _ in 0..count {
+            let distance = |run: usize| {
+                chosen
+                    .iter()
+                    .map(|&other| (&self.places[run] - &self.places[other]).norm())
+                    .fold(f64::INFINITY, f64::min)
+            };
+            let farthest = low
+                .iter()
+                .copied()
+                .max_by(|&a, &b| distance(a).total_cmp(&distance(b)));
+            match farthest.filter(|&run| distance(run) > 0.0) {
+                Some(run) => chosen.push(run),
+                None => break,
+            }
+        }
+        chosen.into_iter().map(|run| self.points[run].clone()).collect()
+    }
+
     /// What the model predicted at free variables, if it ran there.
     pub(crate) fn known(&self, free: &DVector<f64>) -> Option<&[f64]> {
         let place = self.place(free);
@@ -100,6 +141,7 @@ impl Emulator {
                 continue;
             }
             let place = self.place(&free);
+            self.points.push(free);
             self.places.push(place);
             self.predictions.push(predicted);
         }

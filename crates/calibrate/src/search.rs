@@ -316,25 +316,13 @@ impl Search<'_> {
                 let score = if index < started {
                     f64::NEG_INFINITY
                 } else {
-                    self.score(&residuals)
+                    score(&residuals, self.evaluator.values.len(), self.known_noise)
                 };
                 (score, Point { free, residuals })
             })
             .collect();
         scored.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(scored.into_iter().map(|(_, point)| point).collect())
-    }
-
-    /// −2 log likelihood under noise with heavy tails, whose scale is known or estimated on the spot.
-    fn score(&self, residuals: &DVector<f64>) -> f64 {
-        let data = self.evaluator.values.len();
-        let sum: f64 = residuals.iter().take(data).map(|r| r.abs()).sum();
-        let priors: f64 = residuals.iter().skip(data).map(|r| r * r).sum();
-        if self.known_noise {
-            2.0 * sum + priors
-        } else {
-            2.0 * data as f64 * sum.max(f64::MIN_POSITIVE).ln() + priors
-        }
     }
 
     /// Descends from the first point of `scan`, and from the best of the others to see whether they lead lower.
@@ -421,4 +409,16 @@ pub(crate) fn all_over(dimensions: usize, count: usize) -> Vec<DVector<f64>> {
         })
     };
     (0..count).map(point).collect()
+}
+
+/// −2 log likelihood under noise with heavy tails, whose scale is known or estimated on the spot. So many residuals are those of `data`, the
+/// others those of priors.
+pub(crate) fn score(residuals: &DVector<f64>, data: usize, known_noise: bool) -> f64 {
+    let sum: f64 = residuals.iter().take(data).map(|r| r.abs()).sum();
+    let priors: f64 = residuals.iter().skip(data).map(|r| r * r).sum();
+    if known_noise {
+        2.0 * sum + priors
+    } else {
+        2.0 * data as f64 * sum.max(f64::MIN_POSITIVE).ln() + priors
+    }
 }
