@@ -76,13 +76,15 @@ fn main() -> Result<(), Failure> {
     let answer = fit(&scenes, &readings, &options)?;
     for (index, paper) in [0.25, 0.27].into_iter().enumerate() {
         let parameter = &answer.parameters[index];
-        let error = parameter.standard_error.unwrap_or(f64::INFINITY);
+        let off = match parameter.standard_error.filter(|_| parameter.identifiable) {
+            Some(error) => format!(" and {:+.1} standard errors", (paper - parameter.value) / error),
+            None => String::new(),
+        };
         println!(
-            "  {:<22} {}   the paper's {paper} is {:+.0} % and {:+.1} standard errors off",
+            "  {:<22} {}   the paper's {paper} is {:+.0} %{off} off",
             parameter.name,
             value(&answer, index),
             100.0 * (paper / parameter.value - 1.0),
-            (paper - parameter.value) / error
         );
     }
     println!(

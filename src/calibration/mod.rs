@@ -38,7 +38,7 @@ use model::{CableModel, SeriesModel};
 const MESH_SHIFT: f64 = 0.8;
 /// Distance to the minimum, in standard errors, at which a fit is good enough to look at its mesh, and in the end.
 const PILOT_TOLERANCE: f64 = 0.3;
-const TOLERANCE: f64 = 0.1;
+const TOLERANCE: f64 = 0.03;
 /// Rungs of the ladder of meshes: 6, 12 and 24 nodes per depth, corrected by 48.
 const LAST_RUNG: u32 = 2;
 /// Ripple of the forces as parameters change on a fixed mesh, as a share of them: as a node more slips, their slope jumps.

@@ -9,7 +9,8 @@
 //! minimised ([`Loss`]). A coarse scan finds a start, Levenberg–Marquardt refines it, driven by argmin's executor, and a second descent
 //! from elsewhere checks it. Standard errors come from the Jacobian at the optimum; intervals from the
 //! profile likelihood, with Student's t where the noise was estimated. An interval that the data do not close stays open, and
-//! the parameter is called not [`identifiable`](Estimate::identifiable).
+//! the parameter is called not [`identifiable`](Estimate::identifiable). Where a run of the model takes long,
+//! [`Calibration::fit_emulated`] gives the same answer with a part of the runs.
 //!
 //! *Assumptions.* Independent noise, Gaussian but for the outliers that a robust loss is there for; predictions that
 //! are smooth in the parameters but for a small known ripple ([`Options::relative_noise`]). Errors of the model itself are not in
