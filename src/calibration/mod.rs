@@ -206,7 +206,7 @@ impl Ladder<'_> {
             TOLERANCE,
             evaluations,
         )?;
-        let (fit, _) = calibration.fit_emulated(Some(&rung.emulator))?;
+        let (fit, _) = self.fit(&calibration, Some(&rung.emulator))?;
         evaluations += fit.evaluations;
         let bootstrap = match &self.options.bootstrap {
             Some(options) => Some(summary(&calibration.bootstrap(&fit, options)?, options)),
@@ -224,9 +224,8 @@ impl Ladder<'_> {
             let model = self.model(rung, None);
             // What is learned on the coarsest mesh costs least: there the intervals are explored too.
             let profiles = if rung == 0 { Profiles::All } else { Profiles::None };
-            let (fit, emulator) = self
-                .calibration(&model, start, profiles, PILOT_TOLERANCE, *evaluations)?
-                .fit_emulated(coarser.as_ref())?;
+            let calibration = self.calibration(&model, start, profiles, PILOT_TOLERANCE, *evaluations)?;
+            let (fit, emulator) = self.fit(&calibration, coarser.as_ref())?;
             let values = fit.values();
             let finer = self
                 .model(rung + 1, None)
@@ -251,6 +250,23 @@ impl Ladder<'_> {
             coarser = Some(emulator);
             rung += 1;
         }
+    }
+
+    /// Fits with what is left of the runs; of all that were allowed an error speaks.
+    fn fit(
+        &self,
+        calibration: &Calibration<'_>,
+        coarser: Option<&Emulator>,
+    ) -> Result<(Fit, Emulator), Error> {
+        calibration.fit_emulated(coarser).map_err(|error| {
+            match error {
+                CalibrationError::EvaluationLimit { .. } => {
+                    CalibrationError::EvaluationLimit { limit: self.limit }
+                }
+                other => other,
+            }
+            .into()
+        })
     }
 
     fn model(&self, rung: u32, correction: Option<Vec<f64>>) -> CableModel<'_> {

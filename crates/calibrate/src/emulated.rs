@@ -19,7 +19,7 @@ use crate::{Calibration, CalibrationError, Emulator, Fit, Options, Profiles};
 const MAX_ROUNDS: usize = 24;
 /// Points of the stand-in that are scanned, for each parameter and one more; most of its runs in one search.
 const SCAN: usize = 64;
-const MAX_RUNS: usize = 50_000;
+const MAX_RUNS: usize = 200_000;
 /// Score above the least of runs of a coarser model that are repeated, and how many more than the best of them, a parameter.
 const VALLEY: f64 = 16.0;
 const ANCHORS: usize = 2;
@@ -81,16 +81,20 @@ impl Calibration<'_> {
     /// Fits without a stand-in after so many runs in vain.
     fn fit_directly(&self, runs: usize) -> Result<Fit, CalibrationError> {
         let limit = self.options().max_evaluations;
+        let spent = CalibrationError::EvaluationLimit { limit };
         let left = Options {
-            max_evaluations: limit.saturating_sub(runs).max(1),
+            max_evaluations: limit.saturating_sub(runs),
             ..self.options().clone()
         };
+        if left.max_evaluations == 0 {
+            return Err(spent);
+        }
         match self.clone().with_options(left)?.fit() {
             Ok(fit) => Ok(Fit {
                 evaluations: fit.evaluations + runs,
                 ..fit
             }),
-            Err(CalibrationError::EvaluationLimit { .. }) => Err(CalibrationError::EvaluationLimit { limit }),
+            Err(CalibrationError::EvaluationLimit { .. }) => Err(spent),
             Err(error) => Err(error),
         }
     }
@@ -287,5 +291,6 @@ fn shift(solution: &Solution, seen: &DVector<f64>) -> f64 {
     let off = seen - &optimum.point.residuals;
     let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
     let gradient = optimum.jacobian.tr_mul(&off.component_mul(&curvatures));
-    gradient.dot(&(&solution.covariance.matrix * &gradient)).sqrt()
+    let square = gradient.dot(&(&solution.covariance.matrix * &gradient));
+    square.max(0.0).sqrt()
 }
