@@ -10,8 +10,9 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::evaluator::Evaluator;
+use crate::levenberg_marquardt::LevenbergMarquardt;
 use crate::profile::{Place, Witness};
-use crate::search::{Point, all_over, score};
+use crate::search::{Point, Search, all_over, score};
 use crate::solution::{Route, Solution};
 use crate::{Calibration, CalibrationError, Emulator, Fit, Options, Profiles};
 
@@ -32,6 +33,9 @@ const MARGIN: f64 = 0.5;
 const RIVAL: f64 = 0.5;
 /// Root of the rise at a bound, in that which excludes it, that is worth no second look.
 const FAR: f64 = 2.0;
+/// Accuracy, in standard errors, and iterations of the model's own descent at a bound.
+const TOLERANCE: f64 = 0.35;
+const DESCENT: u64 = 4;
 /// Distance between prediction and run, in standard errors of all readings together, at the optimum and at an end.
 const NEAR_OPTIMUM: f64 = 0.2;
 const NEAR_END: f64 = 0.5;
@@ -39,19 +43,34 @@ const NEAR_END: f64 = 0.5;
 const RIPPLE: f64 = 3.0;
 
 impl Calibration<'_> {
-    /// Fits a model that is dear to run: as [`fit`](Self::fit), with a small part of its runs, to the same accuracy.
+    /// Fits a model that is dear to run, as [`fit`](Self::fit) does. A smooth one takes a small part of the runs; one that the emulator
+    /// cannot follow takes those of a direct fit on top of those that it wasted.
+    ///
+    /// The emulator is searched all over: [`Options::scan`] only says how many runs it first learns from, [`Options::restart`] means
+    /// nothing, and the observer hears of descents on the emulator. The model confirms the optimum, the ends of the intervals and the
+    /// excluded bounds; at a bound that is not excluded by far its own other parameters are fitted. Where three and more parameters are
+    /// hardly known, an end may be a tenth of its distance off from that of a direct fit.
     ///
     /// `coarse` is what an earlier fit of the same parameters and observations with a coarser model learned; the emulator of
     /// this one is the second answer.
     ///
     /// # Errors
     ///
-    /// As for [`fit`](Self::fit).
+    /// As for [`fit`](Self::fit), and [`CalibrationError::InvalidOption`] for a `coarse` of other parameters or observations.
     pub fn fit_emulated(&self, coarse: Option<&Emulator>) -> Result<(Fit, Emulator), CalibrationError> {
         self.check_count()?;
         let units = self.units();
         let options = self.options();
         let runs = self.evaluator(&units, options.max_evaluations);
+        // One that could not follow its model has nothing to teach.
+        let coarse = coarse.filter(|coarse| coarse.runs() > 0);
+        if coarse.is_some_and(|coarse| !coarse.is_of(self.parameters(), self.observations().len())) {
+            return Err(CalibrationError::InvalidOption {
+                name: "coarse emulator's parameters",
+                value: self.parameters().len() as f64,
+                allowed: "those of this calibration, and its observations",
+            });
+        }
         let mut emulation = Emulation {
             calibration: self,
             emulator: Emulator::new(self.parameters(), coarse),
@@ -60,30 +79,32 @@ impl Calibration<'_> {
         let start = options.start.as_ref().map(|start| self.free(start));
         let mut design: Vec<DVector<f64>> = start.clone().into_iter().collect();
         let dimensions = self.parameters().len();
+        let score = |free: &DVector<f64>, predicted: &[f64]| {
+            let residuals = runs.standardised(free, predicted);
+            score(&residuals, self.observations().len(), self.sigmas().is_some())
+        };
         match coarse {
             // Along the whole valley, so that what the coarse model misses is known where it may matter.
-            Some(coarse) => {
-                let score = |free: &DVector<f64>, predicted: &[f64]| {
-                    let residuals = runs.standardised(free, predicted);
-                    score(&residuals, self.observations().len(), self.sigmas().is_some())
-                };
-                design.extend(coarse.low_points(score, VALLEY, ANCHORS * dimensions));
-            }
+            Some(coarse) => design.extend(coarse.low_points(score, VALLEY, ANCHORS * dimensions)),
             None => design.extend(all_over(dimensions, self.scan())),
         }
         let fit = match emulation.converge(design, start)? {
             Some(solution) => self.answer(&runs, solution),
-            None => self.fit_directly(runs.count())?,
+            None => {
+                let best = emulation.emulator.low_points(score, 0.0, 0);
+                self.fit_directly(runs.count(), best.first().map(|best| runs.physical(best)))?
+            }
         };
         Ok((fit, emulation.emulator))
     }
 
-    /// Fits without a stand-in after so many runs in vain.
-    fn fit_directly(&self, runs: usize) -> Result<Fit, CalibrationError> {
+    /// Fits without a stand-in after so many runs in vain, the best of which was at `best`.
+    fn fit_directly(&self, runs: usize, best: Option<Vec<f64>>) -> Result<Fit, CalibrationError> {
         let limit = self.options().max_evaluations;
         let spent = CalibrationError::EvaluationLimit { limit };
         let left = Options {
             max_evaluations: limit.saturating_sub(runs),
+            start: best.or_else(|| self.options().start.clone()),
             ..self.options().clone()
         };
         if left.max_evaluations == 0 {
@@ -159,16 +180,28 @@ impl Emulation<'_> {
             let settled = self.is_settled(&solution, &seen[0], shift, learned);
             let mut agreed = settled;
             for (witness, run) in witnesses.iter().zip(&seen[1..]) {
+                let far = self.is_far(&solution, &seen[0], witness, run);
+                if let (Place::Bound(side), true) = (witness.place, settled && far) {
+                    self.emulator.exclude(side);
+                }
                 agreed &= self.agrees(&solution, &seen[0], witness, run);
             }
-            if agreed && (described || options.profiles == Profiles::None) {
+            let agreed = agreed && (described || options.profiles == Profiles::None);
+            let lower = if agreed {
+                self.below_bounds(&solution, &seen[0], witnesses.iter().zip(&seen[1..]))?
+            } else {
+                Vec::new()
+            };
+            if agreed && lower.is_empty() {
                 solution.optimum.point.residuals = seen[0].residuals.clone();
                 solution.optimum.offset = solution.optimum.offset.max(shift);
+                self.learn(seen);
                 return Ok(Some(solution));
             }
             start = Some(optimum);
             let runs = self.emulator.runs();
             self.learn(seen);
+            self.learn(lower);
             if self.emulator.runs() == runs && (described || !settled) {
                 // It knows all that it asks for and still says otherwise.
                 return Ok(None);
@@ -243,8 +276,60 @@ impl Emulation<'_> {
             ) > FAR * witness.threshold
     }
 
+    /// Runs that the data do not exclude at bounds that they seemed to: from each such witness that is not excluded by far, the model's own
+    /// other parameters are fitted.
+    fn below_bounds<'w>(
+        &self,
+        solution: &Solution,
+        at_optimum: &Run,
+        witnesses: impl Iterator<Item = (&'w &'w Witness, &'w Run)>,
+    ) -> Result<Vec<Run>, CalibrationError> {
+        let deviance = solution.optimum.deviance;
+        let search = Search {
+            evaluator: self.runs,
+            observer: None,
+            known_noise: self.calibration.sigmas().is_some(),
+            tolerance: TOLERANCE,
+            loss: deviance.loss,
+            dear: true,
+            least_noise: self.calibration.least_noise(self.runs.sigmas),
+        };
+        let mut lower = Vec::new();
+        for (witness, seen) in witnesses {
+            let Place::Bound((k, _)) = witness.place else {
+                continue;
+            };
+            let excluded = |residuals| root(solution, residuals, &at_optimum.residuals) >= witness.threshold;
+            let decided = !excluded(&seen.residuals) || self.is_far(solution, at_optimum, witness, seen);
+            if decided || seen.free.len() == 1 {
+                continue;
+            }
+            let mut fixed = vec![false; seen.free.len()];
+            fixed[k] = true;
+            let start = Point {
+                free: seen.free.clone(),
+                residuals: seen.residuals.clone(),
+            };
+            let solver = LevenbergMarquardt::new(deviance, fixed.clone(), TOLERANCE).unverified();
+            let Point { free, residuals } = search.attempt(solver, &fixed, deviance, start, DESCENT)?.point;
+            if !excluded(&residuals) {
+                lower.push(Run {
+                    predicted: self.runs.predicted(&residuals),
+                    free,
+                    residuals,
+                });
+            }
+        }
+        Ok(lower)
+    }
+
+    /// Whether the model excludes a witness by far.
+    fn is_far(&self, solution: &Solution, at_optimum: &Run, witness: &Witness, seen: &Run) -> bool {
+        root(solution, &seen.residuals, &at_optimum.residuals) > FAR * witness.threshold
+    }
+
     /// Whether the model says of a witness what the stand-in says.
-    fn agrees(&mut self, solution: &Solution, at_optimum: &Run, witness: &Witness, seen: &Run) -> bool {
+    fn agrees(&self, solution: &Solution, at_optimum: &Run, witness: &Witness, seen: &Run) -> bool {
         let told = root(
             solution,
             &witness.point.residuals,
@@ -260,12 +345,7 @@ impl Emulation<'_> {
                 off <= (END * witness.threshold).max(noise)
                     && distance(solution, &witness.point, seen) <= NEAR_END.max(noise)
             }
-            Place::Bound(side) => {
-                if found > FAR * witness.threshold {
-                    self.emulator.exclude(side);
-                }
-                off <= (MARGIN * margin).max(END * witness.threshold)
-            }
+            Place::Bound(_) => off <= (MARGIN * margin).max(END * witness.threshold),
         }
     }
 }

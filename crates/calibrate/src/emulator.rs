@@ -22,8 +22,9 @@ const SAME: f64 = 1e-9;
 /// Nugget, in the variance of the predictions: runs closer than a few ten-thousandths of the ranges are averaged, because ripple is most of
 /// what tells them apart. A larger one, such as the ripple itself measures, would take what a model really does at short range for noise.
 const NUGGET: f64 = 1e-8;
-/// Factor by which it grows where the solution fails.
+/// Factor by which it grows where the solution fails, and from where on nothing is left to be told from the mean.
 const GROWTH: f64 = 100.0;
+const LARGEST: f64 = 1e6;
 
 /// A stand-in for a model, learned from its runs by [`Calibration::fit_emulated`](crate::Calibration::fit_emulated).
 #[derive(Debug, Clone)]
@@ -55,6 +56,16 @@ impl Emulator {
             weights: DMatrix::zeros(0, 0),
             excluded: coarse.map_or_else(Vec::new, |coarse| coarse.excluded.clone()),
         }
+    }
+
+    /// Whether it stands in for a model of these parameters with so many observations.
+    pub(crate) fn is_of(&self, parameters: &[Parameter], observations: usize) -> bool {
+        let same = |(a, b): (&Parameter, &Parameter)| {
+            (a.lower(), a.upper(), a.scale()) == (b.lower(), b.upper(), b.scale())
+        };
+        self.parameters.len() == parameters.len()
+            && self.parameters.iter().zip(parameters).all(same)
+            && self.predictions.iter().all(|run| run.len() == observations)
     }
 
     /// Whether it corrects a coarser one.
@@ -161,7 +172,7 @@ impl Emulator {
             correlation((&self.places[i] - &self.places[j]).norm())
         });
         let mut nugget = NUGGET;
-        // A larger nugget makes the matrix positive definite whatever the rounding.
+        // A larger nugget makes the matrix positive definite whatever the rounding; only places that are no numbers defy it.
         let solved = loop {
             let mut matrix = correlations.clone();
             for i in 0..count {
@@ -169,6 +180,11 @@ impl Emulator {
             }
             match Cholesky::new(matrix) {
                 Some(solved) => break solved,
+                None if nugget > LARGEST => {
+                    self.mean = missed.row_mean().transpose();
+                    self.weights = DMatrix::zeros(count, width);
+                    return;
+                }
                 None => nugget *= GROWTH,
             }
         };

@@ -115,6 +115,16 @@ impl<'a> Evaluator<'a> {
         DVector::from_vec(data.chain(priors).collect())
     }
 
+    /// The predictions that have these residuals.
+    pub fn predicted(&self, residuals: &DVector<f64>) -> Vec<f64> {
+        residuals
+            .iter()
+            .zip(self.values)
+            .zip(self.sigmas)
+            .map(|((residual, observed), sigma)| observed + sigma * residual)
+            .collect()
+    }
+
     /// Residuals at many points, in parallel.
     pub fn all(&self, points: &[DVector<f64>]) -> Result<Vec<DVector<f64>>, CalibrationError> {
         points.par_iter().map(|point| self.residuals(point)).collect()

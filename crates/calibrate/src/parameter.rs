@@ -60,13 +60,18 @@ impl Parameter {
         if !(range.is_finite() && range > 0.0) {
             return Err(error("upper bound", upper, "finite and above the lower bound"));
         }
-        Ok(Self {
+        let parameter = Self {
             name: name.to_owned(),
             lower,
             upper,
             scale,
             prior: None,
-        })
+        };
+        // The logarithms of bounds that nearly touch are the same number.
+        if parameter.range().1 <= 0.0 {
+            return Err(error("upper bound", upper, "finite and above the lower bound"));
+        }
+        Ok(parameter)
     }
 
     /// The same parameter with prior knowledge.

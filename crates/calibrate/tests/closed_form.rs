@@ -539,6 +539,11 @@ fn limits_are_kept_and_observers_hear() {
 
 #[test]
 fn bad_input_is_named() {
+    // The logarithms of these bounds are one number.
+    assert!(matches!(
+        Parameter::new("p", 1e10, 1e10_f64.next_up(), Scale::Logarithmic),
+        Err(CalibrationError::InvalidParameter { .. })
+    ));
     let model = saturation(&passes(5));
     let new = |data: Vec<f64>| Calibration::new(&model, saturation_parameters(), data);
     assert!(matches!(
