@@ -88,12 +88,11 @@ impl Calibration<'_> {
             Some(coarse) => design.extend(coarse.low_points(score, VALLEY, ANCHORS * dimensions)),
             None => design.extend(all_over(dimensions, self.scan())),
         }
-        let fit = match emulation.converge(design, start)? {
-            Some(solution) => self.answer(&runs, solution),
-            None => {
-                let best = emulation.emulator.low_points(score, 0.0, 0);
-                self.fit_directly(runs.count(), best.first().map(|best| runs.physical(best)))?
-            }
+        let fit = if let Some(solution) = emulation.converge(design, start)? {
+            self.answer(&runs, solution)
+        } else {
+            let best = emulation.emulator.low_points(score, 0.0, 0);
+            self.fit_directly(runs.count(), best.first().map(|best| runs.physical(best)))?
         };
         Ok((fit, emulation.emulator))
     }
@@ -180,7 +179,7 @@ impl Emulation<'_> {
             let settled = self.is_settled(&solution, &seen[0], shift, learned);
             let mut agreed = settled;
             for (witness, run) in witnesses.iter().zip(&seen[1..]) {
-                let far = self.is_far(&solution, &seen[0], witness, run);
+                let far = is_far(&solution, &seen[0], witness, run);
                 if let (Place::Bound(side), true) = (witness.place, settled && far) {
                     self.emulator.exclude(side);
                 }
@@ -300,7 +299,7 @@ impl Emulation<'_> {
                 continue;
             };
             let excluded = |residuals| root(solution, residuals, &at_optimum.residuals) >= witness.threshold;
-            let decided = !excluded(&seen.residuals) || self.is_far(solution, at_optimum, witness, seen);
+            let decided = !excluded(&seen.residuals) || is_far(solution, at_optimum, witness, seen);
             if decided || seen.free.len() == 1 {
                 continue;
             }
@@ -323,11 +322,6 @@ impl Emulation<'_> {
         Ok(lower)
     }
 
-    /// Whether the model excludes a witness by far.
-    fn is_far(&self, solution: &Solution, at_optimum: &Run, witness: &Witness, seen: &Run) -> bool {
-        root(solution, &seen.residuals, &at_optimum.residuals) > FAR * witness.threshold
-    }
-
     /// Whether the model says of a witness what the stand-in says.
     fn agrees(&self, solution: &Solution, at_optimum: &Run, witness: &Witness, seen: &Run) -> bool {
         let told = root(
@@ -348,6 +342,11 @@ impl Emulation<'_> {
             Place::Bound(_) => off <= (MARGIN * margin).max(END * witness.threshold),
         }
     }
+}
+
+/// Whether the model excludes a witness by far.
+fn is_far(solution: &Solution, at_optimum: &Run, witness: &Witness, seen: &Run) -> bool {
+    root(solution, &seen.residuals, &at_optimum.residuals) > FAR * witness.threshold
 }
 
 /// Root of the rise of the deviance from the optimum.
