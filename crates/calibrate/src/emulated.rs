@@ -14,6 +14,7 @@ use crate::levenberg_marquardt::LevenbergMarquardt;
 use crate::profile::{Place, Witness};
 use crate::search::{Point, Search, all_over, score};
 use crate::solution::{Route, Solution};
+use crate::station::TOLERANCE;
 use crate::{Calibration, CalibrationError, Emulator, Fit, Options, Profiles};
 
 /// Rounds of search and learning.
@@ -33,8 +34,7 @@ const MARGIN: f64 = 0.5;
 const RIVAL: f64 = 0.5;
 /// Root of the rise at a bound, in that which excludes it, that is worth no second look.
 const FAR: f64 = 2.0;
-/// Accuracy, in standard errors, and iterations of the model's own descent at a bound.
-const TOLERANCE: f64 = 0.35;
+/// Iterations of the model's own descent at a bound.
 const DESCENT: u64 = 4;
 /// Distance between prediction and run, in standard errors of all readings together, at the optimum and at an end.
 const NEAR_OPTIMUM: f64 = 0.2;

@@ -3,7 +3,6 @@
 use nalgebra::DVector;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use crate::deviance::Deviance;
 use crate::evaluator::Evaluator;
 use crate::fit::{Estimate, Fit, Interval, Warning};
 use crate::parameter::FARTHEST;
@@ -139,13 +138,9 @@ impl Calibration<'_> {
         if self.sigmas().is_none() || self.options().loss != Loss::Squares {
             return None;
         }
-        let deviance = Deviance {
-            normalisation: 1.0,
-            ..optimum.deviance
-        };
-        let residuals = &optimum.point.residuals;
+        let residuals = optimum.point.residuals.iter().take(optimum.deviance.data);
         let freedom = self.freedom(optimum);
-        let sum: f64 = residuals.iter().take(deviance.data).map(|r| r * r).sum();
+        let sum: f64 = residuals.map(|r| r * r).sum();
         let probability = 1.0 - ChiSquared::new(freedom).ok()?.cdf(sum);
         // Residuals within the model's own rounding are no misfit.
         (freedom >= 1.0 && probability < MISFIT).then_some(Warning::Misfit {

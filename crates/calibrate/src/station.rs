@@ -12,7 +12,7 @@ use crate::profile::Profiler;
 use crate::search::{BETTER, Optimum, Point, all_over};
 
 /// Accuracy of the other parameters, in standard errors: an eighth of a squared one, which is a sixtieth of an end's distance.
-const TOLERANCE: f64 = 0.35;
+pub(crate) const TOLERANCE: f64 = 0.35;
 /// Iterations of the others at one value.
 const MAX_ITERATIONS: u64 = 6;
 /// The same where runs cost nothing; points scanned for each of the others, and the best of them that are fitted from.

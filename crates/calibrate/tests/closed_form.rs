@@ -6,7 +6,7 @@ use calibrate::{
     BootstrapOptions, Calibration, CalibrationError, Loss, Model, ModelError, Observer, Options, Parameter,
     Prior, Profiles, Resampling, Scale, Warning,
 };
-use common::{noisy, passes, saturation, saturation_parameters};
+use common::{noisy, passes, saturation, saturation_parameters, two_minima};
 
 fn options(loss: Loss) -> Options {
     Options {
@@ -352,11 +352,7 @@ fn data_beyond_the_models_reach() {
 /// Two values that fit alike: the one that was not chosen is named, and the interval holds both.
 #[test]
 fn a_second_minimum_is_told() {
-    let x = passes(6);
-    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
-        Ok(x.iter().map(|x| x * (10.0 - (p[0] - 3.0).powi(2))).collect())
-    };
-    let parameter = Parameter::new("a", 0.0, 6.0, Scale::Linear).unwrap();
+    let (model, parameter) = two_minima();
     let data = noisy(&model(&[2.0]).unwrap(), 0.3, 6);
     let fit = Calibration::new(&model, vec![parameter], data)
         .unwrap()

@@ -8,7 +8,7 @@ use calibrate::{
     Calibration, CalibrationError, Emulator, Fit, Loss, Model, ModelError, Options, Parameter, Prior,
     Profiles, Scale, Warning,
 };
-use common::{noisy, passes, saturation, saturation_parameters};
+use common::{noisy, passes, saturation, saturation_parameters, two_minima};
 
 /// Differences of two fits' values and closed ends, in standard errors; what is open in one is open in both.
 fn differences(one: &Fit, other: &Fit) -> Vec<f64> {
@@ -140,11 +140,7 @@ fn what_the_data_do_not_hold_is_called_so() {
 /// Two values that fit alike: the interval holds both.
 #[test]
 fn a_second_minimum_is_told() {
-    let x = passes(6);
-    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
-        Ok(x.iter().map(|x| x * (10.0 - (p[0] - 3.0).powi(2))).collect())
-    };
-    let parameter = Parameter::new("a", 0.0, 6.0, Scale::Linear).unwrap();
+    let (model, parameter) = two_minima();
     let data = noisy(&model(&[2.0]).unwrap(), 0.3, 6);
     let (fit, _) = Calibration::new(&model, vec![parameter], data)
         .unwrap()
