@@ -45,6 +45,8 @@ pub struct Passage {
     /// Nodes on either side of the vehicle beyond which adhesion cannot matter.
     reach: usize,
     peak: f64,
+    /// Zeros, one a node and one beyond either end: the ground at rest.
+    still: Vec<f64>,
 }
 
 #[derive(Debug, Clone)]
@@ -153,6 +155,7 @@ impl Passage {
             positions,
             reach,
             peak,
+            still: vec![0.0; mesh.nodes() + 2],
         })
     }
 
@@ -198,6 +201,16 @@ impl Passage {
     /// Lattice point in the vehicle's frame at which `node` stands.
     pub(super) fn lattice_index(&self, position: i64, node: usize) -> usize {
         (self.behind as i64 - position) as usize + node * self.phases.len()
+    }
+
+    /// The ground at rest, the vehicle having left.
+    pub(super) fn still(&self, nodes: usize) -> Snapshot<'_> {
+        let position = self.positions[self.positions.len() - 1];
+        Snapshot {
+            adherent: &self.still,
+            adhesion: &self.still,
+            ..self.snapshot(position, nodes)
+        }
     }
 
     pub(super) fn snapshot(&self, position: i64, nodes: usize) -> Snapshot<'_> {

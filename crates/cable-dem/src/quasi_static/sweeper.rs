@@ -161,7 +161,6 @@ impl Sweeper {
         let last = self.mesh.elements();
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
-        self.support_load.fill(0.0);
         self.dissipated = 0.0;
         self.by_node.fill(Contact::Stuck);
         self.by_xi.resize(passage.lattice_len(), Contact::Stuck);
@@ -178,18 +177,19 @@ impl Sweeper {
 
         let mut recorder = Recorder::new(state.end_forces(&self.cable, &self.mesh));
         let memory = self.recall(passage.id());
+        self.rest();
         let mut travelling: Option<Stretch> = None;
-        let (&arrival, onward) = passage
-            .positions()
-            .split_first()
-            .expect("a passage has positions");
-        self.arrive(&passage.snapshot(arrival, last + 1));
-        for (step, &position) in onward.iter().enumerate() {
+        for (step, &position) in passage.positions().iter().enumerate() {
             let snapshot = passage.snapshot(position, last + 1);
+            if step == 0 {
+                self.step_whole(&snapshot, passage, tolerance, &mut recorder)?;
+                observe(self, snapshot);
+                continue;
+            }
             recorder.statistics.steps += 1;
             self.update_supports(&snapshot, false);
             travelling = self.disturbed(&snapshot, passage.reach(), travelling);
-            let remembered = memory.recall(step);
+            let remembered = memory.recall(step - 1);
             self.collect_windows(travelling, remembered.map(|(window, _)| window));
             let mut next = None;
             for index in 0..self.windows.len() {
@@ -212,23 +212,34 @@ impl Sweeper {
         }
         self.remember(passage.id(), memory);
 
-        // Once more, the whole cable: what the windows left out of account is settled here.
-        let &departure = passage.positions().last().expect("a passage has positions");
-        let snapshot = passage.snapshot(departure, last + 1);
-        self.update_supports(&snapshot, true);
+        // The ground comes to rest. What the windows left out of account is settled by the same step.
+        let still = passage.still(last + 1);
+        self.step_whole(&still, passage, tolerance, &mut recorder)?;
+        state.displacement.copy_from_slice(&self.r);
+        state.friction.copy_from_slice(&self.g);
+        recorder.dissipated = self.dissipated;
+        Ok(recorder)
+    }
+
+    /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
+    fn step_whole(
+        &mut self,
+        snapshot: &Snapshot<'_>,
+        passage: &Passage,
+        tolerance: Tolerance,
+        recorder: &mut Recorder,
+    ) -> Result<(), CableError> {
+        recorder.statistics.steps += 1;
+        self.update_supports(snapshot, true);
         let whole = Window {
             stretch: self.free,
             travels: false,
         };
-        self.predict(whole, &snapshot, passage, None);
-        let solved = self.solve(whole.stretch, &snapshot, tolerance, &mut recorder)?;
-        self.commit(solved, &snapshot, passage);
-        for node in 0..=last {
-            state.displacement[node] = self.displacement(node, &snapshot);
-            state.friction[node] = self.friction(node, &snapshot);
-        }
-        recorder.dissipated = self.dissipated;
-        Ok(recorder)
+        self.predict(whole, snapshot, passage, None);
+        let solved = self.solve(whole.stretch, snapshot, tolerance, recorder)?;
+        self.commit(solved, snapshot, passage);
+        recorder.record(self.end_forces(snapshot));
+        Ok(())
     }
 
     pub fn mesh(&self) -> &Mesh {
@@ -263,20 +274,13 @@ impl Sweeper {
             .fold(0.0, f64::max)
     }
 
-    /// Takes the state into the adherent frame of the vehicle's first position. The cable does not move by this.
-    fn arrive(&mut self, snapshot: &Snapshot<'_>) {
-        for node in 0..self.r.len() {
-            self.r[node] -= snapshot.adherent[node + 1];
-            self.g[node] -= snapshot.adhesion[node + 1];
-        }
+    /// The supports with the ground at rest, where the adherent frame is that of the ground.
+    fn rest(&mut self) {
         self.trial.r.copy_from_slice(&self.r);
-        let last = self.mesh.elements();
-        for index in 0..self.supports.len() {
-            let support = &self.supports[index].support;
-            let forcing = support.forcing(snapshot, self.chain.stiffness, last);
-            self.support_load[support.node] = support.load(forcing);
-            self.supports[index].solved = forcing;
-            self.supports[index].followed = forcing;
+        self.support_load.fill(0.0);
+        for support in &mut self.supports {
+            support.solved = Forcing::default();
+            support.followed = Forcing::default();
         }
     }
 
