@@ -12,24 +12,22 @@
 //!
 //! The step is the mesh's vehicle step, as in the quasi-static solver; it then costs a few sweeps over the whole cable.
 //! Inertia is worth this where [`crate::inertia_ratio`] is not far below the accuracy wanted. After the vehicle has left
-//! the cable is brought to rest as after an explicit pass.
+//! ground and cable come to rest as after an explicit pass.
 //!
-//! The `sigmoid` law is solved too (`sigmoid`): its answer depends on the time step by the law's own definition, and what it
+//! The `sigmoid` law is solved too (`transient::sigmoid`): its answer depends on the time step by the law's own definition, and what it
 //! loses at rest comes with every outcome ([`SigmoidLeak`]).
 
 mod history;
 mod prediction;
-mod sigmoid;
 
 use crate::outcome::Recorder;
 use crate::transient::{
-    Departed, EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, StepSolver, TransientOutcome,
-    tolerance,
+    Departed, EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, SigmoidSolver, StepSolver,
+    TransientOutcome, tolerance,
 };
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 use history::History;
 use prediction::Prediction;
-use sigmoid::SigmoidSolver;
 
 /// Dynamic implicit solver for one cable on one mesh.
 #[derive(Debug, Clone)]
@@ -123,15 +121,19 @@ impl Dynamic {
         self.prepare(time_step);
         let start = self.lumped.end_forces(&state.displacement, &state.friction);
         let mut recorder = Recorder::new(start);
-        let energy = self.run(duct, state, &mut recorder)?;
-        energy.check(false)?;
         let mut moving = state.clone();
+        let arrival_heat = self
+            .settler
+            .arrive(&self.lumped, duct, &mut moving, &mut recorder.statistics)?;
+        let energy = self.run(duct, &moving, &mut recorder)?;
+        energy.check(false)?;
         moving.displacement.copy_from_slice(&self.history.displacement);
         moving.friction.copy_from_slice(&self.friction);
         let departed = Departed {
             duct,
             time_step,
             energy,
+            arrival_heat,
             moving,
             recorder,
         };
@@ -176,8 +178,7 @@ impl Dynamic {
             solver.start();
         }
         self.friction.copy_from_slice(&state.friction);
-        self.duct.fill(0.0);
-        duct.at(0.0, nodes).advance(&mut self.duct, &mut self.increment);
+        duct.displacement(0.0, &mut self.duct);
         let elastic = self.lumped.elastic_energy(&state.displacement);
         let stored = self.lumped.stored_energy(&state.friction);
         let mut energy = EnergyBalance {

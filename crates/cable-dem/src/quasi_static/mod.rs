@@ -12,6 +12,7 @@ mod exact;
 mod graph;
 mod memory;
 mod passage;
+mod schedule;
 mod settle;
 mod support;
 mod sweeper;

@@ -17,6 +17,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use ground_field::{Direction, DuctMotion};
 
+use super::schedule::schedule;
 use super::window::NEGLIGIBLE;
 use crate::course::as_driven;
 use crate::error::checked;
@@ -107,31 +108,29 @@ impl Passage {
         })?;
         let step = mesh.lattice_step();
         let limit = NEGLIGIBLE * cable.friction().limit();
-        let positions = schedule(mesh, approach);
+        let m = mesh.phases() as i64;
+        let (end, stride) = (mesh.elements() as i64 * m, mesh.stride() as i64);
+        let approach = (approach / mesh.vehicle_step()).ceil() as i64 * stride;
 
         // Every ξ-index that a node, or the neighbour outside an end, can have; whole phases on both sides.
-        let m = mesh.phases() as i64;
-        let behind = (positions.last().copied().unwrap_or(0) / m + 3) * m;
-        let ahead = -positions.first().copied().unwrap_or(0) + (mesh.elements() as i64 + 3) * m;
-        let count = ((behind + ahead) / m) as usize;
+        let behind = ((end + stride + approach) / m + 3) * m;
+        let ahead = (approach / m + mesh.elements() as i64 + 3) * m;
+        let shape = (-behind..ahead)
+            .map(|j| checked("displacement of the duct", shape(step * j as f64), "finite", |_| true))
+            .collect::<Result<Vec<f64>, _>>()?;
+        let positions = schedule(&shape, behind as usize, end, approach, stride);
         let compliance = cable.friction().compliance();
         let stiffness = cable.axial_stiffness() / mesh.spacing();
-        let phases = (0..m)
+        let phases: Vec<Phase> = (0..m as usize)
             .map(|phase| {
-                let duct = (0..count)
-                    .map(|c| {
-                        let displacement = shape(step * (phase - behind + m * c as i64) as f64);
-                        checked("displacement of the duct", displacement, "finite", |_| true)
-                    })
-                    .collect::<Result<Vec<f64>, _>>()?;
-                Ok(Phase::new(
+                let duct: Vec<f64> = shape[phase..].iter().step_by(m as usize).copied().collect();
+                Phase::new(
                     &duct,
                     compliance * stiffness / mesh.spacing(),
                     stiffness / mesh.spacing(),
-                ))
+                )
             })
-            .collect::<Result<Vec<Phase>, CableError>>()?;
-
+            .collect();
         let peak = phases
             .iter()
             .flat_map(|phase| &phase.adherent)
@@ -254,13 +253,4 @@ impl Phase {
         }
         Self { adherent, adhesion }
     }
-}
-
-/// Vehicle positions, a step apart, from `approach` before the duct to `approach` past it.
-fn schedule(mesh: &Mesh, approach: f64) -> Vec<i64> {
-    let stride = mesh.stride() as i64;
-    let steps = (approach / mesh.vehicle_step()).ceil() as i64;
-    let end = (mesh.elements() * mesh.phases()) as i64;
-    let last = (end + stride - 1) / stride + steps;
-    (-steps..=last).map(|step| step * stride).collect()
 }

@@ -56,9 +56,8 @@ pub(crate) struct Instant<'a> {
 impl MovingDuct {
     /// The duct of `cable` with nodes as in `mesh`, under a vehicle whose duct motion is `motion`.
     ///
-    /// The vehicle's origin comes from `approach` \[m\] before the duct and leaves to `approach` past it. The duct's
-    /// displacement at the first position is the reference: nothing jumps at the start, and the difference to the last
-    /// position stays out of account, as in [`crate::Passage`].
+    /// The vehicle's origin is followed from `approach` \[m\] before the duct to `approach` past it; before and after that the
+    /// ground is at rest, as in [`crate::Passage`].
     ///
     /// # Errors
     ///
@@ -197,6 +196,14 @@ impl MovingDuct {
         match self.direction {
             Direction::Forward => self.speed * t - self.approach,
             Direction::Reverse => self.length + self.approach - self.speed * t,
+        }
+    }
+
+    /// Writes the displacement of every node's duct at time `t` \[s\] to `duct` \[m\].
+    pub(crate) fn displacement(&self, t: f64, duct: &mut [f64]) {
+        let Instant { rows, weights } = self.at(t, duct.len());
+        for (i, d) in duct.iter_mut().enumerate() {
+            *d = (0..4).map(|k| weights[k] * rows[k][i]).sum();
         }
     }
 

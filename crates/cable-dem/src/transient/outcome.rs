@@ -1,6 +1,6 @@
 //! What a pass with inertia reports.
 
-use super::{EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, tolerance};
+use super::{EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak};
 use crate::outcome::Recorder;
 use crate::{CableError, CableState, EndForces, PassOutcome};
 
@@ -14,9 +14,9 @@ pub struct TransientOutcome {
     pub pass: PassOutcome,
     /// Duration of one step \[s\].
     pub time_step: f64,
-    /// Energies of the pass.
+    /// Energies of the pass, between its two steps from rest and to it.
     pub energy: EnergyBalance,
-    /// Force on each end \[N\] at the last instant of the pass, before the cable came to rest.
+    /// Force on each end \[N\] at the last instant of the pass, before ground and cable came to rest.
     pub force_before_rest: EndForces,
     /// What a law without memory loses; `None` for the others.
     pub leak: Option<SigmoidLeak>,
@@ -42,13 +42,15 @@ pub(crate) struct Departed<'a> {
     pub duct: &'a MovingDuct,
     pub time_step: f64,
     pub energy: EnergyBalance,
+    /// Heat of slip as the ground moved to the vehicle's first position \[J\].
+    pub arrival_heat: f64,
     /// The cable at the last instant.
     pub moving: CableState,
     pub recorder: Recorder,
 }
 
 impl Departed<'_> {
-    /// Brings the cable to rest, if its law knows one, and reports: the state it is left in, and the outcome.
+    /// Brings ground and cable to rest and reports: the state it is left in, and the outcome.
     pub fn close(
         self,
         lumped: &Lumped,
@@ -58,22 +60,13 @@ impl Departed<'_> {
             duct,
             time_step,
             energy,
+            arrival_heat,
             moving: mut state,
             mut recorder,
         } = self;
         let force_before_rest = lumped.end_forces(&state.displacement, &state.friction);
-        if lumped.cable.friction().law().has_memory() {
-            let largest = state.displacement.iter().fold(duct.peak(), |l, u| l.max(u.abs()));
-            let at_end = duct.vehicle_position(duct.duration());
-            settler.settle(
-                lumped,
-                tolerance(lumped, largest),
-                &mut state,
-                at_end,
-                &mut recorder.statistics,
-            )?;
-        }
-        recorder.dissipated = energy.dissipated;
+        let departure_heat = settler.leave(lumped, duct, &mut state, &mut recorder.statistics)?;
+        recorder.dissipated = arrival_heat + energy.dissipated + departure_heat;
         let force = lumped.end_forces(&state.displacement, &state.friction);
         let outcome = TransientOutcome {
             pass: recorder.outcome(&lumped.cable, &lumped.mesh, &state, force),

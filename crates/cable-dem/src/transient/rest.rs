@@ -1,247 +1,121 @@
-//! One implicit step of the whole cable, and the step that brings it to rest.
+//! The ground at rest: how a pass with inertia begins and ends.
 //!
-//! Unknown are the increments r = u_new − u of all nodes but fixed ones. With a mass term c_i ≥ 0 [N/m] and loads p_i,
+//! Before the vehicle comes and after it has left the duct stands at D = 0. One step without inertia takes it from there to
+//! the vehicle's first position, one more from the last position back; the cable follows by its friction law, at rest
+//! before and after.
 //!
-//! (K + S + c) r = p + w f_new,  f_new from the slip ΔD − r by the friction law:
+//! The step back also ends the cable's vibration. Stuck nodes of an elastic contact would swing on it undamped. The state
+//! that a vibrating cable comes to, however weakly it is damped, is the equilibrium with the same anchors u + γ f: it moves
+//! the cable by less than its vibration and leaves the mean where it was.
 //!
-//! the quasi-static step's convex problem (see `quasi_static::chain`) with more on the diagonal. It is solved by the
-//! same active set; where that cycles it is led to the answer from that of a softer sheath, and last of all the dynamic
-//! programming takes over.
-//!
-//! **At rest.** Stuck nodes of an elastic contact swing on it undamped when a vehicle has gone. The state that a
-//! vibrating cable comes to, however weakly it is damped, is the equilibrium with the same anchors u + γ f: one step with
-//! c = 0, ΔD = 0. It moves the cable by less than its vibration and leaves the mean where it was.
+//! For the `sigmoid` law, which has no memory, both are single steps of its own law: f = q tanh(b Δs/2) with Δs the slip
+//! within the step.
 
-use crate::quasi_static::{Chain, Contact, Elimination, Load, Outcome, Stretch, Tolerance, Trial, contacts};
-use crate::transient::Lumped;
+use super::sigmoid::SigmoidSolver;
+use super::step::{StepSolver, tolerance};
+use super::{Lumped, MovingDuct};
 use crate::{CableError, CableState, Statistics};
 
-/// Accuracy of friction and equilibrium, as a share of the friction limit.
-const FRICTION_ACCURACY: f64 = 1e-9;
-/// Accuracy of slip, as a share of the largest displacement. What a slipping node may slip the wrong way adds up over
-/// thousands of steps: it has to be far below the slip of one step.
-const SLIP_ACCURACY: f64 = 1e-12;
-/// Softnesses γ k/h through which a step is led that does not converge from its first guess.
-const SOFTNESSES: [f64; 9] = [100.0, 10.0, 1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
-
-/// Solver of implicit steps over the whole cable, for laws with memory and a given mass term.
-#[derive(Debug, Clone)]
-pub(crate) struct StepSolver {
-    chain: Chain,
-    /// The same chain with a softer sheath.
-    softened: Chain,
-    soft_anchor: Vec<f64>,
-    free: Stretch,
-    elimination: Elimination,
-    trial: Trial,
-    anchor: Vec<f64>,
-    adhesion: Vec<f64>,
-    /// Loads p \[N\], to be set before [`Self::solve`].
-    pub load: Vec<f64>,
-}
-
-/// How exactly a step of `lumped` must hold when displacements reach `largest` \[m\].
-pub(crate) fn tolerance(lumped: &Lumped, largest: f64) -> Tolerance {
-    let friction = lumped.cable.friction();
-    let accuracy = (FRICTION_ACCURACY * friction.limit()).max(16.0 * lumped.rounding(largest));
-    Tolerance {
-        friction: accuracy,
-        slip: SLIP_ACCURACY * largest + friction.compliance() * accuracy,
-    }
-}
-
-impl StepSolver {
-    /// A solver with the mass term `inertia` · m_i on the diagonal; `inertia` in 1/s².
-    pub fn new(lumped: &Lumped, inertia: f64) -> Self {
-        let nodes = lumped.mesh.nodes();
-        let last = nodes - 1;
-        let k = lumped.stiffness;
-        let mut diagonal = vec![2.0; nodes];
-        (diagonal[0], diagonal[last]) = (1.0, 1.0);
-        for (i, diagonal) in diagonal.iter_mut().enumerate() {
-            *diagonal += inertia * lumped.mass(i) / k;
-        }
-        for &(node, spring) in &lumped.springs {
-            diagonal[node] += spring / k;
-        }
-        let compliance = lumped.cable.friction().compliance();
-        let tributary: Vec<f64> = (0..nodes).map(|i| lumped.mesh.tributary_length(i)).collect();
-        let chain = Chain {
-            stiffness: k,
-            diagonal,
-            softness: tributary.iter().map(|w| compliance * k / w).collect(),
-            tributary,
-            compliance,
-            limit: lumped.cable.friction().limit(),
-        };
-        Self {
-            softened: chain.clone(),
-            soft_anchor: vec![0.0; nodes],
-            chain,
-            free: Stretch {
-                lo: usize::from(lumped.fixed[0]),
-                hi: last - usize::from(lumped.fixed[1]),
-            },
-            elimination: Elimination::new(nodes),
-            trial: Trial {
-                r: vec![0.0; nodes],
-                g: vec![0.0; nodes],
-                contact: vec![Contact::Stuck; nodes],
-            },
-            anchor: vec![0.0; nodes],
-            adhesion: vec![0.0; nodes],
-            load: vec![0.0; nodes],
-        }
-    }
-
-    /// Solves one step: from friction `f`, with duct increments `duct` and the loads set before. `f` becomes the new
-    /// friction, [`Self::increments`] the answer. On failure, the largest violation as a share of the friction limit.
-    pub fn solve(
-        &mut self,
-        lumped: &Lumped,
-        tolerance: Tolerance,
-        duct: &[f64],
-        f: &mut [f64],
-        statistics: &mut Statistics,
-    ) -> Result<(), f64> {
-        anchor(&mut self.anchor, duct, f, self.chain.compliance);
-        let mut outcome = self.attempt(tolerance, statistics);
-        if outcome != Outcome::Solved {
-            self.soften(lumped, tolerance, duct, f, statistics);
-            outcome = self.attempt(tolerance, statistics);
-        }
-        if outcome != Outcome::Solved {
-            let load = Load {
-                adhesion: &self.adhesion,
-                support: &self.load,
-                anchor: &self.anchor,
-            };
-            statistics.corners += contacts(&self.chain, &load, self.free, &mut self.trial);
-            statistics.exact_steps += 1;
-            outcome = self.attempt(tolerance, statistics);
-        }
-        if let Outcome::Violated(violation) = outcome {
-            self.trial.contact.fill(Contact::Stuck);
-            return Err(violation);
-        }
-        f[self.free.lo..=self.free.hi].copy_from_slice(&self.trial.g[self.free.lo..=self.free.hi]);
-        for (end, node) in [0, f.len() - 1].into_iter().enumerate() {
-            if lumped.fixed[end] {
-                f[node] = lumped.held.after_slip(f[node], duct[node]);
-            }
-        }
-        Ok(())
-    }
-
-    /// Runs the active set from the trial's contact states.
-    fn attempt(&mut self, tolerance: Tolerance, statistics: &mut Statistics) -> Outcome {
-        let load = Load {
-            adhesion: &self.adhesion,
-            support: &self.load,
-            anchor: &self.anchor,
-        };
-        let (outcome, sweeps) =
-            self.elimination
-                .iterate(&self.chain, &load, self.free, tolerance, &mut self.trial);
-        statistics.sweeps += sweeps;
-        statistics.node_updates += sweeps * (self.free.hi + 1 - self.free.lo);
-        outcome
-    }
-
-    /// Leads the contact states from those of a softer sheath, whose energy is smoother, to those of the real one.
-    fn soften(
-        &mut self,
-        lumped: &Lumped,
-        tolerance: Tolerance,
-        duct: &[f64],
-        f: &[f64],
-        statistics: &mut Statistics,
-    ) {
-        self.trial.contact.fill(Contact::Stuck);
-        let scale = lumped.mesh.spacing() / lumped.stiffness;
-        for softness in SOFTNESSES {
-            let compliance = softness * scale;
-            if compliance <= self.chain.compliance {
-                break;
-            }
-            self.softened.soften(compliance);
-            anchor(&mut self.soft_anchor, duct, f, compliance);
-            // The real chain's place is lent to the softer one for the attempt.
-            std::mem::swap(&mut self.chain, &mut self.softened);
-            std::mem::swap(&mut self.anchor, &mut self.soft_anchor);
-            self.attempt(tolerance, statistics);
-            std::mem::swap(&mut self.chain, &mut self.softened);
-            std::mem::swap(&mut self.anchor, &mut self.soft_anchor);
-        }
-    }
-
-    /// Increments r of the last step \[m\].
-    pub fn increments(&self) -> &[f64] {
-        &self.trial.r
-    }
-
-    /// Contact states: those of the last step, or a prediction of the next.
-    pub fn contacts(&mut self) -> &mut [Contact] {
-        &mut self.trial.contact
-    }
-
-    /// Sets the loads to the elastic forces that displacements `u` put on the nodes, −(K + S) u \[N\].
-    pub fn load_elastic(&mut self, lumped: &Lumped, u: &[f64]) {
-        let k = lumped.stiffness;
-        let mut left = 0.0;
-        for i in 0..u.len() {
-            let right = u.get(i + 1).map_or(0.0, |next| k * (next - u[i]));
-            self.load[i] = right - left;
-            left = right;
-        }
-        for &(node, spring) in &lumped.springs {
-            self.load[node] -= spring * u[node];
-        }
-    }
-}
-
-/// Where the duct holds the sheath after its increment, ΔD + γ f, measured from u.
-fn anchor(anchor: &mut [f64], duct: &[f64], f: &[f64], compliance: f64) {
-    for (anchor, (duct, f)) in anchor.iter_mut().zip(duct.iter().zip(f)) {
-        // Without shear the friction does not count, whatever it is.
-        *anchor = duct + if compliance > 0.0 { compliance * f } else { 0.0 };
-    }
-}
-
-/// Brings a cable to rest; see the module's text.
+/// Takes the cable from rest to the start of a pass, and from its end to rest; see the module's text.
 #[derive(Debug, Clone)]
 pub(crate) struct Settler {
-    solver: StepSolver,
-    still: Vec<f64>,
+    solver: Solver,
+    /// How far each node's duct moves \[m\].
+    increment: Vec<f64>,
+    friction: Vec<f64>,
+}
+
+#[derive(Debug, Clone)]
+enum Solver {
+    Memory(StepSolver),
+    Sigmoid(SigmoidSolver),
 }
 
 impl Settler {
     pub fn new(lumped: &Lumped) -> Self {
+        let solver = if lumped.cable.friction().law().has_memory() {
+            Solver::Memory(StepSolver::new(lumped, 0.0))
+        } else {
+            Solver::Sigmoid(SigmoidSolver::new(lumped, 0.0))
+        };
         Self {
-            solver: StepSolver::new(lumped, 0.0),
-            still: vec![0.0; lumped.mesh.nodes()],
+            solver,
+            increment: vec![0.0; lumped.mesh.nodes()],
+            friction: vec![0.0; lumped.mesh.nodes()],
         }
     }
 
-    /// Brings `state` to rest; `vehicle_position` \[m\] is only reported on failure.
-    pub fn settle(
+    /// The ground moves from rest to the vehicle's first position. Heat of the slip \[J\].
+    pub fn arrive(
         &mut self,
         lumped: &Lumped,
-        tolerance: Tolerance,
+        duct: &MovingDuct,
         state: &mut CableState,
-        vehicle_position: f64,
         statistics: &mut Statistics,
-    ) -> Result<(), CableError> {
-        self.solver.load_elastic(lumped, &state.displacement);
-        self.solver
-            .solve(lumped, tolerance, &self.still, &mut state.friction, statistics)
-            .map_err(|violation| CableError::NoConvergence {
-                vehicle_position,
-                violation,
-            })?;
-        for (u, r) in state.displacement.iter_mut().zip(self.solver.increments()) {
+    ) -> Result<f64, CableError> {
+        duct.displacement(0.0, &mut self.increment);
+        self.follow(lumped, duct, 0.0, state, statistics)
+    }
+
+    /// The ground moves from the vehicle's last position back to rest. Heat of the slip \[J\].
+    pub fn leave(
+        &mut self,
+        lumped: &Lumped,
+        duct: &MovingDuct,
+        state: &mut CableState,
+        statistics: &mut Statistics,
+    ) -> Result<f64, CableError> {
+        let end = duct.duration();
+        duct.displacement(end, &mut self.increment);
+        for increment in &mut self.increment {
+            *increment = -*increment;
+        }
+        self.follow(lumped, duct, end, state, statistics)
+    }
+
+    /// One step by the increments of the duct; `time` \[s\] is only reported on failure, as the vehicle's position.
+    fn follow(
+        &mut self,
+        lumped: &Lumped,
+        duct: &MovingDuct,
+        time: f64,
+        state: &mut CableState,
+        statistics: &mut Statistics,
+    ) -> Result<f64, CableError> {
+        let Self {
+            solver,
+            increment,
+            friction,
+        } = self;
+        let largest = state.displacement.iter().fold(duct.peak(), |l, u| l.max(u.abs()));
+        let tolerance = tolerance(lumped, largest);
+        friction.copy_from_slice(&state.friction);
+        let solved = match solver {
+            Solver::Memory(solver) => {
+                solver.load_elastic(lumped, &state.displacement);
+                solver
+                    .solve(lumped, tolerance, increment, friction, statistics)
+                    .map(|()| solver.increments())
+            }
+            Solver::Sigmoid(solver) => {
+                solver.start();
+                solver.inner.load_elastic(lumped, &state.displacement);
+                solver.solve(lumped, tolerance, increment, friction, statistics)
+            }
+        };
+        let moved = solved.map_err(|violation| CableError::NoConvergence {
+            vehicle_position: duct.vehicle_position(time),
+            violation,
+        })?;
+        let law = lumped.cable.friction();
+        let compliance = if law.law().has_memory() { law.compliance() } else { 0.0 };
+        let heat = lumped.weighted(moved.len(), |i| {
+            friction[i] * (increment[i] - moved[i] - compliance * (friction[i] - state.friction[i]))
+        });
+        for (u, r) in state.displacement.iter_mut().zip(moved) {
             *u += r;
         }
-        Ok(())
+        state.friction.copy_from_slice(friction);
+        Ok(heat)
     }
 }

@@ -9,8 +9,8 @@
 //! nearly a step and Newton starts far from its basin: where it does not arrive from the last increment, it starts again from
 //! the answer for clamp(b Δs/2, −1, 1), which the active set finds ([`StepSolver`]).
 
+use super::{Lumped, StepSolver};
 use crate::quasi_static::{Contact, Tolerance};
-use crate::transient::{Lumped, StepSolver};
 use crate::{FrictionLaw, Statistics};
 
 /// Newton steps from the last increment, and from the clamped law's answer.
@@ -20,7 +20,7 @@ const HALVINGS: usize = 40;
 
 /// Solver of implicit steps over the whole cable for the sigmoid law.
 #[derive(Debug, Clone)]
-pub(super) struct SigmoidSolver {
+pub(crate) struct SigmoidSolver {
     /// The clamped law's solver, and the loads.
     pub inner: StepSolver,
     half_shape: f64,

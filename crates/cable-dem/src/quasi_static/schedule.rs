@@ -1,0 +1,107 @@
+//! Where the vehicle stops on its way: the positions of one pass.
+//!
+//! Over the duct it advances by the mesh's vehicle step. A step is an exact solution as long as no node's duct turns within it,
+//! and what it leaves out of a turn is the bend of the path,
+//!
+//! max |D(ξ) − ½ (D(ξ − s) + D(ξ + s))|,
+//!
+//! for a stride s. Far from the duct the shape's tail is smooth, and strides of twice, four times, … the step leave out no
+//! more than a step does at the sharpest bend: a vehicle is followed to 300 m in some thirty steps.
+
+/// Ratio of a stride to its distance from the duct at most.
+const LONGEST: f64 = 0.5;
+
+/// Vehicle positions in lattice units, ascending, from `approach` before a duct of length `end` to `approach` past it, about
+/// `stride` apart over the duct. `shape` is D on the lattice, `origin` the index of ξ = 0 in it.
+pub(super) fn schedule(shape: &[f64], origin: usize, end: i64, approach: i64, stride: i64) -> Vec<i64> {
+    let allowed = largest_bend(shape, stride as usize);
+    // Distances from the vehicle beyond which each stride is short enough, ahead of it and behind.
+    let mut limits: Vec<(i64, [i64; 2])> = vec![(stride, [0, 0])];
+    let mut longer = 2 * stride;
+    while longer <= approach {
+        let outermost = outermost_bends(shape, origin, longer as usize, allowed);
+        let least = (longer as f64 / LONGEST) as i64;
+        limits.push((longer, outermost.map(|distance| distance.max(least))));
+        longer *= 2;
+    }
+    let outward = |side: usize| {
+        let mut distance = 0;
+        let limits = &limits;
+        std::iter::from_fn(move || {
+            if distance >= approach {
+                return None;
+            }
+            let fits = limits.iter().rev().find(|(_, limit)| distance >= limit[side]);
+            distance = (distance + fits.map_or(stride, |(stride, _)| *stride)).min(approach);
+            Some(distance)
+        })
+    };
+    let over = (end + stride - 1) / stride * stride;
+    let mut positions: Vec<i64> = outward(0).map(|distance| -distance).collect();
+    positions.reverse();
+    positions.extend((0..=over).step_by(stride as usize));
+    positions.extend(outward(1).map(|distance| over + distance));
+    positions
+}
+
+/// |D(ξ) − ½ (D(ξ − s) + D(ξ + s))| at lattice point `at`; beyond its ends the shape stays as it is there.
+fn bend(shape: &[f64], at: usize, stride: usize) -> f64 {
+    let last = shape.len() - 1;
+    let (before, after) = (at.saturating_sub(stride), (at + stride).min(last));
+    (shape[at] - 0.5 * (shape[before] + shape[after])).abs()
+}
+
+fn largest_bend(shape: &[f64], stride: usize) -> f64 {
+    (0..shape.len()).map(|at| bend(shape, at, stride)).fold(0.0, f64::max)
+}
+
+/// How far ahead of the vehicle and behind it a stride last bends the path by more than `allowed`, in lattice units.
+fn outermost_bends(shape: &[f64], origin: usize, stride: usize, allowed: f64) -> [i64; 2] {
+    let sharp = |at: &usize| bend(shape, *at, stride) > allowed;
+    let ahead = (origin..shape.len()).rev().find(sharp);
+    let behind = (0..origin).find(sharp);
+    [
+        ahead.map_or(0, |at| (at - origin) as i64),
+        behind.map_or(0, |at| (origin - at) as i64),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ξ/(1 + ξ²) with a tail 1/ξ, in steps of 0.1, out to ±1000.
+    fn positions(approach: i64) -> Vec<i64> {
+        let shape: Vec<f64> = (-10_000..=10_000)
+            .map(|j| 0.1 * f64::from(j))
+            .map(|xi| xi / (1.0 + xi * xi))
+            .collect();
+        schedule(&shape, 10_000, 100, approach, 1)
+    }
+
+    #[test]
+    fn a_vehicle_is_followed_ten_times_as_far_in_a_few_more_steps() {
+        let (near, far) = (positions(500), positions(5000));
+        for positions in [&near, &far] {
+            assert!(positions.is_sorted_by(|a, b| a < b));
+            assert!((0..=100).all(|over| positions.contains(&over)));
+        }
+        assert_eq!((far[0], far[far.len() - 1]), (-5000, 5100));
+        assert!(far.len() < near.len() + 40, "{} after {}", far.len(), near.len());
+    }
+
+    #[test]
+    fn strides_grow_outward_and_leave_out_no_more_than_a_step_over_the_duct() {
+        let positions = positions(5000);
+        let value = |j: f64| 0.1 * j / (1.0 + 0.01 * j * j);
+        // Over the duct: D″ is largest at ξ = √2 − 1, where it is 1.457.
+        let allowed = 1.01 * 0.5 * 0.01 * 1.46;
+        for pair in positions.windows(2) {
+            let (a, b) = (pair[0] as f64, pair[1] as f64);
+            // The node at either end of the duct, the nearer one to the vehicle.
+            let node = if a < 0.0 { 0.0 } else { 100.0 };
+            let middle = value(node - 0.5 * (a + b)) - 0.5 * (value(node - a) + value(node - b));
+            assert!(middle.abs() <= allowed, "from {a} to {b}: {middle:e}");
+        }
+    }
+}
