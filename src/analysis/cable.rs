@@ -6,7 +6,7 @@ use cable_dem::{
 };
 use ground_field::DuctMotion;
 
-use super::motion::approach;
+use super::road::approach;
 use super::result::FrictionProfile;
 use crate::Error;
 use crate::scene::Scene;
@@ -83,17 +83,18 @@ impl PassSolver {
         mesh: Mesh,
     ) -> Result<Self, Error> {
         let cable = cable(scene)?;
+        let approach = approach(scene, motions);
         let ducts = || {
             motions
                 .iter()
-                .map(|motion| MovingDuct::new(&cable, &mesh, motion, approach(scene)))
+                .map(|motion| MovingDuct::new(&cable, &mesh, motion, approach))
                 .collect::<Result<Vec<_>, _>>()
         };
         Ok(match method {
             CableMethod::QuasiStatic => {
                 let passages = motions
                     .iter()
-                    .map(|motion| Passage::new(&cable, &mesh, motion, approach(scene)))
+                    .map(|motion| Passage::new(&cable, &mesh, motion, approach))
                     .collect::<Result<Vec<_>, _>>()?;
                 Self::QuasiStatic(Box::new(QuasiStatic::new(cable, mesh)?), passages)
             }

@@ -7,7 +7,7 @@ use ground_field::DuctMotion;
 use pass_law::{Concern, Evolution, PassLaw, Resolution, concerns_before};
 
 use super::cable::{CableMethod, cable};
-use super::motion::approach;
+use super::road::approach;
 use super::passes::simulate;
 use super::result::{
     ErrorEstimate, ErrorShares, ForceProfile, PassRecord, RestraintRecord, Saturation, Stage,
@@ -74,7 +74,7 @@ pub fn run(scene: &Scene, motions: &[DuctMotion], stages: &[u64]) -> Result<LawR
 fn first_passes(scene: &Scene, motions: &[DuctMotion]) -> Result<Option<Vec<PassRecord>>, Error> {
     let mut scene = scene.clone();
     (scene.solver.node_spacing, scene.solver.vehicle_step) = (None, None);
-    let levels = Levels::new(&scene, approach(&scene), false);
+    let levels = Levels::new(&scene, approach(&scene, motions), false);
     let (fewest, most) = CHECKED_PASSES;
     let affordable = CHECK_NODE_UPDATES / levels.node_updates(CHECK_LEVEL, 1);
     if affordable * MOST_CHECKS < fewest as f64 {
@@ -115,7 +115,7 @@ fn evolve(
     let at = |nodes: f64| -> Result<(PassLaw, Evolution, Resolution), Error> {
         let resolution = Resolution::new(scene.duct.depth)?
             .with_nodes_per_depth(nodes)?
-            .with_approach(approach(scene))?;
+            .with_approach(approach(scene, motions))?;
         let law = PassLaw::new(&cable, &traffic, resolution)?;
         let evolution = law.run(&passes)?;
         Ok((law, evolution, resolution))
@@ -199,7 +199,7 @@ pub fn records(
 ) -> Result<Vec<PassRecord>, Error> {
     let resolution = Resolution::new(scene.duct.depth)?
         .with_nodes_per_depth(nodes_per_depth)?
-        .with_approach(approach(scene))?;
+        .with_approach(approach(scene, motions))?;
     let law = PassLaw::new(&cable(scene)?, &traffic(scene, motions), resolution)?;
     let swing = swing(scene);
     Ok(law

@@ -8,5 +8,6 @@ pub mod motion;
 pub mod passes;
 pub mod profile;
 pub mod result;
+pub mod road;
 pub mod run;
 pub mod saturation;

@@ -5,12 +5,6 @@ use ground_field::{DuctLine, DuctMotion, GroundField};
 use crate::Error;
 use crate::scene::{PeakScaling, Scene};
 
-/// Vehicles come from and leave to this far beyond the duct's ends \[m\]: behind that, the duct's motion no longer turns,
-/// and only the slow tail is left, which real ground over rock has not.
-const APPROACH: f64 = 15.0;
-/// Every wheel passes this many depths beyond the ends at least, in deep ducts and with long vehicles.
-const APPROACH_DEPTHS: f64 = 6.0;
-
 /// A ground model, and the accuracy to which the duct's motion follows it as a share of its peak.
 pub struct Ground<'a> {
     pub field: &'a dyn GroundField,
@@ -21,25 +15,6 @@ impl<'a> Ground<'a> {
     pub fn new(field: &'a dyn GroundField, accuracy: f64) -> Self {
         Self { field, accuracy }
     }
-}
-
-/// How far beyond the duct's ends the vehicles' origins come from \[m\].
-pub fn approach(scene: &Scene) -> f64 {
-    let farthest = scene
-        .vehicles
-        .iter()
-        .flat_map(|traffic| traffic.vehicle.wheels())
-        .map(|wheel| wheel.x.abs())
-        .fold(0.0, f64::max);
-    scene
-        .solver
-        .approach
-        .unwrap_or(APPROACH.max(farthest + APPROACH_DEPTHS * scene.duct.depth))
-}
-
-/// How far from a vehicle's origin the cable feels it \[m\].
-pub fn reach(scene: &Scene) -> f64 {
-    scene.duct.length + 2.0 * approach(scene)
 }
 
 /// The motion under every vehicle for |ξ| up to `reach` \[m\], scaled to a measured peak where the scene has one.

@@ -1,7 +1,7 @@
 //! Carrying a plan out: ground, motion, passes, and what the answer holds.
 
 use cable_dem::PassOutcome;
-use ground_field::{DuctMotion, GroundField};
+use ground_field::GroundField;
 
 use super::cable::{CableMethod, PassMethod};
 use super::law::LawRun;
@@ -11,7 +11,7 @@ use super::result::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
 };
 use super::saturation::saturation;
-use super::{law, motion};
+use super::law;
 use crate::planner::{Plan, plan, plan_on};
 use crate::scene::End;
 use crate::{Error, Scene};
@@ -91,7 +91,6 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         vehicle_step_m: 0.0,
         reasons: plan.reasons(),
     };
-    summary.reasons.push(approach_reason(scene, exact));
     let mut warnings = plan.warnings.clone();
     let title = scene.title.clone();
     let method = match plan.method.method {
@@ -190,27 +189,6 @@ fn by_law(
         cost: law.cost,
         warnings,
     }
-}
-
-/// From where vehicles come, and what is left out of account by that.
-fn approach_reason(scene: &Scene, motions: &[DuctMotion]) -> String {
-    let approach = motion::approach(scene);
-    let left = motions.iter().fold(0.0_f64, |left, motion| {
-        let far = motion
-            .longitudinal(approach)
-            .abs()
-            .max(motion.longitudinal(-approach).abs());
-        if far > 0.0 {
-            left.max(far / motion.peak_longitudinal())
-        } else {
-            left
-        }
-    });
-    format!(
-        "vehicles come from and leave to {approach} m beyond the duct (solver.approach), where its end is {:.1} % of the peak \
-         from its place",
-        100.0 * left
-    )
 }
 
 /// The force that a load cell would show: at the end that is held, the larger one of two, and inside the cable where none

@@ -14,7 +14,7 @@ use super::Series;
 use super::unknown::{Quantity, Unknown};
 use crate::analysis::cable::PassMethod;
 use crate::analysis::passes::simulate;
-use crate::analysis::{law, motion};
+use crate::analysis::{law, motion, road};
 use crate::planner::{ground, plan};
 use crate::{Error, PassRecord, Scene};
 
@@ -81,7 +81,7 @@ impl SeriesModel {
         let method = plan(&scene)?.method.method;
         let (_, field, accuracy) = ground::exact(&scene)?;
         let ground = motion::Ground::new(&*field, accuracy);
-        let motions = motion::motions(&scene, &ground, motion::reach(&scene))?;
+        let motions = motion::motions(&scene, &ground, road::reach(&scene))?;
         Ok(Self {
             scene,
             motions,

@@ -19,6 +19,7 @@ use layered_fem::LayeredFem;
 use super::Rung;
 use crate::Error;
 use crate::analysis::motion::{self, Ground};
+use crate::analysis::road;
 use crate::scene::{GroundModel, Scene};
 
 /// Accuracy of the duct's motion as a share of its peak where the ground has a closed form. The cable feels the motion's
@@ -71,8 +72,16 @@ impl GroundChoice<'_> {
             Motions::Later(field, accuracy) => Ok(Cow::Owned(motion::motions(
                 scene,
                 &Ground::new(&**field, *accuracy),
-                motion::reach(scene),
+                road::reach(scene),
             )?)),
+        }
+    }
+
+    /// The motions, where they are known without much work.
+    pub fn known(&self) -> Option<&[DuctMotion]> {
+        match &self.motions {
+            Motions::Known(motions) => Some(motions),
+            Motions::Later(..) => None,
         }
     }
 
@@ -372,7 +381,7 @@ impl Ladder<'_> {
 }
 
 fn motions(scene: &Scene, field: &dyn GroundField, accuracy: f64) -> Result<Vec<DuctMotion>, Error> {
-    motion::motions(scene, &Ground::new(field, accuracy), motion::reach(scene))
+    motion::motions(scene, &Ground::new(field, accuracy), road::reach(scene))
 }
 
 fn samples(motions: &[DuctMotion]) -> f64 {

@@ -14,7 +14,7 @@ use ground_field::GroundField;
 use serde::Serialize;
 
 use crate::analysis::run::{self, RunOptions};
-use crate::analysis::{cable::PassMethod, motion};
+use crate::analysis::{cable::PassMethod, road};
 use crate::{Error, Run, Scene};
 use ground::GroundChoice;
 use mesh::Levels;
@@ -126,13 +126,14 @@ pub fn plan(scene: &Scene) -> Result<Plan<'_>, Error> {
 pub fn plan_on<'a>(scene: &'a Scene, own: Option<&'a dyn GroundField>) -> Result<Plan<'a>, Error> {
     let by_time_step =
         scene.solver.method == crate::scene::SolverMethod::Explicit && scene.solver.time_step.is_some();
-    let levels = Levels::new(scene, motion::approach(scene), by_time_step);
+    let ground = ground::choose(scene, own)?;
+    let approach = road::approach(scene, ground.known().unwrap_or_default());
+    let levels = Levels::new(scene, approach, by_time_step);
     let first = levels.mesh(levels.first())?;
     let method = method::choose(scene, &levels)?;
     if method.method != PassMethod::Law {
         run::check_passes(scene)?;
     }
-    let ground = ground::choose(scene, own)?;
     Ok(Plan {
         scene,
         warnings: warnings(scene),
