@@ -176,7 +176,7 @@ impl Sweeper {
             slip: SLIP_ACCURACY * largest + self.chain.compliance * friction,
         };
 
-        let mut recorder = Recorder::new(state.end_forces(&self.cable, &self.mesh));
+        let mut recorder = Recorder::new(state.ends(&self.cable, &self.mesh));
         let memory = self.recall(passage.id());
         let mut travelling: Option<Stretch> = None;
         let (&arrival, onward) = passage
