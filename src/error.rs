@@ -71,6 +71,7 @@ impl Error {
     pub fn located(self, file: &SceneFile) -> Self {
         let location = match &self {
             Self::Unfit { key, .. } => file.locate(key),
+            Self::Scene(SceneError::Value { key, .. }) => file.locate(key),
             _ => None,
         };
         match location {

@@ -25,14 +25,14 @@ pub struct Passes {
 }
 
 /// Force along the cable as it is left in `state`.
-pub fn force_profile(cable: &DuctedCable, mesh: &Mesh, state: &CableState) -> ForceProfile {
-    let force_n: Vec<f64> = state.element_forces(cable, mesh).collect();
-    ForceProfile {
+pub fn force_profile(cable: &DuctedCable, mesh: &Mesh, state: &CableState) -> Result<ForceProfile, Error> {
+    let force_n: Vec<f64> = state.element_forces(cable, mesh)?.collect();
+    Ok(ForceProfile {
         positions_m: (0..force_n.len())
             .map(|i| mesh.spacing() * (i as f64 + 0.5))
             .collect(),
         force_n,
-    }
+    })
 }
 
 /// Lets the scene's traffic pass over its cable meshed by `mesh`, and looks at the cable at the passes `stages`; `passed`
@@ -64,7 +64,7 @@ pub fn simulate(
             if wanted {
                 seen_stages.push(Stage {
                     pass,
-                    force_profile: force_profile(&cable, &mesh, &state),
+                    force_profile: force_profile(&cable, &mesh, &state)?,
                     friction,
                 });
             }

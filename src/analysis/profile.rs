@@ -1,10 +1,14 @@
 //! Motion of the duct under the first vehicle, along the duct.
 
+use ground_field::GroundError;
 use serde::Serialize;
 
 use super::motion::{self, Ground};
 use crate::planner::ground;
 use crate::{Error, Scene};
+
+/// Farthest position from the vehicle \[m\].
+const FARTHEST: f64 = 1e6;
 
 /// Displacement and velocity of the duct at positions ξ = x − x_v along it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -27,6 +31,7 @@ pub struct Profile {
 ///
 /// [`Error`] when the ground model does not fit the scene or cannot be computed.
 pub fn profile(scene: &Scene) -> Result<Profile, Error> {
+    scene.validate()?;
     let wheels = scene.vehicles[0].vehicle.wheels();
     let half = 8.0 * scene.duct.depth + wheels.iter().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
     let positions: Vec<f64> = (-80..=80).map(|k| half * f64::from(k) / 80.0).collect();
@@ -37,8 +42,14 @@ pub fn profile(scene: &Scene) -> Result<Profile, Error> {
 ///
 /// # Errors
 ///
-/// As for [`profile`].
+/// As for [`profile`]; also for a position that is farther than 1000 km from the vehicle, or not a number.
 pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
+    scene.validate()?;
+    let far = positions.iter().find(|xi| !(-FARTHEST..=FARTHEST).contains(*xi));
+    if let Some(&value) = far {
+        let (name, allowed) = ("position", "from -1000 km to 1000 km");
+        return Err(GroundError::InvalidParameter { name, value, allowed }.into());
+    }
     let (name, field, accuracy) = ground::exact(scene)?;
     let reach = positions
         .iter()

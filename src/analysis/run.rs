@@ -147,8 +147,8 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         duct_motion,
         passes: listed(passes),
         saturation: saturation(&series, scale),
-        force_profile: force_profile(&solved.passes.cable, &solved.mesh, &solved.passes.state),
-        restraints: restraints(&solved),
+        force_profile: force_profile(&solved.passes.cable, &solved.mesh, &solved.passes.state)?,
+        restraints: restraints(&solved)?,
         slip_lengths: solved.passes.slip,
         stages: solved.passes.stages.clone(),
         error_estimate: ErrorEstimate {
@@ -230,19 +230,17 @@ fn force_series(scene: &Scene, outcomes: &[PassOutcome]) -> (Vec<f64>, f64) {
     }
 }
 
-fn restraints(solved: &Solved) -> Vec<RestraintRecord> {
+fn restraints(solved: &Solved) -> Result<Vec<RestraintRecord>, Error> {
     let Passes { state, cable, .. } = &solved.passes;
-    let forces = state.restraint_forces(cable, &solved.mesh);
-    cable
-        .restraints()
-        .iter()
-        .zip(forces)
+    let forces = state.restraint_forces(cable, &solved.mesh)?;
+    let restraints = cable.restraints().iter().zip(forces);
+    Ok(restraints
         .map(|(restraint, force_n)| RestraintRecord {
             position_m: restraint.position,
             stiffness_n_per_m: restraint.stiffness,
             force_n,
         })
-        .collect()
+        .collect())
 }
 
 /// All passes, or of very many the first ones and then evenly growing numbers, the last among them.

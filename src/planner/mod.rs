@@ -124,6 +124,7 @@ pub fn plan(scene: &Scene) -> Result<Plan<'_>, Error> {
 ///
 /// As for [`plan`].
 pub fn plan_on<'a>(scene: &'a Scene, own: Option<&'a dyn GroundField>) -> Result<Plan<'a>, Error> {
+    scene.validate()?;
     let by_time_step =
         scene.solver.method == crate::scene::SolverMethod::Explicit && scene.solver.time_step.is_some();
     let ground = ground::choose(scene, own)?;

@@ -89,6 +89,7 @@ impl Report {
     /// [`Error`] when the scene's own run fails, or readings are given and no end of the cable is held. Ways to hold the cable that
     /// fail are told on the page.
     pub fn new(scene: &Scene, options: &ReportOptions<'_>) -> Result<Self, Error> {
+        scene.validate()?;
         let agreed = |run: &Run| {
             options
                 .readings

@@ -2,7 +2,7 @@
 
 use super::range::{
     ANY, AXIAL_STIFFNESS, COEFFICIENT, DEPTH, DUCT_LENGTH, LOAD_FACTOR, OFFSET, SHAPE_FACTOR, STIFFNESS,
-    WEIGHT, shown,
+    WEIGHT, positions,
 };
 use super::table::Table;
 use super::value::Value;
@@ -103,8 +103,8 @@ fn restraint(item: &Value, duct: &Duct) -> Result<Restraint, SceneError> {
     const EXAMPLE: &str = "\"20 m\"";
     let table = item.table(keys::RESTRAINT)?;
     let position = table.quantity("position", Dimension::Length, ANY, EXAMPLE)?;
-    if !(0.0..=duct.length).contains(&position) {
-        let allowed = format!("a position in the duct, from 0 m to {} m", shown(duct.length));
+    let (range, allowed) = positions(duct.length);
+    if !range.contains(&position) {
         return Err(table.required("position", &allowed)?.out_of_range(allowed));
     }
     Ok(Restraint {

@@ -166,6 +166,16 @@ pub enum SceneError {
         /// What is allowed.
         allowed: String,
     },
+    /// A value of a scene that was made or changed by a program.
+    #[error("`{key}`: found {found}; allowed: {allowed}")]
+    Value {
+        /// The key, with its section.
+        key: String,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: String,
+    },
     /// The ground or a vehicle cannot be built from these values.
     #[error("{location}: `{key}`: {source}{}", .location.excerpt())]
     Rejected {
@@ -192,10 +202,10 @@ pub(super) fn not_utf8(file: &str, error: &FromUtf8Error) -> SceneError {
 }
 
 impl SceneError {
-    /// Where the scene is wrong; `None` if its file cannot be read at all.
+    /// Where the scene is wrong; `None` if its file cannot be read at all, or the scene is not that of a file.
     pub fn location(&self) -> Option<&Location> {
         match self {
-            Self::Unreadable { .. } | Self::TooLarge { .. } => None,
+            Self::Unreadable { .. } | Self::TooLarge { .. } | Self::Value { .. } => None,
             Self::NotUtf8 { location }
             | Self::Syntax { location, .. }
             | Self::Override { location, .. }

@@ -30,8 +30,14 @@ pub(super) fn ground(root: &Table) -> Result<Ground, SceneError> {
     })
 }
 
+/// The model's name in scene files.
+pub(super) fn name(model: GroundModel) -> &'static str {
+    let named = MODELS.iter().find(|(_, other)| *other == model);
+    named.map_or("", |(name, _)| name)
+}
+
 /// What is allowed instead where a model cannot represent the ground.
-fn unfit(model: GroundModel, profile: &SoilProfile) -> Option<&'static str> {
+pub(super) fn unfit(model: GroundModel, profile: &SoilProfile) -> Option<&'static str> {
     let graded = profile.layers().iter().any(|layer| layer.soil().is_none());
     match model {
         GroundModel::Boussinesq if profile.homogeneous().is_none() => Some(
@@ -93,7 +99,7 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
     let base = if let Some(value) = table.optional("rigid_base_depth") {
         let depth = value.quantity(Dimension::Length, THICKNESS, "\"12 m\"")?;
         let above: f64 = upper.iter().map(SoilLayer::thickness).sum();
-        if depth <= above {
+        if !THICKNESS.contains(depth - above) {
             return Err(value.out_of_range(format!(
                 "a depth below the upper layers, greater than {} m",
                 shown(above)

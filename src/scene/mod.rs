@@ -60,6 +60,7 @@ mod syntax;
 mod table;
 mod traffic;
 mod units;
+mod validate;
 mod value;
 
 use std::path::Path;

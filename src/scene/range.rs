@@ -9,7 +9,7 @@ use super::Dimension;
 pub(super) struct Range {
     /// In words, after "a length".
     words: &'static str,
-    pub holds: fn(f64) -> bool,
+    holds: fn(f64) -> bool,
 }
 
 pub(super) const ANY: Range = Range {
@@ -59,20 +59,70 @@ pub(super) const TOLERANCE: Range = Range {
     holds: |v| v > 0.0 && v <= 0.5,
 };
 
+range!(SHARE, 1e-12, 1e12, "greater than 0, from 1e-12 to 1e12");
+/// Numbers of passes that can be computed, by the pass law at the latest.
+pub(super) const PASSES: RangeInclusive<u64> = 1..=pass_law::MOST_PASSES;
+/// Most nodes and most steps of a vehicle over the duct; where the scene gives no step there are two to a node.
+const MOST_NODES: f64 = 5e6;
+const MOST_STEPS: f64 = 1e7;
+
+/// A range whose ends follow from the rest of the scene, with its words.
+pub(super) type Follows = (RangeInclusive<f64>, String);
+
+/// Node spacings \[m\] in a duct of this length.
+pub(super) fn node_spacings(length: f64) -> Follows {
+    let words = format!(
+        "at most half the duct's length, {} m, and at least its five-millionth part",
+        shown(length / 2.0)
+    );
+    (length / MOST_NODES..=length / 2.0, words)
+}
+
+/// Steps of a vehicle \[m\] over a duct of this length.
+pub(super) fn vehicle_steps(length: f64) -> Follows {
+    let words = format!(
+        "at most the duct's length, {} m, and at least its ten-millionth part",
+        shown(length)
+    );
+    (length / MOST_STEPS..=length, words)
+}
+
+/// Positions of clamps \[m\] in a duct of this length.
+pub(super) fn positions(length: f64) -> Follows {
+    let words = format!("a position in the duct, from 0 m to {} m", shown(length));
+    (0.0..=length, words)
+}
+
+impl Range {
+    /// Whether a number lies within.
+    pub fn contains(self, value: f64) -> bool {
+        value.is_finite() && (self.holds)(value)
+    }
+
+    /// The range of a quantity in words.
+    pub fn of(self, dimension: Dimension) -> String {
+        format!("{} {}", dimension.noun(), self.words)
+    }
+
+    /// The range of a number in words.
+    pub fn of_number(self) -> String {
+        format!("a number {}", self.words)
+    }
+}
+
 /// What is allowed where a quantity belongs.
 pub(super) fn allowed_quantity(dimension: Dimension, range: Range, example: &str) -> String {
     let units: Vec<&str> = dimension.units().collect();
     format!(
-        "{} {}, such as {example} (units: {})",
-        dimension.noun(),
-        range.words,
+        "{}, such as {example} (units: {})",
+        range.of(dimension),
         units.join(", ")
     )
 }
 
 /// What is allowed where a dimensionless number belongs.
 pub(super) fn allowed_number(range: Range) -> String {
-    format!("a number {}, without quotes or unit", range.words)
+    format!("{}, without quotes or unit", range.of_number())
 }
 
 /// What is allowed where a whole number belongs.

@@ -1,6 +1,6 @@
 //! `[solver]`: how to compute.
 
-use super::range::{APPROACH, POSITIVE, TOLERANCE, shown};
+use super::range::{self, APPROACH, Follows, POSITIVE, TOLERANCE};
 use super::table::Table;
 use super::{Dimension, Duct, SceneError, Solver, SolverMethod, keys};
 
@@ -12,8 +12,6 @@ const METHODS: &[(&str, SolverMethod)] = &[
     ("pass-law", SolverMethod::PassLaw),
 ];
 
-/// Most nodes or vehicle steps over the duct.
-const FINEST: f64 = 1e6;
 const DEFAULT_TOLERANCE: f64 = 0.01;
 
 impl Default for Solver {
@@ -36,26 +34,10 @@ pub(super) fn solver(root: &Table, duct: &Duct) -> Result<Solver, SceneError> {
     let table = section.table(keys::SOLVER)?;
     let method = table.word("method", METHODS, SolverMethod::Auto)?;
     let tolerance = table.optional_quantity("tolerance", Dimension::Ratio, TOLERANCE, "0.01 or \"1 %\"")?;
-    let node_spacing = table.optional_quantity("node_spacing", Dimension::Length, POSITIVE, "\"0.1 m\"")?;
-    if let (Some(spacing), Some(value)) = (node_spacing, table.optional("node_spacing"))
-        && !(duct.length / FINEST..=duct.length / 2.0).contains(&spacing)
-    {
-        let allowed = format!(
-            "at most half the duct's length, {} m, and at least its millionth part",
-            shown(duct.length / 2.0)
-        );
-        return Err(value.out_of_range(allowed));
-    }
-    let vehicle_step = table.optional_quantity("vehicle_step", Dimension::Length, POSITIVE, "\"0.1 m\"")?;
-    if let (Some(step), Some(value)) = (vehicle_step, table.optional("vehicle_step"))
-        && !(duct.length / FINEST..=duct.length).contains(&step)
-    {
-        let allowed = format!(
-            "at most the duct's length, {} m, and at least its millionth part",
-            shown(duct.length)
-        );
-        return Err(value.out_of_range(allowed));
-    }
+    let spacings = range::node_spacings(duct.length);
+    let node_spacing = length(&table, "node_spacing", spacings)?;
+    let steps = range::vehicle_steps(duct.length);
+    let vehicle_step = length(&table, "vehicle_step", steps)?;
     let mut time_step = table.optional_quantity("time_step", Dimension::Time, POSITIVE, "\"0.1 ms\"")?;
     if matches!(method, SolverMethod::QuasiStatic | SolverMethod::PassLaw) {
         let allowed = "`time_step` only with the method \"auto\", \"dynamic\" or \"explicit\"";
@@ -71,4 +53,17 @@ pub(super) fn solver(root: &Table, duct: &Duct) -> Result<Solver, SceneError> {
         time_step,
         approach,
     })
+}
+
+/// A length that must suit the duct.
+fn length(table: &Table, key: &str, (range, words): Follows) -> Result<Option<f64>, SceneError> {
+    let Some(value) = table.optional(key) else {
+        return Ok(None);
+    };
+    let length = value.quantity(Dimension::Length, POSITIVE, "\"0.1 m\"")?;
+    if range.contains(&length) {
+        Ok(Some(length))
+    } else {
+        Err(value.out_of_range(words))
+    }
 }

@@ -1,10 +1,8 @@
 //! `[[vehicles]]` and `[traffic]`: who drives, how often, in which order.
 
-use std::ops::RangeInclusive;
-
 use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
-use super::range::{CONTACT_RADIUS, LOAD, OFFSET, POSITIVE, SPEED, allowed_whole};
+use super::range::{CONTACT_RADIUS, LOAD, OFFSET, PASSES, SHARE, SPEED, allowed_whole};
 use super::table::Table;
 use super::value::Value;
 use super::{Dimension, Order, PeakScaling, SceneError, Traffic, TrafficVehicle, keys};
@@ -13,8 +11,6 @@ const DIRECTIONS: &[(&str, Direction)] = &[("forward", Direction::Forward), ("re
 const LOAD_EXAMPLE: &str = "\"20 tf\"";
 /// Seed of a random order where the file gives none.
 const DEFAULT_SEED: u64 = 1;
-/// Numbers of passes that can be computed, by the pass law at the latest.
-const PASSES: RangeInclusive<u64> = 1..=pass_law::MOST_PASSES;
 
 pub(super) fn traffic(
     root: &Table,
@@ -27,10 +23,10 @@ pub(super) fn traffic(
         let table = item.table(keys::VEHICLE)?;
         let name = name(&table, index, &vehicles)?;
         let vehicle = vehicle(&table, name)?;
-        if vehicle.weight() == 0.0 {
-            unscalable(&table, index, scaling)?;
+        if let Some(allowed) = unscalable(&vehicle, index, scaling) {
+            return Err(table.inconsistent("a vehicle without load", allowed));
         }
-        let share = table.optional_number("share", POSITIVE)?.unwrap_or(1.0);
+        let share = table.optional_number("share", SHARE)?.unwrap_or(1.0);
         vehicles.push(TrafficVehicle { vehicle, share });
     }
     let table = root.table("traffic", keys::TRAFFIC)?;
@@ -116,17 +112,14 @@ fn wheel(item: &Value) -> Result<Wheel, SceneError> {
     })
 }
 
-/// Refuses to scale the displacements of a vehicle that causes none.
-fn unscalable(table: &Table, index: usize, scaling: Option<PeakScaling>) -> Result<(), SceneError> {
-    let key = match scaling {
-        Some(PeakScaling::Longitudinal(_)) => "ground.longitudinal_peak",
-        Some(PeakScaling::Vertical(_)) if index == 0 => "ground.vertical_peak",
-        _ => return Ok(()),
+/// What is allowed instead of a vehicle that moves nothing where its displacements are to be scaled.
+pub(super) fn unscalable(vehicle: &Vehicle, index: usize, scaling: Option<PeakScaling>) -> Option<String> {
+    let key = match scaling? {
+        PeakScaling::Longitudinal(_) => "ground.longitudinal_peak",
+        PeakScaling::Vertical(_) if index == 0 => "ground.vertical_peak",
+        PeakScaling::Vertical(_) => return None,
     };
-    Err(table.inconsistent(
-        "a vehicle without load",
-        format!("a load greater than 0, which `{key}` can scale"),
-    ))
+    (vehicle.weight() == 0.0).then(|| format!("a load greater than 0, which `{key}` can scale"))
 }
 
 fn order(table: &Table, vehicles: &[TrafficVehicle]) -> Result<Order, SceneError> {

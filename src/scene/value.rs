@@ -124,7 +124,7 @@ impl<'d> Value<'d> {
     }
 
     fn within(&self, value: f64, range: Range, allowed: impl Fn() -> String) -> Result<f64, SceneError> {
-        if value.is_finite() && (range.holds)(value) {
+        if range.contains(value) {
             Ok(value)
         } else {
             Err(self.out_of_range(allowed()))

@@ -46,6 +46,8 @@ fn scene(overrides: &[&str]) -> Scene {
 /// linear system a wavenumber, 320 bits).
 const HALF_SPACE: [f64; 2] = [14.9666, 98.3526];
 const ROCK: [f64; 2] = [15.0853, 89.8004];
+/// Over rock at 8 m, as the preset `kashiro` has it: what Hankel transform and finite elements must both give.
+const ROCK_OF_THE_PRESET: [f64; 2] = [15.2, 85.4];
 
 #[test]
 fn peaks_of_table_1() {
@@ -124,4 +126,37 @@ fn rock_at_12_m_gives_the_papers_figures() {
         .count();
     let length = 2.0 * 0.01 * sunk as f64;
     assert!((7.0..=12.0).contains(&length), "{length} m");
+}
+
+/// The preset of the paper's ground moves the duct along and down in the paper's ratio, and scaled to the paper's vertical
+/// displacement it gives the longitudinal one.
+#[test]
+fn the_preset_has_the_ratio_of_the_papers_figures() {
+    let start = SCENE.find("model = \"auto\"").expect("the ground");
+    let end = SCENE.find("[cable]").expect("the cable");
+    let text = format!("{}preset = \"kashiro\"\n{}", &SCENE[..start], &SCENE[end..]);
+    let peaks = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+        let scene = Scene::from_toml_with("kashiro.toml", &text, &overrides).expect("scene");
+        let positions: Vec<f64> = (0..=400).map(|k| 0.01 * f64::from(k)).collect();
+        let profile = creepage::profile_at(&scene, &positions).expect("profile");
+        let peak = |values: &[f64]| 1e6 * values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        [peak(&profile.longitudinal_m), peak(&profile.vertical_m)]
+    };
+    let within = |found: [f64; 2], wanted: [f64; 2], rounding: f64| {
+        for (found, wanted) in found.into_iter().zip(wanted) {
+            assert!((found - wanted).abs() <= rounding, "{found} µm for {wanted} µm");
+        }
+    };
+    let as_computed = peaks(&[]);
+    within(as_computed, ROCK_OF_THE_PRESET, 0.05);
+    within(peaks(&["ground.model=fem"]), ROCK_OF_THE_PRESET, 0.15);
+    assert!(
+        (as_computed[0] / as_computed[1] - 16.0 / 90.0).abs() < 5e-4,
+        "{as_computed:?}"
+    );
+    within(peaks(&["ground.vertical_peak=90 um"]), [16.0, 90.0], 0.05);
+    // What stands beside the preset counts instead of its value.
+    within(peaks(&["ground.rigid_base_depth=12 m"]), ROCK, 0.05);
+    within(peaks(&["ground.rigid_base_depth="]), HALF_SPACE, 0.05);
 }

@@ -3,6 +3,7 @@
 mod any_input;
 mod bad_input;
 mod contradictions;
+mod edited;
 mod overrides;
 mod presets;
 

@@ -71,7 +71,7 @@ fn every_preset_makes_a_scene_and_is_as_good_as_its_values() {
         assert_eq!(read_with(&written, &[]), named, "{}", preset.name);
         count[preset.kind as usize] += 1;
     }
-    assert_eq!(count, [6, 2, 4, 9]);
+    assert_eq!(count, [6, 2, 4, 10]);
 }
 
 #[test]

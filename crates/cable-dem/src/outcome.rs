@@ -98,7 +98,7 @@ impl Recorder {
     ) -> PassOutcome {
         self.record(force);
         let (least, largest) = state
-            .element_forces(cable, mesh)
+            .elements(cable, mesh)
             .chain([force.upstream, force.downstream])
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, largest), force| {
                 (least.min(force), largest.max(force))

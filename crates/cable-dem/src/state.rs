@@ -2,16 +2,35 @@
 
 use crate::ends::{Balance, EndReader};
 use crate::error::checked;
-use crate::{CableError, DuctedCable, EndForces, Mesh};
+use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 
 /// The cable at rest: displacement and friction of every node, with no vehicle near.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[cfg_attr(feature = "serde", serde(try_from = "Parts"))]
 pub struct CableState {
     /// Displacement u \[m\], positive toward growing x.
     pub(crate) displacement: Vec<f64>,
     /// Friction f on the cable per metre \[N/m\], positive toward growing x.
     pub(crate) friction: Vec<f64>,
+}
+
+/// A state as it is stored, before it is checked.
+#[cfg(feature = "serde")]
+#[derive(serde::Deserialize)]
+struct Parts {
+    displacement: Vec<f64>,
+    friction: Vec<f64>,
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Parts> for CableState {
+    type Error = CableError;
+
+    fn try_from(parts: Parts) -> Result<Self, CableError> {
+        let nodes = parts.displacement.len();
+        Self::of_nodes(nodes, parts.displacement, parts.friction)
+    }
 }
 
 impl CableState {
@@ -31,12 +50,14 @@ impl CableState {
     /// [`CableError::StateMismatch`] unless there is a value of each for every node of `mesh`,
     /// [`CableError::InvalidParameter`] unless all are finite.
     pub fn from_parts(mesh: &Mesh, displacement: Vec<f64>, friction: Vec<f64>) -> Result<Self, CableError> {
+        Self::of_nodes(mesh.nodes(), displacement, friction)
+    }
+
+    fn of_nodes(expected: usize, displacement: Vec<f64>, friction: Vec<f64>) -> Result<Self, CableError> {
         for (name, values) in [("displacement", &displacement), ("friction", &friction)] {
-            if values.len() != mesh.nodes() {
-                return Err(CableError::StateMismatch {
-                    found: values.len(),
-                    expected: mesh.nodes(),
-                });
+            let found = values.len();
+            if found != expected {
+                return Err(CableError::StateMismatch { found, expected });
             }
             for &value in values {
                 checked(name, value, "finite", |_| true)?;
@@ -59,32 +80,63 @@ impl CableState {
     }
 
     /// Force in every element \[N\], compression positive: F = −EA u′.
-    pub fn element_forces<'a>(&'a self, cable: &DuctedCable, mesh: &Mesh) -> impl Iterator<Item = f64> + 'a {
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::StateMismatch`] for a mesh of another size, [`CableError::InvalidParameter`] unless it is as long as the cable.
+    pub fn element_forces<'a>(
+        &'a self,
+        cable: &DuctedCable,
+        mesh: &Mesh,
+    ) -> Result<impl Iterator<Item = f64> + 'a, CableError> {
+        self.check_beside(cable, mesh)?;
+        Ok(self.elements(cable, mesh))
+    }
+
+    /// Force \[N\] on what holds each end, compression positive: the reading of a load cell there. What clamps on the same
+    /// node carry is not part of it.
+    ///
+    /// # Errors
+    ///
+    /// As for [`CableState::element_forces`].
+    pub fn end_forces(&self, cable: &DuctedCable, mesh: &Mesh) -> Result<EndForces, CableError> {
+        self.check_beside(cable, mesh)?;
+        Ok(self.ends(cable, mesh))
+    }
+
+    /// Force \[N\] of the cable on each of its clamps, positive toward growing x, in the order of
+    /// [`DuctedCable::restraints`].
+    ///
+    /// # Errors
+    ///
+    /// As for [`CableState::element_forces`].
+    pub fn restraint_forces(&self, cable: &DuctedCable, mesh: &Mesh) -> Result<Vec<f64>, CableError> {
+        self.check_beside(cable, mesh)?;
+        let on = |restraint: &Restraint| {
+            let springs = restraint.by_node(mesh).into_iter();
+            springs
+                .map(|(node, stiffness)| stiffness * self.displacement[node])
+                .sum()
+        };
+        Ok(cable.restraints().iter().map(on).collect())
+    }
+
+    /// [`CableState::element_forces`] on the mesh that this state is known to have.
+    pub(crate) fn elements<'a>(&'a self, cable: &DuctedCable, mesh: &Mesh) -> impl Iterator<Item = f64> + 'a {
         let stiffness = cable.axial_stiffness() / mesh.spacing();
         self.displacement
             .windows(2)
             .map(move |pair| stiffness * (pair[0] - pair[1]))
     }
 
-    /// Force \[N\] on what holds each end, compression positive: the reading of a load cell there. What clamps on the same
-    /// node carry is not part of it.
-    pub fn end_forces(&self, cable: &DuctedCable, mesh: &Mesh) -> EndForces {
+    /// [`CableState::end_forces`] on the mesh that this state is known to have.
+    pub(crate) fn ends(&self, cable: &DuctedCable, mesh: &Mesh) -> EndForces {
         EndReader::new(cable, mesh).read(Balance::AtRest, |i| self.displacement[i], |i| self.friction[i])
     }
 
-    /// Force \[N\] of the cable on each of its clamps, positive toward growing x, in the order of
-    /// [`DuctedCable::restraints`].
-    pub fn restraint_forces(&self, cable: &DuctedCable, mesh: &Mesh) -> Vec<f64> {
-        cable
-            .restraints()
-            .iter()
-            .map(|restraint| {
-                let springs = restraint.by_node(mesh).into_iter();
-                springs
-                    .map(|(node, stiffness)| stiffness * self.displacement[node])
-                    .sum()
-            })
-            .collect()
+    fn check_beside(&self, cable: &DuctedCable, mesh: &Mesh) -> Result<(), CableError> {
+        self.check(mesh)?;
+        mesh.check_length(cable)
     }
 
     /// Lets go of all friction: the cable returns to where its ends and clamps want it, or, held by none, keeps its mean
@@ -131,6 +183,7 @@ impl CableState {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Friction, FrictionLaw};
 
     #[test]
     fn a_given_state_must_fit_its_mesh_and_be_finite() -> Result<(), CableError> {
@@ -146,6 +199,47 @@ mod tests {
             })
         );
         assert!(CableState::from_parts(&mesh, vec![0.0; 3], vec![0.0, f64::NAN, 0.0]).is_err());
+        Ok(())
+    }
+
+    #[test]
+    fn forces_are_read_on_the_state_s_own_mesh_alone() -> Result<(), CableError> {
+        let friction = Friction::new(FrictionLaw::Coulomb, 1.0)?;
+        let clamp = Restraint {
+            position: 0.9,
+            stiffness: 1.0,
+        };
+        let cable = DuctedCable::new(1.0, 1.0, friction)?.with_restraints(vec![clamp])?;
+        let (coarse, fine) = (Mesh::new(1.0, 0.5, 0.5)?, Mesh::new(1.0, 0.125, 0.125)?);
+        let mismatch = CableError::StateMismatch {
+            found: 3,
+            expected: 9,
+        };
+        let state = CableState::at_rest(&coarse);
+        assert_eq!(state.end_forces(&cable, &fine), Err(mismatch.clone()));
+        assert_eq!(state.restraint_forces(&cable, &fine), Err(mismatch.clone()));
+        assert_eq!(state.element_forces(&cable, &fine).err(), Some(mismatch));
+        // As many nodes, at another spacing.
+        let longer = Mesh::new(2.0, 1.0, 1.0)?;
+        assert!(state.element_forces(&cable, &longer).is_err());
+        assert_eq!(state.element_forces(&cable, &coarse)?.count(), 2);
+        Ok(())
+    }
+
+    #[cfg(feature = "serde")]
+    #[test]
+    fn a_stored_state_is_checked_as_it_is_read() -> Result<(), Box<dyn std::error::Error>> {
+        let mesh = Mesh::new(1.0, 0.5, 0.5)?;
+        let state = CableState::from_parts(&mesh, vec![0.0, 1.0, 2.0], vec![3.0; 3])?;
+        let text = serde_json::to_string(&state)?;
+        assert_eq!(serde_json::from_str::<CableState>(&text)?, state);
+        for bad in [
+            r#"{"displacement":[0,0,0,0,0],"friction":[]}"#,
+            r#"{"displacement":[0,0],"friction":[0,0,0]}"#,
+            r#"{"displacement":[0]}"#,
+        ] {
+            assert!(serde_json::from_str::<CableState>(bad).is_err(), "{bad}");
+        }
         Ok(())
     }
 }

@@ -34,7 +34,7 @@ impl Traffic {
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless there is a vehicle, every share is positive and a sequence names
+    /// [`CableError::InvalidParameter`] unless there is a vehicle, every share is positive, their sum is finite, and a sequence names
     /// vehicles that exist.
     pub fn new(shares: &[f64], order: Order) -> Result<Self, CableError> {
         checked("vehicles", shares.len() as f64, "at least one", |v| v > 0.0)?;
@@ -53,6 +53,7 @@ impl Traffic {
             }
         }
         let total: f64 = shares.iter().sum();
+        checked("sum of the shares", total, "finite", |_| true)?;
         let seed = if let Order::Random { seed } = order {
             seed
         } else {

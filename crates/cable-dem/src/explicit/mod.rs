@@ -40,9 +40,11 @@ pub struct ExplicitOptions {
     pub time_step: Option<f64>,
     /// Whether a step beyond the limit is refused. Without the limit the energy balance still is watched: that is what
     /// this switch is there to show.
+    #[doc(hidden)]
     pub check_limits: bool,
     /// Whether a pass whose energy does not balance is an error. Without either check the scheme may return any number: only
     /// to show what they are for.
+    #[doc(hidden)]
     pub check_energy: bool,
     /// Most node updates (steps × nodes) that one pass may take.
     pub max_node_updates: f64,

@@ -127,7 +127,7 @@ impl QuasiStatic {
         if self.cable.friction().limit() == 0.0 {
             // Nothing drags the cable, and what held it is gone.
             state.release(&self.cable);
-            return Ok(self.outcome(state, Recorder::new(state.end_forces(&self.cable, &self.mesh))));
+            return Ok(self.outcome(state, Recorder::new(state.ends(&self.cable, &self.mesh))));
         }
         self.check_precision(passage, state)?;
         let mirrored = passage.direction() == Direction::Reverse;
@@ -160,7 +160,7 @@ impl QuasiStatic {
     }
 
     fn outcome(&self, state: &CableState, recorder: Recorder) -> PassOutcome {
-        let force = state.end_forces(&self.cable, &self.mesh);
+        let force = state.ends(&self.cable, &self.mesh);
         recorder.outcome(&self.cable, &self.mesh, state, force)
     }
 

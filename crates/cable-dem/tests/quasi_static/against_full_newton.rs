@@ -146,7 +146,10 @@ fn differences(scene: &Scene) -> Differences {
     }
     let k = cable.axial_stiffness() / mesh.spacing();
     let forces = |u: &[f64]| -> Vec<f64> { u.windows(2).map(|pair| k * (pair[0] - pair[1])).collect() };
-    let (ends, expected) = (run.state.end_forces(&cable, &mesh), oracle.end_forces());
+    let (ends, expected) = (
+        run.state.end_forces(&cable, &mesh).expect("the state's mesh"),
+        oracle.end_forces(),
+    );
     let force = largest_difference(&forces(run.state.displacement()), &forces(&oracle.displacement))
         .max((ends.upstream - expected.upstream).abs())
         .max((ends.downstream - expected.downstream).abs());

@@ -91,7 +91,12 @@ fn a_short_bar_is_fully_mobilised() {
                 (outcome.downstream_displacement - yielded).abs() < 1e-4 * far,
                 "{outcome:?}"
             );
-            for (i, force) in run.state.element_forces(&bar, &mesh).enumerate() {
+            for (i, force) in run
+                .state
+                .element_forces(&bar, &mesh)
+                .expect("the state's mesh")
+                .enumerate()
+            {
                 let x = (i as f64 + 0.5) * mesh.spacing();
                 assert!((force - Q * x).abs() < 1e-4 * exact, "{force} N at {x} m");
             }

@@ -57,7 +57,11 @@ fn profiles(node_spacing: f64) -> Vec<f64> {
         let mut run = Run::new(cable.clone(), mesh);
         for _ in 0..10 {
             let end = run.pass(&passage).force.downstream;
-            let forces: Vec<f64> = run.state.element_forces(&cable, &mesh).collect();
+            let forces: Vec<f64> = run
+                .state
+                .element_forces(&cable, &mesh)
+                .expect("the state's mesh")
+                .collect();
             let stride = (0.8 / mesh.spacing()).round() as usize;
             // Between two elements stands a node: half of either.
             profile.extend(

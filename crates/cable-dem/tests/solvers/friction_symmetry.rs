@@ -116,8 +116,8 @@ impl Scene {
 
     fn forces(&self, run: &Run) -> Vec<f64> {
         let Problem { cable, mesh, .. } = &self.problem;
-        let ends = run.state.end_forces(cable, mesh);
-        let inner = run.state.element_forces(cable, mesh);
+        let ends = run.state.end_forces(cable, mesh).expect("the state's mesh");
+        let inner = run.state.element_forces(cable, mesh).expect("the state's mesh");
         [ends.upstream]
             .into_iter()
             .chain(inner)

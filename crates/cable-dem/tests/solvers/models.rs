@@ -84,7 +84,10 @@ impl Quantity {
             Self::DownstreamDisplacement => outcome.downstream_displacement,
             Self::MiddleDisplacement => run.state.displacement()[problem.mesh.elements() / 2],
             Self::ElementForce(element) => {
-                let mut forces = run.state.element_forces(&problem.cable, &problem.mesh);
+                let mut forces = run
+                    .state
+                    .element_forces(&problem.cable, &problem.mesh)
+                    .expect("the state's mesh");
                 forces.nth(element).unwrap_or(f64::NAN)
             }
         }

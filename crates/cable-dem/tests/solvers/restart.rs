@@ -44,7 +44,10 @@ fn a_run_resumed_from_a_saved_state_equals_a_straight_run() -> Outcome {
                 } else {
                     // A solver without memory of earlier passes draws its windows otherwise: 1e-4 of the force.
                     let forces = |run: &Run| -> Vec<f64> {
-                        run.state.element_forces(&problem.cable, &problem.mesh).collect()
+                        run.state
+                            .element_forces(&problem.cable, &problem.mesh)
+                            .expect("the state's mesh")
+                            .collect()
                     };
                     for (one, other) in forces(&straight).into_iter().zip(forces(&resumed)) {
                         assert!(
@@ -68,10 +71,11 @@ fn a_damaged_state_is_refused() -> Outcome {
         saved.replace("friction", "fiction"),
         saved.replacen("0.0", "null", 1),
         saved[..saved.len() - 2].to_owned(),
+        saved.replacen("0.0,", "", 1),
     ] {
         assert!(serde_json::from_str::<CableState>(&damaged).is_err(), "{damaged}");
     }
-    // One of a mesh of other fineness is the solver's to refuse, and so is one cut short.
+    // One of a mesh of other fineness is the solver's to refuse.
     let problem = Problem {
         cable: DuctedCable::new(
             12.0,
@@ -81,9 +85,9 @@ fn a_damaged_state_is_refused() -> Outcome {
         mesh,
         drives: vec![truck()?],
     };
-    let short = r#"{"displacement":[0.0,0.0,0.0,0.0,0.0,0.0,0.0],"friction":[0.0]}"#;
+    let coarse = r#"{"displacement":[0.0,0.0,0.0],"friction":[0.0,0.0,0.0]}"#;
     for kind in Kind::ALL {
-        let state = serde_json::from_str(short)?;
+        let state = serde_json::from_str(coarse)?;
         assert!(Run::resumed(kind, &problem, state)?.pass(0).is_err(), "{kind:?}");
     }
     Ok(())

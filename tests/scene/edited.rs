@@ -1,0 +1,320 @@
+//! A scene that a program changed: refused with the key, or computed to finite numbers, never a panic.
+
+use creepage::scene::{
+    Duct, End, FrictionLaw, Order, PeakScaling, Restraint, Scene, SceneError, SolverMethod, TrafficVehicle,
+};
+use creepage::{Error, SceneFile};
+use ground_field::{Base, Direction, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle, Wheel};
+use proptest::prelude::*;
+
+use super::FULL;
+
+fn example() -> Scene {
+    Scene::from_file("examples/scenes/full-scale-upper.toml".as_ref()).expect("the example")
+}
+
+/// The edited scene is refused under this key, by everything that takes a scene.
+#[track_caller]
+fn assert_refused(key: &str, edit: impl Fn(&mut Scene)) {
+    let mut scene = example();
+    edit(&mut scene);
+    let named = |error: Error| match error {
+        Error::Scene(SceneError::Value { key: found, .. }) => assert_eq!(found, key),
+        other => panic!("{key}: {other}"),
+    };
+    named(scene.validate().expect_err(key).into());
+    named(creepage::check(&scene).expect_err(key));
+    named(creepage::plan(&scene).err().expect(key));
+    named(creepage::run(&scene).expect_err(key));
+    named(creepage::profile(&scene).expect_err(key));
+    named(creepage::profile_at(&scene, &[0.0]).expect_err(key));
+}
+
+fn vehicle(name: &str) -> TrafficVehicle {
+    TrafficVehicle {
+        vehicle: Vehicle::point(name, 1e5, 10.0).expect("a vehicle"),
+        share: 0.5,
+    }
+}
+
+#[test]
+fn an_edited_scene_is_refused_with_its_key() {
+    assert_refused("vehicles", |scene| scene.vehicles.clear());
+    for peak in [-1e-4, 0.0, f64::NAN, 2.0] {
+        assert_refused("ground.vertical_peak", |scene| {
+            scene.ground.scaling = Some(PeakScaling::Vertical(peak));
+        });
+        assert_refused("ground.longitudinal_peak", |scene| {
+            scene.ground.scaling = Some(PeakScaling::Longitudinal(peak));
+        });
+    }
+    for tolerance in [f64::NAN, 0.0, -0.01, 0.6] {
+        assert_refused("solver.tolerance", |scene| scene.solver.tolerance = tolerance);
+    }
+    for coefficient in [50.0, -0.1, f64::NAN] {
+        assert_refused("friction.dynamic_coefficient", |scene| {
+            scene.friction.dynamic_coefficient = coefficient;
+        });
+    }
+    assert_refused("traffic.passes", |scene| scene.traffic.passes = 0);
+    assert_refused("traffic.passes", |scene| scene.traffic.passes = u64::MAX);
+    for share in [7.0, -1.0, 0.0, f64::NAN, f64::INFINITY] {
+        assert_refused("vehicles.0.share", |scene| scene.vehicles[0].share = share);
+    }
+    assert_refused("vehicles", |scene| scene.vehicles[0].share = 0.5);
+    for depth in [-1.0, 0.0, f64::NAN, f64::INFINITY, 1e4] {
+        assert_refused("duct.depth", |scene| scene.duct.depth = depth);
+    }
+}
+
+#[test]
+fn every_part_of_a_scene_has_its_ranges() {
+    assert_refused("duct.length", |scene| scene.duct.length = f64::INFINITY);
+    assert_refused("duct.lateral_offset", |scene| {
+        scene.duct.lateral_offset = f64::NAN
+    });
+    assert_refused("cable.weight", |scene| scene.cable.weight = 0.0);
+    assert_refused("cable.axial_stiffness", |scene| {
+        scene.cable.axial_stiffness = -1.0
+    });
+    assert_refused("cable.normal_load_factor", |scene| {
+        scene.cable.normal_load_factor = 0.0
+    });
+    assert_refused("friction.shape_factor", |scene| {
+        scene.friction.law = FrictionLaw::Sigmoid { shape_factor: 0.0 };
+    });
+    assert_refused("ends.downstream.spring", |scene| {
+        scene.ends.downstream = End::Spring(-1.0)
+    });
+    let clamp = |position, stiffness| Restraint { position, stiffness };
+    assert_refused("restraints.0.position", |scene| {
+        scene.restraints.push(clamp(31.0, 1e6))
+    });
+    assert_refused("restraints.1.stiffness", |scene| {
+        scene.restraints = vec![clamp(1.0, 1e6), clamp(2.0, f64::NAN)];
+    });
+    assert_refused("solver.node_spacing", |scene| {
+        scene.solver.node_spacing = Some(20.0)
+    });
+    assert_refused("solver.vehicle_step", |scene| {
+        scene.solver.vehicle_step = Some(0.0)
+    });
+    assert_refused("solver.time_step", |scene| {
+        scene.solver.time_step = Some(f64::INFINITY)
+    });
+    assert_refused("solver.approach", |scene| scene.solver.approach = Some(-1.0));
+}
+
+#[test]
+fn ground_and_traffic_have_their_ranges_too() {
+    let soil = Soil::new(1e20, 0.4).expect("a soil");
+    let on = |layers, base| SoilProfile::new(layers, base).expect("a ground");
+    let layer = |thickness, modulus| SoilLayer::new(thickness, modulus, 0.4).expect("a layer");
+    let stone = Soil::new(1e9, 0.4).expect("a soil");
+    assert_refused("ground.layers.0.young_modulus", |scene| {
+        scene.ground.profile = SoilProfile::half_space(soil);
+    });
+    assert_refused("ground.layers.0.thickness", |scene| {
+        let layers = vec![layer(1e5, Modulus::Uniform(1e9))];
+        scene.ground.profile = on(layers, Base::HalfSpace(stone));
+    });
+    assert_refused("ground.layers.0.young_modulus.top", |scene| {
+        let modulus = Modulus::Linear {
+            top: 1.0,
+            bottom: 1e9,
+        };
+        scene.ground.profile = on(vec![layer(1.0, modulus)], Base::Rigid);
+    });
+    assert_refused("ground.model", |scene| {
+        let layers = vec![layer(1.0, Modulus::Uniform(2e9))];
+        scene.ground.profile = on(layers, Base::HalfSpace(stone));
+        scene.ground.model = creepage::scene::GroundModel::Boussinesq;
+    });
+    assert_refused("vehicles.1.name", |scene| {
+        scene.vehicles = vec![vehicle("a"), vehicle("a")]
+    });
+    assert_refused("vehicles.0.speed", |scene| {
+        scene.vehicles[0].vehicle = Vehicle::point("fast", 1e5, 1e9).expect("a vehicle");
+    });
+    assert_refused("vehicles.0.wheels.0.load", |scene| {
+        scene.vehicles[0].vehicle = Vehicle::point("heavy", 1e30, 10.0).expect("a vehicle");
+    });
+    assert_refused("vehicles.0.load", |scene| {
+        scene.vehicles[0].vehicle = Vehicle::point("empty", 0.0, 10.0).expect("a vehicle");
+        scene.ground.scaling = Some(PeakScaling::Vertical(1e-4));
+    });
+    let sequence = |order| {
+        move |scene: &mut Scene| {
+            scene.vehicles = vec![vehicle("a"), vehicle("b")];
+            scene.traffic.order = Order::Sequence(order);
+        }
+    };
+    assert_refused("traffic.sequence", |scene| sequence(vec![0, 2])(scene));
+    assert_refused("traffic.sequence", |scene| sequence(vec![])(scene));
+    assert_refused("vehicles.0.share", |scene| sequence(vec![0, 0, 1])(scene));
+    let mut scene = example();
+    sequence(vec![0, 1])(&mut scene);
+    scene.validate().expect("a scene");
+}
+
+#[test]
+fn what_a_file_gives_is_valid() {
+    for text in [FULL, include_str!("../../examples/scenes/full-scale-lower.toml")] {
+        let file = SceneFile::from_toml("a.toml", text).expect("a file");
+        file.scene().expect("a scene").validate().expect("valid");
+    }
+}
+
+#[test]
+fn a_position_of_the_profile_is_a_number() {
+    for xi in [f64::NAN, f64::INFINITY, -1e300] {
+        assert!(creepage::profile_at(&example(), &[0.0, xi]).is_err(), "{xi}");
+    }
+}
+
+/// Numbers as programs get them wrong, and right ones.
+fn numbers() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        prop::sample::select(vec![
+            f64::NAN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            0.0,
+            -0.0,
+            -1.0,
+            f64::MIN_POSITIVE,
+            f64::MAX,
+            1e-9,
+            0.3,
+            1.0,
+            2.0,
+            100.0,
+        ]),
+        any::<f64>(),
+        0.01..20.0,
+    ]
+}
+
+/// Changes one number of the scene.
+fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
+    let soil = |modulus, ratio| Soil::new(modulus, ratio).unwrap_or(Soil::new(1e9, 0.4).expect("a soil"));
+    match field {
+        0 => scene.duct.length = value,
+        1 => scene.duct.depth = value,
+        2 => scene.duct.lateral_offset = value,
+        3 => scene.ground.scaling = Some(PeakScaling::Vertical(value)),
+        4 => scene.ground.scaling = Some(PeakScaling::Longitudinal(1e-5 * value)),
+        5 => scene.ground.profile = SoilProfile::half_space(soil(1e8 * value, 0.4)),
+        6 => scene.ground.profile = SoilProfile::half_space(soil(1e9, value)),
+        7 => scene.cable.weight = value,
+        8 => scene.cable.axial_stiffness = 1e6 * value,
+        9 => scene.cable.normal_load_factor = value,
+        10 => scene.friction.dynamic_coefficient = value,
+        11 => {
+            scene.friction.law = FrictionLaw::ElasticPlastic {
+                shape_factor: 1e7 * value,
+            }
+        }
+        12 => {
+            scene.friction.law = FrictionLaw::Sigmoid {
+                shape_factor: 1e7 * value,
+            }
+        }
+        13 => scene.ends.upstream = End::Spring(1e6 * value),
+        14 => scene.ends.downstream = End::Spring(value),
+        15 => scene.restraints.push(Restraint {
+            position: value,
+            stiffness: 1e6,
+        }),
+        16 => scene.restraints.push(Restraint {
+            position: 3.0,
+            stiffness: value,
+        }),
+        17 => scene.vehicles[0].share = value,
+        18 => scene.vehicles.clear(),
+        19 => {
+            let wheel = SurfaceLoad::new(1e5, value).map(|load| Wheel { x: 1.0, y: 0.5, load });
+            let made = wheel.and_then(|wheel| Vehicle::new("made", vec![wheel], 10.0, Direction::Reverse));
+            if let Ok(made) = made {
+                scene.vehicles[0].vehicle = made;
+            }
+        }
+        20 => {
+            if let Ok(made) = Vehicle::point("made", 1e5 * value, 10.0) {
+                scene.vehicles[0].vehicle = made;
+            }
+        }
+        21 => {
+            if let Ok(made) = Vehicle::point("made", 1e5, value) {
+                scene.vehicles[0].vehicle = made;
+            }
+        }
+        22 => scene.traffic.passes = whole,
+        23 => scene.traffic.order = Order::Sequence(vec![0, whole as usize]),
+        24 => scene.traffic.order = Order::Sequence(Vec::new()),
+        25 => scene.solver.tolerance = value,
+        26 => scene.solver.node_spacing = Some(value),
+        27 => scene.solver.vehicle_step = Some(value),
+        28 => scene.solver.time_step = Some(1e-4 * value),
+        29 => scene.solver.approach = Some(value),
+        30 => scene.solver.method = SolverMethod::PassLaw,
+        _ => {
+            scene.duct = Duct {
+                length: value,
+                depth: value,
+                lateral_offset: value,
+            }
+        }
+    }
+}
+
+/// Work that a test can do: few passes, no cable that is long beside its duct's depth.
+fn small(scene: &Scene) -> bool {
+    let finest = scene.solver.node_spacing.unwrap_or(f64::INFINITY);
+    let step = scene.solver.vehicle_step.unwrap_or(f64::INFINITY);
+    let road = scene.duct.length + 2.0 * scene.solver.approach.unwrap_or(15.0);
+    scene.traffic.passes <= 3
+        && scene.solver.tolerance >= 1e-3
+        && road <= 100.0 * scene.duct.depth.min(20.0 * finest).min(20.0 * step)
+        && scene.friction.law.has_memory()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn no_edit_of_a_scene_panics(
+        edits in prop::collection::vec((0usize..32, numbers(), prop::sample::select(vec![0, 1, 2, u64::MAX])), 1..4),
+    ) {
+        let mut scene = example();
+        scene.traffic.passes = 2;
+        for (field, value, whole) in edits {
+            if field != 18 && scene.vehicles.is_empty() {
+                continue;
+            }
+            edit(&mut scene, field, value, whole);
+        }
+        let valid = scene.validate().is_ok();
+        if let Ok(plan) = creepage::plan(&scene) {
+            prop_assert!(valid);
+            let report = plan.report();
+            prop_assert!(report.node_spacing_m.is_finite() && report.estimated_seconds.is_finite());
+            prop_assert!(creepage::check(&scene).is_ok());
+        }
+        if let Ok(profile) = creepage::profile(&scene) {
+            prop_assert!(valid);
+            let all = [&profile.positions_m, &profile.longitudinal_m, &profile.vertical_m, &profile.longitudinal_velocity_m_per_s];
+            prop_assert!(all.into_iter().flatten().all(|value| value.is_finite()));
+        }
+        if !valid || small(&scene) {
+            if let Ok(run) = creepage::run(&scene) {
+                prop_assert!(valid);
+                prop_assert_eq!(run.passes.len() as u64, scene.traffic.passes);
+                for pass in run.passes {
+                    prop_assert!(pass.downstream_force_n.is_finite() && pass.upstream_force_n.is_finite());
+                    prop_assert!(pass.downstream_displacement_m.is_finite() && pass.max_compression_n.is_finite());
+                }
+            }
+        }
+    }
+}
