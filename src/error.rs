@@ -34,8 +34,8 @@ pub enum Error {
     Calibration(#[from] CalibrationError),
     /// The finest affordable mesh leaves too large an error.
     #[error(
-        "the estimated error of {:.1} % is too far above the tolerance of {:.2} %: the forces are small beside what passes through \
-         the cable; a node spacing in the scene (solver.node_spacing) or a larger tolerance gives an answer nonetheless",
+        "the estimated error of {:.1} % is too far above the tolerance of {:.2} %: an error of more than 10 % is no answer; a larger \
+         tolerance (solver.tolerance), a finer mesh (solver.node_spacing) or solver.method = \"quasi-static\" may help",
         100.0 * .reached,
         100.0 * .asked
     )]
@@ -45,6 +45,22 @@ pub enum Error {
         /// Tolerance asked.
         asked: f64,
     },
+    /// The forces of an answer do not balance: friction cannot carry them.
+    #[error(
+        "after pass {pass} the forces ask for {needed:.4e} N of friction per metre where its limit is {limit:.4e} N/m: this is no \
+         answer; solver.method = \"quasi-static\" computes every pass"
+    )]
+    Unbalanced {
+        /// The pass.
+        pass: u64,
+        /// Friction that the forces would need \[N/m\].
+        needed: f64,
+        /// The most that friction can be \[N/m\].
+        limit: f64,
+    },
+    /// The answer holds a number that is not finite.
+    #[error("the computation gave a number that is not finite: this is no answer")]
+    NotFinite,
     /// The scene asks for something that does not fit the rest of it.
     #[error("{key}: {found} does not fit this scene: {reason}")]
     Unfit {

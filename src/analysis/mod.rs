@@ -1,5 +1,6 @@
 //! From a scene to its answer: ground, motion of the duct, cable, passes, and how wrong they may be.
 
+pub mod balance;
 pub mod cable;
 pub mod error;
 pub mod law;

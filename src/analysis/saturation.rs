@@ -1,6 +1,6 @@
 //! Where the force levels off.
 //!
-//! The mean force at a third, two thirds and all of the passes gives two gains. Where the second is much smaller than
+//! The force at a third, two thirds and all of the passes gives two gains; of vehicles that alternate, the largest in size counts. Where the second is much smaller than
 //! the first, the gains shrink geometrically and what is still to come is their remaining sum (Aitken's Δ²; A. C. Aitken,
 //! Proc. R. Soc. Edinburgh 46 (1926) 289). Early on the force grows like √n, the gains' ratio is above 0.7 and nothing
 //! can be said yet.
@@ -20,10 +20,13 @@ pub fn saturation(forces: &[f64], scale: f64) -> Option<Saturation> {
     if count < FEWEST_PASSES {
         return None;
     }
-    // Means over a few passes even out vehicles that alternate.
+    // The largest of a few passes: of vehicles that alternate, each leaves another force.
     let width = (count / 12).max(1);
-    let mean = |end: usize| forces[end - width..end].iter().sum::<f64>() / width as f64;
-    let (first, second, third) = (mean(count / 3), mean(2 * count / 3), mean(count));
+    let largest = |end: usize| {
+        let window = forces[end - width..end].iter().copied();
+        window.fold(0.0, |largest: f64, force| if force.abs() > largest.abs() { force } else { largest })
+    };
+    let (first, second, third) = (largest(count / 3), largest(2 * count / 3), largest(count));
     let (early, late) = (second - first, third - second);
     if third.abs() < 1e-3 * scale {
         return None;

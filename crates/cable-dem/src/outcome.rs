@@ -97,10 +97,9 @@ impl Recorder {
         force: EndForces,
     ) -> PassOutcome {
         self.record(force);
-        let (least, largest) = state
-            .elements(cable, mesh)
-            .chain([force.upstream, force.downstream])
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, largest), force| {
+        let (least, largest) = [force.upstream, force.downstream]
+            .into_iter()
+            .fold(state.extremes(cable, mesh), |(least, largest), force| {
                 (least.min(force), largest.max(force))
             });
         PassOutcome {

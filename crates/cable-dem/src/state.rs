@@ -4,6 +4,9 @@ use crate::ends::{Balance, EndReader};
 use crate::error::checked;
 use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 
+/// A clamp nearer to a node than this share of the spacing counts as on it.
+const AT_NODE: f64 = 1e-6;
+
 /// The cable at rest: displacement and friction of every node, with no vehicle near.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -119,6 +122,76 @@ impl CableState {
                 .sum()
         };
         Ok(cable.restraints().iter().map(on).collect())
+    }
+
+    /// Largest friction per metre \[N/m\] that the forces in the cable ask for: what is left of the difference between two
+    /// neighbouring elements once clamps and end springs have taken their part, over the node's length of cable. More than the
+    /// friction limit q is impossible at rest: then between any two points the force differs by at most q times their distance
+    /// and what clamps between them carry.
+    ///
+    /// # Errors
+    ///
+    /// As for [`CableState::element_forces`].
+    pub fn friction_needed(&self, cable: &DuctedCable, mesh: &Mesh) -> Result<f64, CableError> {
+        self.check_beside(cable, mesh)?;
+        let last = mesh.elements();
+        let mut held = vec![0.0; mesh.nodes()];
+        for (node, end) in [(0, cable.upstream()), (last, cable.downstream())] {
+            held[node] += end.stiffness().unwrap_or(0.0);
+        }
+        for (node, stiffness) in cable.restraints().iter().flat_map(|clamp| clamp.by_node(mesh)) {
+            held[node] += stiffness;
+        }
+        let mut before = 0.0;
+        let after = self.elements(cable, mesh).chain([0.0]);
+        let mut worst = 0.0_f64;
+        for (node, after) in after.enumerate() {
+            let fixed = (node == 0 && cable.upstream().stiffness().is_none())
+                || (node == last && cable.downstream().stiffness().is_none());
+            if !fixed {
+                let friction = (after - before + held[node] * self.displacement[node]) / mesh.tributary_length(node);
+                worst = worst.max(friction.abs());
+            }
+            before = after;
+        }
+        Ok(worst)
+    }
+
+    /// Least and largest force along the cable \[N\]. Friction lets the force change evenly on either half of an element, so that it
+    /// is largest in its middle, at a node, or beside a clamp, where it jumps. An element with a clamp within it is pulled from both sides: what its
+    /// neighbours say of the force beside the clamp counts.
+    pub(crate) fn extremes(&self, cable: &DuctedCable, mesh: &Mesh) -> (f64, f64) {
+        let (h, f) = (mesh.spacing(), &self.friction);
+        let stiffness = cable.axial_stiffness() / h;
+        let force = |element: usize| stiffness * (self.displacement[element] - self.displacement[element + 1]);
+        let before = |node: usize| force(node - 1) + 0.5 * h * f[node];
+        let after = |node: usize| force(node) - 0.5 * h * f[node];
+        let clamps = cable.restraints().iter().filter(|clamp| clamp.stiffness > 0.0);
+        let places: Vec<(usize, f64)> = clamps
+            .map(|clamp| mesh.place(clamp.position))
+            .filter(|(_, share)| (AT_NODE..1.0 - AT_NODE).contains(share))
+            .collect();
+        let (mut least, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
+        let mut note = |force: f64| {
+            least = least.min(force);
+            largest = largest.max(force);
+        };
+        for element in 0..mesh.elements() {
+            if !places.iter().any(|(clamped, _)| *clamped == element) {
+                note(after(element));
+                note(force(element));
+                note(before(element + 1));
+            }
+        }
+        for (element, share) in places {
+            if element > 0 {
+                note(before(element) + share * h * f[element]);
+            }
+            if element + 1 < mesh.elements() {
+                note(after(element + 1) - (1.0 - share) * h * f[element + 1]);
+            }
+        }
+        (least, largest)
     }
 
     /// [`CableState::element_forces`] on the mesh that this state is known to have.
