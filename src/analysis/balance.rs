@@ -62,7 +62,14 @@ pub fn of_saturation(scene: &Scene, records: &[PassRecord], mut saturation: Satu
     if free && scene.restraints.is_empty() && saturation.force_n.abs() > (1.0 + MARGIN) * limit {
         return None;
     }
-    let force = |record: &PassRecord| larger(record.upstream_force_n, record.downstream_force_n);
+    let held = scene.ends.upstream != End::Free || scene.ends.downstream != End::Free;
+    let force = |record: &PassRecord| {
+        if held {
+            larger(record.upstream_force_n, record.downstream_force_n)
+        } else {
+            record.max_compression_n
+        }
+    };
     let largest = records.iter().map(force).fold(0.0, larger);
     if largest.abs() > saturation.force_n.abs() {
         if largest.abs() > (1.0 + NEARLY) * saturation.force_n.abs() {

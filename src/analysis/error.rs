@@ -1,52 +1,119 @@
-//! How wrong the forces of a run are.
+//! How wrong the forces and the movements of a run are.
 //!
 //! The passes are computed on meshes each twice as fine as the one before. Their differences tell the error of the last:
 //! a scheme of second order leaves a third of the last difference and a twelfth of the one before. Friction that turns
-//! at a node or between two makes the sequence uneven, two meshes may agree by chance, and so more than that is counted:
-//! the larger of a share of both, and never less than what is typical of so many nodes a depth.
+//! at a node or between two makes the sequence uneven, and two meshes may agree by chance; so more than that is counted: the
+//! largest of a share of each difference seen so far, and never less than what is typical of so many nodes a depth.
 //!
-//! A force is compared with itself, or with a tenth of the largest one of the run where it is less than that.
+//! A force is compared with itself, or with a tenth of the largest one of the run where it is less than that, or with what
+//! friction holds on a centimetre of cable; a movement of an end with the largest of the run, or with a tenth of the
+//! duct's own.
 
 use cable_dem::PassOutcome;
 
 use super::passes::Passes;
+use crate::Error;
 
-/// Shares of the last difference between two meshes and of the one before that count as error.
-const LAST: f64 = 0.8;
-const BEFORE: f64 = 0.27;
+/// Shares of the differences between meshes that count as error: of the last one, the one before, and so on. Fitted to random
+/// scenes, so that the error is above them in no more than one of a hundred.
+const FORCE_SHARES: [f64; 4] = [0.9, 0.4, 0.12, 0.04];
+const MOVEMENT_SHARES: [f64; 4] = [0.9, 0.4, 0.12, 0.04];
 /// With two meshes only.
-const ALONE: f64 = 1.3;
+const ALONE: f64 = 1.5;
 /// Error that is counted at least on meshes of 3, 6, 12, … nodes a depth: a little less than what is typical.
 const LEAST: [f64; 7] = [2e-2, 1e-2, 3e-3, 8e-4, 2e-4, 5e-5, 1.2e-5];
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;
-/// Forces below this share of the largest one count as nothing when errors are compared.
-const SMALL_FORCE: f64 = 0.1;
+/// Forces below this share of the largest one count as nothing when errors are compared, and movements of an end below this
+/// share of the duct's largest.
+const SMALL: f64 = 0.1;
+/// So does what friction holds on so much cable \[m\].
+const SHORT: f64 = 0.01;
+/// A larger error than this, or the tolerance if that is larger still, is no answer.
+const DOUBTFUL: f64 = 0.1;
 
-/// The error of a run by its parts, each a share of the force.
+/// A share of the forces and one of the movements.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Shares {
+    pub force: f64,
+    pub movement: f64,
+}
+
+impl Shares {
+    /// The same share of both.
+    pub fn both(share: f64) -> Self {
+        Self {
+            force: share,
+            movement: share,
+        }
+    }
+
+    fn map(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            force: f(self.force, other.force),
+            movement: f(self.movement, other.movement),
+        }
+    }
+
+    pub fn max(self, other: Self) -> Self {
+        self.map(other, f64::max)
+    }
+
+    pub fn times(self, factor: f64) -> Self {
+        self.map(self, |share, _| factor * share)
+    }
+}
+
+impl std::ops::Add for Shares {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        self.map(other, |a, b| a + b)
+    }
+}
+
+/// What counts as nothing in a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// \[N\]
+    force: f64,
+    /// \[m\]
+    movement: f64,
+}
+
+impl Scale {
+    /// Of a cable with the friction `limit` \[N/m\] in a duct that moves by `peak` \[m\].
+    pub fn new(limit: f64, peak: f64) -> Self {
+        Self {
+            force: SHORT * limit,
+            movement: SMALL * peak,
+        }
+    }
+}
+
+/// The error of a run by its parts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ErrorParts {
-    /// Node spacing and vehicle step; `None` where there is no mesh to compare with.
-    pub mesh: Option<f64>,
-    /// What the ground model leaves out, as it comes through in the force.
-    pub ground: f64,
+    /// Node spacing and vehicle step.
+    pub mesh: Shares,
+    /// What the ground model leaves out, as it comes through.
+    pub ground: Shares,
     /// Inertia, where it is left out.
     pub inertia: f64,
+    /// Road beyond where vehicles are followed.
+    pub road: Shares,
     /// Whether a finer run was made to measure mesh and ground.
     pub measured: bool,
 }
 
 impl ErrorParts {
-    pub fn total(&self) -> f64 {
-        self.mesh.map_or(1.0, |mesh| mesh + self.ground + self.inertia)
+    pub fn total(&self) -> Shares {
+        self.mesh + self.ground + self.road + Shares::both(self.inertia)
     }
 }
 
 impl std::fmt::Display for ErrorParts {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Some(mesh) = self.mesh else {
-            return write!(f, "none: the duct is too short for a mesh twice as coarse");
-        };
         let percent = |share: f64| {
             if share < 5e-5 {
                 "< 0.01 %".to_owned()
@@ -56,41 +123,66 @@ impl std::fmt::Display for ErrorParts {
         };
         write!(
             f,
-            "{}: mesh {}, ground {}, inertia {}",
+            "{}: mesh {}, ground {}, inertia {}, road {}; movement of the ends {}",
             if self.measured {
-                "measured by a run one rung finer"
+                "measured by a run on a mesh twice as fine"
             } else {
                 "from runs on coarser meshes"
             },
-            percent(mesh),
-            percent(self.ground),
-            percent(self.inertia)
+            percent(self.mesh.force),
+            percent(self.ground.force),
+            percent(self.inertia),
+            percent(self.road.force),
+            percent(self.total().movement)
         )
     }
 }
 
-/// Error of the finest of `levels`, which are ascending; `None` where there is only one.
-pub fn of_mesh(levels: &[&Passes], finest: usize) -> Option<f64> {
-    let least = LEAST[finest.min(LEAST.len() - 1)];
-    match levels {
-        [.., first, second, third] => Some(
-            (LAST * difference(third, second))
-                .max(BEFORE * difference(second, first))
-                .max(least),
-        ),
-        [first, second] => Some((ALONE * difference(second, first)).max(least)),
-        _ => None,
+/// Error of the last of `levels`, which are ascending and at least two; its number is `finest`.
+pub fn of_mesh(levels: &[Passes], finest: usize, scale: Scale) -> Shares {
+    let differences: Vec<Shares> = levels
+        .windows(2)
+        .rev()
+        .map(|pair| difference(&pair[1], &pair[0], scale))
+        .collect();
+    let least = Shares::both(LEAST[finest.min(LEAST.len() - 1)]);
+    if let [only] = differences[..] {
+        return only.times(ALONE).max(least);
     }
+    let share = |difference: &Shares, k: usize| Shares {
+        force: FORCE_SHARES[k] * difference.force,
+        movement: MOVEMENT_SHARES[k] * difference.movement,
+    };
+    differences
+        .iter()
+        .take(FORCE_SHARES.len())
+        .enumerate()
+        .map(|(k, difference)| share(difference, k))
+        .fold(least, Shares::max)
 }
 
 /// Error of `passes`, measured against a run twice as fine.
-pub fn measured(passes: &Passes, finer: &Passes) -> f64 {
-    VERIFIED * difference(passes, finer)
+pub fn measured(passes: &Passes, finer: &Passes, scale: Scale) -> Shares {
+    difference(passes, finer, scale).times(VERIFIED)
+}
+
+/// Refuses an answer whose error is too large to be one.
+pub fn judge(error: Shares, tolerance: f64) -> Result<(), Error> {
+    let reached = error.force.max(error.movement);
+    // Written so that what is not a number fails.
+    if reached <= tolerance.max(DOUBTFUL) {
+        Ok(())
+    } else {
+        Err(Error::Inaccurate {
+            reached,
+            asked: tolerance,
+        })
+    }
 }
 
 /// Largest difference of a force after a pass, as a share of the largest force or tension after that pass, or of a tenth of
-/// the largest in the run.
-pub fn difference(a: &Passes, b: &Passes) -> f64 {
+/// the largest in the run; and largest difference of a movement.
+pub fn difference(a: &Passes, b: &Passes, scale: Scale) -> Shares {
     let forces = |outcome: &PassOutcome| {
         [
             outcome.force.upstream,
@@ -98,6 +190,7 @@ pub fn difference(a: &Passes, b: &Passes) -> f64 {
             outcome.max_compression,
         ]
     };
+    let movements = |outcome: &PassOutcome| [outcome.upstream_displacement, outcome.downstream_displacement];
     let largest = |outcome: &PassOutcome| {
         [
             outcome.peak.upstream,
@@ -111,8 +204,13 @@ pub fn difference(a: &Passes, b: &Passes) -> f64 {
         .map(f64::abs)
         .fold(0.0, f64::max)
     };
-    let floor = SMALL_FORCE * a.outcomes.iter().map(largest).fold(0.0, f64::max);
-    let mut worst = 0.0_f64;
+    let floor = (SMALL * a.outcomes.iter().map(largest).fold(0.0, f64::max)).max(scale.force);
+    let moved = a
+        .outcomes
+        .iter()
+        .flat_map(movements)
+        .fold(scale.movement, |largest, u| largest.max(u.abs()));
+    let mut worst = Shares::default();
     for (a, b) in a.outcomes.iter().zip(&b.outcomes) {
         // A clamp may hold a cable whose ends are free: what is compressed is then small beside what is stretched.
         let scale = forces(a)
@@ -121,10 +219,16 @@ pub fn difference(a: &Passes, b: &Passes) -> f64 {
             .map(f64::abs)
             .fold(floor, f64::max);
         for (a, b) in forces(a).into_iter().zip(forces(b)) {
-            if a != b {
-                worst = worst.max((a - b).abs() / scale);
-            }
+            worst.force = worst.force.max(share((a - b).abs(), scale));
+        }
+        for (a, b) in movements(a).into_iter().zip(movements(b)) {
+            worst.movement = worst.movement.max(share((a - b).abs(), moved));
         }
     }
     worst
+}
+
+/// part/whole; nothing of nothing is nothing.
+fn share(part: f64, whole: f64) -> f64 {
+    if part == 0.0 { 0.0 } else { part / whole }
 }

@@ -180,6 +180,7 @@ fn evolve(
             },
             parts: ErrorShares {
                 mesh: 0.5 * share,
+                passes: law_error,
                 law: law_error,
                 ..ErrorShares::default()
             },
@@ -332,7 +333,7 @@ fn stages(cable: &DuctedCable, law: &PassLaw, scene: &Scene, wanted: &[u64]) -> 
 }
 
 /// The first passes, then evenly growing numbers, round ones, and the last.
-fn listed(count: u64) -> Vec<u64> {
+pub fn listed(count: u64) -> Vec<u64> {
     let mut passes = Vec::new();
     let mut next = 1;
     while next < count {

@@ -7,8 +7,9 @@ use cable_dem::{Mesh, Statistics};
 use ground_field::DuctMotion;
 
 use super::cable::CableMethod;
-use super::error::{ErrorParts, difference, measured, of_mesh};
+use super::error::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use super::passes::{Passes, simulate};
+use super::road;
 use crate::planner::mesh::Levels;
 use crate::{Error, Scene};
 
@@ -16,8 +17,6 @@ use crate::{Error, Scene};
 const MAX_NODE_UPDATES: usize = 5_000_000_000;
 /// A mesh twice as fine takes about this many times the node updates.
 const REFINEMENT_COST: usize = 4;
-/// A larger error than this, or the tolerance if that is larger still, is no answer.
-const DOUBTFUL: f64 = 0.1;
 /// Share of the tolerance that what the ground model leaves out may take of the force.
 const GROUND_SHARE: f64 = 0.5;
 /// The first passes tell what the ground model leaves out: this part of all, and at least so many. They are computed twice on the
@@ -58,46 +57,56 @@ impl Ladder<'_> {
     /// Refines until the estimated error is within the tolerance, unless the scene says how fine to be.
     pub fn climb(mut self, verify: bool, warnings: &mut Vec<String>) -> Result<Solved, Error> {
         let tolerance = self.scene.solver.tolerance;
+        let scale = self.scale();
         let mut statistics = Statistics::default();
         let mut reasons = Vec::new();
         let ground = self.ground_error(&mut statistics, &mut reasons)?;
-        let other = ground + self.method_error;
+        let mut error = ErrorParts {
+            mesh: Shares::default(),
+            ground,
+            inertia: self.method_error,
+            road: Shares::default(),
+            measured: verify,
+        };
+        let within = |error: &ErrorParts| {
+            let total = error.total();
+            total.force.max(total.movement) <= tolerance
+        };
 
         let mut level = self.levels.first();
         let (finest, coarser) = both(|| self.simulate(level, true), || self.coarser(level))?;
         let mut passes: Vec<Passes> = coarser;
         passes.push(finest);
-        let mut mesh_error = error_of(&passes, level);
         loop {
+            if passes.len() > 1 {
+                error.mesh = of_mesh(&passes, level, scale);
+            }
             let last = passes.last().map_or(0, |passes| passes.statistics.node_updates);
-            let enough = mesh_error.is_none_or(|error| error + other <= tolerance);
             let costly = REFINEMENT_COST.saturating_mul(last) > MAX_NODE_UPDATES;
-            if enough || costly || level >= self.levels.finest() {
+            // One mesh alone tells nothing of its error.
+            let told = passes.len() > 1 || self.levels.named();
+            if (told && within(&error)) || costly || level >= self.levels.finest() {
                 break;
             }
             level += 1;
             passes.push(self.simulate(level, true)?);
-            mesh_error = error_of(&passes, level);
         }
         for passes in &passes {
             statistics += passes.statistics;
         }
+        let alone = passes.len() == 1;
         let mesh = self.levels.mesh(level)?;
         let finest = passes.pop().expect("the first level was computed");
-        let mut error = ErrorParts {
-            mesh: mesh_error,
-            ground,
-            inertia: self.method_error,
-            measured: verify,
-        };
-        if verify {
+        error.road = self.road_error(&finest, level, &mut statistics)?;
+        if verify || alone {
             if let Some(exact) = self.exact.take() {
                 self.motions = exact;
             }
             let finer = self.simulate(level + 1, true)?;
             statistics += finer.statistics;
-            error.mesh = Some(measured(&finest, &finer));
-            error.ground = 0.0;
+            error.mesh = measured(&finest, &finer, scale);
+            error.measured = true;
+            error.ground = Shares::default();
         }
         self.judge(&error, warnings)?;
         reasons.push(self.mesh_reason(&mesh));
@@ -111,12 +120,19 @@ impl Ladder<'_> {
         })
     }
 
-    /// What the ground model leaves out, as it comes through in the force after the first passes on the coarsest mesh. Where
-    /// it is too much, the exact motions take over.
-    fn ground_error(&mut self, statistics: &mut Statistics, reasons: &mut Vec<String>) -> Result<f64, Error> {
+    /// What counts as nothing in this scene.
+    fn scale(&self) -> Scale {
+        let limit = self.scene.friction.dynamic_coefficient * self.scene.cable.normal_load();
+        let peak = self.motions.iter().map(DuctMotion::peak_longitudinal).fold(0.0, f64::max);
+        Scale::new(limit, peak)
+    }
+
+    /// What the ground model leaves out, as it comes through after the first passes on the coarsest mesh. Where it is too much,
+    /// the exact motions take over.
+    fn ground_error(&mut self, statistics: &mut Statistics, reasons: &mut Vec<String>) -> Result<Shares, Error> {
         let level = (0..self.levels.first()).find(|&level| self.levels.mesh(level).is_ok());
         let (Some(exact), Some(level)) = (self.exact, level) else {
-            return Ok(self.motion_error);
+            return Ok(Shares::both(self.motion_error));
         };
         let mut scene = self.scene.clone();
         let (part, least) = FIRST_PASSES;
@@ -126,17 +142,33 @@ impl Ladder<'_> {
             *statistics += passes.statistics;
             Ok::<_, Error>(passes)
         };
-        let error = difference(&first_passes(exact)?, &first_passes(self.motions)?);
-        if error <= GROUND_SHARE * self.scene.solver.tolerance {
+        let error = difference(&first_passes(exact)?, &first_passes(self.motions)?, self.scale());
+        if error.force.max(error.movement) <= GROUND_SHARE * self.scene.solver.tolerance {
             return Ok(error);
         }
         reasons.push(format!(
             "what the ground model leaves out changes the force by {:.2} %: the exact motion was taken after all",
-            100.0 * error
+            100.0 * error.force
         ));
         self.motions = exact;
         self.exact = None;
-        Ok(0.0)
+        Ok(Shares::default())
+    }
+
+    /// What an approach that the scene names leaves out: the passes once more on the same mesh, with the vehicles followed far
+    /// enough. Where it is far enough already, nothing.
+    fn road_error(&self, passes: &Passes, level: usize, statistics: &mut Statistics) -> Result<Shares, Error> {
+        let mut scene = self.scene.clone();
+        let Some(approach) = scene.solver.approach.take() else {
+            return Ok(Shares::default());
+        };
+        if approach >= road::outermost_turn(&scene, self.motions) {
+            return Ok(Shares::default());
+        }
+        let mesh = self.levels.mesh(level)?;
+        let farther = simulate(&scene, self.method, self.motions, mesh, &[], || {})?;
+        *statistics += farther.statistics;
+        Ok(difference(passes, &farther, self.scale()))
     }
 
     /// The passes on all levels below `level` that the duct is long enough for.
@@ -169,20 +201,15 @@ impl Ladder<'_> {
     fn judge(&self, error: &ErrorParts, warnings: &mut Vec<String>) -> Result<(), Error> {
         let tolerance = self.scene.solver.tolerance;
         let total = error.total();
-        if error.mesh.is_none() {
-            warnings.push("the node spacing is too coarse to estimate the error".into());
-        } else if total.is_infinite() || (!self.levels.named() && total > tolerance.max(DOUBTFUL)) {
-            return Err(Error::Inaccurate {
-                reached: total,
-                asked: tolerance,
-            });
-        }
-        if total > tolerance {
-            warnings.push(format!(
-                "the estimated error of {:.2} % exceeds the tolerance of {:.2} %",
-                100.0 * total,
-                100.0 * tolerance
-            ));
+        error::judge(total, tolerance)?;
+        for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
+            if share > tolerance {
+                warnings.push(format!(
+                    "the estimated error{of} of {:.2} % exceeds the tolerance of {:.2} %",
+                    100.0 * share,
+                    100.0 * tolerance
+                ));
+            }
         }
         if !self.scene.friction.law.has_memory() {
             warnings.push(
@@ -203,10 +230,6 @@ impl Ladder<'_> {
             format!("{depths}; {} % asked", 100.0 * self.scene.solver.tolerance)
         }
     }
-}
-
-fn error_of(passes: &[Passes], level: usize) -> Option<f64> {
-    of_mesh(&passes.iter().collect::<Vec<_>>(), level)
 }
 
 /// Runs two computations side by side; the first error wins.

@@ -3,6 +3,7 @@
 use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statistics, Traffic};
 use ground_field::DuctMotion;
 
+use super::balance;
 use super::cable::{CableMethod, PassSolver, cable};
 use super::result::{ForceProfile, SlipRecord, Stage};
 use crate::Error;
@@ -72,6 +73,7 @@ pub fn simulate(
         } else {
             solver.pass(vehicle, &mut state)?
         };
+        balance::of_state(&cable, &mesh, &state, pass)?;
         statistics += outcome.statistics;
         outcomes.push(outcome);
         passed();

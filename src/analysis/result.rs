@@ -161,7 +161,7 @@ pub struct Cost {
 /// How wrong the forces may be: how well the equations are solved, not how well they describe a duct.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ErrorEstimate {
-    /// Largest error of a force as a share of it.
+    /// Largest error of a force as a share of it, or of a tenth of the largest force of the run where it is less than that.
     pub relative: f64,
     /// How that was found.
     pub method: String,
@@ -169,17 +169,23 @@ pub struct ErrorEstimate {
     pub parts: ErrorShares,
 }
 
-/// Error by its causes, each as a share of the force.
+/// Error by its causes, each as a share of the force but the movement's own.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct ErrorShares {
-    /// Node spacing and vehicle step; all of it where they cannot be told.
+    /// Node spacing and vehicle step.
     pub mesh: f64,
     /// What the ground model leaves out.
     pub ground: f64,
     /// Inertia of the cable, where it is left out: a bound.
     pub inertia: f64,
-    /// The pass law itself, where it was used.
+    /// Road beyond where vehicles are followed.
+    pub road: f64,
+    /// Passes that were not simulated.
+    pub passes: f64,
+    /// The same as `passes`, by its older name.
     pub law: f64,
+    /// Largest error of an end's movement from all causes, as a share of the largest movement.
+    pub movement: f64,
 }
 
 impl From<SlipLengths> for SlipRecord {

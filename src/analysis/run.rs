@@ -1,19 +1,19 @@
 //! Carrying a plan out: ground, motion, passes, and what the answer holds.
 
-use cable_dem::PassOutcome;
-use ground_field::GroundField;
+use cable_dem::{Mesh, PassOutcome};
+use ground_field::{DuctMotion, GroundField};
 
 use super::cable::{CableMethod, PassMethod};
+use super::error::{self, Shares};
 use super::law::LawRun;
 use super::levels::{Ladder, Solved};
-use super::passes::{Passes, force_profile};
+use super::passes::{Passes, force_profile, simulate};
 use super::result::{
-    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
+    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run, Stage,
 };
-use super::saturation::saturation;
-use super::law;
+use super::saturation::{force_series, saturation};
+use super::{balance, law};
 use crate::planner::{Plan, plan, plan_on};
-use crate::scene::End;
 use crate::{Error, Scene};
 
 /// A law that loses more than this share of the stored force in one pass gives no answer.
@@ -65,7 +65,7 @@ pub fn check(scene: &Scene) -> Result<(), Error> {
 
 /// Passes are computed one by one, and all are kept.
 pub fn check_passes(scene: &Scene) -> Result<(), Error> {
-    if scene.traffic.passes > MAX_PASSES {
+    if scene.traffic.passes > MAX_PASSES && !is_frictionless(scene) {
         return Err(Error::Unfit {
             key: "traffic.passes",
             found: "more than a million passes",
@@ -80,159 +80,219 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
     let scene = plan.scene;
     let motions = plan.ground.motions(scene)?;
     let exact = plan.ground.exact().unwrap_or(&motions);
-    let duct_motion = DuctMotionSummary {
-        peak_longitudinal_m: exact[0].peak_longitudinal(),
-        peak_vertical_m: exact[0].peak_vertical(),
-    };
-    let mut summary = PlanSummary {
-        ground: plan.ground.name.into(),
-        cable: plan.method.method.name().into(),
-        node_spacing_m: 0.0,
-        vehicle_step_m: 0.0,
-        reasons: plan.reasons(),
-    };
-    let mut warnings = plan.warnings.clone();
-    let title = scene.title.clone();
-    let method = match plan.method.method {
-        PassMethod::EveryPass(method) => method,
-        PassMethod::Law => {
-            // Its time does not depend on the motion: nothing is gained by leaving anything out.
-            let law = law::run(scene, exact, options.stages)?;
-            if law.error.relative <= scene.solver.tolerance || !plan.method.one_by_one {
-                summary.ground = plan.ground.exact_name.into();
-                (summary.node_spacing_m, summary.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
-                return Ok(by_law(title, summary, duct_motion, law, warnings));
-            }
-            summary.cable = CableMethod::QuasiStatic.name().into();
-            summary.reasons.push(format!(
-                "the pass law is {:.1} % off the first passes here: they were computed one by one after all",
-                100.0 * law.error.relative
-            ));
-            CableMethod::QuasiStatic
-        }
-    };
-    let ladder = Ladder {
+    let mut answer = Answer {
         scene,
-        method,
-        levels: plan.levels,
-        motions: &motions,
-        exact: plan.ground.exact(),
-        motion_error: plan.ground.error,
-        method_error: plan.method.inertia,
-        progress: options.progress,
-        stages: options.stages,
+        duct_motion: DuctMotionSummary {
+            peak_longitudinal_m: exact[0].peak_longitudinal(),
+            peak_vertical_m: exact[0].peak_vertical(),
+        },
+        summary: PlanSummary {
+            ground: plan.ground.name.into(),
+            cable: plan.method.method.name().into(),
+            node_spacing_m: 0.0,
+            vehicle_step_m: 0.0,
+            reasons: plan.reasons(),
+        },
+        warnings: plan.warnings.clone(),
     };
-    let solved = ladder.climb(options.verify, &mut warnings)?;
-    for leak in solved.passes.leaks.iter().filter(|leak| leak.matters()) {
-        if leak.loss_per_pass > LARGEST_LEAK {
-            return Err(Error::Unfit {
-                key: "friction.law",
-                found: "sigmoid",
-                reason: leak.to_string().into(),
+    let run = if is_frictionless(scene) {
+        answer.without_friction(plan, &motions, options)?
+    } else {
+        let simulated = match plan.method.method {
+            PassMethod::EveryPass(method) => method,
+            PassMethod::Law => {
+                // Its time does not depend on the motion: nothing is gained by leaving anything out.
+                let law = law::run(scene, exact, options.stages).and_then(|law| answer.trusted(law, plan));
+                match law {
+                    Ok(law) => {
+                        answer.summary.ground = plan.ground.exact_name.into();
+                        let run = answer.by_law(law);
+                        balance::of_numbers(&run)?;
+                        return Ok(run);
+                    }
+                    Err(error) if !plan.method.one_by_one => return Err(error),
+                    Err(error) => {
+                        answer.summary.cable = CableMethod::QuasiStatic.name().into();
+                        answer.summary.reasons.push(format!(
+                            "the pass law gave no answer here ({error}): every pass was computed after all"
+                        ));
+                        CableMethod::QuasiStatic
+                    }
+                }
+            }
+        };
+        let ladder = Ladder {
+            scene,
+            method: simulated,
+            levels: plan.levels,
+            motions: &motions,
+            exact: plan.ground.exact(),
+            motion_error: plan.ground.error,
+            method_error: plan.method.inertia,
+            progress: options.progress,
+            stages: options.stages,
+        };
+        let solved = ladder.climb(options.verify, &mut answer.warnings)?;
+        if solved.ground_is_exact && plan.ground.exact().is_some() {
+            answer.summary.ground = plan.ground.exact_name.into();
+        }
+        answer.by_simulation(&solved)?
+    };
+    balance::of_numbers(&run)?;
+    Ok(run)
+}
+
+/// Whether nothing can drag the cable.
+fn is_frictionless(scene: &Scene) -> bool {
+    scene.friction.dynamic_coefficient * scene.cable.normal_load() == 0.0
+}
+
+/// What every answer holds, however it was found.
+struct Answer<'a> {
+    scene: &'a Scene,
+    duct_motion: DuctMotionSummary,
+    summary: PlanSummary,
+    warnings: Vec<String>,
+}
+
+impl Answer<'_> {
+    /// The law's answer, if it can be true and is as accurate as it has to be.
+    fn trusted(&self, law: LawRun, plan: &Plan<'_>) -> Result<LawRun, Error> {
+        let tolerance = self.scene.solver.tolerance;
+        let relative = law.error.relative;
+        error::judge(Shares::both(relative), tolerance)?;
+        if plan.method.one_by_one && relative > tolerance {
+            return Err(Error::Inaccurate {
+                reached: relative,
+                asked: tolerance,
             });
         }
-        warnings.push(leak.to_string());
+        balance::of_records(self.scene, &law.passes, &law.restraints)?;
+        Ok(law)
     }
-    (summary.node_spacing_m, summary.vehicle_step_m) = (solved.mesh.spacing(), solved.mesh.vehicle_step());
-    summary.reasons.extend(solved.reasons.iter().cloned());
-    summary.reasons.extend(solved.passes.step_limits.clone());
-    if solved.ground_is_exact && plan.ground.exact().is_some() {
-        summary.ground = plan.ground.exact_name.into();
-    }
-    let passes = &solved.passes.outcomes;
-    let (series, scale) = force_series(scene, passes);
-    Ok(Run {
-        title,
-        plan: summary,
-        duct_motion,
-        passes: listed(passes),
-        saturation: saturation(&series, scale),
-        force_profile: force_profile(&solved.passes.cable, &solved.mesh, &solved.passes.state)?,
-        restraints: restraints(&solved)?,
-        slip_lengths: solved.passes.slip,
-        stages: solved.passes.stages.clone(),
-        error_estimate: ErrorEstimate {
-            relative: solved.error.total(),
-            method: solved.error.to_string(),
-            parts: ErrorShares {
-                mesh: solved.error.mesh.unwrap_or(1.0),
-                ground: solved.error.ground,
-                inertia: solved.error.inertia,
-                law: 0.0,
-            },
-        },
-        cost: Cost::new(&solved.statistics),
-        warnings,
-    })
-}
 
-/// The law's answer.
-fn by_law(
-    title: String,
-    plan: PlanSummary,
-    duct_motion: DuctMotionSummary,
-    law: LawRun,
-    mut warnings: Vec<String>,
-) -> Run {
-    warnings.extend(law.warnings);
-    Run {
-        title,
-        plan,
-        duct_motion,
-        passes: law.passes,
-        saturation: law.saturation,
-        force_profile: law.force_profile,
-        restraints: law.restraints,
-        stages: law.stages,
-        slip_lengths: None,
-        error_estimate: law.error,
-        cost: law.cost,
-        warnings,
-    }
-}
-
-/// The force that a load cell would show: at the end that is held, the larger one of two, and inside the cable where none
-/// is; and its largest value while vehicles pass.
-fn force_series(scene: &Scene, outcomes: &[PassOutcome]) -> (Vec<f64>, f64) {
-    let pick = |force: fn(&PassOutcome) -> f64, peak: fn(&PassOutcome) -> f64| {
-        let scale = outcomes
-            .iter()
-            .map(peak)
-            .fold(0.0, |largest: f64, p| largest.max(p.abs()));
-        (outcomes.iter().map(force).collect::<Vec<_>>(), scale)
-    };
-    let upstream = || {
-        pick(
-            |o| o.force.upstream,
-            |o| o.peak.upstream.abs().max(o.lowest.upstream.abs()),
-        )
-    };
-    let downstream = || {
-        pick(
-            |o| o.force.downstream,
-            |o| o.peak.downstream.abs().max(o.lowest.downstream.abs()),
-        )
-    };
-    match (scene.ends.upstream, scene.ends.downstream) {
-        (End::Free, End::Free) => pick(|o| o.max_compression, |o| o.max_compression),
-        (_, End::Free) => upstream(),
-        (End::Free, _) => downstream(),
-        _ => {
-            let last = outcomes
-                .last()
-                .map_or((0.0, 0.0), |o| (o.force.upstream, o.force.downstream));
-            if last.0.abs() > last.1.abs() {
-                upstream()
-            } else {
-                downstream()
-            }
+    fn by_law(mut self, law: LawRun) -> Run {
+        (self.summary.node_spacing_m, self.summary.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
+        self.warnings.extend(law.warnings);
+        let saturation = law.saturation;
+        Run {
+            title: self.scene.title.clone(),
+            plan: self.summary,
+            duct_motion: self.duct_motion,
+            saturation: saturation.and_then(|s| balance::of_saturation(self.scene, &law.passes, s)),
+            passes: law.passes,
+            force_profile: law.force_profile,
+            restraints: law.restraints,
+            stages: law.stages,
+            slip_lengths: None,
+            error_estimate: law.error,
+            cost: law.cost,
+            warnings: self.warnings,
         }
     }
+
+    fn by_simulation(mut self, solved: &Solved) -> Result<Run, Error> {
+        for leak in solved.passes.leaks.iter().filter(|leak| leak.matters()) {
+            if leak.loss_per_pass > LARGEST_LEAK {
+                return Err(Error::Unfit {
+                    key: "friction.law",
+                    found: "sigmoid",
+                    reason: leak.to_string().into(),
+                });
+            }
+            self.warnings.push(leak.to_string());
+        }
+        let summary = &mut self.summary;
+        (summary.node_spacing_m, summary.vehicle_step_m) = (solved.mesh.spacing(), solved.mesh.vehicle_step());
+        summary.reasons.extend(solved.reasons.iter().cloned());
+        summary.reasons.extend(solved.passes.step_limits.clone());
+        let outcomes = &solved.passes.outcomes;
+        let (series, scale) = force_series(self.scene, outcomes);
+        let passes = listed(outcomes);
+        let total = solved.error.total();
+        Ok(Run {
+            title: self.scene.title.clone(),
+            plan: self.summary,
+            duct_motion: self.duct_motion,
+            saturation: saturation(&series, scale)
+                .and_then(|saturation| balance::of_saturation(self.scene, &passes, saturation)),
+            passes,
+            force_profile: force_profile(&solved.passes.cable, &solved.mesh, &solved.passes.state)?,
+            restraints: restraints(&solved.passes, &solved.mesh)?,
+            slip_lengths: solved.passes.slip,
+            stages: solved.passes.stages.clone(),
+            error_estimate: ErrorEstimate {
+                relative: total.force,
+                method: solved.error.to_string(),
+                parts: ErrorShares {
+                    mesh: solved.error.mesh.force,
+                    ground: solved.error.ground.force,
+                    inertia: solved.error.inertia,
+                    road: solved.error.road.force,
+                    movement: total.movement,
+                    ..ErrorShares::default()
+                },
+            },
+            cost: Cost::new(&solved.statistics),
+            warnings: self.warnings,
+        })
+    }
+
+    /// Without friction every pass leaves the cable as the first one did: where it was laid.
+    fn without_friction(
+        mut self,
+        plan: &Plan<'_>,
+        motions: &[DuctMotion],
+        options: &RunOptions<'_>,
+    ) -> Result<Run, Error> {
+        let method = match plan.method.method {
+            PassMethod::EveryPass(method) => method,
+            PassMethod::Law => CableMethod::QuasiStatic,
+        };
+        let mesh = plan.levels.mesh(plan.levels.first())?;
+        let mut scene = self.scene.clone();
+        scene.traffic.passes = 1;
+        let first = simulate(&scene, method, motions, mesh, &[], || {})?;
+        let profile = force_profile(&first.cable, &mesh, &first.state)?;
+        let count = self.scene.traffic.passes;
+        let summary = &mut self.summary;
+        summary.cable = method.name().into();
+        (summary.node_spacing_m, summary.vehicle_step_m) = (mesh.spacing(), mesh.vehicle_step());
+        summary.reasons.push("without friction nothing drags the cable: every pass is like the first".into());
+        let stages = options.stages.iter().filter(|pass| (1..=count).contains(*pass));
+        Ok(Run {
+            title: self.scene.title.clone(),
+            plan: self.summary,
+            duct_motion: self.duct_motion,
+            passes: law::listed(count)
+                .into_iter()
+                .map(|pass| PassRecord::new(pass, &first.outcomes[0]))
+                .collect(),
+            saturation: None,
+            restraints: restraints(&first, &mesh)?,
+            slip_lengths: None,
+            stages: stages
+                .map(|&pass| Stage {
+                    pass,
+                    force_profile: profile.clone(),
+                    friction: None,
+                })
+                .collect(),
+            force_profile: profile,
+            error_estimate: ErrorEstimate {
+                relative: 0.0,
+                method: "exact: without friction the cable stays where it was laid".into(),
+                parts: ErrorShares::default(),
+            },
+            cost: Cost::new(&first.statistics),
+            warnings: self.warnings,
+        })
+    }
 }
 
-fn restraints(solved: &Solved) -> Result<Vec<RestraintRecord>, Error> {
-    let Passes { state, cable, .. } = &solved.passes;
-    let forces = state.restraint_forces(cable, &solved.mesh)?;
+fn restraints(passes: &Passes, mesh: &Mesh) -> Result<Vec<RestraintRecord>, Error> {
+    let Passes { state, cable, .. } = passes;
+    let forces = state.restraint_forces(cable, mesh)?;
     let restraints = cable.restraints().iter().zip(forces);
     Ok(restraints
         .map(|(restraint, force_n)| RestraintRecord {

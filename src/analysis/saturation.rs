@@ -5,7 +5,11 @@
 //! Proc. R. Soc. Edinburgh 46 (1926) 289). Early on the force grows like √n, the gains' ratio is above 0.7 and nothing
 //! can be said yet.
 
+use cable_dem::PassOutcome;
+
 use super::result::Saturation;
+use crate::Scene;
+use crate::scene::End;
 
 /// Gains whose ratio is above this do not level off yet.
 const LARGEST_RATIO: f64 = 0.5;
@@ -49,6 +53,45 @@ pub fn saturation(forces: &[f64], scale: f64) -> Option<Saturation> {
         force_n: force,
         passes_to_95_percent: reached as u64 + 1,
     })
+}
+
+/// The force that a load cell would show: at the end that is held, the larger one of two, and inside the cable where none
+/// is; and its largest value while vehicles pass.
+pub fn force_series(scene: &Scene, outcomes: &[PassOutcome]) -> (Vec<f64>, f64) {
+    let pick = |force: fn(&PassOutcome) -> f64, peak: fn(&PassOutcome) -> f64| {
+        let scale = outcomes
+            .iter()
+            .map(peak)
+            .fold(0.0, |largest: f64, p| largest.max(p.abs()));
+        (outcomes.iter().map(force).collect::<Vec<_>>(), scale)
+    };
+    let upstream = || {
+        pick(
+            |o| o.force.upstream,
+            |o| o.peak.upstream.abs().max(o.lowest.upstream.abs()),
+        )
+    };
+    let downstream = || {
+        pick(
+            |o| o.force.downstream,
+            |o| o.peak.downstream.abs().max(o.lowest.downstream.abs()),
+        )
+    };
+    match (scene.ends.upstream, scene.ends.downstream) {
+        (End::Free, End::Free) => pick(|o| o.max_compression, |o| o.max_compression),
+        (_, End::Free) => upstream(),
+        (End::Free, _) => downstream(),
+        _ => {
+            let last = outcomes
+                .last()
+                .map_or((0.0, 0.0), |o| (o.force.upstream, o.force.downstream));
+            if last.0.abs() > last.1.abs() {
+                upstream()
+            } else {
+                downstream()
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -21,7 +21,7 @@ pub enum LawError {
     Cable(#[from] CableError),
     /// The advance of a cell has not settled along its length: the vehicle's effect reaches too far.
     #[error(
-        "at a locked friction of {share:.3} of the limit the advance still changes by {change:.1e} m along a cell of {length} m"
+        "at a locked friction of {share:.3} of the limit the advance still changes by {change:.1e} m along a cell of {length:.0} m"
     )]
     CellUnsettled {
         /// Locked friction as a share of the limit q.
@@ -40,7 +40,7 @@ pub enum LawError {
         passes: usize,
     },
     /// The evolution found no answer even with the smallest step.
-    #[error("no convergence at pass {pass} with a step of {step} passes")]
+    #[error("no convergence at pass {pass:.0} with a step of {step:.1e} passes")]
     NoConvergence {
         /// Passes so far.
         pass: f64,

@@ -47,7 +47,9 @@ pub fn plan(html: &mut Html, report: &Report) {
             row("node spacing and vehicle step", parts.mesh),
             row("ground model", parts.ground),
             row("inertia of the cable", parts.inertia),
-            row("law of many passes", parts.law),
+            row("road beyond where vehicles are followed", parts.road),
+            row("passes that were not simulated", parts.passes),
+            row("movement of the ends, all parts together", parts.movement),
         ],
         numbers: vec![false, true],
     });
