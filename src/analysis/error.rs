@@ -15,13 +15,12 @@ use super::passes::Passes;
 use crate::Error;
 
 /// Shares of the differences between meshes that count as error: of the last one, the one before, and so on. Fitted to random
-/// scenes, so that the error is above them in no more than one of a hundred.
-const FORCE_SHARES: [f64; 4] = [0.9, 0.4, 0.12, 0.04];
-const MOVEMENT_SHARES: [f64; 4] = [0.9, 0.4, 0.12, 0.04];
-/// With two meshes only.
-const ALONE: f64 = 1.5;
-/// Error that is counted at least on meshes of 3, 6, 12, … nodes a depth: a little less than what is typical.
-const LEAST: [f64; 7] = [2e-2, 1e-2, 3e-3, 8e-4, 2e-4, 5e-5, 1.2e-5];
+/// scenes, so that the error is above them in about one of a hundred.
+const SHARES: [f64; 4] = [1.4, 0.35, 0.12, 0.04];
+/// Of the only one.
+const ALONE: f64 = 2.0;
+/// Error that is counted at least on meshes of 3, 6, 12, … nodes a depth: what is typical.
+const LEAST: [f64; 7] = [5e-2, 3e-2, 6e-3, 1.5e-3, 4e-4, 1e-4, 2e-5];
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;
 /// Forces below this share of the largest one count as nothing when errors are compared, and movements of an end below this
@@ -149,15 +148,10 @@ pub fn of_mesh(levels: &[Passes], finest: usize, scale: Scale) -> Shares {
     if let [only] = differences[..] {
         return only.times(ALONE).max(least);
     }
-    let share = |difference: &Shares, k: usize| Shares {
-        force: FORCE_SHARES[k] * difference.force,
-        movement: MOVEMENT_SHARES[k] * difference.movement,
-    };
-    differences
+    SHARES
         .iter()
-        .take(FORCE_SHARES.len())
-        .enumerate()
-        .map(|(k, difference)| share(difference, k))
+        .zip(&differences)
+        .map(|(&share, difference)| difference.times(share))
         .fold(least, Shares::max)
 }
 
