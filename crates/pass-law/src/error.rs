@@ -31,6 +31,16 @@ pub enum LawError {
         /// Length of the cell \[m\].
         length: f64,
     },
+    /// Friction is so small that a vehicle's effect reaches farther than cells are made for.
+    #[error(
+        "friction is so small that a vehicle's effect reaches {length:.1} m along the cable; the pass law needs less than {most:.1} m"
+    )]
+    FarReaching {
+        /// √(EA D_l/q) \[m\].
+        length: f64,
+        /// Longest one allowed \[m\].
+        most: f64,
+    },
     /// The run at an end did not become steady.
     #[error("the run near an end still changes by {change:.1e} N a pass after {passes} passes")]
     EndUnsettled {

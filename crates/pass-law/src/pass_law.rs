@@ -41,12 +41,15 @@ impl PassLaw {
     /// # Errors
     ///
     /// As for [`crate::AdvanceLaw::new`] and [`MixedLaw::new`]; [`LawError::EndUnsettled`] where the layer at an end does not
-    /// become steady.
+    /// become steady, [`LawError::FarReaching`] where friction is so small that a vehicle's effect reaches too far.
     pub fn new(
         cable: &DuctedCable,
         traffic: &[(DuctMotion, f64)],
         resolution: Resolution,
     ) -> Result<Self, LawError> {
+        for (motion, _) in traffic {
+            resolution.check_reach(cable, motion.peak_longitudinal())?;
+        }
         let drafts = traffic
             .iter()
             .map(|(motion, _)| Draft::new(cable, motion, resolution))

@@ -7,6 +7,8 @@ use crate::error::checked;
 
 /// Weight of the slip length beside the depth.
 const SLIP_LENGTHS: f64 = 0.6;
+/// Longest slip length that the law takes, in depths.
+const MOST_REACH: f64 = 6.0;
 /// Longest fading length in depths.
 const MOST_DEPTHS: f64 = 8.0;
 
@@ -91,6 +93,19 @@ impl Resolution {
     /// Distance between vehicle positions \[m\].
     pub fn vehicle_step(self) -> f64 {
         0.5 * self.node_spacing()
+    }
+
+    /// Refuses a friction so small that a vehicle's effect reaches over [`MOST_REACH`] depths: cells long enough for it take
+    /// minutes, and the passes one by one seconds.
+    pub(crate) fn check_reach(self, cable: &DuctedCable, peak: f64) -> Result<(), LawError> {
+        let limit = cable.friction().limit();
+        let length = (cable.axial_stiffness() * peak / limit).sqrt();
+        let most = MOST_REACH * self.depth;
+        if limit == 0.0 || length <= most {
+            Ok(())
+        } else {
+            Err(LawError::FarReaching { length, most })
+        }
     }
 
     /// Length \[m\] over which the effect of a vehicle fades: the depth, or the length √(EA D_l/q) over which friction stretches
