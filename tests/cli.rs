@@ -700,7 +700,7 @@ fn a_sweep_draws_a_map_of_two_keys() {
     }
     for vary in [
         &[depths][..],
-        &[depths, "duct.length=20m,30m", "duct.lateral_offset=0,1"],
+        &[depths, "duct.length=20m,30m", "duct.lateral_offset=0m,1m"],
     ] {
         assert_eq!(sweep(vary).status.code(), Some(2), "{vary:?}");
     }

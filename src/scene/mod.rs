@@ -72,6 +72,8 @@ pub use data::{
 pub use error::SceneError;
 pub use file::SceneFile;
 pub use location::Location;
+#[cfg(feature = "sweep")]
+pub(crate) use quantity::leading_number;
 pub use quantity::{Dimension, QuantityError};
 pub use slips::UnitSlip;
 
