@@ -15,6 +15,7 @@ use serde::Serialize;
 
 use crate::analysis::run::{self, RunOptions};
 use crate::analysis::{cable::PassMethod, motion};
+use crate::scene::unusual;
 use crate::{Error, Run, Scene};
 use ground::GroundChoice;
 use mesh::Levels;
@@ -136,7 +137,7 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&'a dyn GroundField>) -> Result
     let ground = ground::choose(scene, own)?;
     Ok(Plan {
         scene,
-        warnings: warnings(scene),
+        warnings: [unusual(scene), warnings(scene)].concat(),
         ground,
         method,
         mesh: (first.spacing(), first.vehicle_step()),

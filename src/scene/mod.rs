@@ -60,6 +60,7 @@ mod syntax;
 mod table;
 mod traffic;
 mod units;
+mod unusual;
 mod validate;
 mod value;
 
@@ -76,6 +77,8 @@ pub use location::Location;
 pub(crate) use quantity::leading_number;
 pub use quantity::{Dimension, QuantityError};
 pub use slips::UnitSlip;
+
+pub(crate) use unusual::unusual;
 
 use document::Document;
 

@@ -261,6 +261,8 @@ rigid_base_depth = "12 m" → rigid_base_depth = "1.05 m" | ground.rigid_base_de
 thickness = "50 mm" → thickness = 0 | ground.layers.0.thickness | greater than 0
 poisson_ratio = 0.35 → poisson_ratio = 0.51 | ground.layers.0.poisson_ratio | from 0 to 0.5
 poisson_ratio = 0.35 → poisson_ratio = -0.1 | ground.layers.0.poisson_ratio | from 0 to 0.5
+young_modulus = "800 MPa" → young_modulus = 300 | ground.layers.2.young_modulus | a bare number is in Pa: did you mean "300 MPa"?
+depth = "1.2 m" → depth = 1500 | duct.depth | a bare number is in m: did you mean "1500 mm"?
 young_modulus = "800 MPa" → young_modulus = 0 | ground.layers.2.young_modulus | greater than 0
 top = "60 MPa" → top = 0 | ground.layers.1.young_modulus.top | greater than 0
 weight = "108.8 N/m" → weight = -1 | cable.weight | a force per length greater than 0
