@@ -50,6 +50,7 @@ mod ground;
 mod keys;
 mod location;
 mod nearest;
+mod openings;
 mod overrides;
 mod preset;
 mod quantity;

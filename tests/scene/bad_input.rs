@@ -420,6 +420,70 @@ fn what_is_not_toml_is_located() {
 }
 
 #[test]
+fn what_is_not_toml_is_told_where_it_was_written() {
+    let deep = format!("a = 1\n[duct]\nlength{} = 1\n", ".a".repeat(100));
+    let nested = format!("a = 1\nb = 2\nc = {}1{}\n", "[".repeat(100), "]".repeat(100));
+    for (text, line, part) in [
+        (deep.as_str(), 3, "deeper than in any scene"),
+        (&nested, 3, "deeper than in any scene"),
+        ("a = 1\nb = \"\"\"x\nc = 2\n[d]\n", 2, "`\"\"\"` is not closed"),
+        ("a = '''x\nc = 2\n[d]\n", 1, "`'''` is not closed"),
+        (
+            "a = 1\nwheels = [\n  { x = 1 },\n[traffic]\npasses = 2\n",
+            2,
+            "`[` is not closed",
+        ),
+        ("a = [\n  { x = 1,\n  { x = 2 },\n]\n", 2, "`{` is not closed"),
+        (
+            "[duct]\nlength = 1\ndepth = 1\nlength = 2\n",
+            4,
+            "duplicate key, which stands on line 2 already",
+        ),
+        (
+            "[duct]\nlength = 1\n[cable]\n[duct]\n",
+            4,
+            "duplicate key, which stands on line 1 already",
+        ),
+        ("[[a]]\nx = 1\n[[a]]\nx = 2\ny = 1\nx = 3\n", 6, "line 4 already"),
+        ("a.x = 1\nb.x = 2\na.x = 3\n", 3, "line 1 already"),
+        (
+            "[duct]\nlength = “30 m”\n",
+            2,
+            "“ and ” are not TOML's quotes: length = \"30 m\"",
+        ),
+        (
+            "[duct]\nlength: \"30 m\"\n",
+            2,
+            "both sides of `=`: length = \"30 m\"",
+        ),
+        ("[duct]\nlength = \"30 m\n", 2, "the closing quote is missing"),
+        // A fault inside of brackets that are closed stays where it is.
+        ("a = [\n  { x = 1 y = 2 },\n]\n", 2, "not valid TOML"),
+    ] {
+        let error = read(text).unwrap_err();
+        assert!(matches!(error, SceneError::Syntax { .. }), "{error}");
+        assert_eq!(error.location().unwrap().line, Some(line), "{error}");
+        assert!(error.to_string().contains(part), "{error}");
+    }
+}
+
+#[test]
+fn a_spring_by_its_other_name_is_told() {
+    assert_refused(
+        "{ spring = ",
+        "{ stiffness = ",
+        "{ stiffness",
+        &["`ends.downstream.stiffness`", "did you mean `spring`?"],
+    );
+    assert_refused(
+        "stiffness = \"1 MN/m\"",
+        "spring = \"1 MN/m\"",
+        "spring = \"1 MN/m\"",
+        &["`restraints.0.spring`", "did you mean `stiffness`?"],
+    );
+}
+
+#[test]
 fn an_empty_file_lacks_a_duct() {
     for text in ["", "\n\n", "# nothing"] {
         let message = read(text).unwrap_err().to_string();
