@@ -204,7 +204,7 @@ fn list(text: &str) -> Result<Vec<String>, Unclear> {
             .map(|(_, unit)| unit)
     };
     if units().any(str::is_empty) && !units().all(str::is_empty) {
-        let last = units().last().unwrap_or_default();
+        let last = units().next_back().unwrap_or_default();
         return unclear(
             "values with a unit and without one".into(),
             format!("the unit at every value, such as {}{last}", list[0]),

@@ -294,10 +294,9 @@ fn fuzz(count: u64, seed: u64) {
         for number in 0..count {
             let good = random.choice(&kind.good).expect("a good input");
             let input = mutated(&mut random, good, &kind.good);
-            match catch_unwind(AssertUnwindSafe(|| (kind.check)(&input))) {
-                Ok(fine) => accepted += u64::from(fine),
-                Err(_) => panic!("{} {number} of seed {seed}:\n{input}\n{input:?}", kind.name),
-            }
+            let fine = catch_unwind(AssertUnwindSafe(|| (kind.check)(&input)))
+                .unwrap_or_else(|_| panic!("{} {number} of seed {seed}:\n{input}\n{input:?}", kind.name));
+            accepted += u64::from(fine);
         }
         // Where nearly all or nearly none are accepted the other half was not looked at.
         let share = accepted as f64 / count as f64;
