@@ -191,11 +191,16 @@ fn list(text: &str) -> Result<Vec<String>, Unclear> {
             "at most a million values".into(),
         );
     }
-    if let ([whole, rest], Some(point)) = (&list[..], decimal_comma(text)) {
-        let (apart, together) = (format!("{whole} and {rest}"), point);
+    if let ([first, second], Some(one)) = (&list[..], decimal_comma(text)) {
+        let unit = number(second).map_or("", |(_, unit)| unit);
+        let two = if unit.is_empty() {
+            format!("{first}, {second}")
+        } else {
+            format!("{first}{unit},{second}")
+        };
         return unclear(
-            format!("{apart}, or {together}?"),
-            format!("`{whole}, {rest}` for two values, each with its unit, or `{together}` for one"),
+            format!("{first} and {second}, or {one}?"),
+            format!("`{two}` for two values, `{one}` for one"),
         );
     }
     let units = || {
@@ -387,6 +392,9 @@ mod tests {
         ] {
             assert!(told(text).contains(readings), "{}", told(text));
         }
+        // What is proposed is taken.
+        assert!(told("a=1,5m").contains("`1m,5m` for two values, `1.5m` for one"));
+        assert!(told("a=0,25").contains("`0, 25` for two values, `0.25` for one"));
         assert!(told("a=0.5,1,2m").contains("the unit at every value, such as 0.5m"));
         assert!(told("duct.depth=1m:2m").contains("A:B:STEP, which needs a step"));
         // Lists that are none.

@@ -283,7 +283,7 @@ fn small(scene: &Scene) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(256))]
+    #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
     fn no_edit_of_a_scene_panics(
