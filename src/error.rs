@@ -61,6 +61,19 @@ pub enum Error {
     /// The answer holds a number that is not finite.
     #[error("the computation gave a number that is not finite: this is no answer")]
     NotFinite,
+    /// The duct is so long beside its depth that no mesh of it can be computed.
+    #[error(
+        "duct.length = {length} m and duct.depth = {depth} m: a mesh as fine as this depth asks for has {nodes:.1e} nodes along the duct, \
+         where 5e6 are allowed: a shorter or a deeper duct, a larger solver.tolerance, or a solver.node_spacing"
+    )]
+    TooManyNodes {
+        /// Length of the duct \[m\].
+        length: f64,
+        /// Depth of the duct \[m\].
+        depth: f64,
+        /// Nodes that the mesh would have.
+        nodes: f64,
+    },
     /// The scene asks for something that does not fit the rest of it.
     #[error("{key}: {found} does not fit this scene: {reason}")]
     Unfit {
@@ -87,6 +100,7 @@ impl Error {
     pub fn located(self, file: &SceneFile) -> Self {
         let location = match &self {
             Self::Unfit { key, .. } => file.locate(key),
+            Self::TooManyNodes { .. } => file.locate("duct.length"),
             Self::Scene(SceneError::Value { key, .. }) => file.locate(key),
             _ => None,
         };
@@ -107,6 +121,7 @@ impl Error {
             Self::Scene(_)
             | Self::Data(_)
             | Self::Unfit { .. }
+            | Self::TooManyNodes { .. }
             | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
             | Self::Cable(CableError::InvalidParameter { .. } | CableError::UnsupportedLaw { .. }) => true,
             _ => false,

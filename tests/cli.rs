@@ -442,6 +442,47 @@ fn check_accepts_the_example_scenes() {
 }
 
 #[test]
+fn an_unusual_scene_is_told_by_check_plan_and_run() {
+    let rock = [
+        "--set",
+        "ground.rigid_base_depth=1 m",
+        "--set",
+        "traffic.passes=1",
+    ];
+    for command in ["check", "plan", "run"] {
+        let output = output(&[&[command, UPPER], &rock[..]].concat());
+        let errors = String::from_utf8(output.stderr).expect("UTF-8");
+        assert_eq!(output.status.code(), Some(0), "{command}: {errors}");
+        assert!(
+            errors.starts_with("warning: `ground.rigid_base_depth` is 1 m"),
+            "{command}: {errors}"
+        );
+    }
+    let output = output(&[&["run", UPPER, "--json"], &rock[..]].concat());
+    let run: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let warning = run["warnings"][0].as_str().expect("a warning");
+    assert!(warning.contains("within the rock"), "{warning}");
+}
+
+#[test]
+fn too_long_a_duct_for_its_depth_is_told_at_its_place() {
+    let output = output(&[
+        "plan",
+        UPPER,
+        "--set",
+        "duct.length=100km",
+        "--set",
+        "duct.depth=0.1",
+    ]);
+    let errors = String::from_utf8(output.stderr).expect("UTF-8");
+    assert_eq!(output.status.code(), Some(2), "{errors}");
+    assert!(
+        errors.starts_with("error: --set duct.length=100km: duct.length = 100000 m"),
+        "{errors}"
+    );
+}
+
+#[test]
 fn help_and_version_are_no_errors() {
     let help = printed(&["--help"]);
     for command in ["run", "profile", "check"] {
@@ -700,7 +741,7 @@ fn a_sweep_draws_a_map_of_two_keys() {
     }
     for vary in [
         &[depths][..],
-        &[depths, "duct.length=20m,30m", "duct.lateral_offset=0,1"],
+        &[depths, "duct.length=20m,30m", "duct.lateral_offset=0m,1m"],
     ] {
         assert_eq!(sweep(vary).status.code(), Some(2), "{vary:?}");
     }

@@ -141,7 +141,8 @@ fn execute(command: &Command) -> Result<(), Failure> {
         } => calibrate::execute(scene, calibrate, output),
         Command::Check { scene } => {
             let input = Input::read(scene)?;
-            input.judged(crate::check(&input.scene))?;
+            let plan = input.judged(crate::plan(&input.scene))?;
+            warn(&plan.report().warnings);
             print::checked(&input.scene)
         }
         #[cfg(feature = "plot")]

@@ -4,7 +4,7 @@
 //! level after it twice as many of both. Every tolerance climbs the same levels and stops at its own, so that a looser
 //! one never costs more, and the levels passed on the way tell the error of the last.
 
-use cable_dem::Mesh;
+use cable_dem::{CableError, Mesh};
 
 use crate::Error;
 use crate::scene::Scene;
@@ -41,6 +41,8 @@ pub struct Levels {
     finest: usize,
     /// Whether the scene says how fine to be.
     named: bool,
+    /// Whether the spacing follows from the duct's depth and length.
+    spacing_follows: bool,
 }
 
 impl Levels {
@@ -81,6 +83,7 @@ impl Levels {
             first: if named { NAMED } else { wanted.max(1) },
             finest: if named { NAMED } else { FINEST },
             named,
+            spacing_follows: solver.node_spacing.is_none(),
         }
     }
 
@@ -108,7 +111,16 @@ impl Levels {
         } else {
             self.step
         };
-        Ok(Mesh::new(self.length, share * self.spacing, step)?)
+        let spacing = share * self.spacing;
+        Mesh::new(self.length, spacing, step).map_err(|error| match error {
+            // The spacing is ours: what it follows from is what the scene says.
+            CableError::InvalidParameter { .. } if self.spacing_follows => Error::TooManyNodes {
+                length: self.length,
+                depth: self.depth,
+                nodes: self.length / spacing,
+            },
+            error => error.into(),
+        })
     }
 
     /// Error to expect on `level`, before anything is computed; `None` on a mesh that the scene names.

@@ -15,6 +15,7 @@ use serde::Serialize;
 
 use crate::analysis::run::{self, RunOptions};
 use crate::analysis::{cable::PassMethod, road};
+use crate::scene::unusual;
 use crate::{Error, Run, Scene};
 use ground::GroundChoice;
 use mesh::Levels;
@@ -137,7 +138,7 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&'a dyn GroundField>) -> Result
     }
     Ok(Plan {
         scene,
-        warnings: warnings(scene),
+        warnings: [unusual(scene), warnings(scene)].concat(),
         ground,
         method,
         mesh: (first.spacing(), first.vehicle_step()),

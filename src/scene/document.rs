@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::syntax::hint;
+use super::syntax::{Fault, fault};
 use super::table::Table;
 use super::{Location, SceneError};
 use crate::presets::Preset;
@@ -85,11 +85,10 @@ pub(super) struct Document {
 impl Document {
     pub fn parse(name: &str, text: &str) -> Result<Self, SceneError> {
         let table = DeTable::parse(text).map_err(|error| {
-            let location = Location::new(name, text, error.span().unwrap_or(0..0), true);
-            let hint = hint(&location.text).map_or_else(String::new, |hint| format!("; {hint}"));
+            let Fault { span, message } = fault(text, &error);
             SceneError::Syntax {
-                message: format!("{}{hint}", error.message()),
-                location,
+                location: Location::new(name, text, span, true),
+                message,
             }
         })?;
         let end = text.trim_end().len();

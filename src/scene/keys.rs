@@ -67,3 +67,6 @@ pub(super) const SECTIONS: &[(&str, &[&str])] = &[
     ("traffic", TRAFFIC),
     ("solver", SOLVER),
 ];
+
+/// One thing with two names: an end has a `spring`, a clamp a `stiffness`.
+pub(super) const OTHER_NAMES: &[(&str, &str)] = &[("stiffness", "spring"), ("spring", "stiffness")];

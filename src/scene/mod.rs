@@ -50,6 +50,7 @@ mod ground;
 mod keys;
 mod location;
 mod nearest;
+mod openings;
 mod overrides;
 mod preset;
 mod quantity;
@@ -60,6 +61,7 @@ mod syntax;
 mod table;
 mod traffic;
 mod units;
+mod unusual;
 mod validate;
 mod value;
 
@@ -72,8 +74,12 @@ pub use data::{
 pub use error::SceneError;
 pub use file::SceneFile;
 pub use location::Location;
+#[cfg(feature = "sweep")]
+pub(crate) use quantity::leading_number;
 pub use quantity::{Dimension, QuantityError};
 pub use slips::UnitSlip;
+
+pub(crate) use unusual::unusual;
 
 use document::Document;
 

@@ -143,6 +143,14 @@ impl Dimension {
     }
 }
 
+/// The number that a text begins with, and the rest: its unit, or nothing.
+#[cfg(feature = "sweep")]
+pub(crate) fn leading_number(text: &str) -> Option<(f64, &str)> {
+    let (number, rest) = split(text.trim())?;
+    let value = number.shifted(0)?;
+    value.is_finite().then_some((value, rest.trim()))
+}
+
 /// The digits of a decimal number and its exponent, or a word for a value that is not finite.
 struct Number<'t> {
     digits: &'t str,

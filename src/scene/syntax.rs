@@ -1,9 +1,116 @@
-//! What was probably meant by a line that is not TOML.
+//! What is wrong with a file that is not TOML: where, and what was probably meant.
 
-/// A hint for `line` of a scene file: a decimal comma, or a quantity without quotes.
-pub(super) fn hint(line: &str) -> Option<String> {
-    let (key, value) = line.split_once('=')?;
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::openings::openings;
+
+/// What is wrong, and where.
+pub(super) struct Fault {
+    pub span: Range<usize>,
+    pub message: String,
+}
+
+/// What made the parser give up on `text`, told where it was written.
+pub(super) fn fault(text: &str, error: &toml::de::Error) -> Fault {
+    let openings = openings(text);
+    // The parser does not tell where keys go too deep.
+    let (span, too_deep) = (error.span(), openings.too_deep);
+    let Some(span) = span.filter(|_| too_deep.is_none() || !error.message().contains("recurs")) else {
+        let start = too_deep.unwrap_or_default();
+        let message = "keys or brackets inside each other, deeper than in any scene".into();
+        return Fault {
+            span: start..start,
+            message,
+        };
+    };
+    if let Some(opening) = openings.unclosed
+        && line_start(text, opening.start) < line_start(text, span.start)
+    {
+        let message = format!("`{}` is not closed", &text[opening.clone()]);
+        return Fault {
+            span: opening,
+            message,
+        };
+    }
+    let mut message = error.message().to_owned();
+    if message == "duplicate key"
+        && let Some(line) = first_line(text, &span)
+    {
+        message = format!("duplicate key, which stands on line {line} already");
+    }
+    let start = line_start(text, span.start);
+    if let Some(hint) = hint(text[start..].lines().next().unwrap_or_default()) {
+        message = format!("{message}; {hint}");
+    }
+    Fault { span, message }
+}
+
+/// Where the line begins that holds the byte at `at`.
+fn line_start(text: &str, at: usize) -> usize {
+    let bytes = &text.as_bytes()[..at.min(text.len())];
+    bytes.iter().rposition(|&b| b == b'\n').map_or(0, |end| end + 1)
+}
+
+/// The line on which the key at `second` stands for the first time.
+fn first_line(text: &str, second: &Range<usize>) -> Option<usize> {
+    let start = line_start(text, second.start);
+    let same = |line: &str| Some(line.trim()) == text[start..].lines().next().map(str::trim);
+    let first = if text[start..second.start].trim_start().starts_with('[') {
+        text[..start].lines().position(same)?
+    } else {
+        text[..first_key(text, second)?].matches('\n').count()
+    };
+    Some(1 + first)
+}
+
+/// Where the key at `second` stands for the first time: the last one of its name before it, behind the same beginning of a line.
+fn first_key(text: &str, second: &Range<usize>) -> Option<usize> {
+    fn collect(table: &DeTable, keys: &mut Vec<(String, usize)>) {
+        for (key, value) in table {
+            keys.push((key.get_ref().clone().into_owned(), key.span().start));
+            inside(value, keys);
+        }
+    }
+    fn inside(value: &Spanned<DeValue>, keys: &mut Vec<(String, usize)>) {
+        match value.get_ref() {
+            DeValue::Table(table) => collect(table, keys),
+            DeValue::Array(items) => items.iter().for_each(|item| inside(item, keys)),
+            _ => {}
+        }
+    }
+    let mut keys = Vec::new();
+    collect(DeTable::parse_recoverable(text).0.get_ref(), &mut keys);
+    let name = text.get(second.clone())?.trim_matches(['"', '\'']);
+    let before = |at: usize| text[line_start(text, at)..at].trim();
+    keys.into_iter()
+        .filter(|(key, start)| key == name && *start < second.start)
+        .map(|(_, start)| start)
+        .filter(|&start| {
+            line_start(text, start) == line_start(text, second.start) || before(start) == before(second.start)
+        })
+        .max()
+}
+
+/// A hint for `line` of a scene file: a decimal comma, a quantity without quotes, quotes that are none, a colon.
+fn hint(line: &str) -> Option<String> {
+    let Some((key, value)) = line.split_once('=') else {
+        let (key, value) = line.split_once(':')?;
+        let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
+        let (key, value) = (key.trim(), value.trim());
+        return (!key.is_empty() && !value.is_empty() && key.chars().all(plain))
+            .then(|| format!("a key and its value stand on both sides of `=`: {key} = {value}"));
+    };
     let (key, value) = (key.trim(), value.split('#').next()?.trim());
+    if value.contains(SMART_QUOTES) {
+        let straight = value.replace(SMART_QUOTES, "\"");
+        return Some(format!("“ and ” are not TOML's quotes: {key} = {straight}"));
+    }
+    if value.starts_with('"') && value.matches('"').count() == 1 {
+        return Some(format!("the closing quote is missing: {key} = {value}\""));
+    }
     let number = value.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'));
     if !number || value.contains(['"', '\'']) {
         return None;
@@ -17,6 +124,9 @@ pub(super) fn hint(line: &str) -> Option<String> {
     let unit = value.ends_with(|c: char| c.is_alphabetic() || matches!(c, '%' | '2' | '²'));
     unit.then(|| format!("a quantity with its unit stands in quotes: {key} = \"{value}\""))
 }
+
+/// Quotes of word processors and mail.
+const SMART_QUOTES: [char; 5] = ['“', '”', '„', '‘', '’'];
 
 /// A number written with commas, with or without a unit, as it is to be written here; `None` where there is no comma.
 pub(super) fn with_point(text: &str) -> Option<String> {
@@ -64,11 +174,23 @@ mod tests {
                 "tolerance = 5 %",
                 "a quantity with its unit stands in quotes: tolerance = \"5 %\"",
             ),
+            (
+                "length = “250 m”",
+                "“ and ” are not TOML's quotes: length = \"250 m\"",
+            ),
+            (
+                "length: \"250 m\"",
+                "a key and its value stand on both sides of `=`: length = \"250 m\"",
+            ),
+            (
+                "depth = \"1.2 m",
+                "the closing quote is missing: depth = \"1.2 m\"",
+            ),
         ];
         for (line, expected) in cases {
             assert_eq!(hint(line).as_deref(), Some(expected));
         }
-        for line in ["depth = \"1.2 m", "depth", "law = coulomb", "passes = 200", ""] {
+        for line in ["depth", "see: ", "a b: c", "law = coulomb", "passes = 200", ""] {
             assert_eq!(hint(line), None, "{line}");
         }
     }

@@ -6,7 +6,7 @@
 use ground_field::GroundError;
 
 use super::document::{Content, Document, Entry, Node, Place};
-use super::keys::SECTIONS;
+use super::keys::{OTHER_NAMES, SECTIONS};
 use super::nearest::nearest;
 use super::range::{Range, allowed_number, allowed_quantity};
 use super::value::Value;
@@ -49,6 +49,7 @@ impl<'d> Table<'d> {
                 key: joined(&path, &entry.key),
                 allowed: known.join(", "),
                 suggestion: nearest(&entry.key, known.iter().copied())
+                    .or_else(|| other_name(&entry.key, known))
                     .map(str::to_owned)
                     .or_else(elsewhere),
             });
@@ -181,6 +182,12 @@ impl<'d> Table<'d> {
             allowed: allowed.into(),
         }
     }
+}
+
+/// The known key that has the meaning of this one elsewhere.
+fn other_name(key: &str, known: &[&'static str]) -> Option<&'static str> {
+    let (_, name) = OTHER_NAMES.iter().find(|(other, _)| *other == key)?;
+    known.contains(name).then_some(*name)
 }
 
 pub(super) fn joined(path: &str, key: &str) -> String {

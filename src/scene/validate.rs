@@ -232,10 +232,10 @@ fn vehicles(scene: &Scene) -> Result<(), SceneError> {
 
 /// A sequence names vehicles that there are, each as often as its share says.
 fn order(scene: &Scene) -> Result<(), SceneError> {
+    const KEY: &str = "traffic.sequence";
     let Order::Sequence(sequence) = &scene.traffic.order else {
         return Ok(());
     };
-    const KEY: &str = "traffic.sequence";
     let mut counts = vec![0_u64; scene.vehicles.len()];
     for &index in sequence {
         let Some(count) = counts.get_mut(index) else {

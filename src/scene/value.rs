@@ -54,7 +54,10 @@ impl<'d> Value<'d> {
     pub fn quantity(&self, dimension: Dimension, range: Range, example: &str) -> Result<f64, SceneError> {
         let allowed = || allowed_quantity(dimension, range, example);
         let value = match &self.node.content {
-            Content::Number { value, .. } => *value,
+            Content::Number { value, .. } => {
+                let meant = || format!("{}{}", allowed(), bare_in(*value, dimension, range));
+                return self.within(*value, range, meant);
+            }
             Content::Text(text) => dimension
                 .parse(text)
                 .map_err(|error| self.not_a_quantity(error, allowed()))?,
@@ -196,6 +199,22 @@ impl<'d> Value<'d> {
             found: found.into(),
             allowed: allowed.into(),
         }
+    }
+}
+
+/// What a bare number out of its range was probably meant in.
+fn bare_in(value: f64, dimension: Dimension, range: Range) -> String {
+    let unit = match dimension {
+        Dimension::Length => "mm",
+        Dimension::Pressure => "MPa",
+        _ => return String::new(),
+    };
+    let meant = format!("{value} {unit}");
+    if dimension.parse(&meant).is_ok_and(|value| range.contains(value)) {
+        let si = dimension.units().next().unwrap_or_default();
+        format!("; a bare number is in {si}: did you mean \"{meant}\"?")
+    } else {
+        String::new()
     }
 }
 

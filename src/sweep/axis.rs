@@ -3,10 +3,10 @@
 use statrs::distribution::{ContinuousCDF, LogNormal, Normal, Uniform};
 
 use super::SweepError;
-use crate::scene::Dimension;
+use crate::scene::{Dimension, leading_number as number};
 
 /// Most values of one key.
-const MOST_VALUES: f64 = 1e7;
+const MOST_VALUES: f64 = 1e6;
 /// Digits kept of A + i·STEP: the decimals that were written, without the binary dust of their sum.
 const DIGITS: usize = 12;
 
@@ -85,11 +85,7 @@ impl Axis {
         } else if let Some(range) = range(written) {
             AxisValues::List(range.map_err(|allowed| error(written, allowed))?)
         } else {
-            let list: Vec<String> = split(written).into_iter().map(|v| v.trim().to_owned()).collect();
-            if list.iter().any(String::is_empty) {
-                return Err(error("an empty value", "values between commas"));
-            }
-            AxisValues::List(list)
+            AxisValues::List(list(written).map_err(|Unclear { found, allowed }| error(&found, &allowed))?)
         };
         Ok(Self {
             key: key.to_owned(),
@@ -160,16 +156,6 @@ fn split(text: &str) -> Vec<&str> {
     parts
 }
 
-/// A number and its unit.
-fn number(text: &str) -> Option<(f64, &str)> {
-    let text = text.trim();
-    (1..=text.len())
-        .rev()
-        .filter(|&end| text.is_char_boundary(end))
-        .find_map(|end| Some((text[..end].parse::<f64>().ok()?, text[end..].trim())))
-        .filter(|(value, _)| value.is_finite())
-}
-
 /// Numbers and the one unit that all of them have, or all but none.
 fn numbers<const N: usize>(texts: &[&str]) -> Option<([f64; N], String)> {
     let texts: [&str; N] = texts.try_into().ok()?;
@@ -186,21 +172,84 @@ fn numbers<const N: usize>(texts: &[&str]) -> Option<([f64; N], String)> {
     Some((values, unit.to_owned()))
 }
 
-/// The values of A:B:STEP, both ends included; `None` for what is not of this form.
-fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
-    let parts: Vec<&str> = text.split(':').collect();
-    if parts.len() != 3 || parts.iter().any(|part| number(part).is_none()) {
+/// What is wrong with a list.
+struct Unclear {
+    found: String,
+    allowed: String,
+}
+
+/// The values of V1,V2,…
+fn list(text: &str) -> Result<Vec<String>, Unclear> {
+    let unclear = |found: String, allowed: String| Err(Unclear { found, allowed });
+    let list: Vec<&str> = split(text).into_iter().map(str::trim).collect();
+    if list.iter().any(|value| value.is_empty()) {
+        return unclear("an empty value".into(), "values between commas".into());
+    }
+    if list.len() as f64 > MOST_VALUES {
+        return unclear(
+            format!("{} values", list.len()),
+            "at most a million values".into(),
+        );
+    }
+    if let ([first, second], Some(one)) = (&list[..], decimal_comma(text)) {
+        let unit = number(second).map_or("", |(_, unit)| unit);
+        let two = if unit.is_empty() {
+            format!("{first}, {second}")
+        } else {
+            format!("{first}{unit},{second}")
+        };
+        return unclear(
+            format!("{first} and {second}, or {one}?"),
+            format!("`{two}` for two values, `{one}` for one"),
+        );
+    }
+    let units = || {
+        list.iter()
+            .filter_map(|value| number(value))
+            .map(|(_, unit)| unit)
+    };
+    if units().any(str::is_empty) && !units().all(str::is_empty) {
+        let last = units().next_back().unwrap_or_default();
+        return unclear(
+            "values with a unit and without one".into(),
+            format!("the unit at every value, such as {}{last}", list[0]),
+        );
+    }
+    Ok(list.into_iter().map(str::to_owned).collect())
+}
+
+/// Two values that may be one with a decimal comma, as it would be written with a point: `1,5m`, `0,25`, `1,05`.
+fn decimal_comma(text: &str) -> Option<String> {
+    let (whole, rest) = text.split_once(',')?;
+    let unsigned = whole.strip_prefix(['+', '-']).unwrap_or(whole);
+    let (digits, unit) = rest.split_at(rest.bytes().take_while(u8::is_ascii_digit).count());
+    let whole_numbers =
+        !unsigned.is_empty() && !digits.is_empty() && unsigned.bytes().all(|b| b.is_ascii_digit());
+    if !whole_numbers || number(rest)?.1 != unit.trim() {
         return None;
     }
+    let like_one = !unit.is_empty() || unsigned == "0" || (digits.len() > 1 && digits.starts_with('0'));
+    like_one.then(|| format!("{whole}.{rest}"))
+}
+
+/// The values of A:B:STEP, both ends included; `None` for what does not begin so.
+fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
+    let parts: Vec<&str> = text.split(':').collect();
+    if parts.len() == 1 || number(parts[0]).is_none() {
+        return None;
+    }
+    if parts.len() == 2 {
+        return Some(Err("A:B:STEP, which needs a step, such as 1:2:0.5"));
+    }
     let Some(([first, last, step], unit)) = numbers(&parts) else {
-        return Some(Err("A:B:STEP in one unit"));
+        return Some(Err("A:B:STEP, three numbers in one unit"));
     };
     let steps = (last - first) / step;
     if !steps.is_finite() || steps < 0.0 {
         return Some(Err("a STEP that leads from A to B"));
     }
     if steps > MOST_VALUES {
-        return Some(Err("at most ten million values"));
+        return Some(Err("at most a million values"));
     }
     // The end counts where rounding alone keeps a step from it.
     let count = (steps * (1.0 + 1e-12) + 1e-9).floor() as u64;
@@ -268,7 +317,7 @@ mod tests {
     use super::*;
 
     #[track_caller]
-    fn list(text: &str) -> Vec<String> {
+    fn listed(text: &str) -> Vec<String> {
         match Axis::parse(text).expect("an axis").values {
             AxisValues::List(list) => list,
             AxisValues::Drawn(_) => panic!("a list"),
@@ -277,29 +326,29 @@ mod tests {
 
     #[test]
     fn ranges_hold_both_ends_as_they_would_be_written() {
-        assert_eq!(list("a=0.1:0.5:0.1"), ["0.1", "0.2", "0.3", "0.4", "0.5"]);
-        assert_eq!(list("a = 1:2:0.4"), ["1", "1.4", "1.8"]);
-        assert_eq!(list("a=-0.2:0.2:0.1"), ["-0.2", "-0.1", "0", "0.1", "0.2"]);
-        assert_eq!(list("a=2m:1m:-0.5m"), ["2 m", "1.5 m", "1 m"]);
-        assert_eq!(list("a=1:3:1 MN/m"), ["1 MN/m", "2 MN/m", "3 MN/m"]);
+        assert_eq!(listed("a=0.1:0.5:0.1"), ["0.1", "0.2", "0.3", "0.4", "0.5"]);
+        assert_eq!(listed("a = 1:2:0.4"), ["1", "1.4", "1.8"]);
+        assert_eq!(listed("a=-0.2:0.2:0.1"), ["-0.2", "-0.1", "0", "0.1", "0.2"]);
+        assert_eq!(listed("a=2m:1m:-0.5m"), ["2 m", "1.5 m", "1 m"]);
+        assert_eq!(listed("a=1:3:1 MN/m"), ["1 MN/m", "2 MN/m", "3 MN/m"]);
         assert_eq!(
-            list("a=1e6 N:2e6 N:5e5 N"),
+            listed("a=1e6 N:2e6 N:5e5 N"),
             ["1000000 N", "1500000 N", "2000000 N"]
         );
-        assert_eq!(list("a=5:5:1"), ["5"]);
-        assert_eq!(list("a=0:0.3:0.1").len(), 4);
-        assert_eq!(list("a=0:1:0.001").len(), 1001);
+        assert_eq!(listed("a=5:5:1"), ["5"]);
+        assert_eq!(listed("a=0:0.3:0.1").len(), 4);
+        assert_eq!(listed("a=0:1:0.001").len(), 1001);
     }
 
     #[test]
     fn lists_keep_what_stands_in_brackets_together() {
-        assert_eq!(list("a=1,2, 3"), ["1", "2", "3"]);
+        assert_eq!(listed("a=1,2, 3"), ["1", "2", "3"]);
         assert_eq!(
-            list("ends.downstream={ spring = \"3 MN/m\", x = 1 },fixed"),
+            listed("ends.downstream={ spring = \"3 MN/m\", x = 1 },fixed"),
             ["{ spring = \"3 MN/m\", x = 1 }", "fixed"]
         );
-        assert_eq!(list("title=\"a,b\",c"), ["\"a,b\"", "c"]);
-        assert_eq!(list("v=t-25"), ["t-25"]);
+        assert_eq!(listed("title=\"a,b\",c"), ["\"a,b\"", "c"]);
+        assert_eq!(listed("v=t-25"), ["t-25"]);
     }
 
     #[test]
@@ -313,6 +362,10 @@ mod tests {
             "a=1:2:-1",
             "a=1m:2km:1m",
             "a=0:1:1e-9",
+            "a=0:8000000:1",
+            "a=1:10000001:1.2.3",
+            "a=1:2:3:4",
+            "a=1:x:2",
             "a=normal(1)",
             "a=normal(1, 0)",
             "a=normal(1, -1)",
@@ -325,6 +378,33 @@ mod tests {
         ] {
             assert!(Axis::parse(text).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn what_may_be_a_decimal_comma_is_told_with_both_readings() {
+        let told = |text: &str| Axis::parse(text).expect_err(text).to_string();
+        for (text, readings) in [
+            ("duct.depth=1,5m", "1 and 5m, or 1.5m?"),
+            ("duct.depth=1,5 m", "1 and 5 m, or 1.5 m?"),
+            ("friction.dynamic_coefficient=0,25", "0 and 25, or 0.25?"),
+            ("a=-0,3", "-0 and 3, or -0.3?"),
+            ("a=1,05", "1 and 05, or 1.05?"),
+        ] {
+            assert!(told(text).contains(readings), "{}", told(text));
+        }
+        // What is proposed is taken.
+        assert!(told("a=1,5m").contains("`1m,5m` for two values, `1.5m` for one"));
+        assert!(told("a=0,25").contains("`0, 25` for two values, `0.25` for one"));
+        assert!(told("a=0.5,1,2m").contains("the unit at every value, such as 0.5m"));
+        assert!(told("duct.depth=1m:2m").contains("A:B:STEP, which needs a step"));
+        // Lists that are none.
+        assert_eq!(listed("traffic.passes=10,100"), ["10", "100"]);
+        assert_eq!(listed("a=0, 1"), ["0", "1"]);
+        assert_eq!(listed("a=0,0.5"), ["0", "0.5"]);
+        assert_eq!(listed("a=1,5e3"), ["1", "5e3"]);
+        assert_eq!(listed("a=1m,5m"), ["1m", "5m"]);
+        assert_eq!(listed("a=0.2,0.3"), ["0.2", "0.3"]);
+        assert_eq!(listed("ends.downstream=fixed,free"), ["fixed", "free"]);
     }
 
     #[test]

@@ -261,6 +261,8 @@ rigid_base_depth = "12 m" → rigid_base_depth = "1.05 m" | ground.rigid_base_de
 thickness = "50 mm" → thickness = 0 | ground.layers.0.thickness | greater than 0
 poisson_ratio = 0.35 → poisson_ratio = 0.51 | ground.layers.0.poisson_ratio | from 0 to 0.5
 poisson_ratio = 0.35 → poisson_ratio = -0.1 | ground.layers.0.poisson_ratio | from 0 to 0.5
+young_modulus = "800 MPa" → young_modulus = 300 | ground.layers.2.young_modulus | a bare number is in Pa: did you mean "300 MPa"?
+depth = "1.2 m" → depth = 1500 | duct.depth | a bare number is in m: did you mean "1500 mm"?
 young_modulus = "800 MPa" → young_modulus = 0 | ground.layers.2.young_modulus | greater than 0
 top = "60 MPa" → top = 0 | ground.layers.1.young_modulus.top | greater than 0
 weight = "108.8 N/m" → weight = -1 | cable.weight | a force per length greater than 0
@@ -415,6 +417,70 @@ fn what_is_not_toml_is_located() {
             "{error}"
         );
     }
+}
+
+#[test]
+fn what_is_not_toml_is_told_where_it_was_written() {
+    let deep = format!("a = 1\n[duct]\nlength{} = 1\n", ".a".repeat(100));
+    let nested = format!("a = 1\nb = 2\nc = {}1{}\n", "[".repeat(100), "]".repeat(100));
+    for (text, line, part) in [
+        (deep.as_str(), 3, "deeper than in any scene"),
+        (&nested, 3, "deeper than in any scene"),
+        ("a = 1\nb = \"\"\"x\nc = 2\n[d]\n", 2, "`\"\"\"` is not closed"),
+        ("a = '''x\nc = 2\n[d]\n", 1, "`'''` is not closed"),
+        (
+            "a = 1\nwheels = [\n  { x = 1 },\n[traffic]\npasses = 2\n",
+            2,
+            "`[` is not closed",
+        ),
+        ("a = [\n  { x = 1,\n  { x = 2 },\n]\n", 2, "`{` is not closed"),
+        (
+            "[duct]\nlength = 1\ndepth = 1\nlength = 2\n",
+            4,
+            "duplicate key, which stands on line 2 already",
+        ),
+        (
+            "[duct]\nlength = 1\n[cable]\n[duct]\n",
+            4,
+            "duplicate key, which stands on line 1 already",
+        ),
+        ("[[a]]\nx = 1\n[[a]]\nx = 2\ny = 1\nx = 3\n", 6, "line 4 already"),
+        ("a.x = 1\nb.x = 2\na.x = 3\n", 3, "line 1 already"),
+        (
+            "[duct]\nlength = “30 m”\n",
+            2,
+            "“ and ” are not TOML's quotes: length = \"30 m\"",
+        ),
+        (
+            "[duct]\nlength: \"30 m\"\n",
+            2,
+            "both sides of `=`: length = \"30 m\"",
+        ),
+        ("[duct]\nlength = \"30 m\n", 2, "the closing quote is missing"),
+        // A fault inside of brackets that are closed stays where it is.
+        ("a = [\n  { x = 1 y = 2 },\n]\n", 2, "not valid TOML"),
+    ] {
+        let error = read(text).unwrap_err();
+        assert!(matches!(error, SceneError::Syntax { .. }), "{error}");
+        assert_eq!(error.location().unwrap().line, Some(line), "{error}");
+        assert!(error.to_string().contains(part), "{error}");
+    }
+}
+
+#[test]
+fn a_spring_by_its_other_name_is_told() {
+    assert_refused(
+        "{ spring = ",
+        "{ stiffness = ",
+        "{ stiffness",
+        &["`ends.downstream.stiffness`", "did you mean `spring`?"],
+    );
+    assert_refused(
+        "stiffness = \"1 MN/m\"",
+        "spring = \"1 MN/m\"",
+        "spring = \"1 MN/m\"",
+        &["`restraints.0.spring`", "did you mean `stiffness`?"],
+    );
 }
 
 #[test]

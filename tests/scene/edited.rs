@@ -71,36 +71,36 @@ fn an_edited_scene_is_refused_with_its_key() {
 fn every_part_of_a_scene_has_its_ranges() {
     assert_refused("duct.length", |scene| scene.duct.length = f64::INFINITY);
     assert_refused("duct.lateral_offset", |scene| {
-        scene.duct.lateral_offset = f64::NAN
+        scene.duct.lateral_offset = f64::NAN;
     });
     assert_refused("cable.weight", |scene| scene.cable.weight = 0.0);
     assert_refused("cable.axial_stiffness", |scene| {
-        scene.cable.axial_stiffness = -1.0
+        scene.cable.axial_stiffness = -1.0;
     });
     assert_refused("cable.normal_load_factor", |scene| {
-        scene.cable.normal_load_factor = 0.0
+        scene.cable.normal_load_factor = 0.0;
     });
     assert_refused("friction.shape_factor", |scene| {
         scene.friction.law = FrictionLaw::Sigmoid { shape_factor: 0.0 };
     });
     assert_refused("ends.downstream.spring", |scene| {
-        scene.ends.downstream = End::Spring(-1.0)
+        scene.ends.downstream = End::Spring(-1.0);
     });
     let clamp = |position, stiffness| Restraint { position, stiffness };
     assert_refused("restraints.0.position", |scene| {
-        scene.restraints.push(clamp(31.0, 1e6))
+        scene.restraints.push(clamp(31.0, 1e6));
     });
     assert_refused("restraints.1.stiffness", |scene| {
         scene.restraints = vec![clamp(1.0, 1e6), clamp(2.0, f64::NAN)];
     });
     assert_refused("solver.node_spacing", |scene| {
-        scene.solver.node_spacing = Some(20.0)
+        scene.solver.node_spacing = Some(20.0);
     });
     assert_refused("solver.vehicle_step", |scene| {
-        scene.solver.vehicle_step = Some(0.0)
+        scene.solver.vehicle_step = Some(0.0);
     });
     assert_refused("solver.time_step", |scene| {
-        scene.solver.time_step = Some(f64::INFINITY)
+        scene.solver.time_step = Some(f64::INFINITY);
     });
     assert_refused("solver.approach", |scene| scene.solver.approach = Some(-1.0));
 }
@@ -131,7 +131,7 @@ fn ground_and_traffic_have_their_ranges_too() {
         scene.ground.model = creepage::scene::GroundModel::Boussinesq;
     });
     assert_refused("vehicles.1.name", |scene| {
-        scene.vehicles = vec![vehicle("a"), vehicle("a")]
+        scene.vehicles = vec![vehicle("a"), vehicle("a")];
     });
     assert_refused("vehicles.0.speed", |scene| {
         scene.vehicles[0].vehicle = Vehicle::point("fast", 1e5, 1e9).expect("a vehicle");
@@ -268,19 +268,22 @@ fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
     }
 }
 
-/// Work that a test can do: few passes, no cable that is long beside its duct's depth.
+/// Work that a test can do: two passes over a cable that is not long beside its duct's depth, on a mesh that is no finer than usual.
 fn small(scene: &Scene) -> bool {
-    let finest = scene.solver.node_spacing.unwrap_or(f64::INFINITY);
-    let step = scene.solver.vehicle_step.unwrap_or(f64::INFINITY);
+    let finest = scene.duct.depth / 12.0;
+    let usual = |step: Option<f64>| step.is_none_or(|step| step >= finest);
     let road = scene.duct.length + 2.0 * scene.solver.approach.unwrap_or(15.0);
-    scene.traffic.passes <= 3
-        && scene.solver.tolerance >= 1e-3
-        && road <= 100.0 * scene.duct.depth.min(20.0 * finest).min(20.0 * step)
+    scene.traffic.passes <= 2
+        && scene.solver.tolerance >= 0.01
+        && scene.solver.method == SolverMethod::Auto
+        && usual(scene.solver.node_spacing)
+        && usual(scene.solver.vehicle_step)
+        && road <= 60.0 * scene.duct.depth
         && scene.friction.law.has_memory()
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(256))]
+    #![proptest_config(ProptestConfig::with_cases(1000))]
 
     #[test]
     fn no_edit_of_a_scene_panics(
@@ -306,14 +309,12 @@ proptest! {
             let all = [&profile.positions_m, &profile.longitudinal_m, &profile.vertical_m, &profile.longitudinal_velocity_m_per_s];
             prop_assert!(all.into_iter().flatten().all(|value| value.is_finite()));
         }
-        if !valid || small(&scene) {
-            if let Ok(run) = creepage::run(&scene) {
-                prop_assert!(valid);
-                prop_assert_eq!(run.passes.len() as u64, scene.traffic.passes);
-                for pass in run.passes {
-                    prop_assert!(pass.downstream_force_n.is_finite() && pass.upstream_force_n.is_finite());
-                    prop_assert!(pass.downstream_displacement_m.is_finite() && pass.max_compression_n.is_finite());
-                }
+        if (!valid || small(&scene)) && let Ok(run) = creepage::run(&scene) {
+            prop_assert!(valid);
+            prop_assert_eq!(run.passes.len() as u64, scene.traffic.passes);
+            for pass in run.passes {
+                prop_assert!(pass.downstream_force_n.is_finite() && pass.upstream_force_n.is_finite());
+                prop_assert!(pass.downstream_displacement_m.is_finite() && pass.max_compression_n.is_finite());
             }
         }
     }

@@ -6,6 +6,7 @@ mod contradictions;
 mod edited;
 mod overrides;
 mod presets;
+mod unusual;
 
 use std::path::Path;
 

@@ -1,0 +1,317 @@
+//! Whatever is read: scene files, overrides, readings, quantities and varied keys. Good inputs are changed at random, and what
+//! comes of each is an answer that keeps its own rules or an error that says where, never a panic.
+
+#![cfg(feature = "sweep")]
+
+mod mutate;
+
+use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+
+use calibrate::Readings;
+use creepage::SceneFile;
+use creepage::presets::{self, PresetKind};
+use creepage::scene::{Dimension, SceneError};
+use creepage::sweep::{Axis, AxisValues};
+use creepage::template::{Template, TemplateGround};
+use fastrand::Rng;
+
+use mutate::mutated;
+
+/// Inputs of the ordinary tests, and of the long one.
+const FEW: u64 = 100_000;
+const MANY: u64 = 1_000_000;
+
+/// A kind of input: its share of all, in percent, good ones, and what must hold for any.
+struct Kind {
+    name: &'static str,
+    share: u64,
+    good: Vec<String>,
+    /// Whether it is accepted.
+    check: fn(&str) -> bool,
+}
+
+fn kinds() -> [Kind; 5] {
+    let scenes = scenes();
+    let settings: Vec<String> = scenes.iter().flat_map(|text| settings(text)).collect();
+    // Those that fit the example, one by one and in pairs.
+    let mut fitting: Vec<String> = settings.into_iter().filter(|text| overrides(text)).collect();
+    let pairs: Vec<String> = fitting.windows(2).map(|pair| pair.join("\n")).collect();
+    fitting.extend(pairs.into_iter().filter(|pair| overrides(pair)));
+    [
+        Kind {
+            name: "scenes",
+            share: 40,
+            good: scenes,
+            check: scene,
+        },
+        Kind {
+            name: "overrides",
+            share: 20,
+            good: fitting,
+            check: overrides,
+        },
+        Kind {
+            name: "readings",
+            share: 15,
+            good: tables(),
+            check: readings,
+        },
+        Kind {
+            name: "quantities",
+            share: 15,
+            good: quantities(),
+            check: quantity,
+        },
+        Kind {
+            name: "axes",
+            share: 10,
+            good: axes(),
+            check: axis,
+        },
+    ]
+}
+
+fn files(folder: &str, ending: &str) -> Vec<String> {
+    let mut paths: Vec<_> = fs::read_dir(folder)
+        .expect("a folder of good inputs")
+        .map(|entry| entry.expect("a file").path())
+        .filter(|path| path.extension().is_some_and(|found| found == ending))
+        .collect();
+    // The same inputs on every machine.
+    paths.sort();
+    let read = |path: &Path| fs::read_to_string(path).expect("a good input");
+    paths.iter().map(|path| read(path)).collect()
+}
+
+/// The examples, difficult grounds, and new scenes with every preset.
+fn scenes() -> Vec<String> {
+    let mut scenes = files("examples/scenes", "toml");
+    scenes.extend(files("tests/data/difficult", "toml"));
+    for preset in presets::all() {
+        let name = preset.name.clone();
+        let mut template = Template::default();
+        match preset.kind {
+            PresetKind::Vehicle => template.vehicle = name,
+            PresetKind::Cable => template.cable = name,
+            PresetKind::Pavement => template.ground = TemplateGround::Pavement(name),
+            PresetKind::Friction => continue,
+        }
+        // What a preset gives may stand in the file too; the template has a speed of its own.
+        let text = template.to_toml("fuzz.toml").expect("a template");
+        let values: Vec<&str> = preset
+            .toml
+            .lines()
+            .filter(|line| !line.starts_with("speed"))
+            .collect();
+        let named = format!("preset = \"{}\"", preset.name);
+        scenes.push(text.replace(&named, &format!("{}\n", values.join("\n"))));
+        scenes.push(text);
+    }
+    scenes
+}
+
+/// `KEY=VALUE` of a scene's own lines.
+fn settings(text: &str) -> Vec<String> {
+    let mut section = String::new();
+    let mut settings = Vec::new();
+    for line in text.lines() {
+        if let Some(heading) = line.strip_prefix("[[") {
+            section = format!("{}.0.", heading.split(']').next().unwrap_or_default());
+        } else if let Some(heading) = line.strip_prefix('[') {
+            section = format!("{}.", heading.split(']').next().unwrap_or_default());
+        } else if let Some((key, value)) = line.split_once(" = ") {
+            settings.push(format!("{section}{}={value}", key.trim()));
+        }
+    }
+    settings
+}
+
+fn tables() -> Vec<String> {
+    let series = fs::read_to_string("examples/data/synthetic-upper.csv").expect("a series");
+    let short = "pass,force_n,sigma_n\n1,113.4,4\n2,168,4.5\n# later\n\n60,5.4e2,4\n";
+    let bare = "\u{feff}1,113.4\r\n2,-168\r\n10,\r\n";
+    [series, short.into(), bare.into()].into()
+}
+
+fn quantities() -> Vec<String> {
+    DIMENSIONS
+        .iter()
+        .flat_map(|dimension| dimension.units())
+        .flat_map(|unit| ["1.2", "-35.7e-6", "8.01E+6", ".5"].map(|number| format!("{number} {unit}")))
+        .collect()
+}
+
+fn axes() -> Vec<String> {
+    [
+        "duct.depth=0.6m:2m:0.2m",
+        "friction.dynamic_coefficient=0.2,0.3,0.4",
+        "ends.downstream={ spring = \"3 MN/m\" },fixed,free",
+        "friction.dynamic_coefficient=normal(0.25, 0.03)",
+        "ground.layers.2.young_modulus=lognormal(60 MPa, 0.4)",
+        "vehicles.0.load=uniform(10 tf, 20 tf)",
+        "vehicles.0.preset=t-25,t-20",
+        "traffic.passes=10:100:10",
+    ]
+    .map(str::to_owned)
+    .into()
+}
+
+const DIMENSIONS: [Dimension; 8] = [
+    Dimension::Length,
+    Dimension::Force,
+    Dimension::Pressure,
+    Dimension::ForcePerLength,
+    Dimension::InverseLength,
+    Dimension::Speed,
+    Dimension::Time,
+    Dimension::Ratio,
+];
+
+// What must hold.
+
+fn scene(text: &str) -> bool {
+    let read = SceneFile::from_toml("fuzz.toml", text).and_then(|file| {
+        file.unit_slips();
+        file.scene()
+    });
+    match &read {
+        Ok(scene) => scene.validate().expect("what was read is valid"),
+        Err(error) => located(error, text),
+    }
+    read.is_ok()
+}
+
+/// The error names a line of the file, and says what the line is.
+fn located(error: &SceneError, text: &str) {
+    let location = error.location().expect("a place");
+    let line = location.line.expect("a line");
+    assert!(line >= 1 && line <= 1 + text.matches('\n').count(), "{error}");
+    let message = error.to_string();
+    assert!(
+        message.starts_with(&format!("fuzz.toml, line {line}: ")),
+        "{message}"
+    );
+    location.excerpt();
+}
+
+/// Overrides, one a line, on top of an example.
+fn overrides(text: &str) -> bool {
+    thread_local! {
+        static FILE: SceneFile = SceneFile::read("examples/scenes/full-scale-lower.toml".as_ref()).expect("an example");
+    }
+    let list: Vec<&str> = text.split('\n').collect();
+    let read = FILE.with(|file| file.with(&list)).and_then(|file| file.scene());
+    match &read {
+        Ok(scene) => scene.validate().expect("what was read is valid"),
+        Err(error) => {
+            let location = error.location().expect("a place");
+            assert!(
+                location.line.is_some()
+                    || location.file.starts_with("--set ")
+                    || location.file.starts_with("preset ")
+            );
+            assert!(!error.to_string().is_empty());
+        }
+    }
+    read.is_ok()
+}
+
+fn readings(text: &str) -> bool {
+    let read = Readings::from_csv("fuzz.csv", text.as_bytes());
+    match &read {
+        Ok(readings) => {
+            for reading in readings.readings() {
+                assert!(reading.force.is_finite() && reading.pass >= 1, "{reading:?}");
+                assert!(
+                    reading.sigma.is_none_or(|sigma| sigma.is_finite() && sigma > 0.0),
+                    "{reading:?}"
+                );
+            }
+            assert!(readings.last_pass() >= 1 && readings.forces().len() == readings.readings().len());
+        }
+        Err(error) => {
+            let message = error.to_string();
+            let rest = message.strip_prefix("fuzz.csv:").expect("the file");
+            if let Ok(line) = rest.split(':').next().unwrap_or_default().parse::<usize>() {
+                assert!(line <= 1 + text.matches(['\n', '\r']).count(), "{message}");
+            }
+        }
+    }
+    read.is_ok()
+}
+
+fn quantity(text: &str) -> bool {
+    let mut accepted = false;
+    for dimension in DIMENSIONS {
+        let Ok(value) = dimension.parse(text) else {
+            continue;
+        };
+        accepted = true;
+        if value == 0.0 || (1e-290..1e290).contains(&value.abs()) {
+            // The same value is read back in the first unit.
+            let unit = dimension.units().next().expect("a unit");
+            let factor = dimension.parse(&format!("1 {unit}")).expect("a unit");
+            let again = dimension.parse(&format!("{:e} {unit}", value / factor));
+            let again = again.expect("a quantity");
+            assert!((again - value).abs() <= 1e-12 * value.abs(), "{value} {again}");
+        }
+        assert!(!value.is_nan() || text.to_ascii_lowercase().contains("nan"));
+        assert!(dimension.parse_argument(text).is_ok());
+    }
+    accepted
+}
+
+fn axis(text: &str) -> bool {
+    let read = Axis::parse(text);
+    match &read {
+        Ok(axis) => {
+            assert!(!axis.key.is_empty() && (1..=1_000_001).contains(&axis.count()));
+            match &axis.values {
+                AxisValues::List(values) => assert!(values.iter().all(|value| !value.is_empty())),
+                AxisValues::Drawn(distribution) => {
+                    let (low, high) = (distribution.quantile(0.1), distribution.quantile(0.9));
+                    assert!(low.0 <= high.0, "{low:?} {high:?}");
+                }
+            }
+        }
+        Err(error) => assert!(error.to_string().contains("allowed: "), "{error}"),
+    }
+    read.is_ok()
+}
+
+// The tests.
+
+/// Checks so many inputs, and shows the one that fails.
+fn fuzz(count: u64, seed: u64) {
+    for kind in kinds() {
+        for good in &kind.good {
+            assert!((kind.check)(good), "{}: {good}", kind.name);
+        }
+        let mut random = Rng::with_seed(seed);
+        let (count, mut accepted) = (count * kind.share / 100, 0);
+        for number in 0..count {
+            let good = random.choice(&kind.good).expect("a good input");
+            let input = mutated(&mut random, good, &kind.good);
+            let fine = catch_unwind(AssertUnwindSafe(|| (kind.check)(&input)))
+                .unwrap_or_else(|_| panic!("{} {number} of seed {seed}:\n{input}\n{input:?}", kind.name));
+            accepted += u64::from(fine);
+        }
+        // Where nearly all or nearly none are accepted the other half was not looked at.
+        let share = accepted as f64 / count as f64;
+        println!("{}: {count} inputs, {:.0} % accepted", kind.name, 100.0 * share);
+        assert!((0.02..0.98).contains(&share), "{}: {share}", kind.name);
+    }
+}
+
+#[test]
+fn a_hundred_thousand_inputs_are_read_or_refused() {
+    fuzz(FEW, 1);
+}
+
+#[test]
+#[ignore = "half a minute, cargo test --release --test fuzz -- --ignored"]
+fn a_million_inputs_are_read_or_refused() {
+    fuzz(MANY, 2);
+}

@@ -1,0 +1,162 @@
+//! Valid scenes that are hardly meant are told; ordinary ones are not.
+
+use creepage::presets::{PresetKind, all};
+use creepage::scene::Scene;
+
+const SCENE: &str = r#"
+[duct]
+length = "30 m"
+depth = "1.5 m"
+[ground]
+[[ground.layers]]
+thickness = "15 cm"
+young_modulus = "3000 MPa"
+poisson_ratio = 0.35
+[[ground.layers]]
+thickness = "40 cm"
+young_modulus = "200 MPa"
+poisson_ratio = 0.35
+[[ground.layers]]
+young_modulus = "60 MPa"
+poisson_ratio = 0.45
+[cable]
+preset = "xlpe-800-single-core"
+[friction]
+law = "coulomb"
+dynamic_coefficient = 0.3
+[ends]
+upstream = "free"
+downstream = "fixed"
+[[vehicles]]
+preset = "t-25"
+[traffic]
+passes = 2
+[solver]
+tolerance = 0.05
+"#;
+
+fn warnings(overrides: &[&str]) -> Vec<String> {
+    let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
+    let scene = Scene::from_toml_with("unusual.toml", SCENE, &overrides).expect("a scene");
+    creepage::plan(&scene).expect("a plan").report().warnings
+}
+
+#[test]
+fn each_unusual_value_is_told_with_its_key() {
+    let cases: &[(&[&str], &str)] = &[
+        (
+            &["ground.rigid_base_depth=1 m"],
+            "`ground.rigid_base_depth` is 1 m and the duct lies at 1.5 m",
+        ),
+        (&["ground.rigid_base_depth=1.5 m"], "within the rock"),
+        (
+            &["ground.layers.2.young_modulus=300 kPa"],
+            "`ground.layers.2.young_modulus` is 0.3 MPa, softer than peat",
+        ),
+        (
+            &["ground.layers.1.young_modulus=3000"],
+            "did you mean \"3000 MPa\"?",
+        ),
+        (
+            &["ground.layers.0.young_modulus=300 GPa"],
+            "`ground.layers.0.young_modulus` is 300 GPa, stiffer than granite",
+        ),
+        (
+            &[
+                "ground.rigid_base_depth=12 m",
+                "ground.layers.2.young_modulus={ top = \"60 MPa\", bottom = \"600 GPa\" }",
+            ],
+            "`ground.layers.2.young_modulus` is 600 GPa",
+        ),
+        (
+            &["ground.layers.2.young_modulus=1.9 MPa"],
+            "105 times less than that of the layer on it",
+        ),
+        (
+            &[
+                "ground.layers.0.young_modulus=20 MPa",
+                "ground.layers.2.young_modulus=3 GPa",
+            ],
+            "layers stand from the top down",
+        ),
+        (
+            &["friction.dynamic_coefficient=2.5"],
+            "`friction.dynamic_coefficient` is 2.5",
+        ),
+        (&["duct.lateral_offset=-50 m"], "`duct.lateral_offset` is 50 m"),
+    ];
+    for (overrides, wanted) in cases {
+        let found = warnings(overrides);
+        assert!(
+            found.iter().any(|warning| warning.contains(wanted)),
+            "{overrides:?}: {found:#?}"
+        );
+    }
+}
+
+#[test]
+fn what_is_only_far_from_the_usual_is_not_told() {
+    for overrides in [
+        &["ground.rigid_base_depth=1.6 m"][..],
+        &["ground.layers.2.young_modulus=2.1 MPa"],
+        &["ground.layers.0.young_modulus=90 GPa"],
+        &["friction.dynamic_coefficient=1.5"],
+        &["duct.lateral_offset=15 m"],
+        // Soil over rock that is a half-space.
+        &[
+            "ground.layers.0.young_modulus=60 MPa",
+            "ground.layers.0.thickness=5 m",
+            "ground.layers.2.young_modulus=20 GPa",
+        ],
+    ] {
+        let found = warnings(overrides);
+        assert!(
+            !found.iter().any(|warning| warning.contains('`')),
+            "{overrides:?}: {found:#?}"
+        );
+    }
+}
+
+#[test]
+fn ordinary_scenes_have_no_warnings() {
+    assert_eq!(warnings(&[]), [""; 0]);
+    for preset in all() {
+        let key = match preset.kind {
+            PresetKind::Vehicle => "vehicles.0.preset",
+            PresetKind::Cable => "cable.preset",
+            PresetKind::Pavement => "ground.preset",
+            PresetKind::Friction => continue,
+        };
+        assert_eq!(
+            warnings(&[&format!("{key}={}", preset.name)]),
+            [""; 0],
+            "{}",
+            preset.name
+        );
+    }
+    for name in std::fs::read_dir("examples/scenes").expect("the examples") {
+        let path = name.expect("a file").path();
+        let scene = Scene::from_file(&path).expect("a scene");
+        let found = creepage::plan(&scene).expect("a plan").report().warnings;
+        assert_eq!(found, [""; 0], "{}", path.display());
+    }
+}
+
+/// A mesh that follows from the duct's length and depth is refused with these, not with a spacing that nobody wrote.
+#[test]
+fn too_long_a_duct_for_its_depth_is_told_with_both_keys() {
+    let text = SCENE.replace("30 m", "100 km").replace("1.5 m", "0.1 m");
+    let file = creepage::SceneFile::from_toml("long.toml", &text).expect("a file");
+    let scene = file.scene().expect("a scene");
+    let error = creepage::plan(&scene).err().expect("too many nodes");
+    assert!(error.is_bad_input());
+    let message = error.located(&file).to_string();
+    assert!(
+        message.starts_with("long.toml, line 3: duct.length = 100000 m and duct.depth = 0.1 m: "),
+        "{message}"
+    );
+    assert!(
+        message.contains("length = \"100 km\"") && !message.contains("node_spacing ="),
+        "{message}"
+    );
+}
