@@ -215,6 +215,7 @@ mod tests {
             radial: series_of(&values),
             vertical: series_of(&values),
             noise: (0.0, 0.0),
+            hidden: 0.0,
         }
     }
 
