@@ -440,7 +440,7 @@ fn fitted(scene: &Scene, soil: Soil, exact: &[DuctMotion], depth: f64) -> Result
             let factor = fit(&motion, exact, depth);
             motion.scaled(factor)
         })
-        .collect())
+        .collect::<Result<_, _>>()?)
 }
 
 /// The factor by which `motion` comes nearest to `exact`, in the least squares of D_l.
