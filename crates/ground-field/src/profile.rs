@@ -301,7 +301,8 @@ fn initial_edges(depth: f64, end: f64) -> Vec<f64> {
     let mut edges = vec![0.0];
     // A depth that is nothing beside the reach is left to bisection.
     let mut edge = (0.5 * depth).max(1e-12 * end);
-    while edge < 0.999 * end {
+    // Lengths too small to be added up make one cell.
+    while edge > edges[edges.len() - 1] && edge < 0.999 * end {
         edges.push(edge);
         edge += (0.5 * depth).max(0.5 * edge);
     }
