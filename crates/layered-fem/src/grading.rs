@@ -53,7 +53,9 @@ fn block_depth(profile: &SoilProfile) -> f64 {
     let thickness = top.thickness();
     let (first, last) = (top.young_modulus_at(0.0), top.young_modulus_at(thickness));
     let change = (last - first).abs() / first.min(last);
-    LARGEST_BLOCK.min(thickness).min(thickness / change.max(1.0))
+    // Never nothing: without a block a point load would be lost.
+    let even = (thickness / change.max(1.0)).max(f64::MIN_POSITIVE);
+    LARGEST_BLOCK.min(thickness).min(even)
 }
 
 /// Distance of the outer boundary \[m\].
