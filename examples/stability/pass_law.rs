@@ -69,7 +69,7 @@ fn outcomes(lengths: f64, number: f64) -> Result<[Cell; 2], Box<dyn Error + Send
     let cable = cable(lengths * DEPTH, sheath)?;
     let motion = truck(DEPTH, 10.0)?;
     let factor = number * LIMIT * DEPTH * DEPTH / EA / motion.peak_longitudinal();
-    let motion = motion.scaled(factor);
+    let motion = motion.scaled(factor)?;
     let right = simulated(&cable, &motion)?;
     let answer = law(&cable, &motion);
     let judged = |guarded: bool| match &answer {

@@ -52,12 +52,15 @@ fn scale(scene: &Scene, motions: Vec<DuctMotion>) -> Result<Vec<DuctMotion>, Err
             .into_iter()
             .map(|motion| {
                 let factor = factor(wanted, motion.peak_longitudinal(), "ground.longitudinal_peak")?;
-                Ok(motion.scaled(factor))
+                Ok(motion.scaled(factor)?)
             })
             .collect(),
         Some(PeakScaling::Vertical(wanted)) => {
             let factor = factor(wanted, motions[0].peak_vertical(), "ground.vertical_peak")?;
-            Ok(motions.into_iter().map(|motion| motion.scaled(factor)).collect())
+            Ok(motions
+                .into_iter()
+                .map(|motion| motion.scaled(factor))
+                .collect::<Result<_, _>>()?)
         }
     }
 }

@@ -141,7 +141,7 @@ impl SeriesModel {
             Cow::Borrowed(&self.motions)
         } else {
             let softer = |motion: &DuctMotion| motion.clone().scaled(1.0 / stiffness);
-            self.motions.iter().map(softer).collect()
+            self.motions.iter().map(softer).collect::<Result<_, _>>()?
         };
         match self.method {
             PassMethod::EveryPass(method) => {

@@ -12,7 +12,8 @@ use std::borrow::Cow;
 use boussinesq::{HalfSpace, Odemark};
 use burmister::LayeredHalfSpace;
 use ground_field::{
-    Base, DuctMotion, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle, Wheel,
+    Base, DuctMotion, GroundError, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle,
+    Wheel,
 };
 use layered_fem::LayeredFem;
 
@@ -163,7 +164,18 @@ fn build(scene: &Scene, model: GroundModel) -> Result<(&'static str, Box<dyn Gro
             })?;
             ("boussinesq", Box::new(HalfSpace::new(soil)), CLOSED_FORM_ACCURACY)
         }
-        GroundModel::Odemark => ("odemark", Box::new(Odemark::new(profile)?), TRANSFORM_ACCURACY),
+        GroundModel::Odemark => {
+            let unfit = |error: GroundError| Error::Unfit {
+                key: "ground.model",
+                found: "odemark",
+                reason: error.to_string().into(),
+            };
+            (
+                "odemark",
+                Box::new(Odemark::new(profile).map_err(unfit)?),
+                TRANSFORM_ACCURACY,
+            )
+        }
         GroundModel::Auto | GroundModel::Burmister => {
             ("burmister", Box::new(transform(profile)?), TRANSFORM_ACCURACY)
         }
@@ -276,6 +288,9 @@ impl Ladder<'_> {
         self.add("boussinesq", HALF_SPACE_SECONDS, |scene| {
             fitted(scene, soil, exact, depth)
         })?;
+        if profile.layers().len() > Odemark::MOST_LAYERS {
+            return Ok(());
+        }
         let field = Odemark::new(profile)?;
         self.add("odemark", ODEMARK_SECONDS, |scene| {
             motions(scene, &field, TRANSFORM_ACCURACY)
@@ -449,7 +464,7 @@ fn fitted(scene: &Scene, soil: Soil, exact: &[DuctMotion], depth: f64) -> Result
             let factor = fit(&motion, exact, depth);
             motion.scaled(factor)
         })
-        .collect())
+        .collect::<Result<_, _>>()?)
 }
 
 /// The factor by which `motion` comes nearest to `exact`, in the least squares of D_l.

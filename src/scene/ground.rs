@@ -1,5 +1,6 @@
 //! `[ground]`: layers, base, scaling.
 
+use boussinesq::Odemark;
 use ground_field::{Base, Modulus, Soil, SoilLayer, SoilProfile};
 
 use super::range::{MODULUS, PEAK, POISSON, THICKNESS, shown};
@@ -45,6 +46,9 @@ pub(super) fn unfit(model: GroundModel, profile: &SoilProfile) -> Option<&'stati
         ),
         GroundModel::Burmister | GroundModel::Odemark if graded => {
             Some("\"auto\" or \"fem\" where a modulus varies with depth")
+        }
+        GroundModel::Odemark if profile.layers().len() > Odemark::MOST_LAYERS => {
+            Some("\"odemark\" with at most 50 layers; \"auto\" or \"burmister\" here")
         }
         _ => None,
     }

@@ -73,6 +73,41 @@ fn a_graded_modulus_is_the_limit_of_thin_layers() {
     }
 }
 
+/// Where the modulus falls by a hundred within half a metre the error is still within its estimate, not only within what was asked.
+#[test]
+fn the_estimate_holds_where_the_modulus_falls_steeply() {
+    let wheel = load(1e5, 0.15);
+    for (thickness, top, bottom, base, depth) in [
+        (0.5, 1e9, 1e7, 1e7, 0.3),
+        (2.0, 5e9, 1e7, 2e7, 1.2),
+        (3.46, 1.04e8, 1.8e7, 5e7, 1.2),
+        (0.5, 1e7, 1e9, 1e9, 0.3),
+    ] {
+        let layer = SoilLayer::new(thickness, Modulus::Linear { top, bottom }, 0.3).expect("graded layer");
+        let on_base = |layers| SoilProfile::new(layers, Base::HalfSpace(soil(base, 0.3))).expect("profile");
+        let slices = [240, 480, 960].map(|count| {
+            let model = LayeredHalfSpace::new(&on_base(sliced(&layer, count))).expect("transform");
+            line(&model, wheel, &radii(), depth)
+        });
+        let limit = extrapolated(&slices[1], &slices[2]);
+        let left = distance(&limit, &extrapolated(&slices[0], &slices[1]));
+        assert!(left[0].max(left[1]) < 3e-5, "{left:?}");
+        for asked in [2e-2, 5e-3, 1e-3] {
+            let elements = LayeredFem::new(&on_base(vec![layer]), asked).expect("elements");
+            // An accuracy out of reach is refused.
+            let Ok(found) = elements.displacements(wheel, &radii(), depth) else {
+                continue;
+            };
+            let estimate = elements.error_estimate(wheel, depth).expect("estimate");
+            let error = distance(&limit, &found);
+            assert!(
+                error[0] <= estimate.radial + left[0] && error[1] <= estimate.vertical + left[1],
+                "{top:e} to {bottom:e}, asked {asked:e}: {error:?}, {estimate:?}"
+            );
+        }
+    }
+}
+
 /// The limit of values with an error of second order at spacings 2 and 1.
 fn extrapolated(coarse: &[Displacement], fine: &[Displacement]) -> Vec<Displacement> {
     fine.iter()

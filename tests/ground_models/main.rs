@@ -12,6 +12,7 @@ mod difficult;
 mod graded;
 mod half_space;
 mod laws;
+mod motion;
 mod odemark;
 mod published;
 mod table_1;

@@ -113,6 +113,60 @@ fn every_layer_that_is_left_out_changes_the_longitudinal_motion_by_less_than_the
     }
 }
 
+/// A thousand thin layers of alternating stiffness on a soil.
+fn many_layers(count: usize) -> String {
+    let layers = (0..count).map(|k| layer(0.01, if k % 2 == 0 { 1e8 } else { 2e8 + 1e5 * k as f64 }));
+    layers.collect::<String>() + SOIL
+}
+
+#[test]
+fn a_thousand_layers_are_planned_without_the_equivalent_thickness() {
+    let begin = std::time::Instant::now();
+    let report = plan(&on(&many_layers(1000), POINT, PASSES));
+    assert!(report.ladder.iter().all(|rung| rung.name != "odemark"));
+    assert!(report.ladder.iter().any(|rung| rung.name == "burmister"));
+    // Half a second; ten times that on a machine with other work.
+    assert!(begin.elapsed().as_secs_f64() < 5.0, "{:?}", begin.elapsed());
+    println!("{:?}", begin.elapsed());
+}
+
+#[test]
+fn the_equivalent_thickness_of_too_many_layers_is_refused() {
+    let scene = |count| {
+        Scene::from_toml(
+            "scene",
+            &on(
+                &format!("model = \"odemark\"\n{}", many_layers(count)),
+                POINT,
+                PASSES,
+            ),
+        )
+    };
+    assert!(creepage::plan(&scene(50).expect("a valid scene")).is_ok());
+    let refused = scene(51).expect_err("too many layers").to_string();
+    assert!(
+        refused.contains("ground.model") && refused.contains("at most 50 layers"),
+        "{refused}"
+    );
+    // Built in code instead of a file.
+    let mut edited = scene(50).expect("a valid scene");
+    let layers = [edited.ground.profile.layers(), edited.ground.profile.layers()].concat();
+    edited.ground.profile =
+        ground_field::SoilProfile::new(layers, ground_field::Base::Rigid).expect("a profile");
+    let refused = creepage::plan(&edited).err().expect("too many layers");
+    assert!(
+        matches!(
+            refused,
+            creepage::Error::Unfit {
+                key: "ground.model",
+                ..
+            }
+        ),
+        "{refused}"
+    );
+    assert!(refused.is_bad_input());
+}
+
 #[test]
 fn a_modulus_that_hardly_varies_is_uniform() {
     let graded = |bottom: f64| {

@@ -122,20 +122,31 @@ const MODEL: &str = "odemark";
 ///
 /// # Limits
 ///
-/// Uniform layers only: a modulus that varies within a layer is [`GroundError::Unsupported`]. A point load's own place
-/// is [`GroundError::Singular`].
+/// Uniform layers only: a modulus that varies within a layer is [`GroundError::Unsupported`], and so are more than
+/// [`MOST_LAYERS`](Self::MOST_LAYERS). A point load's own place is [`GroundError::Singular`].
 #[derive(Debug, Clone)]
 pub struct Odemark {
     layers: Vec<Layer>,
 }
 
 impl Odemark {
+    /// Most layers: the half-space fields to be summed are one for every pair of layers, and their cost grows by the power of 2.8. With fifty
+    /// the exact solution has long been cheaper.
+    pub const MOST_LAYERS: usize = 50;
+
     /// The model for `profile`.
     ///
     /// # Errors
     ///
-    /// [`GroundError::Unsupported`] for a layer whose modulus varies with depth.
+    /// [`GroundError::Unsupported`] for a layer whose modulus varies with depth, and for more than [`MOST_LAYERS`](Self::MOST_LAYERS)
+    /// layers.
     pub fn new(profile: &SoilProfile) -> Result<Self, GroundError> {
+        if profile.layers().len() > Self::MOST_LAYERS {
+            return Err(GroundError::Unsupported {
+                model: MODEL,
+                limit: "more than 50 layers",
+            });
+        }
         let mut above: Vec<(f64, Soil)> = Vec::new();
         let mut layers = Vec::new();
         for layer in profile.layers() {

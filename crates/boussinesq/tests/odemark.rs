@@ -282,6 +282,18 @@ fn what_cannot_be_represented_is_an_error() {
         Odemark::new(&profile),
         Err(GroundError::Unsupported { .. })
     ));
+    let fifty =
+        || vec![SoilLayer::uniform(0.1, soil(50e6, 0.3)).expect("a valid layer"); Odemark::MOST_LAYERS];
+    let on_rock = |layers| SoilProfile::new(layers, Base::Rigid).expect("a valid profile");
+    assert!(Odemark::new(&on_rock(fifty())).is_ok());
+    let more = [fifty(), fifty()].concat();
+    assert!(matches!(
+        Odemark::new(&on_rock(more)),
+        Err(GroundError::Unsupported {
+            limit: "more than 50 layers",
+            ..
+        })
+    ));
     let point = SurfaceLoad::point(1e5).expect("a valid load");
     assert!(matches!(
         road().displacement(point, 0.0, 0.0),

@@ -17,12 +17,12 @@ fn evaluations(field: &dyn GroundField, accuracy: f64) -> usize {
 }
 
 /// Nine cells grow with the distance from the axis to 15 m; with 11 evaluations each they are right to 6e-9 without any bisection.
-/// Each further factor of 100 may halve the cells once.
+/// Each further factor of 100 may halve the cells once. Ten radii beyond show that the field has faded.
 #[test]
 fn a_closed_form_is_asked_a_hundred_times() {
     let soil = Soil::new(800e6, 0.4).expect("soil");
     let ground = HalfSpace::new(soil);
-    assert_eq!(evaluations(&ground, 1e-6), 9 * 11);
+    assert_eq!(evaluations(&ground, 1e-6), 9 * 11 + 10);
     assert!(evaluations(&ground, 1e-10) <= 3 * 9 * 11);
     assert!(evaluations(&ground, 1e-12) <= 7 * 9 * 11);
 }
@@ -34,5 +34,5 @@ fn layers_by_odemark_cost_no_more_evaluations() {
     let layer = SoilLayer::uniform(0.19, soil(5e9)).expect("a layer");
     let profile = SoilProfile::new(vec![layer], Base::HalfSpace(soil(1e8))).expect("a profile");
     let ground = Odemark::new(&profile).expect("uniform layers");
-    assert_eq!(evaluations(&ground, 1e-6), 9 * 11);
+    assert_eq!(evaluations(&ground, 1e-6), 9 * 11 + 10);
 }

@@ -65,7 +65,7 @@ pub struct OdemarkErrorBound {
 /// # Errors
 ///
 /// [`GroundError::InvalidParameter`] unless the depth is finite and positive; [`GroundError::Unsupported`] where a layer's modulus varies
-/// with depth; [`GroundError::Accuracy`] where the numbers of the ground are too far apart to tell.
+/// with depth, and beyond [`Odemark::MOST_LAYERS`]; [`GroundError::Accuracy`] where the numbers of the ground are too far apart to tell.
 pub fn odemark_error_bound(
     profile: &SoilProfile,
     load: SurfaceLoad,

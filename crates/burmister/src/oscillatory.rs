@@ -17,6 +17,8 @@ use crate::panel::{NODES, Panel, Series, basis, dot, evaluate};
 
 /// Halvings of one panel for one radius; 2^60 turns are beyond any float's phase accuracy.
 const MAX_HALVINGS: usize = 60;
+/// Pieces of one panel for one radius: a few at every halving toward 0.
+const MAX_PIECES: usize = 300;
 
 /// The integrals over one panel, or a sum of them, for one radius.
 #[derive(Debug, Clone, Copy, Default)]
@@ -30,6 +32,14 @@ pub(crate) struct Integrals {
 }
 
 impl Integrals {
+    /// No integral: what neither rule can do.
+    const UNKNOWN: Self = Self {
+        radial: 0.0,
+        vertical: 0.0,
+        error: (f64::INFINITY, f64::INFINITY),
+        bessel: 0,
+    };
+
     pub fn add(&mut self, other: Self) {
         self.radial += other.radial;
         self.vertical += other.vertical;
@@ -47,6 +57,8 @@ pub(crate) struct Prepared<'a> {
     tolerance: (f64, f64),
     /// What trimming the series adds to the error.
     pub trimmed: (f64, f64),
+    /// Whether any rule can meet the tolerances: the series are finite, and nothing is asked exactly.
+    possible: bool,
     /// For each Gauss size the largest ω it serves; ascending, negative where it serves none.
     reach: [f64; SIZES.len()],
     /// Wavenumber and weighted transforms at the nodes of each Gauss size, once needed.
@@ -57,7 +69,10 @@ impl<'a> Prepared<'a> {
     pub fn new(panel: &'a Panel, tolerance: (f64, f64)) -> Self {
         let (terms, trimmed) = panel.trimmed(tolerance);
         let reach = reach(panel, terms, tolerance);
+        let size = panel.size();
+        let within = |size: f64, tolerance: f64| size.is_finite() && (tolerance > 0.0 || size == 0.0);
         Self {
+            possible: within(size.0, tolerance.0) && within(size.1, tolerance.1),
             panel,
             terms,
             tolerance,
@@ -69,11 +84,15 @@ impl<'a> Prepared<'a> {
 
     /// The panel's integrals at `radius`.
     pub fn integrate(&mut self, radius: f64) -> Integrals {
+        if !self.possible {
+            return Integrals::UNKNOWN;
+        }
         let omega = 0.5 * self.panel.width() * radius;
         if let Some(class) = self.class(omega) {
             return self.gauss_shared(class, radius);
         }
-        self.divide(radius, self.panel.from, self.panel.to, 0)
+        let mut pieces = MAX_PIECES;
+        self.divide(radius, (self.panel.from, self.panel.to), 0, &mut pieces)
     }
 
     fn class(&self, omega: f64) -> Option<usize> {
@@ -88,7 +107,7 @@ impl<'a> Prepared<'a> {
         self::sum(nodes, radius, self.tolerance)
     }
 
-    fn divide(&self, radius: f64, from: f64, to: f64, halvings: usize) -> Integrals {
+    fn divide(&self, radius: f64, (from, to): (f64, f64), halvings: usize, pieces: &mut usize) -> Integrals {
         let omega = 0.5 * (to - from) * radius;
         if let Some(class) = self.class(omega) {
             let nodes = weighted_nodes(self.panel, self.terms, from, to, class);
@@ -99,15 +118,13 @@ impl<'a> Prepared<'a> {
         {
             return done;
         }
-        if halvings == MAX_HALVINGS {
-            return Integrals {
-                error: (f64::INFINITY, f64::INFINITY),
-                ..Integrals::default()
-            };
+        if halvings == MAX_HALVINGS || *pieces == 0 {
+            return Integrals::UNKNOWN;
         }
+        *pieces -= 1;
         let middle = 0.5 * (from + to);
-        let mut total = self.divide(radius, from, middle, halvings + 1);
-        total.add(self.divide(radius, middle, to, halvings + 1));
+        let mut total = self.divide(radius, (from, middle), halvings + 1, pieces);
+        total.add(self.divide(radius, (middle, to), halvings + 1, pieces));
         total
     }
 
@@ -215,6 +232,7 @@ mod tests {
             radial: series_of(&values),
             vertical: series_of(&values),
             noise: (0.0, 0.0),
+            hidden: 0.0,
         }
     }
 

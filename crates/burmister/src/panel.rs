@@ -2,7 +2,8 @@
 //!
 //! The layered system is solved only at the nodes of the panels, a few hundred times for all radii together. A panel
 //! whose last coefficients are too large is halved. So panels grade themselves toward m = 0 and toward every scale the
-//! ground has (1/thickness, 1/bending length, 1/contact radius): none needs to be known beforehand.
+//! ground has (1/thickness, 1/bending length, 1/contact radius). One thing coefficients cannot tell: what happens below a panel's first
+//! node. The lowest panel is halved until it is shorter than the inverse of every length of the ground, or too short to matter.
 
 use std::sync::OnceLock;
 
@@ -25,6 +26,8 @@ pub(crate) struct Panel {
     pub vertical: Series,
     /// Rounding error of the two integrals.
     pub noise: (f64, f64),
+    /// What the samples may have missed of either integral.
+    pub hidden: f64,
 }
 
 /// Chebyshev nodes of the first kind and what is linear in the values there.
@@ -113,6 +116,7 @@ impl Panel {
             radial: series_of(&radial),
             vertical: series_of(&vertical),
             noise: (2.0 * half * early.0.max(late.0), 2.0 * half * early.1.max(late.1)),
+            hidden: if from == 0.0 { remainder.hidden(to) } else { 0.0 },
         }
     }
 
@@ -120,12 +124,12 @@ impl Panel {
         self.to - self.from
     }
 
-    /// Error of the integrals of (radial J1, vertical J0) over the panel from the cut of the series: |J| ≤ 1.
+    /// Error of the integrals of (radial J1, vertical J0) over the panel from the cut of the series and what no sample saw: |J| ≤ 1.
     pub fn cut(&self) -> (f64, f64) {
         let last = |s: &Series| s[NODES - LAST..].iter().fold(0.0, |m: f64, c| m.max(c.abs()));
         (
-            last(&self.radial) * self.width(),
-            last(&self.vertical) * self.width(),
+            last(&self.radial) * self.width() + self.hidden,
+            last(&self.vertical) * self.width() + self.hidden,
         )
     }
 

@@ -26,6 +26,9 @@ pub(crate) struct Remainder {
     pub decay_length: f64,
     /// The ground is one soil: there is no remainder.
     pub vanishes: bool,
+    /// See [`Remainder::hidden`].
+    longest_length: f64,
+    bound: f64,
 }
 
 impl Remainder {
@@ -53,6 +56,8 @@ impl Remainder {
         }
         Self {
             stack: ground.cut(depth),
+            bound: ground.compliance() * (1 + images.len()) as f64,
+            longest_length: ground.longest_length(),
             images,
             contact_radius,
             decay_length,
@@ -83,6 +88,16 @@ impl Remainder {
         }
         let factor = disc_factor(wavenumber * self.contact_radius).abs();
         (radial * factor, vertical * factor)
+    }
+
+    /// Bound of what samples between 0 and `wavenumber` may have missed of the integral there. What a deep base does lies below the inverse
+    /// of its depth, too close to 0 for any sample of a longer interval; beyond, the bound of the transform itself is all that is known.
+    pub fn hidden(&self, wavenumber: f64) -> f64 {
+        if wavenumber * self.longest_length <= 1.0 {
+            0.0
+        } else {
+            wavenumber * self.bound
+        }
     }
 
     /// Transform of the layered field itself, for a point load of 2π.

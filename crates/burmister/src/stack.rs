@@ -51,6 +51,35 @@ impl Ground {
         self.laminae.iter().map(|lamina| lamina.thickness).sum()
     }
 
+    /// Shear moduli of all soils.
+    fn shear_moduli(&self) -> impl Iterator<Item = f64> {
+        let soils = self.laminae.iter().chain(&self.base);
+        soils.map(|lamina| lamina.soil.shear_modulus())
+    }
+
+    /// Largest shear compliance 1/G of any soil. No wave of a unit pressure moves any depth further than this over its wavenumber: a
+    /// stiffer ground moves less, and a half-space of the softest soil moves its surface by (1 − ν)/G, ν ≥ 0.
+    pub fn compliance(&self) -> f64 {
+        1.0 / self.shear_moduli().fold(f64::INFINITY, f64::min)
+    }
+
+    /// A length \[m\] that no length of the ground exceeds: shorter wavenumbers than its inverse find the base alone, corrected by powers of m.
+    ///
+    /// A stiff layer on a soft base is a plate up to h (`G`/`G_b`)^{1/3} and a membrane up to h `G`/`G_b`; between soft layers, or with one on
+    /// rock, it shears them up to h (`G`/`G_s`)^{1/2}.
+    pub fn longest_length(&self) -> f64 {
+        let (softest, stiffest) = self
+            .shear_moduli()
+            .fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), g| {
+                (low.min(g), high.max(g))
+            });
+        let on_base = self
+            .base
+            .as_ref()
+            .map_or(1.0, |base| stiffest / base.soil.shear_modulus());
+        self.base_depth() * on_base.max((stiffest / softest).sqrt())
+    }
+
     /// Thickness and soil of the uppermost soil; infinitely thick where there is no other.
     pub fn top(&self) -> Option<(f64, Soil)> {
         self.laminae

@@ -63,6 +63,13 @@ impl Transform<'_> {
         let mut panels = Panels::new(self.remainder, end);
         // First a rough picture, from which the peak is read.
         let rough = panels.total(Panel::size);
+        let hidden = panels.total(Panel::cut);
+        if ![rough.0, rough.1, hidden.0, hidden.1]
+            .iter()
+            .all(|v| v.is_finite())
+        {
+            return Err(self.inaccurate((f64::INFINITY, radii[0])));
+        }
         panels.refine(self.remainder, (1e-3 * rough.0, 1e-3 * rough.1), MAX_WAVENUMBERS);
         let mut peak = (0.0, 0.0);
         let mut tolerance = (1e-3 * rough.0, 1e-3 * rough.1);
@@ -125,13 +132,18 @@ impl Transform<'_> {
             raise(&mut peak, &again);
             share *= 0.1;
         }
-        Err(GroundError::Accuracy {
+        Err(self.inaccurate(worst))
+    }
+
+    /// The error that remains and the radius of it, as an error.
+    fn inaccurate(&self, (reached, radius): (f64, f64)) -> GroundError {
+        GroundError::Accuracy {
             model: MODEL,
             asked: self.accuracy,
-            reached: worst.0,
-            radius: worst.1,
+            reached,
+            radius,
             depth: self.depth,
-        })
+        }
     }
 
     /// Closed forms at the radii, with their rounding error.
@@ -244,6 +256,9 @@ impl Transform<'_> {
             let mut prepared = Prepared::new(panel, tolerance);
             fixed = (fixed.0 + prepared.trimmed.0, fixed.1 + prepared.trimmed.1);
             for (sum, &radius) in sums.iter_mut().zip(radii) {
+                if sum.error.0.is_infinite() {
+                    continue; // given up
+                }
                 sum.add(prepared.integrate(radius));
             }
         }

@@ -171,7 +171,7 @@ fn no_friction_and_no_load_move_nothing() -> Outcome {
         FrictionLaw::Sigmoid { shape_factor: 1e9 },
     ] {
         for (limit, load) in [(0.0, 1.0), (LIMIT, 0.0)] {
-            let motion = motion.clone().scaled(load);
+            let motion = motion.clone().scaled(load)?;
             let scene = Scene::new((law, limit), EA, End::Fixed, (30.0, 0.5, 0.1), &motion)?;
             let dynamic = scene.dynamic(2)?.pass;
             let explicit = scene.explicit(2, ExplicitOptions::default())?.pass;

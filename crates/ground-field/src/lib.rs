@@ -22,6 +22,7 @@ mod error;
 mod field;
 mod load;
 mod motion;
+mod peaks;
 mod profile;
 mod soil;
 mod vehicle;

@@ -8,11 +8,17 @@
 //! V_l = ∂D_l(x − v t)/∂t = −v dD_l/dξ.
 
 use crate::error::checked;
-use crate::{GroundError, GroundField, RadialProfile, Vehicle};
+use crate::peaks;
+use crate::{Displacement, GroundError, GroundField, RadialProfile, SurfaceLoad, Vehicle};
 
-/// Step of the scan for peaks, and how far beyond the wheels it goes, in the distance from a wheel to the duct.
-const SCAN_STEP: f64 = 0.05;
-const SCAN_REACH: f64 = 8.0;
+/// How far the ground is sampled at least, in the distance from a wheel to the duct.
+const LEAST_REACH: f64 = 8.0;
+/// Largest share of the peak that the outer half of the sampled range may hold, should the peak not lie beyond it.
+const FADED: f64 = 0.5;
+/// Radii beyond, each twice the last, at which a second rise is looked for: a thousand times the sampled range.
+const OUTPOSTS: i32 = 10;
+/// Extensions of the sampled range in search of the peak.
+const MAX_EXTENSIONS: usize = 20;
 
 /// Where the duct lies relative to the road and the wheel path.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,6 +86,8 @@ pub struct DuctMotion {
     wheels: Vec<WheelLine>,
     velocity: f64,
     factor: f64,
+    reach: f64,
+    samples: usize,
     peak_longitudinal: f64,
     peak_vertical: f64,
 }
@@ -102,12 +110,14 @@ struct Point {
 }
 
 impl DuctMotion {
-    /// Motion of the duct on `line` under `vehicle`, for |ξ| up to `reach` \[m\], to `accuracy` as a share of the peak
+    /// Motion of the duct on `line` under `vehicle`, for |ξ| up to `reach` \[m\] at least, to `accuracy` as a share of the peak
     /// displacement under a wheel (see [`RadialProfile::sample`]).
+    ///
+    /// The ground is sampled as far as the peaks need it, which over a stiff slab may lie many depths from the wheels.
     ///
     /// # Errors
     ///
-    /// As for [`RadialProfile::sample`].
+    /// As for [`RadialProfile::sample`]; [`GroundError::Unsupported`] for a field that does not fade with distance.
     pub fn new(
         field: &dyn GroundField,
         vehicle: &Vehicle,
@@ -116,59 +126,65 @@ impl DuctMotion {
         accuracy: f64,
     ) -> Result<Self, GroundError> {
         checked("reach", reach, "finite and positive", |v| v > 0.0)?;
-        let sign = vehicle.direction().sign();
-        // Reverse traffic is the mirror image of forward traffic: the wheels stay on their side of the duct.
-        let placed = |x: f64, y: f64| (sign * x, y - line.lateral_offset);
-        let farthest = vehicle
-            .wheels()
-            .iter()
-            .map(|wheel| {
-                let (x, side) = placed(wheel.x, wheel.y);
-                (reach + x.abs()).hypot(side)
-            })
-            .fold(0.0, f64::max);
-
-        let mut contact_radii: Vec<f64> = Vec::new();
-        let mut wheels = Vec::new();
-        for wheel in vehicle.wheels() {
-            let contact_radius = wheel.load.contact_radius();
-            let known = contact_radii.iter().position(|&other| other == contact_radius);
-            let profile = known.unwrap_or_else(|| {
-                contact_radii.push(contact_radius);
-                contact_radii.len() - 1
-            });
-            let (x, side) = placed(wheel.x, wheel.y);
-            wheels.push(WheelLine {
-                profile,
-                x,
-                side,
-                force: wheel.load.force(),
-            });
-        }
-        let profiles = contact_radii
-            .iter()
-            .map(|&radius| RadialProfile::sample(field, radius, line.depth, farthest, accuracy))
-            .collect::<Result<Vec<_>, _>>()?;
-
+        let (wheels, contact_radii) = seen_from(line, vehicle);
+        let distance = |wheel: &WheelLine| line.depth.hypot(wheel.side);
         let mut motion = Self {
-            profiles,
+            profiles: Vec::new(),
+            reach: reach.max(LEAST_REACH * wheels.iter().map(distance).fold(0.0, f64::max)),
             wheels,
             velocity: vehicle.velocity(),
             factor: 1.0,
+            samples: 0,
             peak_longitudinal: 0.0,
             peak_vertical: 0.0,
         };
-        motion.find_peaks(line.depth);
-        Ok(motion)
+        for _ in 0..=MAX_EXTENSIONS {
+            let radius = |wheel: &WheelLine| (motion.reach + wheel.x.abs()).hypot(wheel.side);
+            let farthest = motion.wheels.iter().map(radius).fold(0.0, f64::max);
+            motion.profiles = contact_radii
+                .iter()
+                .map(|&radius| RadialProfile::sample(field, radius, line.depth, farthest, accuracy))
+                .collect::<Result<_, _>>()?;
+            motion.samples += motion.profiles.iter().map(RadialProfile::samples).sum::<usize>();
+            if !motion.find_peaks() {
+                motion.reach *= 2.0;
+            } else if let Some(radius) = motion.rise_beyond(field, contact_radii[0], line.depth, farthest)? {
+                motion.reach = 2.0 * radius;
+            } else {
+                return Ok(motion);
+            }
+        }
+        Err(GroundError::Unsupported {
+            model: "motion of the duct",
+            limit: "its displacement does not fade with the distance from the load",
+        })
     }
 
     /// The same motion with all displacements multiplied by `factor`: a softer or stiffer ground of the same shape.
-    #[must_use]
-    pub fn scaled(mut self, factor: f64) -> Self {
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::InvalidParameter`] unless the factor, and the peaks it makes, are finite.
+    pub fn scaled(mut self, factor: f64) -> Result<Self, GroundError> {
         self.factor *= factor;
         self.peak_longitudinal *= factor.abs();
         self.peak_vertical *= factor.abs();
-        self
+        let finite = |_| self.factor.is_finite() && (self.peak_longitudinal + self.peak_vertical).is_finite();
+        checked(
+            "factor",
+            factor,
+            "finite, and so the displacements it makes",
+            finite,
+        )?;
+        Ok(self)
+    }
+
+    /// Largest |ξ| \[m\] up to which the motion has the accuracy asked; at least the `reach` asked.
+    ///
+    /// Beyond it the motion goes on by the power of the distance it has there, for a smooth end: the right order of size, without an
+    /// accuracy. What computes with a motion is to keep within its reach.
+    pub fn reach(&self) -> f64 {
+        self.reach
     }
 
     /// D_l(ξ), positive toward growing x \[m\].
@@ -189,13 +205,6 @@ impl DuctMotion {
     /// V_l(ξ) = −v dD_l/dξ, positive toward growing x \[m/s\] (Kashiro et al., Equation (1)).
     pub fn longitudinal_velocity(&self, xi: f64) -> f64 {
         -self.velocity * self.longitudinal_gradient(xi)
-    }
-
-    /// D_l at the equally spaced points `first`, `first + spacing`, … \[m\].
-    pub fn sample_longitudinal(&self, first: f64, spacing: f64, count: usize) -> Vec<f64> {
-        (0..count)
-            .map(|k| self.longitudinal(first + spacing * k as f64))
-            .collect()
     }
 
     /// Largest |D_l| along the duct \[m\].
@@ -220,7 +229,7 @@ impl DuctMotion {
 
     /// How many radii the ground model was asked for.
     pub fn samples(&self) -> usize {
-        self.profiles.iter().map(RadialProfile::samples).sum()
+        self.samples
     }
 
     fn point(&self, xi: f64) -> Point {
@@ -243,48 +252,105 @@ impl DuctMotion {
         sum
     }
 
-    /// Scans once all that lies around the wheels for both peaks, then closes in on each.
-    fn find_peaks(&mut self, depth: f64) {
-        let mut positions: Vec<f64> = self.wheels.iter().map(|wheel| wheel.x).collect();
-        positions.sort_by(f64::total_cmp);
-        // The field under one wheel has the width of its distance: the nearest wheel's is the narrowest, the farthest one's the widest.
-        let distances = self.wheels.iter().map(|wheel| depth.hypot(wheel.side));
-        let (nearest, farthest) = distances.fold((f64::INFINITY, 0.0_f64), |(low, high), distance| {
-            (low.min(distance), high.max(distance))
-        });
-        let step = SCAN_STEP * nearest;
-        let (mut longitudinal, mut vertical) = ((0.0, 0.0_f64), (0.0, 0.0_f64));
-        let mut xi = f64::NEG_INFINITY;
-        for x in positions {
-            xi = xi.max(x - SCAN_REACH * farthest);
-            while xi <= x + SCAN_REACH * farthest {
-                let point = self.point(xi);
-                if point.longitudinal.abs() > longitudinal.1 {
-                    longitudinal = (xi, point.longitudinal.abs());
-                }
-                if point.vertical.abs() > vertical.1 {
-                    vertical = (xi, point.vertical.abs());
-                }
-                xi += step;
+    /// Finds both peaks, and whether the field has faded toward the end of what was sampled, so that none lies beyond.
+    fn find_peaks(&mut self) -> bool {
+        let positions = self.positions();
+        let points: Vec<Point> = positions.iter().map(|&xi| self.point(xi)).collect();
+        self.peak_longitudinal = peaks::largest(
+            &positions,
+            |k| points[k].longitudinal.abs(),
+            |xi| self.point(xi).longitudinal.abs(),
+        );
+        self.peak_vertical = peaks::largest(
+            &positions,
+            |k| points[k].vertical.abs(),
+            |xi| self.point(xi).vertical.abs(),
+        );
+        let outer = |xi: f64| {
+            self.wheels
+                .iter()
+                .all(|wheel| (xi - wheel.x).abs() >= 0.5 * self.reach)
+        };
+        positions.into_iter().filter(|&xi| outer(xi)).all(|xi| {
+            let (along, down) = self.sizes(xi);
+            along <= FADED * self.peak_longitudinal && down <= FADED * self.peak_vertical
+        })
+    }
+
+    /// A radius beyond `farthest` where the wheels together might still move the duct more than a share of the peaks: a stiff slab's own
+    /// peak lies far outside that of the soil around a shallow duct. A field that does not answer there is taken at its word within.
+    fn rise_beyond(
+        &mut self,
+        field: &dyn GroundField,
+        contact_radius: f64,
+        depth: f64,
+        farthest: f64,
+    ) -> Result<Option<f64>, GroundError> {
+        let force = self.wheels.iter().map(|wheel| wheel.force).sum();
+        let load = SurfaceLoad::new(force, contact_radius)?;
+        let radii: Vec<f64> = (1..=OUTPOSTS).map(|k| farthest * 2_f64.powi(k)).collect();
+        let values = field.displacements(load, &radii, depth).unwrap_or_default();
+        self.samples += radii.len();
+        let high = |value: &Displacement| {
+            value.radial.abs() > FADED * self.peak_longitudinal
+                || value.vertical.abs() > FADED * self.peak_vertical
+        };
+        let risen = values.iter().zip(&radii).rev().find(|(value, _)| high(value));
+        Ok(risen.map(|(_, &radius)| radius))
+    }
+
+    /// Positions ξ, ascending, that resolve what each wheel does: its profile's cells are as wide as the field is smooth.
+    fn positions(&self) -> Vec<f64> {
+        let mut positions = Vec::new();
+        for wheel in &self.wheels {
+            for radius in self.profiles[wheel.profile].places() {
+                // The width of a feature in ξ is that in r or more: both the place itself and the one of equal distance.
+                let leg = (radius * radius - wheel.side * wheel.side).max(0.0).sqrt();
+                positions.extend(
+                    [radius, leg]
+                        .into_iter()
+                        .flat_map(|ahead| [wheel.x - ahead, wheel.x + ahead]),
+                );
             }
         }
-        self.peak_longitudinal = largest_near(longitudinal.0, step, |xi| self.point(xi).longitudinal.abs());
-        self.peak_vertical = largest_near(vertical.0, step, |xi| self.point(xi).vertical.abs());
+        positions.retain(|xi| xi.abs() <= self.reach);
+        positions.sort_by(f64::total_cmp);
+        positions.dedup();
+        positions
+    }
+
+    /// Sums of the wheels' |D_l| and |D_v| at ξ, which cannot cancel.
+    fn sizes(&self, xi: f64) -> (f64, f64) {
+        self.wheels.iter().fold((0.0, 0.0), |(along, down), wheel| {
+            let ahead = xi - wheel.x;
+            let at = self.profiles[wheel.profile].at(ahead.hypot(wheel.side));
+            let force = wheel.force * self.factor.abs();
+            (
+                along + force * (at.ratio * ahead).abs(),
+                down + force * at.vertical.abs(),
+            )
+        })
     }
 }
 
-/// Maximum of a smooth single bump within `step` of `around`, by golden section.
-fn largest_near(around: f64, step: f64, value: impl Fn(f64) -> f64) -> f64 {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    let (mut low, mut high) = (around - step, around + step);
-    // The bracket shrinks to 1e-8 of a step, where the bump is flat to rounding.
-    for _ in 0..40 {
-        let (left, right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
-        if value(left) > value(right) {
-            high = right;
-        } else {
-            low = left;
+/// The wheels of `vehicle` as the duct sees them, and the distinct radii of their contact.
+fn seen_from(line: DuctLine, vehicle: &Vehicle) -> (Vec<WheelLine>, Vec<f64>) {
+    // Reverse traffic is the mirror image of forward traffic: the wheels stay on their side of the duct.
+    let sign = vehicle.direction().sign();
+    let mut contact_radii: Vec<f64> = Vec::new();
+    let wheels = vehicle.wheels().iter().map(|wheel| {
+        let contact_radius = wheel.load.contact_radius();
+        let known = contact_radii.iter().position(|&other| other == contact_radius);
+        let profile = known.unwrap_or_else(|| {
+            contact_radii.push(contact_radius);
+            contact_radii.len() - 1
+        });
+        WheelLine {
+            profile,
+            x: sign * wheel.x,
+            side: wheel.y - line.lateral_offset,
+            force: wheel.load.force(),
         }
-    }
-    value(0.5 * (low + high)).max(value(around))
+    });
+    (wheels.collect(), contact_radii)
 }

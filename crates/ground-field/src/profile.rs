@@ -16,6 +16,8 @@ use crate::{Displacement, GroundError, GroundField, SurfaceLoad};
 const NODES: usize = 9;
 /// Where a cell's interpolant is held against the model: extrema of the nodal polynomial, where its error is largest.
 const CHECKS: [f64; 2] = [-0.939_692_620_785_908_4, 0.939_692_620_785_908_4];
+/// Places a cell that show its bumps.
+const PLACES: usize = 4;
 /// Bisections after which a cell counts as not smooth.
 const MAX_LEVEL: usize = 24;
 
@@ -87,6 +89,7 @@ impl RadialProfile {
         let load = SurfaceLoad::new(1.0, contact_radius)?;
         // A little more, so that rounding of the farthest radius stays inside.
         let end = 1.05 * reach.max(2.0 * depth);
+        checked("reach", end, "finite and positive", |_| true)?;
         let mut sampler = Sampler {
             field,
             load,
@@ -118,7 +121,8 @@ impl RadialProfile {
 
     /// Displacement under the unit load at `radius` \[m\].
     pub fn displacement(&self, radius: f64) -> Displacement {
-        let point = self.at(radius);
+        // Across the axis lies the field of the other side.
+        let point = self.at(radius.abs());
         Displacement {
             radial: point.ratio * radius,
             vertical: point.vertical,
@@ -133,6 +137,14 @@ impl RadialProfile {
     /// How many radii the ground model was asked for.
     pub fn samples(&self) -> usize {
         self.samples
+    }
+
+    /// Radii, a few in every cell, between which the profile has at most one bump; the axis is one.
+    pub(crate) fn places(&self) -> impl Iterator<Item = f64> {
+        let share = |k: usize| k as f64 / PLACES as f64;
+        self.edges
+            .windows(2)
+            .flat_map(move |ends| (0..PLACES).map(move |k| ends[0] + (ends[1] - ends[0]) * share(k)))
     }
 
     pub(crate) fn at(&self, radius: f64) -> ProfilePoint {
@@ -287,8 +299,10 @@ impl Cell {
 /// Cells that grow with their distance from the axis.
 fn initial_edges(depth: f64, end: f64) -> Vec<f64> {
     let mut edges = vec![0.0];
-    let mut edge = 0.5 * depth;
-    while edge < 0.999 * end {
+    // A depth that is nothing beside the reach is left to bisection.
+    let mut edge = (0.5 * depth).max(1e-12 * end);
+    // Lengths too small to be added up make one cell.
+    while edge > edges[edges.len() - 1] && edge < 0.999 * end {
         edges.push(edge);
         edge += (0.5 * depth).max(0.5 * edge);
     }

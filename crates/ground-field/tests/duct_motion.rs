@@ -174,7 +174,7 @@ fn peaks_are_those_of_the_closed_form() {
     assert!((motion.peak_longitudinal() - 15.19e-6).abs() < 0.01e-6);
     assert!((motion.peak_vertical() - 100.15e-6).abs() < 0.01e-6);
 
-    let doubled = truck().scaled(-2.0);
+    let doubled = truck().scaled(-2.0).expect("a finite factor");
     assert_eq!(doubled.peak_longitudinal(), 2.0 * motion.peak_longitudinal());
     assert_eq!(doubled.longitudinal(0.7), -2.0 * motion.longitudinal(0.7));
     assert_eq!(doubled.vertical(0.7), -2.0 * motion.vertical(0.7));
@@ -341,4 +341,65 @@ fn arguments_out_of_range_are_refused() {
     assert!(Vehicle::new("", Vec::new(), 1.0, Direction::Forward).is_err());
     assert!(RadialProfile::sample(&PointLoad, 0.0, DEPTH, 40.0, 1e-14).is_err());
     assert!(RadialProfile::sample(&PointLoad, 0.0, DEPTH, 40.0, 0.2).is_err());
+}
+
+/// u_r of a soil with a sheet in it: a peak a decimetre from the wheel, and one a third higher near `width`.
+fn sheet(width: f64) -> impl GroundField {
+    Radial(move |radius: f64| {
+        let near = radius / (0.1 * (radius * radius + 0.01));
+        let far = 4.0 * (radius / width) / (1.0 + (radius / width).powi(2)).powi(2);
+        Displacement {
+            radial: 1e-10 * (0.02 * near + far),
+            vertical: 1e-9 / (1.0 + radius / width),
+        }
+    })
+}
+
+/// The peak is found wherever it is: many depths from the wheel, and beyond the reach asked.
+#[test]
+fn the_peak_is_found_many_depths_away() {
+    let truck = vehicle(&[(0.0, 0.0, 1.0)], Direction::Forward);
+    for width in [0.5, 3.0, 40.0, 900.0] {
+        let field = sheet(width);
+        let load = SurfaceLoad::point(1.0).expect("a valid load");
+        let highest = (1..200_000).fold(0.0_f64, |peak, k| {
+            let radius = 1e-4 * 1.0001_f64.powi(k);
+            peak.max(field.displacement(load, radius, DEPTH).expect("a value").radial)
+        });
+        for reach in [0.5, 40.0, 2000.0] {
+            let line = DuctLine::new(0.1, 0.0).expect("a valid line");
+            let motion = DuctMotion::new(&field, &truck, line, reach, 1e-8).expect("a smooth field");
+            let off = motion.peak_longitudinal() / highest - 1.0;
+            assert!(off.abs() < 1e-6, "{width} m, reach {reach} m: {off:e}");
+            assert!(motion.reach() >= reach);
+        }
+    }
+}
+
+#[test]
+fn a_field_that_does_not_fade_is_refused() {
+    let piston = Radial(|_| Displacement {
+        radial: 0.0,
+        vertical: 1.0,
+    });
+    let truck = vehicle(&[(0.0, 0.0, 1.0)], Direction::Forward);
+    let refused = DuctMotion::new(&piston, &truck, line(0.0), 40.0, 1e-6);
+    assert!(
+        matches!(refused, Err(GroundError::Unsupported { .. })),
+        "{refused:?}"
+    );
+}
+
+#[test]
+fn factors_that_are_not_finite_are_refused() {
+    for factor in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let refused = truck().scaled(factor);
+        assert!(
+            matches!(refused, Err(GroundError::InvalidParameter { name: "factor", .. })),
+            "{refused:?}"
+        );
+    }
+    // Finite factors whose product is not.
+    let huge = truck().scaled(1e300).expect("a finite factor").scaled(1e300);
+    assert!(huge.is_err(), "{huge:?}");
 }

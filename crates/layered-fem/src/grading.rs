@@ -2,9 +2,10 @@
 //!
 //! Every field of the problem varies over the distance R to the load, so the spacing grows with it: h = α √(x² + c²), which
 //! is x = c sinh(α i), for r and z alike. `α` sets the accuracy and the cost; `c` is the size of the block in the top layer
-//! in which the load's singularity is taken out (see [`crate::load`]). In depth the same spacing is fitted between the
-//! layers' interfaces, each layer having at least two elements on the
-//! coarsest mesh: a soft layer between stiff ones shears and squeezes over its own thickness.
+//! in which the load's singularity is taken out (see [`crate::load`]). Where the modulus varies within a layer the fields vary
+//! over E/|E'| as well: the stretched coordinate is then asinh(z/c) + |ln E|, so that 1/h is the sum of both. In depth the same
+//! spacing is fitted between the layers' interfaces, each layer having at least two elements on the coarsest mesh: a soft layer
+//! between stiff ones shears and squeezes over its own thickness.
 
 use ground_field::{Base, SoilLayer, SoilProfile};
 
@@ -52,7 +53,9 @@ fn block_depth(profile: &SoilProfile) -> f64 {
     let thickness = top.thickness();
     let (first, last) = (top.young_modulus_at(0.0), top.young_modulus_at(thickness));
     let change = (last - first).abs() / first.min(last);
-    LARGEST_BLOCK.min(thickness).min(thickness / change.max(1.0))
+    // Never nothing: without a block a point load would be lost.
+    let even = (thickness / change.max(1.0)).max(f64::MIN_POSITIVE);
+    LARGEST_BLOCK.min(thickness).min(even)
 }
 
 /// Distance of the outer boundary \[m\].
@@ -115,12 +118,30 @@ impl Lines {
         };
         let mut depths = vec![0.0];
         let mut layer_of_row = Vec::new();
-        let block_rows = grade.fill(block, &mut depths)?;
+        // |ln E| of a layer at a depth, from the layer's top; 0 where the layer is uniform.
+        let steepness = |layer: &SoilLayer, top: f64| {
+            let layer = *layer;
+            move |depth: f64| {
+                if layer.soil().is_some() {
+                    return 0.0;
+                }
+                // Rounding of the layer's bottom is not to leave the layer.
+                let height = (depth - top).clamp(0.0, layer.thickness());
+                (layer.young_modulus_at(height) / layer.young_modulus_at(0.0))
+                    .ln()
+                    .abs()
+            }
+        };
+        let block_rows = match profile.layers().first() {
+            Some(layer) => grade.fill_steep(block, &mut depths, steepness(layer, 0.0))?,
+            None => grade.fill(block, &mut depths)?,
+        };
         layer_of_row.extend(std::iter::repeat_n(0, block_rows));
         let mut bottom = 0.0;
         for (index, layer) in profile.layers().iter().enumerate() {
+            let top = bottom;
             bottom += layer.thickness();
-            let rows = grade.fill(bottom, &mut depths)?;
+            let rows = grade.fill_steep(bottom, &mut depths, steepness(layer, top))?;
             layer_of_row.extend(std::iter::repeat_n(index, rows));
         }
         if matches!(profile.base(), Base::HalfSpace(_)) {
@@ -159,11 +180,22 @@ struct Grade {
 impl Grade {
     /// Continues `lines` to `end` and returns the number of intervals added: none if `end` is there already.
     fn fill(&self, end: f64, lines: &mut Vec<f64>) -> Result<usize, FemError> {
+        self.fill_steep(end, lines, |_| 0.0)
+    }
+
+    /// The same in a soil whose |ln E| is `steepness`, monotone in the depth.
+    fn fill_steep(
+        &self,
+        end: f64,
+        lines: &mut Vec<f64>,
+        steepness: impl Fn(f64) -> f64,
+    ) -> Result<usize, FemError> {
         let start = lines.last().copied().unwrap_or(0.0);
         if end <= start {
             return Ok(0);
         }
-        let (first, last) = ((start / self.scale).asinh(), (end / self.scale).asinh());
+        let stretched = |x: f64| (x / self.scale).asinh() + steepness(x);
+        let (first, last) = (stretched(start), stretched(end));
         let count = (((last - first) / self.alpha).round() as usize)
             .max(LEAST_ELEMENTS)
             .saturating_mul(self.parts);
@@ -173,10 +205,30 @@ impl Grade {
                 allowed: self.max_unknowns,
             });
         }
+        let uniform = steepness(start) == steepness(end);
         for k in 1..count {
-            lines.push(self.scale * (first + (last - first) * k as f64 / count as f64).sinh());
+            let wanted = first + (last - first) * k as f64 / count as f64;
+            lines.push(if uniform {
+                self.scale * wanted.sinh()
+            } else {
+                bisected(start, end, |x| stretched(x) < wanted)
+            });
         }
         lines.push(end);
         Ok(count)
     }
+}
+
+/// Where `below`, true at `low` and false at `high`, changes.
+fn bisected(mut low: f64, mut high: f64, below: impl Fn(f64) -> bool) -> f64 {
+    // To rounding.
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if below(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
 }

@@ -11,18 +11,18 @@
 //!
 //! # Method
 //!
-//! - [`element`]: nine-node quadrilaterals whose dilatation is projected, so that nothing locks as ν → 1/2.
+//! - Nine-node quadrilaterals whose dilatation is projected, so that nothing locks as ν → 1/2.
 //! - Lines graded as the distance to the load, so that few elements reach hundreds of metres away; the outer boundary moves
 //!   as the base half-space's closed form, and beyond it that closed form answers.
 //! - The point load's singularity is subtracted in a block of elements around it, and only there.
-//! - [`system`]: one sparse Cholesky factorisation a mesh, one solution a contact radius.
+//! - One sparse Cholesky factorisation a mesh, one solution a contact radius.
 //! - Along r the nodal values are joined with continuous second derivative, because friction on a buried cable follows the
 //!   second difference of `u_r`.
 //! - Two meshes at a time: their difference is the error estimate, and decides whether a third is needed.
 //!
 //! # Limits
 //!
-//! Layers are bonded and horizontal; a Poisson's ratio above [`material::LARGEST_POISSON_RATIO`] is replaced by it. The
+//! Layers are bonded and horizontal; a Poisson's ratio above 0.49999 is replaced by it. The
 //! edge of a loaded disc is not meshed: within about a fifth of its radius below the surface the error falls slowly, finer
 //! meshes are needed, and for tight accuracies the answer is [`ground_field::GroundError::Accuracy`]. So it is where the
 //! largest `u_r` at a depth happens to be tiny, as within a very stiff layer.
@@ -32,6 +32,8 @@
 //! T. J. R. Hughes, *The Finite Element Method* (1987); K. L. Johnson, *Contact Mechanics* (1985); I. M. Smith,
 //! D. V. Griffiths, L. Margetts, *Programming the Finite Element Method*, 5th ed. (2014).
 
+// What the model is made of, for this crate's own tests and the charts of locking: no part of its interface.
+#[doc(hidden)]
 pub mod element;
 mod error;
 mod grading;
@@ -39,10 +41,13 @@ mod half_space;
 mod level;
 mod line;
 mod load;
+#[doc(hidden)]
 pub mod material;
+#[doc(hidden)]
 pub mod mesh;
 mod model;
 mod options;
+#[doc(hidden)]
 pub mod system;
 
 pub use error::FemError;

@@ -100,10 +100,9 @@ impl Mesh {
         self.connectivity.len() / self.kind.nodes()
     }
 
-    /// Node indices of one element.
+    /// Node indices of one element; none where there is no such element.
     pub fn element(&self, element: usize) -> &[usize] {
-        let n = self.kind.nodes();
-        &self.connectivity[element * n..(element + 1) * n]
+        self.elements().nth(element).unwrap_or_default()
     }
 
     /// All elements' node indices in turn.

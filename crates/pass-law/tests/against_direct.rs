@@ -121,7 +121,7 @@ fn class(mu: f64, weight: f64, stiffness: f64, depth: f64, law: impl Fn(f64) -> 
     let records = both_at(
         depth,
         &cable,
-        &[(motion.scaled(factor), 1.0)],
+        &[(motion.scaled(factor)?, 1.0)],
         &[11, 20, 50, 150, 500],
     )?;
     let saturated = records[records.len() - 1].1.downstream_force;
@@ -176,7 +176,7 @@ fn a_truck_with_three_axles() -> Outcome {
         })
     };
     let wheels = vec![axle(0.0, 0.3)?, axle(-3.8, 0.35)?, axle(-5.1, 0.35)?];
-    let motion = under(&Vehicle::new("truck", wheels, 11.11, Forward)?, 1.2)?.scaled(2.0);
+    let motion = under(&Vehicle::new("truck", wheels, 11.11, Forward)?, 1.2)?.scaled(2.0)?;
     let records = both(
         &cable(60.0, 0.25, 108.8)?,
         &[(motion, 1.0)],

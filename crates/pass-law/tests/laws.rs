@@ -209,7 +209,7 @@ fn of_friction_number(
     let motion = motion(TRUCK, Forward)?;
     let peak = number * cable.friction().limit() * DEPTH * DEPTH / cable.axial_stiffness();
     let factor = peak / motion.peak_longitudinal();
-    Ok((cable, motion.scaled(factor)))
+    Ok((cable, motion.scaled(factor)?))
 }
 
 #[test]

@@ -50,7 +50,7 @@ impl JointForce {
         let friction = Friction::new(FrictionLaw::ElasticPlastic { shape_factor }, limit)?;
         let cable = DuctedCable::new(LENGTH, AXIAL_STIFFNESS, friction)?.with_ends(End::Free, End::Fixed)?;
         let mesh = Mesh::new(LENGTH, 0.2, 0.1)?;
-        let motion = self.motion.clone().scaled(1.0 / stiffness);
+        let motion = self.motion.clone().scaled(1.0 / stiffness)?;
         let passage = Passage::new(&cable, &mesh, &motion, APPROACH)?;
         let mut solver = QuasiStatic::new(cable, mesh)?;
         let mut state = CableState::at_rest(&mesh);

@@ -116,7 +116,7 @@ impl Scene {
         let line = DuctLine::new(self.depth, 0.0).expect("a valid line");
         let motion = DuctMotion::new(&ground, &vehicle, line, 60.0, 1e-8).expect("a smooth field");
         let peak = motion.peak_longitudinal();
-        motion.scaled(self.peak / peak)
+        motion.scaled(self.peak / peak).expect("a finite factor")
     }
 }
 

@@ -1,0 +1,103 @@
+//! Nothing that can be given to the public interface makes it panic or hang: an answer that is finite, or an error.
+
+use burmister::{LayeredHalfSpace, odemark_error_bound};
+use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
+
+/// Everything a float can be.
+const NASTY: [f64; 16] = [
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::MIN,
+    -1.0,
+    -0.0,
+    0.0,
+    5e-324,
+    f64::MIN_POSITIVE,
+    1e-160,
+    1e-9,
+    1.0,
+    1e9,
+    1e160,
+    1e300,
+    f64::MAX,
+];
+
+/// Grounds whose numbers are as far apart as numbers can be.
+fn grounds() -> Vec<SoilProfile> {
+    let sizes = [5e-324, 1e-300, 1e-9, 1.0, 1e9, 1e300, f64::MAX];
+    let mut grounds = Vec::new();
+    for thickness in sizes {
+        for modulus in sizes {
+            for poisson in [0.0, 0.5] {
+                let soil = Soil::new(modulus, poisson).expect("a soil");
+                let other = Soil::new(1e7, 0.3).expect("a soil");
+                let layer = SoilLayer::uniform(thickness, soil).expect("a layer");
+                let thin = SoilLayer::uniform(0.1, other).expect("a layer");
+                for layers in [vec![], vec![layer], vec![thin, layer], vec![layer, thin, layer]] {
+                    for base in [Base::Rigid, Base::HalfSpace(soil), Base::HalfSpace(other)] {
+                        grounds.extend(SoilProfile::new(layers.clone(), base));
+                    }
+                }
+            }
+        }
+    }
+    grounds
+}
+
+#[test]
+fn grounds_are_answered_or_refused() {
+    let loads = [
+        (1e5, 0.15),
+        (1e5, 0.0),
+        (f64::MAX, 1e-9),
+        (5e-324, 1e300),
+        (0.0, 0.0),
+    ];
+    let loads = loads.map(|(force, radius)| SurfaceLoad::new(force, radius).expect("a load"));
+    for (k, profile) in grounds().iter().enumerate() {
+        let Ok(ground) = LayeredHalfSpace::new(profile) else {
+            continue;
+        };
+        // Every ground with some loads and depths, every load and depth with some grounds.
+        let load = loads[k % loads.len()];
+        assert!(ground.displacements_with_statistics(load, &NASTY, 1.0).is_err());
+        for depth in [NASTY[k % NASTY.len()], NASTY[5 * k % NASTY.len()], 0.05] {
+            for radii in [&[][..], &[0.0, 1.0, 1e12], &[5e-324, 1e300, f64::MAX]] {
+                if let Ok((values, statistics)) = ground.displacements_with_statistics(load, radii, depth) {
+                    assert!(
+                        values.iter().all(|value| value.is_finite()),
+                        "{depth} {load:?} {profile:?}"
+                    );
+                    assert!(statistics.estimated_error <= ground.accuracy());
+                }
+            }
+            let _ = odemark_error_bound(profile, load, depth);
+            let Ok(transform) = ground.transform_at(depth) else {
+                continue;
+            };
+            for wavenumber in NASTY {
+                let _ = transform(wavenumber);
+            }
+        }
+    }
+}
+
+#[test]
+fn accuracies_are_taken_or_refused() {
+    let soil = Soil::new(1e8, 0.3).expect("a soil");
+    let layer = SoilLayer::uniform(0.2, Soil::new(5e9, 0.3).expect("a soil")).expect("a layer");
+    let profile = SoilProfile::new(vec![layer], Base::HalfSpace(soil)).expect("a profile");
+    let load = SurfaceLoad::new(1e5, 0.15).expect("a load");
+    for accuracy in NASTY.into_iter().chain([1e-15, 1e-13, 0.1]) {
+        let Ok(ground) = LayeredHalfSpace::new(&profile).and_then(|ground| ground.with_accuracy(accuracy))
+        else {
+            continue;
+        };
+        for radius in NASTY {
+            if let Ok(value) = ground.displacement(load, radius, 1.2) {
+                assert!(value.is_finite());
+            }
+        }
+    }
+}

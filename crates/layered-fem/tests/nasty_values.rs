@@ -1,0 +1,155 @@
+//! Nothing that can be given to the public interface makes it panic or hang: an answer that is finite, or an error.
+
+use ground_field::{Base, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad};
+use layered_fem::element::{Quadrilateral, Volumetric};
+use layered_fem::material::Elasticity;
+use layered_fem::mesh::Mesh;
+use layered_fem::system::{System, prescribed_force};
+use layered_fem::{FemOptions, LayeredFem};
+
+/// Everything a float can be.
+const NASTY: [f64; 14] = [
+    f64::NAN,
+    f64::INFINITY,
+    f64::NEG_INFINITY,
+    f64::MIN,
+    -1.0,
+    -0.0,
+    0.0,
+    5e-324,
+    1e-160,
+    1e-9,
+    1.0,
+    1e9,
+    1e160,
+    f64::MAX,
+];
+
+#[test]
+fn grounds_are_answered_or_refused() {
+    let sizes = [5e-324, 1e-300, 1e-9, 1.0, 1e9, 1e300, f64::MAX];
+    // Little room, lest the time goes into meshes.
+    let options = FemOptions::new(0.05).expect("options").with_max_unknowns(20_000);
+    let load = |contact_radius| SurfaceLoad::new(1e5, contact_radius).expect("a load");
+    let mut case = 0;
+    for thickness in sizes {
+        for (top, bottom) in sizes.into_iter().flat_map(|v| [(v, v), (v, 1e7), (1e7, v)]) {
+            for poisson in [0.0, 0.5] {
+                case += 1;
+                let layer =
+                    SoilLayer::new(thickness, Modulus::Linear { top, bottom }, poisson).expect("a layer");
+                let soil = Soil::new(1e7, 0.3).expect("a soil");
+                let base = if case % 2 == 0 {
+                    Base::Rigid
+                } else {
+                    Base::HalfSpace(soil)
+                };
+                let profile = SoilProfile::new(vec![layer; 1 + case % 3], base).expect("a profile");
+                let Ok(ground) = LayeredFem::with_options(&profile, options) else {
+                    continue;
+                };
+                for depth in [0.0, NASTY[case % NASTY.len()], 1.2] {
+                    for load in [load(0.0), load(NASTY[case % 5 + 6])] {
+                        for radius in [0.0, NASTY[(case / 3) % NASTY.len()], 0.8] {
+                            if let Ok(value) = ground.displacement(load, radius, depth) {
+                                assert!(value.is_finite(), "{profile:?}: {value:?}");
+                            }
+                        }
+                        let _ = ground.error_estimate(load, depth);
+                        let _ = ground.displacements(load, &[], depth);
+                    }
+                }
+                let _ = ground.statistics();
+            }
+        }
+    }
+}
+
+/// A point load moves the ground, however steeply the modulus of the first millimetre falls.
+#[test]
+fn a_point_load_is_never_lost() {
+    let soil = Soil::new(1e7, 0.3).expect("a soil");
+    let steep = Modulus::Linear {
+        top: 1e10,
+        bottom: 1e-300,
+    };
+    let layer = SoilLayer::new(0.1, steep, 0.3).expect("a layer");
+    let profile = SoilProfile::new(vec![layer], Base::HalfSpace(soil)).expect("a profile");
+    let load = SurfaceLoad::point(1e5).expect("a load");
+    if let Ok(value) = LayeredFem::new(&profile, 0.05).and_then(|ground| ground.displacement(load, 0.5, 1.0))
+    {
+        assert!(value.vertical > 0.0, "{value:?}");
+    }
+}
+
+#[test]
+fn options_are_taken_or_refused() {
+    for accuracy in NASTY {
+        assert_eq!(
+            FemOptions::new(accuracy).is_ok(),
+            (1e-6..=0.1).contains(&accuracy)
+        );
+    }
+    let soil = Soil::new(1e7, 0.3).expect("a soil");
+    for unknowns in [0, 1, 100, usize::MAX] {
+        let options = FemOptions::new(0.1).expect("options").with_max_unknowns(unknowns);
+        assert!(options.max_unknowns() <= FemOptions::MOST_UNKNOWNS);
+        let ground = LayeredFem::with_options(&SoilProfile::half_space(soil), options);
+        assert_eq!(ground.is_ok(), unknowns > 100);
+        // Lines without end are refused before they are made.
+        let layer = SoilLayer::uniform(f64::MAX, soil).expect("a layer");
+        let endless = SoilProfile::new(vec![layer; 2], Base::HalfSpace(soil)).expect("a profile");
+        assert!(LayeredFem::with_options(&endless, options).is_err());
+    }
+}
+
+#[test]
+fn meshes_and_systems_are_made_or_refused() {
+    let elasticity = |_: usize, _: f64, _: f64| Elasticity::new(1e7, 0.3);
+    for kind in [Quadrilateral::Linear4, Quadrilateral::Quadratic9] {
+        let lines: [&[f64]; 6] = [
+            &[],
+            &[0.0],
+            &[0.0, 1.0],
+            &[1.0, 0.0],
+            &[0.0, f64::NAN, 1.0],
+            &[0.0, 1.0, 2.0],
+        ];
+        for radii in lines {
+            for depths in lines {
+                let mesh = Mesh::rectangular(kind, radii, depths);
+                assert!(mesh.element(usize::MAX).is_empty());
+                let _ = (
+                    mesh.element_nodes(usize::MAX),
+                    mesh.element_count(),
+                    mesh.elements().count(),
+                );
+                for count in [0, 1, mesh.dofs()] {
+                    let held: Vec<bool> = (0..count).map(|k| k % 3 == 0).collect();
+                    let numbers = vec![1.0; count];
+                    let _ = prescribed_force(&mesh, Volumetric::Projected, &numbers, |_| true, elasticity);
+                    if let Ok(system) = System::new(&mesh, Volumetric::Full, &held, elasticity) {
+                        let _ = (
+                            system.size(),
+                            system.solve(&numbers, &numbers),
+                            system.solve(&[], &[1.0]),
+                        );
+                        let _ = system.solve_within(&numbers, &numbers, f64::NAN);
+                    }
+                }
+            }
+        }
+        assert!(Mesh::new(kind, Vec::new(), &[]).is_ok_and(|mesh| mesh.element_count() == 0));
+        assert!(Mesh::new(kind, Vec::new(), &[vec![0; kind.nodes()]]).is_err());
+        for value in NASTY {
+            let _ = kind.shape(&[[value, 1.0]; 9], value, value);
+            let _ = kind.strain(&[], &[value], value, 0.0);
+            let material = Elasticity::new(value, value);
+            let _ = material.stress([value; 4]);
+            assert!(
+                kind.stiffness(0, &[[value, 0.0]], Volumetric::Projected, |_, _| material)
+                    .is_err()
+            );
+        }
+    }
+}
