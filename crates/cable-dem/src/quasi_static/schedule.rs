@@ -52,7 +52,9 @@ fn bend(shape: &[f64], at: usize, stride: usize) -> f64 {
 }
 
 fn largest_bend(shape: &[f64], stride: usize) -> f64 {
-    (0..shape.len()).map(|at| bend(shape, at, stride)).fold(0.0, f64::max)
+    (0..shape.len())
+        .map(|at| bend(shape, at, stride))
+        .fold(0.0, f64::max)
 }
 
 /// How far ahead of the vehicle and behind it a stride last bends the path by more than `allowed`, in lattice units.
