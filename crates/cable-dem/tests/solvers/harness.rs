@@ -91,8 +91,18 @@ impl Drive {
     }
 }
 
+impl std::fmt::Debug for Drive {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "{:?} {} m/s from {} m",
+            self.direction, self.speed, self.approach
+        )
+    }
+}
+
 /// A cable on a mesh, and the vehicles that may come.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Problem {
     pub cable: DuctedCable,
     pub mesh: Mesh,
