@@ -36,7 +36,11 @@ pub fn of_state(cable: &DuctedCable, mesh: &Mesh, state: &CableState, pass: u64)
 }
 
 /// Checks the forces on the ends of a cable whose clamps carry `restraints`.
-pub fn of_records(scene: &Scene, records: &[PassRecord], restraints: &[RestraintRecord]) -> Result<(), Error> {
+pub fn of_records(
+    scene: &Scene,
+    records: &[PassRecord],
+    restraints: &[RestraintRecord],
+) -> Result<(), Error> {
     let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
     let friction = limit * scene.duct.length;
     let clamps: f64 = restraints.iter().map(|clamp| clamp.force_n.abs()).sum();
@@ -56,7 +60,11 @@ pub fn of_records(scene: &Scene, records: &[PassRecord], restraints: &[Restraint
 
 /// The saturation that `records` bear out: at least what they already reach, if that is nearly it, and no more than friction
 /// can carry to an end whose other end is free.
-pub fn of_saturation(scene: &Scene, records: &[PassRecord], mut saturation: Saturation) -> Option<Saturation> {
+pub fn of_saturation(
+    scene: &Scene,
+    records: &[PassRecord],
+    mut saturation: Saturation,
+) -> Option<Saturation> {
     let free = scene.ends.upstream == End::Free || scene.ends.downstream == End::Free;
     let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load() * scene.duct.length;
     if free && scene.restraints.is_empty() && saturation.force_n.abs() > (1.0 + MARGIN) * limit {
@@ -116,7 +124,12 @@ pub fn of_numbers(run: &Run) -> Result<(), Error> {
     ];
     let clamps = run.restraints.iter().map(|clamp| clamp.force_n);
     let profile = run.force_profile.force_n.iter().copied();
-    if records.chain(others).chain(clamps).chain(profile).all(f64::is_finite) {
+    if records
+        .chain(others)
+        .chain(clamps)
+        .chain(profile)
+        .all(f64::is_finite)
+    {
         Ok(())
     } else {
         Err(Error::NotFinite)

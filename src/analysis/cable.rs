@@ -6,8 +6,8 @@ use cable_dem::{
 };
 use ground_field::DuctMotion;
 
-use super::road::approach;
 use super::result::FrictionProfile;
+use super::road::approach;
 use crate::Error;
 use crate::scene::Scene;
 

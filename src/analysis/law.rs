@@ -7,11 +7,11 @@ use ground_field::DuctMotion;
 use pass_law::{Concern, Evolution, PassLaw, Resolution, concerns_before};
 
 use super::cable::{CableMethod, cable};
-use super::road::approach;
 use super::passes::simulate;
 use super::result::{
     ErrorEstimate, ErrorShares, ForceProfile, PassRecord, RestraintRecord, Saturation, Stage,
 };
+use super::road::approach;
 use crate::planner::mesh::Levels;
 use crate::scene::{End, Scene};
 use crate::{Cost, Error};

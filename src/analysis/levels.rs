@@ -124,13 +124,21 @@ impl Ladder<'_> {
     /// What counts as nothing in this scene.
     fn scale(&self) -> Scale {
         let limit = self.scene.friction.dynamic_coefficient * self.scene.cable.normal_load();
-        let peak = self.motions.iter().map(DuctMotion::peak_longitudinal).fold(0.0, f64::max);
+        let peak = self
+            .motions
+            .iter()
+            .map(DuctMotion::peak_longitudinal)
+            .fold(0.0, f64::max);
         Scale::new(limit, peak)
     }
 
     /// What the ground model leaves out, as it comes through after the first passes on the coarsest mesh. Where it is too much,
     /// the exact motions take over.
-    fn ground_error(&mut self, statistics: &mut Statistics, reasons: &mut Vec<String>) -> Result<Shares, Error> {
+    fn ground_error(
+        &mut self,
+        statistics: &mut Statistics,
+        reasons: &mut Vec<String>,
+    ) -> Result<Shares, Error> {
         let level = (0..self.levels.first()).find(|&level| self.levels.mesh(level).is_ok());
         let (Some(exact), Some(level)) = (self.exact, level) else {
             return Ok(Shares::both(self.motion_error));
@@ -158,7 +166,12 @@ impl Ladder<'_> {
 
     /// What an approach that the scene names leaves out: the passes once more on the same mesh, with the vehicles followed far
     /// enough. Where it is far enough already, nothing.
-    fn road_error(&self, passes: &Passes, level: usize, statistics: &mut Statistics) -> Result<Shares, Error> {
+    fn road_error(
+        &self,
+        passes: &Passes,
+        level: usize,
+        statistics: &mut Statistics,
+    ) -> Result<Shares, Error> {
         let mut scene = self.scene.clone();
         let Some(approach) = scene.solver.approach.take() else {
             return Ok(Shares::default());

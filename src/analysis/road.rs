@@ -33,7 +33,13 @@ pub fn farthest(scene: &Scene) -> f64 {
     let aside = wheels()
         .map(|wheel| wheel.y.abs() + scene.duct.lateral_offset.abs())
         .fold(0.0, f64::max);
-    let thickness: f64 = scene.ground.profile.layers().iter().map(|layer| layer.thickness()).sum();
+    let thickness: f64 = scene
+        .ground
+        .profile
+        .layers()
+        .iter()
+        .map(|layer| layer.thickness())
+        .sum();
     let far = (FARTHEST_DISTANCES * scene.duct.depth.hypot(aside)).max(FARTHEST_THICKNESSES * thickness);
     ahead + far.min(FARTHEST)
 }
@@ -45,7 +51,10 @@ pub fn reach(scene: &Scene) -> f64 {
 
 /// How far beyond the duct's ends vehicles are followed \[m\]: as the scene says, or to the outermost turn of D_l.
 pub fn approach(scene: &Scene, motions: &[DuctMotion]) -> f64 {
-    scene.solver.approach.unwrap_or_else(|| outermost_turn(scene, motions))
+    scene
+        .solver
+        .approach
+        .unwrap_or_else(|| outermost_turn(scene, motions))
 }
 
 /// Distance from the vehicles' origins beyond which D_l of none of them turns by more than counts \[m\].

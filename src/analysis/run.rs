@@ -203,7 +203,8 @@ impl Answer<'_> {
             self.warnings.push(leak.to_string());
         }
         let summary = &mut self.summary;
-        (summary.node_spacing_m, summary.vehicle_step_m) = (solved.mesh.spacing(), solved.mesh.vehicle_step());
+        (summary.node_spacing_m, summary.vehicle_step_m) =
+            (solved.mesh.spacing(), solved.mesh.vehicle_step());
         summary.reasons.extend(solved.reasons.iter().cloned());
         summary.reasons.extend(solved.passes.step_limits.clone());
         let outcomes = &solved.passes.outcomes;
@@ -258,7 +259,9 @@ impl Answer<'_> {
         let summary = &mut self.summary;
         summary.cable = method.name().into();
         (summary.node_spacing_m, summary.vehicle_step_m) = (mesh.spacing(), mesh.vehicle_step());
-        summary.reasons.push("without friction nothing drags the cable: every pass is like the first".into());
+        summary
+            .reasons
+            .push("without friction nothing drags the cable: every pass is like the first".into());
         let stages = options.stages.iter().filter(|pass| (1..=count).contains(*pass));
         Ok(Run {
             title: self.scene.title.clone(),

@@ -28,7 +28,13 @@ pub fn saturation(forces: &[f64], scale: f64) -> Option<Saturation> {
     let width = (count / 12).max(1);
     let largest = |end: usize| {
         let window = forces[end - width..end].iter().copied();
-        window.fold(0.0, |largest: f64, force| if force.abs() > largest.abs() { force } else { largest })
+        window.fold(0.0, |largest: f64, force| {
+            if force.abs() > largest.abs() {
+                force
+            } else {
+                largest
+            }
+        })
     };
     let (first, second, third) = (largest(count / 3), largest(2 * count / 3), largest(count));
     let (early, late) = (second - first, third - second);

@@ -149,7 +149,8 @@ impl CableState {
             let fixed = (node == 0 && cable.upstream().stiffness().is_none())
                 || (node == last && cable.downstream().stiffness().is_none());
             if !fixed {
-                let friction = (after - before + held[node] * self.displacement[node]) / mesh.tributary_length(node);
+                let friction =
+                    (after - before + held[node] * self.displacement[node]) / mesh.tributary_length(node);
                 worst = worst.max(friction.abs());
             }
             before = after;
@@ -163,7 +164,8 @@ impl CableState {
     pub(crate) fn extremes(&self, cable: &DuctedCable, mesh: &Mesh) -> (f64, f64) {
         let (h, f) = (mesh.spacing(), &self.friction);
         let stiffness = cable.axial_stiffness() / h;
-        let force = |element: usize| stiffness * (self.displacement[element] - self.displacement[element + 1]);
+        let force =
+            |element: usize| stiffness * (self.displacement[element] - self.displacement[element + 1]);
         let before = |node: usize| force(node - 1) + 0.5 * h * f[node];
         let after = |node: usize| force(node) - 0.5 * h * f[node];
         let clamps = cable.restraints().iter().filter(|clamp| clamp.stiffness > 0.0);

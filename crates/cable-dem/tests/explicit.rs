@@ -30,12 +30,11 @@ fn all_three_solvers_agree_at_40_km_per_hour() -> Outcome {
                 );
             }
         }
-        // What the vibration left at the end of the pass amounts to.
-        let at_rest = relative(
-            explicit.force_before_rest.downstream,
-            explicit.pass.force.downstream,
-        );
-        assert!(at_rest.abs() < 1e-3, "{at_rest}");
+        // The ground's return to rest takes 4 % off, with vibration or without; what the vibration left amounts to the rest.
+        let returned = scene.quasi_static_before_rest(10)? - expected.force.downstream;
+        let found = explicit.force_before_rest.downstream - explicit.pass.force.downstream;
+        let vibration = (found - returned) / expected.force.downstream;
+        assert!(vibration.abs() < 1e-3, "{vibration}");
     }
     Ok(())
 }

@@ -31,7 +31,11 @@ fn a_quasi_static_pass() -> Outcome {
             let positions = ((length + 2.0 * APPROACH) / scene.mesh.vehicle_step()).round() as usize;
             for passes in [1, 10] {
                 let work = scene.quasi_static(passes)?.statistics;
-                assert_eq!(work.steps, positions, "one step a vehicle position");
+                assert_eq!(
+                    work.steps,
+                    positions + 2,
+                    "one step a vehicle position, one from rest and one to it"
+                );
                 // Where the vehicle is, at either end, and now and then once more for a window that has grown.
                 assert_at_most("windows a step", work.windows, 2.6, work.steps, work);
                 // One linear solve where the prediction of the contact states is right: mostly, from the second pass on.
@@ -116,8 +120,8 @@ fn an_explicit_pass() -> Outcome {
         let time_step = 0.9 / (1.0 / waves).hypot(2.0 / friction);
         let duration = (30.0 + 2.0 * APPROACH) / scene.duct.speed();
         assert!((work.steps as f64) < 1.001 * duration / time_step, "{work:?}");
-        // And a few linear solves that bring it to rest.
-        assert!(work.sweeps <= 5, "{work:?}");
+        // And some ten linear solves each for the steps from rest and to it, which nothing predicts.
+        assert!(work.sweeps <= 2 * 12, "{work:?}");
         let nodes = scene.mesh.nodes();
         assert!(
             work.node_updates <= (work.steps + work.sweeps) * nodes,

@@ -19,7 +19,8 @@ use super::graph::{Friction, Graph};
 
 /// Sets the trial's contact states on `stretch` to those of the step's one answer. Returns how many corners it touched.
 ///
-/// With nothing but friction to hold the chain and all of it slipping, the displacement nearest to the anchor is taken.
+/// With nothing but friction to hold the chain and all of it slipping, the displacement nearest to the anchor is taken. There a
+/// node is about to stick; it counts as stuck, so that the chain has a place, and balance puts its friction at the limit.
 pub(crate) fn contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) -> usize {
     let Stretch { lo, hi } = stretch;
     let (r, contact) = (&trial.r, &mut trial.contact);
@@ -45,6 +46,10 @@ pub(crate) fn contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: 
     } else {
         graph.rest_displacement(load.anchor[hi])
     };
+    let held = lo > 0
+        || hi + 1 < r.len()
+        || (lo..=hi).any(|i| chain.diagonal[i] > (usize::from(i > 0) + usize::from(i + 1 < r.len())) as f64);
+    let mut least = (f64::INFINITY, hi);
     for i in (lo..=hi).rev() {
         if i < hi {
             graph.remove_spring();
@@ -53,6 +58,10 @@ pub(crate) fn contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: 
         let Friction {
             forward, backward, ..
         } = friction(chain, load, i);
+        let slip = (forward - u).max(u - backward).max(0.0);
+        if slip < least.0 {
+            least = (slip, i);
+        }
         contact[i] = match graph.side_of_last(u) {
             Ordering::Less => Contact::Forward,
             Ordering::Greater => Contact::Backward,
@@ -63,6 +72,9 @@ pub(crate) fn contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: 
         };
         graph.remove_friction();
         graph.remove_support();
+    }
+    if !held && !contact[lo..=hi].contains(&Contact::Stuck) {
+        contact[least.1] = Contact::Stuck;
     }
     graph.touched
 }

@@ -116,7 +116,14 @@ impl Passage {
         let behind = ((end + stride + approach) / m + 3) * m;
         let ahead = (approach / m + mesh.elements() as i64 + 3) * m;
         let shape = (-behind..ahead)
-            .map(|j| checked("displacement of the duct", shape(step * j as f64), "finite", |_| true))
+            .map(|j| {
+                checked(
+                    "displacement of the duct",
+                    shape(step * j as f64),
+                    "finite",
+                    |_| true,
+                )
+            })
             .collect::<Result<Vec<f64>, _>>()?;
         let positions = schedule(&shape, behind as usize, end, approach, stride);
         let compliance = cable.friction().compliance();

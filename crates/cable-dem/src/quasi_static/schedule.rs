@@ -1,15 +1,24 @@
 //! Where the vehicle stops on its way: the positions of one pass.
 //!
-//! Over the duct it advances by the mesh's vehicle step. A step is an exact solution as long as no node's duct turns within it,
-//! and what it leaves out of a turn is the bend of the path,
+//! Over the duct it advances by the mesh's vehicle step. A step is an exact solution as long as no node slips both ways within it:
+//! neither may the duct turn, nor may the parts of the duct change the order in which they lead, which decides where a stiff cable
+//! goes. Where that happens far away it happens to the whole duct at once and is felt by the whole cable. So the vehicle keeps its
+//! step beyond the duct too until the shape has turned for the last time, and half as far again: tails that are a sum of two
+//! powers, −a/ξᵐ + b/ξⁿ, have their steepest slope within 1.5 of the distance of their turn. A wheel on a half-space draws the
+//! duct toward itself up to some twelve depths away, and its steepest slope beyond is at seventeen.
 //!
-//! max |D(ξ) − ½ (D(ξ − s) + D(ξ + s))|,
+//! Farther out strides of twice, four times, … the step are taken where they leave out no more of the path's bend,
 //!
-//! for a stride s. Far from the duct the shape's tail is smooth, and strides of twice, four times, … the step leave out no
-//! more than a step does at the sharpest bend: a vehicle is followed to 300 m in some thirty steps.
+//! max |D(ξ) − ½ (D(ξ − s) + D(ξ + s))|
+//!
+//! for a stride s, than a step does where the bend is sharpest: from there a vehicle is followed to 300 m in some thirty steps.
 
 /// Ratio of a stride to its distance from the duct at most.
 const LONGEST: f64 = 0.5;
+/// How far beyond the last turn, as a multiple of its distance, the order of slopes has settled.
+const SETTLED: f64 = 1.5;
+/// Share of the largest displacement by which the duct has to come back for a turn to count. Less is the noise of a table.
+const TURN: f64 = 1e-4;
 
 /// Vehicle positions in lattice units, ascending, from `approach` before a duct of length `end` to `approach` past it, about
 /// `stride` apart over the duct. `shape` is D on the lattice, `origin` the index of ξ = 0 in it.
@@ -17,11 +26,15 @@ pub(super) fn schedule(shape: &[f64], origin: usize, end: i64, approach: i64, st
     let allowed = largest_bend(shape, stride as usize);
     // Distances from the vehicle beyond which each stride is short enough, ahead of it and behind.
     let mut limits: Vec<(i64, [i64; 2])> = vec![(stride, [0, 0])];
+    let settled = outermost_turns(shape, origin).map(|distance| (SETTLED * distance as f64) as i64);
     let mut longer = 2 * stride;
     while longer <= approach {
         let outermost = outermost_bends(shape, origin, longer as usize, allowed);
         let least = (longer as f64 / LONGEST) as i64;
-        limits.push((longer, outermost.map(|distance| distance.max(least))));
+        limits.push((
+            longer,
+            [0, 1].map(|side| outermost[side].max(settled[side]).max(least)),
+        ));
         longer *= 2;
     }
     let outward = |side: usize| {
@@ -52,7 +65,9 @@ fn bend(shape: &[f64], at: usize, stride: usize) -> f64 {
 }
 
 fn largest_bend(shape: &[f64], stride: usize) -> f64 {
-    (0..shape.len()).map(|at| bend(shape, at, stride)).fold(0.0, f64::max)
+    (0..shape.len())
+        .map(|at| bend(shape, at, stride))
+        .fold(0.0, f64::max)
 }
 
 /// How far ahead of the vehicle and behind it a stride last bends the path by more than `allowed`, in lattice units.
@@ -64,6 +79,45 @@ fn outermost_bends(shape: &[f64], origin: usize, stride: usize, allowed: f64) ->
         ahead.map_or(0, |at| (at - origin) as i64),
         behind.map_or(0, |at| (origin - at) as i64),
     ]
+}
+
+/// How far ahead of the vehicle and behind it the shape turns for the last time, in lattice units.
+fn outermost_turns(shape: &[f64], origin: usize) -> [i64; 2] {
+    let noise = TURN * shape.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
+    let ahead = first_turn((origin..shape.len()).rev(), shape, noise);
+    let behind = first_turn(0..origin, shape, noise);
+    [
+        ahead.map_or(0, |at| (at - origin) as i64),
+        behind.map_or(0, |at| (origin - at) as i64),
+    ]
+}
+
+/// Where the shape first comes back by more than `noise`, as one walks along `path`.
+fn first_turn(path: impl Iterator<Item = usize>, shape: &[f64], noise: f64) -> Option<usize> {
+    let (mut highest, mut lowest): (Option<usize>, Option<usize>) = (None, None);
+    // Up or down, once that is clear.
+    let mut rising = None;
+    for at in path {
+        let (top, bottom) = (highest.unwrap_or(at), lowest.unwrap_or(at));
+        match rising {
+            Some(true) | None if shape[at] < shape[top] - noise => {
+                if rising.is_some() {
+                    return highest;
+                }
+                rising = Some(false);
+            }
+            Some(false) | None if shape[at] > shape[bottom] + noise => {
+                if rising.is_some() {
+                    return lowest;
+                }
+                rising = Some(true);
+            }
+            _ => {}
+        }
+        highest = Some(if shape[at] >= shape[top] { at } else { top });
+        lowest = Some(if shape[at] <= shape[bottom] { at } else { bottom });
+    }
+    None
 }
 
 #[cfg(test)]

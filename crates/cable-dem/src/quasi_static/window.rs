@@ -5,7 +5,8 @@ use super::passage::Snapshot;
 use super::sweeper::Sweeper;
 
 /// Share of the friction limit by which friction and equilibrium may be off outside the windows while the vehicle passes.
-/// Measured against whole-cable solves this moves the force by less than 1e-4.
+/// Measured against whole-cable solves this moves the force by less than 1e-4 of q L (in 1400 random scenes, but for one cable
+/// held by nothing: 5e-4).
 pub(crate) const NEGLIGIBLE: f64 = 1e-3;
 /// A window's edge is quiet when the force its last move put on the next node is below this share of [`NEGLIGIBLE`].
 const QUIET: f64 = 0.25;

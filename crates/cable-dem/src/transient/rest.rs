@@ -108,7 +108,11 @@ impl Settler {
             violation,
         })?;
         let law = lumped.cable.friction();
-        let compliance = if law.law().has_memory() { law.compliance() } else { 0.0 };
+        let compliance = if law.law().has_memory() {
+            law.compliance()
+        } else {
+            0.0
+        };
         let heat = lumped.weighted(moved.len(), |i| {
             friction[i] * (increment[i] - moved[i] - compliance * (friction[i] - state.friction[i]))
         });

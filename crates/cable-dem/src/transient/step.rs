@@ -8,9 +8,9 @@
 //! same active set; where that cycles it is led to the answer from that of a softer sheath, and last of all the dynamic
 //! programming takes over.
 
+use crate::Statistics;
 use crate::quasi_static::{Chain, Contact, Elimination, Load, Outcome, Stretch, Tolerance, Trial, contacts};
 use crate::transient::Lumped;
-use crate::Statistics;
 
 /// Accuracy of friction and equilibrium, as a share of the friction limit.
 const FRICTION_ACCURACY: f64 = 1e-9;

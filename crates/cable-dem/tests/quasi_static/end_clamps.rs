@@ -3,7 +3,7 @@
 use cable_dem::{CableState, DuctedCable, Dynamic, End, Mesh, MovingDuct, Passage, Restraint};
 use ground_field::Direction;
 
-use super::full_newton::{FullChain, vehicle_distances};
+use super::full_newton::{FullChain, even_positions};
 use super::scenes::{APPROACH, AXIAL_STIFFNESS, LIMITS, Run, cable, reference_motion, sheathed};
 
 const LENGTH: f64 = 15.0;
@@ -31,10 +31,10 @@ fn readings(cable: &DuctedCable) -> [Vec<f64>; 2] {
     let passage = Passage::new(cable, &mesh, &motion, APPROACH).expect("a valid passage");
     let mut run = Run::new(cable.clone(), mesh);
     let mut oracle = FullChain::new(cable, &mesh);
-    let distances = vehicle_distances(&mesh, APPROACH);
+    let positions = even_positions(&mesh, Direction::Forward, APPROACH);
     for _ in 0..PASSES {
         run.pass(&passage);
-        oracle.pass(&distances, Direction::Forward, |xi| motion.longitudinal(xi));
+        oracle.pass(&positions, |xi| motion.longitudinal(xi));
     }
     let clamp = |clamp: &Restraint| {
         let place = clamp.position / SPACING;

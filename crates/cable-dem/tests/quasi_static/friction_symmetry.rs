@@ -313,6 +313,33 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    /// A duct that moves farther forward at every step never leaves any part of the cable farther back: each step is
+    /// monotone in the duct's increment and in the sheath's anchor u + γ f, which is monotone again. So it is until the duct returns
+    /// to rest, which takes it farther back too.
+    #[test]
+    fn who_is_pushed_farther_gets_farther(scene in any_scene(), more in 1e-7..1e-4_f64) {
+        let (cable, mesh) = (scene.cable(), scene.mesh());
+        let approach = 10.0 * scene.width;
+        let pass = |more: f64| {
+            let shape = |xi: f64| {
+                let t = xi / scene.width;
+                let front = 0.5 * more * (1.0 - (xi / 0.8).tanh());
+                scene.peak * (t + 0.3 * t * t) / (1.0 + t * t).powi(2) + front
+            };
+            let passage = Passage::from_shape(&cable, &mesh, Direction::Forward, shape, approach).expect("a valid passage");
+            Run::new(cable.clone(), mesh).pass_and_last(&passage).1
+        };
+        let (one, other) = (pass(0.0), pass(more));
+        let scale = 1e-6 + scene.friction.limit() * scene.length * scene.length / scene.axial_stiffness;
+        for (one, other) in one.displacement().iter().zip(other.displacement()) {
+            prop_assert!(one - other <= 1e-4 * scale, "{one} m, {other} m, of {scale} m");
+        }
+    }
+}
+
 #[test]
 fn speed_changes_nothing() {
     let mesh = Mesh::new(15.0, 0.2, 0.1).expect("a valid mesh");

@@ -1,8 +1,9 @@
 //! An independent solver to hold the crate's against: plain, slow, and sharing none of its ideas.
 //!
 //! The whole chain at every step, displacements as they are (no moving frame, no windows), reverse traffic as reverse
-//! traffic (no mirror), elastic-plastic friction, damped Newton on the step's convex energy. Only the vehicle's
-//! positions are chosen as the crate chooses them, so that both discretise the same path.
+//! traffic (no mirror), elastic-plastic friction, damped Newton on the step's convex energy. A pass begins and ends with
+//! the ground at rest. Where the vehicle stops on its way is given: by steps that are all the same ([`even_positions`]), or where
+//! the crate was seen to stop, so that both discretise the same path.
 
 use cable_dem::{DuctedCable, End, EndForces, Mesh};
 use ground_field::Direction;
@@ -11,7 +12,6 @@ use ground_field::Direction;
 const MAX_STEPS: usize = 500;
 
 pub struct FullChain {
-    length: f64,
     spacing: f64,
     stiffness: f64,
     tributary: Vec<f64>,
@@ -58,7 +58,6 @@ impl FullChain {
         let mut tributary = vec![h; last + 1];
         (tributary[0], tributary[last]) = (0.5 * h, 0.5 * h);
         Self {
-            length: cable.length(),
             spacing: h,
             stiffness: cable.axial_stiffness() / h,
             tributary,
@@ -72,24 +71,22 @@ impl FullChain {
         }
     }
 
-    /// Drives a vehicle over the duct; `duct`(ξ) is its displacement along x at ξ = x − x_v, whichever way it drives.
-    pub fn pass(&mut self, distances: &[f64], direction: Direction, duct: impl Fn(f64) -> f64) {
-        let nodes = self.displacement.len();
-        let position = |travelled: f64| match direction {
-            Direction::Forward => travelled,
-            Direction::Reverse => self.length - travelled,
-        };
-        let paths: Vec<Vec<f64>> = distances
-            .iter()
-            .map(|&d| {
-                (0..nodes)
-                    .map(|i| duct(i as f64 * self.spacing - position(d)))
-                    .collect()
-            })
-            .collect();
-        for pair in paths.windows(2) {
-            let advance: Vec<f64> = pair[1].iter().zip(&pair[0]).map(|(new, old)| new - old).collect();
+    /// Drives a vehicle over the duct, from one of `positions` to the next; `duct`(ξ) is its displacement along x at
+    /// ξ = x − x_v, whichever way it drives. Before and after that the duct stands at 0.
+    pub fn pass(&mut self, positions: &[f64], duct: impl Fn(f64) -> f64) {
+        let rest = vec![0.0; self.displacement.len()];
+        let mut before = rest.clone();
+        let paths = positions.iter().map(|position| {
+            let place = |i: usize| i as f64 * self.spacing;
+            (0..rest.len())
+                .map(|i| duct(place(i) - position))
+                .collect::<Vec<f64>>()
+        });
+        let paths: Vec<Vec<f64>> = paths.chain([rest.clone()]).collect();
+        for path in paths {
+            let advance: Vec<f64> = path.iter().zip(&before).map(|(new, old)| new - old).collect();
             self.step(&advance);
+            before = path;
         }
     }
 
@@ -215,12 +212,15 @@ impl FullChain {
     }
 }
 
-/// Where the crate stops a vehicle that comes from and leaves to `approach` beyond the duct: a step apart, on the duct's
-/// start, over its end.
-pub fn vehicle_distances(mesh: &Mesh, approach: f64) -> Vec<f64> {
+/// Positions of a vehicle that comes from and leaves to `approach` beyond the duct in the mesh's vehicle steps, all the way.
+pub fn even_positions(mesh: &Mesh, direction: Direction, approach: f64) -> Vec<f64> {
     let step = mesh.vehicle_step();
     let length = mesh.spacing() * mesh.elements() as f64;
     let outside = (approach / step).ceil() as i64;
     let over = (length / step * (1.0 - 1e-9)).ceil() as i64;
-    (-outside..=over + outside).map(|n| n as f64 * step).collect()
+    let travelled = (-outside..=over + outside).map(|n| n as f64 * step);
+    match direction {
+        Direction::Forward => travelled.collect(),
+        Direction::Reverse => travelled.map(|travelled| length - travelled).collect(),
+    }
 }

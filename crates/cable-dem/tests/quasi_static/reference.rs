@@ -1,48 +1,128 @@
 //! Forces at the load cell of a full-scale scene: 30 m of duct at 1.2 m under a load of 20 tf, and how fast they converge.
 
+use boussinesq::HalfSpace;
 use cable_dem::{Mesh, Passage};
+use ground_field::{Direction, DuctLine, DuctMotion, Soil, SurfaceLoad, Vehicle, Wheel};
 
 use super::scenes::{APPROACH, LIMITS, Run, reference_cable, reference_motion, sheathed};
 
 const LENGTH: f64 = 30.0;
 const PASSES: [usize; 5] = [1, 5, 10, 60, 200];
-/// Force at the load cell after [`PASSES`] \[N\] for both of [`LIMITS`]: reference solution with an independent full-chain
-/// program, node spacing 0.1 m, vehicle step 0.05 m.
-const FORCES: [[f64; 5]; 2] = [
-    [113.4, 223.3, 297.6, 534.9, 542.3],
-    [121.8, 228.1, 302.1, 621.1, 711.0],
+/// Largest deviation from the independent program at the same spacing and step.
+const DEVIATION: f64 = 0.002;
+
+/// Force at the load cell after [`PASSES`] \[N\] for one of [`LIMITS`]: reference solution with an independent full-chain
+/// program.
+struct Reference {
+    limit: f64,
+    /// Node spacing and vehicle step \[m\].
+    mesh: (f64, f64),
+    forces: &'static [f64],
+}
+
+/// The fine ones end with 60 passes.
+const REFERENCES: [Reference; 4] = [
+    Reference {
+        limit: LIMITS[0],
+        mesh: (0.1, 0.05),
+        forces: &[102.08, 210.46, 283.68, 519.70, 527.84],
+    },
+    Reference {
+        limit: LIMITS[1],
+        mesh: (0.1, 0.05),
+        forces: &[110.43, 214.68, 287.11, 600.16, 692.22],
+    },
+    Reference {
+        limit: LIMITS[0],
+        mesh: (0.05, 0.025),
+        forces: &[102.20, 210.57, 283.77, 519.42],
+    },
+    Reference {
+        limit: LIMITS[1],
+        mesh: (0.05, 0.025),
+        forces: &[110.59, 215.00, 287.79, 601.93],
+    },
 ];
 
-/// Largest relative deviation from [`FORCES`] on a mesh.
-fn deviation(node_spacing: f64, vehicle_step: f64) -> f64 {
-    let motion = reference_motion();
-    let mut worst = 0.0_f64;
-    for (limit, expected) in LIMITS.into_iter().zip(FORCES) {
-        let cable = reference_cable(LENGTH, sheathed(limit));
-        let mesh = Mesh::new(LENGTH, node_spacing, vehicle_step).expect("a valid mesh");
-        let passage = Passage::new(&cable, &mesh, &motion, APPROACH).expect("a valid passage");
-        let mut run = Run::new(cable, mesh);
-        let mut passed = 0;
-        for (passes, expected) in PASSES.into_iter().zip(expected) {
-            let force = run.passes(passes - passed, &passage).force;
-            passed = passes;
-            assert_eq!(force.upstream, 0.0);
-            worst = worst.max((force.downstream / expected - 1.0).abs());
-        }
+/// Largest relative deviation from a reference, on its mesh or another one.
+fn deviation(reference: &Reference, mesh: (f64, f64)) -> f64 {
+    let cable = reference_cable(LENGTH, sheathed(reference.limit));
+    let mesh = Mesh::new(LENGTH, mesh.0, mesh.1).expect("a valid mesh");
+    let passage = Passage::new(&cable, &mesh, &reference_motion(), APPROACH).expect("a valid passage");
+    let mut run = Run::new(cable, mesh);
+    let (mut worst, mut passed) = (0.0_f64, 0);
+    for (passes, expected) in PASSES.into_iter().zip(reference.forces) {
+        let force = run.passes(passes - passed, &passage).force;
+        passed = passes;
+        assert_eq!(force.upstream, 0.0);
+        worst = worst.max((force.downstream / expected - 1.0).abs());
     }
     worst
 }
 
 #[test]
 fn forces_at_the_load_cell_are_those_of_an_independent_program() {
-    let found = deviation(0.1, 0.05);
-    assert!(found < 0.002, "{found}");
+    for reference in &REFERENCES {
+        let found = deviation(reference, reference.mesh);
+        assert!(found < DEVIATION, "{found}");
+    }
 }
 
 #[test]
 fn a_mesh_of_a_sixth_of_the_depth_is_within_a_percent() {
-    let found = deviation(0.2, 0.1);
-    assert!(found < 0.012, "{found}");
+    for reference in &REFERENCES[..2] {
+        let found = deviation(reference, (0.2, 0.1));
+        assert!(found < 0.012, "{found}");
+    }
+}
+
+/// Three axles of 5.5, 7.25 and 7.25 tf, 5.0 and 6.3 m behind each other: next to no creepage, and all of it decided by what
+/// friction remembers from one pass to the next.
+///
+/// An approach of 15 m is too short: D_l of the three together turns for the last time 19.2 m behind the first axle, where
+/// the duct's end has yet to come when that axle is 15 m past it. What lies beyond the approach is taken in one step, which is
+/// exact only if no node's duct turns in it; with 15 m the forces are 6 to 8 % too large.
+#[test]
+fn three_axles_near_shakedown_are_those_of_an_independent_program_however_far_they_are_followed() {
+    const TONNE_FORCE: f64 = 9806.65;
+    const EXPECTED: [(usize, f64); 3] = [(1, 25.1), (20, 18.8), (60, 19.3)];
+    let wheels = [(0.0, 5.5), (-5.0, 7.25), (-6.3, 7.25)].map(|(x, load)| Wheel {
+        x,
+        y: 0.0,
+        load: SurfaceLoad::point(load * TONNE_FORCE).expect("a valid load"),
+    });
+    let truck =
+        Vehicle::new("three axles", wheels.to_vec(), 11.1, Direction::Forward).expect("a valid vehicle");
+    let ground = HalfSpace::new(Soil::new(800e6, 0.4).expect("a valid soil"));
+    let line = DuctLine::new(1.2, 0.0).expect("a valid line");
+    let motion = DuctMotion::new(&ground, &truck, line, 400.0, 1e-10).expect("a smooth field");
+    let cable = reference_cable(LENGTH, sheathed(LIMITS[1]));
+    let mesh = Mesh::new(LENGTH, 0.1, 0.05).expect("a valid mesh");
+    let forces = |approach: f64| {
+        let passage = Passage::new(&cable, &mesh, &motion, approach).expect("a valid passage");
+        let mut run = Run::new(cable.clone(), mesh);
+        let mut passed = 0;
+        EXPECTED.map(|(passes, _)| {
+            let force = run.passes(passes - passed, &passage).force.downstream;
+            passed = passes;
+            force
+        })
+    };
+    let behind = |distance: f64| motion.longitudinal(-distance);
+    assert!(behind(19.2) > behind(15.0) && behind(19.2) > behind(30.0));
+    let far = forces(300.0);
+    for (found, (passes, expected)) in far.iter().zip(EXPECTED) {
+        assert!(
+            (found / expected - 1.0).abs() < 0.005,
+            "{passes} passes: {found} N"
+        );
+    }
+    for approach in [30.0, 60.0, 150.0] {
+        // The same digits.
+        for (near, far) in forces(approach).iter().zip(&far) {
+            assert!((near / far - 1.0).abs() < 1e-9, "{approach} m: {near} N, {far} N");
+        }
+    }
 }
 
 /// Compression at multiples of 0.8 m along both cables after passes 1..=10 \[N\].
@@ -75,7 +155,7 @@ fn profiles(node_spacing: f64) -> Vec<f64> {
     profile
 }
 
-/// Measured: errors of 6.9e-3, 2.0e-3, 4.0e-4 and 9.1e-5 of the profile at spacings 0.2 to 0.025 m, orders of 1.8, 2.3 and
+/// Measured: errors of 7.6e-3, 2.1e-3, 4.3e-4 and 9.6e-5 of the profile at spacings 0.2 to 0.025 m, orders of 1.8, 2.3 and
 /// 2.1. They scatter because the borders between slipping and stuck zones fall between nodes; spacings of 0.4 m and above
 /// are too coarse for a duct at 1.2 m to show an order.
 #[test]

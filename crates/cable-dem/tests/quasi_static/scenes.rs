@@ -81,6 +81,25 @@ impl Run {
         self.try_pass(passage).expect("an equilibrium")
     }
 
+    /// One pass; `observe` sees the vehicle's position \[m\] and the cable at each of them.
+    pub fn watch(&mut self, passage: &Passage, mut observe: impl FnMut(f64, &CableState)) -> PassOutcome {
+        let mesh = *self.solver.mesh();
+        let watched = self.solver.pass_observed(passage, &mut self.state, |view| {
+            let displacement = (0..mesh.nodes()).map(|node| view.displacement(node)).collect();
+            let friction = (0..mesh.nodes()).map(|node| view.friction(node)).collect();
+            let cable = CableState::from_parts(&mesh, displacement, friction).expect("a finite state");
+            observe(view.vehicle_position(), &cable);
+        });
+        watched.expect("an equilibrium")
+    }
+
+    /// One pass, and the cable at the vehicle's last position, before the ground returns to rest.
+    pub fn pass_and_last(&mut self, passage: &Passage) -> (PassOutcome, CableState) {
+        let mut last = self.state.clone();
+        let outcome = self.watch(passage, |_, cable| last.clone_from(cable));
+        (outcome, last)
+    }
+
     /// Several passes; the last one's outcome.
     pub fn passes(&mut self, count: usize, passage: &Passage) -> PassOutcome {
         (0..count).fold(PassOutcome::default(), |_, _| self.pass(passage))

@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use boussinesq::HalfSpace;
 use cable_dem::{
-    CableError, CableState, DuctedCable, Dynamic, EnergyBalance, Explicit, ExplicitOptions, FrictionLaw,
-    Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic,
+    CableError, CableState, DuctedCable, Dynamic, EndForces, EnergyBalance, Explicit, ExplicitOptions,
+    FrictionLaw, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic,
 };
 use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
 
@@ -91,8 +91,18 @@ impl Drive {
     }
 }
 
+impl std::fmt::Debug for Drive {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "{:?} {} m/s from {} m",
+            self.direction, self.speed, self.approach
+        )
+    }
+}
+
 /// A cable on a mesh, and the vehicles that may come.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct Problem {
     pub cable: DuctedCable,
     pub mesh: Mesh,
@@ -127,6 +137,8 @@ enum Solver {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pass {
     pub outcome: PassOutcome,
+    /// Force on each end \[N\] at the vehicle's last position, before the ground returns to rest.
+    pub before_rest: EndForces,
     /// Of solvers with inertia.
     pub energy: Option<EnergyBalance>,
 }
@@ -168,8 +180,16 @@ impl Run {
     pub fn pass(&mut self, drive: usize) -> Result<Pass, CableError> {
         let transient = match &mut self.solver {
             Solver::QuasiStatic(solver, passages) => {
+                let (cable, mesh) = (solver.cable().clone(), *solver.mesh());
+                let mut last = self.state.clone();
+                let outcome = solver.pass_observed(&passages[drive], &mut self.state, |view| {
+                    let displacement = (0..mesh.nodes()).map(|i| view.displacement(i)).collect();
+                    let friction = (0..mesh.nodes()).map(|i| view.friction(i)).collect();
+                    last = CableState::from_parts(&mesh, displacement, friction).expect("a finite state");
+                })?;
                 return Ok(Pass {
-                    outcome: solver.pass(&passages[drive], &mut self.state)?,
+                    outcome,
+                    before_rest: last.end_forces(&cable, &mesh),
                     energy: None,
                 });
             }
@@ -178,6 +198,7 @@ impl Run {
         };
         Ok(Pass {
             outcome: transient.pass,
+            before_rest: transient.force_before_rest,
             energy: Some(transient.energy),
         })
     }
@@ -194,11 +215,11 @@ impl Run {
         largest / problem.cable.friction().limit()
     }
 
-    /// Several passes of the first vehicle, at least one; the last one's outcome.
-    pub fn passes(&mut self, count: usize) -> Result<PassOutcome, CableError> {
+    /// Several passes of the first vehicle, at least one; what the last one did.
+    pub fn passes(&mut self, count: usize) -> Result<Pass, CableError> {
         for _ in 1..count {
             self.pass(0)?;
         }
-        Ok(self.pass(0)?.outcome)
+        self.pass(0)
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! [`models`] holds problems with their exact answers, [`harness`] runs any solver on any problem.
 
+mod agreement;
 mod friction_symmetry;
 mod harness;
 mod models;

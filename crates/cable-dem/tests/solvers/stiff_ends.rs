@@ -20,7 +20,7 @@ fn force_and_peak(
         mesh: Mesh::new(15.0, SPACING, 0.5 * SPACING)?,
         drives: vec![truck.clone()],
     };
-    let outcome = Run::new(kind, &problem)?.passes(2)?;
+    let outcome = Run::new(kind, &problem)?.passes(2)?.outcome;
     Ok([outcome.force.downstream, outcome.peak.downstream])
 }
 

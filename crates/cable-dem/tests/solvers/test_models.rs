@@ -61,7 +61,8 @@ fn all_solvers_find_the_same_heat() -> Outcome {
             drives: vec![truck.clone()],
         };
         for passes in [1, 2, 5] {
-            let heat = |kind| Ok::<_, CableError>(Run::new(kind, &problem)?.passes(passes)?.dissipated);
+            let heat =
+                |kind| Ok::<_, CableError>(Run::new(kind, &problem)?.passes(passes)?.outcome.dissipated);
             let expected = heat(Kind::QuasiStatic)?;
             for kind in [Kind::Dynamic, Kind::Explicit] {
                 let found = heat(kind)? / expected - 1.0;
