@@ -55,6 +55,14 @@ pub enum Error {
         /// Why it does not fit.
         reason: Cow<'static, str>,
     },
+    /// The computation made a number that is none: no answer holds one.
+    #[error("the computation failed: {field} came out as {value}")]
+    NotFinite {
+        /// Where in the answer.
+        field: String,
+        /// What came out.
+        value: f64,
+    },
     /// An error whose cause stands in a scene file.
     #[error("{location}: {source}{}", .location.excerpt())]
     Located {

@@ -167,7 +167,10 @@ fn number(text: &str) -> Option<(f64, &str)> {
         .rev()
         .filter(|&end| text.is_char_boundary(end))
         .find_map(|end| Some((text[..end].parse::<f64>().ok()?, text[end..].trim())))
-        .filter(|(value, _)| value.is_finite())
+        // What goes on like a number is none: "1.2.3".
+        .filter(|(value, unit)| {
+            value.is_finite() && !unit.starts_with(|c: char| c == '.' || c.is_ascii_digit())
+        })
 }
 
 /// Numbers and the one unit that all of them have, or all but none.
@@ -289,6 +292,15 @@ mod tests {
         assert_eq!(list("a=5:5:1"), ["5"]);
         assert_eq!(list("a=0:0.3:0.1").len(), 4);
         assert_eq!(list("a=0:1:0.001").len(), 1001);
+    }
+
+    #[test]
+    fn what_goes_on_like_a_number_is_no_number() {
+        assert_eq!(number("1.2.3"), None);
+        assert_eq!(number("1 2"), None);
+        assert_eq!(number("1.2m"), Some((1.2, "m")));
+        // A step that is none makes no range, and so no millions of values.
+        assert_eq!(list("a=0:10000001:1.2.3"), ["0:10000001:1.2.3"]);
     }
 
     #[test]
