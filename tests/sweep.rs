@@ -277,6 +277,90 @@ fn a_journal_of_something_else_is_refused_and_kept() {
 }
 
 #[test]
+fn remarks_in_a_scene_make_no_other_sweep() {
+    let output = output("remarks");
+    let evaluate = formula(|_| 1.0);
+    let text = fs::read_to_string("examples/scenes/full-scale-upper.toml").unwrap();
+    let axes = || vec![Axis::parse("duct.length=10m,20m").unwrap()];
+    let of = |text: &str| {
+        let file = SceneFile::from_toml("scene", text).unwrap();
+        Sweep::new(file, axes(), Samples::default()).unwrap()
+    };
+    blocked(&of(&text), &output, &evaluate);
+    let other = of(&text.replace("passes = 200", "passes = 201"));
+    assert!(matches!(
+        run_by(&other, &output, 1, &evaluate),
+        Err(SweepError::OtherJournal { .. })
+    ));
+    let remarked = of(&format!(
+        "# a remark\n\n{}",
+        text.replace("passes = 200", "passes  =  200  # enough")
+    ));
+    assert_eq!(run_by(&remarked, &output, 1, &evaluate).unwrap().resumed, 2);
+}
+
+#[test]
+fn an_answer_that_is_no_number_is_a_failing_point() {
+    let output = output("infinite");
+    let sweep = sweep(&["duct.length=10m,20m,30m"]);
+    let evaluate = formula(|scene| match scene.duct.length {
+        10.0 => f64::NAN,
+        20.0 => f64::INFINITY,
+        _ => 1.0,
+    });
+    let summary = run_by(&sweep, &output, 1, &evaluate).unwrap();
+    assert_eq!(summary.failed, 2);
+    let (header, rows) = table(&output);
+    let error = header.iter().position(|name| name == "error").unwrap();
+    for (row, words) in rows.iter().zip(["came out as NaN", "came out as inf", ""]) {
+        assert!(row[error].ends_with(words), "{row:?}");
+        let is_number = |cell: &String| cell.parse().is_ok_and(|value: f64| !value.is_finite());
+        assert!(!row[..error].iter().any(is_number), "{row:?}");
+    }
+}
+
+#[test]
+fn a_file_of_something_else_is_kept_unless_forced() {
+    let output = output("foreign");
+    let sweep = sweep(&["duct.length=10m,20m"]);
+    let evaluate = formula(|_| 1.0);
+    fs::write(&output, "pass,force_n\n1,2\n").unwrap();
+    let error = run_by(&sweep, &output, 1, &evaluate).unwrap_err();
+    assert!(
+        matches!(error, SweepError::Output(_)) && error.is_bad_input(),
+        "{error}"
+    );
+    assert_eq!(fs::read(&output).unwrap(), b"pass,force_n\n1,2\n");
+    assert!(!journal(&output).exists());
+    let options = SweepOptions {
+        evaluate: Some(&evaluate),
+        force: true,
+        ..SweepOptions::default()
+    };
+    sweep.run(&output, &options).unwrap();
+    assert_eq!(table(&output).1.len(), 2);
+}
+
+#[test]
+fn what_comes_to_the_output_meanwhile_is_kept() {
+    let output = output("meanwhile");
+    let sweep = sweep(&["duct.length=10m,20m"]);
+    let force = formula(|_| 1.0);
+    let evaluate = |scene: &Scene| {
+        fs::write(&output, "notes\n").unwrap();
+        force(scene)
+    };
+    assert!(matches!(
+        run_by(&sweep, &output, 1, &evaluate),
+        Err(SweepError::Output(_))
+    ));
+    assert_eq!(fs::read(&output).unwrap(), b"notes\n");
+    // With another place for the notes nothing is computed again.
+    fs::remove_file(&output).unwrap();
+    assert_eq!(run_by(&sweep, &output, 1, &force).unwrap().resumed, 2);
+}
+
+#[test]
 fn two_sweeps_do_not_write_the_same_file() {
     let output = output("busy");
     let sweep = sweep(&["friction.dynamic_coefficient=0.1,0.2"]);

@@ -54,7 +54,7 @@ impl Temporary {
             // Less what the user's umask takes away.
             builder.permissions(fs::Permissions::from_mode(0o666));
         }
-        let file = builder.tempfile_in(folder(target))?;
+        let file = builder.tempfile_in(folder(target)).map_err(plain)?;
         if let Some(old) = old {
             keep_owner(file.as_file(), &old);
             file.as_file().set_permissions(old.permissions())?;
@@ -83,11 +83,21 @@ impl Temporary {
 
 impl Write for Temporary {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.write(bytes)
+        self.file.as_file_mut().write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.file.flush()
+        self.file.as_file_mut().flush()
+    }
+}
+
+/// The error of the system, without the temporary name.
+fn plain(error: io::Error) -> io::Error {
+    let cause = error.get_ref().and_then(std::error::Error::source);
+    let cause = cause.and_then(|cause| cause.downcast_ref::<io::Error>());
+    match cause.and_then(io::Error::raw_os_error) {
+        Some(code) => io::Error::from_raw_os_error(code),
+        None => error,
     }
 }
 
