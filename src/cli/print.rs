@@ -75,7 +75,7 @@ pub fn run(run: &Run) -> Result<(), Failure> {
         run.plan.ground, run.plan.cable, run.plan.node_spacing_m, run.plan.vehicle_step_m
     )?;
     for reason in &run.plan.reasons {
-        writeln!(out, "  {reason}")?;
+        writeln!(out, "  {}", terminal::sentence(reason))?;
     }
     Ok(())
 }
@@ -112,7 +112,7 @@ pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
                 rung.name,
                 rung.estimated_error.map_or_else(String::new, share),
                 rung.estimated_seconds.map_or_else(String::new, time),
-                rung.reason
+                terminal::sentence(&rung.reason)
             )?;
         }
     }

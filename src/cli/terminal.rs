@@ -41,6 +41,11 @@ pub fn line(text: &str) -> String {
     shortened(&line, LONGEST_TEXT, 0)
 }
 
+/// A sentence of this program's, which may repeat a text of the user's, as one line of bounded length.
+pub fn sentence(text: &str) -> String {
+    cut(&text.replace(['\n', '\r'], REPLACEMENT))
+}
+
 /// A message of bounded length.
 pub fn cut(message: &str) -> String {
     shortened(message, LONGEST_MESSAGE, KEPT_END)

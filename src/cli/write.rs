@@ -29,18 +29,23 @@ pub fn table<'p>(
     read: impl IntoIterator<Item = &'p Path>,
 ) -> Result<Option<Table>, Failure> {
     let Some(file) = &output.csv else { return Ok(None) };
-    if output.is_on_stdout() {
-        if output.json {
-            return Err(Failure::Usage {
-                argument: "--csv".into(),
-                found: "`-`, standard output, where --json prints".into(),
-                allowed: "a file beside --json".into(),
-            });
-        }
-        return Ok(Some(Table::StandardOutput));
+    let table = if output.is_on_stdout() {
+        Table::StandardOutput
+    } else {
+        Table::File(files(read, &output.force).output(file, kind)?)
+    };
+    let is_standard_output = match &table {
+        Table::StandardOutput => true,
+        Table::File(file) => file.is_standard_output(),
+    };
+    if output.json && is_standard_output {
+        return Err(Failure::Usage {
+            argument: "--csv".into(),
+            found: format!("`{}`, standard output, where --json prints", file.display()),
+            allowed: "a file beside --json".into(),
+        });
     }
-    let file = files(read, &output.force).output(file, kind)?;
-    Ok(Some(Table::File(file)))
+    Ok(Some(table))
 }
 
 impl Table {

@@ -6,7 +6,7 @@
 //! `/dev/stdout`, `/dev/null` or a named pipe, is written as it is.
 //!
 //! A file that the same command reads is never replaced, nor is a file written twice: files are told apart by what they are, not by what
-//! they are called. A file of another kind ([`Kind`]) is replaced only by force.
+//! they are called. A file of another kind is replaced only by force.
 //!
 //! Limits: another name of the replaced file (a hard link) keeps the old content. Nothing guards against someone who puts a file of
 //! another kind there between the last look and the rename.
@@ -19,7 +19,7 @@ mod place;
 mod temporary;
 
 use std::fs::{File, OpenOptions};
-use std::io::{self, ErrorKind, Read, Write};
+use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 pub(crate) use draft::Draft;
@@ -133,13 +133,20 @@ impl Output {
         }
     }
 
+    /// Whether this is standard output under another name.
+    #[cfg(feature = "cli")]
+    pub fn is_standard_output(&self) -> bool {
+        matches!(self.place, Place::StandardOutput)
+    }
+
     /// Begins to write.
     pub fn begin(&self) -> Result<Draft, OutputError> {
         Draft::of(self)
     }
 
     /// Writes all of it: what `fill` writes stands there if it succeeds, and else what stood there before.
-    pub fn write(&self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
+    #[cfg(feature = "cli")]
+    pub fn write(&self, fill: impl FnOnce(&mut dyn io::Write) -> io::Result<()>) -> Result<(), OutputError> {
         let mut draft = self.begin()?;
         fill(&mut draft).map_err(|source| self.failed(source))?;
         draft.finish()

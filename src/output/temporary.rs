@@ -1,6 +1,6 @@
 //! A file under a name that nobody can guess, until it takes its place.
 
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -44,17 +44,13 @@ impl Temporary {
     /// A new file in the folder of `target`, with the permissions of what is there already.
     pub fn beside(target: &Path) -> io::Result<Self> {
         let mut living = living();
-        let mut builder = Builder::new();
-        // The target's own name may be too long to be made longer.
-        builder.prefix(".creepage-").suffix(".partial").rand_bytes(12);
         let old = fs::metadata(target).ok();
-        #[cfg(unix)]
-        if old.is_none() {
-            use std::os::unix::fs::PermissionsExt;
-            // Less what the user's umask takes away.
-            builder.permissions(fs::Permissions::from_mode(0o666));
-        }
-        let file = builder.tempfile_in(folder(target)).map_err(plain)?;
+        // The target's own name may be too long to be made longer.
+        let file = Builder::new()
+            .prefix(".creepage-")
+            .suffix(".partial")
+            .rand_bytes(12)
+            .make_in(folder(target), |path| create(path, old.is_some()))?;
         if let Some(old) = old {
             keep_owner(file.as_file(), &old);
             file.as_file().set_permissions(old.permissions())?;
@@ -91,14 +87,19 @@ impl Write for Temporary {
     }
 }
 
-/// The error of the system, without the temporary name.
-fn plain(error: io::Error) -> io::Error {
-    let cause = error.get_ref().and_then(std::error::Error::source);
-    let cause = cause.and_then(|cause| cause.downcast_ref::<io::Error>());
-    match cause.and_then(io::Error::raw_os_error) {
-        Some(code) => io::Error::from_raw_os_error(code),
-        None => error,
+/// Creates a file where there is nothing, not even a link. A new one has the permissions of the umask; one that gets those of an older file is
+/// its owner's alone until then.
+fn create(path: &Path, is_private: bool) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    options.write(true).create_new(true);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::OpenOptionsExt;
+        options.mode(if is_private { 0o600 } else { 0o666 });
     }
+    #[cfg(not(unix))]
+    let _ = is_private;
+    options.open(path)
 }
 
 fn folder(target: &Path) -> &Path {

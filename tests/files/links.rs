@@ -1,7 +1,7 @@
 //! Links, permissions, pipes and devices.
 
 use std::fs::{self, OpenOptions};
-use std::os::unix::fs::{FileTypeExt, MetadataExt};
+use std::os::unix::fs::{FileTypeExt, MetadataExt, chown};
 
 use crate::common::{Folder, PRECIOUS, WRITERS, assert_complete, said};
 
@@ -49,6 +49,16 @@ fn permissions_are_kept_and_new_files_follow_the_umask() {
             let replaced = fs::metadata(folder.path(&name)).expect("a file").ino();
             assert_ne!(number, replaced, "{command:?} wrote into the file");
         }
+        // Only root may give a file away.
+        if chown(folder.path(&name), Some(65534), Some(65534)).is_ok() {
+            folder.succeeds(&command);
+            let found = fs::metadata(folder.path(&name)).expect("a file");
+            assert_eq!(
+                (found.uid(), found.gid(), folder.mode(&name)),
+                (65534, 65534, 0o664),
+                "{command:?}"
+            );
+        }
     }
 }
 
@@ -62,6 +72,11 @@ fn devices_and_pipes_are_written_as_they_are() {
     assert!(null.file_type().is_char_device());
     let out = folder.succeeds(&[&page[..], &["/dev/stdout"]].concat()).stdout;
     assert_complete(&out, "html");
+
+    folder.refused(
+        &[&table[..], &["/dev/stdout", "--json"]].concat(),
+        "where --json prints",
+    );
 
     // Into a file as well, where the table is followed by the answer in words.
     let out = OpenOptions::new()

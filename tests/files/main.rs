@@ -7,6 +7,7 @@ mod common;
 mod inputs;
 mod kinds;
 mod links;
+#[cfg(target_os = "linux")]
 mod random;
 mod signals;
 mod texts;

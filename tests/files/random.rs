@@ -247,7 +247,9 @@ fn try_cases(count: usize, seed: u64) {
         );
         for (both, reader, ending) in pipes {
             // The reader has opened the pipe before its last writer goes.
-            while !is_open(reader.id(), &folder) {}
+            while !is_open(reader.id(), &folder) {
+                std::thread::sleep(std::time::Duration::from_millis(1));
+            }
             drop(both);
             let read = reader.wait_with_output().expect("cat");
             if allowed {
