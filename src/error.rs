@@ -58,9 +58,6 @@ pub enum Error {
         /// The most that friction can be \[N/m\].
         limit: f64,
     },
-    /// The answer holds a number that is not finite.
-    #[error("the computation gave a number that is not finite: this is no answer")]
-    NotFinite,
     /// The duct is so long beside its depth that no mesh of it can be computed.
     #[error(
         "duct.length = {length} m and duct.depth = {depth} m: a mesh as fine as this depth asks for has {nodes:.1e} nodes along the duct, \
@@ -83,6 +80,14 @@ pub enum Error {
         found: &'static str,
         /// Why it does not fit.
         reason: Cow<'static, str>,
+    },
+    /// The computation made a number that is none: no answer holds one.
+    #[error("the computation failed: {field} came out as {value}")]
+    NotFinite {
+        /// Where in the answer.
+        field: String,
+        /// What came out.
+        value: f64,
     },
     /// An error whose cause stands in a scene file.
     #[error("{location}: {source}{}", .location.excerpt())]

@@ -55,6 +55,10 @@ pub mod design;
 mod error;
 #[cfg(feature = "plot")]
 pub mod figure;
+#[cfg(any(feature = "plot", feature = "sweep"))]
+mod finite;
+#[cfg(feature = "sweep")]
+pub mod output;
 mod planner;
 pub mod presets;
 #[cfg(feature = "plot")]

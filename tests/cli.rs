@@ -230,7 +230,9 @@ fn run_writes_the_same_numbers_as_csv() {
 #[test]
 fn csv_replaces_an_older_longer_file() {
     let file = folder("csv_replaces").join("forces.csv");
-    fs::write(&file, "old\n".repeat(1000)).expect("a file");
+    let _ = fs::remove_file(&file);
+    printed(&["run", UPPER, "--set", "traffic.passes=9", "--csv", text(&file)]);
+    assert_eq!(table(&file).1.len(), 9);
     printed(&["run", UPPER, "--set", "traffic.passes=2", "--csv", text(&file)]);
     assert_eq!(table(&file).1.len(), 2);
 }
@@ -1167,6 +1169,7 @@ fn a_table_on_standard_output_stands_alone() {
         &["run", UPPER, "--set", "traffic.passes=3"][..],
         &["profile", UPPER, "--positions", "0,1"],
     ] {
+        let _ = fs::remove_file(&file);
         printed(&[arguments, &["--csv", text(&file)]].concat());
         let table = printed(&[arguments, &["--csv", "-"]].concat());
         assert_eq!(table, fs::read_to_string(&file).expect("the table"));

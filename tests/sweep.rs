@@ -66,6 +66,18 @@ fn run_by(
     sweep.run(output, &options)
 }
 
+/// A sweep in whose table's place a folder comes while it computes: the journal of all points is left, and nothing else.
+fn blocked(sweep: &Sweep, output: &Path, evaluate: &(dyn Fn(&Scene) -> Result<Run, Error> + Sync)) {
+    let evaluate = |scene: &Scene| {
+        let _ = fs::create_dir(output);
+        evaluate(scene)
+    };
+    assert!(run_by(sweep, output, 2, &evaluate).is_err());
+    fs::remove_dir(output).unwrap();
+    let left: Vec<_> = fs::read_dir(output.parent().unwrap()).unwrap().collect();
+    assert_eq!(left.len(), 1, "{left:?}");
+}
+
 /// Header and rows of a CSV file.
 fn table(file: &Path) -> (Vec<String>, Vec<Vec<String>>) {
     let mut reader = csv::Reader::from_path(file).unwrap();
@@ -209,11 +221,8 @@ fn wherever_a_sweep_was_cut_off_it_ends_with_the_same_file() {
     let undisturbed = fs::read(&output).unwrap();
     assert_eq!(calls.swap(0, Ordering::SeqCst), 20);
 
-    // With a folder in its place the table cannot be written: the journal of all points is left.
     fs::remove_file(&output).unwrap();
-    fs::create_dir(output.with_extension("csv.partial")).unwrap();
-    assert!(run_by(&sweep, &output, 2, &evaluate).is_err());
-    fs::remove_dir(output.with_extension("csv.partial")).unwrap();
+    blocked(&sweep, &output, &evaluate);
     let whole = fs::read(journal(&output)).unwrap();
     calls.store(0, Ordering::SeqCst);
 
@@ -246,8 +255,7 @@ fn a_journal_of_something_else_is_refused_and_kept() {
     let output = output("other");
     let first = sweep(&["friction.dynamic_coefficient=0.1:1:0.1"]);
     let evaluate = formula(|_| 1.0);
-    fs::create_dir(output.with_extension("csv.partial")).unwrap();
-    assert!(run_by(&first, &output, 1, &evaluate).is_err());
+    blocked(&first, &output, &evaluate);
     let left = fs::read(journal(&output)).unwrap();
     for other in [
         sweep(&["friction.dynamic_coefficient=0.1:1:0.3"]),
@@ -266,6 +274,90 @@ fn a_journal_of_something_else_is_refused_and_kept() {
         Err(SweepError::OtherJournal { .. })
     ));
     assert_eq!(fs::read(journal(&output)).unwrap(), b"my notes\n");
+}
+
+#[test]
+fn remarks_in_a_scene_make_no_other_sweep() {
+    let output = output("remarks");
+    let evaluate = formula(|_| 1.0);
+    let text = fs::read_to_string("examples/scenes/full-scale-upper.toml").unwrap();
+    let axes = || vec![Axis::parse("duct.length=10m,20m").unwrap()];
+    let of = |text: &str| {
+        let file = SceneFile::from_toml("scene", text).unwrap();
+        Sweep::new(file, axes(), Samples::default()).unwrap()
+    };
+    blocked(&of(&text), &output, &evaluate);
+    let other = of(&text.replace("passes = 200", "passes = 201"));
+    assert!(matches!(
+        run_by(&other, &output, 1, &evaluate),
+        Err(SweepError::OtherJournal { .. })
+    ));
+    let remarked = of(&format!(
+        "# a remark\n\n{}",
+        text.replace("passes = 200", "passes  =  200  # enough")
+    ));
+    assert_eq!(run_by(&remarked, &output, 1, &evaluate).unwrap().resumed, 2);
+}
+
+#[test]
+fn an_answer_that_is_no_number_is_a_failing_point() {
+    let output = output("infinite");
+    let sweep = sweep(&["duct.length=10m,20m,30m"]);
+    let evaluate = formula(|scene| match scene.duct.length {
+        10.0 => f64::NAN,
+        20.0 => f64::INFINITY,
+        _ => 1.0,
+    });
+    let summary = run_by(&sweep, &output, 1, &evaluate).unwrap();
+    assert_eq!(summary.failed, 2);
+    let (header, rows) = table(&output);
+    let error = header.iter().position(|name| name == "error").unwrap();
+    for (row, words) in rows.iter().zip(["came out as NaN", "came out as inf", ""]) {
+        assert!(row[error].ends_with(words), "{row:?}");
+        let is_number = |cell: &String| cell.parse().is_ok_and(|value: f64| !value.is_finite());
+        assert!(!row[..error].iter().any(is_number), "{row:?}");
+    }
+}
+
+#[test]
+fn a_file_of_something_else_is_kept_unless_forced() {
+    let output = output("foreign");
+    let sweep = sweep(&["duct.length=10m,20m"]);
+    let evaluate = formula(|_| 1.0);
+    fs::write(&output, "pass,force_n\n1,2\n").unwrap();
+    let error = run_by(&sweep, &output, 1, &evaluate).unwrap_err();
+    assert!(
+        matches!(error, SweepError::Output(_)) && error.is_bad_input(),
+        "{error}"
+    );
+    assert_eq!(fs::read(&output).unwrap(), b"pass,force_n\n1,2\n");
+    assert!(!journal(&output).exists());
+    let options = SweepOptions {
+        evaluate: Some(&evaluate),
+        force: true,
+        ..SweepOptions::default()
+    };
+    sweep.run(&output, &options).unwrap();
+    assert_eq!(table(&output).1.len(), 2);
+}
+
+#[test]
+fn what_comes_to_the_output_meanwhile_is_kept() {
+    let output = output("meanwhile");
+    let sweep = sweep(&["duct.length=10m,20m"]);
+    let force = formula(|_| 1.0);
+    let evaluate = |scene: &Scene| {
+        fs::write(&output, "notes\n").unwrap();
+        force(scene)
+    };
+    assert!(matches!(
+        run_by(&sweep, &output, 1, &evaluate),
+        Err(SweepError::Output(_))
+    ));
+    assert_eq!(fs::read(&output).unwrap(), b"notes\n");
+    // With another place for the notes nothing is computed again.
+    fs::remove_file(&output).unwrap();
+    assert_eq!(run_by(&sweep, &output, 1, &force).unwrap().resumed, 2);
 }
 
 #[test]
@@ -458,7 +550,8 @@ fn parquet_holds_what_csv_holds() {
             match field {
                 Field::Double(value) => assert_eq!(*value, text.parse::<f64>().unwrap()),
                 Field::Long(value) => assert_eq!(*value, text.parse::<i64>().unwrap()),
-                Field::Str(value) => assert_eq!(value, text),
+                // CSV alone keeps spreadsheets from taking `--set` for a formula.
+                Field::Str(value) => assert_eq!(value, text.strip_prefix('\'').unwrap_or(text)),
                 Field::Null => assert_eq!(text, ""),
                 other => panic!("{other:?}"),
             }

@@ -1,4 +1,4 @@
-//! Whether an answer can be true: the balance of forces, and numbers that are numbers.
+//! Whether an answer can be true: the balance of forces.
 //!
 //! In equilibrium friction carries at most q = μ_d N′ per metre. So the force differs between any two points of the cable by
 //! at most q times their distance and what clamps between them carry; at an end that is free it is at most q L and the
@@ -6,7 +6,7 @@
 
 use cable_dem::{CableState, DuctedCable, Mesh};
 
-use super::result::{PassRecord, RestraintRecord, Run};
+use super::result::{PassRecord, RestraintRecord};
 use crate::scene::{End, Scene};
 use crate::{Error, Saturation};
 
@@ -100,38 +100,4 @@ pub fn of_saturation(
 /// The larger in size of two forces.
 fn larger(a: f64, b: f64) -> f64 {
     if b.abs() > a.abs() { b } else { a }
-}
-
-/// Refuses an answer that holds what is not a finite number.
-pub fn of_numbers(run: &Run) -> Result<(), Error> {
-    let records = run.passes.iter().flat_map(|r| {
-        [
-            r.downstream_force_n,
-            r.downstream_peak_n,
-            r.upstream_force_n,
-            r.upstream_peak_n,
-            r.max_compression_n,
-            r.upstream_displacement_m,
-            r.downstream_displacement_m,
-            r.dissipated_energy_j.unwrap_or(0.0),
-        ]
-    });
-    let others = [
-        run.error_estimate.relative,
-        run.duct_motion.peak_longitudinal_m,
-        run.duct_motion.peak_vertical_m,
-        run.saturation.map_or(0.0, |saturation| saturation.force_n),
-    ];
-    let clamps = run.restraints.iter().map(|clamp| clamp.force_n);
-    let profile = run.force_profile.force_n.iter().copied();
-    if records
-        .chain(others)
-        .chain(clamps)
-        .chain(profile)
-        .all(f64::is_finite)
-    {
-        Ok(())
-    } else {
-        Err(Error::NotFinite)
-    }
 }

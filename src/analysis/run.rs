@@ -14,7 +14,7 @@ use super::result::{
 use super::saturation::{force_series, saturation};
 use super::{balance, law};
 use crate::planner::{Plan, plan, plan_on};
-use crate::{Error, Scene};
+use crate::{Error, Scene, finite};
 
 /// A law that loses more than this share of the stored force in one pass gives no answer.
 const LARGEST_LEAK: f64 = 0.9;
@@ -107,7 +107,7 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
                     Ok(law) => {
                         answer.summary.ground = plan.ground.exact_name.into();
                         let run = answer.by_law(law);
-                        balance::of_numbers(&run)?;
+                        finite::check(&run)?;
                         return Ok(run);
                     }
                     Err(error) if !plan.method.one_by_one => return Err(error),
@@ -138,7 +138,7 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
         }
         answer.by_simulation(&solved)?
     };
-    balance::of_numbers(&run)?;
+    finite::check(&run)?;
     Ok(run)
 }
 

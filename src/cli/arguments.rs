@@ -152,6 +152,16 @@ pub struct OutputArguments {
     /// Write a table to this file; - is standard output, where nothing else is printed then
     #[arg(long, value_name = "FILE")]
     pub csv: Option<PathBuf>,
+    #[command(flatten)]
+    pub force: Force,
+}
+
+/// Whether files that are not this command's own are replaced.
+#[derive(Debug, Args)]
+pub struct Force {
+    /// Replace a file even if it is of another kind than what is written; a file that the command reads is never replaced
+    #[arg(long)]
+    pub force: bool,
 }
 
 /// What stands for standard output in place of a file.

@@ -4,11 +4,12 @@ use std::io::{self, IsTerminal, Write};
 
 use super::arguments::{CalibrateArguments, OutputArguments, SceneArguments};
 use super::input::Input;
-use super::{Failure, write};
+use super::{Failure, terminal, write};
 use crate::calibration::{
     BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Observer, Readings,
     Resampling, Unknown,
 };
+use crate::output::Kind;
 use crate::scene::FrictionLaw;
 
 /// Rows of the table of readings on a terminal.
@@ -20,9 +21,9 @@ pub fn execute(
     output: &OutputArguments,
 ) -> Result<(), Failure> {
     let input = Input::read(scene)?;
-    let scene = &input.scene;
     let readings = Readings::from_file(&arguments.data).map_err(crate::Error::from)?;
-    write::writable(output)?;
+    let table = write::table(output, Kind::Fit, [&*scene.scene, &arguments.data])?;
+    let scene = &input.scene;
     let (bar, observer) = progress();
     let options = CalibrateOptions {
         unknowns: arguments.fit.iter().copied().map(Unknown::shared).collect(),
@@ -47,11 +48,11 @@ pub fn execute(
     bar.finish_and_clear();
     let mut answer = input.judged(answer)?;
     for warning in &answer.warnings {
-        let _ = writeln!(io::stderr(), "warning: {warning}");
+        terminal::warn(warning);
     }
     answer.warnings.splice(0..0, input.warnings);
-    if let Some(file) = &output.csv {
-        write::rows(file, answer.fit.iter())?;
+    if let Some(table) = table {
+        table.write(&answer.fit)?;
     }
     if output.json {
         write::json(&answer)
@@ -82,8 +83,9 @@ fn progress() -> (indicatif::ProgressBar, Option<Observer>) {
 }
 
 fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    writeln!(out, "{}, law {}", answer.titles.join("; "), law.name())?;
+    let mut out = terminal::out();
+    let titles: Vec<String> = answer.titles.iter().map(|title| terminal::line(title)).collect();
+    writeln!(out, "{}, law {}", titles.join("; "), law.name())?;
     writeln!(out)?;
     writeln!(
         out,

@@ -7,7 +7,7 @@ use indicatif::ProgressBar;
 use super::Failure;
 use super::arguments::SceneArguments;
 use super::input::Input;
-use super::write;
+use super::{terminal, write};
 use crate::design::{Design, DesignError, DesignOptions, Limits, Place, TradeOff, design, passes};
 use crate::scene::Dimension;
 
@@ -90,9 +90,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let answer = design(&input.scene, &options);
     bar.finish_and_clear();
     let answer = match answer {
-        Err(DesignError::Analysis(error)) => input.judged(Err(error))?,
+        Err(DesignError::Analysis(error)) => input.located(Err(error))?,
         answer => answer?,
     };
+    let answer = input.judged(Ok(answer))?;
     if arguments.json {
         write::json(&answer)
     } else {
@@ -101,13 +102,18 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 fn print(design: &Design) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
+    let mut out = terminal::out();
     let place = match design.place {
         Place::Upstream => "spring at the upstream end".to_owned(),
         Place::Downstream => "spring at the downstream end".to_owned(),
         Place::Clamp(position) => format!("clamp at {position} m"),
     };
-    writeln!(out, "{}: {place}, {} passes", design.title, design.passes)?;
+    writeln!(
+        out,
+        "{}: {place}, {} passes",
+        terminal::line(&design.title),
+        design.passes
+    )?;
     write!(out, "limits: {} N", design.limits.force_n)?;
     if let Some(movement) = design.limits.movement_m {
         write!(out, ", {} mm", 1e3 * movement)?;

@@ -1,10 +1,10 @@
 //! The scene that a command works on.
 
-use std::io::Write;
+use serde::Serialize;
 
-use super::Failure;
 use super::arguments::SceneArguments;
-use crate::{Error, Scene, SceneFile};
+use super::{Failure, terminal};
+use crate::{Error, Scene, SceneFile, finite};
 
 /// A scene and the file it came from.
 pub struct Input {
@@ -22,7 +22,7 @@ impl Input {
         let mut warnings = Vec::new();
         for slip in file.unit_slips() {
             warnings.push(slip.to_string());
-            let _ = writeln!(std::io::stderr(), "warning: {slip}{}", slip.location.excerpt());
+            terminal::warn(format_args!("{slip}{}", slip.location.excerpt()));
         }
         Ok(Self {
             file,
@@ -31,8 +31,15 @@ impl Input {
         })
     }
 
+    /// The answer, all of whose numbers are finite, or the error with the line of the key at fault.
+    pub fn judged<T: Serialize>(&self, answer: Result<T, Error>) -> Result<T, Failure> {
+        let answer = self.located(answer)?;
+        finite::check(&answer)?;
+        Ok(answer)
+    }
+
     /// The answer, or the error with the line of the key at fault.
-    pub fn judged<T>(&self, answer: Result<T, Error>) -> Result<T, Failure> {
+    pub fn located<T>(&self, answer: Result<T, Error>) -> Result<T, Failure> {
         answer.map_err(|error| Failure::Analysis(error.located(&self.file)))
     }
 }

@@ -9,14 +9,18 @@ mod presets;
 mod print;
 #[cfg(feature = "plot")]
 mod report;
+mod signals;
 mod sweep;
+mod terminal;
 mod write;
 
+use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
+use crate::output::{Kind, OutputError};
 use crate::{Run, RunOptions, Scene};
 use arguments::{Arguments, Command};
 use input::Input;
@@ -35,16 +39,16 @@ enum Failure {
     Design(#[from] crate::design::DesignError),
     #[error("no point of the sweep has an answer")]
     Nothing,
+    #[error("bad usage, which has been told")]
+    Unparsed,
     #[error("{argument}: found {found}; allowed: {allowed}")]
     Usage {
         argument: String,
         found: String,
         allowed: String,
     },
-    #[error("{file}: cannot be written: {source}")]
-    Unwritable { file: String, source: std::io::Error },
-    #[error("{file}: cannot be written: {source}")]
-    Write { file: String, source: csv::Error },
+    #[error(transparent)]
+    File(OutputError),
     #[error("standard output: cannot be written: {0}")]
     Output(#[from] std::io::Error),
     #[error("standard output: cannot be written: {0}")]
@@ -57,18 +61,30 @@ impl From<crate::SceneError> for Failure {
     }
 }
 
+impl From<OutputError> for Failure {
+    fn from(error: OutputError) -> Self {
+        match error {
+            OutputError::StandardOutput(error) => Self::Output(error),
+            error => Self::File(error),
+        }
+    }
+}
+
 /// Runs the command with the process's arguments. Exit status: 0 done; 1 the computation failed; 2 bad input or usage.
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    match execute(&arguments.command) {
+    match Arguments::try_parse()
+        .map_or_else(|error| unparsed(&error), |arguments| execute(&arguments.command))
+    {
         Ok(()) => ExitCode::SUCCESS,
         // The reader of a pipe has gone: it has what it wanted.
         Err(Failure::Output(error)) if error.kind() == std::io::ErrorKind::BrokenPipe => ExitCode::SUCCESS,
         Err(failure) => {
-            // A closed standard error leaves nobody to tell.
-            let _ = writeln!(std::io::stderr(), "error: {failure}");
+            if !matches!(failure, Failure::Unparsed) {
+                terminal::fail(&failure);
+            }
             match failure {
-                Failure::Usage { .. } | Failure::Unwritable { .. } => ExitCode::from(2),
+                Failure::Usage { .. } | Failure::Unparsed => ExitCode::from(2),
+                Failure::File(error) if error.is_bad_input() => ExitCode::from(2),
                 Failure::Design(error) if error.is_bad_input() => ExitCode::from(2),
                 Failure::Sweep(error) if error.is_bad_input() => ExitCode::from(2),
                 Failure::Analysis(error) if error.is_bad_input() => ExitCode::from(2),
@@ -76,6 +92,22 @@ pub fn main() -> ExitCode {
             }
         }
     }
+}
+
+/// Prints help, or what is wrong with the arguments.
+fn unparsed(error: &clap::Error) -> Result<(), Failure> {
+    if !error.use_stderr() {
+        return Ok(error.print()?);
+    }
+    let text = error.render().to_string();
+    let is_hidden = |argument: OsString| argument.to_string_lossy().contains(terminal::is_hidden);
+    if terminal::cut(&text) == text && !std::env::args_os().any(is_hidden) {
+        // With its colours.
+        let _ = error.print();
+    } else {
+        let _ = writeln!(terminal::err(), "{}", terminal::cut(text.trim_end()));
+    }
+    Err(Failure::Unparsed)
 }
 
 fn execute(command: &Command) -> Result<(), Failure> {
@@ -86,12 +118,12 @@ fn execute(command: &Command) -> Result<(), Failure> {
             output,
         } => {
             let input = Input::read(scene)?;
-            write::writable(output)?;
+            let table = write::table(output, Kind::Passes, [&*scene.scene])?;
             let mut answer = input.judged(run(&input.scene, *verify))?;
             warn(&answer.warnings);
             answer.warnings.splice(0..0, input.warnings);
-            if let Some(file) = &output.csv {
-                write::passes(file, &answer.passes)?;
+            if let Some(table) = table {
+                table.write(&answer.passes)?;
             }
             if output.json {
                 write::json(&answer)
@@ -107,13 +139,13 @@ fn execute(command: &Command) -> Result<(), Failure> {
             output,
         } => {
             let input = Input::read(scene)?;
-            write::writable(output)?;
+            let table = write::table(output, Kind::Motion, [&*scene.scene])?;
             let answer = input.judged(match positions {
                 Some(positions) => crate::profile_at(&input.scene, positions),
                 None => crate::profile(&input.scene),
             })?;
-            if let Some(file) = &output.csv {
-                write::profile(file, &answer)?;
+            if let Some(table) = table {
+                table.write(write::motion(&answer))?;
             }
             if output.json {
                 write::json(&answer)
@@ -141,7 +173,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
         } => calibrate::execute(scene, calibrate, output),
         Command::Check { scene } => {
             let input = Input::read(scene)?;
-            let plan = input.judged(crate::plan(&input.scene))?;
+            let plan = input.located(crate::plan(&input.scene))?;
             warn(&plan.report().warnings);
             print::checked(&input.scene)
         }
@@ -162,7 +194,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
 /// Tells warnings on standard error.
 fn warn(warnings: &[String]) {
     for warning in warnings {
-        let _ = writeln!(std::io::stderr(), "warning: {warning}");
+        terminal::warn(warning);
     }
 }
 

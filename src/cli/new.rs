@@ -1,11 +1,12 @@
 //! `creepage new`: a commented scene to start from.
 
-use std::fs::OpenOptions;
-use std::io::{self, BufRead, ErrorKind, IsTerminal, Write};
-use std::path::{Path, PathBuf};
+use std::io::{self, BufRead, IsTerminal, Write};
+use std::path::PathBuf;
 
-use super::Failure;
+use super::arguments::Force;
+use super::{Failure, terminal, write};
 use crate::Scene;
+use crate::output::{Kind, OutputError};
 use crate::template::{Template, TemplateGround};
 
 /// Arguments of `creepage new`.
@@ -19,7 +20,7 @@ Examples:
   creepage new my-duct.toml --pavement n6-cbr6 --downstream \"3 MN/m\" --passes 1000"
 )]
 pub struct Arguments {
-    /// File to write; it must not exist
+    /// File to write; one that exists is replaced only with --force
     pub file: PathBuf,
     /// Title of the scene
     #[arg(long)]
@@ -57,13 +58,19 @@ pub struct Arguments {
     /// Number of passes
     #[arg(long)]
     pub passes: Option<String>,
+    #[command(flatten)]
+    pub force: Force,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let name = arguments.file.display().to_string();
-    if arguments.file.exists() {
-        return Err(exists(&name));
-    }
+    let existing = |error| match error {
+        OutputError::OtherKind { .. } => exists(&name),
+        error => error.into(),
+    };
+    let file = write::files([], &arguments.force)
+        .output(&arguments.file, Kind::Scene)
+        .map_err(existing)?;
     let mut template = Template::default();
     let ask = io::stdin().is_terminal() && io::stderr().is_terminal();
     for question in questions(arguments) {
@@ -81,9 +88,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     let text = template.to_toml(&name)?;
     crate::check(&Scene::from_toml(&name, &text)?)?;
-    write(&arguments.file, &text)?;
+    // Whoever made the file meanwhile keeps it.
+    file.write(|out| out.write_all(text.as_bytes()))
+        .map_err(existing)?;
     writeln!(
-        io::stdout().lock(),
+        terminal::out(),
         "{name} is written; to compute: creepage run {name}"
     )?;
     Ok(())
@@ -143,7 +152,7 @@ fn questions(given: &Arguments) -> [Question<'_>; 11] {
 /// Asks until the answer makes a scene; nothing keeps what is shown in brackets.
 fn answer(question: &Question, name: &str, template: &mut Template) -> Result<(), Failure> {
     loop {
-        let mut err = io::stderr().lock();
+        let mut err = terminal::err();
         write!(err, "{} [{}]: ", question.words, (question.now)(template))?;
         err.flush()?;
         let mut line = String::new();
@@ -164,27 +173,10 @@ fn answer(question: &Question, name: &str, template: &mut Template) -> Result<()
     }
 }
 
-fn write(file: &Path, text: &str) -> Result<(), Failure> {
-    let unwritable = |source| Failure::Unwritable {
-        file: file.display().to_string(),
-        source,
-    };
-    // Whoever made the file meanwhile keeps it.
-    let mut open = OpenOptions::new()
-        .write(true)
-        .create_new(true)
-        .open(file)
-        .map_err(|error| match error.kind() {
-            ErrorKind::AlreadyExists => exists(&file.display().to_string()),
-            _ => unwritable(error),
-        })?;
-    open.write_all(text.as_bytes()).map_err(unwritable)
-}
-
 fn exists(name: &str) -> Failure {
     Failure::Usage {
         argument: "FILE".into(),
         found: format!("{name}, which exists"),
-        allowed: "the name of a new file: nothing is overwritten".into(),
+        allowed: "the name of a new file: nothing is overwritten without --force".into(),
     }
 }

@@ -1,9 +1,9 @@
 //! `creepage presets`: the named values and where they are from.
 
-use std::io::{self, Write};
+use std::io::Write;
 
 use super::Failure;
-use super::write;
+use super::{terminal, write};
 use crate::presets::{Preset, PresetKind, all};
 
 /// Arguments of `creepage presets`.
@@ -28,7 +28,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.json {
         return write::json(&chosen);
     }
-    let mut out = io::stdout().lock();
+    let mut out = terminal::out();
     let mut kind = None;
     for group in chosen.chunk_by(|a, b| a.kind == b.kind && a.sources == b.sources) {
         if kind != Some(group[0].kind) {

@@ -1,14 +1,14 @@
 //! Answers for the reader at a terminal.
 
-use std::io::{self, Write};
+use std::io::Write;
 
-use super::Failure;
+use super::{Failure, terminal};
 use crate::shown::{rounded, selected, share, time};
 use crate::{PlanReport, Profile, Run, Scene};
 
 pub fn run(run: &Run) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    writeln!(out, "{}", run.title)?;
+    let mut out = terminal::out();
+    writeln!(out, "{}", terminal::line(&run.title))?;
     writeln!(
         out,
         "duct motion: {:.2} µm along, {:.1} µm down",
@@ -75,15 +75,15 @@ pub fn run(run: &Run) -> Result<(), Failure> {
         run.plan.ground, run.plan.cable, run.plan.node_spacing_m, run.plan.vehicle_step_m
     )?;
     for reason in &run.plan.reasons {
-        writeln!(out, "  {reason}")?;
+        writeln!(out, "  {}", terminal::sentence(reason))?;
     }
     Ok(())
 }
 
 /// The ladders, the rungs taken marked.
 pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    writeln!(out, "{}", plan.title)?;
+    let mut out = terminal::out();
+    writeln!(out, "{}", terminal::line(&plan.title))?;
     let error = plan.estimated_error.map_or_else(
         || "not known before the run".to_owned(),
         |error| format!("about {:.2} %", 100.0 * error),
@@ -112,7 +112,7 @@ pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
                 rung.name,
                 rung.estimated_error.map_or_else(String::new, share),
                 rung.estimated_seconds.map_or_else(String::new, time),
-                rung.reason
+                terminal::sentence(&rung.reason)
             )?;
         }
     }
@@ -120,7 +120,7 @@ pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
 }
 
 pub fn profile(profile: &Profile) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
+    let mut out = terminal::out();
     writeln!(out, "ground: {}", profile.ground)?;
     writeln!(
         out,
@@ -141,11 +141,14 @@ pub fn profile(profile: &Profile) -> Result<(), Failure> {
 }
 
 pub fn checked(scene: &Scene) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
+    let mut out = terminal::out();
     writeln!(
         out,
         "{}: valid; {} passes over a duct of {} m at {} m depth",
-        scene.title, scene.traffic.passes, scene.duct.length, scene.duct.depth
+        terminal::line(&scene.title),
+        scene.traffic.passes,
+        scene.duct.length,
+        scene.duct.depth
     )?;
     Ok(())
 }

@@ -1,11 +1,12 @@
 //! `creepage report`: a scene's answer as one page of HTML.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use super::arguments::SceneArguments;
+use super::arguments::{Force, SceneArguments};
 use super::input::Input;
 use super::{Failure, write};
 use crate::calibration::Readings;
+use crate::output::Kind;
 use crate::report::{Report, ReportOptions};
 
 /// Arguments of `creepage report`.
@@ -21,12 +22,14 @@ Examples:
 pub struct Arguments {
     #[command(flatten)]
     pub scene: SceneArguments,
-    /// Page to write (HTML); an older one is replaced
+    /// Page to write (HTML); an older page is replaced
     #[arg(short, long, value_name = "FILE")]
     pub output: PathBuf,
     /// Readings to draw over the force: CSV with the columns pass,force_n[,sigma_n], at the held end (the downstream one if both are)
     #[arg(long, value_name = "FILE")]
     pub data: Option<PathBuf>,
+    #[command(flatten)]
+    pub force: Force,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
@@ -37,19 +40,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         .map(Readings::from_file)
         .transpose()
         .map_err(crate::Error::from)?;
-    let sources = [Some(&arguments.scene.scene), arguments.data.as_ref()];
-    if sources
-        .into_iter()
-        .flatten()
-        .any(|source| same_file(source, &arguments.output))
-    {
-        return Err(Failure::Usage {
-            argument: "--output".into(),
-            found: format!("{}, which is read", arguments.output.display()),
-            allowed: "another file".into(),
-        });
-    }
-    let page = write::Replacement::of(&arguments.output)?;
+    let read = [Some(&*arguments.scene.scene), arguments.data.as_deref()];
+    let page =
+        write::files(read.into_iter().flatten(), &arguments.force).output(&arguments.output, Kind::Page)?;
     let report = super::with_progress(|progress| {
         Report::new(
             &input.scene,
@@ -61,14 +54,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             },
         )
     });
-    let report = input.judged(report)?;
+    let report = input.located(report)?;
     super::warn(&report.run().warnings);
-    page.write(&report.to_html())
-}
-
-fn same_file(one: &Path, other: &Path) -> bool {
-    match (one.canonicalize(), other.canonicalize()) {
-        (Ok(one), Ok(other)) => one == other,
-        _ => false,
-    }
+    Ok(page.write(|out| out.write_all(report.to_html().as_bytes()))?)
 }

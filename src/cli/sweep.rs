@@ -6,10 +6,11 @@ use std::path::PathBuf;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::Failure;
-use super::arguments::SceneArguments;
-use super::write;
+use super::arguments::{Force, SceneArguments};
+use super::{Failure, terminal, write};
 use crate::SceneFile;
+#[cfg(feature = "plot")]
+use crate::output::Kind;
 use crate::sweep::{Axis, Band, Progress, Quantiles, Samples, Sweep, SweepOptions, SweepSummary};
 #[cfg(feature = "plot")]
 use crate::sweep::{MapValue, Row, SweepMap};
@@ -18,7 +19,8 @@ use crate::sweep::{MapValue, Row, SweepMap};
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "A sweep that was interrupted goes on where it was when the same command is given again. A point that fails is a row with \
-its error. Numbers in the table are SI.
+its error. Numbers in the table are SI. In CSV an apostrophe \
+stands before a text that a spreadsheet would take for a formula.
 
 Examples:
   creepage sweep my-duct.toml --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out friction.csv
@@ -56,6 +58,8 @@ pub struct Arguments {
     /// Print the summary as one JSON document on standard output and nothing else there
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    pub force: Force,
 }
 
 /// What colours a map.
@@ -91,20 +95,23 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let sweep = Sweep::new(file, axes, samples)?;
     for slip in sweep.file_at(0)?.unit_slips() {
-        let _ = writeln!(io::stderr(), "warning: {slip}{}", slip.location.excerpt());
+        terminal::warn(format_args!("{slip}{}", slip.location.excerpt()));
     }
     let bar = RefCell::new(None);
     let progress = |progress: Progress| show(&mut bar.borrow_mut(), progress);
     let options = SweepOptions {
         threads: arguments.threads.map(usize::from),
         progress: io::stderr().is_terminal().then_some(&progress),
+        force: arguments.force.force,
         ..SweepOptions::default()
     };
+    let mut files = write::files([&*arguments.scene.scene], &arguments.force);
+    files.output(&arguments.out, crate::sweep::kind_of(&arguments.out)?)?;
     #[cfg(feature = "plot")]
     let map = match &arguments.map {
         Some(file) => {
-            write::creatable(file)?;
-            Some((file, SweepMap::new(&sweep, arguments.map_of.into())?))
+            let map = SweepMap::new(&sweep, arguments.map_of.into())?;
+            Some((files.output(file, Kind::Figure)?, map))
         }
         None => None,
     };
@@ -122,17 +129,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let summary = summary?;
     if let Some(error) = &summary.first_error {
         let SweepSummary { failed, points, .. } = summary;
-        let _ = writeln!(
-            io::stderr(),
-            "warning: {failed} of {points} points failed, the first with: {error}"
-        );
+        terminal::warn(format_args!(
+            "{failed} of {points} points failed, the first with: {error}"
+        ));
     }
     if summary.failed == summary.points {
         return Err(Failure::Nothing);
     }
     #[cfg(feature = "plot")]
     if let Some((file, map)) = map {
-        write::text(file, &map.to_svg()?)?;
+        let svg = map.to_svg()?;
+        file.write(|out| out.write_all(svg.as_bytes()))?;
     }
     if arguments.json {
         write::json(&summary)
@@ -156,7 +163,7 @@ fn show(bar: &mut Option<ProgressBar>, progress: Progress) {
 }
 
 fn print(summary: &SweepSummary, arguments: &Arguments) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
+    let mut out = terminal::out();
     write!(out, "{}: {} points", arguments.out.display(), summary.points)?;
     if summary.resumed > 0 {
         write!(out, ", {} of them done before", summary.resumed)?;

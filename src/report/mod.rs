@@ -31,7 +31,7 @@ mod words;
 use crate::calibration::Readings;
 use crate::design::Measure;
 use crate::scene::SolverMethod;
-use crate::{Error, FrictionProfile, PlanReport, Profile, Run, RunOptions, Scene, profile_at};
+use crate::{Error, FrictionProfile, PlanReport, Profile, Run, RunOptions, Scene, finite, profile_at};
 use agreement::Agreement;
 use measures::Comparison;
 
@@ -86,7 +86,7 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// [`Error`] when the scene's own run fails, or readings are given and no end of the cable is held. Ways to hold the cable that
+    /// [`Error`] when the scene's own run fails or makes a number that is none, or readings are given and no end of the cable is held. Ways to hold the cable that
     /// fail are told on the page.
     pub fn new(scene: &Scene, options: &ReportOptions<'_>) -> Result<Self, Error> {
         scene.validate()?;
@@ -112,7 +112,7 @@ impl Report {
             ..RunOptions::default()
         })?;
         let warnings = options.warnings.iter().chain(&run.warnings).cloned().collect();
-        Ok(Self {
+        let report = Self {
             plan: plan.report(),
             motion: profile_at(scene, &positions(scene))?,
             friction: friction(scene, &run),
@@ -121,7 +121,25 @@ impl Report {
             warnings,
             run,
             scene: scene.clone(),
-        })
+        };
+        report.check()?;
+        Ok(report)
+    }
+
+    /// Makes sure that every number on the page is one.
+    fn check(&self) -> Result<(), Error> {
+        finite::check(&self.run)?;
+        finite::check(&self.plan)?;
+        finite::check(&self.motion)?;
+        finite::check(&self.friction.passes)?;
+        let answers = self
+            .measures
+            .ways
+            .iter()
+            .filter_map(|way| way.answer.as_ref().ok());
+        answers.into_iter().try_for_each(finite::check)?;
+        let agreement = self.agreement.as_ref();
+        agreement.map_or(Ok(()), |a| finite::check(&[a.rms_n, a.mean_n, a.largest_n]))
     }
 
     /// The scene's answer.

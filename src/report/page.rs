@@ -15,6 +15,11 @@ pub fn page(report: &Report) -> String {
     // Nothing is ever loaded, whatever a text on the page may say.
     html.raw("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\"/>");
     html.raw("<meta name=\"color-scheme\" content=\"light dark\"/>");
+    // By this a page of ours is known from another.
+    let version = env!("CARGO_PKG_VERSION");
+    html.raw(&format!(
+        "<meta name=\"generator\" content=\"creepage {version}\"/>"
+    ));
     let title = escaped(&report.scene.title);
     html.raw(&format!("<title>{title}: cable creepage</title>"));
     html.raw(&format!(

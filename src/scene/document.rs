@@ -5,6 +5,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::error::shortened;
 use super::syntax::{Fault, fault};
 use super::table::Table;
 use super::{Location, SceneError};
@@ -38,6 +39,39 @@ pub(super) enum Content {
     Array(Vec<Node>),
     /// In the order of the file.
     Table(Vec<Entry>),
+}
+
+impl Content {
+    /// Appends the content in a form that no other content has.
+    #[cfg(feature = "sweep")]
+    fn write(&self, out: &mut String) {
+        use std::fmt::Write;
+        // Writing to a text does not fail.
+        let _ = match self {
+            Self::Text(text) => write!(out, "{text:?}"),
+            Self::Number { value, integer } => write!(out, "{value:?} {integer:?}"),
+            Self::Other => write!(out, "other"),
+            Self::Array(items) => {
+                out.push('[');
+                for item in items {
+                    item.content.write(out);
+                    out.push(',');
+                }
+                write!(out, "]")
+            }
+            Self::Table(entries) => {
+                let mut entries: Vec<&Entry> = entries.iter().collect();
+                entries.sort_by(|one, other| one.key.cmp(&other.key));
+                out.push('{');
+                for entry in entries {
+                    let _ = write!(out, "{:?}=", entry.key);
+                    entry.value.content.write(out);
+                    out.push(',');
+                }
+                write!(out, "}}")
+            }
+        };
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -137,10 +171,12 @@ impl Document {
         Ok(entries)
     }
 
-    /// What was written in the file, the overrides and the presets.
+    /// All keys and values in an order of their own: where they were written, and what was remarked there, does not show.
     #[cfg(feature = "sweep")]
-    pub fn texts(&self) -> impl Iterator<Item = &str> {
-        self.sources.iter().map(|source| source.text.as_str())
+    pub fn values(&self) -> String {
+        let mut text = String::new();
+        self.root.content.write(&mut text);
+        text
     }
 
     /// What ranks higher was set later.
@@ -181,12 +217,10 @@ impl Document {
             .get(place.span.clone())
             .unwrap_or_default();
         let line = text.lines().next().unwrap_or_default();
-        let shown: String = line.chars().take(LONGEST).collect();
-        if shown.len() < text.len() {
-            shown + "…"
-        } else {
-            shown
+        if line.chars().count() <= LONGEST && line.len() < text.len() {
+            return format!("{line}…");
         }
+        shortened(line, LONGEST)
     }
 }
 

@@ -33,7 +33,7 @@ pub enum SceneError {
         location: Box<Location>,
     },
     /// The file is not TOML.
-    #[error("{location}: not valid TOML: {message}{}", .location.excerpt())]
+    #[error("{location}: not valid TOML: {}{}", bounded(.message), .location.excerpt())]
     Syntax {
         /// Where.
         location: Box<Location>,
@@ -41,7 +41,7 @@ pub enum SceneError {
         message: String,
     },
     /// An override is not `KEY=VALUE`, or there is nothing at its key.
-    #[error("{location}: `{key}`: found {found}; allowed: {allowed}{}", .location.excerpt())]
+    #[error("{location}: `{}`: found {}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
     Override {
         /// Where.
         location: Box<Location>,
@@ -53,7 +53,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A key that is not known.
-    #[error("{location}: found unknown key `{key}`{}; allowed: {allowed}{}", did_you_mean(.suggestion.as_deref()), .location.excerpt())]
+    #[error("{location}: found unknown key `{}`{}; allowed: {}{}", cut(.key), did_you_mean(.suggestion.as_deref()), bounded(.allowed), .location.excerpt())]
     UnknownKey {
         /// Where.
         location: Box<Location>,
@@ -65,7 +65,7 @@ pub enum SceneError {
         suggestion: Option<String>,
     },
     /// A required key is not there.
-    #[error("{location}: key `{key}` is missing; allowed: {allowed}{}", .location.excerpt())]
+    #[error("{location}: key `{}` is missing; allowed: {}{}", cut(.key), bounded(.allowed), .location.excerpt())]
     MissingKey {
         /// The section that lacks it.
         location: Box<Location>,
@@ -75,7 +75,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A value of the wrong kind, such as a text where a list belongs.
-    #[error("{location}: `{key}`: found {found}; allowed: {allowed}{}", .location.excerpt())]
+    #[error("{location}: `{}`: found {}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
     WrongType {
         /// Where.
         location: Box<Location>,
@@ -87,7 +87,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A number in quotes without a unit.
-    #[error("{location}: `{key}`: missing unit: found {found}; allowed: {allowed}{}", .location.excerpt())]
+    #[error("{location}: `{}`: missing unit: found {}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
     MissingUnit {
         /// Where.
         location: Box<Location>,
@@ -99,7 +99,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A unit that is not known.
-    #[error("{location}: `{key}`: unknown unit `{unit}`: found {found}{}; allowed: {allowed}{}", did_you_mean(*.suggestion), .location.excerpt())]
+    #[error("{location}: `{}`: unknown unit `{}`: found {}{}; allowed: {}{}", cut(.key), cut(.unit), cut(.found), did_you_mean(*.suggestion), bounded(.allowed), .location.excerpt())]
     UnknownUnit {
         /// Where.
         location: Box<Location>,
@@ -115,7 +115,7 @@ pub enum SceneError {
         suggestion: Option<&'static str>,
     },
     /// A unit of another dimension.
-    #[error("{location}: `{key}`: wrong dimension: found {found}, {dimension}; allowed: {allowed}{}", .location.excerpt())]
+    #[error("{location}: `{}`: wrong dimension: found {}, {dimension}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
     WrongDimension {
         /// Where.
         location: Box<Location>,
@@ -129,7 +129,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A value outside its range, or not a finite number.
-    #[error("{location}: `{key}`: out of range: found {found}; allowed: {allowed}{}", .location.excerpt())]
+    #[error("{location}: `{}`: out of range: found {}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
     OutOfRange {
         /// Where.
         location: Box<Location>,
@@ -141,7 +141,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// A word that is not one of the allowed ones.
-    #[error("{location}: `{key}`: found {found}{}; allowed: {allowed}{}", did_you_mean(.suggestion.as_deref()), .location.excerpt())]
+    #[error("{location}: `{}`: found {}{}; allowed: {}{}", cut(.key), cut(.found), did_you_mean(.suggestion.as_deref()), bounded(.allowed), .location.excerpt())]
     UnknownWord {
         /// Where.
         location: Box<Location>,
@@ -155,7 +155,7 @@ pub enum SceneError {
         suggestion: Option<String>,
     },
     /// A value that contradicts another one.
-    #[error("{location}: `{key}`: found {found}; allowed: {allowed}{}", .location.excerpt())]
+    #[error("{location}: `{}`: found {}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
     Inconsistent {
         /// Where.
         location: Box<Location>,
@@ -177,7 +177,7 @@ pub enum SceneError {
         allowed: String,
     },
     /// The ground or a vehicle cannot be built from these values.
-    #[error("{location}: `{key}`: {source}{}", .location.excerpt())]
+    #[error("{location}: `{}`: {source}{}", cut(.key), .location.excerpt())]
     Rejected {
         /// Where.
         location: Box<Location>,
@@ -189,7 +189,29 @@ pub enum SceneError {
 }
 
 fn did_you_mean(suggestion: Option<&str>) -> String {
-    suggestion.map_or_else(String::new, |word| format!(" (did you mean `{word}`?)"))
+    suggestion.map_or_else(String::new, |word| format!(" (did you mean `{}`?)", cut(word)))
+}
+
+/// What was written, as far as a message repeats it.
+fn cut(text: &str) -> String {
+    /// Longest text that is repeated \[characters\].
+    const LONGEST: usize = 100;
+    shortened(text, LONGEST)
+}
+
+/// What is allowed, which may be a list of names from the scene.
+fn bounded(text: &str) -> String {
+    /// Longer than every list of this program's own \[characters\].
+    const LONGEST: usize = 1000;
+    shortened(text, LONGEST)
+}
+
+/// The beginning of the text, and how long it is where that is not all.
+pub(super) fn shortened(text: &str, longest: usize) -> String {
+    match text.char_indices().nth(longest) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
+    }
 }
 
 /// The error for a file whose bytes are not UTF-8.

@@ -113,10 +113,10 @@ impl SceneFile {
         slips::unit_slips(&self.document)
     }
 
-    /// What the file and the overrides say, to tell one scene from another.
+    /// What the file and the overrides say, to tell one scene from another; comments say nothing.
     #[cfg(feature = "sweep")]
-    pub(crate) fn texts(&self) -> impl Iterator<Item = &str> {
-        self.document.texts()
+    pub(crate) fn values(&self) -> String {
+        self.document.values()
     }
 }
 

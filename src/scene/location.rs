@@ -3,8 +3,12 @@
 use std::fmt;
 use std::ops::Range;
 
+use super::error::shortened;
+
 /// Longest piece of a line that is shown \[characters\].
 const LONGEST_EXCERPT: usize = 120;
+/// Longest name of a file, or text of an override, that is shown \[characters\].
+const LONGEST_NAME: usize = 300;
 
 /// A place in a scene file or in an override.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -103,7 +107,8 @@ impl Location {
 
 impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.file)?;
+        // An override stands here as it was written.
+        f.write_str(&shortened(&self.file, LONGEST_NAME))?;
         self.line.map_or(Ok(()), |line| write!(f, ", line {line}"))
     }
 }

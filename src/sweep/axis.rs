@@ -341,6 +341,15 @@ mod tests {
     }
 
     #[test]
+    fn what_goes_on_like_a_number_is_no_number() {
+        assert_eq!(number("1.2.3"), None);
+        assert_eq!(number("1 2"), None);
+        assert_eq!(number("1.2m"), Some((1.2, "m")));
+        // A step that is none makes no range, and so no millions of values.
+        assert_eq!(list("a=0:10000001:1.2.3"), ["0:10000001:1.2.3"]);
+    }
+
+    #[test]
     fn lists_keep_what_stands_in_brackets_together() {
         assert_eq!(listed("a=1,2, 3"), ["1", "2", "3"]);
         assert_eq!(

@@ -1,6 +1,7 @@
 //! What can go wrong in a sweep as a whole; what goes wrong at one point is recorded there.
 
 use crate::SceneError;
+use crate::output::OutputError;
 
 /// Error of a sweep.
 #[derive(Debug, thiserror::Error)]
@@ -43,6 +44,17 @@ pub enum SweepError {
         /// The journal.
         journal: String,
     },
+    /// The output cannot be written, or would replace what must not be lost.
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// The journal's name is taken by a link or by something that is not a file.
+    #[error(
+        "{journal}: found a link or something that is no file; allowed: the journal of this sweep, or none: remove it or name another output"
+    )]
+    NoJournal {
+        /// The journal.
+        journal: String,
+    },
     /// The journal cannot be opened, and so the output could not be written.
     #[error("{journal}: cannot be written: {source}")]
     Unwritable {
@@ -64,6 +76,10 @@ pub enum SweepError {
 impl SweepError {
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
-        !matches!(self, Self::File { .. } | Self::Busy { .. })
+        match self {
+            Self::Output(error) => error.is_bad_input(),
+            Self::File { .. } | Self::Busy { .. } => false,
+            _ => true,
+        }
     }
 }

@@ -34,6 +34,12 @@ impl Journal {
     /// Opens the journal of the sweep `name` with `count` points, or begins it.
     pub fn open(path: PathBuf, name: u64, count: usize) -> Result<Self, SweepError> {
         let failed = |source| failed(&path, source);
+        let other = || SweepError::NoJournal {
+            journal: path.display().to_string(),
+        };
+        if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
+            return Err(other());
+        }
         let file = OpenOptions::new()
             .read(true)
             .append(true)
@@ -43,6 +49,10 @@ impl Journal {
                 journal: path.display().to_string(),
                 source,
             })?;
+        // A link that was put there in between led to another file.
+        if !stands_at(&file, &path) {
+            return Err(other());
+        }
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
@@ -169,6 +179,21 @@ impl Journal {
     pub fn remove(self) -> Result<(), SweepError> {
         fs::remove_file(&self.path).map_err(|source| failed(&self.path, source))
     }
+}
+
+/// Whether the open file is the one at `path`, and no link leads there.
+#[cfg(unix)]
+fn stands_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    match (file.metadata(), fs::symlink_metadata(path)) {
+        (Ok(open), Ok(there)) => there.is_file() && (open.dev(), open.ino()) == (there.dev(), there.ino()),
+        _ => false,
+    }
+}
+
+#[cfg(not(unix))]
+fn stands_at(_: &File, path: &Path) -> bool {
+    fs::symlink_metadata(path).is_ok_and(|there| there.is_file())
 }
 
 fn failed(path: &Path, source: std::io::Error) -> SweepError {

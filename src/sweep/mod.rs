@@ -43,6 +43,8 @@ pub use map::{MapValue, SweepMap};
 pub use row::{Answer, Row};
 pub use run::{Evaluate, Progress, SweepOptions, SweepSummary};
 
+#[cfg(feature = "cli")]
+use crate::output::Kind;
 use crate::scene::SceneError;
 use crate::{Scene, SceneFile};
 
@@ -181,14 +183,17 @@ impl Sweep {
 
     /// What tells this sweep from another: program, scene, keys and values.
     fn name(&self) -> u64 {
-        let mut text = env!("CARGO_PKG_VERSION").to_owned();
-        for part in self.file.texts() {
-            text.push('\0');
-            text.push_str(part);
-        }
-        let grid = format!("\0{:?}\0{:?}", self.axes, self.samples);
-        row::checksum((text + &grid).as_bytes())
+        let version = env!("CARGO_PKG_VERSION");
+        let scene = self.file.values();
+        let text = format!("{version}\0{scene}\0{:?}\0{:?}", self.axes, self.samples);
+        row::checksum(text.as_bytes())
     }
+}
+
+/// What the name of an output asks for.
+#[cfg(feature = "cli")]
+pub(crate) fn kind_of(output: &std::path::Path) -> Result<Kind, SweepError> {
+    Ok(table::Format::of(output)?.kind())
 }
 
 /// A number in (0, 1), evenly distributed: that of one sample of one key.

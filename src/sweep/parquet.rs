@@ -1,6 +1,5 @@
 //! The table as Apache Parquet: one optional column of doubles, 64-bit counts or text for each column of the table.
 
-use std::fs::File;
 use std::io;
 use std::sync::Arc;
 
@@ -12,13 +11,14 @@ use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
 use super::table::{Cell, Column, Kind, Sink};
+use crate::output::Draft;
 
 /// Rows that are kept in memory before they are written.
 const GROUP: usize = 8192;
 
 /// A Parquet file in the making.
 pub struct Parquet {
-    writer: SerializedFileWriter<File>,
+    writer: SerializedFileWriter<Draft>,
     columns: Vec<Values>,
     rows: usize,
 }
@@ -31,7 +31,7 @@ enum Values {
 }
 
 impl Parquet {
-    pub fn new(file: File, columns: &[Column]) -> io::Result<Self> {
+    pub fn new(file: Draft, columns: &[Column]) -> io::Result<Self> {
         let fields = columns
             .iter()
             .map(field)
@@ -93,7 +93,7 @@ impl Sink for Parquet {
         Ok(())
     }
 
-    fn finish(mut self: Box<Self>) -> io::Result<File> {
+    fn finish(mut self: Box<Self>) -> io::Result<Draft> {
         self.flush().map_err(other)?;
         self.writer.into_inner().map_err(other)
     }
@@ -115,7 +115,7 @@ fn field(column: &Column) -> Result<Arc<Type>, ParquetError> {
 
 /// Writes the waiting values of the group's next column.
 fn next<T: DataType>(
-    group: &mut SerializedRowGroupWriter<'_, File>,
+    group: &mut SerializedRowGroupWriter<'_, Draft>,
     values: &mut Vec<Option<T::T>>,
 ) -> Result<(), ParquetError> {
     let Some(mut column) = group.next_column()? else {

@@ -97,17 +97,18 @@ impl Row {
             return Some(Self { index, outcome });
         }
         let mut words = rest.split(' ');
-        let mut number = || words.next()?.parse::<f64>().ok();
+        let finite = |word: &str| word.parse().ok().filter(|value: &f64| value.is_finite());
+        let mut number = || finite(words.next()?);
         let (downstream_force_n, upstream_force_n, max_compression_n) = (number()?, number()?, number()?);
         let saturation_force_n = match words.next()? {
             ABSENT => None,
-            word => Some(word.parse().ok()?),
+            word => Some(finite(word)?),
         };
         let passes_to_95_percent = match words.next()? {
             ABSENT => None,
             word => Some(word.parse().ok()?),
         };
-        let mut number = || words.next()?.parse::<f64>().ok();
+        let mut number = || finite(words.next()?);
         let answer = Answer {
             downstream_force_n,
             upstream_force_n,
@@ -153,7 +154,7 @@ mod tests {
             passes_to_95_percent: None,
             upstream_displacement_m: 0.1 + 0.2,
             downstream_displacement_m: -5e-324,
-            error_estimate: f64::INFINITY,
+            error_estimate: f64::MAX,
         };
         let saturated = Answer {
             saturation_force_n: Some(1.0 / 3.0),
@@ -187,6 +188,18 @@ mod tests {
                 outcome: row.outcome.map_err(|_| "out of range: found -1".to_owned()),
             };
             assert_eq!(back, expected);
+        }
+    }
+
+    #[test]
+    fn a_number_that_is_none_is_no_row() {
+        for value in [f64::INFINITY, f64::NEG_INFINITY, f64::NAN] {
+            let [mut row, ..] = rows();
+            let Ok(answer) = &mut row.outcome else {
+                panic!("an answer")
+            };
+            answer.error_estimate = value;
+            assert_eq!(Row::of_line(&row.to_line()), None);
         }
     }
 

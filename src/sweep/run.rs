@@ -14,7 +14,8 @@ use super::journal::Journal;
 use super::row::{Answer, Row};
 use super::table::{self, Cell, Column, Format, Kind, Sink};
 use super::{AxisValues, Sweep, SweepError};
-use crate::{Error, Run, Scene};
+use crate::output::{Files, Output};
+use crate::{Error, Run, Scene, finite};
 
 /// Rows that may wait for the journal.
 const WAITING: usize = 64;
@@ -33,6 +34,8 @@ pub struct SweepOptions<'a> {
     pub each: Option<&'a dyn Fn(&Row)>,
     /// Computes a point in place of [`crate::run`].
     pub evaluate: Option<&'a Evaluate<'a>>,
+    /// Whether the output replaces a file that is no table of a sweep.
+    pub force: bool,
 }
 
 /// How far a sweep is.
@@ -64,25 +67,21 @@ pub struct SweepSummary {
 impl Sweep {
     /// Computes all points that are not done yet and writes the table to `output`, whose name ends in `.csv` or `.parquet`.
     ///
-    /// The journal stands beside it, as `output.journal`, until the table is in place.
+    /// The journal stands beside it, as `output.journal`, until the table is in place. Where `output` is a link, it stands beside
+    /// what that points to.
     ///
     /// # Errors
     ///
-    /// [`SweepError`] when the output cannot be written, or a journal of something else is in its place. What fails at a point is
+    /// [`SweepError`] when the output cannot be written, or it or its journal is something else already. What fails at a point is
     /// a row of the table.
     pub fn run(&self, output: &Path, options: &SweepOptions<'_>) -> Result<SweepSummary, SweepError> {
         let format = Format::of(output)?;
-        if output.is_dir() {
-            return Err(SweepError::Unfit {
-                found: format!("the output {}, a folder", output.display()),
-                allowed: "a file",
-            });
-        }
-        let mut journal = Journal::open(table::beside(output, "journal"), self.name(), self.count)?;
+        let output = Files::reading([], options.force).output(output, format.kind())?;
+        let mut journal = Journal::open(table::beside(output.path(), "journal"), self.name(), self.count)?;
         let resumed = journal.done();
         self.compute(&mut journal, options)?;
         journal.force()?;
-        let summary = self.write(&journal, resumed, output, format, options.each)?;
+        let summary = self.write(&journal, resumed, &output, format, options.each)?;
         journal.remove()?;
         Ok(summary)
     }
@@ -139,6 +138,7 @@ impl Sweep {
     fn row(&self, index: usize, evaluate: &Evaluate<'_>) -> Row {
         let compute = || {
             let run = evaluate(&self.scene(index)?)?;
+            finite::check(&run)?;
             Ok::<_, Error>(Answer::of(&run))
         };
         let outcome = match catch_unwind(AssertUnwindSafe(compute)) {
@@ -186,7 +186,7 @@ impl Sweep {
         &self,
         journal: &Journal,
         resumed: usize,
-        output: &Path,
+        output: &Output,
         format: Format,
         each: Option<&dyn Fn(&Row)>,
     ) -> Result<SweepSummary, SweepError> {
@@ -216,7 +216,7 @@ impl Sweep {
                 }
                 self.record(sink, &columns, &row)
                     .map_err(|source| SweepError::File {
-                        file: output.display().to_string(),
+                        file: output.path().display().to_string(),
                         source,
                     })
             })

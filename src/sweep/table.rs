@@ -1,10 +1,11 @@
 //! The finished table, as CSV or Parquet.
 
-use std::fs::{self, File};
-use std::io::{self, BufWriter};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::SweepError;
+use super::axis::si;
+use crate::output::{Draft, Kind as FileKind, Output};
 
 /// Kind of the table file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,7 +41,8 @@ pub enum Cell<'a> {
 /// Takes rows one after the other.
 pub trait Sink {
     fn row(&mut self, cells: &[Cell]) -> io::Result<()>;
-    fn finish(self: Box<Self>) -> io::Result<File>;
+    /// Everything that was written, on its way to its place.
+    fn finish(self: Box<Self>) -> io::Result<Draft>;
 }
 
 impl Format {
@@ -62,7 +64,16 @@ impl Format {
         }
     }
 
-    fn sink(self, file: File, columns: &[Column]) -> io::Result<Box<dyn Sink>> {
+    /// What a file of this format is.
+    pub fn kind(self) -> FileKind {
+        match self {
+            Self::Csv => FileKind::Sweep,
+            #[cfg(feature = "parquet")]
+            Self::Parquet => FileKind::Parquet,
+        }
+    }
+
+    fn sink(self, file: Draft, columns: &[Column]) -> io::Result<Box<dyn Sink>> {
         Ok(match self {
             Self::Csv => Box::new(Csv::new(file, columns)?),
             #[cfg(feature = "parquet")]
@@ -71,27 +82,20 @@ impl Format {
     }
 }
 
-/// Writes a table under another name and puts it in place when it is whole.
+/// Writes a table, which comes into its place when it is whole.
 pub fn write(
-    output: &Path,
+    output: &Output,
     format: Format,
     columns: &[Column],
     rows: impl FnOnce(&mut dyn Sink) -> Result<(), SweepError>,
 ) -> Result<(), SweepError> {
-    let partial = beside(output, "partial");
     let failed = |source| SweepError::File {
-        file: partial.display().to_string(),
+        file: output.path().display().to_string(),
         source,
     };
-    let mut sink = File::create(&partial)
-        .and_then(|file| format.sink(file, columns))
-        .map_err(failed)?;
+    let mut sink = format.sink(output.begin()?, columns).map_err(failed)?;
     rows(&mut *sink)?;
-    sink.finish().and_then(|file| file.sync_all()).map_err(failed)?;
-    fs::rename(&partial, output).map_err(|source| SweepError::File {
-        file: output.display().to_string(),
-        source,
-    })
+    Ok(sink.finish().map_err(failed)?.finish()?)
 }
 
 /// The file's name with one more ending.
@@ -103,12 +107,12 @@ pub fn beside(output: &Path, ending: &str) -> PathBuf {
 }
 
 struct Csv {
-    writer: csv::Writer<BufWriter<File>>,
+    writer: csv::Writer<Draft>,
 }
 
 impl Csv {
-    fn new(file: File, columns: &[Column]) -> io::Result<Self> {
-        let mut writer = csv::Writer::from_writer(BufWriter::new(file));
+    fn new(file: Draft, columns: &[Column]) -> io::Result<Self> {
+        let mut writer = csv::Writer::from_writer(file);
         writer.write_record(columns.iter().map(|column| &column.name))?;
         Ok(Self { writer })
     }
@@ -119,17 +123,39 @@ impl Sink for Csv {
         let text = |cell: &Cell| match cell {
             Cell::Number(Some(value)) => value.to_string(),
             Cell::Count(Some(value)) => value.to_string(),
-            Cell::Text(Some(value)) => (*value).to_owned(),
+            Cell::Text(Some(value)) => harmless(value),
             _ => String::new(),
         };
         Ok(self.writer.write_record(cells.iter().map(text))?)
     }
 
-    fn finish(self: Box<Self>) -> io::Result<File> {
-        let buffer = self
-            .writer
+    fn finish(self: Box<Self>) -> io::Result<Draft> {
+        self.writer
             .into_inner()
-            .map_err(|error| io::Error::other(error.to_string()))?;
-        buffer.into_inner().map_err(io::IntoInnerError::into_error)
+            .map_err(|error| io::Error::other(error.to_string()))
+    }
+}
+
+/// A text that no spreadsheet takes for a formula: an apostrophe goes before what would begin one, unless it is a number.
+fn harmless(text: &str) -> String {
+    if text.starts_with(['=', '+', '-', '@', '\t', '\r']) && si(text).is_none() {
+        format!("'{text}")
+    } else {
+        text.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::harmless;
+
+    #[test]
+    fn formulas_become_texts_and_numbers_stay() {
+        for text in ["=1+1", "@SUM(A1)", "+cmd|' /C calc'!A0", "-cmd", "\t=1"] {
+            assert_eq!(harmless(text), format!("'{text}"));
+        }
+        for text in ["-0.5 m", "+3", "-2e-3", "fixed", "", "a=b"] {
+            assert_eq!(harmless(text), text);
+        }
     }
 }

@@ -4,6 +4,8 @@
 //! the order above. Lines that begin with `#` and blank lines are skipped, as are rows without a force: a reading that failed. The
 //! same pass may be read more than once, and rows may come in any order. Further columns are ignored.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
@@ -11,6 +13,10 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 const PASS: &str = "pass";
 const FORCE: &str = "force_n";
 const SIGMA: &str = "sigma_n";
+/// A file larger than this \[bytes\] holds no readings: it is a million of them many times over.
+const LARGEST_FILE: u64 = 64 << 20;
+/// Longest text of a cell that a message repeats \[characters\].
+const LONGEST_CELL: usize = 80;
 
 /// A reading of the load cell.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -44,6 +50,14 @@ pub enum DataError {
         file: String,
         /// Why.
         source: std::io::Error,
+    },
+    /// The file is far larger than any readings.
+    #[error("{file}: found more than {allowed} bytes; allowed: a table of at most {allowed} bytes")]
+    TooLarge {
+        /// The file.
+        file: String,
+        /// Largest size allowed \[bytes\].
+        allowed: u64,
     },
     /// The file is no CSV.
     #[error("{file}:{line}: not a table: {source}")]
@@ -123,8 +137,10 @@ impl Readings {
     /// [`DataError`] with the first thing that is wrong, and its line.
     pub fn from_file(path: &Path) -> Result<Self, DataError> {
         let file = path.display().to_string();
-        match std::fs::read(path) {
-            Ok(bytes) => Self::from_csv(&file, &bytes),
+        let mut bytes = Vec::new();
+        // One byte more tells a file that is too large, without all of it.
+        match File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes)) {
+            Ok(_) => Self::from_csv(&file, &bytes),
             Err(source) => Err(DataError::Unreadable { file, source }),
         }
     }
@@ -135,6 +151,12 @@ impl Readings {
     ///
     /// As for [`Readings::from_file`].
     pub fn from_csv(file: &str, bytes: &[u8]) -> Result<Self, DataError> {
+        if bytes.len() as u64 > LARGEST_FILE {
+            return Err(DataError::TooLarge {
+                file: file.to_owned(),
+                allowed: LARGEST_FILE,
+            });
+        }
         // Spreadsheets begin UTF-8 with a byte order mark.
         let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
         let mut reader = ReaderBuilder::new()
@@ -309,7 +331,7 @@ impl Row<'_> {
             file: self.file.to_owned(),
             line: self.line,
             column,
-            found: found.to_owned(),
+            found: cut(found),
             allowed,
         }
     }
@@ -340,6 +362,14 @@ impl Row<'_> {
             sigma,
             line: self.line,
         }))
+    }
+}
+
+/// The text, as far as a message repeats it.
+fn cut(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_CELL) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
     }
 }
 

@@ -106,6 +106,26 @@ fn what_is_no_text_is_an_error() {
     assert!(matches!(missing, DataError::Unreadable { .. }));
 }
 
+#[test]
+fn what_is_too_large_for_readings_is_not_read() {
+    let endless = vec![b'\n'; (64 << 20) + 1];
+    let error = Readings::from_csv("endless", &endless).unwrap_err();
+    assert!(
+        matches!(error, DataError::TooLarge { allowed, .. } if allowed == 64 << 20),
+        "{error}"
+    );
+    let error = Readings::from_csv("empty", &endless[1..]).unwrap_err();
+    assert!(matches!(error, DataError::Empty { .. }), "{error}");
+    let cell = "n".repeat(1_000_000);
+    let error = read(&format!("pass,force_n\n1,{cell}\n"))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.len() < 300 && error.contains("… (1000000 characters)"),
+        "{error:.300}"
+    );
+}
+
 proptest::proptest! {
     /// Whatever the bytes, the reader answers.
     #[test]

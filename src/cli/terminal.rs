@@ -1,0 +1,148 @@
+//! Text for a terminal, in which nothing that came from a file or an argument can give the terminal orders.
+//!
+//! Control characters and those that turn the direction of writing are shown as U+FFFD. Tables and JSON documents are data and do not
+//! pass here: JSON escapes such characters, and a table keeps them.
+
+use std::fmt::Display;
+use std::io::{self, StderrLock, StdoutLock, Write};
+
+/// What stands for a character that is not shown.
+const REPLACEMENT: &str = "\u{fffd}";
+/// Longest message \[characters\].
+const LONGEST_MESSAGE: usize = 1800;
+/// Of a message that is too long, what is kept of its end: the allowed values and the line at fault.
+const KEPT_END: usize = 700;
+/// Longest text of the user's within a line \[characters\].
+const LONGEST_TEXT: usize = 200;
+
+/// Standard output, for answers in words.
+pub fn out() -> Shown<StdoutLock<'static>> {
+    Shown(io::stdout().lock())
+}
+
+/// Standard error.
+pub fn err() -> Shown<StderrLock<'static>> {
+    Shown(io::stderr().lock())
+}
+
+/// Tells a warning on standard error; a closed one leaves nobody to tell.
+pub fn warn(warning: impl Display) {
+    let _ = writeln!(err(), "warning: {}", cut(&warning.to_string()));
+}
+
+/// Tells an error on standard error.
+pub fn fail(error: impl Display) {
+    let _ = writeln!(err(), "error: {}", cut(&error.to_string()));
+}
+
+/// A text of the user's as one line of bounded length.
+pub fn line(text: &str) -> String {
+    let line = text.replace(['\n', '\r'], REPLACEMENT);
+    shortened(&line, LONGEST_TEXT, 0)
+}
+
+/// A sentence of this program's, which may repeat a text of the user's, as one line of bounded length.
+pub fn sentence(text: &str) -> String {
+    cut(&text.replace(['\n', '\r'], REPLACEMENT))
+}
+
+/// A message of bounded length.
+pub fn cut(message: &str) -> String {
+    shortened(message, LONGEST_MESSAGE, KEPT_END)
+}
+
+/// The text, at most `longest` characters of it, so many of them from its end.
+fn shortened(text: &str, longest: usize, kept_end: usize) -> String {
+    let count = text.chars().count();
+    if count <= longest {
+        return text.to_owned();
+    }
+    let at = |n: usize| text.char_indices().nth(n).map_or(text.len(), |(at, _)| at);
+    let (start, end) = (&text[..at(longest - kept_end)], &text[at(count - kept_end)..]);
+    let space = if end.is_empty() { "" } else { " …" };
+    format!("{start}… ({count} characters){space}{end}")
+}
+
+/// Whether a terminal may take the character for an order.
+pub fn is_hidden(c: char) -> bool {
+    let turns_direction =
+        matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    c.is_control() || turns_direction || matches!(c, '\u{2028}' | '\u{2029}')
+}
+
+/// Writes text with hidden characters replaced, line breaks excepted.
+pub struct Shown<W>(W);
+
+impl<W: Write> Write for Shown<W> {
+    /// Takes whole pieces of text, as `write!` hands them over.
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let text = String::from_utf8_lossy(bytes);
+        let is_hidden = |c: char| c != '\n' && is_hidden(c);
+        if text.contains(is_hidden) {
+            self.0
+                .write_all(text.replace(is_hidden, REPLACEMENT).as_bytes())?;
+        } else {
+            self.0.write_all(text.as_bytes())?;
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(text: &str) -> String {
+        let mut out = Shown(Vec::new());
+        write!(out, "{text}").expect("memory");
+        String::from_utf8(out.0).expect("UTF-8")
+    }
+
+    #[test]
+    fn nothing_that_orders_a_terminal_passes() {
+        let hidden = (0..0x11_0000)
+            .filter_map(char::from_u32)
+            .filter(|&c| is_hidden(c));
+        let hidden: Vec<char> = hidden.collect();
+        for c in [
+            '\x1b', '\x07', '\r', '\t', '\x7f', '\u{9b}', '\u{202e}', '\u{2066}',
+        ] {
+            assert!(hidden.contains(&c), "{c:?}");
+        }
+        for c in hidden {
+            let expected = if c == '\n' {
+                "a\nb".to_owned()
+            } else {
+                "a\u{fffd}b".to_owned()
+            };
+            assert_eq!(shown(&format!("a{c}b")), expected, "{c:?}");
+        }
+        for text in ["名 = ξ µm → 5 %\n", "", "plain"] {
+            assert_eq!(shown(text), text);
+        }
+    }
+
+    #[test]
+    fn long_messages_keep_both_ends() {
+        let message = format!("where: found {}; allowed: less", "é".repeat(1_000_000));
+        let cut = cut(&message);
+        assert!(
+            cut.chars().count() < 2000 && cut.starts_with("where: found é"),
+            "{cut}"
+        );
+        assert!(
+            cut.contains("… (1000028 characters) …") && cut.ends_with("; allowed: less"),
+            "{cut}"
+        );
+        assert_eq!(super::cut("short"), "short");
+        assert_eq!(line("a\nb"), "a\u{fffd}b");
+        assert_eq!(
+            line(&"x".repeat(201)),
+            format!("{}… (201 characters)", "x".repeat(200))
+        );
+    }
+}

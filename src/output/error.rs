@@ -1,0 +1,67 @@
+//! What keeps a file from being written.
+
+use std::io;
+use std::path::Path;
+
+/// Error of a file that is to be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum OutputError {
+    /// The place cannot be written; found before anything is computed.
+    #[error("{file}: cannot be written: {source}")]
+    Unwritable {
+        /// The file.
+        file: String,
+        /// Why.
+        source: io::Error,
+    },
+    /// The command reads this file.
+    #[error("{file}: found a file which is read by this command; allowed: another file")]
+    IsRead {
+        /// The file.
+        file: String,
+    },
+    /// The command writes this file already.
+    #[error("{file}: found a file which this command writes twice; allowed: another file")]
+    IsWritten {
+        /// The file.
+        file: String,
+    },
+    /// There is something that this command did not write.
+    #[error(
+        "{file}: found {found}, which would be lost; allowed: a new name, {kind} to replace, or --force to insist"
+    )]
+    OtherKind {
+        /// The file.
+        file: String,
+        /// What it looks like.
+        found: &'static str,
+        /// What would be replaced.
+        kind: &'static str,
+    },
+    /// Writing broke off.
+    #[error("{file}: cannot be written: {source}")]
+    Failed {
+        /// The file.
+        file: String,
+        /// Why.
+        source: io::Error,
+    },
+    /// Writing to standard output broke off.
+    #[error("standard output: cannot be written: {0}")]
+    StandardOutput(io::Error),
+}
+
+impl OutputError {
+    pub(super) fn unwritable(file: &Path, source: io::Error) -> Self {
+        Self::Unwritable {
+            file: file.display().to_string(),
+            source,
+        }
+    }
+
+    /// Whether the input is at fault, not the disk.
+    pub fn is_bad_input(&self) -> bool {
+        !matches!(self, Self::Failed { .. } | Self::StandardOutput(_))
+    }
+}

@@ -1,0 +1,181 @@
+//! What a file is, by how it begins.
+
+/// What this program writes to a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(
+    not(all(feature = "cli", feature = "plot")),
+    allow(dead_code, reason = "without all features not every kind is written")
+)]
+pub enum Kind {
+    /// Table of a run.
+    Passes,
+    /// Table of a profile.
+    Motion,
+    /// Table of a calibration.
+    Fit,
+    /// Table of a sweep.
+    Sweep,
+    /// Table of a sweep, as Apache Parquet.
+    Parquet,
+    /// SVG.
+    Figure,
+    /// Page of a report.
+    Page,
+    /// A new scene: never replaced but by force, for it is its author's work.
+    Scene,
+}
+
+/// Kinds that are told by columns of a table's first line.
+const TABLES: [Kind; 4] = [Kind::Passes, Kind::Motion, Kind::Fit, Kind::Sweep];
+/// What the head of a page of ours holds.
+pub const GENERATOR: &str = "<meta name=\"generator\" content=\"creepage";
+
+impl Kind {
+    /// In words.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Passes => "an older table of `creepage run`",
+            Self::Motion => "an older table of `creepage profile`",
+            Self::Fit => "an older table of `creepage calibrate`",
+            Self::Sweep => "an older table of `creepage sweep`",
+            Self::Parquet => "an older Parquet file",
+            Self::Figure => "an older SVG figure",
+            Self::Page => "an older page of `creepage report`",
+            Self::Scene => "an empty file",
+        }
+    }
+
+    /// Columns that every table of this kind has.
+    fn columns(self) -> &'static [&'static str] {
+        match self {
+            Self::Passes => &[
+                "pass",
+                "downstream_force_n",
+                "downstream_peak_n",
+                "upstream_force_n",
+                "upstream_peak_n",
+            ],
+            Self::Motion => &[
+                "position_m",
+                "longitudinal_m",
+                "vertical_m",
+                "longitudinal_velocity_m_per_s",
+            ],
+            Self::Fit => &["pass", "force_n", "fitted_n", "residual_n"],
+            Self::Sweep => &[
+                "downstream_force_n",
+                "upstream_force_n",
+                "error_estimate",
+                "status",
+                "error",
+            ],
+            _ => &[],
+        }
+    }
+
+    /// Whether a file that begins with `head` is of this kind.
+    pub fn is_kind_of(self, head: &[u8]) -> bool {
+        match self {
+            Self::Parquet => head.starts_with(b"PAR1"),
+            Self::Figure => begins(head, b"<svg"),
+            Self::Page => {
+                begins(head, b"<!doctype html") && String::from_utf8_lossy(head).contains(GENERATOR)
+            }
+            Self::Scene => false,
+            Self::Passes | Self::Motion | Self::Fit | Self::Sweep => {
+                let line = head.split(|&byte| byte == b'\n').next().unwrap_or_default();
+                let line = String::from_utf8_lossy(line);
+                let found: Vec<&str> = line.trim_end().split(',').collect();
+                self.columns().iter().all(|column| found.contains(column))
+            }
+        }
+    }
+}
+
+/// What a file looks like that begins with `head`.
+pub fn described(head: &[u8]) -> &'static str {
+    if let Some(kind) = TABLES.into_iter().find(|kind| kind.is_kind_of(head)) {
+        return match kind {
+            Kind::Passes => "a table of `creepage run`",
+            Kind::Motion => "a table of `creepage profile`",
+            Kind::Fit => "a table of `creepage calibrate`",
+            _ => "a table of `creepage sweep`",
+        };
+    }
+    if Kind::Parquet.is_kind_of(head) {
+        return "a Parquet file";
+    }
+    if Kind::Figure.is_kind_of(head) {
+        return "an SVG figure";
+    }
+    if begins(head, b"<!doctype html") || begins(head, b"<html") {
+        return "a page of HTML";
+    }
+    // The head may end within a letter.
+    let text = match str::from_utf8(head) {
+        Ok(text) => text,
+        Err(error) if error.error_len().is_none() => {
+            str::from_utf8(&head[..error.valid_up_to()]).unwrap_or_default()
+        }
+        Err(_) => return "binary data",
+    };
+    if text.contains('\0') {
+        return "binary data";
+    }
+    let mut lines = text
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.is_empty() && !line.starts_with('#'));
+    if lines
+        .clone()
+        .any(|line| line.starts_with("[duct]") || line.starts_with("[[vehicles]]"))
+    {
+        return "a scene";
+    }
+    if lines.next().is_some_and(|line| line.contains([',', ';', '\t'])) {
+        return "a table of something else";
+    }
+    "a text"
+}
+
+fn begins(head: &[u8], with: &[u8]) -> bool {
+    let head = head.trim_ascii_start();
+    head.get(..with.len())
+        .is_some_and(|start| start.eq_ignore_ascii_case(with))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_looks_alike_is_told_apart() {
+        let cases: [(&[u8], &str); 11] = [
+            (b"pass,force_n\n1,2\n", "a table of something else"),
+            (b"pass;force\n1;2\n", "a table of something else"),
+            (b"# note\n[duct]\nlength = 1\n", "a scene"),
+            (b"dear diary\n", "a text"),
+            (b"\0\x01", "binary data"),
+            (b"\xff\xfe", "binary data"),
+            (b"PAR1...", "a Parquet file"),
+            (b"<svg xmlns", "an SVG figure"),
+            (b"<!DOCTYPE html><title>else</title>", "a page of HTML"),
+            ("caf\u{e9}".as_bytes().split_at(4).0, "a text"),
+            (
+                b"pass,force_n,fitted_n,residual_n\n",
+                "a table of `creepage calibrate`",
+            ),
+        ];
+        for (head, found) in cases {
+            assert_eq!(described(head), found, "{}", String::from_utf8_lossy(head));
+        }
+        assert!(!Kind::Page.is_kind_of(b"<!DOCTYPE html><title>else</title>"));
+        // Readings are no fit, and a table of a sweep is none of a run.
+        assert!(!Kind::Fit.is_kind_of(b"pass,force_n,sigma_n\n"));
+        assert!(
+            !Kind::Passes
+                .is_kind_of(b"duct.depth,downstream_force_n,upstream_force_n,error_estimate,status,error\n")
+        );
+        assert!(!Kind::Scene.is_kind_of(b"[duct]\n"));
+    }
+}

@@ -1,0 +1,14 @@
+//! What the commands do to files: an output takes its place as a whole or not at all, and nothing else is touched. And what they
+//! show of texts that are not to be trusted.
+
+#![cfg(all(feature = "cli", feature = "plot", feature = "parquet", unix))]
+
+mod common;
+mod inputs;
+mod kinds;
+mod links;
+#[cfg(target_os = "linux")]
+mod random;
+mod signals;
+mod texts;
+mod whole;

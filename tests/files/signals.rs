@@ -1,0 +1,121 @@
+//! A process that is stopped leaves no half-written file, and the older one as it was.
+
+use std::os::unix::process::ExitStatusExt;
+use std::process::{Child, Stdio};
+use std::time::Duration;
+
+use crate::common::{Folder, assert_complete, creepage};
+
+const SIGNALS: [(&str, i32); 3] = [("HUP", 1), ("INT", 2), ("TERM", 15)];
+/// Computed within a second or so: long enough to be stopped at any moment.
+const PASSES: &str = "traffic.passes=3000";
+
+fn send(folder: &Folder, child: &Child, signal: &str) {
+    let sent = folder
+        .command("kill", &[&format!("-{signal}"), &child.id().to_string()])
+        .status();
+    sent.expect("kill");
+}
+
+/// Stops each command at a random moment of its work.
+fn stop(cases: usize, seed: u64) {
+    let folder = Folder::new(&format!("stopped-{seed}"));
+    let mut random = fastrand::Rng::with_seed(seed);
+    let few = "traffic.passes=9";
+    let run = |passes| ["run", "scene.toml", "--set", passes, "--csv", "target.csv"].to_vec();
+    let report = |passes| ["report", "scene.toml", "--set", passes, "-o", "target.html"].to_vec();
+    let sweep = |vary| {
+        [
+            "sweep",
+            "scene.toml",
+            "--threads",
+            "1",
+            "--vary",
+            vary,
+            "--out",
+            "target.csv",
+        ]
+        .to_vec()
+    };
+    // What is written first, and what is stopped. Failing points are fast: that sweep is mostly its journal and its table.
+    let commands = [
+        (run(few), run(PASSES), "csv"),
+        (report(few), report(PASSES), "html"),
+        (
+            sweep("duct.depth=1,2"),
+            sweep("friction.dynamic_coefficient=-20000:-1:1"),
+            "csv",
+        ),
+    ];
+    for case in 0..cases {
+        let (first, command, ending) = &commands[case % commands.len()];
+        let (name, number) = SIGNALS[random.usize(..SIGNALS.len())];
+        let target = format!("target.{ending}");
+        let journal = format!("{target}.journal");
+        for file in [&target, &journal] {
+            let _ = std::fs::remove_file(folder.path(file));
+        }
+        folder.succeeds(first);
+        let before = folder.contents();
+
+        let mut child = folder
+            .command(creepage(), command)
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("a process");
+        std::thread::sleep(Duration::from_micros(random.u64(..600_000)));
+        send(&folder, &child, name);
+        let status = child.wait().expect("it ends");
+        let mut after = folder.contents();
+        if status.signal().is_some() {
+            assert_eq!(status.signal(), Some(number), "{command:?}");
+        }
+        // A sweep goes on from its journal; everything else is as it was, or whole.
+        after.remove(&journal);
+        if after != before {
+            assert_eq!(
+                after.keys().collect::<Vec<_>>(),
+                before.keys().collect::<Vec<_>>(),
+                "{command:?} {name}"
+            );
+            assert_complete(&after[&target], ending);
+            assert_ne!(after[&target], before[&target]);
+        }
+    }
+}
+
+#[test]
+fn a_stopped_command_leaves_the_older_file_and_nothing_else() {
+    stop(9, 1);
+}
+
+#[test]
+#[ignore = "minutes"]
+fn however_often_it_is_stopped() {
+    for seed in 2..12 {
+        stop(60, seed);
+    }
+}
+
+#[test]
+fn a_command_that_was_told_to_ignore_a_signal_goes_on() {
+    let folder = Folder::new("ignored");
+    let line = "trap '' HUP INT\nexec \"$0\" \"$@\"";
+    let report = ["run", "scene.toml", "--set", PASSES, "--csv", "target.csv"];
+    let arguments = [&["-c", line, creepage()], &report[..]].concat();
+    let mut child = folder
+        .command("sh", &arguments)
+        .stdout(Stdio::null())
+        .spawn()
+        .expect("a process");
+    std::thread::sleep(Duration::from_millis(150));
+    assert!(
+        child.try_wait().expect("a state").is_none(),
+        "it is over before it was stopped"
+    );
+    send(&folder, &child, "HUP");
+    send(&folder, &child, "INT");
+    assert!(child.wait().expect("it ends").success());
+    assert_complete(&folder.read("target.csv"), "csv");
+}
