@@ -55,7 +55,6 @@ pub mod design;
 mod error;
 #[cfg(feature = "plot")]
 pub mod figure;
-#[cfg(any(feature = "plot", feature = "sweep"))]
 mod finite;
 #[cfg(feature = "sweep")]
 pub mod output;

@@ -72,9 +72,9 @@ fn forces(kind: Kind, problem: &Problem, traffic: &[usize]) -> (Vec<f64>, f64) {
     let mut forces = Vec::new();
     for &drive in traffic {
         let outcome = run.pass(drive).expect("an equilibrium").outcome;
-        let ends = run.state.end_forces(&problem.cable, &problem.mesh);
+        let ends = run.state.end_forces(&problem.cable, &problem.mesh).expect("the state's mesh");
         forces = vec![ends.upstream, ends.downstream];
-        forces.extend(run.state.element_forces(&problem.cable, &problem.mesh));
+        forces.extend(run.state.element_forces(&problem.cable, &problem.mesh).expect("the state's mesh"));
         for extremes in [outcome.peak, outcome.lowest] {
             largest = largest
                 .max(extremes.upstream.abs())

@@ -189,7 +189,7 @@ impl Run {
                 })?;
                 return Ok(Pass {
                     outcome,
-                    before_rest: last.end_forces(&cable, &mesh),
+                    before_rest: last.end_forces(&cable, &mesh)?,
                     energy: None,
                 });
             }
