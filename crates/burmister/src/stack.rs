@@ -63,7 +63,8 @@ impl Ground {
         1.0 / self.shear_moduli().fold(f64::INFINITY, f64::min)
     }
 
-    /// A length \[m\] that no length of the ground exceeds: shorter wavenumbers than its inverse find the base alone, corrected by powers of m.
+    /// A length \[m\] that no length of the ground exceeds: at wavenumbers m below its inverse the base is seen alone, with smooth
+    /// corrections in powers of m.
     ///
     /// A stiff layer on a soft base is a plate up to h (`G`/`G_b`)^{1/3} and a membrane up to h `G`/`G_b`; between soft layers, or with one on
     /// rock, it shears them up to h (`G`/`G_s`)^{1/2}.

@@ -54,8 +54,8 @@ impl FemOptions {
     /// Most unknowns that can be allowed: some hundred gigabytes.
     pub const MOST_UNKNOWNS: usize = 50_000_000;
 
-    /// The same with another limit on the unknowns of one mesh, [`MOST_UNKNOWNS`](Self::MOST_UNKNOWNS) at most. Where the accuracy would need more, the answer is
-    /// [`GroundError::Accuracy`].
+    /// The same with another limit on the unknowns of one mesh, [`MOST_UNKNOWNS`](Self::MOST_UNKNOWNS) at most.
+    /// Where the accuracy would need more, the answer is [`GroundError::Accuracy`].
     #[must_use]
     pub fn with_max_unknowns(mut self, max_unknowns: usize) -> Self {
         self.max_unknowns = max_unknowns.min(Self::MOST_UNKNOWNS);

@@ -199,7 +199,7 @@ fn a_base_very_many_depths_down_is_seen() {
         shear: young / 2.6,
         poisson: 0.3,
     };
-    for thickness in [5.0, 50.0, 500.0, 5000.0] {
+    for thickness in [50.0, 500.0, 5000.0] {
         for (skin, upper, base) in [
             (2e8, 1e8, None),
             (2e8, 1e8, Some(1e6)),
@@ -215,7 +215,7 @@ fn a_base_very_many_depths_down_is_seen() {
                     },
                     contact_radius: 0.0,
                     depth,
-                    farthest: 300.0,
+                    farthest: 100.0,
                     accuracy: 1e-8,
                 };
                 let (of_estimate, of_asked) = case.error().expect("an answer");
