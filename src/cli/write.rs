@@ -92,3 +92,32 @@ pub fn motion(profile: &Profile) -> impl Iterator<Item = Motion> {
         longitudinal_velocity_m_per_s: profile.longitudinal_velocity_m_per_s[i],
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_document_and_no_table_holds_a_number_that_is_none() {
+        let row = Motion {
+            position_m: 0.0,
+            longitudinal_m: f64::NAN,
+            vertical_m: 0.0,
+            longitudinal_velocity_m_per_s: 0.0,
+        };
+        let failures = [
+            json(&row),
+            json(&[Some(f64::INFINITY)]),
+            Table::StandardOutput.write([row]),
+        ];
+        for failure in failures {
+            let Err(Failure::Analysis(error)) = failure else {
+                panic!("it was written");
+            };
+            assert!(
+                matches!(error, crate::Error::NotFinite { .. }) && !error.is_bad_input(),
+                "{error}"
+            );
+        }
+    }
+}

@@ -177,7 +177,9 @@ impl Folder {
     }
 
     pub fn names(&self) -> Vec<String> {
-        self.contents().into_keys().collect()
+        let entries = fs::read_dir(&self.0).expect("the folder");
+        let name = |entry: fs::DirEntry| entry.file_name().into_string().expect("a name");
+        entries.map(|entry| name(entry.expect("an entry"))).collect()
     }
 }
 

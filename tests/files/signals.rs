@@ -24,19 +24,7 @@ fn stop(cases: usize, seed: u64) {
     let few = "traffic.passes=9";
     let run = |passes| ["run", "scene.toml", "--set", passes, "--csv", "target.csv"].to_vec();
     let report = |passes| ["report", "scene.toml", "--set", passes, "-o", "target.html"].to_vec();
-    let sweep = |vary| {
-        [
-            "sweep",
-            "scene.toml",
-            "--threads",
-            "1",
-            "--vary",
-            vary,
-            "--out",
-            "target.csv",
-        ]
-        .to_vec()
-    };
+    let sweep = |vary| sweep(vary).to_vec();
     // What is written first, and what is stopped. Failing points are fast: that sweep is mostly its journal and its table.
     let commands = [
         (run(few), run(PASSES), "csv"),
@@ -88,6 +76,56 @@ fn stop(cases: usize, seed: u64) {
 #[test]
 fn a_stopped_command_leaves_the_older_file_and_nothing_else() {
     stop(9, 1);
+}
+
+/// Stops a sweep while its table is half written; `None` where the table was complete before the signal came.
+fn stop_half_way(folder: &Folder, (name, number): (&str, i32)) -> Option<()> {
+    let journal = folder.path("target.csv.journal");
+    let mut command = folder.command(creepage(), &sweep("friction.dynamic_coefficient=-50000:-1:1"));
+    let mut child = command
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("a process");
+    let is_half = || folder.names().iter().any(|name| name.ends_with(".partial"));
+    // Before there is a journal it is but the probe of the place.
+    while !(journal.exists() && is_half()) && child.try_wait().expect("a state").is_none() {}
+    send(folder, &child, name);
+    let status = child.wait().expect("it ends");
+    status.signal().map(|signal| assert_eq!(signal, number))
+}
+
+fn sweep(vary: &str) -> [&str; 8] {
+    [
+        "sweep",
+        "scene.toml",
+        "--threads",
+        "1",
+        "--vary",
+        vary,
+        "--out",
+        "target.csv",
+    ]
+}
+
+#[test]
+fn what_is_half_written_goes() {
+    let folder = Folder::new("half");
+    for signal in SIGNALS {
+        let stopped = (0..10).any(|_| {
+            folder.succeeds(&sweep("duct.depth=1,2"));
+            let before = folder.contents();
+            let stopped = stop_half_way(&folder, signal).is_some();
+            let _ = std::fs::remove_file(folder.path("target.csv.journal"));
+            let after = folder.contents();
+            let same = after.keys().eq(before.keys());
+            assert!(same, "{signal:?}: {:?}", folder.names());
+            // The signal may have come after the table.
+            assert_complete(&after["target.csv"], "csv");
+            stopped && after == before
+        });
+        assert!(stopped, "the table was always complete before the signal came");
+    }
 }
 
 #[test]
