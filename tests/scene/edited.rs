@@ -193,7 +193,7 @@ fn designs_fits_and_reports_refuse_an_edited_scene_too() {
     {
         use creepage::report::{Report, ReportOptions};
         let report = Report::new(&scene, &ReportOptions::default());
-        assert!(report.err().expect("no vehicles").is_bad_input());
+        assert!(report.expect_err("no vehicles").is_bad_input());
     }
 }
 
