@@ -8,7 +8,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use creepage::sweep::{Axis, Band, Quantiles, Samples, Sweep, SweepError, SweepOptions, SweepSummary};
+use creepage::sweep::{
+    Axis, AxisValues, Band, Quantiles, Samples, Sweep, SweepError, SweepOptions, SweepSummary,
+};
 use creepage::{Error, Run, Scene, SceneFile};
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
@@ -559,4 +561,27 @@ fn parquet_holds_what_csv_holds() {
         count += 1;
     }
     assert_eq!((count, rows.len()), (18_000, 18_000));
+}
+
+#[test]
+fn an_axis_without_values_and_a_probability_that_is_none_are_no_panics() {
+    let file = SceneFile::read("examples/scenes/full-scale-upper.toml".as_ref()).expect("an example");
+    let axis = Axis {
+        key: "duct.depth".into(),
+        values: AxisValues::List(Vec::new()),
+    };
+    assert!(Sweep::new(file, vec![axis], Samples::default()).is_err());
+    for law in ["normal(1, 2)", "lognormal(1, 2)", "uniform(1, 2)"] {
+        let axis = Axis::parse(&format!("duct.depth={law}")).expect("an axis");
+        let AxisValues::Drawn(distribution) = axis.values else {
+            panic!("a distribution")
+        };
+        for probability in [f64::NAN, -0.1, 1.1, f64::INFINITY] {
+            assert!(
+                distribution.quantile(probability).0.is_nan(),
+                "{law} {probability}"
+            );
+        }
+        assert!(!distribution.quantile(0.0).0.is_nan() && !distribution.quantile(1.0).0.is_nan());
+    }
 }

@@ -130,6 +130,13 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions) -> R
 
 /// What is fitted, checked against the scenes.
 fn unknowns(series: &[Series<'_>], options: &CalibrateOptions) -> Result<Vec<Unknown>, Error> {
+    if series.is_empty() {
+        return Err(Error::Unfit {
+            key: "series",
+            found: "none",
+            reason: "there is nothing to fit".into(),
+        });
+    }
     let mut unknowns = options.unknowns.clone();
     let coulomb = |unknown: &Unknown| {
         series

@@ -103,9 +103,10 @@ impl Axis {
 }
 
 impl Distribution {
-    /// The value below which the share `probability` of all draws lies, and its text with the unit.
+    /// The value below which the share `probability` of all draws lies, and its text with the unit; NaN unless it is from 0 to 1.
     pub fn quantile(&self, probability: f64) -> (f64, String) {
         let value = match &self.law {
+            _ if !(0.0..=1.0).contains(&probability) => f64::NAN,
             Law::Normal(law) => law.inverse_cdf(probability),
             Law::LogNormal(law) => law.inverse_cdf(probability),
             Law::Uniform(law) => law.inverse_cdf(probability),

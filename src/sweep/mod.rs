@@ -74,7 +74,7 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Unfit`] where there is nothing to vary, a key stands twice, samples are asked without a distribution or the
+    /// [`SweepError::Unfit`] where there is nothing to vary, a key stands twice or has no value, samples are asked without a distribution or the
     /// other way round, or there are more than ten million points; [`SweepError::Scene`] where a varied key is none of a
     /// scene.
     pub fn new(file: SceneFile, axes: Vec<Axis>, samples: Samples) -> Result<Self, SweepError> {
@@ -86,6 +86,9 @@ impl Sweep {
             if axes[..index].iter().any(|other| other.key == axis.key) {
                 return unfit(format!("`{}` varied twice", axis.key), "every key once");
             }
+        }
+        if let Some(axis) = axes.iter().find(|axis| axis.count() == 0) {
+            return unfit(format!("`{}` without values", axis.key), "one value or more");
         }
         let drawn = axes
             .iter()

@@ -1,9 +1,12 @@
 //! A scene that a program changed: refused with the key, or computed to finite numbers, never a panic.
 
+use calibrate::Readings;
+use creepage::calibration::{Quantity, Unknown};
+use creepage::design::{DesignOptions, Limits, Measure, Place, compare, design};
 use creepage::scene::{
     Duct, End, FrictionLaw, Order, PeakScaling, Restraint, Scene, SceneError, SolverMethod, TrafficVehicle,
 };
-use creepage::{Error, SceneFile};
+use creepage::{CalibrateOptions, Error, SceneFile};
 use ground_field::{Base, Direction, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle, Wheel};
 use proptest::prelude::*;
 
@@ -155,6 +158,56 @@ fn ground_and_traffic_have_their_ranges_too() {
     let mut scene = example();
     sequence(vec![0, 1])(&mut scene);
     scene.validate().expect("a scene");
+}
+
+/// Everything else that takes a scene, with one that has no vehicles.
+#[test]
+fn designs_fits_and_reports_refuse_an_edited_scene_too() {
+    let mut scene = example();
+    scene.vehicles.clear();
+    let limits = Limits {
+        force_n: 1e3,
+        movement_m: None,
+    };
+    let place = Place::Downstream;
+    let options = DesignOptions {
+        limits,
+        place,
+        progress: None,
+    };
+    assert!(design(&scene, &options).expect_err("no vehicles").is_bad_input());
+    let measure = Measure {
+        place,
+        stiffness: 1e6,
+    };
+    assert!(
+        compare(&scene, &[measure], None)
+            .expect_err("no vehicles")
+            .is_bad_input()
+    );
+    let table = b"pass,force_n\n1,100\n2,150\n3,180\n";
+    let readings = Readings::from_csv("a.csv", table).expect("readings");
+    let fit = creepage::calibrate(&scene, &readings, &CalibrateOptions::default());
+    assert!(fit.expect_err("no vehicles").is_bad_input());
+    #[cfg(feature = "plot")]
+    {
+        use creepage::report::{Report, ReportOptions};
+        let report = Report::new(&scene, &ReportOptions::default());
+        assert!(report.expect_err("no vehicles").is_bad_input());
+    }
+}
+
+#[test]
+fn a_fit_of_nothing_is_refused() {
+    assert!(creepage::calibrate_jointly(&[], &CalibrateOptions::default()).is_err());
+    let (scene, table) = (example(), b"pass,force_n\n1,100\n2,150\n3,180\n");
+    let readings = Readings::from_csv("a.csv", table).expect("readings");
+    let unknowns = vec![Unknown::of(Quantity::DynamicCoefficient, 9)];
+    let options = CalibrateOptions {
+        unknowns,
+        ..CalibrateOptions::default()
+    };
+    assert!(creepage::calibrate(&scene, &readings, &options).is_err());
 }
 
 #[test]
