@@ -113,9 +113,7 @@ fn evolve(
     };
     let passes = listed(scene.traffic.passes);
     let at = |nodes: f64| -> Result<(PassLaw, Evolution, Resolution), Error> {
-        let resolution = Resolution::new(scene.duct.depth)?
-            .with_nodes_per_depth(nodes)?
-            .with_approach(approach(scene, motions))?;
+        let resolution = Resolution::new(scene.duct.depth)?.with_nodes_per_depth(nodes)?;
         let law = PassLaw::new(&cable, &traffic, resolution)?;
         let evolution = law.run(&passes)?;
         Ok((law, evolution, resolution))
@@ -198,9 +196,7 @@ pub fn records(
     nodes_per_depth: f64,
     passes: &[u64],
 ) -> Result<Vec<PassRecord>, Error> {
-    let resolution = Resolution::new(scene.duct.depth)?
-        .with_nodes_per_depth(nodes_per_depth)?
-        .with_approach(approach(scene, motions))?;
+    let resolution = Resolution::new(scene.duct.depth)?.with_nodes_per_depth(nodes_per_depth)?;
     let law = PassLaw::new(&cable(scene)?, &traffic(scene, motions), resolution)?;
     let swing = swing(scene);
     Ok(law

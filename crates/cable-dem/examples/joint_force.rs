@@ -8,7 +8,7 @@ use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
 const LENGTH: f64 = 30.0;
 const DEPTH: f64 = 1.2;
 const SPACING: f64 = 0.1;
-/// How far before the duct the truck comes from \[m\].
+/// How far beyond the duct the truck is followed \[m\]: until the duct's motion no longer turns, twelve depths away.
 const APPROACH: f64 = 15.0;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

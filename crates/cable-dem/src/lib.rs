@@ -12,6 +12,8 @@
 //! inertia, [`Explicit`] integrates masses, springs and friction by central differences as Kashiro et al. do; both also
 //! take the `sigmoid` law, which has no state of rest.
 //!
+//! A pass begins and ends with the ground at rest: what the duct keeps of it is what the cable keeps, locked friction.
+//!
 //! SI units throughout; forces in the cable are positive in compression.
 //!
 //! ```

@@ -28,7 +28,7 @@ pub struct PassOutcome {
 /// Counts of work that do not depend on the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Statistics {
-    /// Vehicle positions, or steps of time.
+    /// Vehicle positions and the return to rest, or steps of time.
     pub steps: usize,
     /// Windows solved.
     pub windows: usize,
@@ -40,7 +40,7 @@ pub struct Statistics {
     pub exact_steps: usize,
     /// Corners of graphs that these touched, each about as much work as a node.
     pub corners: usize,
-    /// Most nodes in one window before the vehicle had left.
+    /// Most nodes in one window, apart from the steps from rest and to it.
     pub widest_window: usize,
 }
 

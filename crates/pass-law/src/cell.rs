@@ -12,9 +12,6 @@
 //! displacement are as free as between free ends. Behind the entrance the advance settles exponentially toward G; three
 //! equidistant readings give the limit (Aitken's extrapolation), three more nearer to the entrance its error.
 //!
-//! The duct's own displacement from the vehicle's first position to its last, which an endless field leaves over, is
-//! subtracted: G is the slip past the duct. [`residual_motion`] gives it back where a comparison asks for it.
-//!
 //! # Limits
 //!
 //! As |f̄| → q the vehicle's effect reaches ever farther ahead, and the advance no longer settles within the cell.
@@ -30,26 +27,6 @@ const CELL_LENGTHS: f64 = 36.0;
 const APPROACH_DEPTHS: f64 = 40.0;
 /// The dead loads' springs are stretched by this many times the duct's largest displacement.
 const STRETCH: f64 = 3000.0;
-
-/// Duct displacement \[m\] at `x` of a duct of `length` that a pass leaves over, because its vehicle starts and ends only
-/// `approach` \[m\] beyond the duct's ends.
-pub(crate) fn residual_motion(motion: &DuctMotion, length: f64, approach: f64, x: f64) -> f64 {
-    let (first, last) = if motion.velocity() < 0.0 {
-        (length + approach, -approach)
-    } else {
-        (-approach, length + approach)
-    };
-    motion.longitudinal(x - last) - motion.longitudinal(x - first)
-}
-
-/// [`residual_motion`] averaged over traffic by its shares.
-pub(crate) fn mean_residual_motion(traffic: &[(DuctMotion, f64)], length: f64, approach: f64, x: f64) -> f64 {
-    let total: f64 = traffic.iter().map(|stream| stream.1).sum();
-    traffic
-        .iter()
-        .map(|(motion, share)| share / total * residual_motion(motion, length, approach, x))
-        .sum()
-}
 
 /// Stiffness \[N/m\] and stretch \[m\] of a spring that holds `force` \[N\] as a dead load.
 pub(crate) fn dead_load(force: f64, peak: f64) -> (f64, f64) {
@@ -79,7 +56,6 @@ pub(crate) struct Cell<'a> {
     motion: &'a DuctMotion,
     mesh: Mesh,
     approach: f64,
-    residual: Vec<f64>,
     /// Cells solved.
     pub passes: usize,
 }
@@ -94,15 +70,11 @@ impl<'a> Cell<'a> {
             + 2.0 * motion.half_length();
         let approach = APPROACH_DEPTHS * resolution.depth() + motion.half_length();
         let mesh = Mesh::new(length, resolution.node_spacing(), resolution.vehicle_step())?;
-        let residual = (0..mesh.nodes())
-            .map(|i| residual_motion(motion, length, approach, mesh.spacing() * i as f64))
-            .collect();
         Ok(Self {
             cable: DuctedCable::new(length, cable.axial_stiffness(), cable.friction())?,
             motion,
             mesh,
             approach,
-            residual,
             passes: 0,
         })
     }
@@ -146,7 +118,7 @@ impl<'a> Cell<'a> {
         (share * self.mesh.elements() as f64).round() as usize
     }
 
-    /// Slip past the duct of every node \[m\] in one pass over a cell with `friction` \[N/m\] in its middle and a
+    /// Advance of every node \[m\] in one pass over a cell with `friction` \[N/m\] in its middle and a
     /// `gradient` \[N/m²\] along it.
     fn pass(&mut self, friction: f64, gradient: f64) -> Result<Vec<f64>, LawError> {
         let length = self.cable.length();
@@ -175,10 +147,8 @@ impl<'a> Cell<'a> {
         let mut state = CableState::from_parts(&self.mesh, start.clone(), locked)?;
         QuasiStatic::new(cable, self.mesh)?.pass(&passage, &mut state)?;
         self.passes += 1;
-        let moved = state.displacement().iter().zip(&start).zip(&self.residual);
-        Ok(moved
-            .map(|((after, before), residual)| after - before - residual)
-            .collect())
+        let moved = state.displacement().iter().zip(&start);
+        Ok(moved.map(|(after, before)| after - before).collect())
     }
 
     pub fn length(&self) -> f64 {

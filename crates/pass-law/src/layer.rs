@@ -17,7 +17,7 @@
 use cable_dem::{CableState, DuctedCable, End, Mesh, Order, Passage, QuasiStatic, Traffic};
 use ground_field::DuctMotion;
 
-use crate::cell::{dead_load, mean_residual_motion};
+use crate::cell::dead_load;
 use crate::table::Table;
 use crate::{LawError, MixedLaw, Resolution};
 
@@ -30,10 +30,6 @@ const STEADY: f64 = 1e-3;
 /// A piece that still changes by this share of q × depth a pass after [`MOST_PASSES`] is an error.
 const UNSTEADY: f64 = 2e-2;
 const MOST_PASSES: usize = 240;
-/// G′ is taken over twice this share of q.
-const SLOPE_WIDTH: f64 = 0.02;
-/// The residual motion changes the locked friction by at most this share of q.
-const LARGEST_CHANGE: f64 = 0.2;
 /// Most passes over which mixed traffic is averaged.
 const LONGEST_PERIOD: usize = 12;
 
@@ -148,8 +144,6 @@ pub(crate) struct Piece<'a> {
     mesh: Mesh,
     streams: &'a [(DuctMotion, f64)],
     approach: f64,
-    /// Mean residual motion of a pass at every node \[m\].
-    residual: Vec<f64>,
     peak: f64,
     depth: f64,
     /// Passes made.
@@ -172,19 +166,13 @@ impl<'a> Piece<'a> {
             .fold(0.0, f64::max);
         let length = PIECE_LENGTHS * resolution.fading_length(cable, peak) + 2.0 * half;
         let mesh = Mesh::new(length, resolution.node_spacing(), resolution.vehicle_step())?;
-        let approach = resolution
-            .approach()
-            .unwrap_or(APPROACH_DEPTHS * resolution.depth() + half);
-        let residual = (0..mesh.nodes())
-            .map(|i| mean_residual_motion(streams, length, approach, mesh.spacing() * i as f64))
-            .collect();
+        let approach = APPROACH_DEPTHS * resolution.depth() + half;
         Ok(Self {
             stiffness: cable.axial_stiffness(),
             cable: DuctedCable::new(length, cable.axial_stiffness(), cable.friction())?,
             mesh,
             streams,
             approach,
-            residual,
             peak,
             depth: resolution.depth(),
             passes: 0,
@@ -195,7 +183,7 @@ impl<'a> Piece<'a> {
     pub fn moving(&mut self, law: &MixedLaw) -> Result<[Layer; 2], LawError> {
         let mut readings = Vec::new();
         for share in [0.0, 0.5, 1.0] {
-            readings.push(self.run_moving(law, share * law.saturation())?);
+            readings.push(self.run_moving(share * law.saturation())?);
             if law.saturation() == 0.0 {
                 break;
             }
@@ -223,7 +211,7 @@ impl<'a> Piece<'a> {
         }))
     }
 
-    fn run_moving(&mut self, law: &MixedLaw, friction: f64) -> Result<[Reading; 2], LawError> {
+    fn run_moving(&mut self, friction: f64) -> Result<[Reading; 2], LawError> {
         let length = self.cable.length();
         let (spring, stretch) = dead_load(0.5 * friction * length, self.peak);
         let cable = self
@@ -232,7 +220,7 @@ impl<'a> Piece<'a> {
             .with_ends(End::Spring(spring), End::Spring(spring))?;
         let bend = 0.5 * friction / self.stiffness;
         let start = self.state(friction, |x| stretch + bend * x * (length - x))?;
-        let (readings, _) = self.run(law, cable, start, true)?;
+        let (readings, _) = self.run(cable, start, true)?;
         Ok(readings)
     }
 
@@ -252,7 +240,7 @@ impl<'a> Piece<'a> {
         let start = self.state(friction, |x| {
             give + bend * (length * length - distance(x, length).powi(2))
         })?;
-        let (readings, forces) = self.run(law, cable, start, false)?;
+        let (readings, forces) = self.run(cable, start, false)?;
         let index = match side {
             Side::Upstream => 0,
             Side::Downstream => 1,
@@ -275,7 +263,6 @@ impl<'a> Piece<'a> {
     /// Lets the traffic pass until S of both ends is steady; a moving piece is set back after every period.
     fn run(
         &mut self,
-        law: &MixedLaw,
         cable: DuctedCable,
         mut state: CableState,
         moving: bool,
@@ -302,7 +289,7 @@ impl<'a> Piece<'a> {
                 let (after, peak, lowest) = (outcome.force, outcome.peak, outcome.lowest);
                 forces[0].push(after.upstream, peak.upstream, lowest.upstream);
                 forces[1].push(after.downstream, peak.downstream, lowest.downstream);
-                let readings = self.read(law, &state);
+                let readings = self.read(&state);
                 for (sum, reading) in mean.iter_mut().zip(readings) {
                     sum.friction += reading.friction / period as f64;
                     sum.force += reading.force / period as f64;
@@ -332,33 +319,19 @@ impl<'a> Piece<'a> {
     }
 
     /// S and v of both ends, against the mean friction of the middle third.
-    ///
-    /// Where a residual motion varies along the piece, so does the friction that the slow law finds; that is no part of S.
-    fn read(&self, law: &MixedLaw, state: &CableState) -> [Reading; 2] {
+    fn read(&self, state: &CableState) -> [Reading; 2] {
         let n = self.mesh.elements();
         let f = state.friction();
-        let middle = n / 3..=n - n / 3;
-        let mean = |values: &[f64]| {
-            let third = &values[middle.clone()];
-            third.iter().sum::<f64>() / third.len() as f64
-        };
-        let (friction, residual) = (mean(f), mean(&self.residual));
-        let limit = law.friction_limit();
-        let width = SLOPE_WIDTH * limit;
-        let slope = (law.advance(friction + width).0 - law.advance(friction - width).0) / (2.0 * width);
-        let slow = |motion: f64| {
-            let change = (residual - motion) / slope;
-            let change = if change.is_finite() { change } else { 0.0 };
-            friction + change.clamp(-LARGEST_CHANGE * limit, LARGEST_CHANGE * limit)
-        };
+        let middle = &f[n / 3..=n - n / 3];
+        let friction = middle.iter().sum::<f64>() / middle.len() as f64;
         let mut readings = [Reading {
             friction,
             ..Reading::default()
         }; 2];
-        for (i, (f, motion)) in f.iter().zip(&self.residual).enumerate() {
+        for (i, f) in f.iter().enumerate() {
             // The node in the middle belongs to the second half.
             let side = usize::from(2 * i >= n);
-            let weight = self.mesh.tributary_length(i) * (f - slow(*motion));
+            let weight = self.mesh.tributary_length(i) * (f - friction);
             let distance = self.mesh.spacing() * i.min(n - i) as f64;
             readings[side].force += weight;
             readings[side].displacement -= weight * distance / self.stiffness;

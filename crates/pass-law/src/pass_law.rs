@@ -4,7 +4,6 @@ use cable_dem::{DuctedCable, End};
 use ground_field::DuctMotion;
 
 use crate::advance::Draft;
-use crate::cell::mean_residual_motion;
 use crate::grid::graded;
 use crate::layer::{Layer, Piece, Side};
 use crate::slow::{SlowEnd, SlowProblem};
@@ -30,7 +29,6 @@ pub struct PassLaw {
     pub(crate) resolution: Resolution,
     pub(crate) upstream: Layer,
     pub(crate) downstream: Layer,
-    residual: Option<(f64, Vec<(DuctMotion, f64)>)>,
     preparation: Preparation,
 }
 
@@ -85,7 +83,6 @@ impl PassLaw {
             resolution,
             upstream,
             downstream,
-            residual: resolution.approach().map(|approach| (approach, traffic.to_vec())),
             preparation,
         })
     }
@@ -143,20 +140,12 @@ impl PassLaw {
             let nearest = points.partition_point(|&x| x < position - 1e-9 * length).min(n);
             springs[nearest] += stiffness;
         }
-        let residual = points
-            .iter()
-            .map(|&x| match &self.residual {
-                None => 0.0,
-                Some((approach, traffic)) => mean_residual_motion(traffic, length, *approach, x),
-            })
-            .collect();
         SlowProblem {
             law: self.law.clone(),
             axial_stiffness: self.cable.axial_stiffness(),
             points,
             weights,
             springs,
-            residual,
             upstream,
             downstream,
         }

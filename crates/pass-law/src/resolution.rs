@@ -18,7 +18,6 @@ pub struct Resolution {
     depth: f64,
     nodes_per_depth: f64,
     accuracy: f64,
-    approach: Option<f64>,
 }
 
 impl Resolution {
@@ -33,7 +32,6 @@ impl Resolution {
             depth: checked("depth", depth, "finite and positive", |v| v > 0.0)?,
             nodes_per_depth: 6.0,
             accuracy: 2e-3,
-            approach: None,
         })
     }
 
@@ -60,24 +58,6 @@ impl Resolution {
             (1e-5..=0.1).contains(&v)
         })?;
         Ok(self)
-    }
-
-    /// The same law as a simulation sees it whose vehicles come from and leave to `approach` \[m\] beyond the duct's ends.
-    ///
-    /// The field of an endless half-space reaches farther. Cutting it off leaves the duct a little ahead after every pass,
-    /// which moves the cable along and lets it slip at held ends: for a comparison with such a simulation.
-    ///
-    /// # Errors
-    ///
-    /// [`LawError::InvalidParameter`] unless it is finite and positive.
-    pub fn with_approach(mut self, approach: f64) -> Result<Self, LawError> {
-        self.approach = Some(checked("approach", approach, "finite and positive", |v| v > 0.0)?);
-        Ok(self)
-    }
-
-    /// Where a compared simulation's vehicles start \[m\] beyond the ends; `None` for far away.
-    pub fn approach(self) -> Option<f64> {
-        self.approach
     }
 
     /// Depth of the duct \[m\].

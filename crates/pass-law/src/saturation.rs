@@ -106,10 +106,9 @@ impl PassLaw {
             return None;
         }
         let (length, stiffness) = (cable.length(), cable.axial_stiffness());
-        let star = self.law().saturation();
-        // A compared simulation's finite approach moves the cable along; friction locks until it no longer does.
-        let friction = self.mean_locked_friction();
-        let layer = |layer: &crate::layer::Layer| (layer.force.at(star).0, layer.displacement.at(star).0);
+        let friction = self.law().saturation();
+        let layer =
+            |layer: &crate::layer::Layer| (layer.force.at(friction).0, layer.displacement.at(friction).0);
         let ((s0, v0), (s1, v1)) = (layer(&self.upstream), layer(&self.downstream));
         let total = s0 + friction * length + s1;
         let upstream = match (first, last) {
@@ -160,26 +159,5 @@ impl PassLaw {
             .sum::<f64>()
             / f64::from(pieces);
         2.0 * self.cable().axial_stiffness() * mean / star
-    }
-
-    /// Mean along the duct of the friction at which the cable rests \[N/m\].
-    fn mean_locked_friction(&self) -> f64 {
-        let problem = self.problem();
-        let weights: f64 = problem.weights.iter().sum();
-        let locked = |(residual, weight): (&f64, &f64)| {
-            let friction = if *residual == 0.0 {
-                self.law().saturation()
-            } else {
-                self.law().friction_at(-residual)
-            };
-            weight * friction
-        };
-        problem
-            .residual
-            .iter()
-            .zip(&problem.weights)
-            .map(locked)
-            .sum::<f64>()
-            / weights
     }
 }

@@ -1,4 +1,4 @@
-//! The slow problem: (1 + ℓ ∂/∂x) ∂u/∂n = G(f̄) + D̄(x) in the pass number n, with f̄ = −EA ∂²u/∂x².
+//! The slow problem: (1 + ℓ ∂/∂x) ∂u/∂n = G(f̄) in the pass number n, with f̄ = −EA ∂²u/∂x².
 //!
 //! In space, finite volumes: forces F = −EA u′ on the pieces between points, and at every point the friction that balances
 //! them over its share w of the cable. At an end
@@ -7,7 +7,7 @@
 //!
 //! with S and v of the end's layer ([`crate::layer`]) and s the spring there; a fixed end takes u = −v instead of its
 //! equation. Where S falls with f̄, the slow problem ends that much before the cable's end, as far as S and w f̄ together
-//! rise. D̄ is the residual motion of a finite approach, zero by default.
+//! rise.
 
 use crate::layer::Layer;
 use crate::tridiagonal::Tridiagonal;
@@ -35,8 +35,6 @@ pub(crate) struct SlowProblem {
     pub weights: Vec<f64>,
     /// Clamps' stiffness at every point \[N/m\].
     pub springs: Vec<f64>,
-    /// Residual motion D̄ at every point \[m\].
-    pub residual: Vec<f64>,
     pub upstream: SlowEnd,
     pub downstream: SlowEnd,
 }
@@ -120,7 +118,7 @@ impl SlowProblem {
         if i == 0 {
             let (end, k) = (&self.upstream, self.stiffness(0));
             if end.stiffness.is_none() {
-                return self.at_rest(i);
+                return self.at_rest();
             }
             let grip = end.grip(self.axial_stiffness);
             let spring = grip * (u[0] - self.held(end)) + self.springs[0] * u[0];
@@ -133,7 +131,7 @@ impl SlowProblem {
         if i == last {
             let (end, k) = (&self.downstream, self.stiffness(last - 1));
             if end.stiffness.is_none() {
-                return self.at_rest(i);
+                return self.at_rest();
             }
             let grip = end.grip(self.axial_stiffness);
             let spring = grip * (u[last] - self.held(end)) + self.springs[last] * u[last];
@@ -151,9 +149,9 @@ impl SlowProblem {
     }
 
     /// A point that does not move carries the friction that stops it.
-    fn at_rest(&self, i: usize) -> Local {
+    fn at_rest(&self) -> Local {
         Local {
-            friction: self.law.friction_at(-self.residual[i]),
+            friction: self.law.saturation(),
             by: [0.0; 3],
         }
     }
@@ -182,7 +180,7 @@ impl SlowProblem {
             .collect()
     }
 
-    /// Solves (1 + ℓ ∂/∂x)(u − base) = step · (G(f̄(u)) + D̄) by Newton's method from the guess in `u`; returns the iterations.
+    /// Solves (1 + ℓ ∂/∂x)(u − base) = step · G(f̄(u)) by Newton's method from the guess in `u`; returns the iterations.
     pub fn implicit(
         &self,
         memory: &[[f64; 3]],
@@ -207,7 +205,7 @@ impl SlowProblem {
                 }
                 let local = self.local(u, i);
                 let (advance, slope) = self.law.advance(local.friction);
-                let mut right = step * (advance + self.residual[i]);
+                let mut right = step * advance;
                 for k in 0..3 {
                     system.rows[i][k] = memory[i][k] - step * slope * local.by[k];
                     if memory[i][k] != 0.0 {

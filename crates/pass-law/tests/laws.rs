@@ -3,7 +3,7 @@
 mod common;
 
 use cable_dem::{CableError, DuctedCable, End, Friction, FrictionLaw};
-use common::{APPROACH, DEPTH, Outcome, TRUCK, cable, motion, resolution};
+use common::{DEPTH, Outcome, TRUCK, cable, motion, resolution};
 use ground_field::Direction::{Forward, Reverse};
 use ground_field::DuctMotion;
 use pass_law::{AdvanceLaw, Concern, LawError, MixedLaw, PassLaw, Resolution, concerns_before};
@@ -231,7 +231,7 @@ fn near_shakedown_the_law_says_so() -> Outcome {
 #[test]
 fn an_evolution_without_an_answer_is_an_error() -> Outcome {
     let (cable, motion) = of_friction_number(3.16, 56.2)?;
-    let law = PassLaw::new(&cable, &[(motion, 1.0)], resolution()?.with_approach(APPROACH)?)?;
+    let law = PassLaw::new(&cable, &[(motion, 1.0)], resolution()?)?;
     match law.run(&[20, 60, 200]) {
         Ok(evolution) => assert!(evolution.records.iter().all(|r| r.downstream_force.is_finite())),
         Err(error) => assert!(matches!(error, LawError::NoConvergence { .. }), "{error}"),

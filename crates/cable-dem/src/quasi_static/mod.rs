@@ -3,8 +3,11 @@
 //! The vehicle advances in steps; each is one implicit step of a rate-independent system, which is exact as long as no
 //! node reverses its slip within the step. Work is done only where something moves: in a window that travels with the
 //! vehicle (see [`passage`]) and in small ones at ends and clamps, which are solved again when the vehicle's effect on them
-//! has changed. A window grows when its edge is disturbed and shrinks when it is quiet. After each pass the whole cable
-//! is solved once more, so that the state it leaves is in equilibrium and within the friction bounds everywhere.
+//! has changed. A window grows when its edge is disturbed and shrinks when it is quiet.
+//!
+//! Before the vehicle comes and after it has left the ground is at rest. The first step takes the duct from there to the vehicle's
+//! first position, the last one from its last position back: steps of the whole cable, so that the state a pass leaves is in
+//! equilibrium and within the friction bounds everywhere.
 
 mod active_set;
 mod chain;

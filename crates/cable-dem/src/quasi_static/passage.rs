@@ -70,10 +70,11 @@ pub(super) struct Snapshot<'a> {
 impl Passage {
     /// The passage of a vehicle whose duct motion is `motion` over `cable`, meshed by `mesh`.
     ///
-    /// Its origin comes from and leaves to `approach` \[m\] beyond the duct's ends, far enough for the field of every
-    /// wheel to be past its turning points there. What the duct does while the
-    /// vehicle is farther away is left out: an endless elastic half-space has a tail ∝ 1/ξ there that real ground, over
-    /// rock at some depth, has not.
+    /// Its origin is followed from `approach` \[m\] before the duct to `approach` past it; before and after that the ground is at
+    /// rest, D = 0. What the duct does while the vehicle is farther away is taken in one step, there and back. That is exact if
+    /// D no longer turns there and its parts no longer change the order in which they lead: 1.5 times as far as the outermost turn.
+    /// On a half-space a wheel's last turn is some twelve depths away, and is counted from every wheel; to follow the vehicle
+    /// farther than needed changes nothing and costs little.
     ///
     /// # Errors
     ///

@@ -18,15 +18,15 @@
 //!
 //! Forces locked into a short stretch fade sooner: in the time T of a pass they spread by ℓ = √(EA T/η). Just after a pass
 //! the gain stands within a few depths of the ends and of the vehicle's trace, so that this length beside the duct's natural
-//! length decides, long before e^(−T/τ) is felt: measured on the 30 m scene, 63 % of the force of two passes is
-//! missing at ℓ = 6 m, 19 % at 1.9 m, 2 % at 0.6 m and 0.1 % at 0.2 m.
+//! length decides, long before e^(−T/τ) is felt: measured on the 30 m scene, 67 % of the force of two passes is
+//! missing at ℓ = 6 m, 21 % at 1.9 m, 3 % at 0.6 m and 0.3 % at 0.2 m.
 //!
 //! The time step counts only in the product b Δt. Force after two passes on that scene with b = 1e8 1/m, implicit, where
-//! Coulomb's law gives 152 N:
+//! Coulomb's law gives 139 N:
 //!
 //! | Δt, ms | 18 | 9 | 4.5 | 2.25 |
 //! |---|---|---|---|---|
-//! | force, N | 136 | 124 | 107 | 87 |
+//! | force, N | 122 | 110 | 94 | 73 |
 //!
 //! Both v_b and τ contain Δt: the law is one of the time step as much as of the cable. A short Δt leaks fast and
 //! lets the reference speed grow past the duct's own velocity, so that friction never reaches its limit; a long Δt does not

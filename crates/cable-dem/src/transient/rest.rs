@@ -9,7 +9,8 @@
 //! the cable by less than its vibration and leaves the mean where it was.
 //!
 //! For the `sigmoid` law, which has no memory, both are single steps of its own law: f = q tanh(b Δs/2) with Δs the slip
-//! within the step.
+//! within the step. So long a step as the return of the duct's whole tail may then rub at the limit: what the law had left when
+//! the vehicle was gone is [`crate::TransientOutcome::force_before_rest`].
 
 use super::sigmoid::SigmoidSolver;
 use super::step::{StepSolver, tolerance};
@@ -27,16 +28,16 @@ pub(crate) struct Settler {
 
 #[derive(Debug, Clone)]
 enum Solver {
-    Memory(StepSolver),
-    Sigmoid(SigmoidSolver),
+    Memory(Box<StepSolver>),
+    Sigmoid(Box<SigmoidSolver>),
 }
 
 impl Settler {
     pub fn new(lumped: &Lumped) -> Self {
         let solver = if lumped.cable.friction().law().has_memory() {
-            Solver::Memory(StepSolver::new(lumped, 0.0))
+            Solver::Memory(Box::new(StepSolver::new(lumped, 0.0)))
         } else {
-            Solver::Sigmoid(SigmoidSolver::new(lumped, 0.0))
+            Solver::Sigmoid(Box::new(SigmoidSolver::new(lumped, 0.0)))
         };
         Self {
             solver,

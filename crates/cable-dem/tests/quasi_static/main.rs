@@ -4,6 +4,7 @@
 //! One binary, one idea a file; [`scenes`] holds what they share, [`full_newton`] the independent solver.
 
 mod against_full_newton;
+mod approach;
 mod closed_forms;
 mod end_clamps;
 mod friction_symmetry;

@@ -162,6 +162,32 @@ proptest! {
         }
     }
 
+    /// Between any two points the force changes by what friction at its limit and the clamps between them can carry, no more.
+    #[test]
+    fn between_two_points_friction_and_clamps_carry_the_difference(scene in any_scene(3.0, 40.0)) {
+        let Problem { cable, mesh, .. } = &scene.problem;
+        let limit = cable.friction().limit();
+        for kind in scene.kinds() {
+            let mut run = Run::new(kind, &scene.problem).expect("a valid problem");
+            for &drive in &scene.traffic {
+                run.pass(drive).expect("an equilibrium");
+                let forces: Vec<f64> = run.state.element_forces(cable, mesh).collect();
+                let clamps = run.state.restraint_forces(cable, mesh);
+                for (i, j) in (0..forces.len()).flat_map(|i| (i + 1..forces.len()).map(move |j| (i, j))) {
+                    // A clamp within an element pulls at both of its nodes; those between are i + 1 to j.
+                    let (from, to) = (i as f64 * mesh.spacing(), (j + 1) as f64 * mesh.spacing());
+                    let held: f64 = cable.restraints().iter().zip(&clamps)
+                        .filter(|(clamp, _)| clamp.position >= from && clamp.position <= to)
+                        .map(|(_, force)| force.abs())
+                        .sum();
+                    let carried = limit * (j - i) as f64 * mesh.spacing() + held;
+                    let excess = (forces[j] - forces[i]).abs() - carried;
+                    prop_assert!(excess <= 1e-6 * scene.problem.largest_force(), "{kind:?}: {excess} N, elements {i} to {j}");
+                }
+            }
+        }
+    }
+
     /// Duct backward, cable backward.
     #[test]
     fn the_answer_is_odd(scene in any_scene(3.0, 40.0)) {

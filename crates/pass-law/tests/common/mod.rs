@@ -66,9 +66,7 @@ pub fn both_at(
     traffic: &[(DuctMotion, f64)],
     passes: &[u64],
 ) -> Result<Vec<(PassRecord, PassRecord)>, Box<dyn std::error::Error>> {
-    let resolution = Resolution::new(depth)?
-        .with_nodes_per_depth(NODES)?
-        .with_approach(APPROACH)?;
+    let resolution = Resolution::new(depth)?.with_nodes_per_depth(NODES)?;
     let law = PassLaw::new(cable, traffic, resolution)?;
     for concern in law.concerns() {
         println!("concern: {concern}");
