@@ -160,9 +160,8 @@ pub fn measured(passes: &Passes, finer: &Passes, scale: Scale) -> Shares {
     difference(passes, finer, scale).times(VERIFIED)
 }
 
-/// Refuses an answer whose error is too large to be one.
-pub fn judge(error: Shares, tolerance: f64) -> Result<(), Error> {
-    let reached = error.force.max(error.movement);
+/// Refuses an answer whose error of the force, `reached`, is too large to be one.
+pub fn judge(reached: f64, tolerance: f64) -> Result<(), Error> {
     // Written so that what is not a number fails.
     if reached <= tolerance.max(DOUBTFUL) {
         Ok(())

@@ -216,7 +216,7 @@ impl Ladder<'_> {
     fn judge(&self, error: &ErrorParts, warnings: &mut Vec<String>) -> Result<(), Error> {
         let tolerance = self.scene.solver.tolerance;
         let total = error.total();
-        error::judge(total, tolerance)?;
+        error::judge(total.force, tolerance)?;
         for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
             if share > tolerance {
                 warnings.push(format!(
