@@ -39,7 +39,7 @@ fn main() -> Result<(), common::Failure> {
     let passes: Vec<u64> = (0..=80)
         .map(|k| (LAST as f64).powf(f64::from(k) / 80.0).round() as u64)
         .collect();
-    let resolution = Resolution::new(1.2)?.with_approach(APPROACH)?;
+    let resolution = Resolution::new(1.2)?;
     let law = PassLaw::new(&cable, &[(motion, 1.0)], resolution)?;
     let curve: Vec<(f64, f64)> = law
         .run(&passes)?
