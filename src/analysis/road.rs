@@ -21,8 +21,9 @@ const FARTHEST_THICKNESSES: f64 = 10.0;
 const FARTHEST: f64 = 3000.0;
 /// Ratio of two neighbouring distances at which it is looked at.
 const GROWTH: f64 = 1.01;
-/// A vehicle is followed so much farther than to the turn.
-const MARGIN: f64 = 1.1;
+/// A vehicle is followed so much farther than to the turn: beyond, the parts of the duct no longer change the order in which they
+/// lead, as tails that are a sum of two powers have their steepest slope within 1.5 of the distance of their turn.
+const MARGIN: f64 = 1.5;
 /// A vehicle is followed to so many depths from its wheels at least.
 const NEAREST: f64 = 6.0;
 

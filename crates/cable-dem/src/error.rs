@@ -46,6 +46,29 @@ pub enum CableError {
         /// Node spacing \[m\].
         spacing: f64,
     },
+    /// The motion of the duct is not known as far as the passing vehicle needs it.
+    #[error(
+        "the motion of the duct reaches {reach:?} m from the vehicle, and the duct with its approach is {needed:?} m long: sample the \
+         motion that far"
+    )]
+    OutOfReach {
+        /// Length of the duct and approach \[m\].
+        needed: f64,
+        /// How far the motion is known \[m\].
+        reach: f64,
+    },
+    /// The mesh is too coarse for the motion of the duct.
+    #[error(
+        "elements or steps of {longest:?} m leave out {:.0} % of the duct's peak displacement: take at least two, better six nodes a \
+         depth of the duct",
+        100.0 * .left_out
+    )]
+    CoarseMesh {
+        /// The longer one of node spacing and vehicle step \[m\].
+        longest: f64,
+        /// Share of the peak.
+        left_out: f64,
+    },
     /// The passage was computed for another cable or mesh.
     #[error("the passage was computed for another mesh, axial stiffness or friction than the solver's")]
     PassageMismatch,

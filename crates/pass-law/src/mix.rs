@@ -105,22 +105,7 @@ impl MixedLaw {
             })
     }
 
-    /// The locked friction nearest to none at which the mean advance is `advance` \[m\], by bisection.
-    pub(crate) fn friction_at(&self, advance: f64) -> f64 {
-        let start = self.advance(0.0).0 - advance;
-        let sign = if start < 0.0 { -1.0 } else { 1.0 };
-        let (mut low, mut high) = (0.0, self.friction_limit());
-        for _ in 0..60 {
-            let middle = 0.5 * (low + high);
-            if sign * (self.advance(sign * middle).0 - advance) > 0.0 {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        sign * 0.5 * (low + high)
-    }
-
+    /// The locked friction nearest to none at which nothing advances, by bisection.
     fn find_saturation(&self) -> f64 {
         if let [(_, law)] = self.parts.as_slice() {
             return law.saturation();
@@ -129,6 +114,16 @@ impl MixedLaw {
         if self.free_advance().abs() <= crate::advance::NO_ADVANCE * self.peak_longitudinal() {
             return 0.0;
         }
-        self.friction_at(0.0)
+        let sign = self.free_advance().signum();
+        let (mut low, mut high) = (0.0, self.friction_limit());
+        for _ in 0..60 {
+            let middle = 0.5 * (low + high);
+            if sign * self.advance(sign * middle).0 > 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        sign * 0.5 * (low + high)
     }
 }

@@ -78,15 +78,20 @@ impl Passage {
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m.
+    /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m, [`CableError::OutOfReach`] where the motion
+    /// is not known as far as the duct's length and the approach together, [`CableError::CoarseMesh`] for a mesh that leaves out
+    /// more than 65 % of the duct's peak: coarser than some one and a half nodes a depth.
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,
         motion: &DuctMotion,
         approach: f64,
     ) -> Result<Self, CableError> {
+        checked("approach", approach, "positive and at most 1e5 m", |v| {
+            v > 0.0 && v <= 1e5
+        })?;
         // The solver always drives forward; reverse traffic is its mirror image.
-        let (direction, shape) = as_driven(motion);
+        let (direction, shape) = as_driven(motion, mesh, approach)?;
         Self::from_shape(cable, mesh, direction, shape, approach)
     }
 
@@ -96,7 +101,8 @@ impl Passage {
     ///
     /// # Errors
     ///
-    /// As for [`Passage::new`], and [`CableError::InvalidParameter`] where `shape` is not finite.
+    /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m and `shape` is finite. Whether the mesh is
+    /// fine enough for the shape is for the caller to know.
     pub fn from_shape(
         cable: &DuctedCable,
         mesh: &Mesh,

@@ -145,6 +145,30 @@ mod tests {
     }
 
     #[test]
+    fn steps_stay_until_the_shape_has_turned_for_the_last_time() {
+        // Like a wheel's: (ξ³ − 6ξ)/(1 + ξ²)² turns where ξ⁴ − 21 ξ² + 6 = 0, at 0.54 and last at 4.55.
+        let turn = (0.5 * (21.0 + (21.0_f64 * 21.0 - 24.0).sqrt())).sqrt();
+        let shape: Vec<f64> = (-2000..=2000)
+            .map(|j| 0.1 * f64::from(j))
+            .map(|xi| (xi.powi(3) - 6.0 * xi) / (1.0 + xi * xi).powi(2))
+            .collect();
+        for found in outermost_turns(&shape, 2000) {
+            assert!((0.1 * found as f64 - turn).abs() <= 0.1, "{found}, not {turn}");
+        }
+        let positions = schedule(&shape, 2000, 100, 1000, 1);
+        let near = (SETTLED * 10.0 * turn) as i64;
+        assert!((-near..=100 + near).all(|position| positions.contains(&position)));
+        assert!(positions.len() < 2 * near as usize + 200, "{}", positions.len());
+        // Noise is no turn.
+        let noisy: Vec<f64> = shape
+            .iter()
+            .zip([1e-6, -1e-6].into_iter().cycle())
+            .map(|(d, noise)| d + noise)
+            .collect();
+        assert_eq!(outermost_turns(&noisy, 2000), outermost_turns(&shape, 2000));
+    }
+
+    #[test]
     fn strides_grow_outward_and_leave_out_no_more_than_a_step_over_the_duct() {
         let positions = positions(5000);
         let value = |j: f64| 0.1 * j / (1.0 + 0.01 * j * j);

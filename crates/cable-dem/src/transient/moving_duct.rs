@@ -62,14 +62,17 @@ impl MovingDuct {
     /// # Errors
     ///
     /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m, the motion is finite and the
-    /// table has at most 4e7 points.
+    /// table has at most 4e7 points; [`CableError::OutOfReach`] and [`CableError::CoarseMesh`] as for [`crate::Passage::new`].
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,
         motion: &DuctMotion,
         approach: f64,
     ) -> Result<Self, CableError> {
-        let (direction, shape) = as_driven(motion);
+        checked("approach", approach, "positive and at most 1e5 m", |v| {
+            v > 0.0 && v <= 1e5
+        })?;
+        let (direction, shape) = as_driven(motion, mesh, approach)?;
         Self::from_shape(cable, mesh, (direction, motion.velocity().abs()), shape, approach)
     }
 
@@ -79,7 +82,8 @@ impl MovingDuct {
     ///
     /// # Errors
     ///
-    /// As for [`MovingDuct::new`]; also unless the speed is positive.
+    /// [`CableError::InvalidParameter`] unless speed and `approach` are positive, the shape is finite and the table has at most 4e7
+    /// points.
     pub fn from_shape(
         cable: &DuctedCable,
         mesh: &Mesh,
