@@ -96,9 +96,7 @@ impl Case {
     }
 
     fn law(&self, density: f64, passes: usize) -> Result<Found, Failure> {
-        let resolution = Resolution::new(self.scene.duct.depth)?
-            .with_nodes_per_depth(density)?
-            .with_approach(self.scene.solver.approach.ok_or("the scene has no approach")?)?;
+        let resolution = Resolution::new(self.scene.duct.depth)?.with_nodes_per_depth(density)?;
         let law = PassLaw::new(&cable(&self.scene)?, &[(self.motion.clone(), 1.0)], resolution)?;
         if let Some(concern) = law.concerns().into_iter().find(|concern| concern.is_fatal()) {
             return Err(concern.to_string().into());

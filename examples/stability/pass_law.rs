@@ -44,9 +44,7 @@ struct Answer {
 }
 
 fn law(cable: &DuctedCable, motion: &DuctMotion) -> Result<Answer, LawError> {
-    let resolution = Resolution::new(DEPTH)?
-        .with_nodes_per_depth(NODES)?
-        .with_approach(APPROACH)?;
+    let resolution = Resolution::new(DEPTH)?.with_nodes_per_depth(NODES)?;
     let law = PassLaw::new(cable, &[(motion.clone(), 1.0)], resolution)?;
     let evolution = law.run(&PASSES)?;
     let concerns = law.concerns();

@@ -39,7 +39,7 @@ pub fn farthest(scene: &Scene) -> f64 {
         .profile
         .layers()
         .iter()
-        .map(|layer| layer.thickness())
+        .map(ground_field::SoilLayer::thickness)
         .sum();
     let far = (FARTHEST_DISTANCES * scene.duct.depth.hypot(aside)).max(FARTHEST_THICKNESSES * thickness);
     ahead + far.min(FARTHEST)
