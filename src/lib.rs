@@ -77,7 +77,7 @@ pub use analysis::result::{
 pub use analysis::run::{RunOptions, check, run, run_with};
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
 pub use error::Error;
-pub use planner::{Plan, PlanReport, Rung, plan, plan_on};
+pub use planner::{Plan, PlanReport, Rung, occurrence, plan, plan_on};
 pub use scene::{Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.

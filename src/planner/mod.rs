@@ -9,6 +9,7 @@
 pub mod ground;
 pub mod mesh;
 pub mod method;
+pub mod occurrence;
 
 use ground_field::GroundField;
 use serde::Serialize;
