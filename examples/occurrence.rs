@@ -12,7 +12,9 @@
 mod common;
 
 use boussinesq::HalfSpace;
-use cable_dem::{CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
+use cable_dem::{
+    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic,
+};
 use common::{Failure, save};
 use creepage::figure::{Axis, Chart, Reference, Series};
 use creepage::occurrence;
@@ -183,7 +185,9 @@ fn main() -> Result<(), Failure> {
     }
     for (k, rows) in found.chunks(occurrence::TABLE.len()).enumerate() {
         let sheath = AXIAL_STIFFNESS / (SHEAR[k] * DEPTH * DEPTH);
-        println!("\nEA/(S z²) = {sheath:.4}\n     Q    f*/q  Q f*/q  G(0)/D  force on the fixed end less f* L, in EA D/z");
+        println!(
+            "\nEA/(S z²) = {sheath:.4}\n     Q    f*/q  Q f*/q  G(0)/D  force on the fixed end less f* L, in EA D/z"
+        );
         for row in rows {
             println!(
                 "{:6.2}  {:6.4}  {:6.4}  {:6.4}  {:6.3}",
@@ -200,8 +204,12 @@ fn main() -> Result<(), Failure> {
         let name = |what: &str| format!("{what}, EA/(S z²) = {sheath:.3}");
         let points = |value: fn(&Found) -> f64| rows.iter().map(move |row| (row.number, value(row)));
         chart = chart
-            .with(style(Series::line_points(name("f*/q"), points(|row| row.locked)).colour(0)))
-            .with(style(Series::line_points(name("G(0)/max|D_l|"), points(|row| row.advance)).colour(1)));
+            .with(style(
+                Series::line_points(name("f*/q"), points(|row| row.locked)).colour(0),
+            ))
+            .with(style(
+                Series::line_points(name("G(0)/max|D_l|"), points(|row| row.advance)).colour(1),
+            ));
     }
     save("occurrence.svg", &chart.to_svg()?)
 }
