@@ -1,7 +1,7 @@
 //! Scenes as text, and what no answer may break.
 
 use creepage::scene::{End, SolverMethod};
-use creepage::{Error, PassRecord, Run, Scene};
+use creepage::{Error, PassRecord, Run, RunOptions, Scene};
 
 /// The full-scale experiment's upper cable in a duct of 60 m: half-space of 800 MPa, free upstream, fixed downstream, 20 tf.
 pub const UPPER: [&str; 8] = [
@@ -48,7 +48,17 @@ pub fn limit(scene: &Scene) -> f64 {
 /// An answer that can be true, or a typed error that says what else to try.
 #[track_caller]
 pub fn answer(scene: &Scene) -> Option<Run> {
-    match creepage::run(scene) {
+    looked_at(scene, &[])
+}
+
+/// The same with a look at the cable after the passes `stages`.
+#[track_caller]
+pub fn looked_at(scene: &Scene, stages: &[u64]) -> Option<Run> {
+    let options = RunOptions {
+        stages,
+        ..RunOptions::default()
+    };
+    match creepage::run_with(scene, &options) {
         Ok(run) => {
             assert_possible(scene, &run);
             Some(run)
@@ -210,16 +220,4 @@ pub fn by(scene: &Scene, method: SolverMethod) -> Scene {
     let mut scene = scene.clone();
     scene.solver.method = method;
     scene
-}
-
-/// Largest difference of an end's force between two runs, over all passes, as a share of the largest force of any pass.
-pub fn difference(run: &Run, other: &Run) -> f64 {
-    let largest = other.passes.iter().map(largest_force).fold(0.0, f64::max);
-    let ends = |record: &PassRecord| [record.upstream_force_n, record.downstream_force_n];
-    run.passes
-        .iter()
-        .zip(&other.passes)
-        .flat_map(|(a, b)| ends(a).into_iter().zip(ends(b)))
-        .map(|(a, b)| (a - b).abs() / largest)
-        .fold(0.0, f64::max)
 }
