@@ -75,10 +75,8 @@ pub fn on(
 }
 
 /// Grounds of Table 1: its subgrade alone, and its layers on rock as deep as the paper's ratio of displacements asks for.
-pub const GROUNDS: [(&str, Option<&str>); 2] = [
-    ("half-space", None),
-    ("Table 1 on rock at 8 m", Some(ON_ROCK)),
-];
+pub const GROUNDS: [(&str, Option<&str>); 2] =
+    [("half-space", None), ("Table 1 on rock at 8 m", Some(ON_ROCK))];
 const ON_ROCK: &str = r#"ground={preset="kashiro"}"#;
 /// Deflections between the least and the most that were measured \[µm\].
 pub const WITHIN: [f64; 3] = [90.0, 115.0, 140.0];
@@ -120,8 +118,9 @@ fn main() -> Result<(), Failure> {
     println!("one point, both grounds scaled to the deflection, after 200 passes:");
     for (name, file, paper) in CABLES {
         for (ground, preset) in GROUNDS {
-            let solve =
-                |deflection: &f64| on(file, None, preset, Some(*deflection)).map_err(|error| error.to_string());
+            let solve = |deflection: &f64| {
+                on(file, None, preset, Some(*deflection)).map_err(|error| error.to_string())
+            };
             let outcomes: Vec<Outcome> = WITHIN.par_iter().map(solve).collect::<Result<_, _>>()?;
             for (deflection, found) in WITHIN.iter().zip(&outcomes) {
                 println!(

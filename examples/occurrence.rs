@@ -12,7 +12,9 @@
 mod common;
 
 use boussinesq::HalfSpace;
-use cable_dem::{CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
+use cable_dem::{
+    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic,
+};
 use common::{Failure, save};
 use creepage::figure::{Axis, Chart, Reference, Series};
 use creepage::occurrence;
@@ -33,6 +35,9 @@ const NODES_PER_DEPTH: f64 = 24.0;
 /// Change of the force in a hundred passes at which nothing changes any more, as a share of q L.
 const SETTLED: f64 = 1e-5;
 const MOST_PASSES: u32 = 10_000;
+/// Up to this Q the stiffer sheath is computed. Its shear acts over 0.09 m, which hardly shows on this mesh: near shakedown not
+/// well enough.
+const STIFF_TO: f64 = 2.0;
 
 /// One value of Q under one concentrated load.
 pub struct Case {
@@ -166,6 +171,7 @@ fn main() -> Result<(), Failure> {
     let cases: Vec<(f64, f64)> = SHEAR
         .into_iter()
         .flat_map(|shear| occurrence::TABLE.map(|row| (row.number, shear)))
+        .filter(|&(number, shear)| shear == SHEAR[0] || number <= STIFF_TO)
         .collect();
     let solve = |&(number, shear): &(f64, f64)| find(number, shear).map_err(|error| error.to_string());
     let found: Vec<Found> = cases.par_iter().map(solve).collect::<Result<_, _>>()?;
@@ -183,7 +189,9 @@ fn main() -> Result<(), Failure> {
     }
     for (k, rows) in found.chunks(occurrence::TABLE.len()).enumerate() {
         let sheath = AXIAL_STIFFNESS / (SHEAR[k] * DEPTH * DEPTH);
-        println!("\nEA/(S z²) = {sheath:.4}\n     Q    f*/q  Q f*/q  G(0)/D  force on the fixed end less f* L, in EA D/z");
+        println!(
+            "\nEA/(S z²) = {sheath:.4}\n     Q    f*/q  Q f*/q  G(0)/D  force on the fixed end less f* L, in EA D/z"
+        );
         for row in rows {
             println!(
                 "{:6.2}  {:6.4}  {:6.4}  {:6.4}  {:6.3}",
@@ -200,8 +208,12 @@ fn main() -> Result<(), Failure> {
         let name = |what: &str| format!("{what}, EA/(S z²) = {sheath:.3}");
         let points = |value: fn(&Found) -> f64| rows.iter().map(move |row| (row.number, value(row)));
         chart = chart
-            .with(style(Series::line_points(name("f*/q"), points(|row| row.locked)).colour(0)))
-            .with(style(Series::line_points(name("G(0)/max|D_l|"), points(|row| row.advance)).colour(1)));
+            .with(style(
+                Series::line_points(name("f*/q"), points(|row| row.locked)).colour(0),
+            ))
+            .with(style(
+                Series::line_points(name("G(0)/max|D_l|"), points(|row| row.advance)).colour(1),
+            ));
     }
     save("occurrence.svg", &chart.to_svg()?)
 }

@@ -20,8 +20,7 @@ fn chain(scene: &Scene, ground: &dyn GroundField, deflection: Option<f64>, spaci
         DuctLine::new(scene.duct.depth, 0.0).expect("a line"),
     );
     let reach = length + 2.0 * APPROACH;
-    let motion =
-        DuctMotion::new(ground, &scene.vehicles[0].vehicle, line, reach, 1e-7).expect("a motion");
+    let motion = DuctMotion::new(ground, &scene.vehicles[0].vehicle, line, reach, 1e-7).expect("a motion");
     let factor = deflection.map_or(1.0, |peak| peak / motion.peak_vertical());
     let motion = motion.scaled(factor).expect("a motion");
     let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
@@ -94,10 +93,7 @@ fn three_axles_near_shakedown_agree_with_an_independent_program() {
 /// with nodes 0.2 m apart, a mesh on which it is about 1 % low.
 #[test]
 fn the_ground_of_table_1_on_rock_agrees_with_an_independent_program() {
-    for ((name, file, _), wanted) in CABLES
-        .iter()
-        .zip([[539.0, 575.0, 594.0], [704.0, 805.0, 861.0]])
-    {
+    for ((name, file, _), wanted) in CABLES.iter().zip([[539.0, 575.0, 594.0], [704.0, 805.0, 861.0]]) {
         let preset = GROUNDS[1].1.expect("a preset").to_owned();
         let scene = scene(file, &[preset]).expect("a scene");
         let ground = LayeredHalfSpace::new(&scene.ground.profile).expect("layers");

@@ -29,10 +29,7 @@ pub(crate) fn as_driven(
     let longest = mesh.spacing().max(mesh.vehicle_step());
     let left_out = left_out(motion, longest);
     if left_out > MOST_LEFT_OUT {
-        return Err(CableError::CoarseMesh {
-            longest,
-            left_out,
-        });
+        return Err(CableError::CoarseMesh { longest, left_out });
     }
     let direction = if motion.velocity() < 0.0 {
         Direction::Reverse
