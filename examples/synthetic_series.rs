@@ -28,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let run = creepage::run(&scene)?;
 
     println!(
-        "# SYNTHETIC, not measured: scene full-scale-upper.toml by the explicit solver (node spacing 0.1 m), dynamic_coefficient {FRICTION}, \
+        "# SYNTHETIC, not measured: scene full-scale-upper.toml by the explicit solver (node spacing 0.1 m, the ground at rest between passes), dynamic_coefficient {FRICTION}, \
          shape_factor {SHAPE_FACTOR:e} 1/m, Gaussian noise of {NOISE} N, seed {SEED}"
     );
     println!("# made by examples/synthetic_series.rs");

@@ -13,14 +13,20 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::path::Path;
 
+use boussinesq::HalfSpace;
+use cable_dem::{
+    CableError, CableState, DuctedCable, Friction, FrictionLaw, Mesh, Passage, QuasiStatic,
+};
 use calibrate::{Calibration, Estimate, Fit, ModelError, Options, Parameter, Profiles, Scale};
 use creepage::Scene;
 use creepage::figure::{Class, GridAxis, Map};
-use creepage::scene::{FrictionLaw, SolverMethod};
 use fastrand::Rng;
+use ground_field::{DuctLine, DuctMotion};
 use rayon::prelude::*;
 
 const PASSES: u64 = 60;
+/// How far beyond the duct's ends vehicles are followed \[m\]: past the outermost turn of D_l, ten depths off.
+const APPROACH: f64 = 20.0;
 /// One reading in so many passes.
 const EVERY: usize = 2;
 const TRUE_COEFFICIENT: f64 = 0.25;
@@ -52,26 +58,34 @@ impl Table {
     /// Those of the scene and of the solver.
     pub fn new(density: f64) -> Result<Self, Box<dyn Error>> {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/full-scale-upper.toml");
-        let mut scene = Scene::from_file(&path)?;
+        let scene = Scene::from_file(&path)?;
+        let ground = HalfSpace::new(scene.ground.profile.homogeneous().ok_or("the ground has layers")?);
+        let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
+        let vehicle = &scene.vehicles[0].vehicle;
+        let motion = DuctMotion::new(&ground, vehicle, line, scene.duct.length + APPROACH, 1e-6)?;
         let spacing = scene.duct.depth / density;
-        scene.traffic.passes = PASSES;
-        scene.solver.method = SolverMethod::QuasiStatic;
-        scene.solver.node_spacing = Some(spacing);
-        scene.solver.vehicle_step = Some(0.5 * spacing);
+        let mesh = Mesh::new(scene.duct.length, spacing, 0.5 * spacing)?;
         let (rows, columns) = (COEFFICIENTS.2, SHAPE_FACTORS.2);
         let forces = (0..rows * columns)
             .into_par_iter()
             .map(|index| {
-                let mut scene = scene.clone();
-                scene.friction.dynamic_coefficient = place(COEFFICIENTS, index / columns);
-                scene.friction.law = FrictionLaw::ElasticPlastic {
+                let law = FrictionLaw::ElasticPlastic {
                     shape_factor: place(SHAPE_FACTORS, index % columns),
                 };
-                let run = creepage::run(&scene)?;
-                let forces = run.passes.iter().map(|pass| pass.downstream_force_n);
-                Ok(forces.skip(EVERY - 1).step_by(EVERY).collect())
+                let limit = place(COEFFICIENTS, index / columns) * scene.cable.normal_load();
+                let cable = DuctedCable::new(
+                    scene.duct.length,
+                    scene.cable.axial_stiffness,
+                    Friction::new(law, limit)?,
+                )?
+                .with_ends(scene.ends.upstream, scene.ends.downstream)?;
+                let passage = Passage::new(&cable, &mesh, &motion, APPROACH)?;
+                let mut solver = QuasiStatic::new(cable, mesh)?;
+                let mut state = CableState::at_rest(&mesh);
+                let forces = (0..PASSES).map(|_| Ok(solver.pass(&passage, &mut state)?.force.downstream));
+                forces.skip(EVERY - 1).step_by(EVERY).collect()
             })
-            .collect::<Result<_, creepage::Error>>()?;
+            .collect::<Result<_, CableError>>()?;
         Ok(Self { forces })
     }
 

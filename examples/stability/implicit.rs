@@ -1,6 +1,6 @@
 //! Map 2: plain Newton against the quasi-static solver, over shape factor b and vehicle step.
 //!
-//! Second pass over 15 m of duct with nodes 0.2 m apart. Both solve the same steps of the same chain, and so does what is right:
+//! Second pass over 15 m of duct with nodes 0.2 m apart. Both solve the same steps of the same chain, from the ground at rest to the ground at rest, and so does what is right:
 //! Newton's method damped by a line search on the step's convex energy, which always arrives. Plain Newton takes full steps
 //! and goes on with what it has after [`PLAIN_STEPS`], as many programs do.
 
@@ -11,7 +11,7 @@ use cable_dem::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, Passage,
 use creepage::figure::{GridAxis, Panels};
 use ground_field::DuctMotion;
 
-use crate::cable_map::{Cell, DEPTH, Grid, Outcome, cable, decades, judge, silent, truck, unanswered};
+use crate::cable_map::{Cell, DEPTH, Grid, LIMIT, Outcome, cable, decades, judge, silent, truck, unanswered};
 
 const LENGTH: f64 = 15.0;
 const SPACING: f64 = 0.2;
@@ -149,7 +149,9 @@ impl Chain {
                 .map(|i| motion.longitudinal(mesh.spacing() * i as f64 - vehicle))
                 .collect()
         };
-        let path: Vec<Vec<f64>> = (0..=steps).map(duct).collect();
+        // Before the vehicle comes and after it has left the ground is at rest.
+        let rest = || std::iter::once(vec![0.0; nodes]);
+        let path: Vec<Vec<f64>> = rest().chain((0..=steps).map(duct)).chain(rest()).collect();
         for _ in 0..PASSES {
             for pair in path.windows(2) {
                 let advance: Vec<f64> = pair[1].iter().zip(&pair[0]).map(|(new, old)| new - old).collect();
@@ -174,7 +176,9 @@ fn outcomes(shape_factor: f64, step: f64, motion: &DuctMotion) -> Result<[Cell; 
             violation: f64::NAN,
         });
     };
-    let judge = |force: f64| judge(force, expected, expected.abs(), false);
+    // Where nothing slips nothing is left: forces below what friction holds on a centimetre count as nothing.
+    let scale = expected.abs().max(0.01 * LIMIT);
+    let judge = |force: f64| judge(force, expected, scale, false);
     let library = || {
         let passage = Passage::new(&cable, &mesh, motion, APPROACH)?;
         let mut solver = QuasiStatic::new(cable.clone(), mesh)?;

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
-use cable_dem::{Mesh, Statistics};
+use cable_dem::{CableError, Mesh, Statistics};
 use ground_field::DuctMotion;
 
 use super::cable::CableMethod;
@@ -185,11 +185,12 @@ impl Ladder<'_> {
         Ok(difference(passes, &farther, self.scale()))
     }
 
-    /// The passes on all levels below `level` that the duct is long enough for.
+    /// The passes on all levels below `level` that the duct is long enough for, and that are fine enough for its motion.
     fn coarser(&self, level: usize) -> Result<Vec<Passes>, Error> {
         (0..level)
             .filter(|&coarser| self.levels.mesh(coarser).is_ok())
             .map(|coarser| self.simulate(coarser, false))
+            .filter(|passes| !matches!(passes, Err(Error::Cable(CableError::CoarseMesh { .. }))))
             .collect()
     }
 
@@ -215,7 +216,7 @@ impl Ladder<'_> {
     fn judge(&self, error: &ErrorParts, warnings: &mut Vec<String>) -> Result<(), Error> {
         let tolerance = self.scene.solver.tolerance;
         let total = error.total();
-        error::judge(total, tolerance)?;
+        error::judge(total.force, tolerance)?;
         for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
             if share > tolerance {
                 warnings.push(format!(

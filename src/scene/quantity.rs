@@ -143,12 +143,14 @@ impl Dimension {
     }
 }
 
-/// The number that a text begins with, and the rest: its unit, or nothing.
+/// The number that a text begins with, and the rest: its unit, or nothing. What goes on like a number is none.
 #[cfg(feature = "sweep")]
 pub(crate) fn leading_number(text: &str) -> Option<(f64, &str)> {
     let (number, rest) = split(text.trim())?;
     let value = number.shifted(0)?;
-    value.is_finite().then_some((value, rest.trim()))
+    let unit = rest.trim();
+    let goes_on = unit.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+    (value.is_finite() && !goes_on).then_some((value, unit))
 }
 
 /// The digits of a decimal number and its exponent, or a word for a value that is not finite.

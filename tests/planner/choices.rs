@@ -156,11 +156,8 @@ fn the_equivalent_thickness_of_too_many_layers_is_refused() {
     let refused = creepage::plan(&edited).err().expect("too many layers");
     assert!(
         matches!(
-            refused,
-            creepage::Error::Unfit {
-                key: "ground.model",
-                ..
-            }
+            &refused,
+            creepage::Error::Scene(creepage::SceneError::Value { key, .. }) if key == "ground.model"
         ),
         "{refused}"
     );

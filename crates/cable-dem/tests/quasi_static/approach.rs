@@ -111,15 +111,18 @@ impl Scene {
             run.watch(&passage, |_, state| {
                 let forces = state
                     .element_forces(&self.cable, &self.mesh)
-                    .expect("a state of this mesh");
+                    .expect("the state's mesh");
                 largest = forces.fold(largest, |largest, force| largest.max(force.abs()));
             });
         }
-        let ends = run.state.end_forces(&self.cable, &self.mesh).expect("ends");
+        let ends = run
+            .state
+            .end_forces(&self.cable, &self.mesh)
+            .expect("the state's mesh");
         let inner = run
             .state
             .element_forces(&self.cable, &self.mesh)
-            .expect("a state of this mesh");
+            .expect("the state's mesh");
         (
             [ends.upstream, ends.downstream]
                 .into_iter()
