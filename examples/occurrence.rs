@@ -35,6 +35,9 @@ const NODES_PER_DEPTH: f64 = 24.0;
 /// Change of the force in a hundred passes at which nothing changes any more, as a share of q L.
 const SETTLED: f64 = 1e-5;
 const MOST_PASSES: u32 = 10_000;
+/// Up to this Q the stiffer sheath is computed. Its shear acts over 0.09 m, which hardly shows on this mesh: near shakedown not
+/// well enough.
+const STIFF_TO: f64 = 2.0;
 
 /// One value of Q under one concentrated load.
 pub struct Case {
@@ -168,6 +171,7 @@ fn main() -> Result<(), Failure> {
     let cases: Vec<(f64, f64)> = SHEAR
         .into_iter()
         .flat_map(|shear| occurrence::TABLE.map(|row| (row.number, shear)))
+        .filter(|&(number, shear)| shear == SHEAR[0] || number <= STIFF_TO)
         .collect();
     let solve = |&(number, shear): &(f64, f64)| find(number, shear).map_err(|error| error.to_string());
     let found: Vec<Found> = cases.par_iter().map(solve).collect::<Result<_, _>>()?;
