@@ -13,7 +13,7 @@ const TOLERANCES: [f64; 3] = [0.05, 0.01, 0.002];
 /// A run that takes longer counts as a miss \[s\].
 const LONGEST: Duration = Duration::from_secs(60);
 /// Nodes eliminated for a reference at most.
-const REFERENCE_WORK: f64 = 1.5e9;
+const REFERENCE_WORK: f64 = 4e8;
 /// A mesh twice as fine takes so many times the work.
 const REFINEMENT: f64 = 4.5;
 /// Forces and movements below this share of the run's largest, or of the duct's own movement, count as nothing, as in the estimate;
