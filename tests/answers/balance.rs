@@ -72,7 +72,7 @@ fn without_friction_nothing_is_dragged() {
         &[],
         &["restraints = [{ position = 60, stiffness = 4e12 }]"],
         &[
-            "duct = { length = 100000, depth = 0.75, lateral_offset = -0.24 }",
+            "duct = { length = 10000, depth = 0.75, lateral_offset = -0.24 }",
             "cable = { weight = 0.001, axial_stiffness = 5e6 }",
             "ends = { upstream = { spring = 2.9e5 }, downstream = \"fixed\" }",
         ],
@@ -106,7 +106,7 @@ fn without_friction_nothing_is_dragged() {
 /// Friction that is next to nothing drags next to nothing, and takes no minutes to say so.
 #[test]
 fn hardly_any_friction_carries_hardly_any_force() {
-    for coefficient in [1e-9, 1e-6, 1e-3, 0.01] {
+    for coefficient in [1e-9, 1e-5, 0.003] {
         for (passes, method) in [(100_000, SolverMethod::Auto), (200, SolverMethod::PassLaw)] {
             let mut scene = by(&upper(&[]), method);
             scene.friction.dynamic_coefficient = coefficient;

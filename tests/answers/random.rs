@@ -79,13 +79,13 @@ fn random(rng: &mut Rng) -> Scene {
     ])
 }
 
-/// Tries scenes; returns how many were answered by simulation and by the law, and how many were not.
-fn try_seeds(seeds: std::ops::Range<u64>) -> [usize; 3] {
+/// Tries scenes with one of the tolerances; returns how many were answered by simulation and by the law, and how many were not.
+fn try_seeds(seeds: std::ops::Range<u64>, tolerances: &[f64]) -> [usize; 3] {
     let mut count = [0; 3];
     for seed in seeds {
         let mut rng = Rng::with_seed(seed);
         let scene = random(&mut rng);
-        let tolerance = [0.2, 0.05, 0.01][rng.usize(..3)];
+        let tolerance = tolerances[rng.usize(..tolerances.len())];
         for (method, passes) in [
             (SolverMethod::Auto, rng.u64(1..12)),
             (SolverMethod::QuasiStatic, rng.u64(1..60)),
@@ -113,12 +113,12 @@ fn try_seeds(seeds: std::ops::Range<u64>) -> [usize; 3] {
 
 #[test]
 fn every_answer_can_be_true_or_is_none() {
-    let [simulated, by_law, _] = try_seeds(0..40);
+    let [simulated, by_law, _] = try_seeds(0..40, &[0.2, 0.05]);
     assert!(simulated >= 40 && by_law >= 4, "{simulated}, {by_law}");
 }
 
 #[test]
-#[ignore = "a thousand random scenes: minutes"]
+#[ignore = "five hundred random scenes: minutes"]
 fn every_one_of_very_many_answers_can_be_true_or_is_none() {
-    try_seeds(1000..2000);
+    try_seeds(1000..1500, &[0.2, 0.05, 0.01]);
 }
