@@ -18,7 +18,7 @@ use crate::Error;
 /// scenes, so that the error is above them in one or two of a hundred.
 const SHARES: [f64; 4] = [1.5, 0.35, 0.12, 0.04];
 /// The same from so many passes on, all of which can hardly agree by chance.
-const OF_MANY: [f64; 4] = [1.5, 0.12, 0.03, 0.0];
+const OF_MANY: [f64; 4] = [1.5, 0.2, 0.06, 0.02];
 const MANY: usize = 40;
 /// Of the only one.
 const ALONE: f64 = 2.0;
@@ -165,17 +165,21 @@ pub fn measured(passes: &Passes, finer: &Passes, scale: Scale) -> Shares {
     difference(passes, finer, scale).times(VERIFIED)
 }
 
+/// Whether an error of the force is too large for an answer.
+pub fn is_doubtful(reached: f64, tolerance: f64) -> bool {
+    // Written so that what is not a number is.
+    !(reached <= tolerance.max(DOUBTFUL))
+}
+
 /// Refuses an answer whose error of the force, `reached`, is too large to be one.
 pub fn judge(reached: f64, tolerance: f64) -> Result<(), Error> {
-    // Written so that what is not a number fails.
-    if reached <= tolerance.max(DOUBTFUL) {
-        Ok(())
-    } else {
-        Err(Error::Inaccurate {
+    if is_doubtful(reached, tolerance) {
+        return Err(Error::Inaccurate {
             reached,
             asked: tolerance,
-        })
+        });
     }
+    Ok(())
 }
 
 /// Largest difference of a force after a pass, as a share of the largest force or tension after that pass, or of a tenth of

@@ -94,11 +94,13 @@ impl Ladder<'_> {
         for passes in &passes {
             statistics += passes.statistics;
         }
+        // One mesh alone tells nothing; and no mesh that the scene names is refused for what coarser ones say.
         let alone = passes.len() == 1;
+        let doubtful = self.levels.named() && error::is_doubtful(error.total().force, tolerance);
         let mesh = self.levels.mesh(level)?;
         let finest = passes.pop().expect("the first level was computed");
         error.road = self.road_error(&finest, level, &mut statistics)?;
-        if verify || alone {
+        if verify || alone || doubtful {
             if let Some(exact) = self.exact.take() {
                 self.motions = exact;
                 // Measured with the mesh. An exact model's own error stays: a finer mesh of the cable does not show it.
