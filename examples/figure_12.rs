@@ -6,7 +6,7 @@
 //!
 //! `cargo run --release --example figure_12`
 
-mod common;
+pub mod common;
 
 use common::{Failure, save, scene};
 use creepage::figure::{Axis, Chart, Reference, Series};

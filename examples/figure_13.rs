@@ -2,8 +2,8 @@
 //!
 //! K. Kashiro et al., section 5.1: the elastic displacement of the cable grows with friction and with the square of the length X on which it acts, and falls with
 //! EA; where it reaches the displacement of the duct, the cable follows instead of slipping. Lines: the formula of a bar under
-//! even friction, N′ the weight a metre. Points: the cable solver, on a bar of length X held at one end whose duct moves forward
-//! much farther than the bar can stretch.
+//! even friction, N′ the weight a metre. Points: the cable solver, on a bar of length X held at one end whose duct moves
+//! much farther than the bar can stretch, forward at last.
 //!
 //! `cargo run --release --example figure_13`
 
@@ -70,9 +70,10 @@ impl Bar {
         let cable =
             DuctedCable::new(length, self.axial_stiffness, friction)?.with_ends(End::Free, End::Fixed)?;
         let mesh = Mesh::new(length, length / 64.0, length / 128.0)?;
-        // A front as wide as the bar, behind which the duct has moved ten times as far as the bar stretches.
+        // A front as wide as the bar takes the duct back ten times as far as the bar stretches; the return to rest takes it
+        // forward again.
         let moved = 10.0 * self.by_formula(length);
-        let shape = |xi: f64| 0.5 * moved * (1.0 - (xi / length).tanh());
+        let shape = |xi: f64| -0.5 * moved * (1.0 - (xi / length).tanh());
         let passage = Passage::from_shape(&cable, &mesh, Direction::Forward, shape, 18.0 * length)?;
         let mut state = CableState::at_rest(&mesh);
         Ok(QuasiStatic::new(cable, mesh)?

@@ -20,6 +20,7 @@ use creepage::figure::{Axis, Chart, Panels, Reference, Series};
 use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
 
 const LENGTH: f64 = 30.0;
+const DEPTH: f64 = 1.2;
 /// Largest friction μ_d N′ of the upper cable \[N/m\].
 pub const LIMIT: f64 = 0.25 * 108.8;
 /// Vehicles come from this far beyond the duct \[m\].
@@ -43,6 +44,14 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
+    /// Length at the limit backward between the outermost turns of D_l on either side of the vehicle \[m\]: ten depths off, 2/(1 − 2ν).
+    /// Beyond them an endless half-space moves the duct backward once more, by little.
+    pub fn backward_near(&self) -> f64 {
+        let spacing = self.friction[1].0 - self.friction[0].0;
+        let near = |place: &&(f64, f64)| place.0.abs() < 10.0 * DEPTH && place.1 < -0.999 * LIMIT;
+        spacing * self.friction.iter().filter(near).count() as f64
+    }
+
     /// What cable.
     fn cable(&self) -> &'static str {
         if self.axial_stiffness == STIFF {
@@ -61,7 +70,7 @@ impl Snapshot {
 pub fn snapshots(axial_stiffness: f64, passes: &[u32]) -> Result<Vec<Snapshot>, Failure> {
     let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
     let truck = Vehicle::point("20 tf", 20.0 * 9806.65, 40.0 / 3.6)?;
-    let duct = DuctLine::new(1.2, 0.0)?;
+    let duct = DuctLine::new(DEPTH, 0.0)?;
     let motion = DuctMotion::new(&ground, &truck, duct, LENGTH + 2.0 * APPROACH, 1e-9)?;
     let law = FrictionLaw::ElasticPlastic {
         shape_factor: 2e8 / LIMIT,
@@ -138,13 +147,14 @@ fn main() -> Result<(), Failure> {
                 .fold(0.0_f64, |most, f| most.max(sign * f.1))
         };
         println!(
-            "{:11}  pass {:3}: forward {:5.2} m at {:.2} N/m, backward {:5.2} m at {:.2} N/m",
+            "{:11}  pass {:3}: forward {:5.2} m at {:.2} N/m, backward {:5.2} m at {:.2} N/m, {:.2} m of them within ten depths",
             snapshot.cable(),
             snapshot.pass,
             snapshot.slip.forward,
             most(1.0),
             snapshot.slip.backward,
-            most(-1.0)
+            most(-1.0),
+            snapshot.backward_near()
         );
     }
     save("figure-7.svg", &figure(&snapshots).to_svg()?)

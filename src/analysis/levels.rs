@@ -13,8 +13,8 @@ use super::road;
 use crate::planner::mesh::Levels;
 use crate::{Error, Scene};
 
-/// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: a minute or two.
-const MAX_NODE_UPDATES: usize = 5_000_000_000;
+/// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
+const MAX_NODE_UPDATES: usize = 2_000_000_000;
 /// A mesh twice as fine takes about this many times the node updates.
 const REFINEMENT_COST: usize = 4;
 /// Share of the tolerance that what the ground model leaves out may take of the force.
@@ -185,7 +185,7 @@ impl Ladder<'_> {
         Ok(difference(passes, &farther, self.scale()))
     }
 
-    /// The passes on all levels below `level` that the duct is long enough for and that are fine enough for its motion.
+    /// The passes on all levels below `level` that the duct is long enough for, and that are fine enough for its motion.
     fn coarser(&self, level: usize) -> Result<Vec<Passes>, Error> {
         (0..level)
             .filter(|&coarser| self.levels.mesh(coarser).is_ok())
@@ -216,7 +216,7 @@ impl Ladder<'_> {
     fn judge(&self, error: &ErrorParts, warnings: &mut Vec<String>) -> Result<(), Error> {
         let tolerance = self.scene.solver.tolerance;
         let total = error.total();
-        error::judge(total, tolerance)?;
+        error::judge(total.force, tolerance)?;
         for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
             if share > tolerance {
                 warnings.push(format!(

@@ -4,7 +4,7 @@ use cable_dem::{Mesh, PassOutcome};
 use ground_field::{DuctMotion, GroundField};
 
 use super::cable::{CableMethod, PassMethod};
-use super::error::{self, Shares};
+use super::error;
 use super::law::LawRun;
 use super::levels::{Ladder, Solved};
 use super::passes::{Passes, force_profile, simulate};
@@ -160,7 +160,7 @@ impl Answer<'_> {
     fn trusted(&self, law: LawRun, plan: &Plan<'_>) -> Result<LawRun, Error> {
         let tolerance = self.scene.solver.tolerance;
         let relative = law.error.relative;
-        error::judge(Shares::both(relative), tolerance)?;
+        error::judge(relative, tolerance)?;
         if plan.method.one_by_one && relative > tolerance {
             return Err(Error::Inaccurate {
                 reached: relative,

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use super::{Failure, terminal};
+use crate::occurrence::Occurrence;
 use crate::shown::{rounded, selected, share, time};
 use crate::{PlanReport, Profile, Run, Scene};
 
@@ -97,6 +98,9 @@ pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
         plan.vehicle_step_m,
         time(plan.estimated_seconds)
     )?;
+    if let Some(occurrence) = &plan.occurrence {
+        self::occurrence(&mut out, occurrence)?;
+    }
     for part in ["ground", "cable", "mesh"] {
         let rungs: Vec<_> = plan.ladder.iter().filter(|rung| rung.part == part).collect();
         if rungs.is_empty() {
@@ -116,6 +120,28 @@ pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
             )?;
         }
     }
+    Ok(())
+}
+
+/// A go or no-go before anything is run.
+fn occurrence(out: &mut impl Write, occurrence: &Occurrence) -> Result<(), Failure> {
+    write!(out, "Q = q z²/(EA max|D_l|) = {:.2}: ", occurrence.q_number)?;
+    if occurrence.creeps() {
+        write!(
+            out,
+            "{:.0} % of the friction stays locked in at saturation; at most about {:.0} N in this duct, whatever the friction",
+            100.0 * occurrence.locked_share,
+            occurrence.ceiling_n
+        )?;
+    } else {
+        write!(out, "nothing creeps")?;
+    }
+    let rough = if occurrence.rough {
+        " (rough: the numbers are those of one concentrated load on a half-space)"
+    } else {
+        ""
+    };
+    writeln!(out, "{rough}")?;
     Ok(())
 }
 

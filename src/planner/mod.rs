@@ -9,6 +9,7 @@
 pub mod ground;
 pub mod mesh;
 pub mod method;
+pub mod occurrence;
 
 use ground_field::GroundField;
 use serde::Serialize;
@@ -20,6 +21,7 @@ use crate::{Error, Run, Scene};
 use ground::GroundChoice;
 use mesh::Levels;
 use method::MethodChoice;
+use occurrence::Occurrence;
 
 /// Density of soil \[kg/m³\] for the speed of its shear waves: moist sand and clay have 1700 to 2000.
 const SOIL_DENSITY: f64 = 1800.0;
@@ -104,6 +106,9 @@ pub struct PlanReport {
     pub estimated_error: Option<f64>,
     /// Time of the run \[s\] on a core of about 3 GHz, within a factor of three or so.
     pub estimated_seconds: f64,
+    /// Whether the cable creeps, and how much force there can be, by one number; `None` where the duct's motion is not known before the
+    /// run (finite elements, a model that the scene names) or there is none.
+    pub occurrence: Option<Occurrence>,
     /// Every rung that was looked at.
     pub ladder: Vec<Rung>,
     /// What the user should know before trusting the answer.
@@ -193,6 +198,10 @@ impl Plan<'_> {
             reasons: self.reasons(),
             estimated_error: mesh_error.map(|error| error + self.method.error + self.ground.error),
             estimated_seconds: seconds,
+            occurrence: self
+                .ground
+                .known()
+                .and_then(|motions| Occurrence::new(self.scene, motions)),
             ladder,
             warnings: self.warnings.clone(),
         }

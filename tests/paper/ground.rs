@@ -126,13 +126,10 @@ fn areas_of_friction() {
         );
     }
     // It runs backward between both peaks of Boussinesq's displacement, 0.68 depths to either side of the vehicle for ν = 0.4,
-    // less the slip of 2/b-some that turns the sheath's shear round.
+    // less the slip of 2/b-some that turns the sheath's shear round. (And beyond the outermost turns.)
     let between_peaks = 1.64;
-    assert!(
-        (0.8..1.0).contains(&(stiff[0].slip.backward / between_peaks)),
-        "{:?}",
-        stiff[0].slip
-    );
+    let backward = stiff[0].backward_near();
+    assert!((0.8..1.0).contains(&(backward / between_peaks)), "{backward} m");
     // At its first pass, the cable follows most of the slow forward motion elastically: no inequality yet, and so it is said in docs/validation.md.
     assert!(
         cable[0].slip.forward < cable[0].slip.backward,

@@ -8,7 +8,7 @@ use crate::error::checked;
 /// Weight of the slip length beside the depth.
 const SLIP_LENGTHS: f64 = 0.6;
 /// Longest slip length that the law takes, in depths.
-const MOST_REACH: f64 = 6.0;
+const MOST_REACH: f64 = 8.0;
 /// Longest fading length in depths.
 const MOST_DEPTHS: f64 = 8.0;
 

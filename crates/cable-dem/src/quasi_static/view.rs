@@ -36,21 +36,21 @@ impl StepView<'_> {
         }
     }
 
-    /// Displacement of a node \[m\].
+    /// Displacement of a node \[m\]; past the last one, of the last.
     pub fn displacement(&self, node: usize) -> f64 {
         let (node, sign) = self.place(node);
         sign * self.sweeper.displacement(node, &self.snapshot)
     }
 
-    /// Friction on the cable at a node \[N/m\].
+    /// Friction on the cable at a node \[N/m\]; past the last one, of the last.
     pub fn friction(&self, node: usize) -> f64 {
         let (node, sign) = self.place(node);
         sign * self.sweeper.friction(node, &self.snapshot)
     }
 
-    /// Force in the element between `node` and the next \[N\], compression positive.
+    /// Force in the element between `node` and the next \[N\], compression positive; past the last element, nothing.
     pub fn element_force(&self, node: usize) -> f64 {
-        self.sweeper.stiffness() * (self.displacement(node) - self.displacement(node + 1))
+        self.sweeper.stiffness() * (self.displacement(node) - self.displacement(node.saturating_add(1)))
     }
 
     /// Lengths of the slipping cable.
@@ -70,8 +70,10 @@ impl StepView<'_> {
     }
 
     fn place(&self, node: usize) -> (usize, f64) {
+        let last = self.sweeper.mesh().elements();
+        let node = node.min(last);
         if self.mirrored {
-            (self.sweeper.mesh().elements() - node, -1.0)
+            (last - node, -1.0)
         } else {
             (node, 1.0)
         }

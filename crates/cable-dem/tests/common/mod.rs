@@ -6,7 +6,7 @@ use cable_dem::{
     CableError, CableState, DuctedCable, Dynamic, End, Explicit, ExplicitOptions, Friction, FrictionLaw,
     Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic, TransientOutcome,
 };
-use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
+use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
 
 pub type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -31,7 +31,7 @@ pub fn truck(speed: f64) -> Result<DuctMotion, Box<dyn std::error::Error>> {
         &ground,
         &truck,
         DuctLine::new(1.2, 0.0)?,
-        100.0,
+        400.0,
         1e-10,
     )?)
 }
@@ -56,9 +56,17 @@ impl Scene {
         let cable = DuctedCable::new(length, axial_stiffness, Friction::new(law, limit)?)?
             .with_ends(End::Free, downstream)?;
         let mesh = Mesh::new(length, spacing, vehicle_step)?;
+        let shape = |xi: f64| motion.longitudinal(xi);
         Ok(Self {
-            passage: Passage::new(&cable, &mesh, motion, APPROACH)?,
-            duct: MovingDuct::new(&cable, &mesh, motion, APPROACH)?,
+            // The shape itself: also on meshes too coarse to say anything of the duct.
+            passage: Passage::from_shape(&cable, &mesh, Direction::Forward, shape, APPROACH)?,
+            duct: MovingDuct::from_shape(
+                &cable,
+                &mesh,
+                (Direction::Forward, motion.velocity()),
+                shape,
+                APPROACH,
+            )?,
             cable,
             mesh,
         })

@@ -10,7 +10,7 @@ use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
 use super::full_newton::{FullChain, even_positions};
 use super::scenes::{
     APPROACH, AXIAL_STIFFNESS, LIMITS, Run, cable, coulomb, elastic_plastic, largest_difference,
-    reference_cable, reference_motion,
+    reference_cable, reference_motion, unjudged_passage,
 };
 
 /// Friction and equilibrium hold to this share of the friction limit, where rounding does not set a wider bound.
@@ -147,7 +147,7 @@ fn every_spacing_is_solved_or_refused() {
         ] {
             let cable = reference_cable(length, friction);
             let mesh = Mesh::new(length, spacing, step).expect("a valid mesh");
-            let passage = Passage::new(&cable, &mesh, &motion, APPROACH).expect("a valid passage");
+            let passage = unjudged_passage(&cable, &mesh, &motion);
 
             assert!(
                 survives(&mut Run::new(cable, mesh), &passage, 3),
@@ -215,7 +215,7 @@ fn three_nodes_are_enough() {
             let cable = cable(2.0, AXIAL_STIFFNESS, friction, upstream, downstream);
             let mesh = Mesh::new(2.0, 1.0, 0.05).expect("a valid mesh");
             assert_eq!(mesh.nodes(), 3);
-            let passage = Passage::new(&cable, &mesh, &motion, APPROACH).expect("a valid passage");
+            let passage = unjudged_passage(&cable, &mesh, &motion);
             assert!(survives(&mut Run::new(cable, mesh), &passage, 20));
         }
     }
@@ -475,7 +475,7 @@ fn shallow_and_deep_ducts_are_solved() {
         for friction in [coulomb(LIMITS[0]), elastic_plastic(7e6, LIMITS[0])] {
             let cable = reference_cable(12.0, friction);
             let mesh = Mesh::new(12.0, 0.2, 0.1).expect("a valid mesh");
-            let passage = Passage::new(&cable, &mesh, &motion, APPROACH).expect("a valid passage");
+            let passage = unjudged_passage(&cable, &mesh, &motion);
             assert!(survives(&mut Run::new(cable, mesh), &passage, 5), "{depth} m");
         }
     }

@@ -4,7 +4,7 @@ use boussinesq::HalfSpace;
 use cable_dem::{
     CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic,
 };
-use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
+use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
 
 /// Distance beyond the duct's ends from which vehicles come \[m\].
 pub const APPROACH: f64 = 15.0;
@@ -25,7 +25,13 @@ pub fn reference_motion_at_speed(speed: f64) -> DuctMotion {
     let ground = HalfSpace::new(Soil::new(800e6, 0.4).expect("a valid soil"));
     let truck = Vehicle::point("truck", 196_133.0, speed).expect("a valid vehicle");
     let line = DuctLine::new(1.2, 0.0).expect("a valid line");
-    DuctMotion::new(&ground, &truck, line, 60.0, 1e-10).expect("a smooth field")
+    DuctMotion::new(&ground, &truck, line, 400.0, 1e-10).expect("a smooth field")
+}
+
+/// The passage of `motion` on whatever mesh, also one too coarse to say anything of the duct.
+pub fn unjudged_passage(cable: &DuctedCable, mesh: &Mesh, motion: &DuctMotion) -> Passage {
+    let shape = |xi: f64| motion.longitudinal(xi);
+    Passage::from_shape(cable, mesh, Direction::Forward, shape, APPROACH).expect("a valid passage")
 }
 
 /// Elastic-plastic friction with limit `limit` \[N/m\] and the reference sheath.

@@ -1,0 +1,126 @@
+//! Does a cable creep: the library's table against runs, and the ceiling against forces.
+
+#![allow(
+    clippy::duplicate_mod,
+    reason = "every example brings the same module `common`"
+)]
+
+use creepage::{Scene, occurrence};
+
+#[allow(dead_code, reason = "main and what it prints are the example's own")]
+#[path = "../examples/occurrence.rs"]
+mod example;
+
+/// A duct of 30 depths, 12 nodes a depth: shorter and coarser than what made the table.
+#[test]
+fn the_table_comes_out_of_runs() {
+    for number in [0.1, 0.4, 0.8] {
+        let wanted = occurrence::at(number);
+        let case = example::Case::new(number, example::SHEAR[0]).expect("a case");
+        let (locked, _) = case.saturated(30.0, 12.0).expect("saturated");
+        assert!(
+            (locked - wanted.locked_share).abs() < 0.02,
+            "Q = {number}: {locked}, not {}",
+            wanted.locked_share
+        );
+        let advance = case.advance(60.0, 12.0).expect("an advance");
+        assert!(
+            (advance - wanted.advance_share).abs() < 0.05,
+            "Q = {number}: {advance}, not {}",
+            wanted.advance_share
+        );
+    }
+}
+
+/// At Q that is no row: how good the reading between rows is.
+#[test]
+fn a_value_between_rows_comes_out_of_a_run() {
+    let case = example::Case::new(1.2, example::SHEAR[0]).expect("a case");
+    let (locked, _) = case.saturated(20.0, 12.0).expect("saturated");
+    let wanted = occurrence::at(1.2).locked_share;
+    assert!((locked - wanted).abs() < 0.02, "{locked}, not {wanted}");
+}
+
+fn scene(overrides: &[&str]) -> Scene {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/full-scale-upper.toml");
+    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+    Scene::from_file_with(&path, &overrides).expect("a scene")
+}
+
+fn expected(overrides: &[&str]) -> occurrence::Occurrence {
+    let scene = scene(overrides);
+    let plan = creepage::plan(&scene).expect("a plan").report();
+    plan.occurrence.expect("a half-space is known before the run")
+}
+
+/// 27.2 N/m · (1.2 m)²/(8.01 MN · 15.19 µm) = 0.322.
+#[test]
+fn the_plan_tells_the_number_of_the_experiment() {
+    let upper = expected(&[]);
+    assert!((upper.q_number - 0.322).abs() < 1e-3, "{upper:?}");
+    assert!(upper.creeps() && !upper.rough, "{upper:?}");
+    // f* L alone, the ends' part left out, is within 5 % of the independent 527.84 N.
+    let force = upper.locked_share * 27.2 * 30.0;
+    assert!((force / 527.84 - 1.0).abs() < 0.05, "{force} N");
+}
+
+/// From the least friction to too much of it, no force is above the ceiling, and the largest is not far below it.
+#[test]
+fn no_friction_makes_more_than_the_ceiling() {
+    let frictions = ["0.1", "0.25", "0.4", "0.6", "1.0"].map(|mu| {
+        let friction = format!("friction.dynamic_coefficient={mu}");
+        let overrides = [&*friction, "traffic.passes=400", "solver.tolerance=5 %"];
+        let run = creepage::run(&scene(&overrides)).expect("an answer");
+        (run.passes[399].downstream_force_n, expected(&overrides).ceiling_n)
+    });
+    let ceiling = frictions[0].1;
+    let largest = frictions
+        .iter()
+        .fold(0.0, |largest: f64, found| largest.max(found.0));
+    assert!(frictions.iter().all(|found| found.1 == ceiling), "{frictions:?}");
+    assert!(
+        largest < ceiling && largest > 0.7 * ceiling,
+        "{largest} N, {ceiling} N"
+    );
+}
+
+/// A stiff ground, a deep duct or a soft cable: beyond Q = 3 a pass moves the middle of a long free cable no more, where one at
+/// Q = 0.2 moves it by two peaks. (Free ends still work in a little.)
+#[test]
+fn above_three_nothing_creeps() {
+    let number = expected(&["cable.axial_stiffness=0.6e6 N"]);
+    assert!(number.q_number > 4.0 && !number.creeps(), "{number:?}");
+    assert_eq!(number.locked_share, 0.0);
+    assert_eq!(number.first_advance_m, 0.0);
+    for number in [3.5, 5.0] {
+        let case = example::Case::new(number, example::SHEAR[0]).expect("a case");
+        let advance = case.advance(40.0, 12.0).expect("an advance");
+        assert!(advance.abs() < 0.02, "Q = {number}: {advance} peaks a pass");
+    }
+}
+
+#[test]
+fn other_scenes_are_called_rough() {
+    for rough in [
+        "ground.layers.0.poisson_ratio=0.3",
+        "duct.lateral_offset=0.5 m",
+        "ground.rigid_base_depth=10 m",
+        r#"restraints=[{position="10 m", stiffness="1 MN/m"}]"#,
+        r#"vehicles.0.wheels=[{x="0 m", y="0 m", load="5 tf"}, {x="-5 m", y="0 m", load="15 tf"}]"#,
+        r#"vehicles.0.wheels=[{x="0 m", y="0 m", load="20 tf", contact_radius="0.15 m"}]"#,
+    ] {
+        assert!(expected(&[rough]).rough, "{rough}");
+    }
+}
+
+/// The largest D_l counts: a second, lighter vehicle changes nothing but that the numbers are rough.
+#[test]
+fn the_heaviest_of_several_vehicles_counts() {
+    let two = r#"vehicles=[{name="light", load="5 tf", speed="40 km/h"}, {name="heavy", load="20 tf", speed="40 km/h"}]"#;
+    let (one, several) = (expected(&[]), expected(&[two]));
+    assert!(
+        (several.q_number / one.q_number - 1.0).abs() < 1e-6,
+        "{several:?}"
+    );
+    assert!(several.rough);
+}
