@@ -92,7 +92,15 @@ pub fn assert_possible(scene: &Scene, run: &Run) {
     let allowed = 0.1_f64.max(scene.solver.tolerance);
     let stated = &run.error_estimate;
     assert!((0.0..=allowed).contains(&stated.relative), "{stated:?}");
-    assert!((0.0..=allowed).contains(&stated.parts.movement), "{stated:?}");
+    // A movement that is not known so well, as of an end that hardly moves, is told.
+    let told = run
+        .warnings
+        .iter()
+        .any(|warning| warning.contains("of the movement"));
+    assert!(
+        stated.parts.movement <= scene.solver.tolerance || told,
+        "{stated:?}"
+    );
 
     let first = run.passes.first().expect("passes").pass;
     let last = run.passes.last().expect("passes").pass;

@@ -1,7 +1,7 @@
 //! How far out a vehicle is followed: far enough by itself, and with an error that covers where the scene says less.
 
 use creepage::scene::GroundModel;
-use creepage::{PassRecord, Run, Scene};
+use creepage::{PassRecord, Run, Scene, Stage};
 use fastrand::Rng;
 
 use super::common::{LOWER_AXLES, UPPER, answer, looked_at, scene};
@@ -108,29 +108,26 @@ fn apart(run: &Run, other: &Run, passes: &[u64]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The same over all passes as errors are stated: a share of the largest force or tension after that pass, or of a tenth of the
-/// run's largest, peaks included.
+/// The same as errors are stated, a share of the largest force or tension after that pass, over the passes that leave a fifth
+/// of the run's largest force: a smaller one is held against a tenth of what passes through the cable, which no record shows.
 fn error(run: &Run, other: &Run) -> f64 {
+    let along = |stage: &Stage| {
+        let forces = stage.force_profile.force_n.iter();
+        forces.fold(0.0, |most: f64, force| most.max(force.abs()))
+    };
+    let scale = |(record, stage): (&PassRecord, &Stage)| largest([record]).max(along(stage));
+    let scales: Vec<f64> = run.passes.iter().zip(&run.stages).map(scale).collect();
     let peaks = run
         .passes
         .iter()
         .flat_map(|record| [record.upstream_peak_n, record.downstream_peak_n]);
-    let along = run
-        .stages
-        .iter()
-        .flat_map(|stage| stage.force_profile.force_n.iter().copied());
-    let floor = 0.1
-        * peaks
-            .chain(along)
-            .fold(largest(&run.passes), |most: f64, force| most.max(force.abs()));
-    let pairs = run.passes.iter().zip(&run.stages).zip(&other.passes);
+    let most = peaks
+        .chain(scales.iter().copied())
+        .fold(0.0, |most: f64, force| most.max(force.abs()));
+    let pairs = run.passes.iter().zip(&other.passes).zip(scales);
     pairs
-        .flat_map(|((a, stage), b)| {
-            assert_eq!(a.pass, stage.pass);
-            let along = &stage.force_profile.force_n;
-            let scale = along
-                .iter()
-                .fold(largest([a]).max(floor), |most, force| most.max(force.abs()));
+        .filter(|(_, scale)| *scale >= 0.2 * most)
+        .flat_map(|((a, b), scale)| {
             forces(a)
                 .into_iter()
                 .zip(forces(b))

@@ -85,6 +85,7 @@ pub fn scene(kind: &str, seed: u64) -> String {
 
 /// A scene file over the whole range: 5 to 300 m, 0.4 to 4 m deep, friction from 0.05 to 1, stiff and soft cables and sheaths, layers
 /// and rock, springs and clamps, up to three vehicles of up to six wheels, both ways; without a tolerance.
+#[allow(clippy::too_many_lines, reason = "a list of what a scene may hold")]
 pub fn wide(seed: u64) -> String {
     let mut random = Rng::with_seed(seed);
     let random = &mut random;
