@@ -24,7 +24,9 @@ pub enum Error {
     #[error(transparent)]
     Cable(#[from] CableError),
     /// The pass law could not be computed.
-    #[error(transparent)]
+    #[error(
+        "{0}; every pass one by one (solver.method = \"quasi-static\", at most a million traffic.passes) may do"
+    )]
     Law(#[from] LawError),
     /// The readings of a load cell are wrong.
     #[error(transparent)]

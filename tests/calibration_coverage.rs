@@ -33,7 +33,7 @@ const READINGS: usize = 60;
 const EVERY: usize = 2;
 /// Standard acceleration of gravity \[m/s²\], and how far beyond the duct's ends vehicles come from \[m\].
 const GRAVITY: f64 = 9.80665;
-const APPROACH: f64 = 15.0;
+const APPROACH: f64 = 20.0;
 /// Node spacing \[m\].
 const SPACING: f64 = 0.05;
 /// Degree of the polynomial in each.

@@ -14,9 +14,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use boussinesq::HalfSpace;
-use cable_dem::{
-    CableError, CableState, DuctedCable, Friction, FrictionLaw, Mesh, Passage, QuasiStatic,
-};
+use cable_dem::{CableError, CableState, DuctedCable, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
 use calibrate::{Calibration, Estimate, Fit, ModelError, Options, Parameter, Profiles, Scale};
 use creepage::Scene;
 use creepage::figure::{Class, GridAxis, Map};
@@ -59,7 +57,13 @@ impl Table {
     pub fn new(density: f64) -> Result<Self, Box<dyn Error>> {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/full-scale-upper.toml");
         let scene = Scene::from_file(&path)?;
-        let ground = HalfSpace::new(scene.ground.profile.homogeneous().ok_or("the ground has layers")?);
+        let ground = HalfSpace::new(
+            scene
+                .ground
+                .profile
+                .homogeneous()
+                .ok_or("the ground has layers")?,
+        );
         let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
         let vehicle = &scene.vehicles[0].vehicle;
         let motion = DuctMotion::new(&ground, vehicle, line, scene.duct.length + APPROACH, 1e-6)?;

@@ -13,8 +13,8 @@ use super::road;
 use crate::planner::mesh::Levels;
 use crate::{Error, Scene};
 
-/// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: a minute or two.
-const MAX_NODE_UPDATES: usize = 5_000_000_000;
+/// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
+const MAX_NODE_UPDATES: usize = 2_000_000_000;
 /// A mesh twice as fine takes about this many times the node updates.
 const REFINEMENT_COST: usize = 4;
 /// Share of the tolerance that what the ground model leaves out may take of the force.

@@ -2,5 +2,6 @@
 
 mod choices;
 mod cost;
+mod honest;
 mod scenes;
 mod statistics;

@@ -1,0 +1,223 @@
+//! Scenes as text, and what no answer may break.
+
+use creepage::scene::{End, SolverMethod};
+use creepage::{Error, PassRecord, Run, RunOptions, Scene};
+
+/// The full-scale experiment's upper cable in a duct of 60 m: half-space of 800 MPa, free upstream, fixed downstream, 20 tf.
+pub const UPPER: [&str; 8] = [
+    "duct = { length = 60, depth = 1.2 }",
+    "ground = { layers = [{ young_modulus = \"800 MPa\", poisson_ratio = 0.4 }] }",
+    "cable = { weight = 108.8, axial_stiffness = 8.01e6 }",
+    "friction = { dynamic_coefficient = 0.25, shape_factor = 7352941.0 }",
+    "ends = { upstream = \"free\", downstream = \"fixed\" }",
+    "vehicles = [{ speed = \"40 km/h\", load = \"20 tf\" }]",
+    "traffic = { passes = 600 }",
+    "solver = { method = \"auto\" }",
+];
+
+/// The full-scale experiment's lower cable under the same 20 tf on three axles, whose friction all but holds it: 30 m.
+pub const LOWER_AXLES: [&str; 5] = [
+    "duct = { length = 30, depth = 1.2 }",
+    "cable = { weight = 108.8, axial_stiffness = 8.01e6, normal_load_factor = 1.5 }",
+    "friction = { dynamic_coefficient = 0.27, shape_factor = 4538852.6 }",
+    "vehicles = [{ speed = \"40 km/h\", wheels = [{ x = 0, load = \"5.5 tf\" }, { x = -5, load = \"7.25 tf\" }, { x = -6.3, load = \"7.25 tf\" }] }]",
+    "traffic = { passes = 200 }",
+];
+
+/// The scene of `lines`; a later line takes the place of an earlier one with the same key.
+pub fn scene(lines: &[&[&str]]) -> Scene {
+    let key = |line: &str| line.split_once(" = ").map(|(key, _)| key.to_owned());
+    let mut text: Vec<&str> = Vec::new();
+    for &line in lines.iter().copied().flatten() {
+        text.retain(|other| key(other) != key(line));
+        text.push(line);
+    }
+    Scene::from_toml("scene", &text.join("\n")).expect("a valid scene")
+}
+
+/// [`UPPER`] with other lines.
+pub fn upper(lines: &[&str]) -> Scene {
+    scene(&[&UPPER, lines])
+}
+
+/// The most that friction carries per metre \[N/m\].
+pub fn limit(scene: &Scene) -> f64 {
+    scene.friction.dynamic_coefficient * scene.cable.normal_load()
+}
+
+/// An answer that can be true, or a typed error that says what else to try.
+#[track_caller]
+pub fn answer(scene: &Scene) -> Option<Run> {
+    looked_at(scene, &[])
+}
+
+/// The same with a look at the cable after the passes `stages`.
+#[track_caller]
+pub fn looked_at(scene: &Scene, stages: &[u64]) -> Option<Run> {
+    let options = RunOptions {
+        stages,
+        ..RunOptions::default()
+    };
+    match creepage::run_with(scene, &options) {
+        Ok(run) => {
+            assert_possible(scene, &run);
+            Some(run)
+        }
+        Err(error) => {
+            assert!(
+                matches!(
+                    error,
+                    Error::Inaccurate { .. }
+                        | Error::Unbalanced { .. }
+                        | Error::Law(_)
+                        | Error::TooManyNodes { .. }
+                        | Error::Unfit { .. }
+                ),
+                "{error:?}"
+            );
+            let text = error.to_string();
+            let named = ["solver.", "traffic.", "duct.", "friction."];
+            assert!(named.iter().any(|key| text.contains(key)), "no way out: {text}");
+            None
+        }
+    }
+}
+
+/// What friction, ends and clamps allow, finite numbers, and an error that is one.
+#[track_caller]
+pub fn assert_possible(scene: &Scene, run: &Run) {
+    let whole = serde_json::to_value(run).expect("a document");
+    assert_finite(&whole, "run");
+
+    let allowed = 0.1_f64.max(scene.solver.tolerance);
+    let stated = &run.error_estimate;
+    assert!((0.0..=allowed).contains(&stated.relative), "{stated:?}");
+    assert!((0.0..=allowed).contains(&stated.parts.movement), "{stated:?}");
+
+    let first = run.passes.first().expect("passes").pass;
+    let last = run.passes.last().expect("passes").pass;
+    assert_eq!((first, last), (1, scene.traffic.passes));
+    assert_ends(scene, &run.passes);
+    assert_balance(scene, run);
+    if let Some(saturation) = run.saturation {
+        assert!(
+            saturation.force_n.abs() >= reached(scene, &run.passes),
+            "{saturation:?}"
+        );
+    }
+}
+
+/// Every leaf of the document that is a number is one; only what may be missing is null.
+#[track_caller]
+fn assert_finite(value: &serde_json::Value, place: &str) {
+    use serde_json::Value;
+    match value {
+        Value::Array(values) => values.iter().for_each(|value| assert_finite(value, place)),
+        Value::Object(fields) => fields.iter().for_each(|(name, value)| assert_finite(value, name)),
+        Value::Null => assert!(
+            ["saturation", "slip_lengths", "dissipated_energy_j", "friction"].contains(&place),
+            "{place} is no number"
+        ),
+        _ => {}
+    }
+}
+
+/// A free end carries nothing, a fixed one does not move, a spring carries what it is compressed by; and what the ends carry
+/// differs by no more than friction holds, where there are no clamps.
+#[track_caller]
+fn assert_ends(scene: &Scene, passes: &[PassRecord]) {
+    let friction = limit(scene) * scene.duct.length;
+    let largest = passes.iter().map(largest_force).fold(1e-9, f64::max);
+    for record in passes {
+        let ends = [
+            (
+                scene.ends.upstream,
+                record.upstream_force_n,
+                -record.upstream_displacement_m,
+            ),
+            (
+                scene.ends.downstream,
+                record.downstream_force_n,
+                record.downstream_displacement_m,
+            ),
+        ];
+        for (end, force, inward) in ends {
+            // The law of many passes rounds its ends to a hundredth.
+            match end {
+                End::Free => assert!(force.abs() <= 0.01 * largest, "{record:?}"),
+                End::Fixed => assert!(inward.abs() <= 1e-9, "{record:?}"),
+                End::Spring(stiffness) => assert!(
+                    (force - stiffness * inward).abs() <= 0.01 * largest,
+                    "{stiffness} N/m: {record:?}"
+                ),
+            }
+        }
+        if scene.restraints.is_empty() {
+            let carried = (record.downstream_force_n - record.upstream_force_n).abs();
+            assert!(
+                carried <= 1.01 * friction,
+                "{carried} N, friction {friction} N: {record:?}"
+            );
+        }
+    }
+}
+
+/// Along the cable the force changes by no more than friction and the clamps between carry.
+#[track_caller]
+fn assert_balance(scene: &Scene, run: &Run) {
+    let profile = &run.force_profile;
+    let largest = profile
+        .force_n
+        .iter()
+        .fold(0.0_f64, |most, force| most.max(force.abs()));
+    let places = profile.positions_m.windows(2).zip(profile.force_n.windows(2));
+    for (x, force) in places {
+        let friction = 1.01 * limit(scene) * (x[1] - x[0]);
+        // A clamp is shared by the two nodes beside it, so by the elements before and after them.
+        let near = 1.5 * (x[1] - x[0]);
+        let clamps: f64 = run
+            .restraints
+            .iter()
+            .filter(|clamp| (x[0] - near..=x[1] + near).contains(&clamp.position_m))
+            .map(|clamp| clamp.force_n.abs())
+            .sum();
+        let change = (force[1] - force[0]).abs();
+        assert!(
+            change <= friction + 1.001 * clamps + 1e-9 * largest,
+            "{change} N at {} m, friction {friction} N, clamps {clamps} N",
+            x[0]
+        );
+    }
+}
+
+fn largest_force(record: &PassRecord) -> f64 {
+    [
+        record.upstream_force_n,
+        record.downstream_force_n,
+        record.max_compression_n,
+        record.upstream_peak_n,
+        record.downstream_peak_n,
+    ]
+    .into_iter()
+    .fold(0.0, |most: f64, force| most.max(force.abs()))
+}
+
+/// The largest force in size that a held end shows after any pass; inside the cable where both ends are free.
+pub fn reached(scene: &Scene, passes: &[PassRecord]) -> f64 {
+    let free = (scene.ends.upstream, scene.ends.downstream) == (End::Free, End::Free);
+    let force = |record: &PassRecord| {
+        if free {
+            record.max_compression_n.abs()
+        } else {
+            record.upstream_force_n.abs().max(record.downstream_force_n.abs())
+        }
+    };
+    passes.iter().map(force).fold(0.0, f64::max)
+}
+
+/// The scene by another method.
+pub fn by(scene: &Scene, method: SolverMethod) -> Scene {
+    let mut scene = scene.clone();
+    scene.solver.method = method;
+    scene
+}

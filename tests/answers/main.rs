@@ -1,0 +1,8 @@
+//! Every answer can be true: forces balance, numbers are finite, errors are stated and cover, or there is a typed error.
+
+mod balance;
+mod common;
+mod meshes;
+mod random;
+mod road;
+mod saturation;

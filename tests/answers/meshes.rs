@@ -1,0 +1,100 @@
+//! Two meshes that agree by chance are no proof: what a run states covers its distance from a far finer one.
+
+use creepage::scene::{GroundModel, SolverMethod};
+use creepage::{PassRecord, Run, Scene};
+
+use super::common::{answer, scene};
+
+/// A short duct over shallow rock, one pass of three axles: friction turns within the length of an element.
+const SHORT: [&str; 8] = [
+    "duct = { length = 8.8, depth = 2.09, lateral_offset = 1.0 }",
+    "ground = { rigid_base_depth = 3.52, layers = [{ young_modulus = \"199 MPa\", poisson_ratio = 0.46 }] }",
+    "cable = { weight = 251.7, axial_stiffness = 7.17135e6, normal_load_factor = 1.5 }",
+    "friction = { dynamic_coefficient = 0.835, shape_factor = 2.97343e8 }",
+    "ends = { upstream = { spring = 6.996e4 }, downstream = \"fixed\" }",
+    "vehicles = [{ speed = \"40 km/h\", wheels = [\
+     { x = 0, y = -0.9, load = \"22.8 kN\", contact_radius = 0.25 }, { x = -1.3, y = 0.9, load = \"73.5 kN\", contact_radius = 0.25 }, \
+     { x = -3.6, y = -0.9, load = \"12.1 kN\", contact_radius = 0.25 }, { x = 0, y = 0.9, load = \"41.1 kN\", contact_radius = 0.15 }, \
+     { x = -1.3, y = -0.9, load = \"13.9 kN\", contact_radius = 0.25 }, { x = -3.6, y = 0.9, load = \"20.7 kN\" }] }]",
+    "traffic = { passes = 1 }",
+    "solver = { method = \"quasi-static\" }",
+];
+
+/// The scene with 384 nodes a depth on the exact ground.
+fn far_finer(scene: &Scene) -> Run {
+    let mut scene = scene.clone();
+    scene.ground.model = GroundModel::Burmister;
+    scene.solver.method = SolverMethod::QuasiStatic;
+    scene.solver.node_spacing = Some(scene.duct.depth / 384.0);
+    scene.solver.vehicle_step = Some(scene.duct.depth / 768.0);
+    creepage::run(&scene).expect("a reference")
+}
+
+/// Largest differences of a force, as a share of the largest after that pass, and of a movement, as a share of the largest of all.
+fn off(run: &Run, exact: &Run) -> (f64, f64) {
+    let forces = |r: &PassRecord| [r.upstream_force_n, r.downstream_force_n, r.max_compression_n];
+    let movements = |r: &PassRecord| [r.upstream_displacement_m, r.downstream_displacement_m];
+    let moved = exact
+        .passes
+        .iter()
+        .flat_map(movements)
+        .fold(0.0, |most: f64, u| most.max(u.abs()));
+    let (mut force, mut movement) = (0.0_f64, 0.0_f64);
+    for (a, b) in run.passes.iter().zip(&exact.passes) {
+        let largest = forces(b).into_iter().fold(0.0, |most: f64, f| most.max(f.abs()));
+        for (a, b) in forces(a).into_iter().zip(forces(b)) {
+            force = force.max((a - b).abs() / largest);
+        }
+        for (a, b) in movements(a).into_iter().zip(movements(b)) {
+            movement = movement.max((a - b).abs() / moved);
+        }
+    }
+    (force, movement)
+}
+
+#[track_caller]
+fn assert_covered(scene: &Scene, exact: &Run, tolerance: f64) {
+    let mut scene = scene.clone();
+    scene.solver.tolerance = tolerance;
+    let Some(run) = answer(&scene) else { return };
+    let (force, movement) = off(&run, exact);
+    let stated = &run.error_estimate;
+    // What leaving out inertia costs no run without it can show.
+    let of_force = stated.relative - stated.parts.inertia;
+    assert!(
+        force <= of_force,
+        "{force} of the force at {tolerance}: {stated:?}"
+    );
+    assert!(
+        movement <= stated.parts.movement,
+        "{movement} of the movement at {tolerance}: {stated:?}"
+    );
+    let warned = run
+        .warnings
+        .iter()
+        .any(|warning| warning.contains("exceeds the tolerance"));
+    let within = stated.relative.max(stated.parts.movement) <= tolerance;
+    assert!(within != warned, "{:?}: {stated:?}", run.warnings);
+}
+
+#[test]
+fn a_short_duct_over_shallow_rock_is_within_what_is_stated() {
+    let scene = scene(&[&SHORT]);
+    let exact = far_finer(&scene);
+    for tolerance in [0.1, 0.05, 0.02, 0.01, 0.005] {
+        assert_covered(&scene, &exact, tolerance);
+    }
+}
+
+/// The same with other lengths, of which each puts the nodes elsewhere.
+#[test]
+fn so_is_one_that_is_a_little_longer() {
+    for length in 0..6 {
+        let mut scene = scene(&[&SHORT]);
+        scene.duct.length = 8.5 + 0.3 * f64::from(length);
+        let exact = far_finer(&scene);
+        for tolerance in [0.05, 0.01] {
+            assert_covered(&scene, &exact, tolerance);
+        }
+    }
+}

@@ -1,0 +1,153 @@
+//! What is called saturation: no less than a force already reached, no more than friction carries, as the table has it.
+
+use creepage::scene::SolverMethod;
+use creepage::{PassRecord, Run, Scene};
+
+use super::common::{LOWER_AXLES, UPPER, answer, by, limit, reached, scene, upper};
+
+/// The larger in size of the ends' forces.
+fn at_the_ends(record: &PassRecord) -> f64 {
+    if record.upstream_force_n.abs() > record.downstream_force_n.abs() {
+        record.upstream_force_n
+    } else {
+        record.downstream_force_n
+    }
+}
+
+/// Where the table reaches 95 % of the saturation, that is the pass told; where the pass told lies in the table, it is reached.
+#[track_caller]
+fn assert_as_the_table_has_it(scene: &Scene, run: &Run) {
+    let Some(saturation) = run.saturation else { return };
+    assert!(saturation.force_n.abs() >= reached(scene, &run.passes));
+    let share = |record: &PassRecord| at_the_ends(record) / saturation.force_n;
+    let first = run.passes.iter().find(|record| share(record) >= 0.95);
+    match first {
+        Some(first) => assert_eq!(saturation.passes_to_95_percent, first.pass, "{saturation:?}"),
+        None => assert!(
+            saturation.passes_to_95_percent > scene.traffic.passes,
+            "{saturation:?}"
+        ),
+    }
+}
+
+/// Springs of 10 kN/m give way by centimetres before they press: thousands of passes, as the table shows, and not sixty.
+#[test]
+fn springs_that_give_way_delay_it_by_thousands_of_passes() {
+    let scene = upper(&[
+        "ends = { upstream = { spring = 1e4 }, downstream = { spring = 1e4 } }",
+        "traffic = { passes = 1000000 }",
+    ]);
+    let run = answer(&scene).expect("an answer");
+    assert_as_the_table_has_it(&scene, &run);
+    let saturation = run.saturation.expect("it levels off");
+    // Each end has to give way by F/k, and no pass takes the cable farther than the duct goes forward in all: twice its peak from
+    // one extreme to the other, and little more at farther turns.
+    let forward = 2.2 * run.duct_motion.peak_longitudinal_m;
+    let fewest = 0.95 * saturation.force_n.abs() / 1e4 / forward;
+    assert!(
+        saturation.passes_to_95_percent as f64 >= fewest,
+        "{saturation:?}, {fewest} at least"
+    );
+}
+
+#[test]
+fn it_is_no_less_than_what_was_reached_and_no_more_than_friction_carries() {
+    for (length, passes, method) in [
+        (
+            "duct = { length = 30, depth = 1.2 }",
+            200,
+            SolverMethod::QuasiStatic,
+        ),
+        ("duct = { length = 30, depth = 1.2 }", 300, SolverMethod::PassLaw),
+        ("duct = { length = 60, depth = 1.2 }", 2000, SolverMethod::PassLaw),
+        ("duct = { length = 60, depth = 1.2 }", 200_000, SolverMethod::Auto),
+        (
+            "duct = { length = 250, depth = 1.2 }",
+            1_000_000,
+            SolverMethod::Auto,
+        ),
+    ] {
+        let mut scene = by(&upper(&[length]), method);
+        scene.traffic.passes = passes;
+        scene.solver.tolerance = 0.02;
+        let run = answer(&scene).expect("an answer");
+        assert_as_the_table_has_it(&scene, &run);
+        let saturation = run.saturation.expect("it levels off");
+        assert!(saturation.force_n > 0.0, "the truck pushes downstream");
+        assert!(
+            saturation.force_n <= limit(&scene) * scene.duct.length,
+            "{saturation:?}"
+        );
+    }
+}
+
+/// Two directions by turns: each pass leaves another force on the end, and the larger one is what a joint has to bear.
+#[test]
+fn two_way_traffic_shows_the_largest_force_of_an_end() {
+    for (upstream, returning) in [
+        ("fixed", "12 tf"),
+        ("free", "12 tf"),
+        ("fixed", "5 tf"),
+        ("free", "5 tf"),
+    ] {
+        let scene = two_way(upstream, returning);
+        let run = answer(&scene).expect("an answer");
+        assert_as_the_table_has_it(&scene, &run);
+        let saturation = run.saturation.expect("it levels off");
+        let period: Vec<f64> = run.passes[238..].iter().map(at_the_ends).collect();
+        let largest = period.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+        let least = period.iter().fold(largest, |least, force| least.min(force.abs()));
+        assert!(least < 0.9 * largest, "the passes of a period differ: {period:?}");
+        assert!(
+            (saturation.force_n.abs() / largest - 1.0).abs() < 0.01,
+            "{saturation:?}, {period:?}"
+        );
+    }
+    // Of equal trucks the first one leaves more than all that follow: no level that the force rises to.
+    let scene = two_way("fixed", "20 tf");
+    let run = answer(&scene).expect("an answer");
+    let last = run.passes[238..].iter().map(at_the_ends).fold(0.0, f64::max);
+    assert!(at_the_ends(&run.passes[0]) > 1.1 * last, "{last} N");
+    assert_eq!(run.saturation, None);
+}
+
+/// 20 tf forward and another truck back by turns over 15 m.
+fn two_way(upstream: &str, returning: &str) -> Scene {
+    let vehicles = format!(
+        "vehicles = [{{ name = \"a\", speed = \"40 km/h\", load = \"20 tf\" }}, \
+         {{ name = \"b\", speed = \"40 km/h\", load = \"{returning}\", direction = \"reverse\" }}]"
+    );
+    let ends = format!("ends = {{ upstream = \"{upstream}\", downstream = \"fixed\" }}");
+    scene(&[
+        &UPPER,
+        &[
+            "duct = { length = 15, depth = 1.2 }",
+            &vehicles,
+            &ends,
+            "solver = { method = \"quasi-static\", tolerance = 0.05 }",
+            "traffic = { passes = 240 }",
+        ],
+    ])
+}
+
+/// Near shakedown the force falls from the first pass on: it has no level that it rises to.
+#[test]
+fn a_falling_force_has_none() {
+    for base in ["", "rigid_base_depth = 12, "] {
+        let ground =
+            format!("ground = {{ {base}layers = [{{ young_modulus = \"800 MPa\", poisson_ratio = 0.4 }}] }}");
+        let scene = scene(&[
+            &UPPER,
+            &LOWER_AXLES,
+            &[
+                &ground,
+                "solver = { tolerance = 0.1 }",
+                "traffic = { passes = 60 }",
+            ],
+        ]);
+        let run = answer(&scene).expect("an answer");
+        let force = |pass: usize| run.passes[pass - 1].downstream_force_n;
+        assert!(force(60) < 0.9 * force(1), "{} N after {} N", force(60), force(1));
+        assert_eq!(run.saturation, None);
+    }
+}
