@@ -159,7 +159,13 @@ fn run_answers_with_every_field_of_its_document() {
         );
     }
     // Forces that a program of its own gave for this scene.
-    for (pass, force) in [(1, 102.08), (5, 210.46), (10, 283.68), (60, 519.70), (200, 527.84)] {
+    for (pass, force) in [
+        (1, 102.08),
+        (5, 210.46),
+        (10, 283.68),
+        (60, 519.70),
+        (200, 527.84),
+    ] {
         let found = number(&passes[pass - 1]["downstream_force_n"]);
         assert!((found / force - 1.0).abs() < 0.01, "pass {pass}: {found} N");
     }

@@ -43,7 +43,13 @@ const LAW_DENSITIES: [f64; 4] = [3.0, 6.0, 12.0, 24.0];
 const SHAPE_FACTORS: [f64; 6] = [1e7, 1e8, 1e9, 1e10, 1e11, 1e12];
 const SIGMOID_DENSITY: f64 = 6.0;
 /// Passes and forces \[N\] on the 30 m duct, by an independent program that solves the whole cable at every step.
-const INDEPENDENT: [(usize, f64); 5] = [(1, 102.08), (5, 210.46), (10, 283.68), (60, 519.70), (200, 527.84)];
+const INDEPENDENT: [(usize, f64); 5] = [
+    (1, 102.08),
+    (5, 210.46),
+    (10, 283.68),
+    (60, 519.70),
+    (200, 527.84),
+];
 /// By how much the truth may differ from them: that program's mesh is coarser.
 const AGREEMENT: f64 = 3e-3;
 /// Share of the force down to which errors are drawn.
