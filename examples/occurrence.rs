@@ -159,8 +159,11 @@ fn find(number: f64, shear: f64) -> Result<Found, Failure> {
     })
 }
 
-/// Table 2 and Table 3 of Kashiro et al.: friction coefficients, weight \[N/m\], EA \[N\], depth \[m\]; max|D_l| = 35.7 µm.
-const CLASSES: [(&str, usize, [f64; 2], f64, f64, f64); 4] = [
+/// Name and colour, friction coefficients, weight \[N/m\], EA \[N\], depth \[m\].
+type Class = (&'static str, usize, [f64; 2], f64, f64, f64);
+
+/// Tables 2 and 3 of Kashiro et al.; max|D_l| = 35.7 µm.
+const CLASSES: [Class; 4] = [
     ("0.6 m", 5, [0.3, 0.5], 108.8, 8.01e6, 0.6),
     ("1.5 m", 5, [0.3, 0.5], 108.8, 8.01e6, 1.5),
     ("2.0 m", 4, [0.3, 0.5], 108.8, 8.01e6, 2.0),

@@ -341,7 +341,9 @@ fn warnings_go_to_standard_error_and_into_the_document() {
         "--set",
         "traffic.passes=2",
         "--set",
-        "solver.node_spacing=1 m",
+        "solver.node_spacing=0.1 m",
+        "--set",
+        "solver.tolerance=0.01 %",
     ]);
     assert_eq!(output.status.code(), Some(0));
     let run: Value = serde_json::from_slice(&output.stdout).expect("JSON and nothing else");

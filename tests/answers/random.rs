@@ -50,29 +50,29 @@ fn random(rng: &mut Rng) -> Scene {
         _ => format!("{{ spring = {} }}", 10_f64.powf(between(4.0, 7.0))),
     };
     let ends = format!("ends = {{ upstream = {}, downstream = {} }}", end(), end());
-    let mut clamps = String::new();
+    let mut clamps = Vec::new();
     for _ in 0..between(0.0, 3.0) as u8 {
-        clamps += &format!(
-            "{{ position = {}, stiffness = {} }}, ",
+        clamps.push(format!(
+            "{{ position = {}, stiffness = {} }}",
             between(0.0, length),
             10_f64.powf(between(4.0, 7.0))
-        );
+        ));
     }
-    let clamps = format!("restraints = [{clamps}]");
-    let mut vehicles = String::new();
+    let clamps = format!("restraints = [{}]", clamps.join(", "));
+    let mut vehicles = Vec::new();
     for name in 0..=between(0.0, 1.99) as u8 {
         let direction = if between(0.0, 1.0) < 0.4 {
             "reverse"
         } else {
             "forward"
         };
-        vehicles += &format!(
-            "{{ name = \"v{name}\", speed = {}, load = {}, direction = \"{direction}\" }}, ",
+        vehicles.push(format!(
+            "{{ name = \"v{name}\", speed = {}, load = {}, direction = \"{direction}\" }}",
             between(2.0, 25.0),
             between(3e4, 2.5e5)
-        );
+        ));
     }
-    let vehicles = format!("vehicles = [{vehicles}]");
+    let vehicles = format!("vehicles = [{}]", vehicles.join(", "));
     scene(&[
         &UPPER,
         &[&duct, &ground, &cable, &friction, &ends, &clamps, &vehicles],
