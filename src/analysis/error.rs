@@ -167,8 +167,7 @@ pub fn measured(passes: &Passes, finer: &Passes, scale: Scale) -> Shares {
 
 /// Whether an error of the force is too large for an answer.
 pub fn is_doubtful(reached: f64, tolerance: f64) -> bool {
-    // Written so that what is not a number is.
-    !(reached <= tolerance.max(DOUBTFUL))
+    reached.is_nan() || reached > tolerance.max(DOUBTFUL)
 }
 
 /// Refuses an answer whose error of the force, `reached`, is too large to be one.
