@@ -118,7 +118,7 @@ fn every_answer_can_be_true_or_is_none() {
 }
 
 #[test]
-#[ignore = "five hundred random scenes: minutes"]
-fn every_one_of_very_many_answers_can_be_true_or_is_none() {
-    try_seeds(1000..1500, &[0.2, 0.05, 0.01]);
+#[ignore = "forty random scenes at tight tolerances too: minutes"]
+fn every_one_of_more_answers_can_be_true_or_is_none() {
+    try_seeds(1000..1040, &[0.2, 0.05, 0.01]);
 }
