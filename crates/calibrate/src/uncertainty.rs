@@ -89,10 +89,16 @@ pub(crate) fn parameters_from_data(
     jacobian.ncols() as f64 - (covariance.matrix * priors.transpose() * priors).trace()
 }
 
+/// Degrees of freedom for which Student's quantile is searched: with fewer it is beyond any number of use, with more it is Gauss's. The
+/// search does not end far outside.
+const FREEDOM: std::ops::RangeInclusive<f64> = 0.5..=1e6;
+
 /// The value that a standardised estimate exceeds with probability `tail`: Student's t where the noise was estimated with so
-/// many degrees of freedom, else Gauss's.
+/// many degrees of freedom, of [`FREEDOM`] at least, else Gauss's.
 pub(crate) fn quantile(tail: f64, degrees_of_freedom: Option<f64>) -> f64 {
-    let student = degrees_of_freedom.and_then(|freedom| StudentsT::new(0.0, 1.0, freedom).ok());
+    let student = degrees_of_freedom
+        .filter(|freedom| freedom <= FREEDOM.end())
+        .and_then(|freedom| StudentsT::new(0.0, 1.0, freedom.max(*FREEDOM.start())).ok());
     match student {
         Some(student) => student.inverse_cdf(1.0 - tail),
         None => Normal::standard().inverse_cdf(1.0 - tail),

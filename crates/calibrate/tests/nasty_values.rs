@@ -62,7 +62,7 @@ fn predict(answer: Answer, count: usize, p: &[f64]) -> Result<Vec<f64>, ModelErr
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(10000))]
+    #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
     fn a_fit_or_an_error(
