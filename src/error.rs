@@ -108,6 +108,10 @@ impl Error {
         let location = match &self {
             Self::Unfit { key, .. } => file.locate(key),
             Self::TooManyNodes { .. } => file.locate("duct.length"),
+            // No mesh but one that the scene names is so coarse.
+            Self::Cable(CableError::CoarseMesh { .. }) => file
+                .locate("solver.node_spacing")
+                .or_else(|| file.locate("solver.vehicle_step")),
             Self::Scene(SceneError::Value { key, .. }) => file.locate(key),
             _ => None,
         };
@@ -130,7 +134,11 @@ impl Error {
             | Self::Unfit { .. }
             | Self::TooManyNodes { .. }
             | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
-            | Self::Cable(CableError::InvalidParameter { .. } | CableError::UnsupportedLaw { .. }) => true,
+            | Self::Cable(
+                CableError::InvalidParameter { .. }
+                | CableError::UnsupportedLaw { .. }
+                | CableError::CoarseMesh { .. },
+            ) => true,
             _ => false,
         }
     }

@@ -3,7 +3,7 @@
 use creepage::scene::{GroundModel, SolverMethod};
 use creepage::{PassRecord, Run, Scene};
 
-use super::common::{answer, scene};
+use super::common::{answer, scene, upper};
 
 /// A short duct over shallow rock, one pass of three axles: friction turns within the length of an element.
 const SHORT: [&str; 8] = [
@@ -96,5 +96,23 @@ fn so_is_one_that_is_a_little_longer() {
         for tolerance in [0.05, 0.01] {
             assert_covered(&scene, &exact, tolerance);
         }
+    }
+}
+
+/// A mesh that knows nothing of the duct's motion is refused as bad input, one as coarse as it may be is measured.
+#[test]
+fn a_mesh_that_the_scene_names_is_fine_enough_or_bad_input() {
+    let named = |spacing: f64| {
+        let mut scene = upper(&["traffic = { passes = 2 }"]);
+        scene.solver.node_spacing = Some(spacing);
+        scene.solver.tolerance = 0.5;
+        creepage::run(&scene)
+    };
+    let depth = 1.2;
+    assert!(named(depth / 3.0).is_ok());
+    for spacing in [0.9 * depth, 2.0 * depth, 5.0 * depth] {
+        let error = named(spacing).expect_err("a mesh that knows nothing of the duct");
+        assert!(error.is_bad_input(), "{spacing} m: {error}");
+        assert!(error.to_string().contains("elements or steps"), "{error}");
     }
 }
