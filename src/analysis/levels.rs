@@ -141,19 +141,32 @@ impl Ladder<'_> {
         statistics: &mut Statistics,
         reasons: &mut Vec<String>,
     ) -> Result<Shares, Error> {
-        let level = (0..self.levels.first()).find(|&level| self.levels.mesh(level).is_ok());
-        let (Some(exact), Some(level)) = (self.exact, level) else {
+        let Some(exact) = self.exact else {
             return Ok(Shares::both(self.motion_error));
         };
         let mut scene = self.scene.clone();
         let (part, least) = FIRST_PASSES;
         scene.traffic.passes = scene.traffic.passes.min(least.max(scene.traffic.passes / part));
-        let mut first_passes = |motions| {
+        let mut first_passes = |motions, level| {
             let passes = simulate(&scene, self.method, motions, self.levels.mesh(level)?, &[], || {})?;
             *statistics += passes.statistics;
             Ok::<_, Error>(passes)
         };
-        let error = difference(&first_passes(exact)?, &first_passes(self.motions)?, self.scale());
+        // The coarsest mesh that knows anything of the duct.
+        let mut coarsest = None;
+        for level in (0..self.levels.first()).filter(|&level| self.levels.mesh(level).is_ok()) {
+            match first_passes(exact, level) {
+                Err(Error::Cable(CableError::CoarseMesh { .. })) => {}
+                passes => {
+                    coarsest = Some((level, passes?));
+                    break;
+                }
+            }
+        }
+        let Some((level, passes)) = coarsest else {
+            return Ok(Shares::both(self.motion_error));
+        };
+        let error = difference(&passes, &first_passes(self.motions, level)?, self.scale());
         if error.force.max(error.movement) <= GROUND_SHARE * self.scene.solver.tolerance {
             return Ok(error);
         }

@@ -116,3 +116,18 @@ fn a_mesh_that_the_scene_names_is_fine_enough_or_bad_input() {
         assert!(error.to_string().contains("elements or steps"), "{error}");
     }
 }
+
+/// The meshes beneath a named one tell its error, and what a simpler ground leaves out: those that know nothing of the duct are passed
+/// over.
+#[test]
+fn a_named_mesh_of_few_nodes_a_depth_is_answered_on_layers_too() {
+    let mut scene = upper(&[
+        "traffic = { passes = 40 }",
+        "ground = { rigid_base_depth = 12.0, layers = [{ thickness = 0.05, young_modulus = 4e9, poisson_ratio = 0.35 }, \
+         { young_modulus = 8e8, poisson_ratio = 0.4 }] }",
+    ]);
+    scene.solver.node_spacing = Some(1.2 / 6.0);
+    scene.solver.tolerance = 0.05;
+    let run = creepage::run(&scene).expect("an answer");
+    assert!(run.error_estimate.relative < 0.1, "{:?}", run.error_estimate);
+}
