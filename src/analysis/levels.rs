@@ -81,7 +81,10 @@ impl Ladder<'_> {
             if passes.len() > 1 {
                 error.mesh = of_mesh(&passes, level, scale);
             }
-            let last = passes.last().map_or(0, |passes| passes.statistics.node_updates);
+            // A corner of an exact step is about as much work as a node.
+            let last = passes.last().map_or(0, |passes| {
+                passes.statistics.node_updates + passes.statistics.corners
+            });
             let costly = REFINEMENT_COST.saturating_mul(last) > MAX_NODE_UPDATES;
             // One mesh alone tells nothing of its error.
             let told = passes.len() > 1 || self.levels.named();
