@@ -17,6 +17,8 @@ use crate::{Error, Scene};
 const MAX_NODE_UPDATES: usize = 2_000_000_000;
 /// A mesh twice as fine takes about this many times the node updates.
 const REFINEMENT_COST: usize = 4;
+/// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
+const SHARP: usize = 3;
 /// Share of the tolerance that what the ground model leaves out may take of the force.
 const GROUND_SHARE: f64 = 0.5;
 /// The first passes tell what the ground model leaves out: this part of all, and at least so many. They are computed twice on the
@@ -88,7 +90,12 @@ impl Ladder<'_> {
             let costly = REFINEMENT_COST.saturating_mul(last) > MAX_NODE_UPDATES;
             // One mesh alone tells nothing of its error.
             let told = passes.len() > 1 || self.levels.named();
-            if (told && within(&error)) || costly || level >= self.levels.finest() {
+            // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
+            let still = passes
+                .last()
+                .is_some_and(|passes| passes.outcomes.iter().all(|o| o.dissipated == 0.0));
+            let seen = !still || level >= SHARP;
+            if (told && seen && within(&error)) || costly || level >= self.levels.finest() {
                 break;
             }
             level += 1;
