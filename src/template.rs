@@ -77,7 +77,7 @@ impl Template {
     /// [`SceneError`] with the line of the new file that would be wrong.
     pub fn to_toml(&self, name: &str) -> Result<String, SceneError> {
         let scene = Scene::from_toml(name, &self.text(None))?;
-        let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
+        let limit = scene.friction_limit();
         let shape_factor = if limit > 0.0 {
             2.0 * SLOPE / limit
         } else {

@@ -41,7 +41,7 @@ pub fn of_records(
     records: &[PassRecord],
     restraints: &[RestraintRecord],
 ) -> Result<(), Error> {
-    let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
+    let limit = scene.friction_limit();
     let friction = limit * scene.duct.length;
     let clamps: f64 = restraints.iter().map(|clamp| clamp.force_n.abs()).sum();
     for record in records {
@@ -66,7 +66,7 @@ pub fn of_saturation(
     mut saturation: Saturation,
 ) -> Option<Saturation> {
     let free = scene.ends.upstream == End::Free || scene.ends.downstream == End::Free;
-    let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load() * scene.duct.length;
+    let limit = scene.friction_limit() * scene.duct.length;
     if free && scene.restraints.is_empty() && saturation.force_n.abs() > (1.0 + MARGIN) * limit {
         return None;
     }

@@ -54,7 +54,7 @@ impl CableMethod {
 
 /// A scene's cable: friction by its law with the limit q = μ_d N′, ends and clamps.
 pub fn cable(scene: &Scene) -> Result<DuctedCable, Error> {
-    let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
+    let limit = scene.friction_limit();
     let friction = Friction::new(scene.friction.law, limit)?;
     Ok(
         DuctedCable::new(scene.duct.length, scene.cable.axial_stiffness, friction)?

@@ -135,7 +135,7 @@ impl Ladder<'_> {
 
     /// What counts as nothing in this scene.
     fn scale(&self) -> Scale {
-        let limit = self.scene.friction.dynamic_coefficient * self.scene.cable.normal_load();
+        let limit = self.scene.friction_limit();
         let peak = self
             .motions
             .iter()

@@ -144,7 +144,7 @@ pub fn carry_out(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error
 
 /// Whether nothing can drag the cable.
 fn is_frictionless(scene: &Scene) -> bool {
-    scene.friction.dynamic_coefficient * scene.cable.normal_load() == 0.0
+    scene.friction_limit() == 0.0
 }
 
 /// What every answer holds, however it was found.

@@ -129,7 +129,7 @@ impl Occurrence {
             .iter()
             .map(DuctMotion::peak_longitudinal)
             .fold(0.0, f64::max);
-        let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
+        let limit = scene.friction_limit();
         let (depth, length) = (scene.duct.depth, scene.duct.length);
         // EA D/z, the force that the duct's motion alone could make over a depth.
         let force = scene.cable.axial_stiffness * displacement / depth;

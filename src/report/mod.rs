@@ -198,7 +198,7 @@ fn round(number: f64) -> u64 {
 
 /// Friction in the first and the last pass where the run saw it, else in the first alone, by a run of its own.
 fn friction(scene: &Scene, run: &Run) -> Friction {
-    if words::friction_limit(scene) == 0.0 {
+    if scene.friction_limit() == 0.0 {
         return Friction {
             passes: Vec::new(),
             remark: Some("There is no friction here, so nothing drags the cable along.".into()),

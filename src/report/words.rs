@@ -66,11 +66,6 @@ fn cable(scene: &Scene) -> String {
     )
 }
 
-/// Largest friction on the cable μ_d N′ \[N/m\].
-pub fn friction_limit(scene: &Scene) -> f64 {
-    scene.friction.dynamic_coefficient * scene.cable.normal_load()
-}
-
 fn friction(scene: &Scene) -> String {
     let law = match scene.friction.law {
         FrictionLaw::Coulomb => "Coulomb's law".to_owned(),
@@ -85,7 +80,7 @@ fn friction(scene: &Scene) -> String {
     format!(
         "Friction: dynamic coefficient {}, so at most {}; {law}.",
         significant(scene.friction.dynamic_coefficient),
-        quantity(friction_limit(scene), "N/m")
+        quantity(scene.friction_limit(), "N/m")
     )
 }
 

@@ -28,6 +28,13 @@ pub struct Scene {
     pub solver: Solver,
 }
 
+impl Scene {
+    /// Largest friction per length of cable, q = μ_d N′ \[N/m\].
+    pub fn friction_limit(&self) -> f64 {
+        self.friction.dynamic_coefficient * self.cable.normal_load()
+    }
+}
+
 /// A straight duct at constant depth, from x = 0 to x = `length`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Duct {

@@ -3,7 +3,6 @@
 use crate::FrictionProfile;
 use crate::figure::{Axis, Chart, Panels, Reference, Series};
 use crate::report::quantity::count;
-use crate::report::words::friction_limit;
 use crate::report::{Report, reach};
 
 use super::{single, stacked};
@@ -99,7 +98,7 @@ pub fn friction(report: &Report) -> Option<Panels> {
     if passes.is_empty() {
         return None;
     }
-    let limit = friction_limit(&report.scene);
+    let limit = report.scene.friction_limit();
     let half = reach(&report.scene);
     let charts = passes.iter().map(|(pass, friction)| {
         Chart::new(
