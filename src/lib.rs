@@ -60,6 +60,7 @@ mod finite;
 pub mod output;
 mod planner;
 pub mod presets;
+mod progress;
 #[cfg(feature = "plot")]
 pub mod report;
 pub mod scene;
@@ -78,6 +79,7 @@ pub use analysis::run::{RunOptions, check, run, run_with};
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
 pub use error::Error;
 pub use planner::{Plan, PlanReport, Rung, occurrence, plan, plan_on};
+pub use progress::Progress;
 pub use scene::{Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.

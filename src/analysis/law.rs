@@ -87,7 +87,7 @@ fn first_passes(scene: &Scene, motions: &[DuctMotion]) -> Result<Option<Vec<Pass
         motions,
         levels.mesh(CHECK_LEVEL)?,
         &[],
-        || {},
+        || Ok(()),
     )?;
     let records = passes.outcomes.iter().zip(1..);
     Ok(Some(

@@ -11,7 +11,7 @@ use super::error::{self, ErrorParts, Scale, Shares, difference, measured, of_mes
 use super::passes::{Passes, simulate};
 use super::road;
 use crate::planner::mesh::Levels;
-use crate::{Error, Scene};
+use crate::{Error, Progress, Scene};
 
 /// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
 const MAX_NODE_UPDATES: usize = 2_000_000_000;
@@ -37,7 +37,7 @@ pub struct Ladder<'a> {
     pub motion_error: f64,
     /// What the method leaves out, as a share of the force.
     pub method_error: f64,
-    pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
+    pub progress: Progress<'a>,
     /// Passes at which the cable is looked at.
     pub stages: &'a [u64],
 }
@@ -158,7 +158,14 @@ impl Ladder<'_> {
         let (part, least) = FIRST_PASSES;
         scene.traffic.passes = scene.traffic.passes.min(least.max(scene.traffic.passes / part));
         let mut first_passes = |motions, level| {
-            let passes = simulate(&scene, self.method, motions, self.levels.mesh(level)?, &[], || {})?;
+            let passes = simulate(
+                &scene,
+                self.method,
+                motions,
+                self.levels.mesh(level)?,
+                &[],
+                || Ok(()),
+            )?;
             *statistics += passes.statistics;
             Ok::<_, Error>(passes)
         };
@@ -205,7 +212,7 @@ impl Ladder<'_> {
             return Ok(Shares::default());
         }
         let mesh = self.levels.mesh(level)?;
-        let farther = simulate(&scene, self.method, self.motions, mesh, &[], || {})?;
+        let farther = simulate(&scene, self.method, self.motions, mesh, &[], || Ok(()))?;
         *statistics += farther.statistics;
         Ok(difference(passes, &farther, self.scale()))
     }
@@ -229,10 +236,12 @@ impl Ladder<'_> {
             self.levels.mesh(level)?,
             if shown { self.stages } else { &[] },
             || {
-                if let (true, Some(progress)) = (shown, self.progress) {
-                    let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                    progress(done as f64 / self.scene.traffic.passes as f64);
+                if !shown {
+                    return Ok(());
                 }
+                let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+                self.progress
+                    .report(done as f64 / self.scene.traffic.passes as f64)
             },
         )
     }

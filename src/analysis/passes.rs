@@ -36,15 +36,15 @@ pub fn force_profile(cable: &DuctedCable, mesh: &Mesh, state: &CableState) -> Re
     })
 }
 
-/// Lets the scene's traffic pass over its cable meshed by `mesh`, and looks at the cable at the passes `stages`; `passed`
-/// hears of every pass.
+/// Lets the scene's traffic pass over its cable meshed by `mesh`, and looks at the cable at the passes `stages`; `passed` is called after
+/// each pass and may end the computation.
 pub fn simulate(
     scene: &Scene,
     method: CableMethod,
     motions: &[DuctMotion],
     mesh: Mesh,
     stages: &[u64],
-    mut passed: impl FnMut(),
+    mut passed: impl FnMut() -> Result<(), Error>,
 ) -> Result<Passes, Error> {
     let mut solver = PassSolver::new(scene, method, motions, mesh)?;
     let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
@@ -76,7 +76,7 @@ pub fn simulate(
         balance::of_state(&cable, &mesh, &state, pass)?;
         statistics += outcome.statistics;
         outcomes.push(outcome);
-        passed();
+        passed()?;
     }
     Ok(Passes {
         outcomes,

@@ -14,7 +14,7 @@ use super::result::{
 use super::saturation::{force_series, saturation};
 use super::{balance, law};
 use crate::planner::{Plan, plan, plan_on};
-use crate::{Error, Scene, finite};
+use crate::{Error, Progress, Scene, finite};
 
 /// A law that loses more than this share of the stored force in one pass gives no answer.
 const LARGEST_LEAK: f64 = 0.9;
@@ -28,8 +28,8 @@ const ALL_LISTED: u64 = 10_000;
 pub struct RunOptions<'a> {
     /// Measure the error by a run one rung finer instead of estimating it.
     pub verify: bool,
-    /// Hears of the share of the work done so far, in \[0, 1\]; begins again where a finer mesh proves needed.
-    pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
+    /// Called after each pass; it may stop the run.
+    pub progress: Progress<'a>,
     /// A ground model of one's own, in place of the scene's.
     pub ground: Option<&'a dyn GroundField>,
     /// Passes at which to look at the cable, for [`Run::stages`]; those beyond the scene's are left out.
@@ -253,7 +253,7 @@ impl Answer<'_> {
         let mesh = plan.levels.mesh(plan.levels.first())?;
         let mut scene = self.scene.clone();
         scene.traffic.passes = 1;
-        let first = simulate(&scene, method, motions, mesh, &[], || {})?;
+        let first = simulate(&scene, method, motions, mesh, &[], || Ok(()))?;
         let profile = force_profile(&first.cable, &mesh, &first.state)?;
         let count = self.scene.traffic.passes;
         let summary = &mut self.summary;

@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 use super::Series;
 use super::unknown::{Quantity, Unknown};
+use super::watch::Watch;
 use crate::analysis::cable::PassMethod;
 use crate::analysis::passes::simulate;
 use crate::analysis::{law, motion, road};
@@ -145,7 +146,7 @@ impl SeriesModel {
         };
         match self.method {
             PassMethod::EveryPass(method) => {
-                let passes = simulate(scene, method, &motions, self.mesh(rung)?, &[], || {})?;
+                let passes = simulate(scene, method, &motions, self.mesh(rung)?, &[], || Ok(()))?;
                 let force = |&pass: &u64| {
                     let force = passes.outcomes[pass as usize - 1].force;
                     match self.end {
@@ -177,6 +178,7 @@ pub(super) struct CableModel<'a> {
     pub rung: u32,
     /// Added to what this rung predicts: the difference to the next one, near the optimum.
     pub correction: Option<Vec<f64>>,
+    pub watch: &'a Watch<'a>,
 }
 
 impl Model for CableModel<'_> {
@@ -199,6 +201,7 @@ impl Model for CableModel<'_> {
                 series.predict(&scene, stiffness, self.rung)
             })
             .collect::<Result<_, Error>>()?;
+        self.watch.run()?;
         let mut forces = forces.concat();
         if let Some(correction) = &self.correction {
             for (force, correction) in forces.iter_mut().zip(correction) {
