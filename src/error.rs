@@ -115,7 +115,7 @@ impl Error {
             Self::Cable(CableError::CoarseMesh { .. }) => file
                 .locate("solver.node_spacing")
                 .or_else(|| file.locate("solver.vehicle_step")),
-            Self::Scene(SceneError::Value { key, .. }) => file.locate(key),
+            Self::Scene(SceneError::Wrong(wrong)) if wrong.location.is_none() => file.locate(&wrong.key),
             _ => None,
         };
         match location {

@@ -1,6 +1,5 @@
 //! The scene's `solver.method`: which one a scene gets, and that they agree.
 
-
 use boussinesq::HalfSpace;
 use creepage::{Error, Run, RunOptions, Scene};
 use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad};
