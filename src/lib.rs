@@ -50,6 +50,7 @@
 mod analysis;
 pub mod calibration;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 pub mod design;
 mod error;
@@ -64,7 +65,10 @@ mod progress;
 #[cfg(feature = "plot")]
 pub mod report;
 pub mod scene;
-#[cfg(any(feature = "cli", feature = "plot"))]
+#[cfg_attr(
+    not(all(feature = "cli", feature = "plot")),
+    allow(dead_code, reason = "the terminal and the report show most of it")
+)]
 mod shown;
 #[cfg(feature = "sweep")]
 pub mod sweep;

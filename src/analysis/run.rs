@@ -14,11 +14,12 @@ use super::result::{
 use super::saturation::{force_series, saturation};
 use super::{balance, law};
 use crate::planner::{Plan, plan, plan_on};
+use crate::scene::SolverMethod;
 use crate::{Error, Progress, Scene, finite};
 
 /// A law that loses more than this share of the stored force in one pass gives no answer.
 const LARGEST_LEAK: f64 = 0.9;
-/// Most passes that are computed one by one.
+/// Most passes that are simulated.
 const MAX_PASSES: u64 = 1_000_000;
 /// Passes up to which every one is listed.
 const ALL_LISTED: u64 = 10_000;
@@ -63,14 +64,15 @@ pub fn check(scene: &Scene) -> Result<(), Error> {
     plan(scene).map(|_| ())
 }
 
-/// Passes are computed one by one, and all are kept.
+/// Every pass is simulated, and all are kept.
 pub fn check_passes(scene: &Scene) -> Result<(), Error> {
-    if scene.traffic.passes > MAX_PASSES && !is_frictionless(scene) {
-        return Err(Error::Unfit {
-            key: "traffic.passes",
-            found: "more than a million passes",
-            reason: "one by one they would take days, and the pass law does not apply here".into(),
-        });
+    let passes = scene.traffic.passes;
+    if passes > MAX_PASSES && !is_frictionless(scene) {
+        let because = match scene.solver.method {
+            SolverMethod::Auto => "where the pass law does not apply and every pass is simulated".into(),
+            method => format!("with solver.method = {method}; use pass-law").into(),
+        };
+        return Err(Error::TooManyPasses { passes, because });
     }
     Ok(())
 }

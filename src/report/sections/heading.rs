@@ -5,7 +5,7 @@ use crate::report::Report;
 use crate::report::html::{Headline, Html};
 use crate::report::quantity::count;
 use crate::scene::End;
-use crate::shown::{rounded, share};
+use crate::shown::{percent, rounded};
 
 use super::{MICRO, MILLI};
 
@@ -72,7 +72,7 @@ pub fn heading(html: &mut Html, report: &Report) {
     ));
     headlines.push(headline(
         "Estimated error",
-        share(run.error_estimate.relative),
+        percent(run.error_estimate.relative),
         "of the forces, by the computation alone",
     ));
     html.headlines(&headlines);

@@ -5,7 +5,7 @@ use crate::report::Report;
 use crate::report::figures;
 use crate::report::html::{Html, Table};
 use crate::report::measures::Way;
-use crate::shown::{rounded, share};
+use crate::shown::{percent, rounded};
 
 use super::{MILLI, figure};
 
@@ -60,7 +60,7 @@ fn error(answer: &TradeOff) -> String {
     if answer.force_n == 0.0 {
         "–".into()
     } else {
-        share(answer.error_estimate)
+        percent(answer.error_estimate)
     }
 }
 

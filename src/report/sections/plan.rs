@@ -2,7 +2,7 @@
 
 use crate::report::Report;
 use crate::report::html::{Html, Table};
-use crate::shown::{share, time};
+use crate::shown::{percent, time};
 
 pub fn plan(html: &mut Html, report: &Report) {
     let (run, plan) = (&report.run, &report.plan);
@@ -13,7 +13,10 @@ pub fn plan(html: &mut Html, report: &Report) {
     html.list(&run.plan.reasons);
     html.element("h3", "What was weighed");
     let rows = plan.ladder.iter().map(|rung| {
-        let cost = [rung.estimated_error.map(share), rung.estimated_seconds.map(time)];
+        let cost = [
+            rung.estimated_error.map(percent),
+            rung.estimated_seconds.map(time),
+        ];
         vec![
             format!(
                 "{} {}: {}",
@@ -36,11 +39,11 @@ pub fn plan(html: &mut Html, report: &Report) {
     let error = &run.error_estimate;
     html.paragraph(&format!(
         "{} in all, {}. How well the equations are solved, not how well they describe a duct.",
-        share(error.relative),
+        percent(error.relative),
         error.method
     ));
     let parts = error.parts;
-    let row = |name: &str, part: f64| vec![name.to_owned(), share(part)];
+    let row = |name: &str, part: f64| vec![name.to_owned(), percent(part)];
     html.table(&Table {
         head: vec!["part".into(), "error".into()],
         rows: vec![
