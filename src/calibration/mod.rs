@@ -28,7 +28,7 @@ pub use result::{
 };
 pub use unknown::{Quantity, Unknown, UnknownQuantity};
 
-use crate::analysis::cable::PassMethod;
+use crate::plan::PassMethod;
 use crate::scene::FrictionLaw;
 use crate::{Error, Scene};
 pub(crate) use model::CellEnd;

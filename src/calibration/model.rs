@@ -12,10 +12,10 @@ use rayon::prelude::*;
 
 use super::Series;
 use super::unknown::{Quantity, Unknown};
-use crate::analysis::cable::PassMethod;
-use crate::analysis::passes::simulate;
-use crate::analysis::{law, motion, road};
-use crate::planner::{ground, plan};
+use crate::ground::{Ground, road};
+use crate::plan::{PassMethod, plan};
+use crate::run::law;
+use crate::run::passes::simulate;
 use crate::{Error, PassRecord, Scene};
 
 /// Nodes per depth of the duct on the coarsest mesh; every rung above has twice as many.
@@ -79,9 +79,7 @@ impl SeriesModel {
         let end = CellEnd::of(&scene)?;
         scene.traffic.passes = series.readings.last_pass();
         let method = plan(&scene)?.method.method;
-        let (_, field, accuracy) = ground::exact(&scene)?;
-        let ground = motion::Ground::new(&*field, accuracy);
-        let motions = motion::motions(&scene, &ground, road::reach(&scene))?;
+        let motions = Ground::new(&scene, None, road::reach(&scene))?.motions;
         Ok(Self {
             scene,
             motions,

@@ -106,11 +106,12 @@ impl Report {
                 progress(RUN_SHARE * share);
             }
         };
-        let run = plan.run_with(&RunOptions {
+        let options_of_run = RunOptions {
             progress: Some(&progress),
             stages: &stages,
             ..RunOptions::default()
-        })?;
+        };
+        let run = crate::run_plan(&plan, &options_of_run)?;
         let warnings = options.warnings.iter().chain(&run.warnings).cloned().collect();
         let report = Self {
             plan: plan.report(),

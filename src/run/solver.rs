@@ -1,72 +1,17 @@
-//! A scene's cable, its solver, and how that lets one vehicle pass.
+//! A scene's solver of the cable, and how it lets one vehicle pass.
 
 use cable_dem::{
-    CableError, CableState, DuctedCable, Dynamic, Explicit, ExplicitOptions, Friction, Mesh, MovingDuct,
-    PassOutcome, Passage, QuasiStatic, SigmoidLeak,
+    CableError, CableState, Dynamic, Explicit, ExplicitOptions, Mesh, MovingDuct, PassOutcome, Passage,
+    QuasiStatic, SigmoidLeak,
 };
 use ground_field::DuctMotion;
 
-use super::result::FrictionProfile;
-use super::road::approach;
 use crate::Error;
+use crate::answer::FrictionProfile;
+use crate::cable::{cable, mass};
+use crate::ground::road::approach;
+use crate::plan::CableMethod;
 use crate::scene::Scene;
-
-/// Standard acceleration of gravity \[m/s²\], which makes a weight of a mass.
-const GRAVITY: f64 = 9.80665;
-
-/// How all passes are computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum PassMethod {
-    /// One by one.
-    EveryPass(CableMethod),
-    /// By the pass law.
-    Law,
-}
-
-/// Solver of the cable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CableMethod {
-    QuasiStatic,
-    Dynamic,
-    Explicit,
-}
-
-impl PassMethod {
-    /// Its name in scene files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::EveryPass(method) => method.name(),
-            Self::Law => "pass-law",
-        }
-    }
-}
-
-impl CableMethod {
-    /// Its name in scene files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::QuasiStatic => "quasi-static",
-            Self::Dynamic => "dynamic",
-            Self::Explicit => "explicit",
-        }
-    }
-}
-
-/// A scene's cable: friction by its law with the limit q = μ_d N′, ends and clamps.
-pub fn cable(scene: &Scene) -> Result<DuctedCable, Error> {
-    let limit = scene.friction_limit();
-    let friction = Friction::new(scene.friction.law, limit)?;
-    Ok(
-        DuctedCable::new(scene.duct.length, scene.cable.axial_stiffness, friction)?
-            .with_ends(scene.ends.upstream, scene.ends.downstream)?
-            .with_restraints(scene.restraints.clone())?,
-    )
-}
-
-/// Mass per metre \[kg/m\]: the cable's own weight's, whatever presses it down.
-pub fn mass(scene: &Scene) -> f64 {
-    scene.cable.weight / GRAVITY
-}
 
 /// A solver with the scene's vehicles, ready to let them pass.
 pub enum PassSolver {

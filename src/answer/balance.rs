@@ -6,9 +6,9 @@
 
 use cable_dem::{CableState, DuctedCable, Mesh};
 
-use super::result::{PassRecord, RestraintRecord};
+use super::record::{PassRecord, RestraintRecord, Saturation};
+use crate::Error;
 use crate::scene::{End, Scene};
-use crate::{Error, Saturation};
 
 /// Share of what friction can carry by which rounding and interpolation may exceed it.
 const MARGIN: f64 = 0.01;

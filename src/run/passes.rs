@@ -3,10 +3,11 @@
 use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statistics, Traffic};
 use ground_field::DuctMotion;
 
-use super::balance;
-use super::cable::{CableMethod, PassSolver, cable};
-use super::result::{ForceProfile, SlipRecord, Stage};
+use super::solver::PassSolver;
 use crate::Error;
+use crate::answer::{ForceProfile, SlipRecord, Stage, balance};
+use crate::cable::cable;
+use crate::plan::CableMethod;
 use crate::scene::Scene;
 
 /// Every pass's outcome, how the cable is left, and what they cost together.
@@ -36,8 +37,8 @@ pub fn force_profile(cable: &DuctedCable, mesh: &Mesh, state: &CableState) -> Re
     })
 }
 
-/// Lets the scene's traffic pass over its cable meshed by `mesh`, and looks at the cable at the passes `stages`; `passed`
-/// hears of every pass.
+/// Lets the scene's traffic pass over its cable meshed by `mesh`, and looks at the cable at the passes `stages`; calls `passed`
+/// after each.
 pub fn simulate(
     scene: &Scene,
     method: CableMethod,
