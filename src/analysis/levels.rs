@@ -201,7 +201,7 @@ impl Ladder<'_> {
         let Some(approach) = scene.solver.approach.take() else {
             return Ok(Shares::default());
         };
-        if approach >= road::outermost_turn(&scene, self.motions) {
+        if approach >= road::needed(&scene, self.motions)? {
             return Ok(Shares::default());
         }
         let mesh = self.levels.mesh(level)?;

@@ -1,6 +1,6 @@
 //! Carrying a plan out: ground, motion, passes, and what the answer holds.
 
-use cable_dem::{Mesh, PassOutcome};
+use cable_dem::PassOutcome;
 use ground_field::{DuctMotion, GroundField};
 
 use super::cable::{CableMethod, PassMethod};
@@ -218,8 +218,8 @@ impl Answer<'_> {
             saturation: saturation(&series, scale)
                 .and_then(|saturation| balance::of_saturation(self.scene, &passes, saturation)),
             passes,
-            force_profile: force_profile(&solved.passes.cable, &solved.mesh, &solved.passes.state)?,
-            restraints: restraints(&solved.passes, &solved.mesh)?,
+            force_profile: force_profile(&solved.passes.cable, &solved.passes.state)?,
+            restraints: restraints(&solved.passes)?,
             slip_lengths: solved.passes.slip,
             stages: solved.passes.stages.clone(),
             error_estimate: ErrorEstimate {
@@ -254,7 +254,7 @@ impl Answer<'_> {
         let mut scene = self.scene.clone();
         scene.traffic.passes = 1;
         let first = simulate(&scene, method, motions, mesh, &[], || {})?;
-        let profile = force_profile(&first.cable, &mesh, &first.state)?;
+        let profile = force_profile(&first.cable, &first.state)?;
         let count = self.scene.traffic.passes;
         let summary = &mut self.summary;
         summary.cable = method.name().into();
@@ -272,7 +272,7 @@ impl Answer<'_> {
                 .map(|pass| PassRecord::new(pass, &first.outcomes[0]))
                 .collect(),
             saturation: None,
-            restraints: restraints(&first, &mesh)?,
+            restraints: restraints(&first)?,
             slip_lengths: None,
             stages: stages
                 .map(|&pass| Stage {
@@ -293,9 +293,9 @@ impl Answer<'_> {
     }
 }
 
-fn restraints(passes: &Passes, mesh: &Mesh) -> Result<Vec<RestraintRecord>, Error> {
+fn restraints(passes: &Passes) -> Result<Vec<RestraintRecord>, Error> {
     let Passes { state, cable, .. } = passes;
-    let forces = state.restraint_forces(cable, mesh)?;
+    let forces = state.restraint_forces(cable)?;
     let restraints = cable.restraints().iter().zip(forces);
     Ok(restraints
         .map(|(restraint, force_n)| RestraintRecord {

@@ -134,7 +134,7 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&'a dyn GroundField>) -> Result
     let by_time_step =
         scene.solver.method == crate::scene::SolverMethod::Explicit && scene.solver.time_step.is_some();
     let ground = ground::choose(scene, own)?;
-    let approach = road::approach(scene, ground.known().unwrap_or_default());
+    let approach = road::approach(scene, ground.known().unwrap_or_default())?;
     let levels = Levels::new(scene, approach, by_time_step);
     let first = levels.mesh(levels.first())?;
     let method = method::choose(scene, &levels)?;
