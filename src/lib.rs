@@ -21,7 +21,7 @@
 //!
 //! ```
 //! use boussinesq::HalfSpace;
-//! use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
+//! use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, QuasiStatic};
 //! use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
 //!
 //! fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -32,10 +32,9 @@
 //!     let law = FrictionLaw::ElasticPlastic { shape_factor: 2e8 / limit };
 //!     let cable = DuctedCable::new(30.0, 8.01e6, Friction::new(law, limit)?)?;
 //!     let cable = cable.with_ends(End::Free, End::Fixed)?;
-//!     let mesh = Mesh::new(30.0, 0.1, 0.05)?;
-//!     let passage = Passage::new(&cable, &mesh, &motion, 15.0)?;
-//!     let mut solver = QuasiStatic::new(cable, mesh)?;
-//!     let mut state = CableState::at_rest(&mesh);
+//!     let mut solver = QuasiStatic::new(cable, Mesh::for_depth(30.0, 1.2, 12.0)?)?;
+//!     let passage = solver.passage(&motion, 15.0)?;
+//!     let mut state = solver.at_rest();
 //!     let force = solver.pass(&passage, &mut state)?.force.downstream;
 //!     println!("{force:.1} N on the joint after the first truck");
 //! #   // An independent computation of the first pass: 102.08 N.

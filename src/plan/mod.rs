@@ -44,7 +44,7 @@ pub fn plan(scene: &Scene) -> Result<Plan<'_>, Error> {
 pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Plan<'a>, Error> {
     scene.validate()?;
     let ground = Ground::new(scene, own, road::reach(scene))?;
-    let levels = Levels::new(scene, road::approach(scene, &ground.motions));
+    let levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
     levels.mesh(levels.first())?;
     Ok(Plan {
         scene,

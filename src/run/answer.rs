@@ -1,6 +1,6 @@
 //! The answer of a run, by whatever way it was found.
 
-use cable_dem::{Mesh, PassOutcome};
+use cable_dem::PassOutcome;
 
 use super::law::LawRun;
 use super::passes::{Passes, force_profile, simulate};
@@ -117,8 +117,8 @@ impl<'a> Answer<'a> {
             saturation: saturation(&series, scale)
                 .and_then(|saturation| balance::of_saturation(self.plan.scene, &passes, saturation)),
             passes,
-            force_profile: force_profile(&solved.passes.cable, &solved.mesh, &solved.passes.state)?,
-            restraints: restraints(&solved.passes, &solved.mesh)?,
+            force_profile: force_profile(&solved.passes.cable, &solved.passes.state)?,
+            restraints: restraints(&solved.passes)?,
             slip_lengths: solved.passes.slip,
             stages: solved.passes.stages.clone(),
             error_estimate: ErrorEstimate {
@@ -151,7 +151,7 @@ impl<'a> Answer<'a> {
         let mut scene = self.plan.scene.clone();
         scene.traffic.passes = 1;
         let first = simulate(&scene, method, &ground.motions, mesh, &[], || {})?;
-        let profile = force_profile(&first.cable, &mesh, &first.state)?;
+        let profile = force_profile(&first.cable, &first.state)?;
         let count = self.plan.scene.traffic.passes;
         let summary = &mut self.summary;
         summary.cable = method.name().into();
@@ -169,7 +169,7 @@ impl<'a> Answer<'a> {
                 .map(|pass| PassRecord::new(pass, &first.outcomes[0]))
                 .collect(),
             saturation: None,
-            restraints: restraints(&first, &mesh)?,
+            restraints: restraints(&first)?,
             slip_lengths: None,
             stages: stages
                 .map(|&pass| Stage {
@@ -190,9 +190,9 @@ impl<'a> Answer<'a> {
     }
 }
 
-fn restraints(passes: &Passes, mesh: &Mesh) -> Result<Vec<RestraintRecord>, Error> {
+fn restraints(passes: &Passes) -> Result<Vec<RestraintRecord>, Error> {
     let Passes { state, cable, .. } = passes;
-    let forces = state.restraint_forces(cable, mesh)?;
+    let forces = state.restraint_forces(cable)?;
     let restraints = cable.restraints().iter().zip(forces);
     Ok(restraints
         .map(|(restraint, force_n)| RestraintRecord {

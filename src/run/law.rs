@@ -63,7 +63,7 @@ pub fn run(scene: &Scene, motions: &[DuctMotion], stages: &[u64]) -> Result<LawR
 fn first_passes(scene: &Scene, motions: &[DuctMotion]) -> Result<Option<Vec<PassRecord>>, Error> {
     let mut scene = scene.clone();
     (scene.solver.node_spacing, scene.solver.vehicle_step) = (None, None);
-    let levels = Levels::new(&scene, approach(&scene, motions));
+    let levels = Levels::new(&scene, approach(&scene, motions)?);
     let (fewest, most) = CHECKED_PASSES;
     let affordable = CHECK_NODE_UPDATES / levels.node_updates(CHECK_LEVEL, 1);
     if affordable * MOST_CHECKS < fewest as f64 {

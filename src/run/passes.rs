@@ -27,11 +27,11 @@ pub struct Passes {
 }
 
 /// Force along the cable as it is left in `state`.
-pub fn force_profile(cable: &DuctedCable, mesh: &Mesh, state: &CableState) -> Result<ForceProfile, Error> {
-    let force_n: Vec<f64> = state.element_forces(cable, mesh)?.collect();
+pub fn force_profile(cable: &DuctedCable, state: &CableState) -> Result<ForceProfile, Error> {
+    let force_n: Vec<f64> = state.element_forces(cable)?.collect();
     Ok(ForceProfile {
         positions_m: (0..force_n.len())
-            .map(|i| mesh.spacing() * (i as f64 + 0.5))
+            .map(|i| state.node_spacing() * (i as f64 + 0.5))
             .collect(),
         force_n,
     })
@@ -50,7 +50,7 @@ pub fn simulate(
     let mut solver = PassSolver::new(scene, method, motions, mesh)?;
     let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
     let traffic = Traffic::new(&shares, scene.traffic.order.clone())?;
-    let mut state = CableState::at_rest(&mesh);
+    let mut state = solver.at_rest();
     let mut statistics = Statistics::default();
     let mut outcomes = Vec::new();
     let count = usize::try_from(scene.traffic.passes).unwrap_or(usize::MAX);
@@ -66,7 +66,7 @@ pub fn simulate(
             if wanted {
                 seen_stages.push(Stage {
                     pass,
-                    force_profile: force_profile(&cable, &mesh, &state)?,
+                    force_profile: force_profile(&cable, &state)?,
                     friction,
                 });
             }
@@ -74,7 +74,7 @@ pub fn simulate(
         } else {
             solver.pass(vehicle, &mut state)?
         };
-        balance::of_state(&cable, &mesh, &state, pass)?;
+        balance::of_state(&cable, &state, pass)?;
         statistics += outcome.statistics;
         outcomes.push(outcome);
         passed();

@@ -123,7 +123,7 @@ impl Refinement<'_> {
         let Some(approach) = self.plan.scene.solver.approach else {
             return Ok(Shares::default());
         };
-        if approach >= road::outermost_turn(self.plan.scene, motions) {
+        if approach >= road::needed(self.plan.scene, motions)? {
             return Ok(Shares::default());
         }
         let mut scene: Scene = self.plan.scene.clone();
