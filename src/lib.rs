@@ -61,6 +61,7 @@ mod ground;
 pub mod output;
 mod plan;
 pub mod presets;
+mod progress;
 #[cfg(feature = "plot")]
 pub mod report;
 mod run;
@@ -78,6 +79,7 @@ pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate
 pub use error::Error;
 pub use ground::profile::{Profile, profile, profile_at};
 pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
+pub use progress::Progress;
 pub use run::{RunOptions, check, run, run_plan, run_with};
 pub use scene::{Scene, SceneError, SceneFile};
 

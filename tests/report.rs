@@ -49,7 +49,9 @@ fn text(path: &Path) -> &str {
 
 fn scene(overrides: &[&str]) -> Scene {
     let overrides: Vec<String> = overrides.iter().map(|set| (*set).to_owned()).collect();
-    Scene::from_file_with(Path::new(UPPER), &overrides).expect("a scene")
+    creepage::SceneFile::read(UPPER)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("a scene")
 }
 
 /// The page for a scene of six passes.

@@ -5,12 +5,12 @@ use cable_dem::PassOutcome;
 use super::law::LawRun;
 use super::passes::{Passes, force_profile, simulate};
 use super::refine::Solved;
-use crate::Error;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
     Stage, balance, error, force_series, listed, saturation,
 };
 use crate::plan::Plan;
+use crate::{Error, Progress};
 
 /// A law that loses more than this share of the stored force in one pass gives no answer.
 const LARGEST_LEAK: f64 = 0.9;
@@ -150,7 +150,7 @@ impl<'a> Answer<'a> {
         let mesh = levels.mesh(levels.first())?;
         let mut scene = self.plan.scene.clone();
         scene.traffic.passes = 1;
-        let first = simulate(&scene, method, &ground.motions, mesh, &[], || {})?;
+        let first = simulate(&scene, method, &ground.motions, mesh, &[], Progress::default())?;
         let profile = force_profile(&first.cable, &first.state)?;
         let count = self.plan.scene.traffic.passes;
         let summary = &mut self.summary;

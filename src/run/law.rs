@@ -15,7 +15,7 @@ use crate::ground::road::approach;
 use crate::plan::{CableMethod, LAW_ERROR as ERROR, Levels};
 use crate::scene::{End, Scene};
 use crate::shown::share as percent;
-use crate::{Cost, Error};
+use crate::{Cost, Error, Progress};
 
 /// Nodes per depth of the duct in the law's cells at a tolerance of 1 % or less, and above.
 const FINE: f64 = 12.0;
@@ -76,7 +76,7 @@ fn first_passes(scene: &Scene, motions: &[DuctMotion]) -> Result<Option<Vec<Pass
         motions,
         levels.mesh(CHECK_LEVEL)?,
         &[],
-        || {},
+        Progress::default(),
     )?;
     let records = passes.outcomes.iter().zip(1..);
     Ok(Some(

@@ -9,17 +9,17 @@ mod solver;
 use ground_field::GroundField;
 
 use crate::plan::{PassMethod, Plan, plan, plan_on};
-use crate::{Error, Run, Scene, finite};
+use crate::{Error, Progress, Run, Scene, finite};
 use answer::Answer;
 use refine::Refinement;
 
 /// How to run.
-#[derive(Default)]
+#[derive(Default, Clone, Copy)]
 pub struct RunOptions<'a> {
     /// Measure the error by a run on a mesh twice as fine instead of estimating it.
     pub verify: bool,
-    /// Called with the share of the work done so far, in \[0, 1\]; begins again where a finer mesh proves needed.
-    pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
+    /// Called after each pass; it may stop the run.
+    pub progress: Progress<'a>,
     /// A ground model of one's own, in place of the scene's.
     pub ground: Option<&'a dyn GroundField>,
     /// Passes at which to look at the cable, for [`Run::stages`]; those beyond the scene's are left out.

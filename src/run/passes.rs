@@ -4,11 +4,11 @@ use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statist
 use ground_field::DuctMotion;
 
 use super::solver::PassSolver;
-use crate::Error;
 use crate::answer::{ForceProfile, SlipRecord, Stage, balance};
 use crate::cable::cable;
 use crate::plan::CableMethod;
 use crate::scene::Scene;
+use crate::{Error, Progress};
 
 /// Every pass's outcome, how the cable is left, and what they cost together.
 pub struct Passes {
@@ -37,15 +37,15 @@ pub fn force_profile(cable: &DuctedCable, state: &CableState) -> Result<ForcePro
     })
 }
 
-/// Lets the scene's traffic pass over its cable meshed by `mesh`, and looks at the cable at the passes `stages`; calls `passed`
-/// after each.
+/// Lets the scene's traffic pass over its cable meshed by `mesh`, and looks at the cable at the passes `stages`; `progress` is
+/// called after each pass.
 pub fn simulate(
     scene: &Scene,
     method: CableMethod,
     motions: &[DuctMotion],
     mesh: Mesh,
     stages: &[u64],
-    mut passed: impl FnMut(),
+    progress: Progress<'_>,
 ) -> Result<Passes, Error> {
     let mut solver = PassSolver::new(scene, method, motions, mesh)?;
     let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
@@ -77,7 +77,7 @@ pub fn simulate(
         balance::of_state(&cable, &state, pass)?;
         statistics += outcome.statistics;
         outcomes.push(outcome);
-        passed();
+        progress.report(pass as f64 / count as f64)?;
     }
     Ok(Passes {
         outcomes,

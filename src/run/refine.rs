@@ -1,6 +1,5 @@
 //! The passes of a scene on one mesh after the other, until their error is within the tolerance.
 
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use cable_dem::{CableError, Mesh, PassOutcome, Statistics};
@@ -11,7 +10,7 @@ use crate::answer::error::{self, ErrorParts, Scale, Shares, difference, measured
 use crate::ground::road;
 use crate::plan::{CableMethod, Plan};
 use crate::shown::share as percent;
-use crate::{Error, Scene};
+use crate::{Error, Progress, Scene};
 
 /// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
 const MAX_NODE_UPDATES: usize = 2_000_000_000;
@@ -24,7 +23,7 @@ const SHARP: usize = 3;
 pub struct Refinement<'a> {
     pub plan: &'a Plan<'a>,
     pub method: CableMethod,
-    pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
+    pub progress: Progress<'a>,
     /// Passes at which the cable is looked at.
     pub stages: &'a [u64],
 }
@@ -128,7 +127,7 @@ impl Refinement<'_> {
         }
         let mut scene: Scene = self.plan.scene.clone();
         scene.solver.approach = None;
-        let farther = simulate(&scene, self.method, motions, mesh, &[], || {})?;
+        let farther = simulate(&scene, self.method, motions, mesh, &[], Progress::default())?;
         *statistics += farther.statistics;
         Ok(difference(&passes.outcomes, &farther.outcomes, self.scale()))
     }
@@ -150,20 +149,18 @@ impl Refinement<'_> {
             levels,
             ..
         } = self.plan;
-        let done = AtomicU64::new(0);
-        let stages = if shown { self.stages } else { &[] };
+        let (stages, progress) = if shown {
+            (self.stages, self.progress)
+        } else {
+            Default::default()
+        };
         simulate(
             scene,
             self.method,
             &ground.motions,
             levels.mesh(level)?,
             stages,
-            || {
-                if let (true, Some(progress)) = (shown, self.progress) {
-                    let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-                    progress(done as f64 / scene.traffic.passes as f64);
-                }
-            },
+            progress,
         )
     }
 
