@@ -61,14 +61,6 @@ pub enum Error {
         /// The most that friction can be \[N/m\].
         limit: f64,
     },
-    /// More passes than can be simulated, where the pass law does not give the answer.
-    #[error("traffic.passes = {passes}: at most 1 000 000 {because}")]
-    TooManyPasses {
-        /// Passes of the scene.
-        passes: u64,
-        /// Why they are simulated, and what to do.
-        because: Cow<'static, str>,
-    },
     /// The duct is so long beside its depth that no mesh of it can be computed.
     #[error(
         "duct.length = {length} m and duct.depth = {depth} m: found a mesh of {nodes:.1e} nodes, as fine as this depth needs; allowed: 5e6 \
@@ -133,7 +125,6 @@ impl Error {
     pub fn located(self, file: &SceneFile) -> Self {
         let location = match &self {
             Self::Unfit { key, .. } => file.locate(key),
-            Self::TooManyPasses { .. } => file.locate("traffic.passes"),
             Self::TooManyNodes { .. } => file.locate("duct.length"),
             // No mesh but one that the scene names is so coarse.
             Self::Cable(CableError::CoarseMesh { .. }) => file
@@ -159,7 +150,6 @@ impl Error {
             Self::Scene(_)
             | Self::Data(_)
             | Self::Unfit { .. }
-            | Self::TooManyPasses { .. }
             | Self::TooManyNodes { .. }
             | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })
             | Self::Cable(

@@ -27,7 +27,7 @@ pub use result::{
 };
 pub use unknown::{Quantity, Unknown, UnknownQuantity};
 
-use crate::analysis::cable::PassMethod;
+use crate::plan::PassMethod;
 use crate::scene::FrictionLaw;
 use crate::{Error, Progress, Scene};
 pub(crate) use model::CellEnd;

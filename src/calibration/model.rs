@@ -13,11 +13,11 @@ use rayon::prelude::*;
 use super::Series;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
-use crate::analysis::cable::PassMethod;
-use crate::analysis::passes::simulate;
-use crate::analysis::{law, motion, road};
-use crate::planner::{ground, plan};
-use crate::{Error, PassRecord, Scene};
+use crate::ground::{Ground, road};
+use crate::plan::{PassMethod, plan};
+use crate::run::law;
+use crate::run::passes::simulate;
+use crate::{Error, PassRecord, Progress, Scene};
 
 /// Nodes per depth of the duct on the coarsest mesh; every rung above has twice as many.
 const COARSEST: f64 = 6.0;
@@ -80,9 +80,7 @@ impl SeriesModel {
         let end = CellEnd::of(&scene)?;
         scene.traffic.passes = series.readings.last_pass();
         let method = plan(&scene)?.method.method;
-        let (_, field, accuracy) = ground::exact(&scene)?;
-        let ground = motion::Ground::new(&*field, accuracy);
-        let motions = motion::motions(&scene, &ground, road::reach(&scene))?;
+        let motions = Ground::new(&scene, None, road::reach(&scene))?.motions;
         Ok(Self {
             scene,
             motions,
@@ -146,7 +144,14 @@ impl SeriesModel {
         };
         match self.method {
             PassMethod::EveryPass(method) => {
-                let passes = simulate(scene, method, &motions, self.mesh(rung)?, &[], || Ok(()))?;
+                let passes = simulate(
+                    scene,
+                    method,
+                    &motions,
+                    self.mesh(rung)?,
+                    &[],
+                    Progress::default(),
+                )?;
                 let force = |&pass: &u64| {
                     let force = passes.outcomes[pass as usize - 1].force;
                     match self.end {

@@ -5,9 +5,9 @@ use std::io::Write;
 use super::failure::Failure;
 use super::shared::{Input, Json, SceneArguments};
 use super::terminal;
-use crate::PlanReport;
 use crate::occurrence::Occurrence;
 use crate::shown::{percent, time};
+use crate::{Part, PlanReport};
 
 /// Arguments of `creepage plan`.
 #[derive(Debug, clap::Args)]
@@ -28,7 +28,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     arguments.json.print(&plan, || print(&plan))
 }
 
-/// The levels that were weighed, those taken marked.
+/// Every candidate, the chosen ones marked.
 fn print(plan: &PlanReport) -> Result<(), Failure> {
     let mut out = terminal::out();
     writeln!(out, "{}", terminal::line(&plan.title))?;
@@ -48,22 +48,26 @@ fn print(plan: &PlanReport) -> Result<(), Failure> {
     if let Some(occurrence) = &plan.occurrence {
         print_occurrence(&mut out, occurrence)?;
     }
-    for part in ["ground", "cable", "mesh"] {
-        let rungs: Vec<_> = plan.ladder.iter().filter(|rung| rung.part == part).collect();
-        if rungs.is_empty() {
+    for part in [Part::Ground, Part::Cable, Part::Mesh] {
+        let candidates: Vec<_> = plan
+            .candidates
+            .iter()
+            .filter(|candidate| candidate.part == part)
+            .collect();
+        if candidates.is_empty() {
             continue;
         }
         writeln!(out)?;
         writeln!(out, "{part:<14} {:>10} {:>10}  why, or why not", "error", "time")?;
-        for rung in rungs {
+        for candidate in candidates {
             writeln!(
                 out,
                 "{} {:<12} {:>10} {:>10}  {}",
-                if rung.chosen { '→' } else { ' ' },
-                rung.name,
-                rung.estimated_error.map_or_else(String::new, percent),
-                rung.estimated_seconds.map_or_else(String::new, time),
-                terminal::sentence(&rung.reason)
+                if candidate.chosen { '→' } else { ' ' },
+                candidate.name,
+                candidate.estimated_error.map_or_else(String::new, percent),
+                candidate.estimated_seconds.map_or_else(String::new, time),
+                terminal::sentence(&candidate.reason)
             )?;
         }
     }

@@ -6,8 +6,9 @@ use super::failure::Failure;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::shared::{Input, OutputArguments, SceneArguments};
 use super::terminal;
+use crate::answer::selected;
 use crate::output::Kind;
-use crate::shown::{percent, rounded, selected};
+use crate::shown::{percent, rounded};
 use crate::{Run, RunOptions};
 
 /// Arguments of `creepage run`.

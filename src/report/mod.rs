@@ -103,11 +103,12 @@ impl Report {
         }
         let stages = stages(scene.traffic.passes);
         let plan = crate::plan(scene)?;
-        let run = plan.run_with(&RunOptions {
+        let options_of_run = RunOptions {
             progress: options.progress.part(0.0, RUN_SHARE),
             stages: &stages,
             ..RunOptions::default()
-        })?;
+        };
+        let run = crate::run_plan(&plan, &options_of_run)?;
         let warnings = options.warnings.iter().chain(&run.warnings).cloned().collect();
         let report = Self {
             plan: plan.report(),

@@ -27,7 +27,7 @@ fn assert_refused(key: &str, edit: impl Fn(&mut Scene)) {
     };
     named(scene.validate().expect_err(key).into());
     named(creepage::check(&scene).expect_err(key));
-    named(creepage::plan(&scene).err().expect(key));
+    named(creepage::plan(&scene).expect_err(key));
     named(creepage::run(&scene).expect_err(key));
     named(creepage::profile(&scene).expect_err(key));
     named(creepage::profile_at(&scene, &[0.0]).expect_err(key));

@@ -123,18 +123,19 @@ impl SoilLayer {
         }
     }
 
+    /// The soil at `height` \[m\] below the layer's top.
+    pub fn soil_at(&self, height: f64) -> Soil {
+        Soil {
+            young_modulus: self.young_modulus_at(height),
+            poisson_ratio: self.poisson_ratio,
+        }
+    }
+
     /// The layer's soil where it is uniform; `None` where the modulus varies with depth.
     pub fn soil(&self) -> Option<Soil> {
         match self.modulus {
-            Modulus::Uniform(young_modulus) => Some(Soil {
-                young_modulus,
-                poisson_ratio: self.poisson_ratio,
-            }),
-            Modulus::Linear { top, bottom } if top == bottom => Some(Soil {
-                young_modulus: top,
-                poisson_ratio: self.poisson_ratio,
-            }),
-            Modulus::Linear { .. } => None,
+            Modulus::Linear { top, bottom } if top != bottom => None,
+            _ => Some(self.soil_at(0.0)),
         }
     }
 }
@@ -181,6 +182,34 @@ impl SoilProfile {
             });
         }
         Ok(Self { layers, base })
+    }
+
+    /// The same ground with every layer whose modulus varies cut into `count` uniform sublayers of equal thickness, each with the modulus
+    /// at its middle: what a model of uniform layers takes in its place. The error falls with the square of `count`.
+    ///
+    /// ```
+    /// # use ground_field::{Base, Modulus, SoilLayer, SoilProfile};
+    /// let fill = SoilLayer::new(2.0, Modulus::Linear { top: 40e6, bottom: 120e6 }, 0.35)?;
+    /// let cut = SoilProfile::new(vec![fill], Base::Rigid)?.sublayered(4)?;
+    /// assert_eq!(cut.layers().len(), 4);
+    /// assert_eq!(cut.layers()[0].modulus(), Modulus::Uniform(50e6));
+    /// # Ok::<(), ground_field::GroundError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::InvalidParameter`] where a sublayer would have no thickness.
+    pub fn sublayered(&self, count: usize) -> Result<Self, GroundError> {
+        let mut layers = Vec::new();
+        for layer in &self.layers {
+            let parts = if layer.soil().is_some() { 1 } else { count.max(1) };
+            let thickness = layer.thickness / parts as f64;
+            for k in 0..parts {
+                let middle = layer.soil_at((k as f64 + 0.5) * thickness);
+                layers.push(SoilLayer::uniform(thickness, middle)?);
+            }
+        }
+        Self::new(layers, self.base)
     }
 
     /// One soil everywhere.
