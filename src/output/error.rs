@@ -53,7 +53,7 @@ pub enum OutputError {
 }
 
 impl OutputError {
-    pub(super) fn unwritable(file: &Path, source: io::Error) -> Self {
+    pub(crate) fn unwritable(file: &Path, source: io::Error) -> Self {
         Self::Unwritable {
             file: file.display().to_string(),
             source,
