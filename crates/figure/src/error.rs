@@ -7,67 +7,67 @@ pub enum FigureError {
     /// There is nothing to draw.
     #[error("{what} has no data")]
     Empty {
-        /// The chart, map or series, by its title or name.
+        /// The chart, series or axis, by its title, name or label.
         what: String,
     },
     /// A number is NaN or infinite.
-    #[error("{what}: {value} at place {index} is not a finite number")]
+    #[error("{what}: {value} at index {index} is not a finite number")]
     NotFinite {
-        /// The series or axis.
+        /// The series, axis or cells.
         what: String,
-        /// Place in its data, from 0.
+        /// Index in its data, from 0.
         index: usize,
         /// The number.
         value: f64,
     },
     /// A logarithmic axis got zero or less.
-    #[error("{what}: {value} cannot stand on a logarithmic axis, which takes numbers above 0")]
+    #[error("{what}: a logarithmic axis takes numbers above 0, not {value}")]
     NotPositive {
-        /// The series or axis.
+        /// The series, axis or cells.
         what: String,
         /// The number.
         value: f64,
     },
     /// An axis does not run from a smaller to a larger number.
-    #[error("axis {axis}: a range from {from} to {to} is none")]
+    #[error("axis {axis}: range {from} to {to} is invalid: start must be below end")]
     BadRange {
         /// Label of the axis.
         axis: String,
-        /// Its beginning.
+        /// Its start.
         from: f64,
         /// Its end.
         to: f64,
     },
-    /// A map's cells do not fill its grid.
-    #[error("map {map}: {found} cells do not fill {columns} columns and {rows} rows")]
+    /// The cells do not fill their grid.
+    #[error("chart {chart}: {found} cells do not fill {columns} columns and {rows} rows")]
     CellCount {
-        /// Title of the map.
-        map: String,
+        /// Title of the chart.
+        chart: String,
         /// Cells given.
         found: usize,
-        /// Values or names on the x axis.
+        /// Cells along the x axis.
         columns: usize,
-        /// Values or names on the y axis.
+        /// Cells along the y axis.
         rows: usize,
     },
     /// A cell names a class that does not exist.
-    #[error("map {map}: cell {index} is of class {class}, and there are {classes}")]
+    #[error("chart {chart}: cell {index} is of class {class}, and there are {classes}")]
     UnknownClass {
-        /// Title of the map.
-        map: String,
-        /// Place of the cell, row by row.
+        /// Title of the chart.
+        chart: String,
+        /// Index of the cell, row by row.
         index: usize,
         /// The class it names, from 0.
         class: usize,
-        /// How many classes there are.
+        /// Number of classes.
         classes: usize,
     },
-    /// The places of a map's rows or columns do not ascend.
-    #[error("axis {axis}: places of cells have to ascend, found {next} after {previous}")]
+    /// The centres of rows or columns of cells do not ascend.
+    #[error("axis {axis}: centres of cells must ascend, found {next} after {previous}")]
     NotAscending {
         /// Label of the axis.
         axis: String,
-        /// A place.
+        /// A centre.
         previous: f64,
         /// The one that follows.
         next: f64,
@@ -82,7 +82,12 @@ pub enum FigureError {
         /// The room for it \[px\].
         room: f64,
     },
-    /// The drawing library failed.
-    #[error("drawing failed: {0}")]
-    Drawing(String),
+}
+
+impl FigureError {
+    pub(crate) fn empty(kind: &str, name: &str) -> Self {
+        Self::Empty {
+            what: format!("{kind} \"{name}\""),
+        }
+    }
 }

@@ -1,28 +1,15 @@
 //! Numbers to places along an axis, and the ticks that stand there.
 
-use std::ops::Range;
-
-use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
-
-/// How ticks are labelled.
+/// A labelled tick.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum TickLabels {
-    /// As numbers: 0.001, or 10⁻⁶ where that would be long.
-    Number,
-    /// With SI prefixes of a unit: 1 µm.
-    Prefixed(String),
-}
-
-/// A labelled or a bare tick.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Tick {
+pub(crate) struct Tick {
     pub value: f64,
     pub label: String,
 }
 
-/// A range of numbers, or of cells of a map, laid along an axis.
+/// A range of numbers, or of cells, laid along an axis.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Scale {
+pub(crate) struct Scale {
     range: (f64, f64),
     logarithmic: bool,
     ticks: Vec<Tick>,
@@ -33,23 +20,18 @@ pub(super) struct Scale {
 const END: f64 = 1e-6;
 
 impl Scale {
-    /// Exactly `range`, with about `count` ticks inside. The range is finite, ascending, and positive if logarithmic.
-    pub fn new(range: (f64, f64), logarithmic: bool, count: usize, labels: &TickLabels) -> Self {
+    /// Exactly `range`, with about `count` ticks inside, labelled with SI prefixes of `unit` if given. The range is finite, ascending,
+    /// and positive if logarithmic.
+    pub fn new(range: (f64, f64), logarithmic: bool, count: usize, unit: Option<&str>) -> Self {
         let (values, minor) = if logarithmic {
             logarithmic_ticks(range, count)
         } else {
             (linear_ticks(range, count), Vec::new())
         };
-        let labels = label(&values, logarithmic, labels);
-        let ticks = values
-            .into_iter()
-            .zip(labels)
-            .map(|(value, label)| Tick { value, label })
-            .collect();
         Self {
             range,
             logarithmic,
-            ticks,
+            ticks: labelled(&values, logarithmic, unit),
             minor,
         }
     }
@@ -76,6 +58,11 @@ impl Scale {
         &self.ticks
     }
 
+    /// Values of fine grid lines.
+    pub fn minor(&self) -> &[f64] {
+        &self.minor
+    }
+
     /// 0 at the beginning of the axis, 1 at its end; below and above beyond them.
     pub fn share(&self, value: f64) -> f64 {
         let (from, to) = self.range;
@@ -88,16 +75,17 @@ impl Scale {
 }
 
 /// Whether both ends of a range and what lies between them are numbers that an axis can hold.
-pub(super) fn is_sound((from, to): (f64, f64), logarithmic: bool) -> bool {
+pub(crate) fn is_sound((from, to): (f64, f64), logarithmic: bool) -> bool {
     let span = if logarithmic { to / from } else { to - from };
     from < to && span.is_finite() && (!logarithmic || from > 0.0)
 }
 
 /// `data`, its least and its largest number, with round numbers at both ends.
-pub(super) fn round_range((low, high): (f64, f64), logarithmic: bool, count: usize) -> (f64, f64) {
+pub(crate) fn round_range((low, high): (f64, f64), logarithmic: bool, count: usize) -> (f64, f64) {
     if logarithmic {
         let wider = if low == high { 3.0 } else { 1.0 };
-        return (round_down(low / wider), round_up(high * wider));
+        // The reciprocals of round numbers are round.
+        return (1.0 / round_up(wider / low), round_up(high * wider));
     }
     let (low, high) = match (low == high, low) {
         (true, 0.0) => (-1.0, 1.0),
@@ -111,43 +99,9 @@ pub(super) fn round_range((low, high): (f64, f64), logarithmic: bool, count: usi
     )
 }
 
-/// What plotters asks of a coordinate.
-impl Ranged for Scale {
-    type FormatOption = NoDefaultFormatting;
-    type ValueType = f64;
-
-    fn map(&self, value: &f64, (from, to): (i32, i32)) -> i32 {
-        from + (self.share(*value) * f64::from(to - from)).round() as i32
-    }
-
-    fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {
-        if hint.weight().allow_light_points() {
-            self.minor.clone()
-        } else {
-            self.ticks.iter().map(|tick| tick.value).collect()
-        }
-    }
-
-    fn range(&self) -> Range<f64> {
-        self.range.0..self.range.1
-    }
-}
-
-impl ValueFormatter<f64> for Scale {
-    fn format_ext(&self, value: &f64) -> String {
-        let tick = self.ticks.iter().find(|tick| tick.value == *value);
-        tick.map_or_else(String::new, |tick| tick.label.clone())
-    }
-}
-
 /// 1, 2 or 5 times a power of ten, for about `count` steps over the range.
 fn linear_step((from, to): (f64, f64), count: usize) -> f64 {
-    let rough = (to - from) / count.max(1) as f64;
-    let power = 10f64.powf(rough.log10().floor());
-    let factor = [1.0, 2.0, 5.0]
-        .into_iter()
-        .find(|factor| factor * power >= rough * (1.0 - END));
-    factor.unwrap_or(10.0) * power
+    round_up((to - from) / count.max(1) as f64)
 }
 
 fn linear_ticks(range: (f64, f64), count: usize) -> Vec<f64> {
@@ -168,24 +122,12 @@ fn rounded(value: f64, step: f64) -> f64 {
     format!("{value:.digits$}").parse().unwrap_or(value)
 }
 
-/// Largest 1, 2 or 5 times a power of ten that is not above `value`.
-fn round_down(value: f64) -> f64 {
-    let power = value.log10().floor();
-    [5.0, 2.0, 1.0]
-        .into_iter()
-        .map(|factor| factor * ten_to(power))
-        .find(|round| *round <= value * (1.0 + END))
-        .unwrap_or(ten_to(power))
-}
-
 /// Smallest 1, 2 or 5 times a power of ten that is not below `value`.
 fn round_up(value: f64) -> f64 {
     let power = value.log10().floor();
-    [1.0, 2.0, 5.0]
-        .into_iter()
-        .map(|factor| factor * ten_to(power))
-        .find(|round| *round >= value * (1.0 - END))
-        .unwrap_or(ten_to(power + 1.0))
+    let mut numbers = [1.0, 2.0, 5.0].map(|factor| factor * ten_to(power)).into_iter();
+    let found = numbers.find(|round| *round >= value * (1.0 - END));
+    found.unwrap_or(ten_to(power + 1.0))
 }
 
 /// A power of ten to the last digit.
@@ -193,7 +135,10 @@ fn ten_to(power: f64) -> f64 {
     format!("1e{power}").parse().unwrap_or(f64::NAN)
 }
 
-/// Labelled and bare ticks of a logarithmic axis: 1, 2 and 5 times powers of ten where that makes few, or decades.
+/// Digits that may lead a number.
+const LEADING: [f64; 9] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
+
+/// Ticks and fine grid lines of a logarithmic axis: ticks at 1, 2 and 5 times powers of ten where that makes few, or decades.
 fn logarithmic_ticks(range: (f64, f64), count: usize) -> (Vec<f64>, Vec<f64>) {
     let (from, to) = range;
     let decades = (to / from).log10();
@@ -212,44 +157,32 @@ fn logarithmic_ticks(range: (f64, f64), count: usize) -> (Vec<f64>, Vec<f64>) {
             .collect()
     };
     let few = at(&[1.0, 2.0, 5.0], 1);
-    if (2..=count + 1).contains(&few.len()) {
-        return (few, at(&[3.0, 4.0, 6.0, 7.0, 8.0, 9.0], 1));
-    }
     if few.len() < 2 {
         return (linear_ticks(range, count), Vec::new());
     }
+    if few.len() <= count + 1 {
+        return (few, at(&LEADING, 1));
+    }
     let every = (decades / count.max(1) as f64).ceil().max(1.0) as i32;
-    let minor = if every == 1 {
-        at(&[2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0], 1)
-    } else {
-        at(&[1.0], 1)
-    };
-    (at(&[1.0], every), minor)
+    let fine = if every == 1 { &LEADING[..] } else { &[1.0] };
+    (at(&[1.0], every), at(fine, 1))
 }
 
-fn label(values: &[f64], logarithmic: bool, labels: &TickLabels) -> Vec<String> {
-    if let TickLabels::Prefixed(unit) = labels {
-        return values.iter().map(|value| prefixed(*value, unit)).collect();
-    }
-    let size = |value: &f64| value.abs();
-    let most = values.iter().map(size).fold(0.0, f64::max);
-    let least = values
-        .iter()
-        .map(size)
-        .filter(|size| *size > 0.0)
-        .fold(f64::INFINITY, f64::min);
-    // All labels of an axis in one form.
-    let short = most < 1e6 && least >= if logarithmic { 1e-3 } else { 1e-4 };
-    values
-        .iter()
-        .map(|value| {
-            if short || *value == 0.0 {
-                minus(&value.to_string())
-            } else {
-                power_of_ten(*value)
-            }
-        })
-        .collect()
+/// Ticks with labels, all in one form.
+fn labelled(values: &[f64], logarithmic: bool, unit: Option<&str>) -> Vec<Tick> {
+    let least = if logarithmic { 1e-3 } else { 1e-4 };
+    let is_short = |value: &f64| *value == 0.0 || (least..1e6).contains(&value.abs());
+    let short = values.iter().all(is_short);
+    let label = |value: f64| match unit {
+        Some(unit) => prefixed(value, unit),
+        None if short || value == 0.0 => minus(&value.to_string()),
+        None => power_of_ten(value),
+    };
+    let tick = |&value| Tick {
+        value,
+        label: label(value),
+    };
+    values.iter().map(tick).collect()
 }
 
 /// With a minus sign instead of a hyphen.
@@ -259,22 +192,11 @@ fn minus(number: &str) -> String {
 
 /// 10⁻⁶, 2·10⁻⁶.
 fn power_of_ten(value: f64) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
     let text = format!("{value:e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or((text.as_str(), "0"));
-    let exponent: String = exponent
-        .chars()
-        .map(|digit| match digit {
-            '-' => '⁻',
-            '1' => '¹',
-            '2' => '²',
-            '3' => '³',
-            '0' => '⁰',
-            digit => digit
-                .to_digit(10)
-                .and_then(|d| char::from_u32(0x2070 + d))
-                .unwrap_or(digit),
-        })
-        .collect();
+    let raised = |digit: char| digit.to_digit(10).map_or('⁻', |digit| RAISED[digit as usize]);
+    let exponent: String = exponent.chars().map(raised).collect();
     match mantissa {
         "1" => format!("10{exponent}"),
         "-1" => format!("−10{exponent}"),
@@ -300,7 +222,7 @@ mod tests {
     use super::*;
 
     fn labels(range: (f64, f64), logarithmic: bool) -> Vec<String> {
-        let scale = Scale::new(range, logarithmic, 8, &TickLabels::Number);
+        let scale = Scale::new(range, logarithmic, 8, None);
         scale.ticks().iter().map(|tick| tick.label.clone()).collect()
     }
 
@@ -345,9 +267,9 @@ mod tests {
 
     #[test]
     fn shares_of_the_axis() {
-        let linear = Scale::new((10.0, 30.0), false, 5, &TickLabels::Number);
+        let linear = Scale::new((10.0, 30.0), false, 5, None);
         assert_eq!(linear.share(15.0), 0.25);
-        let logarithmic = Scale::new((1e-2, 1e2), true, 5, &TickLabels::Number);
+        let logarithmic = Scale::new((1e-2, 1e2), true, 5, None);
         assert!((logarithmic.share(1e-1) - 0.25).abs() < 1e-15);
     }
 }

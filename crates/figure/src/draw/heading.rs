@@ -1,8 +1,8 @@
 //! A title over one or more lines.
 
-use crate::figure::FigureError;
-
-use super::canvas::{Anchor, Canvas, text_style, text_width};
+use super::canvas::{Canvas, Point};
+use super::text::{check_room, text_width};
+use crate::error::FigureError;
 
 const SIZE: f64 = 16.0;
 const LINE: f64 = 22.0;
@@ -22,16 +22,9 @@ impl Heading {
         let room = width - 2.0 * PADDING;
         let mut lines: Vec<String> = Vec::new();
         for word in text.split_whitespace() {
-            let needed = text_width(word, SIZE);
-            if needed > room {
-                return Err(FigureError::NoRoom {
-                    text: word.into(),
-                    needed,
-                    room,
-                });
-            }
+            check_room(word, text_width(word, SIZE), room)?;
             match lines.last_mut() {
-                Some(line) if text_width(line, SIZE) + text_width(" ", SIZE) + needed <= room => {
+                Some(line) if text_width(&format!("{line} {word}"), SIZE) <= room => {
                     line.push(' ');
                     line.push_str(word);
                 }
@@ -50,12 +43,10 @@ impl Heading {
         }
     }
 
-    pub fn draw(&self, canvas: &Canvas<'_>, left: f64, top: f64) -> Result<(), FigureError> {
-        let style = text_style(SIZE, true);
+    pub fn draw(&self, canvas: &mut Canvas, (left, top): Point) {
         for (k, line) in self.lines.iter().enumerate() {
-            let at = (left + 0.5 * self.width, top + PADDING + LINE * (k as f64 + 0.5));
-            canvas.text(line, at, Anchor::Middle, &style)?;
+            let y = top + PADDING + LINE * (k as f64 + 0.5);
+            canvas.bold(line, (left + 0.5 * self.width, y), SIZE);
         }
-        Ok(())
     }
 }
