@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use cable_dem::{CableError, DuctedCable, End, Friction, FrictionLaw};
-use creepage::figure::{Axis, Chart, Class};
+use creepage::figure::{Axis, Chart};
 use ground_field::{DuctLine, DuctMotion, GroundError, Soil, Vehicle};
 use rayon::prelude::*;
 
@@ -150,7 +150,7 @@ impl Grid {
 
     /// As a panel of a figure.
     pub fn map(&self, title: &str, x: Axis, y: Axis) -> Chart {
-        let classes = Outcome::NAMES.map(Class::new);
+        let classes = Outcome::NAMES;
         Chart::of_classes(
             title,
             x,

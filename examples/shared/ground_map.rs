@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt::Write as _;
 
-use creepage::figure::{Axis, Chart, Class, Panels};
+use creepage::figure::{Axis, Chart, Panels};
 use ground_field::{Displacement, GroundError, GroundField, SurfaceLoad};
 use rayon::prelude::*;
 
@@ -160,7 +160,7 @@ impl Grid {
                 format!("{name}: {what}"),
                 x.clone(),
                 y.clone(),
-                Outcome::names(tolerance).map(Class::new),
+                Outcome::names(tolerance),
                 self.of(model).map(|cell| cell.outcome as usize),
             ));
         }

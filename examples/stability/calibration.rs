@@ -17,7 +17,7 @@ use boussinesq::HalfSpace;
 use cable_dem::{CableError, CableState, DuctedCable, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
 use calibrate::{Calibration, Estimate, Fit, ModelError, Options, Parameter, Profiles, Scale};
 use creepage::Scene;
-use creepage::figure::{Axis, Chart, Class};
+use creepage::figure::{Axis, Chart};
 use fastrand::Rng;
 use ground_field::{DuctLine, DuctMotion};
 use rayon::prelude::*;
@@ -334,7 +334,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         "Calibration of μ_d and b from 30 readings in 60 passes: where b is identifiable",
         Axis::logarithmic("true shape factor b, 1/m").cells(grid.shape_factors.clone()),
         Axis::logarithmic("standard deviation of the load cell, N").cells(grid.noises.clone()),
-        NAMES.map(Class::new),
+        NAMES,
         grid.cells.iter().map(|cell| cell.outcome() as usize),
     );
     std::fs::write(out.join("stability-calibration.svg"), map.to_svg()?)?;

@@ -133,24 +133,18 @@ impl Axis {
         ticks: usize,
     ) -> Result<Scale, FigureError> {
         let borders = self.borders();
-        let asked = match (self.range, borders.as_slice()) {
+        let range = match (self.range, borders.as_slice()) {
             (Some(range), _) => range,
             (None, [first, .., last]) => (*first, *last),
-            _ => values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
-                (low.min(value), high.max(value))
-            }),
-        };
-        let range = if self.range.is_none() && borders.is_empty() {
-            round_range(asked, self.logarithmic, ticks)
-        } else {
-            asked
+            _ => {
+                let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
+                let data = values.fold((least, most), |(low, high), v| (low.min(v), high.max(v)));
+                round_range(data, self.logarithmic, ticks)
+            }
         };
         if !is_sound(range, self.logarithmic) {
-            return Err(FigureError::BadRange {
-                axis: self.label.clone(),
-                from: asked.0,
-                to: asked.1,
-            });
+            let (axis, (from, to)) = (self.label.clone(), range);
+            return Err(FigureError::BadRange { axis, from, to });
         }
         if self.names.is_empty() {
             let unit = self.unit.as_deref();

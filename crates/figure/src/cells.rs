@@ -3,37 +3,11 @@
 use crate::axis::Axis;
 use crate::error::FigureError;
 
-/// A class of cells: its name, and its look.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Class {
-    pub(crate) name: String,
-    pub(crate) look: Option<usize>,
-}
-
-impl Class {
-    /// A class with a name, and the look of its index in the chart: blue, vermilion with a cross, yellow with a stroke, black, purple
-    /// with a dot, green with a ring.
-    #[must_use]
-    pub fn new(name: impl Into<String>) -> Self {
-        Self {
-            name: name.into(),
-            look: None,
-        }
-    }
-
-    /// The look of the `index`-th class, from 0.
-    #[must_use]
-    pub fn look(mut self, index: usize) -> Self {
-        self.look = Some(index);
-        self
-    }
-}
-
 /// A class or a value for each cell, row by row from the lowest, each row along x.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Cells {
-    /// Each cell names its class by index.
-    Classes(Vec<Class>, Vec<usize>),
+    /// Names of the classes, and the index of each cell's.
+    Classes(Vec<String>, Vec<usize>),
     /// Values on the scale of the axis; a cell without value stays white.
     Values(Axis, Vec<Option<f64>>),
 }

@@ -1,20 +1,20 @@
 //! A chart: series and cells over two axes.
 
 use crate::axis::Axis;
-use crate::cells::{Cells, Class};
+use crate::cells::Cells;
 use crate::error::FigureError;
-use crate::series::{Along, Kind, Note, Reference, Series};
+use crate::series::{Along, Kind, Reference, Series};
 
 /// Series of points over two axes, with references and notes, or a map: a grid of cells coloured by class or by value.
 ///
 /// ```
-/// use plain_figure::{Axis, Chart, Class, Series};
+/// use plain_figure::{Axis, Chart, Series};
 ///
 /// let svg = Chart::of_classes(
 ///     "Explicit solver",
 ///     Axis::logarithmic("time step, s").cells([1e-5, 1e-4, 1e-3]),
 ///     Axis::names("law", ["sigmoid", "coulomb"]),
-///     [Class::new("right"), Class::new("wrong"), Class::new("refused")],
+///     ["right", "wrong", "refused"],
 ///     [0, 0, 2, 0, 1, 2],
 /// )
 /// .with(Series::line("predicted limit", [(3e-4, -0.5), (3e-4, 1.5)]))
@@ -30,7 +30,7 @@ pub struct Chart {
     pub(crate) cells: Option<Cells>,
     pub(crate) series: Vec<Series>,
     pub(crate) references: Vec<Reference>,
-    pub(crate) notes: Vec<Note>,
+    pub(crate) notes: Vec<((f64, f64), String)>,
 }
 
 impl Chart {
@@ -49,16 +49,18 @@ impl Chart {
     }
 
     /// A map of cells coloured by class, over axes of [cells](Axis::cells) or [names](Axis::names). `cells` names the class of each
-    /// cell by its index in `classes`, row by row from the lowest, each row along x.
+    /// cell by its index in `classes`, row by row from the lowest, each row along x. Classes look, in turn: blue, vermilion with a
+    /// cross, yellow with a stroke, black, purple with a dot, green with a ring.
     #[must_use]
-    pub fn of_classes(
+    pub fn of_classes<Name: Into<String>>(
         title: impl Into<String>,
         x: Axis,
         y: Axis,
-        classes: impl IntoIterator<Item = Class>,
+        classes: impl IntoIterator<Item = Name>,
         cells: impl IntoIterator<Item = usize>,
     ) -> Self {
-        let cells = Cells::Classes(classes.into_iter().collect(), cells.into_iter().collect());
+        let classes = classes.into_iter().map(Into::into).collect();
+        let cells = Cells::Classes(classes, cells.into_iter().collect());
         Self {
             cells: Some(cells),
             ..Self::new(title, x, y)
@@ -96,10 +98,10 @@ impl Chart {
         self
     }
 
-    /// Adds a text.
+    /// Adds a text centred at (x, y), moved just far enough to stay in the plot.
     #[must_use]
-    pub fn note(mut self, note: Note) -> Self {
-        self.notes.push(note);
+    pub fn note(mut self, x: f64, y: f64, text: impl Into<String>) -> Self {
+        self.notes.push(((x, y), text.into()));
         self
     }
 
@@ -119,10 +121,10 @@ impl Chart {
             self.x.check(&what, x)?;
             self.y.check(&what, y)?;
         }
-        for note in &self.notes {
-            let what = format!("note \"{}\"", note.text);
-            self.x.check(&what, [note.at.0])?;
-            self.y.check(&what, [note.at.1])?;
+        for ((x, y), text) in &self.notes {
+            let what = format!("note \"{text}\"");
+            self.x.check(&what, [*x])?;
+            self.y.check(&what, [*y])?;
         }
         Ok(())
     }

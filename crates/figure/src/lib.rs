@@ -11,9 +11,8 @@ mod scale;
 mod series;
 
 pub use axis::Axis;
-pub use cells::Class;
 pub use chart::Chart;
 pub use error::FigureError;
 pub use palette::dark_style;
 pub use panels::Panels;
-pub use series::{Note, Reference, Series};
+pub use series::{Reference, Series};

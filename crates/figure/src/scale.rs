@@ -12,8 +12,9 @@ pub(crate) struct Tick {
 pub(crate) struct Scale {
     range: (f64, f64),
     logarithmic: bool,
-    ticks: Vec<Tick>,
-    minor: Vec<f64>,
+    pub ticks: Vec<Tick>,
+    /// Values of fine grid lines.
+    pub fine: Vec<f64>,
 }
 
 /// Tolerance for ticks on the ends of a range, as a share of the step between ticks.
@@ -23,7 +24,7 @@ impl Scale {
     /// Exactly `range`, with about `count` ticks inside, labelled with SI prefixes of `unit` if given. The range is finite, ascending,
     /// and positive if logarithmic.
     pub fn new(range: (f64, f64), logarithmic: bool, count: usize, unit: Option<&str>) -> Self {
-        let (values, minor) = if logarithmic {
+        let (values, fine) = if logarithmic {
             logarithmic_ticks(range, count)
         } else {
             (linear_ticks(range, count), Vec::new())
@@ -32,7 +33,7 @@ impl Scale {
             range,
             logarithmic,
             ticks: labelled(&values, logarithmic, unit),
-            minor,
+            fine,
         }
     }
 
@@ -46,24 +47,11 @@ impl Scale {
             range: (-0.5, names.len() as f64 - 0.5),
             logarithmic: false,
             ticks: ticks.collect(),
-            minor: Vec::new(),
+            fine: Vec::new(),
         }
     }
 
-    pub fn is_logarithmic(&self) -> bool {
-        self.logarithmic
-    }
-
-    pub fn ticks(&self) -> &[Tick] {
-        &self.ticks
-    }
-
-    /// Values of fine grid lines.
-    pub fn minor(&self) -> &[f64] {
-        &self.minor
-    }
-
-    /// 0 at the beginning of the axis, 1 at its end; below and above beyond them.
+    /// 0 at the start of the axis, 1 at its end; below and above beyond them.
     pub fn share(&self, value: f64) -> f64 {
         let (from, to) = self.range;
         if self.logarithmic {
@@ -223,7 +211,7 @@ mod tests {
 
     fn labels(range: (f64, f64), logarithmic: bool) -> Vec<String> {
         let scale = Scale::new(range, logarithmic, 8, None);
-        scale.ticks().iter().map(|tick| tick.label.clone()).collect()
+        scale.ticks.into_iter().map(|tick| tick.label).collect()
     }
 
     #[test]

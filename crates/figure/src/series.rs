@@ -1,4 +1,4 @@
-//! What stands in a chart: series of points, reference lines, bands and notes.
+//! What stands in a chart: series of points, reference lines and bands.
 
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -158,23 +158,5 @@ impl Reference {
     pub fn colour(mut self, index: usize) -> Self {
         self.colour = Some(index);
         self
-    }
-}
-
-/// A text at a point of the chart.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Note {
-    pub(crate) at: (f64, f64),
-    pub(crate) text: String,
-}
-
-impl Note {
-    /// `text` centred at (x, y), moved just far enough to stay in the plot.
-    #[must_use]
-    pub fn new(x: f64, y: f64, text: impl Into<String>) -> Self {
-        Self {
-            at: (x, y),
-            text: text.into(),
-        }
     }
 }

@@ -2,7 +2,7 @@
 
 mod xml;
 
-use plain_figure::{Axis, Chart, Class, FigureError, Note, Panels, Reference, Series};
+use plain_figure::{Axis, Chart, FigureError, Panels, Reference, Series};
 use xml::{Element, parse};
 
 fn texts(elements: &[Element]) -> Vec<&str> {
@@ -58,7 +58,7 @@ fn a_chart_is_well_formed_and_names_everything() {
         .with(Series::area("area\u{1}", points))
         .refer(Reference::horizontal(2.0, "limit"))
         .refer(Reference::vertical_band(0.5, 0.7, "band"))
-        .note(Note::new(1.0, 1.0, "a note"));
+        .note(1.0, 1.0, "a note");
     let svg = chart.to_svg().expect("svg");
     let elements = parse(&svg);
     let texts = texts(&elements);
@@ -149,7 +149,7 @@ fn what_lies_beyond_the_range_is_cut_off() {
 
 #[test]
 fn a_map_colours_each_cell() {
-    let classes = || ["right", "wrong", "refused"].map(Class::new);
+    let classes = || ["right", "wrong", "refused"];
     let x = || Axis::logarithmic("step, s").cells([1e-3, 1e-2, 1e-1]);
     let y = || Axis::names("law", ["coulomb", "sigmoid"]);
     let map = Chart::of_classes("stability", x(), y(), classes(), [0, 1, 2, 0, 0, 1])
@@ -247,7 +247,7 @@ fn errors_instead_of_wrong_pictures() {
         is(chart(line()).refer(Reference::horizontal(value, "")), |e| {
             matches!(e, FigureError::NotFinite { .. })
         });
-        is(chart(line()).note(Note::new(0.0, value, "")), |e| {
+        is(chart(line()).note(0.0, value, ""), |e| {
             matches!(e, FigureError::NotFinite { .. })
         });
     }
@@ -278,7 +278,7 @@ fn errors_instead_of_wrong_pictures() {
         Chart::new("", Axis::linear(&long), Axis::linear("y")).with(line()),
         |e| matches!(e, FigureError::NoRoom { .. }),
     );
-    is(chart(line()).note(Note::new(0.5, 0.5, &long)), |e| {
+    is(chart(line()).note(0.5, 0.5, &long), |e| {
         matches!(e, FigureError::NoRoom { .. })
     });
     assert!(matches!(
@@ -290,16 +290,8 @@ fn errors_instead_of_wrong_pictures() {
 #[test]
 fn errors_of_maps() {
     let grid = |values: [f64; 2]| Axis::linear("x").cells(values);
-    let classes = |cells: &[usize], x| {
-        Chart::of_classes(
-            "",
-            x,
-            grid([0.0, 1.0]),
-            [Class::new("a"), Class::new("b")],
-            cells.to_vec(),
-        )
-        .to_svg()
-    };
+    let classes =
+        |cells: &[usize], x| Chart::of_classes("", x, grid([0.0, 1.0]), ["a", "b"], cells.to_vec()).to_svg();
     assert!(classes(&[0, 1, 1, 0], grid([0.0, 1.0])).is_ok());
     assert!(matches!(
         classes(&[], grid([0.0, 1.0])),

@@ -55,7 +55,7 @@ impl<'a> Bar<'a> {
         let mut outline = bar.corners().to_vec();
         outline.push(outline[0]);
         canvas.line(&outline, Stroke::solid(INK, 1.0));
-        for Tick { value, label } in self.scale.ticks() {
+        for Tick { value, label } in &self.scale.ticks {
             let y = at(self.scale.share(*value));
             canvas.line(&[(right, y), (right + TICK, y)], AXIS);
             canvas.text(label, (right + 2.0 * TICK, y), "start");
@@ -80,10 +80,7 @@ pub fn draw(canvas: &mut Canvas, frame: &Frame, chart: &Chart, cells: &Cells, ba
             bottom,
         };
         match cells {
-            Cells::Classes(classes, cells) => {
-                let class = cells[index];
-                mark::class_cell(canvas, classes[class].look.unwrap_or(class), cell);
-            }
+            Cells::Classes(_, cells) => mark::class_cell(canvas, cells[index], cell),
             Cells::Values(_, cells) => {
                 if let (Some(value), Some(bar)) = (cells[index], bar) {
                     canvas.rectangle(cell, continuous(bar.scale.share(value)), 1.0);

@@ -10,6 +10,7 @@ use super::series::Shown;
 use crate::cells::Cells;
 use crate::chart::Chart;
 use crate::error::FigureError;
+use crate::palette::INK;
 
 /// Legends begin this far from the figure's left edge \[px\].
 const INDENT: f64 = 24.0;
@@ -58,8 +59,8 @@ pub fn draw(chart: &Chart, canvas: &mut Canvas, outer: Rect) -> Result<(), Figur
     for reference in &chart.references {
         reference::draw_label(canvas, &frame, reference, &chart.series)?;
     }
-    for note in &chart.notes {
-        reference::draw_note(canvas, &frame, note)?;
+    for (at, text) in &chart.notes {
+        reference::draw_text(canvas, frame.plot, text, frame.at(*at), INK)?;
     }
     if let Some(bar) = bar {
         bar.draw(canvas, frame.plot)?;

@@ -36,7 +36,7 @@ pub fn ticks(length: f64, each: f64) -> usize {
 
 /// Width of the widest label of an axis \[px\].
 pub fn widest_label(scale: &Scale) -> f64 {
-    let widths = scale.ticks().iter().map(|tick| text_width(&tick.label, TEXT));
+    let widths = scale.ticks.iter().map(|tick| text_width(&tick.label, TEXT));
     widths.fold(0.0, f64::max)
 }
 
@@ -50,7 +50,7 @@ impl Frame {
         grid: bool,
         right: f64,
     ) -> Result<Self, FigureError> {
-        let last = x.ticks().last();
+        let last = x.ticks.last();
         let last = last.map_or(0.0, |tick| 0.5 * text_width(&tick.label, TEXT));
         let plot = Rect {
             left: outer.left + GAP + TEXT + GAP + widest_label(&y) + 2.0 * TICK,
@@ -70,12 +70,12 @@ impl Frame {
         }
         let corner = (plot.left, plot.bottom);
         canvas.line(&[(plot.left, plot.top), corner, (plot.right, plot.bottom)], AXIS);
-        for Tick { value, label } in frame.x.ticks() {
+        for Tick { value, label } in &frame.x.ticks {
             let (x, y) = (frame.x(*value), plot.bottom);
             canvas.line(&[(x, y), (x, y + TICK)], AXIS);
             canvas.text(label, (x, y + 2.0 * TICK + 0.5 * TEXT), "middle");
         }
-        for Tick { value, label } in frame.y.ticks() {
+        for Tick { value, label } in &frame.y.ticks {
             let (x, y) = (plot.left, frame.y(*value));
             canvas.line(&[(x, y), (x - TICK, y)], AXIS);
             canvas.text(label, (x - 2.0 * TICK, y), "end");
@@ -97,8 +97,8 @@ impl Frame {
                 canvas.line(&[(plot.left, y), (plot.right, y)], stroke);
             }
         };
-        let values = |scale: &Scale| -> Vec<f64> { scale.ticks().iter().map(|tick| tick.value).collect() };
-        lines(self.x.minor(), self.y.minor(), Stroke::solid(FINE_GRID, 0.8));
+        let values = |scale: &Scale| -> Vec<f64> { scale.ticks.iter().map(|tick| tick.value).collect() };
+        lines(&self.x.fine, &self.y.fine, Stroke::solid(FINE_GRID, 0.8));
         lines(&values(&self.x), &values(&self.y), Stroke::solid(GRID, 1.0));
     }
 
@@ -120,7 +120,7 @@ impl Frame {
 
 /// Labels of neighbouring ticks on an axis of `length` \[px\] do not touch.
 fn labels_fit(scale: &Scale, length: f64, size: impl Fn(&str) -> f64) -> Result<(), FigureError> {
-    for pair in scale.ticks().windows(2) {
+    for pair in scale.ticks.windows(2) {
         let room = (scale.share(pair[1].value) - scale.share(pair[0].value)) * length;
         check_room(
             &pair[1].label,

@@ -4,7 +4,6 @@ use super::canvas::{Canvas, Point, Rect};
 use super::mark;
 use super::series::Shown;
 use super::text::{TEXT, check_room, text_width};
-use crate::cells::Class;
 use crate::error::FigureError;
 
 const ROW: f64 = 23.0;
@@ -16,14 +15,14 @@ const PADDING: f64 = 8.0;
 /// What an entry shows beside its name.
 enum Sample<'a> {
     Series(&'a Shown<'a>),
-    /// The look of a class.
+    /// A class by its index.
     Class(usize),
 }
 
 /// Entries, laid out in rows.
 pub struct Legend<'a> {
     /// Sample, name, and place from the legend's left and top \[px\].
-    entries: Vec<(Sample<'a>, &'a str, Point)>,
+    entries: Vec<(Sample<'a>, &'a String, Point)>,
     height: f64,
 }
 
@@ -33,16 +32,18 @@ impl<'a> Legend<'a> {
     /// # Errors
     ///
     /// [`FigureError::NoRoom`] for a name wider than that.
-    pub fn new(classes: &'a [Class], series: &'a [Shown<'a>], width: f64) -> Result<Self, FigureError> {
-        let classes = classes.iter().enumerate();
-        let classes = classes.map(|(k, class)| (Sample::Class(class.look.unwrap_or(k)), class.name.as_str()));
+    pub fn new(classes: &'a [String], series: &'a [Shown<'a>], width: f64) -> Result<Self, FigureError> {
+        let classes = classes
+            .iter()
+            .enumerate()
+            .map(|(k, name)| (Sample::Class(k), name));
         let series = series
             .iter()
-            .filter(|shown| !shown.series.name.is_empty())
-            .map(|shown| (Sample::Series(shown), shown.series.name.as_str()));
+            .map(|shown| (Sample::Series(shown), &shown.series.name));
+        let named = classes.chain(series).filter(|(_, name)| !name.is_empty());
         let (mut x, mut row) = (0.0, 0.0);
         let mut entries = Vec::new();
-        for (sample, name) in classes.chain(series) {
+        for (sample, name) in named {
             let needed = SAMPLE + GAP + text_width(name, TEXT);
             check_room(name, needed, width)?;
             if x > 0.0 && x + needed > width {
@@ -69,9 +70,9 @@ impl<'a> Legend<'a> {
             let (x, y) = (left + x, top + y);
             match sample {
                 Sample::Series(shown) => shown.draw_sample(canvas, (x, y), SAMPLE),
-                Sample::Class(look) => {
+                Sample::Class(index) => {
                     let cell = Rect::around((x + 0.5 * SAMPLE, y), 11.0, 8.0);
-                    mark::class_cell(canvas, *look, cell);
+                    mark::class_cell(canvas, *index, cell);
                 }
             }
             canvas.text(name, (x + SAMPLE + GAP, y), "start");

@@ -10,11 +10,13 @@ const RADIUS: f64 = 4.0;
 /// Marks are drawn in cells at least this large \[px\].
 const SMALLEST_CELL: f64 = 7.0;
 
-/// Corners and strokes around (0, 0), of about the size 1.
-const SQUARE: [Point; 4] = [(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)];
-const TRIANGLE: [Point; 3] = [(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)];
-const ON_ITS_TIP: [Point; 3] = [(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)];
-const DIAMOND: [Point; 4] = [(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)];
+/// Outlines and strokes around (0, 0), of about the size 1: square, triangle, diamond, triangle on its tip.
+const OUTLINES: [&[Point]; 4] = [
+    &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
+    &[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)],
+    &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
+    &[(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)],
+];
 const CROSS: [[Point; 2]; 2] = [[(-0.9, -0.9), (0.9, 0.9)], [(-0.9, 0.9), (0.9, -0.9)]];
 const PLUS: [[Point; 2]; 2] = [[(-1.2, 0.0), (1.2, 0.0)], [(0.0, -1.2), (0.0, 1.2)]];
 
@@ -27,8 +29,9 @@ fn circle() -> [Point; 16] {
 }
 
 /// A shape of size 1, scaled and moved.
-fn placed<const N: usize>(shape: &[Point; N], at: Point, size: f64) -> [Point; N] {
-    shape.map(|(x, y)| (at.0 + size * x, at.1 + size * y))
+fn placed(shape: &[Point], at: Point, size: f64) -> Vec<Point> {
+    let point = |(x, y): &Point| (at.0 + size * x, at.1 + size * y);
+    shape.iter().map(point).collect()
 }
 
 fn strokes(canvas: &mut Canvas, at: Point, size: f64, lines: &[[Point; 2]], stroke: Stroke) {
@@ -42,18 +45,15 @@ pub fn marker(canvas: &mut Canvas, index: usize, at: Point, colour: Colour) {
     let stroke = Stroke::solid(colour, 1.7);
     match index % 7 {
         0 => canvas.outlined(&placed(&circle(), at, RADIUS), WHITE, stroke),
-        1 => canvas.outlined(&placed(&SQUARE, at, RADIUS), WHITE, stroke),
-        2 => canvas.outlined(&placed(&TRIANGLE, at, RADIUS), WHITE, stroke),
-        3 => canvas.outlined(&placed(&DIAMOND, at, RADIUS), WHITE, stroke),
-        4 => canvas.outlined(&placed(&ON_ITS_TIP, at, RADIUS), WHITE, stroke),
+        k @ 1..=4 => canvas.outlined(&placed(OUTLINES[k - 1], at, RADIUS), WHITE, stroke),
         5 => strokes(canvas, at, RADIUS, &[CROSS, PLUS].concat(), stroke),
         _ => strokes(canvas, at, RADIUS, &CROSS, stroke),
     }
 }
 
-/// Fills a cell with the colour and the mark of the `look`-th class.
-pub fn class_cell(canvas: &mut Canvas, look: usize, cell: Rect) {
-    let look = look % CLASSES.len();
+/// Fills a cell with the colour and the mark of the `index`-th class.
+pub fn class_cell(canvas: &mut Canvas, index: usize, cell: Rect) {
+    let look = index % CLASSES.len();
     canvas.rectangle(cell, CLASSES[look], 1.0);
     let size = cell.width().min(cell.height());
     if size < SMALLEST_CELL {

@@ -1,4 +1,4 @@
-//! Reference lines and bands, their labels, and notes.
+//! Reference lines and bands, and texts in the plot.
 
 use super::canvas::{Canvas, Point, Rect, Stroke};
 use super::frame::Frame;
@@ -6,7 +6,7 @@ use super::series::clip;
 use super::text::{TEXT, check_room, text_width};
 use crate::error::FigureError;
 use crate::palette::{Colour, GREY, INK, PALETTE};
-use crate::series::{Along, Kind, Note, Reference, Series};
+use crate::series::{Along, Kind, Reference, Series};
 
 /// Room between a text and the borders of the plot \[px\].
 const MARGIN: f64 = 4.0;
@@ -107,12 +107,8 @@ fn hidden_by(frame: &Frame, ground: Rect, series: &Series) -> usize {
     points + places.windows(2).filter(is_hidden).count()
 }
 
-/// Draws a note.
-pub fn draw_note(canvas: &mut Canvas, frame: &Frame, note: &Note) -> Result<(), FigureError> {
-    draw_text(canvas, frame.plot, &note.text, frame.at(note.at), INK)
-}
-
-fn draw_text(
+/// Draws `text` centred at `at`, moved so that it stays in the plot.
+pub fn draw_text(
     canvas: &mut Canvas,
     plot: Rect,
     text: &str,

@@ -48,11 +48,8 @@ impl<'a> Shown<'a> {
         if self.series.kind != Kind::Points {
             let parts = inside(&points, plot);
             if self.series.kind == Kind::Area {
-                let zero = if frame.y.is_logarithmic() {
-                    plot.bottom
-                } else {
-                    frame.y(0.0).clamp(plot.top, plot.bottom)
-                };
+                // On a logarithmic axis zero lies infinitely far down.
+                let zero = frame.y(0.0).clamp(plot.top, plot.bottom);
                 for part in &parts {
                     let ends = [(part[part.len() - 1].0, zero), (part[0].0, zero)];
                     canvas.area(&[part, &ends[..]].concat(), self.line.colour, SHADE);
