@@ -4,7 +4,7 @@ use crate::design::{DesignError, Measure, Place, TradeOff, compare};
 use crate::report::quantity::{length, quantity};
 use crate::report::{RUN_SHARE, ReportOptions};
 use crate::scene::End;
-use crate::{Run, Scene};
+use crate::{Error, Run, Scene};
 
 /// Tolerance of these runs, unless the scene's is looser: they are compared with each other, on one mesh.
 const TOLERANCE: f64 = 0.05;
@@ -36,7 +36,7 @@ pub struct Way {
 
 impl Comparison {
     /// Runs `scene` with the measures of `options`, or with those that suit it.
-    pub fn new(scene: &Scene, run: &Run, options: &ReportOptions<'_>) -> Self {
+    pub fn new(scene: &Scene, run: &Run, options: &ReportOptions<'_>) -> Result<Self, Error> {
         let mut scene = scene.clone();
         let tolerance = scene.solver.tolerance.max(TOLERANCE);
         scene.solver.tolerance = tolerance;
@@ -44,15 +44,11 @@ impl Comparison {
         let measures = options
             .measures
             .map_or_else(|| suitable(&scene, end), <[Measure]>::to_vec);
-        let progress = |done: usize| {
-            if let Some(progress) = options.progress {
-                let share = done as f64 / measures.len() as f64;
-                progress(RUN_SHARE + (1.0 - RUN_SHARE) * share);
-            }
-        };
         let held = held(&scene, end);
-        let (answers, failure) = match compare(&scene, &measures, Some(&progress)) {
+        let progress = options.progress.part(RUN_SHARE, 1.0);
+        let (answers, failure) = match compare(&scene, &measures, progress) {
             Ok(answers) => (answers, None),
+            Err(DesignError::Analysis(Error::Stopped)) => return Err(Error::Stopped),
             Err(error) => (Vec::new(), Some(error.to_string())),
         };
         let ways = measures.into_iter().zip(answers).map(|(measure, answer)| Way {
@@ -60,12 +56,12 @@ impl Comparison {
             is_scene: measure.place == end && measure.stiffness == held,
             answer,
         });
-        Self {
+        Ok(Self {
             end,
             tolerance,
             ways: ways.collect(),
             failure,
-        }
+        })
     }
 }
 

@@ -31,7 +31,9 @@ mod words;
 use crate::calibration::Readings;
 use crate::design::Measure;
 use crate::scene::SolverMethod;
-use crate::{Error, FrictionProfile, PlanReport, Profile, Run, RunOptions, Scene, finite, profile_at};
+use crate::{
+    Error, FrictionProfile, PlanReport, Profile, Progress, Run, RunOptions, Scene, finite, profile_at,
+};
 use agreement::Agreement;
 use measures::Comparison;
 
@@ -55,8 +57,8 @@ pub struct ReportOptions<'a> {
     pub measures: Option<&'a [Measure]>,
     /// Warnings to be told beside those of the run.
     pub warnings: &'a [String],
-    /// Hears of the share of the work done so far, in \[0, 1\]; begins again where a finer mesh proves needed.
-    pub progress: Option<&'a (dyn Fn(f64) + Sync)>,
+    /// Called after each pass of the scene's run, then after each way to hold the cable; it may stop the report.
+    pub progress: Progress<'a>,
 }
 
 /// Everything that the page tells.
@@ -101,23 +103,19 @@ impl Report {
         }
         let stages = stages(scene.traffic.passes);
         let plan = crate::plan(scene)?;
-        let progress = |share: f64| {
-            if let Some(progress) = options.progress {
-                progress(RUN_SHARE * share);
-            }
-        };
-        let run = plan.run_with(&RunOptions {
-            progress: Some(&progress),
+        let options_of_run = RunOptions {
+            progress: options.progress.part(0.0, RUN_SHARE),
             stages: &stages,
             ..RunOptions::default()
-        })?;
+        };
+        let run = crate::run_plan(&plan, &options_of_run)?;
         let warnings = options.warnings.iter().chain(&run.warnings).cloned().collect();
         let report = Self {
             plan: plan.report(),
             motion: profile_at(scene, &positions(scene))?,
             friction: friction(scene, &run),
             agreement: agreed(&run)?,
-            measures: Comparison::new(scene, &run, options),
+            measures: Comparison::new(scene, &run, options)?,
             warnings,
             run,
             scene: scene.clone(),

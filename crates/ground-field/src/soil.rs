@@ -123,18 +123,19 @@ impl SoilLayer {
         }
     }
 
+    /// The soil at `height` \[m\] below the layer's top.
+    pub fn soil_at(&self, height: f64) -> Soil {
+        Soil {
+            young_modulus: self.young_modulus_at(height),
+            poisson_ratio: self.poisson_ratio,
+        }
+    }
+
     /// The layer's soil where it is uniform; `None` where the modulus varies with depth.
     pub fn soil(&self) -> Option<Soil> {
         match self.modulus {
-            Modulus::Uniform(young_modulus) => Some(Soil {
-                young_modulus,
-                poisson_ratio: self.poisson_ratio,
-            }),
-            Modulus::Linear { top, bottom } if top == bottom => Some(Soil {
-                young_modulus: top,
-                poisson_ratio: self.poisson_ratio,
-            }),
-            Modulus::Linear { .. } => None,
+            Modulus::Linear { top, bottom } if top != bottom => None,
+            _ => Some(self.soil_at(0.0)),
         }
     }
 }

@@ -153,11 +153,9 @@ impl LayeredFem {
     pub fn statistics(&self) -> FemStatistics {
         let meshes = self.meshes();
         let (coarse, fine) = (&meshes.coarse.level, &meshes.fine.level);
-        let size = fine.size();
         FemStatistics {
-            unknowns: size.unknowns,
-            matrix_entries: size.matrix_entries,
-            factor_entries: size.factor_entries,
+            unknowns: fine.unknowns(),
+            factor_entries: fine.factor_entries(),
             factorisations: meshes.factorisations,
             solves: coarse.solves() + fine.solves(),
             bytes: coarse.bytes() + fine.bytes(),
@@ -254,7 +252,7 @@ impl Step {
         let lines = Lines::new(profile, alpha, parts, options.max_unknowns())?;
         Ok(Self {
             parts,
-            level: Level::new(profile, options.element(), options.rounding(), lines)?,
+            level: Level::new(profile, options.rounding(), lines)?,
         })
     }
 }

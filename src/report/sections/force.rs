@@ -1,11 +1,12 @@
 //! Force and movement over the passes.
 
 use crate::PassRecord;
+use crate::answer::selected;
 use crate::report::Report;
 use crate::report::figures;
 use crate::report::html::{Html, Table};
 use crate::report::quantity::{count, length};
-use crate::shown::{rounded, selected};
+use crate::shown::rounded;
 
 use super::{MILLI, figure};
 

@@ -11,18 +11,21 @@ pub fn plan(html: &mut Html, report: &Report) {
         run.plan.ground, run.plan.cable, run.plan.node_spacing_m, run.plan.vehicle_step_m
     ));
     html.list(&run.plan.reasons);
-    html.element("h3", "What was weighed");
-    let rows = plan.ladder.iter().map(|rung| {
-        let cost = [rung.estimated_error.map(share), rung.estimated_seconds.map(time)];
+    html.element("h3", "What was considered");
+    let rows = plan.candidates.iter().map(|candidate| {
+        let cost = [
+            candidate.estimated_error.map(share),
+            candidate.estimated_seconds.map(time),
+        ];
         vec![
             format!(
                 "{} {}: {}",
-                rung.part,
-                rung.name,
-                if rung.chosen { "taken" } else { "rejected" }
+                candidate.part,
+                candidate.name,
+                if candidate.chosen { "chosen" } else { "rejected" }
             ),
             cost.into_iter().flatten().collect::<Vec<_>>().join(", "),
-            rung.reason.clone(),
+            candidate.reason.clone(),
         ]
     });
     html.table(&Table {

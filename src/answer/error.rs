@@ -11,8 +11,8 @@
 
 use cable_dem::PassOutcome;
 
-use super::passes::Passes;
 use crate::Error;
+use crate::shown::share as percent;
 
 /// Shares of the differences between meshes that count as error: of the last one, the one before, and so on. Fitted to 200 random
 /// scenes, so that the error is above them in one or two of a hundred.
@@ -22,8 +22,6 @@ const OF_MANY: [f64; 4] = [1.5, 0.2, 0.06, 0.02];
 const MANY: usize = 40;
 /// Of the only one.
 const ALONE: f64 = 2.0;
-/// Error that is counted at least on meshes of 3, 6, 12, … nodes a depth: what is typical.
-const LEAST: [f64; 7] = [5e-2, 3e-2, 6e-3, 1.5e-3, 4e-4, 1e-4, 2e-5];
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;
 /// Forces below this share of the largest one count as nothing when errors are compared, and movements of an end below this
@@ -116,13 +114,6 @@ impl ErrorParts {
 
 impl std::fmt::Display for ErrorParts {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let percent = |share: f64| {
-            if share < 5e-5 {
-                "< 0.01 %".to_owned()
-            } else {
-                format!("{:.2} %", 100.0 * share)
-            }
-        };
         write!(
             f,
             "{}: mesh {}, ground {}, inertia {}, road {}; movement of the ends {}",
@@ -140,18 +131,18 @@ impl std::fmt::Display for ErrorParts {
     }
 }
 
-/// Error of the last of `levels`, which are ascending and at least two; its number is `finest`.
-pub fn of_mesh(levels: &[Passes], finest: usize, scale: Scale) -> Shares {
+/// Error of the last of `levels`, the outcomes of all passes on two or more meshes from coarse to fine; at least `typical`.
+pub fn of_mesh(levels: &[&[PassOutcome]], typical: f64, scale: Scale) -> Shares {
     let differences: Vec<Shares> = levels
         .windows(2)
         .rev()
-        .map(|pair| difference(&pair[1], &pair[0], scale))
+        .map(|pair| difference(pair[1], pair[0], scale))
         .collect();
-    let least = Shares::both(LEAST[finest.min(LEAST.len() - 1)]);
+    let least = Shares::both(typical);
     if let [only] = differences[..] {
         return only.times(ALONE).max(least);
     }
-    let passes = levels.last().map_or(0, |finest| finest.outcomes.len());
+    let passes = levels.last().map_or(0, |finest| finest.len());
     let shares = if passes < MANY { SHARES } else { OF_MANY };
     shares
         .iter()
@@ -161,7 +152,7 @@ pub fn of_mesh(levels: &[Passes], finest: usize, scale: Scale) -> Shares {
 }
 
 /// Error of `passes`, measured against a run twice as fine.
-pub fn measured(passes: &Passes, finer: &Passes, scale: Scale) -> Shares {
+pub fn measured(passes: &[PassOutcome], finer: &[PassOutcome], scale: Scale) -> Shares {
     difference(passes, finer, scale).times(VERIFIED)
 }
 
@@ -183,7 +174,7 @@ pub fn judge(reached: f64, tolerance: f64) -> Result<(), Error> {
 
 /// Largest difference of a force after a pass, as a share of the largest force or tension after that pass, or of a tenth of
 /// the largest in the run; and largest difference of a movement.
-pub fn difference(a: &Passes, b: &Passes, scale: Scale) -> Shares {
+pub fn difference(a: &[PassOutcome], b: &[PassOutcome], scale: Scale) -> Shares {
     let forces = |outcome: &PassOutcome| {
         [
             outcome.force.upstream,
@@ -205,14 +196,13 @@ pub fn difference(a: &Passes, b: &Passes, scale: Scale) -> Shares {
         .map(f64::abs)
         .fold(0.0, f64::max)
     };
-    let floor = (SMALL * a.outcomes.iter().map(largest).fold(0.0, f64::max)).max(scale.force);
+    let floor = (SMALL * a.iter().map(largest).fold(0.0, f64::max)).max(scale.force);
     let moved = a
-        .outcomes
         .iter()
         .flat_map(movements)
         .fold(scale.movement, |largest, u| largest.max(u.abs()));
     let mut worst = Shares::default();
-    for (a, b) in a.outcomes.iter().zip(&b.outcomes) {
+    for (a, b) in a.iter().zip(b) {
         // A clamp may hold a cable whose ends are free: what is compressed is then small beside what is stretched.
         let scale = forces(a)
             .into_iter()

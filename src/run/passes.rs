@@ -3,11 +3,12 @@
 use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statistics, Traffic};
 use ground_field::DuctMotion;
 
-use super::balance;
-use super::cable::{CableMethod, PassSolver, cable};
-use super::result::{ForceProfile, SlipRecord, Stage};
-use crate::Error;
+use super::solver::PassSolver;
+use crate::answer::{ForceProfile, SlipRecord, Stage, balance};
+use crate::cable::cable;
+use crate::plan::CableMethod;
 use crate::scene::Scene;
+use crate::{Error, Progress};
 
 /// Every pass's outcome, how the cable is left, and what they cost together.
 pub struct Passes {
@@ -26,30 +27,30 @@ pub struct Passes {
 }
 
 /// Force along the cable as it is left in `state`.
-pub fn force_profile(cable: &DuctedCable, mesh: &Mesh, state: &CableState) -> Result<ForceProfile, Error> {
-    let force_n: Vec<f64> = state.element_forces(cable, mesh)?.collect();
+pub fn force_profile(cable: &DuctedCable, state: &CableState) -> Result<ForceProfile, Error> {
+    let force_n: Vec<f64> = state.element_forces(cable)?.collect();
     Ok(ForceProfile {
         positions_m: (0..force_n.len())
-            .map(|i| mesh.spacing() * (i as f64 + 0.5))
+            .map(|i| state.node_spacing() * (i as f64 + 0.5))
             .collect(),
         force_n,
     })
 }
 
-/// Lets the scene's traffic pass over its cable meshed by `mesh`, and looks at the cable at the passes `stages`; `passed`
-/// hears of every pass.
+/// Lets the scene's traffic pass over its cable meshed by `mesh`, and looks at the cable at the passes `stages`; `progress` is
+/// called after each pass.
 pub fn simulate(
     scene: &Scene,
     method: CableMethod,
     motions: &[DuctMotion],
     mesh: Mesh,
     stages: &[u64],
-    mut passed: impl FnMut(),
+    progress: Progress<'_>,
 ) -> Result<Passes, Error> {
     let mut solver = PassSolver::new(scene, method, motions, mesh)?;
     let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
     let traffic = Traffic::new(&shares, scene.traffic.order.clone())?;
-    let mut state = CableState::at_rest(&mesh);
+    let mut state = solver.at_rest();
     let mut statistics = Statistics::default();
     let mut outcomes = Vec::new();
     let count = usize::try_from(scene.traffic.passes).unwrap_or(usize::MAX);
@@ -65,7 +66,7 @@ pub fn simulate(
             if wanted {
                 seen_stages.push(Stage {
                     pass,
-                    force_profile: force_profile(&cable, &mesh, &state)?,
+                    force_profile: force_profile(&cable, &state)?,
                     friction,
                 });
             }
@@ -73,10 +74,10 @@ pub fn simulate(
         } else {
             solver.pass(vehicle, &mut state)?
         };
-        balance::of_state(&cable, &mesh, &state, pass)?;
+        balance::of_state(&cable, &state, pass)?;
         statistics += outcome.statistics;
         outcomes.push(outcome);
-        passed();
+        progress.report(pass as f64 / count as f64)?;
     }
     Ok(Passes {
         outcomes,

@@ -4,11 +4,11 @@
 //! at most q times their distance and what clamps between them carry; at an end that is free it is at most q L and the
 //! clamps. No solver, law or mesh may break that.
 
-use cable_dem::{CableState, DuctedCable, Mesh};
+use cable_dem::{CableState, DuctedCable};
 
-use super::result::{PassRecord, RestraintRecord};
+use super::record::{PassRecord, RestraintRecord, Saturation};
+use crate::Error;
 use crate::scene::{End, Scene};
-use crate::{Error, Saturation};
 
 /// Share of what friction can carry by which rounding and interpolation may exceed it.
 const MARGIN: f64 = 0.01;
@@ -20,13 +20,13 @@ const LEVEL: f64 = 0.95;
 const ROUNDING: f64 = 1e-9;
 
 /// Checks the cable as `pass` left it.
-pub fn of_state(cable: &DuctedCable, mesh: &Mesh, state: &CableState, pass: u64) -> Result<(), Error> {
+pub fn of_state(cable: &DuctedCable, state: &CableState, pass: u64) -> Result<(), Error> {
     let largest = state
-        .element_forces(cable, mesh)?
+        .element_forces(cable)?
         .fold(0.0_f64, |largest, force| largest.max(force.abs()));
     let limit = cable.friction().limit();
-    let allowed = (1.0 + MARGIN) * limit + ROUNDING * largest / mesh.spacing();
-    let needed = state.friction_needed(cable, mesh)?;
+    let allowed = (1.0 + MARGIN) * limit + ROUNDING * largest / state.node_spacing();
+    let needed = state.friction_needed(cable)?;
     // Written so that what is not a number fails.
     if needed <= allowed {
         Ok(())

@@ -4,26 +4,24 @@ use std::thread;
 
 use cable_dem::{DuctedCable, Order};
 use ground_field::DuctMotion;
-use pass_law::{Concern, Evolution, PassLaw, Resolution, concerns_before};
+use pass_law::{Evolution, PassLaw, Resolution};
 
-use super::cable::{CableMethod, cable};
 use super::passes::simulate;
-use super::result::{
-    ErrorEstimate, ErrorShares, ForceProfile, PassRecord, RestraintRecord, Saturation, Stage,
+use crate::answer::{
+    ErrorEstimate, ErrorShares, ForceProfile, PassRecord, RestraintRecord, Saturation, Stage, listed,
 };
-use super::road::approach;
-use crate::planner::mesh::Levels;
+use crate::cable::cable;
+use crate::ground::road::approach;
+use crate::plan::{CableMethod, LAW_ERROR as ERROR, Levels};
 use crate::scene::{End, Scene};
-use crate::{Cost, Error};
+use crate::shown::share as percent;
+use crate::{Cost, Error, Progress};
 
 /// Nodes per depth of the duct in the law's cells at a tolerance of 1 % or less, and above.
 const FINE: f64 = 12.0;
 const COARSE: f64 = 6.0;
-/// Error of the law itself beyond the tenth pass on the ducts it is made for, measured against the simulation of every
-/// pass. What it is on a scene is measured on the scene's first passes.
-pub const ERROR: f64 = 0.01;
-/// Nodes eliminated in the passes that are simulated for that, about: a fifth of a second; and fewest and most of these
-/// passes.
+/// The law's error on a scene is measured on its first passes, simulated. Nodes eliminated in these, about: a fifth of a second; and
+/// their smallest and largest number.
 const CHECK_NODE_UPDATES: f64 = 1.2e7;
 const CHECKED_PASSES: (u64, u64) = (12, 200);
 /// A check that takes so many times as long is not made.
@@ -34,9 +32,6 @@ const CHECK_LEVEL: usize = 2;
 const SMALL_FORCE: f64 = 0.1;
 /// The law resolves the passes from this one on; those before it are simulated.
 const FIRST_GOOD: u64 = 10;
-/// The first passes are all listed, then each this much later than the one before.
-const GROWTH: f64 = 1.03;
-
 /// Answer of the law.
 pub struct LawRun {
     pub node_spacing: f64,
@@ -49,12 +44,6 @@ pub struct LawRun {
     pub error: ErrorEstimate,
     pub cost: Cost,
     pub warnings: Vec<String>,
-}
-
-/// Why the law must not be used for this scene; `None` where it may.
-pub fn refusal(scene: &Scene) -> Result<Option<Concern>, Error> {
-    let concerns = concerns_before(&cable(scene)?, Resolution::new(scene.duct.depth)?);
-    Ok(concerns.into_iter().find(|concern| concern.is_fatal()))
 }
 
 /// Runs all passes of `scene` by the law, and looks at the cable after the passes `stages`.
@@ -74,7 +63,7 @@ pub fn run(scene: &Scene, motions: &[DuctMotion], stages: &[u64]) -> Result<LawR
 fn first_passes(scene: &Scene, motions: &[DuctMotion]) -> Result<Option<Vec<PassRecord>>, Error> {
     let mut scene = scene.clone();
     (scene.solver.node_spacing, scene.solver.vehicle_step) = (None, None);
-    let levels = Levels::new(&scene, approach(&scene, motions), false);
+    let levels = Levels::new(&scene, approach(&scene, motions)?);
     let (fewest, most) = CHECKED_PASSES;
     let affordable = CHECK_NODE_UPDATES / levels.node_updates(CHECK_LEVEL, 1);
     if affordable * MOST_CHECKS < fewest as f64 {
@@ -87,7 +76,7 @@ fn first_passes(scene: &Scene, motions: &[DuctMotion]) -> Result<Option<Vec<Pass
         motions,
         levels.mesh(CHECK_LEVEL)?,
         &[],
-        || {},
+        Progress::default(),
     )?;
     let records = passes.outcomes.iter().zip(1..);
     Ok(Some(
@@ -154,10 +143,9 @@ fn evolve(
     let law_error = measured.map_or(ERROR, |(error, _)| error.max(ERROR));
     let relative = 0.5 * share + law_error;
     if relative > scene.solver.tolerance {
+        let (error, tolerance) = (percent(relative), percent(scene.solver.tolerance));
         warnings.push(format!(
-            "the estimated error of {:.2} % exceeds the tolerance of {:.2} %",
-            100.0 * relative,
-            100.0 * scene.solver.tolerance
+            "the estimated error of {error} exceeds the tolerance of {tolerance}"
         ));
     }
     Ok(LawRun {
@@ -326,21 +314,4 @@ fn stages(cable: &DuctedCable, law: &PassLaw, scene: &Scene, wanted: &[u64]) -> 
             })
         })
         .collect()
-}
-
-/// The first passes, then evenly growing numbers, round ones, and the last.
-pub fn listed(count: u64) -> Vec<u64> {
-    let mut passes = Vec::new();
-    let mut next = 1;
-    while next < count {
-        passes.push(next);
-        next = (next + 1).max((GROWTH * next as f64) as u64);
-    }
-    passes.push(count);
-    // The numbers that a reader looks for.
-    let round = (0..19).flat_map(|power| [1, 2, 5].map(|leading| leading * 10_u64.pow(power.min(18))));
-    passes.extend(round.filter(|&pass| pass < count));
-    passes.sort_unstable();
-    passes.dedup();
-    passes
 }

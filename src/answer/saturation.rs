@@ -1,13 +1,13 @@
 //! Where the force levels off.
 //!
-//! The force at a third, two thirds and all of the passes gives two gains; of vehicles that alternate, the largest in size counts. Where the second is much smaller than
-//! the first, the gains shrink geometrically and what is still to come is their remaining sum (Aitken's Δ²; A. C. Aitken,
+//! The force at a third, two thirds and all of the passes gives two gains; of vehicles that alternate, the largest in size
+//! counts. Where the second is much smaller than the first, the gains shrink geometrically and what is still to come is their remaining sum (Aitken's Δ²; A. C. Aitken,
 //! Proc. R. Soc. Edinburgh 46 (1926) 289). Early on the force grows like √n, the gains' ratio is above 0.7 and nothing
 //! can be said yet.
 
 use cable_dem::PassOutcome;
 
-use super::result::Saturation;
+use super::record::Saturation;
 use crate::Scene;
 use crate::scene::End;
 

@@ -3,8 +3,7 @@
 use ground_field::GroundError;
 use serde::Serialize;
 
-use super::motion::{self, Ground};
-use crate::planner::ground;
+use super::Ground;
 use crate::{Error, Scene};
 
 /// Farthest position from the vehicle \[m\].
@@ -50,14 +49,13 @@ pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
         let (name, allowed) = ("position", "from -1000 km to 1000 km");
         return Err(GroundError::InvalidParameter { name, value, allowed }.into());
     }
-    let (name, field, accuracy) = ground::exact(scene)?;
     let reach = positions
         .iter()
         .fold(scene.duct.depth, |reach, xi| reach.max(xi.abs()));
-    let motions = motion::motions(scene, &Ground::new(&*field, accuracy), reach)?;
-    let first = &motions[0];
+    let ground = Ground::new(scene, None, reach)?;
+    let first = &ground.motions[0];
     Ok(Profile {
-        ground: name.into(),
+        ground: ground.name.into(),
         positions_m: positions.to_vec(),
         longitudinal_m: positions.iter().map(|&xi| first.longitudinal(xi)).collect(),
         vertical_m: positions.iter().map(|&xi| first.vertical(xi)).collect(),
