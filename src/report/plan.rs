@@ -1,7 +1,7 @@
 //! How the answer was computed, and how wrong it may be.
 
-use crate::report::Report;
-use crate::report::html::{Html, Table};
+use super::content::Report;
+use super::html::{Html, Table};
 use crate::shown::{share, time};
 
 pub fn plan(html: &mut Html, report: &Report) {
@@ -17,13 +17,9 @@ pub fn plan(html: &mut Html, report: &Report) {
             candidate.estimated_error.map(share),
             candidate.estimated_seconds.map(time),
         ];
+        let fate = if candidate.chosen { "chosen" } else { "rejected" };
         vec![
-            format!(
-                "{} {}: {}",
-                candidate.part,
-                candidate.name,
-                if candidate.chosen { "chosen" } else { "rejected" }
-            ),
+            format!("{} {}: {fate}", candidate.part, candidate.name),
             cost.into_iter().flatten().collect::<Vec<_>>().join(", "),
             candidate.reason.clone(),
         ]
