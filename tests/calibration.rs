@@ -2,9 +2,7 @@
 
 use std::sync::OnceLock;
 
-use creepage::calibration::{
-    BootstrapOptions, Deflection, Loss, Quantity, Reading, Readings, Resampling, Unknown,
-};
+use creepage::calibration::{BootstrapOptions, Deflection, Loss, Quantity, Reading, Readings, Unknown};
 use creepage::scene::{End, FrictionLaw, PeakScaling, SolverMethod};
 use creepage::{CalibrateOptions, Calibrated, Error, Scene, Series, calibrate, calibrate_jointly};
 
@@ -211,7 +209,6 @@ fn bootstrap_agrees_with_the_standard_error() {
         bootstrap: Some(BootstrapOptions {
             replicates: 60,
             seed: 2,
-            resampling: Resampling::Gaussian,
         }),
         ..CalibrateOptions::default()
     };

@@ -1,13 +1,14 @@
 //! `creepage calibrate`: parameters from readings.
 
 use std::io::{self, IsTerminal, Write};
+use std::ops::ControlFlow;
 
 use super::arguments::{CalibrateArguments, OutputArguments, SceneArguments};
 use super::input::Input;
 use super::{Failure, terminal, write};
 use crate::calibration::{
     BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Observer, Readings,
-    Resampling, Unknown,
+    Unknown,
 };
 use crate::output::Kind;
 use crate::scene::FrictionLaw;
@@ -39,7 +40,6 @@ pub fn execute(
         bootstrap: arguments.bootstrap.map(|replicates| BootstrapOptions {
             replicates,
             seed: arguments.seed,
-            resampling: Resampling::Residuals,
         }),
         max_evaluations: arguments.max_evaluations,
         observer,
@@ -78,6 +78,7 @@ fn progress() -> (indicatif::ProgressBar, Option<Observer>) {
             .collect();
         shown.set_message(format!("iteration {}: {}", progress.iteration, values.join(", ")));
         shown.tick();
+        ControlFlow::Continue(())
     });
     (bar, Some(observer))
 }
