@@ -7,8 +7,7 @@ use super::input::Input;
 use super::progress::{MODEL_RUNS, with_bar};
 use super::{Failure, terminal, write};
 use crate::calibration::{
-    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Readings, Resampling,
-    Unknown,
+    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Readings, Unknown,
 };
 use crate::output::Kind;
 use crate::scene::FrictionLaw;
@@ -39,7 +38,6 @@ pub fn execute(
         bootstrap: arguments.bootstrap.map(|replicates| BootstrapOptions {
             replicates,
             seed: arguments.seed,
-            resampling: Resampling::Residuals,
         }),
         max_evaluations: arguments.max_evaluations,
         ..CalibrateOptions::default()

@@ -166,7 +166,7 @@ fn the_equivalent_thickness_of_too_many_layers_is_refused() {
     let layers = [edited.ground.profile.layers(), edited.ground.profile.layers()].concat();
     edited.ground.profile =
         ground_field::SoilProfile::new(layers, ground_field::Base::Rigid).expect("a profile");
-    let refused = creepage::plan(&edited).err().expect("too many layers");
+    let refused = creepage::plan(&edited).expect_err("too many layers");
     assert!(
         matches!(
             &refused,
