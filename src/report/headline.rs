@@ -6,7 +6,7 @@ use super::html::{Headline, Html};
 use super::measures::pressed_end;
 use super::quantity::count;
 use crate::design::Place;
-use crate::shown::{rounded, share};
+use crate::shown::{percent, rounded};
 
 pub fn headline(html: &mut Html, report: &Report) {
     let run = &report.run;
@@ -67,7 +67,7 @@ pub fn headline(html: &mut Html, report: &Report) {
         },
         Headline {
             name: "Estimated error",
-            value: share(run.error_estimate.relative),
+            value: percent(run.error_estimate.relative),
             note: "of the forces, from the computation alone".into(),
         },
     ]);

@@ -7,7 +7,7 @@ use super::measures::Way;
 use super::quantity::significant;
 use crate::design::{Place, TradeOff};
 use crate::figure::{Axis, Chart, Series};
-use crate::shown::{rounded, share};
+use crate::shown::{percent, rounded};
 
 /// Ratio of the largest to the smallest movement beyond which their axis is logarithmic.
 const WIDE: f64 = 50.0;
@@ -43,7 +43,7 @@ pub fn holding(html: &mut Html, report: &Report) {
                 if answer.force_n == 0.0 {
                     "–".into()
                 } else {
-                    share(answer.error_estimate)
+                    percent(answer.error_estimate)
                 },
             ],
             Err(_) => ["failed", "–", "–", "–"].map(str::to_owned),

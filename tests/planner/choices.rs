@@ -170,7 +170,7 @@ fn the_equivalent_thickness_of_too_many_layers_is_refused() {
     assert!(
         matches!(
             &refused,
-            creepage::Error::Scene(creepage::SceneError::Value { key, .. }) if key == "ground.model"
+            creepage::Error::Scene(creepage::SceneError::Wrong(wrong)) if wrong.key == "ground.model"
         ),
         "{refused}"
     );
