@@ -44,7 +44,7 @@
 //! ```
 //!
 //! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `burmister` (layers by
-//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable), `pass-law` (many passes), `calibrate` (parameters from measurements).
+//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable), `pass-law` (many passes), `calibrate` (parameters from measurements), `plain-figure` (charts as SVG).
 
 mod answer;
 mod cable;
@@ -54,8 +54,6 @@ pub mod calibration;
 pub mod cli;
 pub mod design;
 mod error;
-#[cfg(feature = "plot")]
-pub mod figure;
 mod finite;
 mod ground;
 #[cfg(feature = "sweep")]
@@ -75,6 +73,9 @@ mod shown;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 pub mod template;
+
+#[cfg(feature = "plot")]
+pub use plain_figure as figure;
 
 pub use answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, FrictionProfile, PassRecord,

@@ -2,6 +2,7 @@
 
 #![cfg(all(feature = "cli", feature = "plot"))]
 
+#[path = "../crates/figure/tests/xml/mod.rs"]
 mod xml;
 
 use std::fs;

@@ -10,7 +10,7 @@ use super::shared::{Input, OutputArguments, SceneArguments};
 use super::terminal;
 use crate::calibration::{
     BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Quantity, Readings,
-    Resampling, Unknown,
+    Unknown,
 };
 use crate::output::Kind;
 use crate::scene::{Dimension, FrictionLaw};
@@ -82,7 +82,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         bootstrap: arguments.bootstrap.map(|replicates| BootstrapOptions {
             replicates,
             seed: arguments.seed,
-            resampling: Resampling::Residuals,
         }),
         max_evaluations: arguments.max_evaluations,
         ..CalibrateOptions::default()

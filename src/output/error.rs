@@ -35,9 +35,9 @@ pub enum OutputError {
         /// The file.
         file: String,
         /// What it looks like.
-        found: &'static str,
+        found: String,
         /// What would be replaced.
-        kind: &'static str,
+        kind: String,
     },
     /// Writing broke off.
     #[error("{file}: cannot be written")]
