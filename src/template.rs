@@ -1,6 +1,6 @@
 //! A commented scene to start from.
 //!
-//! The text is made from few answers and checked by reading it: what [`Template::to_toml`] returns is a valid scene.
+//! The text is made from a few answers and checked by reading it: [`Template::to_toml`] returns a valid scene.
 
 use std::fmt::Write;
 
@@ -94,7 +94,7 @@ impl Template {
         let mut file = File::default();
         file.remark("A cable in a duct under traffic. To compute: creepage run FILE");
         file.remark("A quantity is a text with its unit, or a bare number in SI. `creepage presets` lists the presets,");
-        file.remark("with the source of every value; what stands beside a preset counts instead of it.");
+        file.remark("with the source of every value; keys given next to a preset override it.");
         file.blank();
         file.set("title", &self.title, "");
 
@@ -103,7 +103,7 @@ impl Template {
         file.set("depth", &self.depth, "from the road surface to the cable");
         file.option(
             "lateral_offset = \"0.5 m\"",
-            "from the vehicles' axis to the duct's; 0 if left out",
+            "from the vehicles' axis to the duct's; 0 if omitted",
         );
 
         file.section("[ground]", "");
@@ -116,7 +116,7 @@ impl Template {
         );
         file.option(
             "rigid_base_depth = \"12 m\"",
-            "bedrock; the ground goes down without end if left out",
+            "bedrock; if omitted, the ground extends to infinite depth",
         );
         if let TemplateGround::Modulus(modulus) = &self.ground {
             file.section(
@@ -137,7 +137,7 @@ impl Template {
         file.option("axial_stiffness = \"8.01e6 N\"", "EA, instead of the preset's");
         file.option(
             "normal_load_factor = 1.5",
-            "normal force per metre = factor x weight; 1 if left out",
+            "normal force per metre = factor x weight; 1 if omitted",
         );
 
         file.section("[friction]", "between cable and duct");
@@ -160,8 +160,8 @@ impl Template {
         file.section("[[vehicles]]", "one section for each kind of vehicle");
         file.set("preset", &self.vehicle, &summary(&self.vehicle));
         file.set("speed", &self.speed, "");
-        file.option("share = 0.5", "of the passes; equal shares if left out");
-        file.option("direction = \"reverse\"", "\"forward\" if left out");
+        file.option("share = 0.5", "of the passes; equal shares if omitted");
+        file.option("direction = \"reverse\"", "\"forward\" if omitted");
 
         file.section("[traffic]", "");
         file.set("passes", &self.passes, "of all vehicles together");
@@ -169,7 +169,7 @@ impl Template {
     }
 }
 
-/// What a preset is; nothing where it is not known, which reading the scene will tell.
+/// What a preset is; empty where it is not known, which is an error when the scene is read.
 fn summary(name: &str) -> String {
     presets::all()
         .iter()
@@ -177,7 +177,7 @@ fn summary(name: &str) -> String {
         .map_or_else(String::new, |preset| preset.summary.clone())
 }
 
-/// A commented TOML file in the making.
+/// The text of a commented TOML file so far.
 #[derive(Default)]
 struct File {
     text: String,
