@@ -48,9 +48,11 @@
 
 mod answer;
 mod cable;
+#[cfg(feature = "calibrate")]
 pub mod calibration;
 #[cfg(feature = "cli")]
 pub mod cli;
+#[cfg(feature = "design")]
 pub mod design;
 mod error;
 #[cfg(feature = "plot")]
@@ -75,6 +77,7 @@ pub use answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, FrictionProfile, PassRecord,
     PlanSummary, RestraintRecord, Run, Saturation, SlipRecord, Stage,
 };
+#[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
 pub use error::Error;
 pub use ground::profile::{Profile, profile, profile_at};

@@ -1,6 +1,7 @@
 //! Numbers and tables for a reader, as the terminal and the report show them.
 
 /// `value` with `decimals` decimals, and no minus before zeros.
+#[cfg(any(feature = "cli", feature = "plot"))]
 pub fn rounded(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -19,6 +20,7 @@ pub fn share(error: f64) -> String {
 }
 
 /// A time in words of its size.
+#[cfg(any(feature = "cli", feature = "plot"))]
 pub fn time(seconds: f64) -> String {
     match seconds {
         s if s < 1e-3 => "< 1 ms".into(),

@@ -1,7 +1,7 @@
 //! Do 95 % intervals hold the truth in 95 % of all cases? Minutes of computing, so left out of an ordinary test run:
 //!
 //! ```sh
-//! cargo test --release --test calibration_coverage --test calibration -- --ignored --nocapture
+//! cargo test --release --test calibration_coverage --test main calibration -- --ignored --nocapture
 //! ```
 //!
 //! Readings are those of the solver with inertia: 60, after every second of 119 passes, with Gaussian noise of 2.5 N. Two hundred fits of each

@@ -2,10 +2,8 @@
 
 #![cfg(feature = "plot")]
 
-mod xml;
-
+use super::xml::{Element, parse};
 use creepage::figure::{Axis, Chart, Class, FigureError, GridAxis, Map, Note, Panels, Reference, Series};
-use xml::{Element, parse};
 
 fn texts(elements: &[Element]) -> Vec<&str> {
     elements

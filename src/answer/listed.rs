@@ -1,12 +1,11 @@
 //! Which passes an answer lists, and which of these a short table shows.
 
-use super::record::PassRecord;
-
 /// The first passes are all listed, then each this much later than the one before.
 const GROWTH: f64 = 1.03;
 /// Leading digits of round numbers.
 const ROUND: [u64; 3] = [1, 2, 5];
 /// Rows of a table that is read at a glance.
+#[cfg(any(feature = "cli", feature = "plot"))]
 const ROWS: usize = 16;
 
 /// The first passes, then evenly growing numbers, round ones, and the last.
@@ -27,7 +26,8 @@ pub fn listed(count: u64) -> Vec<u64> {
 }
 
 /// Few enough of `passes` for a short table: all, or round numbers and the last.
-pub fn selected(passes: &[PassRecord]) -> Vec<&PassRecord> {
+#[cfg(any(feature = "cli", feature = "plot"))]
+pub fn selected(passes: &[super::PassRecord]) -> Vec<&super::PassRecord> {
     if passes.len() <= ROWS {
         return passes.iter().collect();
     }

@@ -6,6 +6,8 @@ mod listed;
 mod record;
 mod saturation;
 
-pub use listed::{listed, selected};
+pub use listed::listed;
+#[cfg(any(feature = "cli", feature = "plot"))]
+pub use listed::selected;
 pub use record::*;
 pub use saturation::{force_series, saturation};

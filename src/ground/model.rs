@@ -7,8 +7,7 @@
 
 use boussinesq::{HalfSpace, Odemark};
 use burmister::LayeredHalfSpace;
-use ground_field::{DuctMotion, GroundError, GroundField, Modulus, SoilLayer, SoilProfile};
-use layered_fem::LayeredFem;
+use ground_field::{DuctMotion, GroundField, SoilProfile};
 
 use super::motion::{difference, motions};
 use crate::Error;
@@ -22,7 +21,9 @@ const TRANSFORM_ACCURACY: f64 = 1e-7;
 /// The same for a model of unknown smoothness.
 const OWN_ACCURACY: f64 = 1e-6;
 /// Tightest and loosest accuracy asked of finite elements, and the share of the tolerance they get.
+#[cfg(feature = "fem")]
 const ELEMENTS_ACCURACY: (f64, f64) = (2e-4, 5e-3);
+#[cfg(feature = "fem")]
 const ELEMENTS_SHARE: f64 = 0.25;
 /// Sublayers of a layer whose modulus varies, to begin with, and the most of all layers together.
 const FEWEST_SUBLAYERS: usize = 8;
@@ -84,13 +85,25 @@ impl Ground {
                 Self::of_field(scene, "odemark", &field, TRANSFORM_ACCURACY, named, reach)
             }
             GroundModel::Burmister => Self::layered(scene, profile, named, reach),
-            GroundModel::FiniteElements => {
-                let (tightest, loosest) = ELEMENTS_ACCURACY;
-                let accuracy = (ELEMENTS_SHARE * scene.solver.tolerance).clamp(tightest, loosest);
-                let field = LayeredFem::new(profile, accuracy)?;
-                Self::of_field(scene, "fem", &field, accuracy, named, reach)
-            }
+            GroundModel::FiniteElements => Self::elements(scene, named, reach),
         }
+    }
+
+    #[cfg(feature = "fem")]
+    fn elements(scene: &Scene, reason: &'static str, reach: f64) -> Result<Self, Error> {
+        let (tightest, loosest) = ELEMENTS_ACCURACY;
+        let accuracy = (ELEMENTS_SHARE * scene.solver.tolerance).clamp(tightest, loosest);
+        let field = layered_fem::LayeredFem::new(&scene.ground.profile, accuracy)?;
+        Self::of_field(scene, "fem", &field, accuracy, reason, reach)
+    }
+
+    #[cfg(not(feature = "fem"))]
+    fn elements(_: &Scene, _: &'static str, _: f64) -> Result<Self, Error> {
+        Err(Error::Unfit {
+            key: "ground.model",
+            found: "fem",
+            reason: "this program was built without finite elements (feature `fem`)".into(),
+        })
     }
 
     /// By how much the motions over equivalent thicknesses (Odemark) differ from these, as a share of the peak; `None` where that
@@ -135,7 +148,7 @@ impl Ground {
     fn graded(scene: &Scene, reach: f64) -> Result<Self, Error> {
         let reason = "the Hankel transform on uniform sublayers, twice as many until the motion is steady";
         let profile = &scene.ground.profile;
-        let sliced = |count| Self::layered(scene, &sublayered(profile, count)?, reason, reach);
+        let sliced = |count| Self::layered(scene, &profile.sublayered(count)?, reason, reach);
         let mut count = FEWEST_SUBLAYERS;
         let mut ground = sliced(count)?;
         loop {
@@ -156,22 +169,4 @@ impl Ground {
 
 fn is_graded(profile: &SoilProfile) -> bool {
     profile.layers().iter().any(|layer| layer.soil().is_none())
-}
-
-/// The profile with every layer whose modulus varies cut into `count` uniform ones.
-fn sublayered(profile: &SoilProfile, count: usize) -> Result<SoilProfile, GroundError> {
-    let mut layers = Vec::new();
-    for layer in profile.layers() {
-        if layer.soil().is_some() {
-            layers.push(*layer);
-            continue;
-        }
-        let thickness = layer.thickness() / count as f64;
-        for k in 0..count {
-            let middle = layer.young_modulus_at((k as f64 + 0.5) * thickness);
-            let modulus = Modulus::Uniform(middle);
-            layers.push(SoilLayer::new(thickness, modulus, layer.poisson_ratio())?);
-        }
-    }
-    SoilProfile::new(layers, profile.base())
 }
