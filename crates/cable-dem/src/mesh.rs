@@ -1,7 +1,7 @@
 //! The cable cut into equal elements, and the lattice the vehicle moves on.
 
+use crate::CableError;
 use crate::error::checked;
-use crate::{CableError, DuctedCable};
 
 /// Most nodes a mesh may have: 1e7 nodes take about 1 GB.
 const MAX_NODES: f64 = 1e7;
@@ -137,10 +137,10 @@ impl Mesh {
         }
     }
 
-    /// Whether the mesh is one of this cable.
-    pub(crate) fn check_length(&self, cable: &DuctedCable) -> Result<(), CableError> {
+    /// Whether the mesh is one of a cable of `length` \[m\].
+    pub(crate) fn check_length(&self, length: f64) -> Result<(), CableError> {
         checked("mesh length", self.length(), "the cable's length", |v| {
-            (v / cable.length() - 1.0).abs() < 1e-9
+            (v / length - 1.0).abs() < 1e-9
         })
         .map(|_| ())
     }

@@ -120,7 +120,7 @@ impl CableState {
         &'a self,
         cable: &DuctedCable,
     ) -> Result<impl Iterator<Item = f64> + 'a, CableError> {
-        self.mesh.check_length(cable)?;
+        self.mesh.check_length(cable.length())?;
         Ok(self.elements(cable))
     }
 
@@ -131,7 +131,7 @@ impl CableState {
     ///
     /// As for [`CableState::element_forces`].
     pub fn end_forces(&self, cable: &DuctedCable) -> Result<EndForces, CableError> {
-        self.mesh.check_length(cable)?;
+        self.mesh.check_length(cable.length())?;
         Ok(self.ends(cable))
     }
 
@@ -142,7 +142,7 @@ impl CableState {
     ///
     /// As for [`CableState::element_forces`].
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
-        self.mesh.check_length(cable)?;
+        self.mesh.check_length(cable.length())?;
         let on = |restraint: &Restraint| {
             let springs = restraint.by_node(&self.mesh).into_iter();
             springs
@@ -161,7 +161,7 @@ impl CableState {
     ///
     /// As for [`CableState::element_forces`].
     pub fn friction_needed(&self, cable: &DuctedCable) -> Result<f64, CableError> {
-        self.mesh.check_length(cable)?;
+        self.mesh.check_length(cable.length())?;
         let mesh = &self.mesh;
         let last = mesh.elements();
         let mut held = vec![0.0; mesh.nodes()];

@@ -76,7 +76,7 @@ impl Lanes {
     }
 
     /// One step of `time_step` \[s\]; the duct's increments stand in `increment`.
-    pub fn step<L: ContactLaw>(&mut self, lumped: &Lumped, law: L, time_step: f64, compliance: f64) {
+    pub fn step<L: ContactLaw>(&mut self, lumped: &Lumped, law: L, time_step: f64) {
         let n = self.velocity.len();
         self.displacement[0] = self.displacement[2];
         self.displacement[n + 1] = self.displacement[n - 1];
@@ -108,11 +108,16 @@ impl Lanes {
         let acting = if L::LAGS { &self.before } else { &self.friction };
         account_work(&mut self.work, acting, &self.earlier, &self.increment);
         // Slip minus its elastic part is plastic.
-        unload(&mut self.slip, &self.before, &self.friction, compliance);
+        unload(
+            &mut self.slip,
+            &self.before,
+            &self.friction,
+            lumped.elastic_compliance(),
+        );
         account_heat(&mut self.heat, &mut self.gross, acting, &self.plastic, &self.slip);
         // A held node cannot chatter; what its friction returns is the stretch of the cable within its half element.
-        for (end, node) in [0, n - 1].into_iter().enumerate() {
-            if lumped.fixed[end] {
+        for node in [0, n - 1] {
+            if lumped.holds(node) {
                 self.gross[node] = self.heat[node];
             }
         }
@@ -123,8 +128,8 @@ impl Lanes {
     /// Fixed ends do not move; their friction follows their own slip.
     fn hold_ends(&mut self, lumped: &Lumped) {
         let last = self.velocity.len() - 1;
-        for (end, node) in [0, last].into_iter().enumerate() {
-            if lumped.fixed[end] {
+        for node in [0, last] {
+            if lumped.holds(node) {
                 self.velocity[node] = 0.0;
                 self.friction[node] = lumped.held.after_slip(self.before[node], self.increment[node]);
             }
@@ -150,7 +155,7 @@ impl Lanes {
     /// The accounts of a pass that began in `state`.
     pub fn energy(&self, lumped: &Lumped, state: &CableState, peak_kinetic: f64) -> EnergyBalance {
         let n = self.velocity.len();
-        let sum = |lane: &[f64]| lumped.weighted(n, |i| lane[i]);
+        let sum = |lane: &[f64]| lumped.weighted(|i| lane[i]);
         let elastic = lumped.elastic_energy(&state.displacement);
         let stored = lumped.stored_energy(&state.friction);
         let dissipated = sum(&self.heat);

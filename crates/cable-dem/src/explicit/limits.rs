@@ -55,9 +55,8 @@ impl StepLimits {
             (neighbours * lumped.stiffness + spring) / lumped.mass(node)
         };
         // A clamp's part at a fixed end does not matter, as that node does not move.
-        let free = |node: usize| !(lumped.fixed[0] && node == 0 || lumped.fixed[1] && node == last);
         let fastest = |weight: f64| {
-            let springs = lumped.springs.iter().filter(|(node, _)| free(*node));
+            let springs = lumped.springs.iter().filter(|(node, _)| !lumped.holds(*node));
             springs.fold(row(1, 0.0), |most, &(node, spring)| {
                 most.max(row(node, weight * spring))
             })

@@ -26,7 +26,7 @@ use ground_field::DuctMotion;
 
 use crate::error::checked;
 use crate::outcome::Recorder;
-use crate::transient::{Departed, EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, TransientOutcome};
+use crate::transient::{EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, TransientOutcome, pass};
 use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh};
 use lanes::Lanes;
 use law::{Constants, ContactLaw, Coulomb, ElasticPlastic, Sigmoid};
@@ -176,104 +176,89 @@ impl Explicit {
         duct: &MovingDuct,
         state: &mut CableState,
     ) -> Result<TransientOutcome, CableError> {
-        state.check(&self.lumped.mesh)?;
-        duct.check(&self.lumped.mesh)?;
         let steps = self.steps(duct);
         let time_step = duct.duration() / steps;
-        if self.lumped.cable.friction().limit() == 0.0 {
-            // Nothing drags the cable.
-            return Ok(TransientOutcome::untouched(&self.lumped, state, time_step));
-        }
-        self.lumped.check(state, duct.peak())?;
-        let node_updates = steps * self.lumped.mesh.nodes() as f64;
-        if node_updates > self.options.max_node_updates {
-            return Err(CableError::TooManySteps {
-                steps,
-                time_step,
-                node_updates,
-                allowed: self.options.max_node_updates,
-            });
-        }
-        let constants = Constants::new(
-            self.lumped.cable.friction(),
-            self.lumped.mass_per_metre,
-            time_step,
-        );
-        match self.lumped.cable.friction().law() {
-            FrictionLaw::Coulomb => self.run(duct, state, Coulomb(constants), steps as usize),
-            FrictionLaw::ElasticPlastic { .. } => {
-                self.run(duct, state, ElasticPlastic(constants), steps as usize)
-            }
-            FrictionLaw::Sigmoid { .. } => self.run(duct, state, Sigmoid(constants), steps as usize),
-        }
-    }
-
-    fn run<L: ContactLaw>(
-        &mut self,
-        duct: &MovingDuct,
-        state: &mut CableState,
-        law: L,
-        steps: usize,
-    ) -> Result<TransientOutcome, CableError> {
         let Self {
             lumped,
-            lanes,
             settler,
+            lanes,
             options,
             ..
         } = self;
-        let nodes = lumped.mesh.nodes();
-        let time_step = duct.duration() / steps as f64;
-        let remembers = lumped.cable.friction().law().has_memory();
-        let compliance = if remembers {
-            lumped.cable.friction().compliance()
-        } else {
-            0.0
-        };
-        let mut recorder = Recorder::new(lumped.end_forces(&state.displacement, &state.friction));
-        let mut moving = state.clone();
-        let arrival_heat = settler.arrive(lumped, duct, &mut moving, &mut recorder.statistics)?;
-        lanes.start(&moving);
-        duct.displacement(0.0, &mut lanes.duct);
-        let mut peak_kinetic = 0.0_f64;
-        for step in 1..=steps {
-            duct.at(time_step * step as f64, nodes)
-                .advance(&mut lanes.duct, &mut lanes.increment);
-            lanes.step(lumped, law, time_step, compliance);
-            recorder.record(lanes.end_forces(lumped));
-            if step % LOOK == 0 || step == steps {
-                let kinetic = lanes.kinetic_energy(lumped);
-                if !kinetic.is_finite() {
-                    return Err(CableError::EnergyNotConserved {
-                        unbalanced: 1.0,
-                        returned: lanes.energy(lumped, &moving, peak_kinetic).returned_share(),
-                    });
-                }
-                peak_kinetic = peak_kinetic.max(kinetic);
+        pass(lumped, settler, duct, time_step, state, |state, recorder| {
+            let node_updates = steps * lumped.mesh.nodes() as f64;
+            let allowed = options.max_node_updates;
+            if node_updates > allowed {
+                return Err(CableError::TooManySteps {
+                    steps,
+                    time_step,
+                    node_updates,
+                    allowed,
+                });
             }
-        }
-        let energy = EnergyBalance {
-            reference: lumped.reference_work(duct.peak()),
-            ..lanes.energy(lumped, &moving, peak_kinetic)
-        };
-        if options.check_energy {
-            energy.check(true)?;
-        }
-
-        recorder.statistics.steps = steps;
-        recorder.statistics.node_updates += steps * nodes;
-        recorder.statistics.widest_window = nodes;
-        lanes.store(&mut moving);
-        let departed = Departed {
-            duct,
-            time_step,
-            energy,
-            arrival_heat,
-            moving,
-            recorder,
-        };
-        let (after, outcome) = departed.close(lumped, settler)?;
-        *state = after;
-        Ok(outcome)
+            let constants = Constants::new(lumped.cable.friction(), lumped.mass_per_metre, time_step);
+            let steps = steps as usize;
+            let energy = match lumped.cable.friction().law() {
+                FrictionLaw::Coulomb => run(lumped, lanes, Coulomb(constants), duct, steps, state, recorder),
+                FrictionLaw::ElasticPlastic { .. } => run(
+                    lumped,
+                    lanes,
+                    ElasticPlastic(constants),
+                    duct,
+                    steps,
+                    state,
+                    recorder,
+                ),
+                FrictionLaw::Sigmoid { .. } => {
+                    run(lumped, lanes, Sigmoid(constants), duct, steps, state, recorder)
+                }
+            }?;
+            if options.check_energy {
+                energy.check(true)?;
+            }
+            Ok(energy)
+        })
     }
+}
+
+/// All steps of one pass by one law; `state` is carried on.
+fn run<L: ContactLaw>(
+    lumped: &Lumped,
+    lanes: &mut Lanes,
+    law: L,
+    duct: &MovingDuct,
+    steps: usize,
+    state: &mut CableState,
+    recorder: &mut Recorder,
+) -> Result<EnergyBalance, CableError> {
+    let nodes = lumped.mesh.nodes();
+    let time_step = duct.duration() / steps as f64;
+    lanes.start(state);
+    duct.displacement(0.0, &mut lanes.duct);
+    let mut peak_kinetic = 0.0_f64;
+    for step in 1..=steps {
+        duct.at(time_step * step as f64, nodes)
+            .advance(&mut lanes.duct, &mut lanes.increment);
+        lanes.step(lumped, law, time_step);
+        recorder.record(lanes.end_forces(lumped));
+        if step % LOOK == 0 || step == steps {
+            let kinetic = lanes.kinetic_energy(lumped);
+            if !kinetic.is_finite() {
+                return Err(CableError::EnergyNotConserved {
+                    unbalanced: 1.0,
+                    returned: lanes.energy(lumped, state, peak_kinetic).returned_share(),
+                });
+            }
+            peak_kinetic = peak_kinetic.max(kinetic);
+        }
+    }
+    let energy = EnergyBalance {
+        reference: lumped.reference_work(duct.peak()),
+        ..lanes.energy(lumped, state, peak_kinetic)
+    };
+    recorder.statistics.steps = steps;
+    recorder.statistics.node_updates += steps * nodes;
+    recorder.statistics.widest_window = nodes;
+    lanes.store(state);
+    Ok(energy)
 }

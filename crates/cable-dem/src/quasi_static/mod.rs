@@ -9,46 +9,32 @@
 //! first position, the last one from its last position back: steps of the whole cable, so that the state a pass leaves is in
 //! equilibrium and within the friction bounds everywhere.
 
-mod active_set;
-mod chain;
-mod exact;
-mod graph;
 mod memory;
+mod pass;
 mod passage;
 mod schedule;
-mod settle;
-mod support;
-mod sweeper;
+mod supports;
 mod view;
 mod window;
 
 pub use passage::Passage;
 pub use view::{SlipLengths, StepView};
 
-// The solvers with inertia take the same step on the whole cable.
-pub(crate) use active_set::{Elimination, Outcome};
-pub(crate) use chain::{Chain, Contact, Load, Stretch, Tolerance, Trial};
-pub(crate) use exact::contacts;
-pub(crate) use support::Support;
-
 use ground_field::{Direction, DuctMotion};
 
 use crate::outcome::Recorder;
+use crate::step::check_precision;
 use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
-use sweeper::Sweeper;
-
-/// Share of the friction limit up to which rounding may blur equilibrium.
-const MAX_ROUNDING: f64 = 1e-3;
+use pass::ForwardSolver;
 
 /// Quasi-static solver for one cable on one mesh.
 #[derive(Debug, Clone)]
 pub struct QuasiStatic {
     cable: DuctedCable,
     mesh: Mesh,
-    forward: Sweeper,
+    forward: ForwardSolver,
     /// The cable seen in the mirror, for reverse traffic; made when first needed.
-    reverse: Option<Sweeper>,
-    without_iteration: bool,
+    reverse: Option<ForwardSolver>,
 }
 
 impl QuasiStatic {
@@ -67,11 +53,10 @@ impl QuasiStatic {
                 reason: "its friction depends on the time step and fades at rest",
             });
         }
-        mesh.check_length(&cable)?;
+        mesh.check_length(cable.length())?;
         Ok(Self {
-            forward: Sweeper::new(&cable, &mesh),
+            forward: ForwardSolver::new(&cable, &mesh),
             reverse: None,
-            without_iteration: false,
             cable,
             mesh,
         })
@@ -79,10 +64,10 @@ impl QuasiStatic {
 
     /// The same solver, which takes the exact step (dynamic programming along the cable) in every window instead of
     /// iterating first. The answer is the same and costs more: it is there to check the iteration by another method.
+    #[doc(hidden)]
     #[must_use]
     pub fn without_iteration(mut self) -> Self {
-        self.without_iteration = true;
-        self.forward.without_iteration = true;
+        self.forward.step.without_iteration = true;
         self
     }
 
@@ -142,24 +127,31 @@ impl QuasiStatic {
             state.release(&self.cable);
             return Ok(self.outcome(state, Recorder::new(state.ends(&self.cable))));
         }
-        self.check_precision(passage, state)?;
+        check_precision(&self.cable, &self.mesh, state.displacement(), passage.peak())?;
         let mirrored = passage.direction() == Direction::Reverse;
-        let sweeper = if mirrored {
-            let reverse = self
-                .reverse
-                .get_or_insert_with(|| Sweeper::new(&self.cable.mirrored(), &self.mesh));
-            reverse.without_iteration = self.without_iteration;
-            reverse
-        } else {
-            &mut self.forward
+        let mirror = mirrored.then(|| self.cable.mirrored());
+        let (cable, solver) = match &mirror {
+            Some(cable) => {
+                let without_iteration = self.forward.step.without_iteration;
+                let solver = self
+                    .reverse
+                    .get_or_insert_with(|| ForwardSolver::new(cable, &self.mesh));
+                solver.step.without_iteration = without_iteration;
+                (cable, solver)
+            }
+            None => (&self.cable, &mut self.forward),
         };
         let mut after = state.clone();
         if mirrored {
             after.mirror();
         }
-        let mut recorder = sweeper.pass(passage, &mut after, |sweeper, snapshot| {
+        let (mesh, limit) = (&self.mesh, self.cable.friction().limit());
+        let mut recorder = solver.pass(passage, &mut after, cable, |r, g, snapshot| {
             observe(StepView {
-                sweeper,
+                mesh,
+                limit,
+                r,
+                g,
                 snapshot,
                 mirrored,
             });
@@ -173,25 +165,6 @@ impl QuasiStatic {
     }
 
     fn outcome(&self, state: &CableState, recorder: Recorder) -> PassOutcome {
-        let force = state.ends(&self.cable);
-        recorder.outcome(&self.cable, state, force)
-    }
-
-    /// Rounding of k (2 u_i − u_{i−1} − u_{i+1}) beside the friction on one element.
-    fn check_precision(&self, passage: &Passage, state: &CableState) -> Result<(), CableError> {
-        let largest = state
-            .displacement()
-            .iter()
-            .fold(passage.peak(), |largest, u| largest.max(u.abs()));
-        let share = sweeper::rounding(&self.cable, &self.mesh, largest) / self.cable.friction().limit();
-        if share <= MAX_ROUNDING {
-            Ok(())
-        } else {
-            Err(CableError::Precision {
-                share,
-                axial_stiffness: self.cable.axial_stiffness(),
-                spacing: self.mesh.spacing(),
-            })
-        }
+        recorder.outcome(&self.cable, state, state.ends(&self.cable))
     }
 }

@@ -18,8 +18,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use ground_field::{Direction, DuctMotion};
 
 use super::schedule::schedule;
-use super::window::NEGLIGIBLE;
 use crate::course::{Course, as_driven};
+use crate::step::NEGLIGIBLE;
 use crate::{CableError, DuctedCable, Friction, Mesh};
 
 static NEXT_ID: AtomicU64 = AtomicU64::new(0);
@@ -122,7 +122,7 @@ impl Passage {
         // Every ξ-index that a node, or the neighbour outside an end, can have; whole phases on both sides.
         let behind = ((end + stride + approach) / m + 3) * m;
         let ahead = (approach / m + mesh.elements() as i64 + 3) * m;
-        let shape = course.tabulate(-behind..ahead, step)?;
+        let shape = course.tabulate((-behind..ahead).map(|j| step * j as f64))?;
         let positions = schedule(&shape, behind as usize, end, approach, stride);
         let compliance = cable.friction().compliance();
         let stiffness = cable.axial_stiffness() / mesh.spacing();
@@ -197,32 +197,33 @@ impl Passage {
         self.peak
     }
 
-    /// Number of lattice points in the vehicle's frame.
-    pub(super) fn lattice_len(&self) -> usize {
-        self.phases.len() * self.phases[0].adherent.len()
+    /// Number of lattice points in the vehicle's frame, and of those per node spacing.
+    pub(super) fn lattice(&self) -> (usize, usize) {
+        let phases = self.phases.len();
+        (phases * self.phases[0].adherent.len(), phases)
     }
 
-    /// Lattice point in the vehicle's frame at which `node` stands.
-    pub(super) fn lattice_index(&self, position: i64, node: usize) -> usize {
-        (self.behind as i64 - position) as usize + node * self.phases.len()
+    /// Lattice point in the vehicle's frame at which node 0 stands.
+    pub(super) fn first_point(&self, snapshot: &Snapshot<'_>) -> usize {
+        (self.behind as i64 - snapshot.position) as usize
     }
 
     /// The ground at rest, the vehicle having left.
-    pub(super) fn still(&self, nodes: usize) -> Snapshot<'_> {
-        let position = self.positions[self.positions.len() - 1];
+    pub(super) fn still(&self) -> Snapshot<'_> {
         Snapshot {
             adherent: &self.still,
             adhesion: &self.still,
-            ..self.snapshot(position, nodes)
+            ..self.snapshot(self.positions[self.positions.len() - 1])
         }
     }
 
-    pub(super) fn snapshot(&self, position: i64, nodes: usize) -> Snapshot<'_> {
+    /// The vehicle at lattice position `position`.
+    pub(super) fn snapshot(&self, position: i64) -> Snapshot<'_> {
         let m = self.phases.len() as i64;
         // Index of node −1.
         let index = self.behind as i64 - m - position;
         let (phase, first) = (index.rem_euclid(m) as usize, index.div_euclid(m) as usize);
-        let range = first..first + nodes + 2;
+        let range = first..first + self.mesh.nodes() + 2;
         Snapshot {
             adherent: &self.phases[phase].adherent[range.clone()],
             adhesion: &self.phases[phase].adhesion[range],

@@ -99,7 +99,7 @@ impl MovingDuct {
     ) -> Result<Self, CableError> {
         let (direction, approach) = (course.direction, course.approach);
         checked("speed", speed, "finite and positive", |v| v > 0.0)?;
-        mesh.check_length(cable)?;
+        mesh.check_length(cable.length())?;
         let h = mesh.spacing();
         let phases = (h / LATTICE_STEP).ceil().max(1.0);
         let step = h / phases;
@@ -114,15 +114,12 @@ impl MovingDuct {
         let origin = before * h;
 
         // Along x, whichever way the vehicle drives; two points more on both sides, for the slopes.
-        let first = -(before as i64 * phases as i64) - 2;
-        let count = (phases * per_row + 4) as i64;
-        let values = match direction {
-            Direction::Forward => course.tabulate(first..first + count, step)?,
-            Direction::Reverse => {
-                let ahead = course.tabulate(1 - first - count..1 - first, step)?;
-                ahead.into_iter().rev().map(|d| -d).collect()
-            }
-        };
+        let sign = direction.sign();
+        let points = (0..phases * per_row + 4).map(|j| sign * (step * (j as f64 - 2.0) - origin));
+        let mut values = course.tabulate(points)?;
+        for value in &mut values {
+            *value *= sign;
+        }
         let peak = values.iter().fold(0.0_f64, |peak, d| peak.max(d.abs()));
         let slope = |j: usize| (8.0 * (values[j + 3] - values[j + 1]) - (values[j + 4] - values[j])) / 12.0;
         let steepest = (0..phases * per_row).fold(0.0_f64, |most, j| most.max(slope(j).abs())) / step;

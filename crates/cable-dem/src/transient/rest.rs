@@ -12,35 +12,25 @@
 //! within the step. So long a step as the return of the duct's whole tail may then rub at the limit: what the law had left when
 //! the vehicle was gone is [`crate::TransientOutcome::force_before_rest`].
 
-use super::sigmoid::SigmoidSolver;
-use super::step::{StepSolver, tolerance};
-use super::{Lumped, MovingDuct};
+use super::implicit::Implicit;
+use super::lumped::Lumped;
+use super::moving_duct::MovingDuct;
+use crate::step::largest;
 use crate::{CableError, CableState, Statistics};
 
 /// Takes the cable from rest to the start of a pass, and from its end to rest; see the module's text.
 #[derive(Debug, Clone)]
 pub(crate) struct Settler {
-    solver: Solver,
+    solver: Implicit,
     /// How far each node's duct moves \[m\].
     increment: Vec<f64>,
     friction: Vec<f64>,
 }
 
-#[derive(Debug, Clone)]
-enum Solver {
-    Memory(Box<StepSolver>),
-    Sigmoid(Box<SigmoidSolver>),
-}
-
 impl Settler {
     pub fn new(lumped: &Lumped) -> Self {
-        let solver = if lumped.cable.friction().law().has_memory() {
-            Solver::Memory(Box::new(StepSolver::new(lumped, 0.0)))
-        } else {
-            Solver::Sigmoid(Box::new(SigmoidSolver::new(lumped, 0.0)))
-        };
         Self {
-            solver,
+            solver: Implicit::new(lumped, 0.0),
             increment: vec![0.0; lumped.mesh.nodes()],
             friction: vec![0.0; lumped.mesh.nodes()],
         }
@@ -88,33 +78,18 @@ impl Settler {
             increment,
             friction,
         } = self;
-        let largest = state.displacement.iter().fold(duct.peak(), |l, u| l.max(u.abs()));
-        let tolerance = tolerance(lumped, largest);
+        let tolerance = solver.tolerance(largest(&state.displacement, duct.peak()));
         friction.copy_from_slice(&state.friction);
-        let solved = match solver {
-            Solver::Memory(solver) => {
-                solver.load_elastic(lumped, &state.displacement);
-                solver
-                    .solve(lumped, tolerance, increment, friction, statistics)
-                    .map(|()| solver.increments())
-            }
-            Solver::Sigmoid(solver) => {
-                solver.start();
-                solver.inner.load_elastic(lumped, &state.displacement);
-                solver.solve(lumped, tolerance, increment, friction, statistics)
-            }
-        };
-        let moved = solved.map_err(|violation| CableError::NoConvergence {
-            vehicle_position: duct.vehicle_position(time),
-            violation,
-        })?;
-        let law = lumped.cable.friction();
-        let compliance = if law.law().has_memory() {
-            law.compliance()
-        } else {
-            0.0
-        };
-        let heat = lumped.weighted(moved.len(), |i| {
+        solver.start();
+        solver.load_elastic(lumped, &state.displacement);
+        let moved = solver
+            .solve(lumped, tolerance, increment, friction, statistics)
+            .map_err(|violation| CableError::NoConvergence {
+                vehicle_position: duct.vehicle_position(time),
+                violation,
+            })?;
+        let compliance = lumped.elastic_compliance();
+        let heat = lumped.weighted(|i| {
             friction[i] * (increment[i] - moved[i] - compliance * (friction[i] - state.friction[i]))
         });
         for (u, r) in state.displacement.iter_mut().zip(moved) {

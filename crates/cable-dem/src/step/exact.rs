@@ -97,7 +97,7 @@ mod tests {
     //! hold give one and the same displacement, and both ways of solving a step must find it.
 
     use super::super::active_set::{Elimination, Outcome};
-    use super::super::chain::{Tolerance, Trial};
+    use super::super::tolerance::Tolerance;
     use super::*;
     use proptest::prelude::*;
 
@@ -132,6 +132,9 @@ mod tests {
                 tributary,
                 compliance: self.compliance,
                 limit: 1.0,
+                free: self.stretch(),
+                has_inertia: false,
+                rounding: 0.0,
             }
         }
 
