@@ -22,7 +22,7 @@ mod history;
 use ground_field::{Direction, DuctMotion};
 
 use crate::outcome::Recorder;
-use crate::step::{Prediction, Stretch, Tolerance, largest};
+use crate::step::{Prediction, Stretch, largest};
 use crate::transient::{
     EnergyBalance, Implicit, Lumped, MovingDuct, Settler, SigmoidLeak, TransientOutcome, pass,
 };
@@ -157,12 +157,11 @@ impl Moving {
         };
         let (mesh, nodes) = (&lumped.mesh, lumped.mesh.nodes());
         let steps = (duct.duration() / time_step).round() as usize;
-        let tolerance = solver.tolerance(largest(&state.displacement, duct.peak()));
         history.start(&state.displacement);
         self.prediction.clear();
         self.prediction
             .fit(steps * mesh.stride() + nodes * mesh.phases(), mesh.phases());
-        solver.start();
+        solver.start(largest(&state.displacement, duct.peak()));
         self.friction.copy_from_slice(&state.friction);
         duct.displacement(0.0, &mut self.duct);
         let elastic = lumped.elastic_energy(&state.displacement);
@@ -180,18 +179,11 @@ impl Moving {
                 Direction::Forward => steps - step,
                 Direction::Reverse => step,
             };
-            self.step(
-                lumped,
-                &mut solver,
-                time_step,
-                advanced * mesh.stride(),
-                tolerance,
-                recorder,
-            )
-            .map_err(|violation| CableError::NoConvergence {
-                vehicle_position: duct.vehicle_position(t),
-                violation,
-            })?;
+            self.step(lumped, &mut solver, time_step, advanced * mesh.stride())
+                .map_err(|violation| CableError::NoConvergence {
+                    vehicle_position: duct.vehicle_position(t),
+                    violation,
+                })?;
             self.account(lumped, &mut energy);
             recorder.record(lumped.end_forces(&self.history.displacement, &self.friction));
         }
@@ -199,6 +191,7 @@ impl Moving {
         energy.stored = lumped.stored_energy(&self.friction) - stored;
         state.displacement.copy_from_slice(&self.history.displacement);
         state.friction.copy_from_slice(&self.friction);
+        recorder.statistics += solver.statistics();
         recorder.statistics.steps = steps;
         recorder.statistics.widest_window = nodes;
         self.solver = Some((time_step, solver));
@@ -213,8 +206,6 @@ impl Moving {
         solver: &mut Implicit,
         time_step: f64,
         first: usize,
-        tolerance: Tolerance,
-        recorder: &mut Recorder,
     ) -> Result<(), f64> {
         let whole = Stretch {
             lo: 0,
@@ -225,8 +216,7 @@ impl Moving {
         if let Some(contacts) = solver.contacts() {
             self.prediction.read(first, whole, contacts);
         }
-        let (increment, friction) = (&self.increment, &mut self.friction);
-        let r = solver.solve(lumped, tolerance, increment, friction, &mut recorder.statistics)?;
+        let r = solver.solve(lumped, &self.increment, &mut self.friction)?;
         self.history.advance(r, time_step);
         if let Some(contacts) = solver.contacts() {
             self.prediction.write(first, whole, contacts);

@@ -62,6 +62,8 @@ pub(crate) struct Load<'a> {
     pub support: &'a [f64],
     /// r + γ g before the step: where the duct holds the sheath \[m\].
     pub anchor: &'a [f64],
+    /// Friction before the step \[N/m\]; the answer does not depend on it but for the anchor.
+    pub friction: &'a [f64],
 }
 
 /// A trial answer, over all nodes; outside the stretch being solved `r` holds the neighbours' values.

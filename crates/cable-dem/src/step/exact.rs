@@ -340,7 +340,7 @@ mod tests {
                 step.column(|node| node.3),
                 step.column(|node| node.0),
             );
-            let load = Load { adhesion: &adhesion, support: &support, anchor: &anchor };
+            let load = Load { adhesion: &adhesion, support: &support, anchor: &anchor, friction: &[] };
             let stretch = step.stretch();
             let answers = step.answers(&chain);
             if step.is_held() {

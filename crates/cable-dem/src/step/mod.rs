@@ -19,4 +19,4 @@ pub(crate) use held::HeldNode;
 pub(crate) use prediction::Prediction;
 pub(crate) use solver::StepSolver;
 pub(crate) use support::Support;
-pub(crate) use tolerance::{NEGLIGIBLE, Tolerance, check_precision, largest};
+pub(crate) use tolerance::{NEGLIGIBLE, check_precision, largest};

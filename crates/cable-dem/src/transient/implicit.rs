@@ -10,7 +10,7 @@
 use super::lumped::Lumped;
 use super::sigmoid::Newton;
 use crate::Statistics;
-use crate::step::{Chain, Contact, Load, StepSolver, Tolerance, Trial};
+use crate::step::{Chain, Contact, Load, StepSolver};
 
 /// Newton steps from the last increment, and from the clamped law's answer.
 const NEWTON_STEPS: [usize; 2] = [15, 200];
@@ -18,55 +18,47 @@ const NEWTON_STEPS: [usize; 2] = [15, 200];
 /// Solver of implicit steps over the whole cable, for any law and a given mass term.
 #[derive(Debug, Clone)]
 pub(crate) struct Implicit {
-    clamped: Clamped,
+    /// Steps by the law f ← clamp(f + slip/γ, −q, q).
+    clamped: StepSolver,
     sigmoid: Option<Newton>,
-    /// Loads p \[N\], to be set before [`Self::solve`].
-    pub load: Vec<f64>,
-}
-
-/// Steps by the law f ← clamp(f + slip/γ, −q, q).
-#[derive(Debug, Clone)]
-struct Clamped {
-    solver: StepSolver,
-    trial: Trial,
     anchor: Vec<f64>,
     adhesion: Vec<f64>,
+    /// Loads p \[N\], to be set before [`Self::solve`].
+    pub load: Vec<f64>,
 }
 
 impl Implicit {
     /// A solver with the mass term `inertia` · m_i on the diagonal; `inertia` in 1/s².
     pub fn new(lumped: &Lumped, inertia: f64) -> Self {
-        let nodes = lumped.mesh.nodes();
+        let zeros = || vec![0.0; lumped.mesh.nodes()];
         let chain = Chain::new(&lumped.cable, &lumped.mesh, inertia * lumped.mass_per_metre);
         let has_memory = lumped.cable.friction().law().has_memory();
         Self {
             sigmoid: (!has_memory).then(|| Newton::new(lumped, &chain)),
-            clamped: Clamped {
-                solver: StepSolver::new(chain),
-                trial: Trial::new(nodes),
-                anchor: vec![0.0; nodes],
-                adhesion: vec![0.0; nodes],
-            },
-            load: vec![0.0; nodes],
+            clamped: StepSolver::new(chain),
+            anchor: zeros(),
+            adhesion: zeros(),
+            load: zeros(),
         }
     }
 
-    /// Forgets earlier passes: a pass depends on the state it starts from, to the last digit.
-    pub fn start(&mut self) {
-        self.clamped.trial.contact.fill(Contact::Stuck);
+    /// Forgets earlier passes; displacements will reach `largest` \[m\].
+    pub fn start(&mut self, largest: f64) {
+        self.clamped.start(largest);
         if let Some(newton) = &mut self.sigmoid {
             newton.start();
         }
     }
 
-    /// How exactly steps must hold when displacements reach `largest` \[m\].
-    pub fn tolerance(&self, largest: f64) -> Tolerance {
-        Tolerance::new(&self.clamped.solver.chain, largest)
+    /// What the steps since the start cost.
+    pub fn statistics(&self) -> Statistics {
+        self.clamped.statistics
     }
 
     /// Contact states of a law with memory: those of the last step, or a prediction of the next.
     pub fn contacts(&mut self) -> Option<&mut [Contact]> {
-        self.sigmoid.is_none().then_some(&mut *self.clamped.trial.contact)
+        let has_memory = self.sigmoid.is_none();
+        has_memory.then_some(&mut *self.clamped.trial.contact)
     }
 
     /// Sets the loads to the elastic forces that displacements `u` put on the nodes, −(K + S) u \[N\].
@@ -85,65 +77,41 @@ impl Implicit {
 
     /// Solves one step: from friction `f`, with duct increments `duct` and the loads set before. `f` becomes the new friction; the
     /// increments r \[m\] are returned, or the largest violation as a share of the friction limit.
-    pub fn solve(
-        &mut self,
-        lumped: &Lumped,
-        tolerance: Tolerance,
-        duct: &[f64],
-        f: &mut [f64],
-        statistics: &mut Statistics,
-    ) -> Result<&[f64], f64> {
-        let Some(newton) = &mut self.sigmoid else {
-            self.clamped
-                .solve(lumped, &self.load, tolerance, duct, f, statistics)?;
+    pub fn solve(&mut self, lumped: &Lumped, duct: &[f64], f: &mut [f64]) -> Result<&[f64], f64> {
+        let Some(mut newton) = self.sigmoid.take() else {
+            self.solve_clamped(lumped, duct, f)?;
             return Ok(&self.clamped.trial.r);
         };
+        let accuracy = self.clamped.accuracy();
         let [first, last] = NEWTON_STEPS;
-        if newton
-            .solve(&self.load, tolerance, duct, first, statistics)
-            .is_err()
-        {
+        let statistics = &mut self.clamped.statistics;
+        let mut solved = newton.solve(&self.load, accuracy, duct, first, statistics);
+        if solved.is_err() {
             f.fill(0.0);
-            let start = self
-                .clamped
-                .solve(lumped, &self.load, tolerance, duct, f, statistics);
-            if start.is_ok() {
+            if self.solve_clamped(lumped, duct, f).is_ok() {
                 newton.restart(&self.clamped.trial.r);
             }
-            newton.solve(&self.load, tolerance, duct, last, statistics)?;
+            let statistics = &mut self.clamped.statistics;
+            solved = newton.solve(&self.load, accuracy, duct, last, statistics);
         }
-        Ok(newton.answer(duct, f))
+        let newton = self.sigmoid.insert(newton);
+        solved.map(|()| newton.answer(duct, f))
     }
-}
 
-impl Clamped {
-    fn solve(
-        &mut self,
-        lumped: &Lumped,
-        load: &[f64],
-        tolerance: Tolerance,
-        duct: &[f64],
-        f: &mut [f64],
-        statistics: &mut Statistics,
-    ) -> Result<(), f64> {
-        let (compliance, free) = (self.solver.chain.compliance, self.solver.chain.free);
+    fn solve_clamped(&mut self, lumped: &Lumped, duct: &[f64], f: &mut [f64]) -> Result<(), f64> {
+        let (compliance, free) = (self.clamped.chain.compliance, self.clamped.chain.free);
         // Where the duct holds the sheath after its increment, measured from u.
         for (anchor, (duct, f)) in self.anchor.iter_mut().zip(duct.iter().zip(&*f)) {
             *anchor = duct + compliance * f;
         }
         let load = Load {
             adhesion: &self.adhesion,
-            support: load,
+            support: &self.load,
             anchor: &self.anchor,
+            friction: f,
         };
-        let solved = self
-            .solver
-            .solve(&load, f, free, tolerance, &mut self.trial, statistics);
-        if solved.is_err() {
-            self.trial.contact.fill(Contact::Stuck);
-            return solved;
-        }
-        f[free.nodes()].copy_from_slice(&self.trial.g[free.nodes()]);
+        self.clamped.solve(&load, free)?;
+        f[free.nodes()].copy_from_slice(&self.clamped.trial.g[free.nodes()]);
         for node in [0, f.len() - 1] {
             if lumped.holds(node) {
                 f[node] = lumped.held.after_slip(f[node], duct[node]);

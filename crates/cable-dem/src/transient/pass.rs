@@ -5,7 +5,7 @@ use super::leak::SigmoidLeak;
 use super::lumped::Lumped;
 use super::moving_duct::MovingDuct;
 use super::outcome::TransientOutcome;
-use super::rest::Settler;
+use super::rest::{Ground, Settler};
 use crate::outcome::Recorder;
 use crate::step::check_precision;
 use crate::{CableError, CableState};
@@ -37,10 +37,22 @@ pub(crate) fn pass(
     }
     check_precision(&lumped.cable, &lumped.mesh, &state.displacement, duct.peak())?;
     let mut moving = state.clone();
-    let arrival_heat = settler.arrive(lumped, duct, &mut moving, &mut recorder.statistics)?;
+    let arrival_heat = settler.follow(
+        Ground::Arrives,
+        lumped,
+        duct,
+        &mut moving,
+        &mut recorder.statistics,
+    )?;
     let energy = run(&mut moving, &mut recorder)?;
     let force_before_rest = forces(&moving);
-    let departure_heat = settler.leave(lumped, duct, &mut moving, &mut recorder.statistics)?;
+    let departure_heat = settler.follow(
+        Ground::Leaves,
+        lumped,
+        duct,
+        &mut moving,
+        &mut recorder.statistics,
+    )?;
     recorder.dissipated = arrival_heat + energy.dissipated + departure_heat;
     *state = moving;
     Ok(TransientOutcome {

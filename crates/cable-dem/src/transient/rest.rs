@@ -27,6 +27,15 @@ pub(crate) struct Settler {
     friction: Vec<f64>,
 }
 
+/// Which way the ground moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ground {
+    /// From rest to the vehicle's first position.
+    Arrives,
+    /// From the vehicle's last position back to rest.
+    Leaves,
+}
+
 impl Settler {
     pub fn new(lumped: &Lumped) -> Self {
         Self {
@@ -36,40 +45,12 @@ impl Settler {
         }
     }
 
-    /// The ground moves from rest to the vehicle's first position. Heat of the slip \[J\].
-    pub fn arrive(
+    /// One step of the cable after the ground. Returns the heat of the slip \[J\].
+    pub fn follow(
         &mut self,
+        ground: Ground,
         lumped: &Lumped,
         duct: &MovingDuct,
-        state: &mut CableState,
-        statistics: &mut Statistics,
-    ) -> Result<f64, CableError> {
-        duct.displacement(0.0, &mut self.increment);
-        self.follow(lumped, duct, 0.0, state, statistics)
-    }
-
-    /// The ground moves from the vehicle's last position back to rest. Heat of the slip \[J\].
-    pub fn leave(
-        &mut self,
-        lumped: &Lumped,
-        duct: &MovingDuct,
-        state: &mut CableState,
-        statistics: &mut Statistics,
-    ) -> Result<f64, CableError> {
-        let end = duct.duration();
-        duct.displacement(end, &mut self.increment);
-        for increment in &mut self.increment {
-            *increment = -*increment;
-        }
-        self.follow(lumped, duct, end, state, statistics)
-    }
-
-    /// One step by the increments of the duct; `time` \[s\] is only reported on failure, as the vehicle's position.
-    fn follow(
-        &mut self,
-        lumped: &Lumped,
-        duct: &MovingDuct,
-        time: f64,
         state: &mut CableState,
         statistics: &mut Statistics,
     ) -> Result<f64, CableError> {
@@ -78,16 +59,22 @@ impl Settler {
             increment,
             friction,
         } = self;
-        let tolerance = solver.tolerance(largest(&state.displacement, duct.peak()));
+        let (time, sign) = match ground {
+            Ground::Arrives => (0.0, 1.0),
+            Ground::Leaves => (duct.duration(), -1.0),
+        };
+        duct.displacement(time, increment);
+        for increment in increment.iter_mut() {
+            *increment *= sign;
+        }
         friction.copy_from_slice(&state.friction);
-        solver.start();
+        solver.start(largest(&state.displacement, duct.peak()));
         solver.load_elastic(lumped, &state.displacement);
-        let moved = solver
-            .solve(lumped, tolerance, increment, friction, statistics)
-            .map_err(|violation| CableError::NoConvergence {
-                vehicle_position: duct.vehicle_position(time),
-                violation,
-            })?;
+        let moved = solver.solve(lumped, increment, friction);
+        let moved = moved.map_err(|violation| CableError::NoConvergence {
+            vehicle_position: duct.vehicle_position(time),
+            violation,
+        })?;
         let compliance = lumped.elastic_compliance();
         let heat = lumped.weighted(|i| {
             friction[i] * (increment[i] - moved[i] - compliance * (friction[i] - state.friction[i]))
@@ -96,6 +83,7 @@ impl Settler {
             *u += r;
         }
         state.friction.copy_from_slice(friction);
+        *statistics += solver.statistics();
         Ok(heat)
     }
 }

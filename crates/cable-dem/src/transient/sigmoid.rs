@@ -10,7 +10,7 @@
 //! the answer for clamp(b Δs/2, −1, 1), which the active set finds ([`super::implicit`]).
 
 use super::lumped::Lumped;
-use crate::step::{Chain, Stretch, Tolerance};
+use crate::step::{Chain, Stretch};
 use crate::{FrictionLaw, Statistics};
 
 /// Halvings of one line search.
@@ -83,11 +83,11 @@ impl Newton {
         &self.r
     }
 
-    /// At most `steps` Newton steps from the last increment; on failure the largest residual as a share of the friction limit.
+    /// At most `steps` Newton steps from the last increment to a residual of `accuracy` \[N/m\]; on failure the largest residual as a share of the friction limit.
     pub fn solve(
         &mut self,
         load: &[f64],
-        tolerance: Tolerance,
+        accuracy: f64,
         duct: &[f64],
         steps: usize,
         statistics: &mut Statistics,
@@ -95,7 +95,7 @@ impl Newton {
         let mut worst = f64::INFINITY;
         for step in 0..=steps {
             worst = worst.min(self.evaluate(load, duct, 0.0).worst);
-            if worst <= tolerance.friction {
+            if worst <= accuracy {
                 return Ok(());
             }
             if step == steps {
