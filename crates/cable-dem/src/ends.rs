@@ -1,23 +1,23 @@
 //! What a load cell at an end of the cable reads.
-//!
-//! The half element beyond the middle of the last one balances
-//!
-//! F = k (u_inner − u_end) + w f,  w = h/2,
-//!
-//! the chain's force and the friction on that half: what arrives at the end, of second order in the spacing h wherever the
-//! slip near the end is resolved. What of it the end reads depends on what else holds its node:
-//!
-//! | end | reading at rest | while masses move |
-//! |---|---|---|
-//! | free | 0 | 0 |
-//! | fixed | F: a clamp on a node that does not move carries nothing | F |
-//! | spring s, beside clamps with c on that node | F s/(s + c) | s u: F also accelerates the half element |
-//!
-//! At rest s u is the same, but for a stiff spring u is a small difference of large numbers and has no digits left.
 
 use crate::{DuctedCable, End, Mesh};
 
-/// Forces at both ends \[N\], compression positive.
+/// Forces at both ends \[N\], compression positive: what load cells there read.
+///
+/// The half element beyond the middle of the last one balances
+///
+/// F = k (u_inner − u_end) + w f,  w = h/2,
+///
+/// the chain's force and the friction on that half: what arrives at the end, of second order in the spacing h wherever the
+/// slip near the end is resolved. What of it the end reads depends on what else holds its node:
+///
+/// | end | reading at rest | while masses move |
+/// |---|---|---|
+/// | free | 0 | 0 |
+/// | fixed | F: a clamp on a node that does not move carries nothing | F |
+/// | spring s, beside clamps with c on that node | F s/(s + c) | s u: F also accelerates the half element |
+///
+/// At rest s u is the same, but for a stiff spring u is a small difference of large numbers and has no digits left.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EndForces {
     /// At x = 0.

@@ -188,8 +188,8 @@ impl CableState {
     }
 
     /// Least and largest force along the cable \[N\]. Friction lets the force change evenly on either half of an element, so that it
-    /// is largest in its middle, at a node, or beside a clamp, where it jumps. An element with a clamp within it is pulled from both sides: what its
-    /// neighbours say of the force beside the clamp counts.
+    /// is largest in its middle, at a node, or beside a clamp, where it jumps. An element with a clamp within it is pulled from both sides: the force
+    /// beside the clamp follows from its neighbours.
     pub(crate) fn extremes(&self, cable: &DuctedCable) -> (f64, f64) {
         let (mesh, f) = (&self.mesh, &self.friction);
         let h = mesh.spacing();

@@ -1,21 +1,4 @@
-//! Dynamic implicit passes: the quasi-static step with inertia as one more term.
-//!
-//! Time is discretised by the second backward difference (C. W. Gear; E. Hairer, G. Wanner, Solving Ordinary
-//! Differential Equations II, 1996, §V.1), for displacement and velocity alike,
-//!
-//! v_n = (3 u_n − 4 u_{n−1} + u_{n−2})/(2Δt),  a_n = (3 v_n − 4 v_{n−1} + v_{n−2})/(2Δt),
-//!
-//! so that each step solves (K + S + 9/(4Δt²) M) r = p + w f_n for the increment r, with friction by the law at the
-//! end of the step: the quasi-static convex problem with more on the diagonal. The formula is of second order and
-//! L-stable: any step is stable, and vibration faster than the step resolves is damped instead of ringing against the
-//! friction, which the trapezoidal rule would let it do. Its numerical damping is the residual of the energy balance.
-//!
-//! The step is the mesh's vehicle step, as in the quasi-static solver; it then costs a few sweeps over the whole cable.
-//! Inertia is worth this where [`crate::inertia_ratio`] is not far below the accuracy wanted. After the vehicle has left
-//! ground and cable come to rest as after an explicit pass.
-//!
-//! The `sigmoid` law is solved too (`transient::sigmoid`): its answer depends on the time step by the law's own definition, and what it
-//! loses at rest comes with every outcome ([`SigmoidLeak`]).
+//! The implicit solver with inertia.
 
 mod history;
 
@@ -29,7 +12,40 @@ use crate::transient::{
 use crate::{CableError, CableState, DuctedCable, Mesh};
 use history::History;
 
-/// Dynamic implicit solver for one cable on one mesh.
+/// Dynamic implicit solver for one cable on one mesh: the quasi-static step with inertia as one more term.
+///
+/// M ü + K u + S u = w f is discretised by the second backward difference (C. W. Gear; E. Hairer, G. Wanner, Solving Ordinary
+/// Differential Equations II, 1996, §V.1), for displacement and velocity alike,
+///
+/// v_n = (3 u_n − 4 u_{n−1} + u_{n−2})/(2Δt),  a_n = (3 v_n − 4 v_{n−1} + v_{n−2})/(2Δt),
+///
+/// so that each step solves (K + S + 9/(4Δt²) M) r = p + w f_n for the increment r, with friction by the law at the
+/// end of the step. The formula is of second order and L-stable: any step is stable, and vibration faster than the step resolves is
+/// damped instead of ringing against the friction, which the trapezoidal rule would let it do. Its numerical damping is the residual of
+/// the [`EnergyBalance`].
+///
+/// The step is the mesh's vehicle step, as in the quasi-static solver; it then costs a few linear solves of the whole cable.
+/// Inertia is worth this where [`crate::inertia_ratio`] is not far below the accuracy wanted. The steps from rest and to it are taken
+/// without inertia, and the last one ends the cable's vibration.
+///
+/// The `sigmoid` law is solved too: its answer depends on the time step by the law's own definition, and what it loses at rest comes
+/// with every outcome ([`SigmoidLeak`]).
+///
+/// ```
+/// use cable_dem::{DuctedCable, Dynamic, End, Friction, FrictionLaw, Mesh, MovingDuct};
+/// use ground_field::Direction;
+///
+/// // A bump that draws the duct away from the vehicle on both sides, at 11.1 m/s.
+/// let shape = |xi: f64| 40e-6 * xi / (1.0 + xi * xi).powf(1.5);
+/// let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;
+/// let cable = DuctedCable::new(10.0, 8.01e6, friction)?.with_ends(End::Free, End::Fixed)?;
+/// let mesh = Mesh::for_depth(10.0, 1.2, 6.0)?;
+/// let duct = MovingDuct::from_shape(&cable, &mesh, Direction::Forward, 11.1, shape, 15.0)?;
+/// let mut solver = Dynamic::new(cable, mesh, 108.8 / 9.80665)?;
+/// let outcome = solver.pass(&duct, &mut solver.at_rest())?;
+/// assert!(outcome.pass.force.downstream > 10.0 && outcome.energy.returned_share() < 1e-6);
+/// # Ok::<(), cable_dem::CableError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Dynamic {
     lumped: Lumped,

@@ -1,9 +1,5 @@
 //! One explicit step, as loops over plain slices that the compiler can vectorise.
 //!
-//! Central differences with velocities half a step apart (leapfrog):
-//!
-//! v ← v + Δt (−K u + w f)/m,  u ← u + Δt v,  f ← law(f, ΔD − Δt v).
-//!
 //! Displacements carry a ghost at either end, the mirror image of the first inner node: with half the mass at the ends
 //! the same stencil then holds at every node.
 

@@ -1,19 +1,4 @@
-//! Explicit discrete elements: masses, springs and friction, by central differences (Kashiro et al., Equations (2), (3)).
-//!
-//! The cable is a row of masses on springs that the duct rubs,
-//!
-//! m a + K u = w f,
-//!
-//! advanced by central differences (`lanes`). The step has a limit (`StepLimits`), which is enforced: beyond it the
-//! sigmoid chatters from +q to −q and reads next to nothing where hundreds of newtons are right, without ever
-//! overflowing. Independently of the limit every pass must balance its energy ([`crate::EnergyBalance`]); one that does
-//! not is an error and never a number.
-//!
-//! Before the vehicle comes and after it has left the ground is at rest; both steps are taken without inertia
-//! (`transient::rest`), and the last one ends the cable's vibration.
-//!
-//! The cost is steps times nodes, some 3e4 × 150 for a pass at 40 km/h over 30 m with h = 0.2 m: forty times the
-//! quasi-static one, four times the dynamic implicit one; it falls with the speed, theirs does not. It is the reference for what that leaves out, and the paper's own scheme.
+//! The explicit solver.
 
 mod lanes;
 mod law;
@@ -64,7 +49,37 @@ impl Default for ExplicitOptions {
     }
 }
 
-/// Explicit solver for one cable on one mesh.
+/// Explicit solver for one cable on one mesh: masses, springs and friction by central differences (Kashiro et al., Equations (2), (3)).
+///
+/// The cable is a row of masses on springs that the duct rubs, m a + K u = w f, with velocities half a step apart:
+///
+/// v ← v + Δt (−K u + w f)/m,  u ← u + Δt v,  f ← law(f, ΔD − Δt v).
+///
+/// The step has a limit ([`StepLimits`]), which is enforced: beyond it the sigmoid chatters from +q to −q and reads next to nothing
+/// where hundreds of newtons are right, without ever overflowing. Independently of the limit every pass must balance its energy
+/// ([`EnergyBalance`]); one that does not is an error and never a number.
+///
+/// Before the vehicle comes and after it has left the ground is at rest; both steps are taken without inertia, and the last one ends
+/// the cable's vibration.
+///
+/// The cost is steps times nodes, some 3e4 × 150 for a pass at 40 km/h over 30 m with h = 0.2 m: forty times the quasi-static one, four
+/// times the dynamic implicit one; it falls with the speed, theirs does not. It is the reference for what they leave out, and the
+/// paper's own scheme.
+///
+/// ```
+/// use cable_dem::{DuctedCable, End, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh, MovingDuct};
+/// use ground_field::Direction;
+///
+/// let shape = |xi: f64| 40e-6 * xi / (1.0 + xi * xi).powf(1.5);
+/// let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;
+/// let cable = DuctedCable::new(10.0, 8.01e6, friction)?.with_ends(End::Free, End::Fixed)?;
+/// let mesh = Mesh::for_depth(10.0, 1.2, 3.0)?;
+/// let duct = MovingDuct::from_shape(&cable, &mesh, Direction::Forward, 11.1, shape, 15.0)?;
+/// let mut solver = Explicit::new(cable, mesh, 108.8 / 9.80665, ExplicitOptions::default())?;
+/// let outcome = solver.pass(&duct, &mut solver.at_rest())?;
+/// assert!(outcome.time_step < solver.limits().together());
+/// # Ok::<(), cable_dem::CableError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Explicit {
     lumped: Lumped,

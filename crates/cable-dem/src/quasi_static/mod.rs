@@ -1,13 +1,4 @@
-//! Quasi-static passes: inertia left out, every step an equilibrium.
-//!
-//! The vehicle advances in steps; each is one implicit step of a rate-independent system, which is exact as long as no
-//! node reverses its slip within the step. Work is done only where something moves: in a window that travels with the
-//! vehicle (see [`passage`]) and in small ones at ends and clamps, which are solved again when the vehicle's effect on them
-//! has changed. A window grows when its edge is disturbed and shrinks when it is quiet.
-//!
-//! Before the vehicle comes and after it has left the ground is at rest. The first step takes the duct from there to the vehicle's
-//! first position, the last one from its last position back: steps of the whole cable, so that the state a pass leaves is in
-//! equilibrium and within the friction bounds everywhere.
+//! The solver without inertia.
 
 mod memory;
 mod pass;
@@ -27,7 +18,40 @@ use crate::step::check_precision;
 use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
 use pass::ForwardSolver;
 
-/// Quasi-static solver for one cable on one mesh.
+/// Quasi-static solver for one cable on one mesh: inertia left out, every step an equilibrium.
+///
+/// The vehicle advances in steps. Each solves, for the displacements u and the friction f after it,
+///
+/// K u + S u = w f,  f from the slip ΔD − Δu by the [friction law](crate::FrictionLaw),
+///
+/// with K the stiffness of a chain of springs EA/h, S the springs of ends and clamps and w a node's length of cable: one implicit step of
+/// a rate-independent system, exact as long as no node reverses its slip within the step. Work is done only where something moves: in a
+/// window that travels with the vehicle and in small ones at ends and clamps, which are solved again when the vehicle's effect on them
+/// has changed. Outside the windows up to 1e-3 of the friction limit stays unbalanced while the vehicle passes.
+///
+/// Before the vehicle comes and after it has left the ground is at rest. The first step takes the duct from there to the vehicle's
+/// first position, the last one from its last position back: steps of the whole cable, so that the state a pass leaves is in
+/// equilibrium and within the friction bounds everywhere.
+///
+/// ```
+/// use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, QuasiStatic};
+/// use boussinesq::HalfSpace;
+/// use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
+///
+/// let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
+/// let truck = Vehicle::point("truck", 196_133.0, 11.1)?;
+/// let motion = DuctMotion::new(&ground, &truck, DuctLine::new(1.2, 0.0)?, 46.0, 1e-6)?;
+///
+/// let q = 0.25 * 108.8;
+/// let friction = Friction::new(FrictionLaw::ElasticPlastic { shape_factor: 2e8 / q }, q)?;
+/// let cable = DuctedCable::new(30.0, 8.01e6, friction)?.with_ends(End::Free, End::Fixed)?;
+/// let mut solver = QuasiStatic::new(cable, Mesh::for_depth(30.0, 1.2, 12.0)?)?;
+/// let passage = solver.passage(&motion, 15.0)?;
+/// let mut state = solver.at_rest();
+/// let force = solver.pass(&passage, &mut state)?.force.downstream;
+/// assert!((force / 102.0 - 1.0).abs() < 0.01);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct QuasiStatic {
     cable: DuctedCable,

@@ -1,17 +1,4 @@
-//! A vehicle's passage as the cable feels it.
-//!
-//! A cable stuck to its duct all along would move by the *adherent motion* a(ξ): the duct's motion D(ξ), smoothed by the
-//! sheath's shear over the screening length λ,
-//!
-//! (a − D)/γ = EA a″,  discretely  −k (a_{i−1} − 2 a_i + a_{i+1}) = h A_i,  A = (D − a)/γ.
-//!
-//! A(ξ) is the friction that adhesion takes: −EA D″ for Coulomb's law, where a = D. Measured from the adherent motion,
-//! r = u − a and g = f − A, the cable feels the passing vehicle only through the friction bounds, which it shifts,
-//!
-//! −q − A(ξ) ≤ g ≤ q − A(ξ),
-//!
-//! and at ends and clamps. Where g stays within them nothing changes: r and g are the cable's state, and only the
-//! zone where the travelling shift presses g against a bound has to be solved.
+//! A vehicle's passage as the quasi-static solver takes it.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -24,9 +11,22 @@ use crate::{CableError, DuctedCable, Friction, Mesh};
 
 static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 
-/// Adherent motion and adhesion of one vehicle on the lattice of one mesh.
+/// A vehicle's passage as the cable feels it: adherent motion and adhesion on the lattice of one mesh.
 ///
 /// Depends on the cable, the mesh and the vehicle, not on the cable's state: computed once, used for every pass.
+///
+/// A cable stuck to its duct all along would move by the *adherent motion* a(ξ): the duct's motion D(ξ), smoothed by the
+/// sheath's shear over the screening length λ,
+///
+/// (a − D)/γ = EA a″,  discretely  −k (a_{i−1} − 2 a_i + a_{i+1}) = h A_i,  A = (D − a)/γ.
+///
+/// A(ξ) is the friction that adhesion takes: −EA D″ for Coulomb's law, where a = D. Measured from the adherent motion,
+/// r = u − a and g = f − A, the cable feels the passing vehicle only through the friction bounds, which it shifts,
+///
+/// −q − A(ξ) ≤ g ≤ q − A(ξ),
+///
+/// and at ends and clamps. Where g stays within them nothing changes: r and g are the cable's state, and only the
+/// zone where the travelling shift presses g against a bound has to be solved.
 #[derive(Debug, Clone)]
 pub struct Passage {
     /// Tells passages apart, so that a solver can remember the last pass of each.
@@ -67,19 +67,17 @@ pub(super) struct Snapshot<'a> {
 }
 
 impl Passage {
-    /// The passage of a vehicle whose duct motion is `motion` over `cable`, meshed by `mesh`.
+    /// The passage of a vehicle whose duct motion is `motion` over `cable`, meshed by `mesh`; see [`crate::QuasiStatic::passage`].
     ///
     /// Its origin is followed from `approach` \[m\] before the duct to `approach` past it; before and after that the ground is at
-    /// rest, D = 0. What the duct does while the vehicle is farther away is taken in one step, there and back. That is exact if
-    /// D no longer turns there and its parts no longer change the order in which they lead: 1.5 times as far as the outermost turn.
-    /// On a half-space a wheel's last turn is some twelve depths away, and is counted from every wheel; to follow the vehicle
-    /// farther than needed changes nothing and costs little.
+    /// rest, D = 0. What the duct does while the vehicle is farther away is taken in one step, there and back;
+    /// [`crate::approach`] says how far out that is exact.
     ///
     /// # Errors
     ///
     /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m, [`CableError::OutOfReach`] where the motion
     /// is not known as far as the duct's length and the approach together, [`CableError::CoarseMesh`] for a mesh that leaves out
-    /// more than 65 % of the duct's peak: coarser than some one and a half nodes a depth.
+    /// more than 65 % of the duct's peak: coarser than some one and a half nodes per depth.
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,

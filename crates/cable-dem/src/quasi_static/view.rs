@@ -19,6 +19,7 @@ pub struct StepView<'a> {
 
 /// Lengths of cable over which the duct slips past it (Kashiro et al., Figure 7).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct SlipLengths {
     /// Friction at its limit toward growing x \[m\].
     pub forward: f64,

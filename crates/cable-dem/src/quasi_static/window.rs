@@ -31,7 +31,7 @@ impl Room {
         }
     }
 
-    /// `stretch` with `nodes` more on either side, where there are so many.
+    /// `stretch` with `nodes` more on either side, as far as there are any.
     pub fn widened(self, stretch: Stretch, nodes: usize) -> Stretch {
         Stretch {
             lo: stretch.lo.saturating_sub(nodes).max(self.free.lo),

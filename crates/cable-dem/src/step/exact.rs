@@ -299,6 +299,7 @@ mod tests {
             adhesion: &adhesion,
             support: &support,
             anchor: &anchor,
+            friction: &[],
         };
         let mut trial = smooth.trial(&smooth.guess);
         let touched = contacts(&smooth.chain(), &load, smooth.stretch(), &mut trial);

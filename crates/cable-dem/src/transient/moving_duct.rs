@@ -1,12 +1,4 @@
 //! The motion of the duct in time: a fixed shape that travels along the cable.
-//!
-//! At time t the duct at node i stands at D_i(t) = D(i h − x_v(t)), x_v the vehicle's position. The shape is tabulated on a
-//! lattice that divides the node spacing h into M parts, and read by cubic Hermite interpolation: all nodes then lie at
-//! the same fraction θ between two lattice points, and those M apart stand side by side in memory, so that one step
-//! reads four contiguous rows with the same four weights.
-//!
-//! Slopes are fourth-order differences of the values: the interpolation error is s⁴/384 · max|D⁗| plus slopes' errors of
-//! the same order, s the lattice step: below 1e-7 of the peak for s = 20 mm in a duct 1.2 m deep.
 
 use ground_field::{Direction, DuctMotion};
 
@@ -22,6 +14,12 @@ const MAX_POINTS: f64 = 4e7;
 /// A duct whose displacement travels along it with a vehicle, tabulated for one mesh.
 ///
 /// Depends on the mesh and the vehicle, not on the cable's state: made once, used for every pass.
+///
+/// At time t the duct at node i stands at D_i(t) = D(i h − x_v(t)), x_v the vehicle's position. The shape is tabulated on a
+/// lattice that divides the node spacing h into M parts, and read by cubic Hermite interpolation: all nodes then lie at
+/// the same fraction θ between two lattice points, and those M apart stand side by side in memory, so that one step
+/// reads four contiguous rows with the same four weights. Slopes are fourth-order differences of the values: the error is
+/// s⁴/384 · max|D⁗| and more of that order, s the lattice step: below 1e-7 of the peak for s = 20 mm in a duct 1.2 m deep.
 #[derive(Debug, Clone)]
 pub struct MovingDuct {
     direction: Direction,
@@ -54,15 +52,13 @@ pub(crate) struct Instant<'a> {
 }
 
 impl MovingDuct {
-    /// The duct of `cable` with nodes as in `mesh`, under a vehicle whose duct motion is `motion`.
+    /// The duct of `cable` with nodes as in `mesh`, under a vehicle whose duct motion is `motion`; see [`crate::Dynamic::passage`].
     ///
-    /// The vehicle's origin is followed from `approach` \[m\] before the duct to `approach` past it; before and after that the
-    /// ground is at rest, as in [`crate::Passage`].
+    /// The vehicle is followed as in [`crate::Passage::new`].
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m, the motion is finite and the
-    /// table has at most 4e7 points; [`CableError::OutOfReach`] and [`CableError::CoarseMesh`] as for [`crate::Passage::new`].
+    /// As for [`crate::Passage::new`], and [`CableError::InvalidParameter`] for a table of more than 4e7 points.
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,
