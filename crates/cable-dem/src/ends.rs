@@ -1,5 +1,6 @@
 //! What a load cell at an end of the cable reads.
 
+use crate::step::Support;
 use crate::{DuctedCable, End, Mesh};
 
 /// Forces at both ends \[N\], compression positive: what load cells there read.
@@ -54,11 +55,12 @@ struct Reading {
 impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();
+        let supports = Support::of(cable, mesh);
         let reading = |node: usize, end: End| {
-            let shares = cable.restraints().iter().flat_map(|clamp| clamp.by_node(mesh));
-            let clamps: f64 = shares.filter(|(at, _)| *at == node).map(|(_, c)| c).sum();
+            let all = supports.iter().find(|support| support.node == node);
+            let all = all.and_then(|support| support.stiffness).unwrap_or(0.0);
             let share = match end {
-                End::Spring(spring) if spring > 0.0 => 1.0 / (1.0 + clamps / spring),
+                End::Spring(spring) if spring > 0.0 => spring / all,
                 End::Free | End::Spring(_) => 0.0,
                 End::Fixed => 1.0,
             };

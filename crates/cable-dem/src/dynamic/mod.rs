@@ -6,9 +6,7 @@ use ground_field::{Direction, DuctMotion};
 
 use crate::outcome::Recorder;
 use crate::step::{Prediction, Stretch, largest};
-use crate::transient::{
-    EnergyBalance, Implicit, Lumped, MovingDuct, Settler, SigmoidLeak, TransientOutcome, pass,
-};
+use crate::transient::{EnergyBalance, Implicit, Lumped, MovingDuct, Settler, TransientOutcome, pass};
 use crate::{CableError, CableState, DuctedCable, Mesh};
 use history::History;
 
@@ -29,7 +27,7 @@ use history::History;
 /// without inertia, and the last one ends the cable's vibration.
 ///
 /// The `sigmoid` law is solved too: its answer depends on the time step by the law's own definition, and what it loses at rest comes
-/// with every outcome ([`SigmoidLeak`]).
+/// with every outcome ([`crate::SigmoidLeak`]).
 ///
 /// ```
 /// use cable_dem::{DuctedCable, Dynamic, End, Friction, FrictionLaw, Mesh, MovingDuct};
@@ -103,11 +101,6 @@ impl Dynamic {
     /// The time step \[s\] of a pass of `duct`: the vehicle's advance by one vehicle step.
     pub fn time_step(&self, duct: &MovingDuct) -> f64 {
         duct.duration() / self.steps(duct)
-    }
-
-    /// What a law without memory loses in a pass of `duct`; `None` for the others.
-    pub fn leak(&self, duct: &MovingDuct) -> Option<SigmoidLeak> {
-        SigmoidLeak::new(&self.lumped.cable, self.time_step(duct), duct)
     }
 
     fn steps(&self, duct: &MovingDuct) -> f64 {

@@ -11,7 +11,7 @@ use ground_field::DuctMotion;
 
 use crate::error::checked;
 use crate::outcome::Recorder;
-use crate::transient::{EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, TransientOutcome, pass};
+use crate::transient::{EnergyBalance, Lumped, MovingDuct, Settler, TransientOutcome, pass};
 use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh};
 use lanes::Lanes;
 use law::{Constants, ContactLaw, Coulomb, ElasticPlastic, Sigmoid};
@@ -85,7 +85,6 @@ pub struct Explicit {
     lumped: Lumped,
     options: ExplicitOptions,
     limits: StepLimits,
-    lanes: Lanes,
     settler: Settler,
 }
 
@@ -123,7 +122,6 @@ impl Explicit {
             }
         }
         Ok(Self {
-            lanes: Lanes::new(mesh.nodes()),
             settler: Settler::new(&lumped),
             lumped,
             options,
@@ -149,11 +147,6 @@ impl Explicit {
     /// The time step \[s\] of a pass of `duct`, a whole fraction of its duration.
     pub fn time_step(&self, duct: &MovingDuct) -> f64 {
         duct.duration() / self.steps(duct)
-    }
-
-    /// What a law without memory loses in a pass of `duct`; `None` for the others.
-    pub fn leak(&self, duct: &MovingDuct) -> Option<SigmoidLeak> {
-        SigmoidLeak::new(&self.lumped.cable, self.time_step(duct), duct)
     }
 
     fn steps(&self, duct: &MovingDuct) -> f64 {
@@ -196,7 +189,6 @@ impl Explicit {
         let Self {
             lumped,
             settler,
-            lanes,
             options,
             ..
         } = self;
@@ -214,19 +206,11 @@ impl Explicit {
             let constants = Constants::new(lumped.cable.friction(), lumped.mass_per_metre, time_step);
             let steps = steps as usize;
             let energy = match lumped.cable.friction().law() {
-                FrictionLaw::Coulomb => run(lumped, lanes, Coulomb(constants), duct, steps, state, recorder),
-                FrictionLaw::ElasticPlastic { .. } => run(
-                    lumped,
-                    lanes,
-                    ElasticPlastic(constants),
-                    duct,
-                    steps,
-                    state,
-                    recorder,
-                ),
-                FrictionLaw::Sigmoid { .. } => {
-                    run(lumped, lanes, Sigmoid(constants), duct, steps, state, recorder)
+                FrictionLaw::Coulomb => run(lumped, Coulomb(constants), duct, steps, state, recorder),
+                FrictionLaw::ElasticPlastic { .. } => {
+                    run(lumped, ElasticPlastic(constants), duct, steps, state, recorder)
                 }
+                FrictionLaw::Sigmoid { .. } => run(lumped, Sigmoid(constants), duct, steps, state, recorder),
             }?;
             if options.check_energy {
                 energy.check(true)?;
@@ -239,7 +223,6 @@ impl Explicit {
 /// All steps of one pass by one law; `state` is carried on.
 fn run<L: ContactLaw>(
     lumped: &Lumped,
-    lanes: &mut Lanes,
     law: L,
     duct: &MovingDuct,
     steps: usize,
@@ -248,7 +231,7 @@ fn run<L: ContactLaw>(
 ) -> Result<EnergyBalance, CableError> {
     let nodes = lumped.mesh.nodes();
     let time_step = duct.duration() / steps as f64;
-    lanes.start(state);
+    let mut lanes = Lanes::new(state);
     duct.displacement(0.0, &mut lanes.duct);
     let mut peak_kinetic = 0.0_f64;
     for step in 1..=steps {
