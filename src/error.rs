@@ -83,6 +83,9 @@ pub enum Error {
         /// Why it does not fit.
         reason: Cow<'static, str>,
     },
+    /// The [`Progress`](crate::Progress) callback stopped the computation.
+    #[error("stopped before it was done")]
+    Stopped,
     /// The computation made a number that is none: no answer holds one.
     #[error("the computation failed: {field} came out as {value}")]
     NotFinite {

@@ -44,39 +44,44 @@
 //! ```
 //!
 //! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `burmister` (layers by
-//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable), `pass-law` (many passes), `calibrate` (parameters from measurements).
+//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable), `pass-law` (many passes), `calibrate` (parameters from measurements), `plain-figure` (charts as SVG).
 
-mod analysis;
+mod answer;
+mod cable;
 pub mod calibration;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod design;
 mod error;
-#[cfg(feature = "plot")]
-pub mod figure;
 mod finite;
+mod ground;
 #[cfg(feature = "sweep")]
 pub mod output;
-mod planner;
+mod plan;
 pub mod presets;
+mod progress;
 #[cfg(feature = "plot")]
 pub mod report;
+mod run;
 pub mod scene;
-#[cfg(any(feature = "cli", feature = "plot"))]
 mod shown;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 pub mod template;
 
-pub use analysis::profile::{Profile, profile, profile_at};
-pub use analysis::result::{
+#[cfg(feature = "plot")]
+pub use plain_figure as figure;
+
+pub use answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, FrictionProfile, PassRecord,
     PlanSummary, RestraintRecord, Run, Saturation, SlipRecord, Stage,
 };
-pub use analysis::run::{RunOptions, check, run, run_with};
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
 pub use error::Error;
-pub use planner::{Plan, PlanReport, Rung, occurrence, plan, plan_on};
+pub use ground::profile::{Profile, profile, profile_at};
+pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
+pub use progress::Progress;
+pub use run::{RunOptions, check, run, run_plan, run_with};
 pub use scene::{Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.

@@ -1,13 +1,6 @@
 //! Numbers and tables for a reader, as the terminal and the report show them.
 
-use crate::PassRecord;
-
-/// Leading digits of the passes in a shortened table.
-const STEPS: [u64; 3] = [1, 2, 5];
-/// Rows of a table that is read at a glance.
-const ROWS: usize = 16;
-
-/// `value` with so many decimals, and no minus before zeros.
+/// `value` with `decimals` decimals, and no minus before zeros.
 pub fn rounded(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -34,22 +27,4 @@ pub fn time(seconds: f64) -> String {
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
         s => format!("{:.0} h", s / 3600.0),
     }
-}
-
-/// The first passes, then about evenly growing numbers, and the last.
-pub fn selected(passes: &[PassRecord]) -> Vec<&PassRecord> {
-    if passes.len() <= ROWS {
-        return passes.iter().collect();
-    }
-    let last = passes.len() - 1;
-    passes
-        .iter()
-        .enumerate()
-        .filter(|(index, record)| {
-            let leading = record.pass / 10_u64.pow(record.pass.ilog10());
-            let round = record.pass.is_multiple_of(10_u64.pow(record.pass.ilog10()));
-            *index == last || (round && STEPS.contains(&leading))
-        })
-        .map(|(_, record)| record)
-        .collect()
 }

@@ -63,7 +63,7 @@ struct Range {
 
 /// Forces on the load cell after the passes that are read.
 fn forces(inertia: bool, friction: f64, shape_factor: f64) -> Vec<f64> {
-    let scene = Scene::from_file("examples/scenes/full-scale-upper.toml".as_ref()).unwrap();
+    let scene = Scene::from_file("examples/scenes/full-scale-upper.toml").unwrap();
     let law = FrictionLaw::ElasticPlastic { shape_factor };
     let friction = Friction::new(law, friction * scene.cable.normal_load()).unwrap();
     let cable = DuctedCable::new(scene.duct.length, scene.cable.axial_stiffness, friction)
@@ -90,7 +90,7 @@ fn forces(inertia: bool, friction: f64, shape_factor: f64) -> Vec<f64> {
 fn motion() -> &'static DuctMotion {
     static MOTION: OnceLock<DuctMotion> = OnceLock::new();
     MOTION.get_or_init(|| {
-        let scene = Scene::from_file("examples/scenes/full-scale-upper.toml".as_ref()).unwrap();
+        let scene = Scene::from_file("examples/scenes/full-scale-upper.toml").unwrap();
         let ground = HalfSpace::new(scene.ground.profile.homogeneous().unwrap());
         let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset).unwrap();
         let reach = scene.duct.length + 2.0 * APPROACH;
@@ -304,10 +304,8 @@ fn repeat(table: &Table, method: Method, friction: f64, shape_factor: f64) -> Co
             Parameter::new("friction", 0.14, 0.7, Scale::Logarithmic).unwrap(),
             Parameter::new("shape_factor", 3e5, 1e9, Scale::Logarithmic).unwrap(),
         ];
-        let options = Options {
-            relative_noise: 1e-4,
-            ..Options::default()
-        };
+        let mut options = Options::default();
+        options.relative_noise = 1e-4;
         let calibration = Calibration::new(&model, parameters, data)
             .unwrap()
             .with_options(options)

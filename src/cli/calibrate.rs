@@ -1,13 +1,13 @@
 //! `creepage calibrate`: parameters from readings.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::Write;
 
 use super::arguments::{CalibrateArguments, OutputArguments, SceneArguments};
 use super::input::Input;
+use super::progress::{MODEL_RUNS, with_bar};
 use super::{Failure, terminal, write};
 use crate::calibration::{
-    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Observer, Readings,
-    Resampling, Unknown,
+    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Readings, Unknown,
 };
 use crate::output::Kind;
 use crate::scene::FrictionLaw;
@@ -24,7 +24,6 @@ pub fn execute(
     let readings = Readings::from_file(&arguments.data).map_err(crate::Error::from)?;
     let table = write::table(output, Kind::Fit, [&*scene.scene, &arguments.data])?;
     let scene = &input.scene;
-    let (bar, observer) = progress();
     let options = CalibrateOptions {
         unknowns: arguments.fit.iter().copied().map(Unknown::shared).collect(),
         deflection: arguments
@@ -39,13 +38,13 @@ pub fn execute(
         bootstrap: arguments.bootstrap.map(|replicates| BootstrapOptions {
             replicates,
             seed: arguments.seed,
-            resampling: Resampling::Residuals,
         }),
         max_evaluations: arguments.max_evaluations,
-        observer,
+        ..CalibrateOptions::default()
     };
-    let answer = crate::calibrate(scene, &readings, &options);
-    bar.finish_and_clear();
+    let answer = with_bar(MODEL_RUNS, arguments.max_evaluations, |progress| {
+        crate::calibrate(scene, &readings, &CalibrateOptions { progress, ..options })
+    });
     let mut answer = input.judged(answer)?;
     for warning in &answer.warnings {
         terminal::warn(warning);
@@ -61,25 +60,6 @@ pub fn execute(
     } else {
         print(&answer, scene.friction.law)
     }
-}
-
-/// The present values beside a spinner, on a terminal only.
-fn progress() -> (indicatif::ProgressBar, Option<Observer>) {
-    if !io::stderr().is_terminal() {
-        return (indicatif::ProgressBar::hidden(), None);
-    }
-    let bar = indicatif::ProgressBar::new_spinner();
-    let shown = bar.clone();
-    let observer = Observer::new(move |progress| {
-        let values: Vec<String> = progress
-            .parameters
-            .iter()
-            .map(|value| format!("{value:.4e}"))
-            .collect();
-        shown.set_message(format!("iteration {}: {}", progress.iteration, values.join(", ")));
-        shown.tick();
-    });
-    (bar, Some(observer))
 }
 
 fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {

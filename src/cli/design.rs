@@ -1,12 +1,11 @@
 //! `creepage design`: the end spring or clamp that keeps limits of force and movement.
 
-use std::io::{self, IsTerminal, Write};
-
-use indicatif::ProgressBar;
+use std::io::Write;
 
 use super::Failure;
 use super::arguments::SceneArguments;
 use super::input::Input;
+use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::{terminal, write};
 use crate::design::{Design, DesignError, DesignOptions, Limits, Place, TradeOff, design, passes};
 use crate::scene::Dimension;
@@ -73,22 +72,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if let (Some(years), Some(trucks)) = (arguments.years, arguments.trucks_per_day) {
         input.scene.traffic.passes = passes(years, trucks)?;
     }
-    let bar = if io::stderr().is_terminal() {
-        ProgressBar::new_spinner()
-    } else {
-        ProgressBar::hidden()
+    let limits = Limits {
+        force_n: arguments.limit_force,
+        movement_m: arguments.limit_movement,
     };
-    let progress = |runs: usize| bar.set_message(format!("{runs} runs"));
-    let options = DesignOptions {
-        place: arguments.at,
-        limits: Limits {
-            force_n: arguments.limit_force,
-            movement_m: arguments.limit_movement,
-        },
-        progress: Some(&progress),
-    };
-    let answer = design(&input.scene, &options);
-    bar.finish_and_clear();
+    let answer = with_bar(PERCENT, PER_MILLE, |progress| {
+        let mut options = DesignOptions::new(arguments.at, limits);
+        options.progress = progress;
+        design(&input.scene, &options)
+    });
     let answer = match answer {
         Err(DesignError::Analysis(error)) => input.located(Err(error))?,
         answer => answer?,

@@ -7,6 +7,7 @@ mod input;
 mod new;
 mod presets;
 mod print;
+mod progress;
 #[cfg(feature = "plot")]
 mod report;
 mod signals;
@@ -15,7 +16,7 @@ mod terminal;
 mod write;
 
 use std::ffi::OsString;
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
@@ -24,6 +25,7 @@ use crate::output::{Kind, OutputError};
 use crate::{Run, RunOptions, Scene};
 use arguments::{Arguments, Command};
 use input::Input;
+use progress::{PER_MILLE, PERCENT, with_bar};
 
 /// Something that keeps a command from finishing.
 #[derive(Debug, thiserror::Error)]
@@ -200,26 +202,12 @@ fn warn(warnings: &[String]) {
 
 /// Runs the scene, with a progress bar on a terminal.
 fn run(scene: &Scene, verify: bool) -> Result<Run, crate::Error> {
-    with_progress(|progress| {
+    with_bar(PERCENT, PER_MILLE, |progress| {
         let options = RunOptions {
             verify,
-            progress: Some(progress),
+            progress,
             ..RunOptions::default()
         };
         crate::run_with(scene, &options)
     })
-}
-
-/// Computes something that tells the share done, with a progress bar on a terminal.
-fn with_progress<T>(compute: impl FnOnce(&(dyn Fn(f64) + Sync)) -> T) -> T {
-    const TICKS: f64 = 1000.0;
-    let bar = if std::io::stderr().is_terminal() {
-        indicatif::ProgressBar::new(TICKS as u64)
-    } else {
-        indicatif::ProgressBar::hidden()
-    };
-    let progress = |share: f64| bar.set_position((TICKS * share) as u64);
-    let answer = compute(&progress);
-    bar.finish_and_clear();
-    answer
 }

@@ -3,9 +3,10 @@
 use std::io::Write;
 
 use super::{Failure, terminal};
+use crate::answer::selected;
 use crate::occurrence::Occurrence;
-use crate::shown::{rounded, selected, share, time};
-use crate::{PlanReport, Profile, Run, Scene};
+use crate::shown::{rounded, share, time};
+use crate::{Part, PlanReport, Profile, Run, Scene};
 
 pub fn run(run: &Run) -> Result<(), Failure> {
     let mut out = terminal::out();
@@ -81,7 +82,7 @@ pub fn run(run: &Run) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The ladders, the rungs taken marked.
+/// Every candidate, the chosen ones marked.
 pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
     let mut out = terminal::out();
     writeln!(out, "{}", terminal::line(&plan.title))?;
@@ -101,22 +102,26 @@ pub fn plan(plan: &PlanReport) -> Result<(), Failure> {
     if let Some(occurrence) = &plan.occurrence {
         self::occurrence(&mut out, occurrence)?;
     }
-    for part in ["ground", "cable", "mesh"] {
-        let rungs: Vec<_> = plan.ladder.iter().filter(|rung| rung.part == part).collect();
-        if rungs.is_empty() {
+    for part in [Part::Ground, Part::Cable, Part::Mesh] {
+        let candidates: Vec<_> = plan
+            .candidates
+            .iter()
+            .filter(|candidate| candidate.part == part)
+            .collect();
+        if candidates.is_empty() {
             continue;
         }
         writeln!(out)?;
         writeln!(out, "{part:<14} {:>10} {:>10}  why, or why not", "error", "time")?;
-        for rung in rungs {
+        for candidate in candidates {
             writeln!(
                 out,
                 "{} {:<12} {:>10} {:>10}  {}",
-                if rung.chosen { '→' } else { ' ' },
-                rung.name,
-                rung.estimated_error.map_or_else(String::new, share),
-                rung.estimated_seconds.map_or_else(String::new, time),
-                terminal::sentence(&rung.reason)
+                if candidate.chosen { '→' } else { ' ' },
+                candidate.name,
+                candidate.estimated_error.map_or_else(String::new, share),
+                candidate.estimated_seconds.map_or_else(String::new, time),
+                terminal::sentence(&candidate.reason)
             )?;
         }
     }

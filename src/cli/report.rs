@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use super::arguments::{Force, SceneArguments};
 use super::input::Input;
+use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::{Failure, write};
 use crate::calibration::Readings;
 use crate::output::Kind;
@@ -43,13 +44,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let read = [Some(&*arguments.scene.scene), arguments.data.as_deref()];
     let page =
         write::files(read.into_iter().flatten(), &arguments.force).output(&arguments.output, Kind::Page)?;
-    let report = super::with_progress(|progress| {
+    let report = with_bar(PERCENT, PER_MILLE, |progress| {
         Report::new(
             &input.scene,
             &ReportOptions {
                 readings: readings.as_ref(),
                 warnings: &input.warnings,
-                progress: Some(progress),
+                progress,
                 ..ReportOptions::default()
             },
         )

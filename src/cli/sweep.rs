@@ -1,17 +1,15 @@
 //! `creepage sweep`: one scene with many values of some keys.
 
-use std::cell::RefCell;
-use std::io::{self, IsTerminal, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
-use indicatif::{ProgressBar, ProgressStyle};
-
 use super::arguments::{Force, SceneArguments};
+use super::progress::{POINTS, with_bar};
 use super::{Failure, terminal, write};
 use crate::SceneFile;
 #[cfg(feature = "plot")]
 use crate::output::Kind;
-use crate::sweep::{Axis, Band, Progress, Quantiles, Samples, Sweep, SweepOptions, SweepSummary};
+use crate::sweep::{Axis, Band, Quantiles, Samples, Sweep, SweepOptions, SweepSummary};
 #[cfg(feature = "plot")]
 use crate::sweep::{MapValue, Row, SweepMap};
 
@@ -97,11 +95,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for slip in sweep.file_at(0)?.unit_slips() {
         terminal::warn(format_args!("{slip}{}", slip.location.excerpt()));
     }
-    let bar = RefCell::new(None);
-    let progress = |progress: Progress| show(&mut bar.borrow_mut(), progress);
     let options = SweepOptions {
         threads: arguments.threads.map(usize::from),
-        progress: io::stderr().is_terminal().then_some(&progress),
         force: arguments.force.force,
         ..SweepOptions::default()
     };
@@ -122,11 +117,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         each: each.as_ref().map(|each| each as &dyn Fn(&Row)),
         ..options
     };
-    let summary = sweep.run(&arguments.out, &options);
-    if let Some(bar) = bar.take() {
-        bar.finish_and_clear();
-    }
-    let summary = summary?;
+    let summary = with_bar(POINTS, sweep.count(), |progress| {
+        sweep.run(&arguments.out, &SweepOptions { progress, ..options })
+    })?;
     if let Some(error) = &summary.first_error {
         let SweepSummary { failed, points, .. } = summary;
         terminal::warn(format_args!(
@@ -146,20 +139,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         print(&summary, arguments)
     }
-}
-
-/// The bar, which tells the time left from the points of this run alone.
-fn show(bar: &mut Option<ProgressBar>, progress: Progress) {
-    let bar = bar.get_or_insert_with(|| {
-        let bar = ProgressBar::new(progress.count as u64);
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len}, {eta} left") {
-            bar.set_style(style);
-        }
-        bar.set_position(progress.resumed as u64);
-        bar.reset_eta();
-        bar
-    });
-    bar.set_position(progress.done as u64);
 }
 
 fn print(summary: &SweepSummary, arguments: &Arguments) -> Result<(), Failure> {

@@ -37,7 +37,8 @@ impl SceneFile {
     /// # Errors
     ///
     /// [`SceneError`] where the file cannot be read, is not TOML, or names a preset that is not known.
-    pub fn read(path: &Path) -> Result<Self, SceneError> {
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        let path = path.as_ref();
         let file = path.display().to_string();
         let unreadable = |source| SceneError::Unreadable {
             file: file.clone(),

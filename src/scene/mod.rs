@@ -84,22 +84,13 @@ pub(crate) use unusual::unusual;
 use document::Document;
 
 impl Scene {
-    /// Reads the scene file at `path`.
+    /// Reads the scene file at `path`. For overrides on top of it there is [`SceneFile::with`].
     ///
     /// # Errors
     ///
     /// [`SceneError`] with the first thing that is wrong, and where.
-    pub fn from_file(path: &Path) -> Result<Self, SceneError> {
-        Self::from_file_with(path, &[])
-    }
-
-    /// Reads the scene file at `path`, then sets each `KEY=VALUE` of `overrides` in turn.
-    ///
-    /// # Errors
-    ///
-    /// As for [`Scene::from_file`]; a value from an override is located as `--set KEY=VALUE`.
-    pub fn from_file_with(path: &Path, overrides: &[String]) -> Result<Self, SceneError> {
-        SceneFile::read(path)?.with(overrides)?.scene()
+    pub fn from_file(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        SceneFile::read(path)?.scene()
     }
 
     /// Reads a scene from TOML `text`; `name` stands for the file in error messages.
@@ -108,16 +99,7 @@ impl Scene {
     ///
     /// As for [`Scene::from_file`].
     pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
-        Self::from_toml_with(name, text, &[])
-    }
-
-    /// Reads a scene from TOML `text`, then sets each `KEY=VALUE` of `overrides` in turn.
-    ///
-    /// # Errors
-    ///
-    /// As for [`Scene::from_file_with`].
-    pub fn from_toml_with(name: &str, text: &str, overrides: &[String]) -> Result<Self, SceneError> {
-        SceneFile::from_toml(name, text)?.with(overrides)?.scene()
+        SceneFile::from_toml(name, text)?.scene()
     }
 }
 

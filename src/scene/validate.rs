@@ -25,7 +25,7 @@ impl Scene {
     /// ```
     /// use creepage::Scene;
     ///
-    /// let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml".as_ref())?;
+    /// let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml")?;
     /// scene.validate()?;
     /// scene.duct.depth = -1.0;
     /// let error = scene.validate().unwrap_err().to_string();

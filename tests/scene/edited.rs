@@ -6,14 +6,14 @@ use creepage::design::{DesignOptions, Limits, Measure, Place, compare, design};
 use creepage::scene::{
     Duct, End, FrictionLaw, Order, PeakScaling, Restraint, Scene, SceneError, SolverMethod, TrafficVehicle,
 };
-use creepage::{CalibrateOptions, Error, SceneFile};
+use creepage::{CalibrateOptions, Error, Progress, SceneFile};
 use ground_field::{Base, Direction, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle, Wheel};
 use proptest::prelude::*;
 
 use super::FULL;
 
 fn example() -> Scene {
-    Scene::from_file("examples/scenes/full-scale-upper.toml".as_ref()).expect("the example")
+    Scene::from_file("examples/scenes/full-scale-upper.toml").expect("the example")
 }
 
 /// The edited scene is refused under this key, by everything that takes a scene.
@@ -170,18 +170,14 @@ fn designs_fits_and_reports_refuse_an_edited_scene_too() {
         movement_m: None,
     };
     let place = Place::Downstream;
-    let options = DesignOptions {
-        limits,
-        place,
-        progress: None,
-    };
+    let options = DesignOptions::new(place, limits);
     assert!(design(&scene, &options).expect_err("no vehicles").is_bad_input());
     let measure = Measure {
         place,
         stiffness: 1e6,
     };
     assert!(
-        compare(&scene, &[measure], None)
+        compare(&scene, &[measure], Progress::default())
             .expect_err("no vehicles")
             .is_bad_input()
     );

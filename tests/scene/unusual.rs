@@ -37,7 +37,9 @@ tolerance = 0.05
 
 fn warnings(overrides: &[&str]) -> Vec<String> {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    let scene = Scene::from_toml_with("unusual.toml", SCENE, &overrides).expect("a scene");
+    let scene = creepage::SceneFile::from_toml("unusual.toml", SCENE)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("a scene");
     creepage::plan(&scene).expect("a plan").report().warnings
 }
 
