@@ -51,11 +51,9 @@ pub fn holding(html: &mut Html, report: &Report) {
         std::iter::once(way.name()).chain(numbers).collect()
     });
     html.table(&Table {
-        head: ["held by", "force, N", "movement, mm", "on clamp, N", "error"]
-            .map(str::to_owned)
-            .to_vec(),
+        head: vec!["held by", "force, N", "movement, mm", "on clamp, N", "error"],
         rows: rows.collect(),
-        numbers: vec![false, true, true, true, true],
+        texts: 1,
     });
     html.list(&failures(&comparison.ways));
 }
