@@ -50,6 +50,7 @@ mod answer;
 mod cable;
 pub mod calibration;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 pub mod design;
 mod error;
@@ -64,6 +65,10 @@ mod progress;
 pub mod report;
 mod run;
 pub mod scene;
+#[cfg_attr(
+    not(all(feature = "cli", feature = "plot")),
+    allow(dead_code, reason = "the terminal and the report show most of it")
+)]
 mod shown;
 #[cfg(feature = "sweep")]
 pub mod sweep;

@@ -15,7 +15,7 @@ use std::path::Path;
 
 use boussinesq::HalfSpace;
 use cable_dem::{CableError, CableState, DuctedCable, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
-use calibrate::{Calibration, Estimate, Fit, ModelError, Options, Parameter, Profiles, Scale};
+use calibrate::{Calibration, Estimate, Fit, ModelError, Parameter, Scale};
 use creepage::Scene;
 use creepage::figure::{Axis, Chart};
 use fastrand::Rng;
@@ -286,12 +286,6 @@ fn fit(table: &Table, b: f64, noise: f64, seed: u64) -> Result<Draw, String> {
     let calibration = parameter("dynamic_coefficient", COEFFICIENTS)
         .and_then(|coefficient| Ok(vec![coefficient, parameter("shape_factor", SHAPE_FACTORS)?]))
         .and_then(|parameters| Calibration::new(&model, parameters, measured))
-        .and_then(|calibration| {
-            calibration.with_options(Options {
-                profiles: Profiles::All,
-                ..Options::default()
-            })
-        })
         .map_err(|error| error.to_string())?;
     let outcome = |fit: Fit| match (judge(&fit.estimates[1], b), fit.estimates[0].identifiable) {
         (Draw::Wrong, false) => Draw::HalfOpenWrong,

@@ -7,7 +7,7 @@
 
 use boussinesq::{HalfSpace, Odemark};
 use burmister::LayeredHalfSpace;
-use ground_field::{DuctMotion, GroundError, GroundField, Modulus, SoilLayer, SoilProfile};
+use ground_field::{DuctMotion, GroundField, SoilProfile};
 use layered_fem::LayeredFem;
 
 use super::motion::{difference, motions};
@@ -25,7 +25,7 @@ const OWN_ACCURACY: f64 = 1e-6;
 const ELEMENTS_ACCURACY: (f64, f64) = (2e-4, 5e-3);
 const ELEMENTS_SHARE: f64 = 0.25;
 /// Sublayers of a layer whose modulus varies, to begin with, and the most of all layers together.
-const FEWEST_SUBLAYERS: usize = 8;
+const FEWEST_SUBLAYERS: usize = 16;
 const MOST_LAYERS: usize = 1000;
 /// Share of the tolerance that cutting a layer into sublayers may take.
 const SUBLAYERS_SHARE: f64 = 0.05;
@@ -135,7 +135,14 @@ impl Ground {
     fn graded(scene: &Scene, reach: f64) -> Result<Self, Error> {
         let reason = "the Hankel transform on uniform sublayers, twice as many until the motion is steady";
         let profile = &scene.ground.profile;
-        let sliced = |count| Self::layered(scene, &sublayered(profile, count)?, reason, reach);
+        let sliced = |count| {
+            Self::layered(
+                scene,
+                &profile.sublayered(count, scene.duct.depth)?,
+                reason,
+                reach,
+            )
+        };
         let mut count = FEWEST_SUBLAYERS;
         let mut ground = sliced(count)?;
         loop {
@@ -156,22 +163,4 @@ impl Ground {
 
 fn is_graded(profile: &SoilProfile) -> bool {
     profile.layers().iter().any(|layer| layer.soil().is_none())
-}
-
-/// The profile with every layer whose modulus varies cut into `count` uniform ones.
-fn sublayered(profile: &SoilProfile, count: usize) -> Result<SoilProfile, GroundError> {
-    let mut layers = Vec::new();
-    for layer in profile.layers() {
-        if layer.soil().is_some() {
-            layers.push(*layer);
-            continue;
-        }
-        let thickness = layer.thickness() / count as f64;
-        for k in 0..count {
-            let middle = layer.young_modulus_at((k as f64 + 0.5) * thickness);
-            let modulus = Modulus::Uniform(middle);
-            layers.push(SoilLayer::new(thickness, modulus, layer.poisson_ratio())?);
-        }
-    }
-    SoilProfile::new(layers, profile.base())
 }

@@ -6,7 +6,7 @@ use super::html::Html;
 use super::measures::pressed_end;
 use super::quantity::count;
 use crate::design::Place;
-use crate::shown::{rounded, share};
+use crate::shown::{percent, rounded};
 
 pub fn headline(html: &mut Html, report: &Report) {
     let run = &report.run;
@@ -48,7 +48,7 @@ pub fn headline(html: &mut Html, report: &Report) {
     let along = format!("{:.2} µm", MICRO * motion.peak_longitudinal_m);
     let down = format!("along its axis; {:.1} µm down", MICRO * motion.peak_vertical_m);
     html.headline("Peak motion of the duct", &along, &down);
-    let error = share(run.error_estimate.relative);
+    let error = percent(run.error_estimate.relative);
     let note = "of the forces, from the computation alone";
     html.headline("Estimated error", &error, note);
     html.raw("</dl>");

@@ -2,7 +2,7 @@
 
 use super::content::Report;
 use super::html::{Html, Table};
-use crate::shown::{share, time};
+use crate::shown::{percent, time};
 
 pub fn plan(html: &mut Html, report: &Report) {
     let (run, plan) = (&report.run, &report.plan);
@@ -14,7 +14,7 @@ pub fn plan(html: &mut Html, report: &Report) {
     html.element("h3", "What was considered");
     let rows = plan.candidates.iter().map(|candidate| {
         let cost = [
-            candidate.estimated_error.map(share),
+            candidate.estimated_error.map(percent),
             candidate.estimated_seconds.map(time),
         ];
         let fate = if candidate.chosen { "chosen" } else { "rejected" };
@@ -33,11 +33,11 @@ pub fn plan(html: &mut Html, report: &Report) {
     let error = &run.error_estimate;
     html.paragraph(&format!(
         "{} in all, {}. How well the equations are solved, not how well they describe a duct.",
-        share(error.relative),
+        percent(error.relative),
         error.method
     ));
     let parts = error.parts;
-    let row = |name: &str, part: f64| vec![name.to_owned(), share(part)];
+    let row = |name: &str, part: f64| vec![name.to_owned(), percent(part)];
     html.table(&Table {
         head: vec!["part", "error"],
         rows: vec![

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad};
+use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad, check_place};
 
 use crate::{disc, point};
 
@@ -131,21 +131,6 @@ impl GroundField for HalfSpace {
             Err(singular(radius, depth))
         }
     }
-}
-
-/// Both coordinates finite and not negative.
-#[inline]
-pub(crate) fn check_place(radius: f64, depth: f64) -> Result<(), GroundError> {
-    for (name, value) in [("radius", radius), ("depth", depth)] {
-        if !(value.is_finite() && value >= 0.0) {
-            return Err(GroundError::InvalidParameter {
-                name,
-                value,
-                allowed: "finite and not negative",
-            });
-        }
-    }
-    Ok(())
 }
 
 #[cold]

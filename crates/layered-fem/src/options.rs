@@ -1,11 +1,8 @@
 //! What is asked of the solver, and what it reports about itself.
 
-use ground_field::GroundError;
+use ground_field::{GroundError, checked};
 
 use crate::system::LEAST_CHANGE;
-
-/// Loosest and tightest accuracy that can be asked.
-const ACCURACY_ALLOWED: &str = "between 1e-6 and 0.1";
 
 /// Accuracy and limits of a [`crate::LayeredFem`].
 ///
@@ -34,18 +31,12 @@ impl FemOptions {
     ///
     /// [`GroundError::InvalidParameter`] unless it lies between 1e-6 and 0.1.
     pub fn new(accuracy: f64) -> Result<Self, GroundError> {
-        if (1e-6..=0.1).contains(&accuracy) {
-            Ok(Self {
-                accuracy,
-                max_unknowns: Self::DEFAULT_MAX_UNKNOWNS,
-            })
-        } else {
-            Err(GroundError::InvalidParameter {
-                name: "accuracy",
-                value: accuracy,
-                allowed: ACCURACY_ALLOWED,
-            })
-        }
+        Ok(Self {
+            accuracy: checked("accuracy", accuracy, "between 1e-6 and 0.1", |v| {
+                (1e-6..=0.1).contains(&v)
+            })?,
+            max_unknowns: Self::DEFAULT_MAX_UNKNOWNS,
+        })
     }
 
     /// Most unknowns that can be allowed: some hundred gigabytes.
