@@ -27,6 +27,18 @@ const SAME: f64 = 1e-9;
 
 /// Finds the stiffnesses within the limits.
 ///
+/// ```
+/// use creepage::Scene;
+/// use creepage::design::{DesignOptions, Limits, Place, design};
+///
+/// let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml")?;
+/// scene.traffic.passes = 2;
+/// let limits = Limits { force_n: 100.0, movement_m: None };
+/// let design = design(&scene, &DesignOptions::new(Place::Downstream, limits))?;
+/// assert!(design.answer.is_some_and(|answer| answer.force_n <= 100.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 ///
 /// [`DesignError`] where limits or place have no meaning, a run fails, or a limit is crossed more than once.
