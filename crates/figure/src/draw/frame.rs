@@ -122,11 +122,8 @@ impl Frame {
 fn labels_fit(scale: &Scale, length: f64, size: impl Fn(&str) -> f64) -> Result<(), FigureError> {
     for pair in scale.ticks.windows(2) {
         let room = (scale.share(pair[1].value) - scale.share(pair[0].value)) * length;
-        check_room(
-            &pair[1].label,
-            0.5 * (size(&pair[0].label) + size(&pair[1].label)),
-            room,
-        )?;
+        let needed = 0.5 * (size(&pair[0].label) + size(&pair[1].label));
+        check_room(&pair[1].label, needed, room)?;
     }
     Ok(())
 }
