@@ -19,7 +19,7 @@ const SMALLEST: f64 = 50.0;
 /// Axes and ticks.
 pub const AXIS: Stroke = Stroke::solid(INK, 1.2);
 
-/// Points beyond so many frames are taken to stand there, so that lengths stay finite.
+/// Points farther out than this many frames are drawn there, so that lengths stay finite.
 const FAR: f64 = 1e9;
 
 /// The scales of both axes, and the plot's place.
