@@ -43,20 +43,25 @@
 //! }
 //! ```
 //!
-//! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `burmister` (layers by
-//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable), `pass-law` (many passes), `calibrate` (parameters from measurements).
+//! The parts are crates of their own, handed on here so that their versions fit: [`ground_field`] (the contract), [`boussinesq`] (closed
+//! forms), [`burmister`] (layers by Hankel transform), `layered_fem` (layers by finite elements), [`cable_dem`] (the cable), [`pass_law`]
+//! (many passes), `fitting` (the crate `calibrate`: parameters from measurements), `figure` (the crate `plain-figure`: charts as SVG).
+//!
+//! # Features
+//!
+//! All are on unless `default-features = false`: `calibrate`, `design`, `fem`, `parquet`, `plot` (figures and the report), `sweep`, and
+//! `cli`, the command. Without them a scene is read, planned and run, with 28 crates in all.
 
 mod answer;
 mod cable;
 #[cfg(feature = "calibrate")]
 pub mod calibration;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "design")]
 pub mod design;
 mod error;
-#[cfg(feature = "plot")]
-pub mod figure;
 mod finite;
 mod ground;
 #[cfg(feature = "sweep")]
@@ -68,10 +73,22 @@ mod progress;
 pub mod report;
 mod run;
 pub mod scene;
+#[cfg_attr(
+    not(all(feature = "cli", feature = "plot")),
+    allow(dead_code, reason = "the terminal and the report show most of it")
+)]
 mod shown;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 pub mod template;
+
+#[cfg(feature = "calibrate")]
+pub use ::calibrate as fitting;
+#[cfg(feature = "fem")]
+pub use layered_fem;
+#[cfg(feature = "plot")]
+pub use plain_figure as figure;
+pub use {boussinesq, burmister, cable_dem, ground_field, pass_law};
 
 pub use answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, FrictionProfile, PassRecord,

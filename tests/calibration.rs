@@ -4,9 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use creepage::calibration::{
-    BootstrapOptions, Deflection, Loss, Quantity, Reading, Readings, Resampling, Unknown,
-};
+use creepage::calibration::{BootstrapOptions, Deflection, Loss, Quantity, Reading, Readings, Unknown};
 use creepage::scene::{End, FrictionLaw, PeakScaling, SolverMethod};
 use creepage::{CalibrateOptions, Calibrated, Error, Progress, Scene, Series, calibrate, calibrate_jointly};
 
@@ -213,7 +211,6 @@ fn bootstrap_agrees_with_the_standard_error() {
         bootstrap: Some(BootstrapOptions {
             replicates: 60,
             seed: 2,
-            resampling: Resampling::Gaussian,
         }),
         ..CalibrateOptions::default()
     };

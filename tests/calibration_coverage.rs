@@ -298,10 +298,8 @@ fn repeat(table: &Table, method: Method, friction: f64, shape_factor: f64) -> Co
             Parameter::new("friction", 0.14, 0.7, Scale::Logarithmic).unwrap(),
             Parameter::new("shape_factor", 3e5, 1e9, Scale::Logarithmic).unwrap(),
         ];
-        let options = Options {
-            relative_noise: 1e-4,
-            ..Options::default()
-        };
+        let mut options = Options::default();
+        options.relative_noise = 1e-4;
         let calibration = Calibration::new(&model, parameters, data)
             .unwrap()
             .with_options(options)

@@ -13,8 +13,6 @@ mod calibration;
 mod cli;
 #[path = "design.rs"]
 mod design;
-#[path = "figure.rs"]
-mod figure;
 #[path = "files/main.rs"]
 mod files;
 #[path = "fuzz/main.rs"]
@@ -37,4 +35,3 @@ mod report;
 mod scene;
 #[path = "sweep.rs"]
 mod sweep;
-mod xml;

@@ -15,9 +15,9 @@ use std::path::Path;
 
 use boussinesq::HalfSpace;
 use cable_dem::{CableError, CableState, DuctedCable, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
-use calibrate::{Calibration, Estimate, Fit, ModelError, Options, Parameter, Profiles, Scale};
+use calibrate::{Calibration, Estimate, Fit, ModelError, Parameter, Scale};
 use creepage::Scene;
-use creepage::figure::{Class, GridAxis, Map};
+use creepage::figure::{Axis, Chart};
 use fastrand::Rng;
 use ground_field::{DuctLine, DuctMotion};
 use rayon::prelude::*;
@@ -286,12 +286,6 @@ fn fit(table: &Table, b: f64, noise: f64, seed: u64) -> Result<Draw, String> {
     let calibration = parameter("dynamic_coefficient", COEFFICIENTS)
         .and_then(|coefficient| Ok(vec![coefficient, parameter("shape_factor", SHAPE_FACTORS)?]))
         .and_then(|parameters| Calibration::new(&model, parameters, measured))
-        .and_then(|calibration| {
-            calibration.with_options(Options {
-                profiles: Profiles::All,
-                ..Options::default()
-            })
-        })
         .map_err(|error| error.to_string())?;
     let outcome = |fit: Fit| match (judge(&fit.estimates[1], b), fit.estimates[0].identifiable) {
         (Draw::Wrong, false) => Draw::HalfOpenWrong,
@@ -324,11 +318,11 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     let table = Table::new(6.0)?;
     let grid = Grid::fill(&table, 18, 15, 40)?;
     std::fs::write(out.join("stability-calibration.csv"), grid.csv()?)?;
-    let map = Map::of_classes(
+    let map = Chart::of_classes(
         "Calibration of μ_d and b from 30 readings in 60 passes: where b is identifiable",
-        GridAxis::logarithmic("true shape factor b, 1/m", grid.shape_factors.clone()),
-        GridAxis::logarithmic("standard deviation of the load cell, N", grid.noises.clone()),
-        NAMES.map(Class::new),
+        Axis::logarithmic("true shape factor b, 1/m").cells(grid.shape_factors.clone()),
+        Axis::logarithmic("standard deviation of the load cell, N").cells(grid.noises.clone()),
+        NAMES,
         grid.cells.iter().map(|cell| cell.outcome() as usize),
     );
     std::fs::write(out.join("stability-calibration.svg"), map.to_svg()?)?;

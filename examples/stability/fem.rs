@@ -9,7 +9,7 @@ use std::error::Error;
 use std::path::Path;
 
 use boussinesq::HalfSpace;
-use creepage::figure::{GridAxis, Panels};
+use creepage::figure::{Axis, Panels};
 use ground_field::{Base, Displacement, GroundError, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
 use layered_fem::LayeredFem;
 
@@ -158,10 +158,10 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         layered.csv("modulus_of_layer_over_base", "thickness_m", "0.5 %")?,
     )?;
     let contrast = |grid: &Grid| {
-        GridAxis::logarithmic("modulus of the layer over that of the half-space", grid.x.clone())
+        Axis::logarithmic("modulus of the layer over that of the half-space").cells(grid.x.clone())
     };
-    let ratio = GridAxis::names("Poisson's ratio", RATIOS.map(|ratio| ratio.to_string()));
-    let thickness = GridAxis::logarithmic("thickness of the layer, m", layered.y.clone());
+    let ratio = Axis::names("Poisson's ratio", RATIOS.map(|ratio| ratio.to_string()));
+    let thickness = Axis::logarithmic("thickness of the layer, m").cells(layered.y.clone());
     let panels = Panels::new(
         "Finite elements, duct at 1.2 m: outcome by contrast, Poisson's ratio and thickness of a layer",
     )

@@ -1,12 +1,12 @@
 //! Which passes an answer lists, and which of these a short table shows.
 
+#[cfg(any(feature = "cli", feature = "plot"))]
+use crate::shown::ROWS;
+
 /// The first passes are all listed, then each this much later than the one before.
 const GROWTH: f64 = 1.03;
 /// Leading digits of round numbers.
 const ROUND: [u64; 3] = [1, 2, 5];
-/// Rows of a table that is read at a glance.
-#[cfg(any(feature = "cli", feature = "plot"))]
-const ROWS: usize = 16;
 
 /// The first passes, then evenly growing numbers, round ones, and the last.
 pub fn listed(count: u64) -> Vec<u64> {

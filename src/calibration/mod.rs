@@ -21,7 +21,7 @@ mod watch;
 
 use ::calibrate::{Bootstrap, Calibration, Emulator, Fit, Model, Options, Prior, Profiles};
 
-pub use ::calibrate::{BootstrapOptions, CalibrationError, DataError, Loss, Reading, Readings, Resampling};
+pub use ::calibrate::{BootstrapOptions, CalibrationError, DataError, Loss, Reading, Readings};
 pub use result::{
     BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
 };
@@ -325,21 +325,19 @@ impl Ladder<'_> {
         let law = self.models.iter().any(|series| series.method == PassMethod::Law);
         let known = start.is_some();
         let start = start.unwrap_or_else(|| self.scene_values());
-        Ok(calibration.with_options(Options {
-            loss: self.options.loss,
-            start: Some(start),
-            scan: known.then_some(0),
-            restart: !known,
-            tolerance,
-            max_evaluations: self.limit.saturating_sub(evaluations).max(1),
-            relative_noise: if law {
-                LAW_RIPPLE
-            } else {
-                RIPPLE[model.rung.min(LAST_RUNG) as usize]
-            },
-            profiles,
-            ..Options::default()
-        })?)
+        let mut options = Options::default();
+        options.loss = self.options.loss;
+        options.start = Some(start);
+        options.scan = known.then_some(0);
+        options.tolerance = tolerance;
+        options.max_evaluations = self.limit.saturating_sub(evaluations).max(1);
+        options.relative_noise = if law {
+            LAW_RIPPLE
+        } else {
+            RIPPLE[model.rung.min(LAST_RUNG) as usize]
+        };
+        options.profiles = profiles;
+        Ok(calibration.with_options(options)?)
     }
 
     /// What the scenes say.

@@ -80,7 +80,7 @@ pub enum DesignError {
         crossings: usize,
     },
     /// The stiffness at a limit was not found.
-    #[error("the stiffness at the limit of {what} was not found: {source}")]
+    #[error("the stiffness at the limit of {what} was not found")]
     Search {
         /// Force or movement.
         what: &'static str,

@@ -26,7 +26,7 @@ const ELEMENTS_ACCURACY: (f64, f64) = (2e-4, 5e-3);
 #[cfg(feature = "fem")]
 const ELEMENTS_SHARE: f64 = 0.25;
 /// Sublayers of a layer whose modulus varies, to begin with, and the most of all layers together.
-const FEWEST_SUBLAYERS: usize = 8;
+const FEWEST_SUBLAYERS: usize = 16;
 const MOST_LAYERS: usize = 1000;
 /// Share of the tolerance that cutting a layer into sublayers may take.
 const SUBLAYERS_SHARE: f64 = 0.05;
@@ -148,7 +148,14 @@ impl Ground {
     fn graded(scene: &Scene, reach: f64) -> Result<Self, Error> {
         let reason = "the Hankel transform on uniform sublayers, twice as many until the motion is steady";
         let profile = &scene.ground.profile;
-        let sliced = |count| Self::layered(scene, &profile.sublayered(count)?, reason, reach);
+        let sliced = |count| {
+            Self::layered(
+                scene,
+                &profile.sublayered(count, scene.duct.depth)?,
+                reason,
+                reach,
+            )
+        };
         let mut count = FEWEST_SUBLAYERS;
         let mut ground = sliced(count)?;
         loop {

@@ -131,13 +131,13 @@ impl Levels {
     }
 
     /// Typical error of the force on `level`, as a share of it.
-    pub fn typical_error(&self, level: usize) -> f64 {
+    pub fn typical_error(level: usize) -> f64 {
         TYPICAL[level.min(FINEST)]
     }
 
     /// Error to expect on `level` before anything is computed; `None` on a mesh that the scene names.
     pub fn expected_error(&self, level: usize) -> Option<f64> {
-        (!self.named).then(|| self.typical_error(level))
+        (!self.named).then(|| Self::typical_error(level))
     }
 
     /// About how many nodes are solved for in `passes` passes on `level`, without inertia.

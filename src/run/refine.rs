@@ -8,8 +8,8 @@ use ground_field::DuctMotion;
 use super::passes::{Passes, simulate};
 use crate::answer::error::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use crate::ground::road;
-use crate::plan::{CableMethod, Plan};
-use crate::shown::share as percent;
+use crate::plan::{CableMethod, Levels, Plan};
+use crate::shown::percent;
 use crate::{Error, Progress, Scene};
 
 /// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
@@ -64,7 +64,7 @@ impl Refinement<'_> {
         loop {
             if passes.len() > 1 {
                 let outcomes: Vec<&[PassOutcome]> = passes.iter().map(|p| &p.outcomes[..]).collect();
-                error.mesh = of_mesh(&outcomes, levels.typical_error(level), scale);
+                error.mesh = of_mesh(&outcomes, Levels::typical_error(level), scale);
             }
             let last = &passes[passes.len() - 1];
             // A corner of an exact step is about as much work as a node.

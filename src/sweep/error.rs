@@ -59,7 +59,7 @@ pub enum SweepError {
         journal: String,
     },
     /// The journal cannot be opened, and so the output could not be written.
-    #[error("{journal}: cannot be written: {source}")]
+    #[error("{journal}: cannot be written")]
     Unwritable {
         /// The journal.
         journal: String,
@@ -67,7 +67,7 @@ pub enum SweepError {
         source: std::io::Error,
     },
     /// A file cannot be written or read back.
-    #[error("{file}: {source}")]
+    #[error("{file}: cannot be written or read")]
     File {
         /// The file.
         file: String,

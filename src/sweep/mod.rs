@@ -45,7 +45,7 @@ pub use run::{Evaluate, SweepOptions, SweepSummary};
 
 #[cfg(feature = "cli")]
 use crate::output::Kind;
-use crate::scene::SceneError;
+use crate::scene::{SceneError, WrongKind};
 use crate::{Scene, SceneFile};
 
 /// Most points of a sweep.
@@ -120,7 +120,11 @@ impl Sweep {
         };
         // A key that is none fails everywhere; what fails at some points only is recorded there.
         match sweep.scene(0) {
-            Err(error @ (SceneError::UnknownKey { .. } | SceneError::Override { .. })) => Err(error.into()),
+            Err(SceneError::Wrong(wrong))
+                if matches!(wrong.kind, WrongKind::UnknownKey { .. } | WrongKind::Override) =>
+            {
+                Err(SceneError::Wrong(wrong).into())
+            }
             _ => Ok(sweep),
         }
     }

@@ -14,6 +14,7 @@ use super::journal::Journal;
 use super::row::{Answer, Row};
 use super::table::{self, Cell, Column, Format, Kind, Sink};
 use super::{AxisValues, Sweep, SweepError};
+use crate::error::with_causes;
 use crate::output::{Files, Output};
 use crate::{Error, Progress, Run, Scene, finite};
 
@@ -128,7 +129,7 @@ impl Sweep {
         let outcome = match catch_unwind(AssertUnwindSafe(compute)) {
             Ok(Ok(Some(answer))) => Ok(answer),
             Ok(Ok(None)) => Err("no pass was computed".to_owned()),
-            Ok(Err(error)) => Err(error.to_string()),
+            Ok(Err(error)) => Err(with_causes(&error)),
             Err(_) => Err("the computation broke off".to_owned()),
         };
         Row { index, outcome }

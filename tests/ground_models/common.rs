@@ -1,6 +1,6 @@
 //! Grounds, lines of displacements and how far two of them are apart.
 
-use ground_field::{Base, Displacement, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
+use ground_field::{Base, Displacement, GroundField, Soil, SoilProfile, SurfaceLoad};
 use proptest::prelude::*;
 pub use testkit::soil;
 

@@ -166,11 +166,11 @@ fn the_equivalent_thickness_of_too_many_layers_is_refused() {
     let layers = [edited.ground.profile.layers(), edited.ground.profile.layers()].concat();
     edited.ground.profile =
         ground_field::SoilProfile::new(layers, ground_field::Base::Rigid).expect("a profile");
-    let refused = creepage::plan(&edited).err().expect("too many layers");
+    let refused = creepage::plan(&edited).expect_err("too many layers");
     assert!(
         matches!(
             &refused,
-            creepage::Error::Scene(creepage::SceneError::Value { key, .. }) if key == "ground.model"
+            creepage::Error::Scene(creepage::SceneError::Wrong(wrong)) if wrong.key == "ground.model"
         ),
         "{refused}"
     );
@@ -189,7 +189,7 @@ fn a_modulus_that_varies_moves_the_duct_as_finite_elements_say() {
             )
         };
         let profile = |model: &str| {
-            let text = on(&ground(model), POINT, &with_tolerance(0.001));
+            let text = on(&ground(model), POINT, &with_tolerance(0.004));
             creepage::profile(&Scene::from_toml("scene", &text).expect("a valid scene")).expect("a profile")
         };
         let (sublayers, elements) = (profile("auto"), profile("fem"));
@@ -201,7 +201,7 @@ fn a_modulus_that_varies_moves_the_duct_as_finite_elements_say() {
         let peak = pairs().fold(0.0_f64, |peak, (d, _)| peak.max(d.abs()));
         let off = pairs().fold(0.0_f64, |off, (a, b)| off.max((a - b).abs()));
         // What both are asked for at this tolerance.
-        assert!(off < (5e-5 + 2.5e-4) * peak, "{:e} of the peak", off / peak);
+        assert!(off < (2e-4 + 1e-3) * peak, "{:e} of the peak", off / peak);
     }
 }
 

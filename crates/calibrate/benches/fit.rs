@@ -32,10 +32,8 @@ fn bench(criterion: &mut Criterion) {
     let model = |parameters: &[f64]| Ok::<_, ModelError>(force(parameters));
     let model: &dyn Model = &model;
     let calibration = |profiles| {
-        let options = Options {
-            profiles,
-            ..Options::default()
-        };
+        let mut options = Options::default();
+        options.profiles = profiles;
         Calibration::new(model, parameters(), observations())
             .and_then(|calibration| calibration.with_options(options))
             .expect("a calibration")

@@ -5,36 +5,25 @@
 //! Priors are drawn anew as well. Replicates run in parallel; the same seed draws the same replicates.
 
 use fastrand::Rng;
-use nalgebra::DVector;
 use rayon::prelude::*;
+use statrs::distribution::{ContinuousCDF, Normal};
+use statrs::statistics::{Data, Distribution, OrderStatistics};
 
-use crate::evaluator::{Evaluator, feasible};
+use crate::evaluator::feasible;
 use crate::fit::{Fit, Interval};
-use crate::search::{Point, Search};
+use crate::point::Point;
 use crate::{Calibration, CalibrationError, Parameter, Prior};
 
 /// Share of replicates that may fail.
 const MOST_FAILED: f64 = 0.1;
 
-/// Where the noise of a replicate comes from.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Resampling {
-    /// The fit's own residuals, drawn with replacement.
-    #[default]
-    Residuals,
-    /// Gaussian noise of the fit's standard deviation.
-    Gaussian,
-}
-
-/// How to draw replicates.
+/// How to draw replicates: each takes the fit's own residuals, drawn with replacement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct BootstrapOptions {
-    /// How many.
+    /// Number of replicates, at least 10.
     pub replicates: usize,
-    /// Seed of the generator.
+    /// Seed of the random generator.
     pub seed: u64,
-    /// Where their noise comes from.
-    pub resampling: Resampling,
 }
 
 /// Replicated estimates.
@@ -77,10 +66,8 @@ impl Calibration<'_> {
         }
         let mut seeds = Rng::with_seed(options.seed);
         let seeds: Vec<u64> = (0..options.replicates).map(|_| seeds.u64(..)).collect();
-        let replicates: Vec<(usize, Result<Vec<f64>, CalibrationError>)> = seeds
-            .par_iter()
-            .map(|&seed| self.replicate(fit, options.resampling, seed))
-            .collect();
+        let replicates: Vec<(usize, Result<Vec<f64>, CalibrationError>)> =
+            seeds.par_iter().map(|&seed| self.replicate(fit, seed)).collect();
         let evaluations = replicates.iter().map(|(runs, _)| runs).sum();
         let mut samples = Vec::new();
         let mut failure = None;
@@ -100,20 +87,18 @@ impl Calibration<'_> {
                 source: Box::new(source),
             });
         }
-        let tail = 0.5 * (1.0 - self.options().confidence);
-        let columns: Vec<Vec<f64>> = (0..self.parameters().len())
-            .map(|k| {
-                let mut column: Vec<f64> = samples.iter().map(|sample| sample[k]).collect();
-                column.sort_unstable_by(f64::total_cmp);
-                column
-            })
+        let columns: Vec<Data<Vec<f64>>> = (0..self.parameters().len())
+            .map(|k| Data::new(samples.iter().map(|sample| sample[k]).collect()))
             .collect();
         Ok(Bootstrap {
-            standard_errors: columns.iter().map(|column| standard_deviation(column)).collect(),
-            intervals: columns
+            standard_errors: columns
                 .iter()
+                .map(|column| column.std_dev().unwrap_or(0.0))
+                .collect(),
+            intervals: columns
+                .into_iter()
                 .zip(self.parameters())
-                .map(|(column, parameter)| percentiles(column, parameter, tail))
+                .map(|(column, parameter)| self.percentiles(column, parameter))
                 .collect(),
             samples,
             failed,
@@ -121,102 +106,57 @@ impl Calibration<'_> {
         })
     }
 
+    fn percentiles(&self, mut sample: Data<Vec<f64>>, parameter: &Parameter) -> Interval {
+        let tail = 0.5 * (1.0 - self.options().confidence);
+        let [lower, upper] = [tail, 1.0 - tail].map(|share| {
+            let value = sample.quantile(share);
+            (!parameter.is_at_bound(value)).then_some(value)
+        });
+        Interval { lower, upper }
+    }
+
     /// One refit; model runs and the values found.
-    fn replicate(
-        &self,
-        fit: &Fit,
-        resampling: Resampling,
-        seed: u64,
-    ) -> (usize, Result<Vec<f64>, CalibrationError>) {
+    fn replicate(&self, fit: &Fit, seed: u64) -> (usize, Result<Vec<f64>, CalibrationError>) {
         let mut random = Rng::with_seed(seed);
         let units = self.units();
         // Residuals are smaller than the noise by the parameters' share.
         let count = fit.residuals.len();
         let lost = (count as f64 / fit.degrees_of_freedom.max(0.5)).sqrt();
-        let values: Vec<f64> = fit
-            .fitted
-            .iter()
-            .zip(&units)
-            .map(|(fitted, unit)| {
-                let noise = match resampling {
-                    Resampling::Gaussian => fit.noise * gaussian(&mut random),
-                    Resampling::Residuals => {
-                        let drawn = random.usize(..count);
-                        lost * fit.residuals[drawn] / units[drawn]
-                    }
-                };
-                fitted + unit * noise
-            })
-            .collect();
-        let parameters: Vec<Parameter> = self
-            .parameters()
-            .iter()
-            .map(|parameter| {
-                let drawn = parameter.prior().and_then(|prior| {
-                    let moved = parameter.coordinate(prior.value) + prior.sigma * gaussian(&mut random);
-                    let value = parameter.value(moved);
-                    parameter.clone().with_prior(Prior { value, ..prior }).ok()
-                });
-                drawn.unwrap_or_else(|| parameter.clone())
-            })
-            .collect();
-        let options = self.options();
-        let evaluator = Evaluator::new(
-            self.model(),
-            &parameters,
-            &values,
-            &units,
-            options.relative_noise,
-            options.max_evaluations,
-        );
-        let search = Search {
-            evaluator: &evaluator,
-            observer: None,
-            known_noise: self.sigmas().is_some() && !fit.noise_estimated,
-            tolerance: options.tolerance,
-            loss: options.loss,
-            dear: true,
-            least_noise: self.least_noise(&units),
-        };
-        let free = DVector::from_column_slice(&fit.free);
-        let found = evaluator.residuals(&free).and_then(|residuals| {
+        let mut drawn = self.clone();
+        for ((value, fitted), unit) in drawn.observations.iter_mut().zip(&fit.fitted).zip(&units) {
+            let index = random.usize(..count);
+            *value = fitted + unit * lost * fit.residuals[index] / units[index];
+        }
+        for parameter in &mut drawn.parameters {
+            if let Some(prior) = parameter.prior() {
+                let moved = Normal::standard().inverse_cdf(random.f64());
+                let value = parameter.value(parameter.coordinate(prior.value) + prior.sigma * moved);
+                // A prior beyond the bounds stays where it was.
+                if let Ok(other) = parameter.clone().with_prior(Prior { value, ..prior }) {
+                    *parameter = other;
+                }
+            }
+        }
+        drawn.options.observer = None;
+        let evaluator = drawn.evaluator(&units, self.options().max_evaluations);
+        let found = || {
+            let residuals = evaluator.residuals(&fit.free)?;
             if !feasible(&residuals) {
                 return Err(CalibrationError::NoFeasibleStart {
                     starts: 1,
                     source: evaluator.last_failure(),
                 });
             }
-            let optimum = search.refine(Point { free, residuals }, Some(fit.jacobian.clone()))?;
+            let start = Point {
+                free: fit.free.clone(),
+                residuals,
+            };
+            let mut search = drawn.search(&evaluator);
+            search.known_noise &= !fit.noise_estimated;
+            let optimum = search.refine(start, Some(fit.jacobian.clone()))?;
             Ok(evaluator.physical(&optimum.point.free))
-        });
+        };
+        let found = found();
         (evaluator.count(), found)
-    }
-}
-
-/// A standard normal number (G. E. P. Box, M. E. Muller, Annals of Mathematical Statistics 29, 1958).
-fn gaussian(random: &mut Rng) -> f64 {
-    let radius = (-2.0 * (1.0 - random.f64()).ln()).sqrt();
-    radius * (std::f64::consts::TAU * random.f64()).cos()
-}
-
-fn standard_deviation(sample: &[f64]) -> f64 {
-    let count = sample.len() as f64;
-    let mean = sample.iter().sum::<f64>() / count;
-    let square: f64 = sample.iter().map(|value| (value - mean).powi(2)).sum();
-    (square / (count - 1.0)).sqrt()
-}
-
-/// Percentiles of an ascending sample.
-fn percentiles(sample: &[f64], parameter: &Parameter, tail: f64) -> Interval {
-    let at = |share: f64| {
-        let place = share * (sample.len() - 1) as f64;
-        let (low, rest) = (place.floor() as usize, place.fract());
-        let high = (low + 1).min(sample.len() - 1);
-        let value = sample[low] + rest * (sample[high] - sample[low]);
-        (!parameter.is_at_bound(value)).then_some(value)
-    };
-    Interval {
-        lower: at(tail),
-        upper: at(1.0 - tail),
     }
 }

@@ -6,7 +6,7 @@ use crate::evaluator::Evaluator;
 use crate::solution::Route;
 use crate::{CalibrationError, Fit, Model, Options, Parameter};
 
-/// Scanned points: so many, and so many more a parameter.
+/// Scanned points for each parameter and one more.
 const SCAN: usize = 8;
 /// Least noise of the model itself, as a share of its largest prediction: rounding.
 const ROUNDING: f64 = 1e-12;
@@ -15,10 +15,10 @@ const ROUNDING: f64 = 1e-12;
 #[derive(Clone)]
 pub struct Calibration<'a> {
     model: &'a dyn Model,
-    parameters: Vec<Parameter>,
-    observations: Vec<f64>,
+    pub(crate) parameters: Vec<Parameter>,
+    pub(crate) observations: Vec<f64>,
     sigmas: Option<Vec<f64>>,
-    options: Options,
+    pub(crate) options: Options,
 }
 
 impl<'a> Calibration<'a> {
@@ -103,10 +103,6 @@ impl<'a> Calibration<'a> {
         &self.observations
     }
 
-    pub(crate) fn model(&self) -> &'a dyn Model {
-        self.model
-    }
-
     pub(crate) fn sigmas(&self) -> Option<&[f64]> {
         self.sigmas.as_deref()
     }
@@ -146,11 +142,10 @@ impl<'a> Calibration<'a> {
         let evaluator = self.evaluator(&units, options.max_evaluations);
         let start = options.start.as_ref().map(|start| self.free(start));
         let route = Route {
-            scan: if start_only(options) { 0 } else { self.scan() },
+            scan: self.scan(),
             start,
-            restart: options.restart,
-            profiles: &options.profiles,
-            dear: true,
+            profiles: options.profiles,
+            starts: 0,
         };
         let solution = self.solve(&evaluator, &route)?;
         Ok(self.answer(&evaluator, solution))
@@ -201,9 +196,4 @@ impl<'a> Calibration<'a> {
             }),
         )
     }
-}
-
-/// A start and nothing else.
-fn start_only(options: &Options) -> bool {
-    options.start.is_some() && options.scan == Some(0)
 }

@@ -1,9 +1,9 @@
-//! A smooth stand-in for a model that is dear to run: kriging through its runs.
+//! A smooth emulator of a model that is expensive to run: kriging through its runs.
 //!
 //! The predictions are Gaussian processes over the parameters' shares of their ranges: a mean, and deviations from it whose
 //! correlation falls with the distance by B. Matérn's function of order 5/2 (J. Sacks, W. J. Welch, T. J. Mitchell, H. P. Wynn, "Design and Analysis of Computer
 //! Experiments", Statistical Science 4, 1989; C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, 2006, chapter
-//! 2 and equation 4.17). A stand-in for a coarser model serves as the mean of a finer one, whose difference from it takes few
+//! 2 and equation 4.17). An emulator of a coarser model serves as the mean of a finer one, whose difference from it takes few
 //! runs to learn (M. C. Kennedy, A. O'Hagan, "Predicting the output from a complex computer code when fast approximations are
 //! available", Biometrika 87, 2000).
 //!
@@ -22,11 +22,8 @@ const SAME: f64 = 1e-9;
 /// Nugget, in the variance of the predictions: runs closer than a few ten-thousandths of the ranges are averaged, because ripple is most of
 /// what tells them apart. A larger one, such as the ripple itself measures, would take what a model really does at short range for noise.
 const NUGGET: f64 = 1e-8;
-/// Factor by which it grows where the solution fails, and from where on nothing is left to be told from the mean.
-const GROWTH: f64 = 100.0;
-const LARGEST: f64 = 1e6;
 
-/// A stand-in for a model, learned from its runs by [`Calibration::fit_emulated`](crate::Calibration::fit_emulated).
+/// An emulator of a model, learned from its runs by [`Calibration::fit_emulated`](crate::Calibration::fit_emulated).
 #[derive(Debug, Clone)]
 pub struct Emulator {
     parameters: Vec<Parameter>,
@@ -171,22 +168,13 @@ impl Emulator {
         let correlations = DMatrix::from_fn(count, count, |i, j| {
             correlation((&self.places[i] - &self.places[j]).norm())
         });
-        let mut nugget = NUGGET;
         // A larger nugget makes the matrix positive definite whatever the rounding; only places that are no numbers defy it.
-        let solved = loop {
-            let mut matrix = correlations.clone();
-            for i in 0..count {
-                matrix[(i, i)] += nugget;
-            }
-            match Cholesky::new(matrix) {
-                Some(solved) => break solved,
-                None if nugget > LARGEST => {
-                    self.mean = missed.row_mean().transpose();
-                    self.weights = DMatrix::zeros(count, width);
-                    return;
-                }
-                None => nugget *= GROWTH,
-            }
+        let factor =
+            |nugget| Cholesky::new(&correlations + DMatrix::from_diagonal_element(count, count, nugget));
+        let Some(solved) = [NUGGET, 1e-6, 1e-4, 1e-2, 1.0].into_iter().find_map(factor) else {
+            self.mean = missed.row_mean().transpose();
+            self.weights = DMatrix::zeros(count, width);
+            return;
         };
         let ones = solved.solve(&DVector::from_element(count, 1.0));
         self.mean = missed.tr_mul(&ones) / ones.sum();

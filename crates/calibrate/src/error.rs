@@ -76,7 +76,7 @@ pub enum CalibrationError {
         found: usize,
     },
     /// The model failed at every start.
-    #[error("the model has no answer at any of {starts} starts; the last one failed: {source}")]
+    #[error("the model has no answer at any of {starts} starts")]
     NoFeasibleStart {
         /// Number of starts.
         starts: usize,
@@ -84,9 +84,7 @@ pub enum CalibrationError {
         source: ModelError,
     },
     /// The model failed on both sides of a point, so that it has no derivative there.
-    #[error(
-        "the model has no answer on either side of {name} = {value}, where a derivative is needed: {source}"
-    )]
+    #[error("the model has no answer on either side of {name} = {value}, where a derivative is needed")]
     NoDerivative {
         /// The parameter.
         name: String,
@@ -106,14 +104,14 @@ pub enum CalibrationError {
         /// Length of the next step in standard errors.
         offset: f64,
     },
-    /// So many model runs were not enough.
+    /// The model runs that were allowed are spent.
     #[error("{limit} model runs are not enough")]
     EvaluationLimit {
-        /// Most model runs allowed.
+        /// Largest number of model runs.
         limit: usize,
     },
     /// Too many replicates of the bootstrap could not be fitted.
-    #[error("{failed} of {replicates} replicates could not be fitted; the last one: {source}")]
+    #[error("{failed} of {replicates} replicates could not be fitted")]
     Bootstrap {
         /// Replicates that failed.
         failed: usize,
@@ -122,15 +120,23 @@ pub enum CalibrationError {
         /// Why the last one failed.
         source: Box<CalibrationError>,
     },
+    /// The observer stopped the fit.
+    #[error("the fit was stopped")]
+    Stopped,
     /// The optimiser failed for a reason of its own.
-    #[error("the optimiser failed: {source}")]
+    #[error("the optimiser failed")]
     Optimiser {
         /// Why.
-        source: argmin::core::Error,
+        source: Box<dyn std::error::Error + Send + Sync>,
     },
 }
 
 impl CalibrationError {
+    /// Whether no other start can help.
+    pub(crate) fn is_final(&self) -> bool {
+        matches!(self, Self::EvaluationLimit { .. } | Self::Stopped)
+    }
+
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
         matches!(
@@ -143,14 +149,5 @@ impl CalibrationError {
                 | Self::TooFewObservations { .. }
                 | Self::PredictionLength { .. }
         )
-    }
-}
-
-/// Errors that have passed through the optimiser come out as they went in.
-impl From<argmin::core::Error> for CalibrationError {
-    fn from(error: argmin::core::Error) -> Self {
-        error
-            .downcast::<Self>()
-            .unwrap_or_else(|source| Self::Optimiser { source })
     }
 }

@@ -10,11 +10,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use crate::point::Point;
 use crate::{CalibrationError, Model, ModelError, Parameter};
 
-/// Smallest and largest step of a derivative by rounding, in the free variable, and the largest by noise.
-const STEPS: (f64, f64) = (1e-4, 0.05);
-const LONGEST_STEP: f64 = 0.5;
+/// Smallest and largest step of a derivative, in the free variable: rounding spoils shorter ones, curvature longer ones.
+const STEPS: (f64, f64) = (1e-4, 0.5);
 /// Change of the residuals over a step, in their noise.
 const CHANGE_TO_NOISE: f64 = 5.0;
 
@@ -50,6 +50,18 @@ impl<'a> Evaluator<'a> {
             count: AtomicUsize::new(0),
             failure: Mutex::new(None),
         }
+    }
+
+    /// The same for an emulator of the model: smooth, and free to run.
+    pub fn of(&self, emulator: &'a dyn Model) -> Self {
+        Self::new(
+            emulator,
+            self.parameters,
+            self.values,
+            self.sigmas,
+            0.0,
+            usize::MAX,
+        )
     }
 
     /// Model runs so far.
@@ -115,29 +127,27 @@ impl<'a> Evaluator<'a> {
         DVector::from_vec(data.chain(priors).collect())
     }
 
-    /// The predictions that have these residuals.
-    pub fn predicted(&self, residuals: &DVector<f64>) -> Vec<f64> {
-        residuals
-            .iter()
-            .zip(self.values)
-            .zip(self.sigmas)
-            .map(|((residual, observed), sigma)| observed + sigma * residual)
-            .collect()
+    /// The residuals at many places, in parallel.
+    pub fn points(&self, places: Vec<DVector<f64>>) -> Result<Vec<Point>, CalibrationError> {
+        let point = |free| {
+            let residuals = self.residuals(&free)?;
+            Ok(Point { free, residuals })
+        };
+        places.into_par_iter().map(point).collect()
     }
 
-    /// Residuals at many points, in parallel.
-    pub fn all(&self, points: &[DVector<f64>]) -> Result<Vec<DVector<f64>>, CalibrationError> {
-        points.par_iter().map(|point| self.residuals(point)).collect()
-    }
-
-    /// Steps of derivatives: `slopes` are the norms of the weighted residuals' derivatives where something is known of them.
-    pub fn steps(&self, weights: &DVector<f64>, slopes: Option<&[f64]>) -> Vec<f64> {
+    /// Steps of derivatives; where derivatives `near` here are known, so long that the model's noise stays small beside the change.
+    pub fn steps(&self, weights: &DVector<f64>, near: Option<&DMatrix<f64>>) -> Vec<f64> {
         let least = self.relative_noise.cbrt().clamp(STEPS.0, STEPS.1);
         let noise = CHANGE_TO_NOISE * self.noise(weights);
+        let slope = |near: &DMatrix<f64>, k: usize| {
+            let column = near.column(k);
+            column.component_mul(&column).dot(weights).sqrt()
+        };
         (0..self.parameters.len())
-            .map(|k| match slopes {
-                Some(slopes) if slopes[k] > 0.0 => (noise / slopes[k]).clamp(least, LONGEST_STEP),
-                Some(_) => LONGEST_STEP,
+            .map(|k| match near.map(|near| slope(near, k)) {
+                Some(slope) if slope > 0.0 => (noise / slope).clamp(least, STEPS.1),
+                Some(_) => STEPS.1,
                 None => least,
             })
             .collect()
@@ -155,15 +165,15 @@ impl<'a> Evaluator<'a> {
         square.sqrt()
     }
 
-    /// Derivatives of the residuals by the free variables over `steps`; columns of those that are `fixed` are 0.
+    /// Derivatives of the residuals by the free variables over `steps`; the column of one that is `held` is 0.
     pub fn jacobian(
         &self,
         free: &DVector<f64>,
         steps: &[f64],
-        fixed: &[bool],
+        held: Option<usize>,
     ) -> Result<DMatrix<f64>, CalibrationError> {
-        let moving: Vec<usize> = (0..free.len()).filter(|&k| !fixed[k]).collect();
-        let points: Vec<DVector<f64>> = moving
+        let moving: Vec<usize> = (0..free.len()).filter(|&k| Some(k) != held).collect();
+        let places = moving
             .iter()
             .flat_map(|&k| [(k, steps[k]), (k, -steps[k])])
             .map(|(k, step)| {
@@ -172,7 +182,11 @@ impl<'a> Evaluator<'a> {
                 point
             })
             .collect();
-        let residuals = self.all(&points)?;
+        let residuals: Vec<DVector<f64>> = self
+            .points(places)?
+            .into_iter()
+            .map(|point| point.residuals)
+            .collect();
         let mut middle = None;
         let rows = residuals.first().map_or(0, DVector::len);
         let mut jacobian = DMatrix::zeros(rows, free.len());

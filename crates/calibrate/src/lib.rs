@@ -39,39 +39,42 @@
 //! # Ok::<(), calibrate::CalibrationError>(())
 //! ```
 
+mod answer;
 mod bootstrap;
 mod calibration;
-mod compass;
 mod data;
+mod descent;
 mod deviance;
 mod emulated;
 mod emulator;
 mod error;
 mod evaluator;
 mod fit;
-mod levenberg_marquardt;
+mod interval;
 mod loss;
 mod model;
+mod observer;
 mod options;
 mod parameter;
-mod profile;
+mod point;
 mod search;
 mod solution;
-mod station;
+mod step;
 mod uncertainty;
-mod valley;
+mod warning;
 
-pub use bootstrap::{Bootstrap, BootstrapOptions, Resampling};
+pub use bootstrap::{Bootstrap, BootstrapOptions};
 pub use calibration::Calibration;
 pub use data::{DataError, Reading, Readings};
 pub use emulator::Emulator;
 pub use error::CalibrationError;
-pub use fit::{Estimate, Fit, Interval, Warning};
+pub use fit::{Estimate, Fit, Interval};
 pub use loss::Loss;
 pub use model::{Model, ModelError};
+pub use observer::{Observer, Progress};
 pub use options::{Options, Profiles};
 pub use parameter::{Parameter, Prior, Scale};
-pub use search::{Observer, Progress};
+pub use warning::Warning;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -1,22 +1,30 @@
 //! How to fit.
 
-use crate::search::Observer;
+use crate::observer::Observer;
 use crate::{CalibrationError, Loss};
 
-/// Of which parameters the interval is a profile of the likelihood; the others' are symmetric in their coordinate.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+/// What the intervals are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Profiles {
-    /// Of all.
+    /// Profiles of the likelihood.
     #[default]
     All,
-    /// Of these.
-    Of(Vec<String>),
-    /// Of none: a rough answer for few model runs.
+    /// Symmetric in each parameter's coordinate: a rough answer for few model runs.
     None,
 }
 
 /// How to fit.
+///
+/// ```
+/// use calibrate::{Loss, Options};
+///
+/// let mut options = Options::default();
+/// options.loss = Loss::TUKEY;
+/// options.confidence = 0.9;
+/// ```
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Options {
     /// How much residuals count.
     pub loss: Loss,
@@ -24,9 +32,7 @@ pub struct Options {
     pub start: Option<Vec<f64>>,
     /// Points all over the range that are tried beside the start; `None` takes eight a parameter and eight more.
     pub scan: Option<usize>,
-    /// Descend from a second point as well, to see whether it leads lower.
-    pub restart: bool,
-    /// Most model runs.
+    /// Largest number of model runs.
     pub max_evaluations: usize,
     /// Noise of the model's predictions as a share of them: rounding, or the ripple of a mesh. It sets the step of derivatives.
     pub relative_noise: f64,
@@ -34,9 +40,9 @@ pub struct Options {
     pub tolerance: f64,
     /// Probability that an interval holds the true value.
     pub confidence: f64,
-    /// Which intervals are profiles.
+    /// What the intervals are.
     pub profiles: Profiles,
-    /// Hears of every iteration.
+    /// Called after each iteration.
     pub observer: Option<Observer>,
 }
 
@@ -46,7 +52,6 @@ impl Default for Options {
             loss: Loss::Squares,
             start: None,
             scan: None,
-            restart: true,
             max_evaluations: 2000,
             relative_noise: 1e-9,
             tolerance: 0.02,

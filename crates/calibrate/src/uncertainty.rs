@@ -8,10 +8,9 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 use crate::deviance::{Deviance, information};
 
-/// Eigenvalues of the information, scaled to a unit diagonal, below which a direction counts as unknown.
+/// Eigenvalues of the information, scaled to a unit diagonal, below which a direction counts as unknown: rounding makes no larger ones. A
+/// parameter with more than its fourth root in such a direction is unknown.
 const UNKNOWN: f64 = 1e-12;
-/// Share of an unknown direction that makes a parameter unknown.
-const INVOLVED: f64 = 1e-4;
 
 /// Covariance of the free variables.
 #[derive(Debug, Clone)]
@@ -46,7 +45,7 @@ impl Covariance {
                 matrix += direction * direction.transpose() / value;
             } else {
                 for (known, share) in known.iter_mut().zip(direction.iter()) {
-                    *known &= share.abs() < INVOLVED;
+                    *known &= share * share < UNKNOWN.sqrt();
                 }
             }
         }
@@ -66,6 +65,16 @@ impl Covariance {
     /// Standard error of a free variable.
     pub fn standard_error(&self, k: usize) -> Option<f64> {
         self.known[k].then(|| self.matrix[(k, k)].max(0.0).sqrt())
+    }
+
+    /// How the other free variables follow that of `k`, to first order.
+    pub fn drift(&self, k: usize) -> DVector<f64> {
+        let own = self.matrix[(k, k)];
+        if own > 0.0 {
+            self.matrix.column(k) / own
+        } else {
+            DVector::zeros(self.matrix.nrows())
+        }
     }
 
     /// Correlation of two.
@@ -89,16 +98,15 @@ pub(crate) fn parameters_from_data(
     jacobian.ncols() as f64 - (covariance.matrix * priors.transpose() * priors).trace()
 }
 
-/// Degrees of freedom for which Student's quantile is searched: with fewer it is beyond any number of use, with more it is Gauss's. The
-/// search does not end far outside.
-const FREEDOM: std::ops::RangeInclusive<f64> = 0.5..=1e6;
+/// Degrees of freedom from which Student's t is Gauss's: statrs does not end its search for a quantile with many more.
+const MANY: f64 = 1e6;
 
-/// The value that a standardised estimate exceeds with probability `tail`: Student's t where the noise was estimated with so
-/// many degrees of freedom, of [`FREEDOM`] at least, else Gauss's.
+/// The value that a standardised estimate exceeds with probability `tail`: Student's t where the noise was estimated with this many
+/// degrees of freedom, at least a half, else Gauss's.
 pub(crate) fn quantile(tail: f64, degrees_of_freedom: Option<f64>) -> f64 {
     let student = degrees_of_freedom
-        .filter(|freedom| freedom <= FREEDOM.end())
-        .and_then(|freedom| StudentsT::new(0.0, 1.0, freedom.max(*FREEDOM.start())).ok());
+        .filter(|&freedom| freedom <= MANY)
+        .and_then(|freedom| StudentsT::new(0.0, 1.0, freedom.max(0.5)).ok());
     match student {
         Some(student) => student.inverse_cdf(1.0 - tail),
         None => Normal::standard().inverse_cdf(1.0 - tail),

@@ -2,18 +2,14 @@
 
 mod common;
 
-use calibrate::{
-    BootstrapOptions, Calibration, CalibrationError, Loss, Model, ModelError, Observer, Options, Parameter,
-    Prior, Profiles, Resampling, Scale, Warning,
-};
-use common::{noisy, passes, saturation, saturation_parameters, two_minima};
+use std::error::Error;
+use std::ops::ControlFlow;
 
-fn options(loss: Loss) -> Options {
-    Options {
-        loss,
-        ..Options::default()
-    }
-}
+use calibrate::{
+    BootstrapOptions, Calibration, CalibrationError, Loss, Model, ModelError, Observer, Parameter, Prior,
+    Profiles, Scale, Warning,
+};
+use common::{noisy, options, passes, saturation, saturation_parameters, two_minima};
 
 #[test]
 fn exact_data_return_the_parameters() {
@@ -103,10 +99,7 @@ fn covariance_is_that_of_the_analytic_jacobian() {
             .unwrap()
             .with_sigmas(vec![sigma; n.len()])
             .unwrap()
-            .with_options(Options {
-                relative_noise,
-                ..Options::default()
-            })
+            .with_options(options(|options| options.relative_noise = relative_noise))
             .unwrap()
             .fit()
             .unwrap();
@@ -239,7 +232,7 @@ fn outliers_hardly_move_a_robust_fit() {
         let force = |data: &[f64], loss| {
             let fit = Calibration::new(&model, saturation_parameters(), data.to_vec())
                 .unwrap()
-                .with_options(options(loss))
+                .with_options(options(|options| options.loss = loss))
                 .unwrap()
                 .fit()
                 .unwrap();
@@ -270,7 +263,7 @@ fn robust_intervals_cover_the_truth() {
     for seed in 0..200 {
         let fit = Calibration::new(&model, saturation_parameters(), noisy(&exact, 8.0, 7000 + seed))
             .unwrap()
-            .with_options(options(Loss::HUBER))
+            .with_options(options(|options| options.loss = Loss::HUBER))
             .unwrap()
             .fit()
             .unwrap();
@@ -323,10 +316,7 @@ fn many_minima_do_not_trap_the_fit() {
     ];
     let fit = Calibration::new(&model, parameters, data)
         .unwrap()
-        .with_options(Options {
-            scan: Some(200),
-            ..Options::default()
-        })
+        .with_options(options(|options| options.scan = Some(200)))
         .unwrap()
         .fit()
         .unwrap();
@@ -405,7 +395,8 @@ fn a_model_that_always_fails_is_an_error_with_its_reason() {
         matches!(&error, CalibrationError::NoFeasibleStart { starts: 24, .. }),
         "{error}"
     );
-    assert!(error.to_string().contains("no equilibrium"));
+    let reason = error.source().map(ToString::to_string);
+    assert!(reason.is_some_and(|reason| reason.contains("no equilibrium")));
 }
 
 /// What an error of the model does to the parameters, against a fit of the wrong model.
@@ -453,27 +444,23 @@ fn bootstrap_of_a_mean() {
     let variance = data.iter().map(|y| (y - mean).powi(2)).sum::<f64>() / 49.0;
     let error = (variance / 50.0).sqrt();
     assert!((fit.estimates[0].standard_error.unwrap() / error - 1.0).abs() < 1e-3);
-    for resampling in [Resampling::Residuals, Resampling::Gaussian] {
-        let options = BootstrapOptions {
-            replicates: 1000,
-            seed: 3,
-            resampling,
-        };
-        let bootstrap = calibration.bootstrap(&fit, &options).unwrap();
-        // The standard error of a standard deviation from 1000 samples is 2.2 %.
-        assert!(
-            (bootstrap.standard_errors[0] / error - 1.0).abs() < 0.08,
-            "{bootstrap:?}"
-        );
-        let interval = bootstrap.intervals[0];
-        assert!((interval.lower.unwrap() - (mean - 1.96 * error)).abs() < 0.3 * error);
-        assert!((interval.upper.unwrap() - (mean + 1.96 * error)).abs() < 0.3 * error);
-        assert_eq!(bootstrap, calibration.bootstrap(&fit, &options).unwrap());
-    }
+    let options = BootstrapOptions {
+        replicates: 1000,
+        seed: 3,
+    };
+    let bootstrap = calibration.bootstrap(&fit, &options).unwrap();
+    // The standard error of a standard deviation from 1000 samples is 2.2 %.
+    assert!(
+        (bootstrap.standard_errors[0] / error - 1.0).abs() < 0.08,
+        "{bootstrap:?}"
+    );
+    let interval = bootstrap.intervals[0];
+    assert!((interval.lower.unwrap() - (mean - 1.96 * error)).abs() < 0.3 * error);
+    assert!((interval.upper.unwrap() - (mean + 1.96 * error)).abs() < 0.3 * error);
+    assert_eq!(bootstrap, calibration.bootstrap(&fit, &options).unwrap());
     let few = BootstrapOptions {
         replicates: 3,
         seed: 3,
-        resampling: Resampling::Gaussian,
     };
     assert!(matches!(
         calibration.bootstrap(&fit, &few),
@@ -501,36 +488,39 @@ fn limits_are_kept_and_observers_hear() {
             .with_options(options)
             .unwrap()
     };
-    let fit = calibration(Options {
-        observer: Some(Observer::new(move |progress| {
+    let fit = calibration(options(|options| {
+        options.observer = Some(Observer::new(move |progress| {
             assert!(progress.parameters.len() == 2 && progress.deviance.is_finite());
             listener.fetch_add(1, Ordering::Relaxed);
-        })),
-        ..Options::default()
-    })
+            ControlFlow::Continue(())
+        }));
+    }))
     .fit()
     .unwrap();
     assert_eq!(fit.evaluations, runs.load(Ordering::Relaxed));
     assert!(fit.evaluations <= 120, "{}", fit.evaluations);
     assert!(heard.load(Ordering::Relaxed) as u64 >= fit.iterations);
 
-    let limited = Options {
-        max_evaluations: 30,
-        ..Options::default()
-    };
+    let limited = options(|options| options.max_evaluations = 30);
     let error = calibration(limited).fit().unwrap_err();
     assert!(
         matches!(error, CalibrationError::EvaluationLimit { limit: 30 }),
         "{error}"
     );
 
-    let rough = calibration(Options {
-        profiles: Profiles::None,
-        ..Options::default()
-    })
-    .fit()
-    .unwrap();
+    let rough = calibration(options(|options| options.profiles = Profiles::None))
+        .fit()
+        .unwrap();
     assert!(rough.evaluations < fit.evaluations);
+
+    let stopped = calibration(options(|options| {
+        options.observer = Some(Observer::new(|_| ControlFlow::Break(())));
+    }));
+    assert!(matches!(stopped.fit(), Err(CalibrationError::Stopped)));
+    assert!(matches!(
+        stopped.fit_emulated(None),
+        Err(CalibrationError::Stopped)
+    ));
 }
 
 #[test]

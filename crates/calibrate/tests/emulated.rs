@@ -5,10 +5,9 @@ mod common;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use calibrate::{
-    Calibration, CalibrationError, Emulator, Fit, Loss, Model, ModelError, Options, Parameter, Prior,
-    Profiles, Scale, Warning,
+    Calibration, CalibrationError, Emulator, Fit, Loss, Model, ModelError, Parameter, Prior, Scale, Warning,
 };
-use common::{noisy, passes, saturation, saturation_parameters, two_minima};
+use common::{noisy, options, passes, saturation, saturation_parameters, two_minima};
 
 /// Differences of two fits' values and closed ends, in standard errors; what is open in one is open in both.
 fn differences(one: &Fit, other: &Fit) -> Vec<f64> {
@@ -43,10 +42,7 @@ fn the_answer_is_that_of_a_direct_fit() {
             if let Some(sigma) = sigmas {
                 calibration = calibration.with_sigmas(vec![sigma; 40]).unwrap();
             }
-            let options = Options {
-                loss,
-                ..Options::default()
-            };
+            let options = options(|options| options.loss = loss);
             let calibration = calibration.with_options(options).unwrap();
             let direct = calibration.fit().unwrap();
             let (fit, emulator) = calibration.fit_emulated(None).unwrap();
@@ -79,10 +75,7 @@ fn a_finer_model_takes_few_runs() {
     };
     let data = noisy(&fine.predict(&[550.0, 12.0]).unwrap(), 5.0, 3);
     let fit = |model: &dyn Model, from: Option<(&Fit, &Emulator)>| {
-        let options = Options {
-            start: from.map(|(fit, _)| fit.values()),
-            ..Options::default()
-        };
+        let options = options(|options| options.start = from.map(|(fit, _)| fit.values()));
         Calibration::new(model, saturation_parameters(), data.clone())
             .unwrap()
             .with_options(options)
@@ -221,11 +214,7 @@ fn limits_are_kept() {
         inner.predict(p)
     };
     let data = noisy(&inner.predict(&[550.0, 12.0]).unwrap(), 5.0, 2);
-    let options = Options {
-        max_evaluations: 30,
-        profiles: Profiles::All,
-        ..Options::default()
-    };
+    let options = options(|options| options.max_evaluations = 30);
     let found = Calibration::new(&model, saturation_parameters(), data)
         .unwrap()
         .with_options(options)

@@ -1,7 +1,7 @@
 //! Whatever the numbers and the model: a fit or an error, never a panic.
 
 use calibrate::{
-    BootstrapOptions, Calibration, Loss, ModelError, Options, Parameter, Prior, Profiles, Resampling, Scale,
+    BootstrapOptions, Calibration, Loss, ModelError, Options, Parameter, Prior, Profiles, Scale,
 };
 use proptest::prelude::*;
 
@@ -70,7 +70,7 @@ proptest! {
         ordinary in any::<bool>(),
         observations in prop::collection::vec(prop_oneof![4 => -100.0..100.0_f64, 1 => any_number()], 0..7),
         sigmas in prop::option::of(any_number()),
-        (answer, scan, restart, robust) in (answers(), prop::option::of(0_usize..20), any::<bool>(), any::<bool>()),
+        (answer, scan, profiles, robust) in (answers(), prop::option::of(0_usize..20), any::<bool>(), any::<bool>()),
         (confidence, tolerance, noise, threshold) in (any_number(), any_number(), any_number(), any_number()),
         start in prop::option::of(prop::collection::vec(any_number(), 0..3)),
         evaluations in 0_usize..150,
@@ -92,19 +92,17 @@ proptest! {
         }
         let default = Options::default();
         let among = |value: f64, good: bool, usual: f64| if good { value } else { usual };
-        let hostile = Options {
-            loss: if robust { Loss::Tukey { threshold } } else { Loss::Squares },
-            start,
-            scan,
-            restart,
-            max_evaluations: evaluations,
-            confidence: among(confidence, !ordinary, default.confidence),
-            tolerance: among(tolerance, !ordinary, default.tolerance),
-            relative_noise: among(noise, !ordinary, default.relative_noise),
-            profiles: if restart { Profiles::All } else { Profiles::Of(vec!["p0".into(), "none".into()]) },
-            observer: None,
-        };
-        let few = Options { max_evaluations: evaluations.max(1), ..default };
+        let mut hostile = Options::default();
+        hostile.loss = if robust { Loss::Tukey { threshold } } else { Loss::Squares };
+        hostile.start = start;
+        hostile.scan = scan;
+        hostile.max_evaluations = evaluations;
+        hostile.confidence = among(confidence, !ordinary, default.confidence);
+        hostile.tolerance = among(tolerance, !ordinary, default.tolerance);
+        hostile.relative_noise = among(noise, !ordinary, default.relative_noise);
+        hostile.profiles = if profiles { Profiles::All } else { Profiles::None };
+        let mut few = default;
+        few.max_evaluations = evaluations.max(1);
         let calibration = match calibration.clone().with_options(hostile) {
             Ok(calibration) => calibration,
             Err(_) => calibration.with_options(few).expect("options"),
@@ -113,7 +111,7 @@ proptest! {
             prop_assert!(fit.values().iter().all(|value| value.is_finite()), "{:?}", fit.values());
             fit.shift(&[f64::NAN; 9]);
             fit.shift(&[]);
-            let options = BootstrapOptions { replicates: 10, seed: 1, resampling: Resampling::Residuals };
+            let options = BootstrapOptions { replicates: 10, seed: 1 };
             let _ = calibration.bootstrap(&fit, &options);
         }
         if let Ok((fit, emulator)) = calibration.fit_emulated(None) {

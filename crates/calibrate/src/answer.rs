@@ -1,0 +1,135 @@
+//! From a solution to what the user reads: residuals, statistics, warnings.
+
+use crate::evaluator::Evaluator;
+use crate::fit::Fit;
+use crate::parameter::FARTHEST;
+use crate::solution::Solution;
+use crate::{Calibration, Warning};
+
+/// Correlation from which two parameters count as hardly told apart.
+const CORRELATED: f64 = 0.99;
+/// Standard errors from which a rival is another optimum, not a place beside this one.
+const RIVALRY: f64 = 4.0;
+/// Weight below which an observation counts as an outlier: Tukey's at three of its sigmas, Huber's at four.
+const OUTLIER: f64 = 0.35;
+/// Degrees of freedom below which the noise is hardly known: its own standard error is a third.
+const FEW: f64 = 5.0;
+/// Distance to the minimum, in standard errors, that is worth a warning.
+const ROUGH: f64 = 0.1;
+
+impl Calibration<'_> {
+    /// What a solution says.
+    pub(crate) fn answer(&self, evaluator: &Evaluator<'_>, solution: Solution) -> Fit {
+        let deviance = solution.optimum.deviance;
+        let standardised = &solution.optimum.point.residuals;
+        let observed = self.observations();
+        let residuals: Vec<f64> = standardised
+            .iter()
+            .zip(evaluator.sigmas)
+            .map(|(r, sigma)| -r * sigma)
+            .collect();
+        let square: f64 = residuals.iter().map(|r| r * r).sum();
+        let mean = observed.iter().sum::<f64>() / observed.len() as f64;
+        let variation: f64 = observed.iter().map(|y| (y - mean).powi(2)).sum();
+        let weights: Vec<f64> = standardised
+            .iter()
+            .take(observed.len())
+            .map(|r| self.options().loss.weight(r / deviance.spread))
+            .collect();
+        let curvatures = deviance.curvatures(standardised);
+        let degrees_of_freedom = self.freedom(&solution.optimum);
+        let parameters = 0..self.parameters().len();
+        Fit {
+            warnings: self.warnings(&solution, &weights, degrees_of_freedom),
+            correlation: parameters
+                .clone()
+                .map(|i| {
+                    let correlation = |j| solution.covariance.correlation(i, j);
+                    parameters.clone().map(correlation).collect()
+                })
+                .collect(),
+            fitted: observed.iter().zip(&residuals).map(|(y, r)| y - r).collect(),
+            residual_rms: (square / observed.len() as f64).sqrt(),
+            r_squared: (variation > 0.0).then(|| 1.0 - square / variation),
+            residuals,
+            weights,
+            noise: if solution.noise_estimated {
+                deviance.noise(standardised)
+            } else {
+                1.0
+            },
+            degrees_of_freedom,
+            noise_estimated: solution.noise_estimated,
+            deviance: solution.optimum.value(),
+            evaluations: evaluator.count(),
+            iterations: solution.optimum.iterations,
+            curvatures: curvatures
+                .iter()
+                .zip(evaluator.sigmas)
+                .map(|(curvature, sigma)| curvature / sigma)
+                .collect(),
+            estimates: solution.estimates,
+            free: solution.optimum.point.free,
+            jacobian: solution.optimum.jacobian,
+            covariance: solution.covariance.matrix,
+        }
+    }
+
+    fn warnings(&self, solution: &Solution, weights: &[f64], degrees_of_freedom: f64) -> Vec<Warning> {
+        let mut warnings: Vec<Warning> = solution.misfit.iter().cloned().collect();
+        warnings.extend(self.ambiguity(solution));
+        for (k, estimate) in solution.estimates.iter().enumerate() {
+            if !estimate.identifiable {
+                warnings.push(Warning::NotIdentifiable {
+                    name: estimate.name.clone(),
+                    interval: estimate.interval,
+                });
+            } else if solution.optimum.point.free[k].abs() >= FARTHEST {
+                warnings.push(Warning::AtBound {
+                    name: estimate.name.clone(),
+                    value: estimate.value,
+                });
+            }
+            for (index, other) in solution.estimates.iter().take(k).enumerate() {
+                let correlation = solution.covariance.correlation(k, index);
+                if let Some(correlation) = correlation.filter(|c| c.abs() > CORRELATED) {
+                    warnings.push(Warning::Correlated {
+                        first: other.name.clone(),
+                        second: estimate.name.clone(),
+                        correlation,
+                    });
+                }
+            }
+        }
+        let indices: Vec<usize> = (0..weights.len()).filter(|&i| weights[i] < OUTLIER).collect();
+        if !indices.is_empty() {
+            warnings.push(Warning::Outliers { indices });
+        }
+        let offset = solution.optimum.offset;
+        if offset > ROUGH {
+            warnings.push(Warning::Rough { offset });
+        }
+        if solution.noise_estimated && degrees_of_freedom < FEW {
+            warnings.push(Warning::FewObservations { degrees_of_freedom });
+        }
+        warnings
+    }
+
+    /// A rival that is no part of the optimum's own surroundings, where the intervals are all closed: one that is open says more.
+    fn ambiguity(&self, solution: &Solution) -> Option<Warning> {
+        let rival = solution.rival.as_ref()?;
+        let own = |k: usize| {
+            let reach = RIVALRY * solution.covariance.standard_error(k).unwrap_or(f64::INFINITY);
+            (rival.free[k] - solution.optimum.point.free[k]).abs() <= reach
+        };
+        let closed = solution.estimates.iter().all(|estimate| estimate.identifiable);
+        (closed && !(0..rival.free.len()).all(own)).then(|| Warning::Ambiguous {
+            values: self
+                .parameters()
+                .iter()
+                .zip(rival.free.iter())
+                .map(|(parameter, &free)| parameter.value(parameter.bounded(free)))
+                .collect(),
+        })
+    }
+}
