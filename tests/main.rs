@@ -35,3 +35,5 @@ mod report;
 mod scene;
 #[path = "sweep.rs"]
 mod sweep;
+#[path = "../crates/figure/tests/xml/mod.rs"]
+mod xml;

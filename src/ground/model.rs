@@ -20,11 +20,6 @@ const CLOSED_FORM_ACCURACY: f64 = 1e-9;
 const TRANSFORM_ACCURACY: f64 = 1e-7;
 /// The same for a model of unknown smoothness.
 const OWN_ACCURACY: f64 = 1e-6;
-/// Tightest and loosest accuracy asked of finite elements, and the share of the tolerance they get.
-#[cfg(feature = "fem")]
-const ELEMENTS_ACCURACY: (f64, f64) = (2e-4, 5e-3);
-#[cfg(feature = "fem")]
-const ELEMENTS_SHARE: f64 = 0.25;
 /// Sublayers of a layer whose modulus varies, to begin with, and the most of all layers together.
 const FEWEST_SUBLAYERS: usize = 16;
 const MOST_LAYERS: usize = 1000;
@@ -91,8 +86,8 @@ impl Ground {
 
     #[cfg(feature = "fem")]
     fn elements(scene: &Scene, reason: &'static str, reach: f64) -> Result<Self, Error> {
-        let (tightest, loosest) = ELEMENTS_ACCURACY;
-        let accuracy = (ELEMENTS_SHARE * scene.solver.tolerance).clamp(tightest, loosest);
+        // A quarter of the tolerance is for the ground.
+        let accuracy = (0.25 * scene.solver.tolerance).clamp(2e-4, 5e-3);
         let field = layered_fem::LayeredFem::new(&scene.ground.profile, accuracy)?;
         Self::of_field(scene, "fem", &field, accuracy, reason, reach)
     }

@@ -106,7 +106,7 @@ pub enum CableError {
         /// Largest number of node updates allowed.
         allowed: f64,
     },
-    /// The energy of a pass does not balance: the answer is one of the scheme, not of the cable.
+    /// The energy of a pass does not balance: the answer comes from the scheme, not from the cable.
     #[error(
         "energy is not conserved: {unbalanced:.1e} of it is unaccounted for, and friction returned {returned:.1e} of its heat: the time step is too long"
     )]

@@ -4,6 +4,7 @@ use crate::{CableState, DuctedCable, EndForces};
 
 /// What one pass did.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct PassOutcome {
     /// Force on each end after the pass \[N\], compression positive.
     pub force: EndForces,
@@ -27,6 +28,7 @@ pub struct PassOutcome {
 
 /// Counts of work that do not depend on the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Statistics {
     /// Vehicle positions and the return to rest, or steps of time.
     pub steps: usize,

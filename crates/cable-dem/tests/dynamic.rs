@@ -118,7 +118,7 @@ fn the_sigmoid_leaks_at_the_rate_of_its_formula() -> Outcome {
         let cable = build(law)?;
         let still = MovingDuct::from_shape(&cable, &mesh, Direction::Forward, 40.0 / 3.6, |_| 0.0, 15.0)?;
         let mut solver = Dynamic::new(cable, mesh, MASS)?;
-        let leak = solver.leak(&still).ok_or("no leak")?;
+        let leak = SigmoidLeak::new(solver.cable(), solver.time_step(&still), &still).ok_or("no leak")?;
         let mut force = |passes: usize| -> Result<f64, cable_dem::CableError> {
             for _ in 1..passes {
                 solver.pass(&still, &mut state)?;

@@ -92,9 +92,7 @@ impl Scene {
         let mut last = state.clone();
         for _ in 0..passes {
             solver.pass_observed(&self.passage, &mut state, |view| {
-                let displacement = (0..self.mesh.nodes()).map(|i| view.displacement(i)).collect();
-                let friction = (0..self.mesh.nodes()).map(|i| view.friction(i)).collect();
-                last = CableState::from_parts(&self.mesh, displacement, friction).expect("a finite state");
+                last = view.state();
             })?;
         }
         Ok(last.end_forces(&self.cable)?.downstream)

@@ -89,12 +89,8 @@ impl Run {
 
     /// One pass; `observe` sees the vehicle's position \[m\] and the cable at each of them.
     pub fn watch(&mut self, passage: &Passage, mut observe: impl FnMut(f64, &CableState)) -> PassOutcome {
-        let mesh = *self.solver.mesh();
         let watched = self.solver.pass_observed(passage, &mut self.state, |view| {
-            let displacement = (0..mesh.nodes()).map(|node| view.displacement(node)).collect();
-            let friction = (0..mesh.nodes()).map(|node| view.friction(node)).collect();
-            let cable = CableState::from_parts(&mesh, displacement, friction).expect("a finite state");
-            observe(view.vehicle_position(), &cable);
+            observe(view.vehicle_position(), &view.state());
         });
         watched.expect("an equilibrium")
     }

@@ -180,12 +180,10 @@ impl Run {
     pub fn pass(&mut self, drive: usize) -> Result<Pass, CableError> {
         let transient = match &mut self.solver {
             Solver::QuasiStatic(solver, passages) => {
-                let (cable, mesh) = (solver.cable().clone(), *solver.mesh());
+                let cable = solver.cable().clone();
                 let mut last = self.state.clone();
                 let outcome = solver.pass_observed(&passages[drive], &mut self.state, |view| {
-                    let displacement = (0..mesh.nodes()).map(|i| view.displacement(i)).collect();
-                    let friction = (0..mesh.nodes()).map(|i| view.friction(i)).collect();
-                    last = CableState::from_parts(&mesh, displacement, friction).expect("a finite state");
+                    last = view.state();
                 })?;
                 return Ok(Pass {
                     outcome,
