@@ -48,9 +48,12 @@
 
 mod answer;
 mod cable;
+#[cfg(feature = "calibrate")]
 pub mod calibration;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
+#[cfg(feature = "design")]
 pub mod design;
 mod error;
 mod finite;
@@ -64,6 +67,10 @@ mod progress;
 pub mod report;
 mod run;
 pub mod scene;
+#[cfg_attr(
+    not(all(feature = "cli", feature = "plot")),
+    allow(dead_code, reason = "the terminal and the report show most of it")
+)]
 mod shown;
 #[cfg(feature = "sweep")]
 pub mod sweep;
@@ -76,6 +83,7 @@ pub use answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, FrictionProfile, PassRecord,
     PlanSummary, RestraintRecord, Run, Saturation, SlipRecord, Stage,
 };
+#[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
 pub use error::Error;
 pub use ground::profile::{Profile, profile, profile_at};

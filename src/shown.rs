@@ -1,6 +1,11 @@
 //! Numbers and tables for a reader, as the terminal and the report show them.
 
-/// `value` with `decimals` decimals, and no minus before zeros.
+/// Rows of a table that is read at a glance.
+#[cfg(any(feature = "cli", feature = "plot"))]
+pub const ROWS: usize = 16;
+
+/// `value` with this number of decimals, and no minus before zeros.
+#[cfg(any(feature = "cli", feature = "plot"))]
 pub fn rounded(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -9,16 +14,22 @@ pub fn rounded(value: f64, decimals: usize) -> String {
     }
 }
 
-/// An error as a percentage.
-pub fn share(error: f64) -> String {
-    if error > 0.0 && error < 5e-5 {
+/// An estimated share as a percentage.
+pub fn percent(share: f64) -> String {
+    if share > 0.0 && share < 5e-5 {
         "< 0.01 %".into()
     } else {
-        format!("{:.2} %", 100.0 * error)
+        format!("{:.2} %", 100.0 * share)
     }
 }
 
+/// A given share as the percentage that was meant, without the binary digits of the product.
+pub fn exact_percent(share: f64) -> String {
+    format!("{} %", (1e12 * (100.0 * share)).round() / 1e12)
+}
+
 /// A time in words of its size.
+#[cfg(any(feature = "cli", feature = "plot"))]
 pub fn time(seconds: f64) -> String {
     match seconds {
         s if s < 1e-3 => "< 1 ms".into(),
@@ -26,5 +37,27 @@ pub fn time(seconds: f64) -> String {
         s if s < 120.0 => format!("{s:.1} s"),
         s if s < 7200.0 => format!("{:.0} min", s / 60.0),
         s => format!("{:.0} h", s / 3600.0),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentages_show_what_is_known() {
+        let estimates = [(0.0, "0.00 %"), (1e-6, "< 0.01 %"), (0.0123456, "1.23 %")];
+        for (share, text) in estimates {
+            assert_eq!(percent(share), text);
+        }
+        let given = [
+            (1e-6, "0.0001 %"),
+            (0.01, "1 %"),
+            (0.07, "7 %"),
+            (0.335, "33.5 %"),
+        ];
+        for (share, text) in given {
+            assert_eq!(exact_percent(share), text);
+        }
     }
 }

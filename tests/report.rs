@@ -2,19 +2,16 @@
 
 #![cfg(all(feature = "cli", feature = "plot"))]
 
-#[path = "../crates/figure/tests/xml/mod.rs"]
-mod xml;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use super::xml::{Element, parse};
 use creepage::Scene;
 use creepage::calibration::Readings;
 use creepage::design::{Measure, Place};
 use creepage::report::{Report, ReportOptions};
 use serde_json::Value;
-use xml::{Element, parse};
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
 const FIGURES: [&str; 7] = [

@@ -12,7 +12,7 @@
 use cable_dem::PassOutcome;
 
 use crate::Error;
-use crate::shown::share as percent;
+use crate::shown::percent;
 
 /// Shares of the differences between meshes that count as error: of the last one, the one before, and so on. Fitted to 200 random
 /// scenes, so that the error is above them in one or two of a hundred.

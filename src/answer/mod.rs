@@ -5,7 +5,11 @@ pub mod error;
 mod listed;
 mod record;
 mod saturation;
+#[cfg(any(feature = "cli", feature = "plot"))]
+mod selected;
 
-pub use listed::{listed, selected};
+pub use listed::listed;
 pub use record::*;
 pub use saturation::{force_series, saturation};
+#[cfg(any(feature = "cli", feature = "plot"))]
+pub use selected::selected;

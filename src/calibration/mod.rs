@@ -30,6 +30,7 @@ pub use unknown::{Quantity, Unknown, UnknownQuantity};
 use crate::plan::PassMethod;
 use crate::scene::FrictionLaw;
 use crate::{Error, Progress, Scene};
+#[cfg(feature = "plot")]
 pub(crate) use model::CellEnd;
 use model::{CableModel, SeriesModel};
 use watch::Watch;

@@ -3,9 +3,10 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::arguments::{Force, SceneArguments};
+use super::failure::Failure;
 use super::progress::{POINTS, with_bar};
-use super::{Failure, terminal, write};
+use super::shared::{Force, Json, SceneArguments, warn_of_slips};
+use super::terminal;
 use crate::SceneFile;
 #[cfg(feature = "plot")]
 use crate::output::Kind;
@@ -16,8 +17,7 @@ use crate::sweep::{MapValue, Row, SweepMap};
 /// Arguments of `creepage sweep`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "A sweep that was interrupted goes on where it was when the same command is given again. A point that fails is a row with \
-its error. Numbers in the table are SI. In CSV an apostrophe \
+    after_help = "Rerun the same command to resume an interrupted sweep. A point that fails is a row with its error. Numbers in the table are SI. In CSV an apostrophe \
 stands before a text that a spreadsheet would take for a formula.
 
 Examples:
@@ -28,39 +28,38 @@ Examples:
 )]
 pub struct Arguments {
     #[command(flatten)]
-    pub scene: SceneArguments,
+    scene: SceneArguments,
     /// A key and its values, A:B:STEP or V1,V2,… or normal(MEAN, SD), lognormal(MEDIAN, SIGMA of the logarithm), uniform(LOW, HIGH); may
     /// be repeated, for every combination
     #[arg(long, value_name = "KEY=VALUES", required = true, allow_hyphen_values = true)]
-    pub vary: Vec<String>,
+    vary: Vec<String>,
     /// Table to write, FILE.csv or FILE.parquet
     #[arg(long, value_name = "FILE")]
-    pub out: PathBuf,
-    /// Samples of the keys that have a distribution
+    out: PathBuf,
+    /// Number of samples of the keys that have a distribution
     #[arg(long, value_name = "N")]
-    pub samples: Option<usize>,
-    /// Another seed draws other samples
+    samples: Option<usize>,
+    /// Random seed
     #[arg(long, value_name = "S", default_value_t = 1)]
-    pub seed: u64,
+    seed: u64,
     /// Threads; all cores if left out
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
+    threads: Option<u16>,
     /// Draw a map over two varied keys to this file (SVG)
     #[cfg(feature = "plot")]
     #[arg(long, value_name = "FILE.svg")]
-    pub map: Option<PathBuf>,
-    /// What colours the map
+    map: Option<PathBuf>,
+    /// Quantity shown by the map's colour
     #[cfg(feature = "plot")]
     #[arg(long, value_name = "VALUE", default_value = "force", requires = "map")]
-    pub map_of: MapOf,
-    /// Print the summary as one JSON document on standard output and nothing else there
-    #[arg(long)]
-    pub json: bool,
+    map_of: MapOf,
     #[command(flatten)]
-    pub force: Force,
+    json: Json,
+    #[command(flatten)]
+    force: Force,
 }
 
-/// What colours a map.
+/// The quantity shown by a map's colour.
 #[cfg(feature = "plot")]
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
 pub enum MapOf {
@@ -92,15 +91,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         seed: arguments.seed,
     };
     let sweep = Sweep::new(file, axes, samples)?;
-    for slip in sweep.file_at(0)?.unit_slips() {
-        terminal::warn(format_args!("{slip}{}", slip.location.excerpt()));
-    }
+    warn_of_slips(&sweep.file_at(0)?);
     let options = SweepOptions {
         threads: arguments.threads.map(usize::from),
         force: arguments.force.force,
         ..SweepOptions::default()
     };
-    let mut files = write::files([&*arguments.scene.scene], &arguments.force);
+    let mut files = arguments.force.files([&*arguments.scene.scene]);
     files.output(&arguments.out, crate::sweep::kind_of(&arguments.out)?)?;
     #[cfg(feature = "plot")]
     let map = match &arguments.map {
@@ -134,11 +131,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let svg = map.to_svg()?;
         file.write(|out| out.write_all(svg.as_bytes()))?;
     }
-    if arguments.json {
-        write::json(&summary)
-    } else {
-        print(&summary, arguments)
-    }
+    arguments.json.print(&summary, || print(&summary, arguments))
 }
 
 fn print(summary: &SweepSummary, arguments: &Arguments) -> Result<(), Failure> {

@@ -8,7 +8,7 @@ use std::path::Path;
 #[non_exhaustive]
 pub enum OutputError {
     /// The place cannot be written; found before anything is computed.
-    #[error("{file}: cannot be written: {source}")]
+    #[error("{file}: cannot be written")]
     Unwritable {
         /// The file.
         file: String,
@@ -35,12 +35,12 @@ pub enum OutputError {
         /// The file.
         file: String,
         /// What it looks like.
-        found: &'static str,
+        found: String,
         /// What would be replaced.
-        kind: &'static str,
+        kind: String,
     },
     /// Writing broke off.
-    #[error("{file}: cannot be written: {source}")]
+    #[error("{file}: cannot be written")]
     Failed {
         /// The file.
         file: String,
@@ -48,12 +48,12 @@ pub enum OutputError {
         source: io::Error,
     },
     /// Writing to standard output broke off.
-    #[error("standard output: cannot be written: {0}")]
-    StandardOutput(io::Error),
+    #[error("standard output: cannot be written")]
+    StandardOutput(#[source] io::Error),
 }
 
 impl OutputError {
-    pub(super) fn unwritable(file: &Path, source: io::Error) -> Self {
+    pub(crate) fn unwritable(file: &Path, source: io::Error) -> Self {
         Self::Unwritable {
             file: file.display().to_string(),
             source,

@@ -2,7 +2,7 @@
 
 use super::content::Report;
 use super::html::{Html, Table};
-use crate::shown::{share, time};
+use crate::shown::{percent, time};
 
 pub fn plan(html: &mut Html, report: &Report) {
     let (run, plan) = (&report.run, &report.plan);
@@ -14,7 +14,7 @@ pub fn plan(html: &mut Html, report: &Report) {
     html.element("h3", "What was considered");
     let rows = plan.candidates.iter().map(|candidate| {
         let cost = [
-            candidate.estimated_error.map(share),
+            candidate.estimated_error.map(percent),
             candidate.estimated_seconds.map(time),
         ];
         let fate = if candidate.chosen { "chosen" } else { "rejected" };
@@ -25,23 +25,21 @@ pub fn plan(html: &mut Html, report: &Report) {
         ]
     });
     html.table(&Table {
-        head: ["model", "error, time", "why, or why not"]
-            .map(str::to_owned)
-            .to_vec(),
+        head: vec!["model", "error, time", "why, or why not"],
         rows: rows.collect(),
-        numbers: vec![false; 3],
+        texts: 3,
     });
     html.element("h3", "Error of the forces");
     let error = &run.error_estimate;
     html.paragraph(&format!(
         "{} in all, {}. How well the equations are solved, not how well they describe a duct.",
-        share(error.relative),
+        percent(error.relative),
         error.method
     ));
     let parts = error.parts;
-    let row = |name: &str, part: f64| vec![name.to_owned(), share(part)];
+    let row = |name: &str, part: f64| vec![name.to_owned(), percent(part)];
     html.table(&Table {
-        head: vec!["part".into(), "error".into()],
+        head: vec!["part", "error"],
         rows: vec![
             row("node spacing and vehicle step", parts.mesh),
             row("ground model", parts.ground),
@@ -50,6 +48,6 @@ pub fn plan(html: &mut Html, report: &Report) {
             row("passes that were not simulated", parts.passes),
             row("movement of the ends, all parts together", parts.movement),
         ],
-        numbers: vec![false, true],
+        texts: 1,
     });
 }

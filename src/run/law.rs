@@ -14,7 +14,7 @@ use crate::cable::cable;
 use crate::ground::road::approach;
 use crate::plan::{CableMethod, LAW_ERROR as ERROR, Levels};
 use crate::scene::{End, Scene};
-use crate::shown::share as percent;
+use crate::shown::percent;
 use crate::{Cost, Error, Progress};
 
 /// Nodes per depth of the duct in the law's cells at a tolerance of 1 % or less, and above.
@@ -178,6 +178,7 @@ fn evolve(
 }
 
 /// The records after `passes`, ascending, with so many nodes per depth in the law's cells.
+#[cfg(feature = "calibrate")]
 pub fn records(
     scene: &Scene,
     motions: &[DuctMotion],

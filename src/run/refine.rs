@@ -9,7 +9,7 @@ use super::passes::{Passes, simulate};
 use crate::answer::error::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use crate::ground::road;
 use crate::plan::{CableMethod, Levels, Plan};
-use crate::shown::share as percent;
+use crate::shown::percent;
 use crate::{Error, Progress, Scene};
 
 /// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.

@@ -3,7 +3,7 @@
 use creepage::scene::GroundModel;
 use creepage::{Part, PlanReport, Scene};
 
-use crate::scenes;
+use super::scenes;
 
 fn plan(text: &str) -> PlanReport {
     let scene = Scene::from_toml("scene", text).expect("a valid scene");
@@ -170,7 +170,7 @@ fn the_equivalent_thickness_of_too_many_layers_is_refused() {
     assert!(
         matches!(
             &refused,
-            creepage::Error::Scene(creepage::SceneError::Value { key, .. }) if key == "ground.model"
+            creepage::Error::Scene(creepage::SceneError::Wrong(wrong)) if wrong.key == "ground.model"
         ),
         "{refused}"
     );

@@ -7,6 +7,7 @@ mod edited;
 mod overrides;
 mod presets;
 mod unusual;
+mod written;
 
 use std::path::Path;
 

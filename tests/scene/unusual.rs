@@ -150,7 +150,7 @@ fn too_long_a_duct_for_its_depth_is_told_with_both_keys() {
     let text = SCENE.replace("30 m", "100 km").replace("1.5 m", "0.1 m");
     let file = creepage::SceneFile::from_toml("long.toml", &text).expect("a file");
     let scene = file.scene().expect("a scene");
-    let error = creepage::plan(&scene).err().expect("too many nodes");
+    let error = creepage::plan(&scene).expect_err("too many nodes");
     assert!(error.is_bad_input());
     let message = error.located(&file).to_string();
     assert!(

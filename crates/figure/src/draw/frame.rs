@@ -81,7 +81,7 @@ impl Frame {
             canvas.text(label, (x - 2.0 * TICK, y), "end");
         }
         let centre = plot.centre();
-        canvas.text(x_label, (centre.0, outer.bottom - 0.5 * TEXT), "middle");
+        canvas.text(x_label, (centre.0, outer.bottom - 0.75 * TEXT), "middle");
         canvas.upward(y_label, (outer.left + GAP + 0.5 * TEXT, centre.1));
         Ok(frame)
     }
