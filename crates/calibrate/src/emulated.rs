@@ -18,8 +18,8 @@ use crate::{Calibration, CalibrationError, Emulator, Fit, Options, Profiles};
 
 /// Points of the emulator that are scanned for each parameter and one more.
 const SCAN: usize = 64;
-/// Starts on the emulator for each of the other parameters along a profile.
-const STARTS: usize = 24;
+/// Points of it that are scanned for each of the other parameters along a profile.
+const SCAN_OTHERS: usize = 24;
 /// Score above the least of runs of a coarser model that are repeated, and how many more than the best of them, a parameter.
 const VALLEY: f64 = 16.0;
 const ANCHORS: usize = 2;
@@ -194,7 +194,7 @@ impl Emulation<'_> {
             start,
             scan: SCAN * (1 + self.calibration.parameters().len()),
             profiles,
-            starts: STARTS,
+            scan_others: SCAN_OTHERS,
         };
         let emulator = self.runs.of(&self.emulator);
         match self.calibration.solve(&emulator, &route) {

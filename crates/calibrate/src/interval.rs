@@ -14,20 +14,22 @@ use crate::CalibrationError;
 use crate::descent::{Descent, Optimum};
 use crate::parameter::FARTHEST;
 use crate::point::{Point, all_over};
-use crate::search::{BETTER, FEW_ITERATIONS, MAX_ROUNDS, Search};
+use crate::search::{BETTER, FEW_ITERATIONS, MAX_ROUNDS, ROUGH, Search};
 use crate::uncertainty::Covariance;
 
 /// Distance at which the bound is excluded, in those that make an interval.
 pub(crate) const EXCLUSION: f64 = 2.0;
 /// Accuracy of the root of the rise at an end, as a share of it.
-const ACCURACY: f64 = 0.01;
+const ACCURACY: f64 = 0.03;
 /// Least and largest factors by which the walk outwards goes on.
 const STRIDES: (f64, f64) = (1.3, 2.5);
-/// Accuracy of the other parameters at a station, in standard errors.
-const TOLERANCE: f64 = 0.1;
+/// Best places of a scan from which the others are fitted at a station.
+const STARTS: usize = 2;
 /// Free variable up to which a start for the others goes: nearer to a bound the deviance hardly changes with it, and a descent stays.
-const START_REACH: f64 = 3.0;
+const START_REACH: f64 = 7.0;
 
+/// Distance in the free variable up to which what is known at one station holds at the next.
+const NEAR: f64 = 2.0;
 /// Rise that no fit of the others brings down to what an interval ends at: they may take away all but a ten-millionth.
 const HOPELESS: f64 = 1e8;
 
@@ -75,9 +77,9 @@ pub(crate) struct Profiler<'a> {
     pub wanted: f64,
     /// A minimum elsewhere that is hardly higher: an interval reaches beyond it.
     pub rival: Option<&'a Point>,
-    /// Places all over the ranges of the others from the best of which they are fitted as well, for each of the others: what a narrow and
-    /// bent valley needs, where a run costs nothing.
-    pub starts: usize,
+    /// Places all over the ranges of the others, for each of them, from the best of which they are fitted as well: what a narrow and bent
+    /// valley needs, where a run costs nothing.
+    pub scan: usize,
 }
 
 /// A point of the profile.
@@ -184,7 +186,7 @@ impl Profiler<'_> {
                 break;
             }
             let station = self.station(k, sign, next, stations)?;
-            let stride = (excluded / station.root).clamp(STRIDES.0, STRIDES.1);
+            let stride = (1.1 * excluded / station.root).clamp(STRIDES.0, STRIDES.1);
             next = if station.root < excluded {
                 stride * next
             } else {
@@ -194,47 +196,71 @@ impl Profiler<'_> {
         }
         for round in 0..MAX_ROUNDS {
             let (inner, outer) = self.bracket(stations);
-            let chord = inner.distance
-                + (self.wanted - inner.root) / (outer.root - inner.root) * (outer.distance - inner.distance);
+            let place = self.crossing(stations, inner);
             let near = |station: &Station| (station.root - self.wanted).abs() < ACCURACY * self.wanted;
+            let (inner, outer) = (&stations[inner], &stations[outer]);
             if near(inner) || near(outer) {
-                return Ok(Some(chord));
+                return Ok(Some(place));
             }
             let middle = 0.5 * (inner.distance + outer.distance);
-            let next = if round % 3 == 2 || outer.root.is_infinite() {
-                middle
-            } else {
-                chord
-            };
+            let next = if round % 3 == 2 { middle } else { place };
             let station = self.station(k, sign, next, stations)?;
             insert(stations, station);
         }
-        Ok(Some(self.bracket(stations).1.distance))
+        Ok(Some(stations[self.bracket(stations).1].distance))
     }
 
     /// The outermost stations between which the root of the rise crosses what is wanted: what lies beyond a barrier and is not excluded
     /// belongs to the interval.
-    fn bracket<'s>(&self, stations: &'s [Station]) -> (&'s Station, &'s Station) {
+    fn bracket(&self, stations: &[Station]) -> (usize, usize) {
         let inside = |station: &Station| station.root < self.wanted;
         let inner = stations.iter().rposition(inside).unwrap_or(0);
-        (&stations[inner], &stations[(inner + 1).min(stations.len() - 1)])
+        (inner, (inner + 1).min(stations.len() - 1))
+    }
+
+    /// Where the root of the rise should cross what is wanted, beyond station `inner`: the root is nearly a straight line through the
+    /// estimate, so that a parabola through three stations holds it; else the line through two, or their middle.
+    fn crossing(&self, stations: &[Station], inner: usize) -> f64 {
+        let at = |index: usize| (stations[index].distance, stations[index].root);
+        let (a, b) = (at(inner), at((inner + 1).min(stations.len() - 1)));
+        let inside = |place: &f64| *place > a.0 && *place < b.0;
+        let line = |a: (f64, f64), b: (f64, f64)| a.0 + (self.wanted - a.1) / (b.1 - a.1) * (b.0 - a.0);
+        let chord = Some(line(a, b)).filter(inside);
+        let third = if inner > 0 { inner - 1 } else { inner + 2 };
+        let parabola = (third < stations.len()).then(|| {
+            // A. C. Aitken's scheme.
+            let c = at(third);
+            let (ab, ac) = (line(a, b), line(a, c));
+            ab + (self.wanted - b.1) / (c.1 - b.1) * (ac - ab)
+        });
+        let middle = 0.5 * (a.0 + b.0);
+        parabola.filter(inside).or(chord).unwrap_or(middle)
     }
 
     /// Fits all parameters but `k`, which lies `distance` away from its estimate.
     fn station(&self, k: usize, sign: f64, distance: f64, known: &[Station]) -> Result<Station, Stop> {
         let held = self.search.evaluator.parameters[k].free(self.coordinate(k) + sign * distance);
-        let (places, jacobian) = self.starts(k, held, known);
-        let mut starts = self.search.evaluator.points(places)?;
-        starts.sort_by(|a, b| self.rise(a).total_cmp(&self.rise(b)));
-        let start = starts.swap_remove(0);
-        let rise = self.rise(&start);
+        let (near, jacobian) = self.near(k, held, known);
         let mut found = Optimum {
-            point: start.clone(),
+            point: self.best_of(near, 1)?.swap_remove(0),
             offset: 0.0,
             ..self.optimum.clone()
         };
-        if start.free.len() > 1 && rise < HOPELESS {
-            found = self.fit_others(k, start, jacobian)?;
+        // Without an answer there, it is as good as excluded; without other parameters, there is nothing to fit.
+        let others = found.point.free.len() - 1;
+        if others > 0 && self.rise(&found.point) < HOPELESS {
+            found = self.fit_others(k, found.point, jacobian.clone())?;
+            let places = all_over(others, self.scan * others);
+            let places = places
+                .into_iter()
+                .map(|place| place.insert_row(k, held))
+                .collect();
+            for start in self.best_of(places, STARTS)? {
+                let other = self.fit_others(k, start, jacobian.clone())?;
+                if other.value() < found.value() {
+                    found = other;
+                }
+            }
         }
         let rise = self.rise(&found.point);
         if rise < -BETTER {
@@ -252,50 +278,54 @@ impl Profiler<'_> {
         &self,
         k: usize,
         start: Point,
-        jacobian: DMatrix<f64>,
+        jacobian: Option<DMatrix<f64>>,
     ) -> Result<Optimum, CalibrationError> {
         Descent {
             held: Some(k),
             verified: false,
-            tolerance: TOLERANCE,
+            tolerance: ROUGH,
             iterations: FEW_ITERATIONS,
-            ..self.search.descent(self.optimum.deviance, Some(jacobian))
+            ..self.search.descent(self.optimum.deviance, jacobian)
         }
         .run(start)
     }
 
-    /// Where to fit the others from.
-    fn starts(&self, k: usize, held: f64, known: &[Station]) -> (Vec<DVector<f64>>, DMatrix<f64>) {
+    /// The `count` best points of `places`.
+    fn best_of(&self, places: Vec<DVector<f64>>, count: usize) -> Result<Vec<Point>, CalibrationError> {
+        let mut points = self.search.evaluator.points(places)?;
+        points.sort_by(|a, b| self.rise(a).total_cmp(&self.rise(b)));
+        points.truncate(count);
+        Ok(points)
+    }
+
+    /// Where the others should be by what is known nearby, and J there.
+    fn near(&self, k: usize, held: f64, known: &[Station]) -> (Vec<DVector<f64>>, Option<DMatrix<f64>>) {
         let off = |station: &Station| (station.optimum.point.free[k] - held).abs();
-        let mut near: Vec<&Station> = known.iter().collect();
-        near.sort_by(|a, b| off(a).total_cmp(&off(b)));
-        let nearest = &near[0].optimum.point.free;
+        let mut by_distance: Vec<&Station> = known.iter().collect();
+        by_distance.sort_by(|a, b| off(a).total_cmp(&off(b)));
+        let nearest = &by_distance[0].optimum;
+        let free = &nearest.point.free;
         // Along the line through the two nearest stations, or the tangent at the optimum.
-        let slope = match near.get(1).map(|other| &other.optimum.point.free) {
-            Some(other) => (other - nearest) / (other[k] - nearest[k]),
-            None => self.covariance.drift(k),
+        let slope = match by_distance.get(1).map(|other| &other.optimum.point.free) {
+            Some(other) if by_distance[0].distance > 0.0 => (other - free) / (other[k] - free[k]),
+            _ => self.covariance.drift(k),
         };
-        let followed = nearest + slope * (held - nearest[k]);
-        let others = nearest.len() - 1;
-        let spread = all_over(others, self.starts * others)
-            .into_iter()
-            .map(|place| place.insert_row(k, held));
-        let mut starts = vec![followed, nearest.clone()];
-        for start in &mut starts {
-            start.apply(|z| {
+        let mut places = vec![free + slope * (held - free[k])];
+        let far = off(by_distance[0]) > NEAR;
+        if far {
+            places.push(free.clone());
+        }
+        for place in &mut places {
+            place.apply(|z| {
                 *z = if z.is_finite() {
                     z.clamp(-START_REACH, START_REACH)
                 } else {
                     0.0
                 }
             });
-            start[k] = held;
+            place[k] = held;
         }
-        if others == 0 {
-            starts.truncate(1);
-        }
-        starts.extend(spread);
-        (starts, near[0].optimum.jacobian.clone())
+        (places, (!far).then(|| nearest.jacobian.clone()))
     }
 }
 

@@ -23,8 +23,8 @@ pub(crate) struct Route {
     /// Points all over the range to try.
     pub scan: usize,
     pub profiles: Profiles,
-    /// Starts of the other parameters' fits along a profile, see [`Profiler::starts`].
-    pub starts: usize,
+    /// Points to try for each of the others along a profile, see [`Profiler::scan`].
+    pub scan_others: usize,
 }
 
 /// An optimum and what is known around it.
@@ -126,7 +126,7 @@ impl Calibration<'_> {
             covariance: &covariance,
             wanted: quantile(0.5 * tail, noise_estimated.then(|| self.freedom(optimum))),
             rival,
-            starts: route.starts,
+            scan: route.scan_others,
         };
         let mut estimates = Vec::new();
         let mut witnesses: Vec<Witness> = rival
