@@ -26,8 +26,8 @@ const FORCE_SIGMA: f64 = 0.05;
 const DEFLECTIONS: [f64; 2] = [90e-6, 140e-6];
 
 fn main() -> Result<(), Failure> {
-    let scenes = ["upper", "lower"]
-        .map(|cable| Scene::from_file(format!("examples/scenes/full-scale-{cable}.toml").as_ref()));
+    let scenes =
+        ["upper", "lower"].map(|cable| Scene::from_file(format!("examples/scenes/full-scale-{cable}.toml")));
     let [upper, lower] = scenes;
     let scenes = [upper?, lower?];
     let forces = forces("examples/data/full-scale-saturation.csv")?;
@@ -113,7 +113,7 @@ fn fit(
 }
 
 /// Fits one quantity.
-fn only(quantity: Quantity) -> CalibrateOptions {
+fn only(quantity: Quantity) -> CalibrateOptions<'static> {
     CalibrateOptions {
         unknowns: vec![Unknown::shared(quantity)],
         ..CalibrateOptions::default()

@@ -10,7 +10,7 @@
 mod common;
 
 use common::{Failure, even, save, scene};
-use creepage::figure::{Axis, Chart, Note, Panels, Reference, Series};
+use creepage::figure::{Axis, Chart, Panels, Reference, Series};
 use creepage::{Profile, profile_at};
 
 /// The vehicle's places A to E, before (negative) and behind the point of the duct \[m\].
@@ -129,7 +129,7 @@ pub fn figure(cases: &[Case]) -> Panels {
     );
     path = path.with(Series::points("vehicle at A to E, on rock", at.clone()).look(6));
     for ((name, _), (x, y)) in PLACES.iter().zip(at) {
-        path = path.note(Note::new(x, y + 7.0, *name));
+        path = path.note(x, y + 7.0, *name);
     }
     Panels::new("Motion of the duct under 20 tf, 1.2 m deep")
         .panel_size(800.0, 430.0)

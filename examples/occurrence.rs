@@ -101,7 +101,7 @@ impl Case {
                 force = duct.solver.pass(&duct.passage, &mut duct.state)?.force.downstream;
             }
             if (force - before).abs() < SETTLED * self.limit * duct.cable.length() {
-                let forces: Vec<f64> = duct.state.element_forces(&duct.cable, &duct.mesh)?.collect();
+                let forces: Vec<f64> = duct.state.element_forces(&duct.cable)?.collect();
                 let (from, to) = (forces.len() / 3, 2 * forces.len() / 3);
                 let slope = (forces[to] - forces[from]) / ((to - from) as f64 * duct.mesh.spacing());
                 let scale = AXIAL_STIFFNESS * self.motion.peak_longitudinal() / DEPTH;

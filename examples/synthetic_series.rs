@@ -17,7 +17,7 @@ const SEED: u64 = 1;
 const PASSES: u64 = 40;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml".as_ref())?;
+    let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml")?;
     scene.friction.dynamic_coefficient = FRICTION;
     scene.friction.law = FrictionLaw::ElasticPlastic {
         shape_factor: SHAPE_FACTOR,

@@ -9,6 +9,7 @@ use pass_law::LawError;
 
 use crate::SceneError;
 use crate::scene::{Location, SceneFile};
+use crate::shown::{exact_percent, percent};
 
 /// Error of an analysis.
 #[derive(Debug, thiserror::Error)]
@@ -25,7 +26,7 @@ pub enum Error {
     Cable(#[from] CableError),
     /// The pass law could not be computed.
     #[error(
-        "{0}; every pass one by one (solver.method = \"quasi-static\", at most a million traffic.passes) may do"
+        "the pass law gives no answer; simulating every pass may (solver.method = \"quasi-static\", at most 1 000 000 passes)"
     )]
     Law(#[from] LawError),
     /// The readings of a load cell are wrong.
@@ -36,10 +37,10 @@ pub enum Error {
     Calibration(#[from] CalibrationError),
     /// The finest affordable mesh leaves too large an error.
     #[error(
-        "the estimated error of {:.1} % is too far above the tolerance of {:.2} %: an error of more than 10 % is no answer; a larger \
+        "the estimated error of {} is too far above the tolerance of {}: an error of more than 10 % is no answer; a larger \
          tolerance (solver.tolerance), a finer mesh (solver.node_spacing) or solver.method = \"quasi-static\" may help",
-        100.0 * .reached,
-        100.0 * .asked
+        percent(*.reached),
+        exact_percent(*.asked)
     )]
     Inaccurate {
         /// Estimated error, as a share of the forces.
@@ -49,8 +50,8 @@ pub enum Error {
     },
     /// The forces of an answer do not balance: friction cannot carry them.
     #[error(
-        "after pass {pass} the forces ask for {needed:.4e} N of friction per metre where its limit is {limit:.4e} N/m: this is no \
-         answer; solver.method = \"quasi-static\" computes every pass"
+        "after pass {pass} the forces need a friction of {needed:.4e} N/m where its limit is {limit:.4e} N/m: this is no \
+         answer; solver.method = \"quasi-static\" simulates every pass"
     )]
     Unbalanced {
         /// The pass.
@@ -62,8 +63,8 @@ pub enum Error {
     },
     /// The duct is so long beside its depth that no mesh of it can be computed.
     #[error(
-        "duct.length = {length} m and duct.depth = {depth} m: a mesh as fine as this depth asks for has {nodes:.1e} nodes along the duct, \
-         where 5e6 are allowed: a shorter or a deeper duct, a larger solver.tolerance, or a solver.node_spacing"
+        "duct.length = {length} m and duct.depth = {depth} m: found a mesh of {nodes:.1e} nodes, as fine as this depth needs; allowed: 5e6 \
+         nodes, with a shorter or a deeper duct, a larger solver.tolerance, or a solver.node_spacing"
     )]
     TooManyNodes {
         /// Length of the duct \[m\].
@@ -83,7 +84,10 @@ pub enum Error {
         /// Why it does not fit.
         reason: Cow<'static, str>,
     },
-    /// The computation made a number that is none: no answer holds one.
+    /// The [`Progress`](crate::Progress) callback stopped the computation.
+    #[error("stopped before it was done")]
+    Stopped,
+    /// The computation gave a number that is not finite: no answer holds one.
     #[error("the computation failed: {field} came out as {value}")]
     NotFinite {
         /// Where in the answer.
@@ -92,13 +96,27 @@ pub enum Error {
         value: f64,
     },
     /// An error whose cause stands in a scene file.
-    #[error("{location}: {source}{}", .location.excerpt())]
+    #[error("{location}: {error}{}", .location.excerpt())]
     Located {
         /// Where.
         location: Box<Location>,
-        /// The error.
-        source: Box<Error>,
+        /// The error, whose message is part of this one's.
+        error: Box<Error>,
     },
+}
+
+/// The error's message with those of its causes. Some errors repeat their cause: it is not added again.
+pub(crate) fn with_causes(error: &dyn std::error::Error) -> String {
+    let mut message = error.to_string();
+    let mut cause = error.source();
+    while let Some(error) = cause {
+        let text = error.to_string();
+        if !message.contains(&text) {
+            message = format!("{message}: {text}");
+        }
+        cause = error.source();
+    }
+    message
 }
 
 impl Error {
@@ -112,13 +130,13 @@ impl Error {
             Self::Cable(CableError::CoarseMesh { .. }) => file
                 .locate("solver.node_spacing")
                 .or_else(|| file.locate("solver.vehicle_step")),
-            Self::Scene(SceneError::Value { key, .. }) => file.locate(key),
+            Self::Scene(SceneError::Wrong(wrong)) if wrong.location.is_none() => file.locate(&wrong.key),
             _ => None,
         };
         match location {
             Some(location) => Self::Located {
                 location: Box::new(location),
-                source: Box::new(self),
+                error: Box::new(self),
             },
             None => self,
         }
@@ -127,7 +145,7 @@ impl Error {
     /// Whether the input is at fault, not the computation.
     pub fn is_bad_input(&self) -> bool {
         match self {
-            Self::Located { source, .. } => source.is_bad_input(),
+            Self::Located { error, .. } => error.is_bad_input(),
             Self::Calibration(error) => error.is_bad_input(),
             Self::Scene(_)
             | Self::Data(_)

@@ -21,7 +21,7 @@
 //!
 //! ```
 //! use boussinesq::HalfSpace;
-//! use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
+//! use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, QuasiStatic};
 //! use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
 //!
 //! fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -32,10 +32,9 @@
 //!     let law = FrictionLaw::ElasticPlastic { shape_factor: 2e8 / limit };
 //!     let cable = DuctedCable::new(30.0, 8.01e6, Friction::new(law, limit)?)?;
 //!     let cable = cable.with_ends(End::Free, End::Fixed)?;
-//!     let mesh = Mesh::new(30.0, 0.1, 0.05)?;
-//!     let passage = Passage::new(&cable, &mesh, &motion, 15.0)?;
-//!     let mut solver = QuasiStatic::new(cable, mesh)?;
-//!     let mut state = CableState::at_rest(&mesh);
+//!     let mut solver = QuasiStatic::new(cable, Mesh::for_depth(30.0, 1.2, 12.0)?)?;
+//!     let passage = solver.passage(&motion, 15.0)?;
+//!     let mut state = solver.at_rest();
 //!     let force = solver.pass(&passage, &mut state)?.force.downstream;
 //!     println!("{force:.1} N on the joint after the first truck");
 //! #   // An independent computation of the first pass: 102.08 N.
@@ -45,39 +44,49 @@
 //! ```
 //!
 //! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `burmister` (layers by
-//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable), `pass-law` (many passes), `calibrate` (parameters from measurements).
+//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable), `pass-law` (many passes), `calibrate` (parameters from measurements), `plain-figure` (charts as SVG).
 
-mod analysis;
+mod answer;
+mod cable;
 pub mod calibration;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 pub mod design;
 mod error;
-#[cfg(feature = "plot")]
-pub mod figure;
 mod finite;
+mod ground;
 #[cfg(feature = "sweep")]
 pub mod output;
-mod planner;
+mod plan;
 pub mod presets;
+mod progress;
 #[cfg(feature = "plot")]
 pub mod report;
+mod run;
 pub mod scene;
-#[cfg(any(feature = "cli", feature = "plot"))]
+#[cfg_attr(
+    not(all(feature = "cli", feature = "plot")),
+    allow(dead_code, reason = "the terminal and the report show most of it")
+)]
 mod shown;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 pub mod template;
 
-pub use analysis::profile::{Profile, profile, profile_at};
-pub use analysis::result::{
+#[cfg(feature = "plot")]
+pub use plain_figure as figure;
+
+pub use answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, FrictionProfile, PassRecord,
     PlanSummary, RestraintRecord, Run, Saturation, SlipRecord, Stage,
 };
-pub use analysis::run::{RunOptions, check, run, run_with};
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
 pub use error::Error;
-pub use planner::{Plan, PlanReport, Rung, occurrence, plan, plan_on};
+pub use ground::profile::{Profile, profile, profile_at};
+pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
+pub use progress::Progress;
+pub use run::{RunOptions, check, run, run_plan, run_with};
 pub use scene::{Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.

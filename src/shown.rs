@@ -1,13 +1,9 @@
 //! Numbers and tables for a reader, as the terminal and the report show them.
 
-use crate::PassRecord;
-
-/// Leading digits of the passes in a shortened table.
-const STEPS: [u64; 3] = [1, 2, 5];
 /// Rows of a table that is read at a glance.
-const ROWS: usize = 16;
+pub const ROWS: usize = 16;
 
-/// `value` with so many decimals, and no minus before zeros.
+/// `value` with this number of decimals, and no minus before zeros.
 pub fn rounded(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -16,13 +12,18 @@ pub fn rounded(value: f64, decimals: usize) -> String {
     }
 }
 
-/// An error as a percentage.
-pub fn share(error: f64) -> String {
-    if error > 0.0 && error < 5e-5 {
+/// An estimated share as a percentage.
+pub fn percent(share: f64) -> String {
+    if share > 0.0 && share < 5e-5 {
         "< 0.01 %".into()
     } else {
-        format!("{:.2} %", 100.0 * error)
+        format!("{:.2} %", 100.0 * share)
     }
+}
+
+/// A given share as the percentage that was meant, without the binary digits of the product.
+pub fn exact_percent(share: f64) -> String {
+    format!("{} %", (1e12 * (100.0 * share)).round() / 1e12)
 }
 
 /// A time in words of its size.
@@ -36,20 +37,24 @@ pub fn time(seconds: f64) -> String {
     }
 }
 
-/// The first passes, then about evenly growing numbers, and the last.
-pub fn selected(passes: &[PassRecord]) -> Vec<&PassRecord> {
-    if passes.len() <= ROWS {
-        return passes.iter().collect();
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentages_show_what_is_known() {
+        let estimates = [(0.0, "0.00 %"), (1e-6, "< 0.01 %"), (0.0123456, "1.23 %")];
+        for (share, text) in estimates {
+            assert_eq!(percent(share), text);
+        }
+        let given = [
+            (1e-6, "0.0001 %"),
+            (0.01, "1 %"),
+            (0.07, "7 %"),
+            (0.335, "33.5 %"),
+        ];
+        for (share, text) in given {
+            assert_eq!(exact_percent(share), text);
+        }
     }
-    let last = passes.len() - 1;
-    passes
-        .iter()
-        .enumerate()
-        .filter(|(index, record)| {
-            let leading = record.pass / 10_u64.pow(record.pass.ilog10());
-            let round = record.pass.is_multiple_of(10_u64.pow(record.pass.ilog10()));
-            *index == last || (round && STEPS.contains(&leading))
-        })
-        .map(|(_, record)| record)
-        .collect()
 }

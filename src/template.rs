@@ -4,7 +4,7 @@
 
 use std::fmt::Write;
 
-use crate::scene::{FrictionLaw, SceneError};
+use crate::scene::{FrictionLaw, SceneError, quoted};
 use crate::{Scene, presets};
 
 /// Slope of the elastic part of friction \[N/m per m of cable\] behind the shape factor of a new scene: as in the scenes of
@@ -237,18 +237,7 @@ fn toml(value: &str) -> String {
     if number {
         return value.to_owned();
     }
-    let mut quoted = String::from('"');
-    for c in value.chars() {
-        match c {
-            '"' | '\\' => quoted.extend(['\\', c]),
-            c if c.is_control() => {
-                let _ = write!(quoted, "\\u{:04X}", u32::from(c));
-            }
-            c => quoted.push(c),
-        }
-    }
-    quoted.push('"');
-    quoted
+    quoted(value)
 }
 
 #[cfg(test)]

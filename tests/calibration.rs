@@ -1,15 +1,17 @@
 //! Calibration of scenes: readings made by another solver, on a finer mesh, give back their friction.
 
+use std::ops::ControlFlow;
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use creepage::calibration::{BootstrapOptions, Deflection, Loss, Quantity, Reading, Readings, Unknown};
 use creepage::scene::{End, FrictionLaw, PeakScaling, SolverMethod};
-use creepage::{CalibrateOptions, Calibrated, Error, Scene, Series, calibrate, calibrate_jointly};
+use creepage::{CalibrateOptions, Calibrated, Error, Progress, Scene, Series, calibrate, calibrate_jointly};
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
 
 fn upper() -> Scene {
-    Scene::from_file(UPPER.as_ref()).unwrap()
+    Scene::from_file(UPPER).unwrap()
 }
 
 /// Forces after passes of the upper phase, by the solver with inertia on a mesh twice as fine as the fit's first.
@@ -148,7 +150,7 @@ fn outliers_do_not_move_a_robust_fit() {
 #[ignore = "half a minute: see calibration_coverage.rs for the command"]
 fn two_series_share_their_ground() {
     let scenes = ["upper", "lower"]
-        .map(|cable| Scene::from_file(format!("examples/scenes/full-scale-{cable}.toml").as_ref()).unwrap());
+        .map(|cable| Scene::from_file(format!("examples/scenes/full-scale-{cable}.toml")).unwrap());
     let deflection = 1.25 * creepage::profile_at(&scenes[0], &[0.0]).unwrap().vertical_m[0];
     let measured: Vec<Readings> = (0..)
         .zip(&scenes)
@@ -295,4 +297,25 @@ fn coulomb_and_an_upstream_load_cell() {
         "{:?}",
         answer.parameters
     );
+}
+
+#[test]
+fn the_progress_may_stop_a_calibration() {
+    let data = readings(&noisy(series(), 3.0, 1));
+    let runs = AtomicUsize::new(0);
+    let stop = |share: f64| {
+        assert!((0.0..=1.0).contains(&share), "{share}");
+        match runs.fetch_add(1, Ordering::Relaxed) {
+            0..5 => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        }
+    };
+    let options = CalibrateOptions {
+        progress: Progress::new(&stop),
+        ..CalibrateOptions::default()
+    };
+    let error = calibrate(&upper(), &data, &options).expect_err("stopped");
+    assert!(matches!(error, Error::Stopped), "{error}");
+    // No run follows the one that stopped it.
+    assert_eq!(runs.into_inner(), 6);
 }

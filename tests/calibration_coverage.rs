@@ -63,7 +63,7 @@ struct Range {
 
 /// Forces on the load cell after the passes that are read.
 fn forces(inertia: bool, friction: f64, shape_factor: f64) -> Vec<f64> {
-    let scene = Scene::from_file("examples/scenes/full-scale-upper.toml".as_ref()).unwrap();
+    let scene = Scene::from_file("examples/scenes/full-scale-upper.toml").unwrap();
     let law = FrictionLaw::ElasticPlastic { shape_factor };
     let friction = Friction::new(law, friction * scene.cable.normal_load()).unwrap();
     let cable = DuctedCable::new(scene.duct.length, scene.cable.axial_stiffness, friction)
@@ -90,7 +90,7 @@ fn forces(inertia: bool, friction: f64, shape_factor: f64) -> Vec<f64> {
 fn motion() -> &'static DuctMotion {
     static MOTION: OnceLock<DuctMotion> = OnceLock::new();
     MOTION.get_or_init(|| {
-        let scene = Scene::from_file("examples/scenes/full-scale-upper.toml".as_ref()).unwrap();
+        let scene = Scene::from_file("examples/scenes/full-scale-upper.toml").unwrap();
         let ground = HalfSpace::new(scene.ground.profile.homogeneous().unwrap());
         let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset).unwrap();
         let reach = scene.duct.length + 2.0 * APPROACH;

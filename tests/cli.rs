@@ -787,7 +787,7 @@ fn design_answers_in_words_and_as_json() {
     let fixed = printed(&design(&["--limit-force", "10 kN"]));
     assert!(fixed.contains("answer: fixed"), "{fixed}");
     let none = printed(&design(&["--limit-force", "1 N", "--limit-movement", "0.1 mm"]));
-    assert!(none.contains("no stiffness keeps the limits"), "{none}");
+    assert!(none.contains("no stiffness stays within the limits"), "{none}");
     for (more, part) in [
         (&["--limit-force", "3 m"][..], "force"),
         (&["--limit-force", "-3"], "limit-force"),

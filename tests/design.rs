@@ -1,10 +1,11 @@
 //! Springs and clamps that keep limits: the answer is checked by runs of its own.
 
-use std::path::Path;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use creepage::design::{Design, DesignError, DesignOptions, Limits, Measure, Place, compare, design, passes};
 use creepage::scene::End;
-use creepage::{Run, Scene};
+use creepage::{Error, Progress, Run, Scene};
 
 /// A short scene on a mesh that is good enough: the limits are kept and broken on the same one.
 fn scene() -> Scene {
@@ -14,7 +15,9 @@ fn scene() -> Scene {
         "solver.node_spacing=0.25 m",
     ]
     .map(str::to_owned);
-    Scene::from_file_with(Path::new("examples/scenes/full-scale-upper.toml"), &overrides).unwrap()
+    creepage::SceneFile::read("examples/scenes/full-scale-upper.toml")
+        .and_then(|file| file.with(&overrides)?.scene())
+        .unwrap()
 }
 
 fn designed(
@@ -24,14 +27,7 @@ fn designed(
     movement_m: Option<f64>,
 ) -> Result<Design, DesignError> {
     let limits = Limits { force_n, movement_m };
-    design(
-        scene,
-        &DesignOptions {
-            place,
-            limits,
-            progress: None,
-        },
-    )
+    design(scene, &DesignOptions::new(place, limits))
 }
 
 fn largest_force(run: &Run) -> f64 {
@@ -206,7 +202,7 @@ fn ways_are_compared_by_runs_of_their_own() {
             measure(Place::Clamp(7.5), f64::INFINITY),
             measure(Place::Upstream, f64::NAN),
         ],
-        None,
+        Progress::default(),
     )
     .unwrap();
     let spring = ways[1].as_ref().unwrap();
@@ -224,4 +220,35 @@ fn ways_are_compared_by_runs_of_their_own() {
     for way in &ways[4..] {
         assert!(matches!(way, Err(DesignError::Invalid { .. })), "{way:?}");
     }
+}
+
+#[test]
+fn the_progress_grows_and_may_stop_the_search() {
+    let mut options = DesignOptions::new(
+        Place::Downstream,
+        Limits {
+            force_n: 150.0,
+            movement_m: None,
+        },
+    );
+    let calls = AtomicUsize::new(0);
+    let stop = |share: f64| {
+        assert!((0.0..=1.0).contains(&share), "{share}");
+        match calls.fetch_add(1, Ordering::Relaxed) {
+            // The passes of the run that chooses the mesh, then some of the curve.
+            0..20 => ControlFlow::Continue(()),
+            _ => ControlFlow::Break(()),
+        }
+    };
+    options.progress = Progress::new(&stop);
+    let error = design(&scene(), &options).expect_err("stopped");
+    assert!(matches!(error, DesignError::Analysis(Error::Stopped)), "{error}");
+    assert!(!error.is_bad_input());
+    let stop_at_once = |_| ControlFlow::Break(());
+    let measures = [Measure {
+        place: Place::Downstream,
+        stiffness: 1e6,
+    }];
+    let error = compare(&scene(), &measures, Progress::new(&stop_at_once)).expect_err("stopped");
+    assert!(matches!(error, DesignError::Analysis(Error::Stopped)), "{error}");
 }

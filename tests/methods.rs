@@ -1,7 +1,5 @@
 //! The scene's `solver.method`: which one a scene gets, and that they agree.
 
-use std::path::Path;
-
 use boussinesq::HalfSpace;
 use creepage::{Error, Run, RunOptions, Scene};
 use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad};
@@ -10,7 +8,9 @@ const UPPER: &str = "examples/scenes/full-scale-upper.toml";
 
 fn scene(overrides: &[&str]) -> Scene {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    Scene::from_file_with(Path::new(UPPER), &overrides).expect("a valid scene")
+    creepage::SceneFile::read(UPPER)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("a valid scene")
 }
 
 fn run(overrides: &[&str]) -> Run {

@@ -44,7 +44,9 @@ fn a_value_between_rows_comes_out_of_a_run() {
 fn scene(overrides: &[&str]) -> Scene {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/full-scale-upper.toml");
     let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
-    Scene::from_file_with(&path, &overrides).expect("a scene")
+    creepage::SceneFile::read(&path)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("a scene")
 }
 
 fn expected(overrides: &[&str]) -> occurrence::Occurrence {

@@ -2,6 +2,7 @@
 
 #![cfg(all(feature = "cli", feature = "plot"))]
 
+#[path = "../crates/figure/tests/xml/mod.rs"]
 mod xml;
 
 use std::fs;
@@ -49,7 +50,9 @@ fn text(path: &Path) -> &str {
 
 fn scene(overrides: &[&str]) -> Scene {
     let overrides: Vec<String> = overrides.iter().map(|set| (*set).to_owned()).collect();
-    Scene::from_file_with(Path::new(UPPER), &overrides).expect("a scene")
+    creepage::SceneFile::read(UPPER)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("a scene")
 }
 
 /// The page for a scene of six passes.
@@ -179,7 +182,7 @@ fn the_numbers_are_those_of_the_run() {
 }
 
 #[test]
-fn every_rung_is_shown_with_its_fate() {
+fn every_candidate_is_shown_with_its_fate() {
     let layered = [
         "ground.rigid_base_depth=12 m",
         r#"ground.layers=[{thickness="50 mm", young_modulus="4000 MPa", poisson_ratio=0.35}, {young_modulus="800 MPa", poisson_ratio=0.4}]"#,
@@ -188,13 +191,13 @@ fn every_rung_is_shown_with_its_fate() {
     let scene = scene(&[&["traffic.passes=6"], &layered[..]].concat());
     let plan = creepage::plan(&scene).expect("a plan").report();
     let rows = table(&page, &["model", "error, time", "why, or why not"]);
-    assert_eq!(rows.len(), plan.ladder.len());
-    for (row, rung) in rows.iter().zip(&plan.ladder) {
-        let fate = if rung.chosen { "taken" } else { "rejected" };
-        assert_eq!(row[0], format!("{} {}: {fate}", rung.part, rung.name));
-        assert_eq!(row[2], rung.reason);
+    assert_eq!(rows.len(), plan.candidates.len());
+    for (row, candidate) in rows.iter().zip(&plan.candidates) {
+        let fate = if candidate.chosen { "chosen" } else { "rejected" };
+        assert_eq!(row[0], format!("{} {}: {fate}", candidate.part, candidate.name));
+        assert_eq!(row[2], candidate.reason);
     }
-    assert!(plan.ladder.iter().any(|rung| !rung.chosen));
+    assert!(plan.candidates.iter().any(|candidate| !candidate.chosen));
     let ground = table(&page, &["ground at depth", "Young’s modulus", "Poisson’s ratio"]);
     assert_eq!(ground[0], ["0 to 50 mm", "4 GPa", "0.35"]);
     assert_eq!(ground[2][0], "below 12 m");

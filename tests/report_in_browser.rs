@@ -223,7 +223,9 @@ fn faults(page: &str, width: u32, dark: bool, figures: usize) -> Vec<String> {
 
 fn upper(overrides: &[&str]) -> Scene {
     let overrides: Vec<String> = overrides.iter().map(|set| (*set).to_owned()).collect();
-    Scene::from_file_with(Path::new("examples/scenes/full-scale-upper.toml"), &overrides).expect("a scene")
+    creepage::SceneFile::read("examples/scenes/full-scale-upper.toml")
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("a scene")
 }
 
 /// A page with everything on it: readings, layers, two kinds of vehicles, springs, a clamp, long names, warnings, a failed way.

@@ -5,6 +5,8 @@
 
 #![allow(dead_code, reason = "the figures of the maps are drawn by the example")]
 
+#[path = "../examples/shared/bilinear.rs"]
+mod bilinear;
 #[path = "../examples/stability/burmister.rs"]
 mod burmister_map;
 #[path = "../examples/stability/fem.rs"]
@@ -14,6 +16,7 @@ mod ground_map;
 #[path = "../examples/shared/ground_reference.rs"]
 mod ground_reference;
 
+use ground_field::Soil;
 use ground_map::{Grid, Outcome};
 
 /// Every cell of the crate is right, or refused with a typed error; at most `refused` of them are.
@@ -64,4 +67,78 @@ fn elements_are_never_wrong_over_thickness_and_contrast() {
 fn elements_are_never_wrong_on_the_coarsest_grid() {
     let grid = fem::layered(2, 2).unwrap();
     never_wrong(&grid, 0);
+}
+
+fn rows(text: &str) -> Vec<Vec<f64>> {
+    let numbers = |line: &str| {
+        line.split(',')
+            .map(|field| field.parse().unwrap_or(f64::NAN))
+            .collect()
+    };
+    text.lines().skip(1).map(numbers).collect()
+}
+
+/// The element that locks is the textbook's own: its published stiffness, displacements and stresses.
+#[test]
+fn smith_griffiths_5_17() {
+    let node_rows = rows(include_str!("data/published_smith_griffiths_5_17_nodes.csv"));
+    let element_rows = rows(include_str!("data/published_smith_griffiths_5_17_elements.csv"));
+    let mesh = bilinear::Mesh {
+        nodes: node_rows.iter().map(|row| [row[1], row[2]]).collect(),
+        elements: (element_rows.iter())
+            .map(|row| [2, 3, 4, 5].map(|k| row[k] as usize))
+            .collect(),
+    };
+    let soils = [Soil::new(100.0, 0.3).unwrap(), Soil::new(1000.0, 0.45).unwrap()];
+    let soil = |element: usize| soils[element_rows[element][1] as usize - 1];
+
+    for row in rows(include_str!(
+        "data/published_smith_griffiths_5_17_element_stiffness.csv"
+    )) {
+        let element = row[0] as usize;
+        let matrix = mesh.stiffness(element, soil(element));
+        for (found, published) in matrix[row[1] as usize].iter().zip(&row[2..]) {
+            assert!(
+                (found - published).abs() <= 1e-5 * published.abs(),
+                "element {element}: {found} {published}"
+            );
+        }
+    }
+
+    // Held sideways on the axis and the outer edge, and fully at the bottom.
+    let held = |&[r, y]: &[f64; 2]| [r == 0.0 || r == 30.0 || y == -10.0, y == -10.0];
+    let fixed: Vec<bool> = mesh.nodes.iter().flat_map(held).collect();
+    let load = |row: &Vec<f64>| row.get(5).copied().filter(|load| load.is_finite());
+    let force: Vec<f64> = node_rows
+        .iter()
+        .flat_map(|row| [0.0, load(row).unwrap_or(0.0)])
+        .collect();
+    let found = mesh.solve(&fixed, &[0.0; 24], &force, soil).unwrap();
+    for (u, row) in found.chunks_exact(2).zip(&node_rows) {
+        assert!(
+            (u[0] - row[3]).abs() < 1e-9 && (u[1] - row[4]).abs() < 1e-9,
+            "{u:?} {row:?}"
+        );
+    }
+
+    let points = [-0.6_f64.sqrt(), 0.0, 0.6_f64.sqrt()];
+    for row in rows(include_str!(
+        "data/published_smith_griffiths_5_17_gauss_stress.csv"
+    )) {
+        let (element, point) = (row[0] as usize, row[1] as usize);
+        let shape = mesh.shape(element, points[point % 3], points[point / 3]);
+        let mut strain = [0.0; 4];
+        for (k, &node) in mesh.elements[element].iter().enumerate() {
+            for c in 0..2 {
+                let column = shape.strain(2 * k + c);
+                strain = std::array::from_fn(|i| strain[i] + found[2 * node + c] * column[i]);
+            }
+        }
+        for (stress, published) in bilinear::stress(soil(element), strain).iter().zip(&row[2..]) {
+            assert!(
+                (stress - published).abs() < 1e-7,
+                "element {element}, point {point}: {stress} {published}"
+            );
+        }
+    }
 }

@@ -4,6 +4,7 @@
 
 use std::collections::HashSet;
 use std::fs;
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -11,13 +12,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use creepage::sweep::{
     Axis, AxisValues, Band, Quantiles, Samples, Sweep, SweepError, SweepOptions, SweepSummary,
 };
-use creepage::{Error, Run, Scene, SceneFile};
+use creepage::{Error, Progress, Run, Scene, SceneFile};
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
 const FRICTION: &str = "friction.dynamic_coefficient";
 
 fn sweep_of(axes: &[&str], samples: Samples) -> Result<Sweep, SweepError> {
-    let file = SceneFile::read(Path::new(UPPER))
+    let file = SceneFile::read(UPPER)
         .unwrap()
         .with(&["traffic.passes=1"])
         .unwrap();
@@ -152,7 +153,7 @@ fn a_row_is_the_run_of_its_point_and_a_failing_point_stops_nothing() {
 #[test]
 fn saturation_comes_from_the_run() {
     let output = output("saturation");
-    let file = SceneFile::read(Path::new(UPPER))
+    let file = SceneFile::read(UPPER)
         .unwrap()
         .with(&["traffic.passes=150"])
         .unwrap();
@@ -565,7 +566,7 @@ fn parquet_holds_what_csv_holds() {
 
 #[test]
 fn an_axis_without_values_and_a_probability_that_is_none_are_no_panics() {
-    let file = SceneFile::read("examples/scenes/full-scale-upper.toml".as_ref()).expect("an example");
+    let file = SceneFile::read("examples/scenes/full-scale-upper.toml").expect("an example");
     let axis = Axis {
         key: "duct.depth".into(),
         values: AxisValues::List(Vec::new()),
@@ -584,4 +585,34 @@ fn an_axis_without_values_and_a_probability_that_is_none_are_no_panics() {
         }
         assert!(!distribution.quantile(0.0).0.is_nan() && !distribution.quantile(1.0).0.is_nan());
     }
+}
+
+#[test]
+fn a_sweep_that_is_stopped_goes_on_where_it_was() {
+    let output = output("stopped");
+    let sweep = sweep(&["friction.dynamic_coefficient=0.1:0.5:0.1"]);
+    let evaluate = formula(|scene| scene.friction.dynamic_coefficient);
+    let stop = |share: f64| {
+        if share < 0.5 {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    };
+    let mut options = SweepOptions {
+        threads: Some(1),
+        evaluate: Some(&evaluate),
+        progress: Progress::new(&stop),
+        ..SweepOptions::default()
+    };
+    let error = sweep.run(&output, &options).expect_err("stopped");
+    assert!(
+        matches!(error, SweepError::Stopped) && !error.is_bad_input(),
+        "{error}"
+    );
+    assert!(!output.exists() && journal(&output).exists());
+    options.progress = Progress::default();
+    let summary = sweep.run(&output, &options).unwrap();
+    assert_eq!((summary.points, summary.resumed), (5, 3));
+    assert!(output.exists() && !journal(&output).exists());
 }

@@ -71,7 +71,7 @@ impl Case {
     fn new(length: f64) -> Result<Self, Failure> {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/full-scale-upper.toml");
         let set = [format!("duct.length={length} m"), APPROACH_KEY.to_owned()];
-        let scene = Scene::from_file_with(&path, &set)?;
+        let scene = creepage::SceneFile::read(&path).and_then(|file| file.with(&set)?.scene())?;
         let mut coulomb = scene.clone();
         coulomb.friction.law = FrictionLaw::Coulomb;
         let soil = scene.ground.profile.homogeneous().ok_or("the scene has layers")?;

@@ -18,8 +18,7 @@ use ground_field::{
     Base, Direction, Displacement, DuctLine, DuctMotion, GroundError, GroundField, Soil, SoilLayer,
     SoilProfile, SurfaceLoad, Vehicle, Wheel,
 };
-use layered_fem::element::Quadrilateral;
-use layered_fem::{FemOptions, LayeredFem};
+use layered_fem::LayeredFem;
 
 use crate::ground_reference;
 
@@ -48,7 +47,7 @@ const CLOSED: &[f64] = &[1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const TRANSFORM: &[f64] = &[0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 const ELEMENTS: &[f64] = &[0.1, 0.01, 5e-3, 3e-3, 1e-3, 3e-4, 1e-4];
 
-const METHODS: [Method; 5] = [
+const METHODS: [Method; 4] = [
     Method {
         name: "boussinesq",
         unit: "evaluations",
@@ -94,25 +93,16 @@ const METHODS: [Method; 5] = [
         },
     },
     Method {
-        name: "fem, order 2",
+        name: "fem",
         unit: "unknowns",
         knobs: ELEMENTS,
-        run: |profile, accuracy| elements(profile, accuracy, Quadrilateral::Quadratic9),
-    },
-    Method {
-        name: "fem, order 1",
-        unit: "unknowns",
-        knobs: ELEMENTS,
-        run: |profile, accuracy| elements(profile, accuracy, Quadrilateral::Linear4),
+        run: |profile, accuracy| {
+            let ground = LayeredFem::new(profile, accuracy)?;
+            let motion = motion(&ground, accuracy)?;
+            Ok((motion, ground.statistics().unknowns))
+        },
     },
 ];
-
-fn elements(profile: &SoilProfile, accuracy: f64, element: Quadrilateral) -> Answer {
-    let options = FemOptions::new(accuracy)?.with_element(element);
-    let ground = LayeredFem::with_options(profile, options)?;
-    let motion = motion(&ground, accuracy)?;
-    Ok((motion, ground.statistics().unknowns))
-}
 
 fn motion(field: &dyn GroundField, accuracy: f64) -> Result<DuctMotion, GroundError> {
     let wheel = Wheel {

@@ -105,7 +105,7 @@ impl Panel {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/full-scale-upper.toml");
         let mut set: Vec<String> = self.set.iter().map(|&text| text.to_owned()).collect();
         set.push(APPROACH_KEY.to_owned());
-        Ok(Scene::from_file_with(&path, &set)?)
+        Ok(creepage::SceneFile::read(&path).and_then(|file| file.with(&set)?.scene())?)
     }
 
     /// Forces after every pass, and how far they may be off.

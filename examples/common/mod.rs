@@ -21,7 +21,7 @@ fn root() -> &'static Path {
 /// Those of the scene.
 pub fn scene(name: &str, overrides: &[String]) -> Result<Scene, Failure> {
     let path = root().join("examples/scenes").join(name);
-    Ok(Scene::from_file_with(&path, overrides)?)
+    Ok(creepage::SceneFile::read(&path).and_then(|file| file.with(overrides)?.scene())?)
 }
 
 /// Writes `svg` as `name` into the folder named by the first argument, docs/figures without one, and says so.

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use cable_dem::{CableError, DuctedCable, End, Friction, FrictionLaw};
-use creepage::figure::{Class, GridAxis, Map};
+use creepage::figure::{Axis, Chart};
 use ground_field::{DuctLine, DuctMotion, GroundError, Soil, Vehicle};
 use rayon::prelude::*;
 
@@ -149,9 +149,9 @@ impl Grid {
     }
 
     /// As a panel of a figure.
-    pub fn map(&self, title: &str, x: GridAxis, y: GridAxis) -> Map {
-        let classes = Outcome::NAMES.map(Class::new);
-        Map::of_classes(
+    pub fn map(&self, title: &str, x: Axis, y: Axis) -> Chart {
+        let classes = Outcome::NAMES;
+        Chart::of_classes(
             title,
             x,
             y,

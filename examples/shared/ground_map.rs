@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt::Write as _;
 
-use creepage::figure::{Class, GridAxis, Map, Panels};
+use creepage::figure::{Axis, Chart, Panels};
 use ground_field::{Displacement, GroundError, GroundField, SurfaceLoad};
 use rayon::prelude::*;
 
@@ -154,20 +154,13 @@ impl Grid {
     }
 
     /// One map a model, in `panels`.
-    pub fn draw(
-        &self,
-        mut panels: Panels,
-        x: &GridAxis,
-        y: &GridAxis,
-        what: &str,
-        tolerance: &str,
-    ) -> Panels {
+    pub fn draw(&self, mut panels: Panels, x: &Axis, y: &Axis, what: &str, tolerance: &str) -> Panels {
         for (model, name) in self.models.iter().enumerate() {
-            panels = panels.with(Map::of_classes(
+            panels = panels.with(Chart::of_classes(
                 format!("{name}: {what}"),
                 x.clone(),
                 y.clone(),
-                Outcome::names(tolerance).map(Class::new),
+                Outcome::names(tolerance),
                 self.of(model).map(|cell| cell.outcome as usize),
             ));
         }

@@ -9,7 +9,7 @@ use std::error::Error;
 use std::path::Path;
 
 use burmister::LayeredHalfSpace;
-use creepage::figure::{GridAxis, Panels};
+use creepage::figure::{Axis, Panels};
 use ground_field::{Base, GroundError, Soil, SoilLayer, SoilProfile};
 use nalgebra::{Matrix4, Vector4};
 
@@ -120,8 +120,8 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     )
     .columns(2);
     let (x, y) = (
-        GridAxis::logarithmic("modulus of the layer over that of the half-space", grid.x.clone()),
-        GridAxis::logarithmic("thickness of the layer, m", grid.y.clone()),
+        Axis::logarithmic("modulus of the layer over that of the half-space").cells(grid.x.clone()),
+        Axis::logarithmic("thickness of the layer, m").cells(grid.y.clone()),
     );
     let panels = grid.draw(panels, &x, &y, "layer on a half-space", "1e-6");
     std::fs::write(out.join("stability-burmister.svg"), panels.to_svg()?)?;

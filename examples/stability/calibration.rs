@@ -17,7 +17,7 @@ use boussinesq::HalfSpace;
 use cable_dem::{CableError, CableState, DuctedCable, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
 use calibrate::{Calibration, Estimate, Fit, ModelError, Parameter, Scale};
 use creepage::Scene;
-use creepage::figure::{Class, GridAxis, Map};
+use creepage::figure::{Axis, Chart};
 use fastrand::Rng;
 use ground_field::{DuctLine, DuctMotion};
 use rayon::prelude::*;
@@ -324,11 +324,11 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     let table = Table::new(6.0)?;
     let grid = Grid::fill(&table, 18, 15, 40)?;
     std::fs::write(out.join("stability-calibration.csv"), grid.csv()?)?;
-    let map = Map::of_classes(
+    let map = Chart::of_classes(
         "Calibration of μ_d and b from 30 readings in 60 passes: where b is identifiable",
-        GridAxis::logarithmic("true shape factor b, 1/m", grid.shape_factors.clone()),
-        GridAxis::logarithmic("standard deviation of the load cell, N", grid.noises.clone()),
-        NAMES.map(Class::new),
+        Axis::logarithmic("true shape factor b, 1/m").cells(grid.shape_factors.clone()),
+        Axis::logarithmic("standard deviation of the load cell, N").cells(grid.noises.clone()),
+        NAMES,
         grid.cells.iter().map(|cell| cell.outcome() as usize),
     );
     std::fs::write(out.join("stability-calibration.svg"), map.to_svg()?)?;

@@ -11,7 +11,7 @@ use cable_dem::{
     CableError, CableState, Dynamic, Explicit, ExplicitOptions, FrictionLaw, Mesh, MovingDuct, Passage,
     QuasiStatic, StepLimits,
 };
-use creepage::figure::{GridAxis, Panels, Series};
+use creepage::figure::{Axis, Panels, Series};
 use ground_field::DuctMotion;
 
 use crate::cable_map::{Cell, DEPTH, Grid, LIMIT, MASS, cable, decades, judge, silent, truck, unanswered};
@@ -146,7 +146,7 @@ fn limits(law: Law, shape_factor: f64) -> Result<StepLimits, CableError> {
 ///
 /// # Errors
 ///
-/// As for writing files and for [`creepage::figure::Map`].
+/// As for writing files and for [`creepage::figure::Chart`].
 pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     let (steps, factors, speeds) = (15, 12, 8);
     let mut figure = Panels::new("Explicit solver: force after one pass over 15 m, by time step")
@@ -154,7 +154,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         .panel_size(700.0, 480.0);
     let mut table =
         String::from("map,time_step_s,shape_factor_per_m_or_speed_m_per_s,outcome,force_n,right_force_n\n");
-    let steps_axis = |grid: &Grid| GridAxis::logarithmic("time step", grid.x.clone()).prefixes("s");
+    let steps_axis = |grid: &Grid| Axis::logarithmic("time step").cells(grid.x.clone()).prefixes("s");
     for law in [Law::ElasticPlastic, Law::Sigmoid] {
         for (grid, guards) in over_shape_factor(law, steps, factors)?
             .into_iter()
@@ -176,7 +176,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
                 .map(
                     &name,
                     steps_axis(&grid),
-                    GridAxis::logarithmic("shape factor b, 1/m", grid.y.clone()),
+                    Axis::logarithmic("shape factor b, 1/m").cells(grid.y.clone()),
                 )
                 .with(Series::line("elastic limit", elastic))
                 .with(Series::line("friction limit", friction).dashed())
@@ -197,7 +197,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
             .map(
                 &name,
                 steps_axis(&grid),
-                GridAxis::logarithmic("speed, m/s", grid.y.clone()),
+                Axis::logarithmic("speed, m/s").cells(grid.y.clone()),
             )
             .with(Series::line("elastic limit", line(limits.elastic.time_step)))
             .with(Series::line("friction limit", line(limits.friction.time_step)).dashed())

@@ -9,14 +9,11 @@ use std::error::Error;
 use std::path::Path;
 
 use boussinesq::HalfSpace;
-use creepage::figure::{GridAxis, Panels};
+use creepage::figure::{Axis, Panels};
 use ground_field::{Base, Displacement, GroundError, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
 use layered_fem::LayeredFem;
-use layered_fem::element::{Quadrilateral, Volumetric};
-use layered_fem::material::Elasticity;
-use layered_fem::mesh::Mesh;
-use layered_fem::system::{System, prescribed_force};
 
+use crate::bilinear::Mesh;
 use crate::ground_map::{Cell, DEPTH, Grid, ask, decades, judge, radii, wheel};
 use crate::ground_reference;
 
@@ -84,11 +81,11 @@ fn textbook(thickness: f64, upper: Soil, base: Soil, load: SurfaceLoad) -> Vec<(
     breaks.sort_by(f64::total_cmp);
     breaks.dedup();
     let depths = graded(&breaks, SCALE);
-    let mesh = Mesh::rectangular(Quadrilateral::Linear4, &radii, &depths);
+    let mesh = Mesh::rectangular(&with_midpoints(&radii), &with_midpoints(&depths));
     let width = 2 * radii.len() - 1;
     let far = HalfSpace::new(base);
-    let (mut prescribed, mut given) = (vec![false; mesh.dofs()], vec![0.0; mesh.dofs()]);
-    for (index, &[r, z]) in mesh.nodes().iter().enumerate() {
+    let (mut prescribed, mut given) = (vec![false; 2 * mesh.nodes.len()], vec![0.0; 2 * mesh.nodes.len()]);
+    for (index, &[r, z]) in mesh.nodes.iter().enumerate() {
         let outer = r >= REACH || z >= REACH;
         prescribed[2 * index] = outer || index % width == 0;
         prescribed[2 * index + 1] = outer;
@@ -96,28 +93,25 @@ fn textbook(thickness: f64, upper: Soil, base: Soil, load: SurfaceLoad) -> Vec<(
             (given[2 * index], given[2 * index + 1]) = (u.radial, u.vertical);
         }
     }
-    let moduli = |_: usize, _: f64, z: f64| {
-        let soil = if z < thickness { upper } else { base };
-        Elasticity::new(soil.young_modulus(), soil.poisson_ratio())
-    };
-    let solve = || {
-        let system = System::new(&mesh, Volumetric::Full, &prescribed, moduli)?;
-        let mut force = prescribed_force(&mesh, Volumetric::Full, &given, |_| true, moduli)?;
-        for (node, pair) in mesh.nodes()[..width].windows(2).enumerate() {
-            let (left, right) = (pair[0][0], pair[1][0]);
-            if right <= load.contact_radius() * (1.0 + 1e-9) {
-                // ∫ N r dr of the two linear shape functions.
-                let (length, pressure) = (right - left, load.pressure());
-                force[2 * node + 1] += pressure * length * (2.0 * left + right) / 6.0;
-                force[2 * node + 3] += pressure * length * (left + 2.0 * right) / 6.0;
-            }
+    let mut force = vec![0.0; 2 * mesh.nodes.len()];
+    for (node, pair) in mesh.nodes[..width].windows(2).enumerate() {
+        let (left, right) = (pair[0][0], pair[1][0]);
+        if right <= load.contact_radius() * (1.0 + 1e-9) {
+            // ∫ N r dr of the two linear shape functions.
+            let (length, pressure) = (right - left, load.pressure());
+            force[2 * node + 1] += pressure * length * (2.0 * left + right) / 6.0;
+            force[2 * node + 3] += pressure * length * (left + 2.0 * right) / 6.0;
         }
-        system.solve(&force, &given)
+    }
+    // The first node is the element's top.
+    let soil = |element: usize| {
+        let in_layer = mesh.nodes[mesh.elements[element][0]][1] < thickness;
+        if in_layer { upper } else { base }
     };
-    let Ok(solution) = solve() else {
+    let Some(solution) = mesh.solve(&prescribed, &given, &force, soil) else {
         return Vec::new();
     };
-    let nodes = mesh.nodes().iter().enumerate();
+    let nodes = mesh.nodes.iter().enumerate();
     nodes
         .filter(|(_, [r, z])| (z - DEPTH).abs() < 1e-9 && *r <= 15.0)
         .map(|(index, [r, _])| {
@@ -143,6 +137,13 @@ fn graded(breaks: &[f64], scale: f64) -> Vec<f64> {
     lines
 }
 
+/// The lines and the mid-points between them.
+fn with_midpoints(lines: &[f64]) -> Vec<f64> {
+    let pairs = lines.windows(2);
+    let between = pairs.flat_map(|pair| [pair[0], 0.5 * (pair[0] + pair[1])]);
+    between.chain(lines.last().copied()).collect()
+}
+
 pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     let incompressible = incompressible(17)?;
     let layered = layered(17, 13)?;
@@ -157,10 +158,10 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         layered.csv("modulus_of_layer_over_base", "thickness_m", "0.5 %")?,
     )?;
     let contrast = |grid: &Grid| {
-        GridAxis::logarithmic("modulus of the layer over that of the half-space", grid.x.clone())
+        Axis::logarithmic("modulus of the layer over that of the half-space").cells(grid.x.clone())
     };
-    let ratio = GridAxis::names("Poisson's ratio", RATIOS.map(|ratio| ratio.to_string()));
-    let thickness = GridAxis::logarithmic("thickness of the layer, m", layered.y.clone());
+    let ratio = Axis::names("Poisson's ratio", RATIOS.map(|ratio| ratio.to_string()));
+    let thickness = Axis::logarithmic("thickness of the layer, m").cells(layered.y.clone());
     let panels = Panels::new(
         "Finite elements, duct at 1.2 m: outcome by contrast, Poisson's ratio and thickness of a layer",
     )

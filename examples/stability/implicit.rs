@@ -8,7 +8,7 @@ use std::error::Error;
 use std::path::Path;
 
 use cable_dem::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, Passage, QuasiStatic};
-use creepage::figure::{GridAxis, Panels};
+use creepage::figure::{Axis, Panels};
 use ground_field::DuctMotion;
 
 use crate::cable_map::{Cell, DEPTH, Grid, LIMIT, Outcome, cable, decades, judge, silent, truck, unanswered};
@@ -215,7 +215,7 @@ pub fn maps(finest: i32, factors: usize) -> Result<[Grid; 2], Box<dyn Error>> {
 ///
 /// # Errors
 ///
-/// As for writing files and for [`creepage::figure::Map`].
+/// As for writing files and for [`creepage::figure::Chart`].
 pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     let mut figure = Panels::new(
         "Implicit steps: force after the second pass over 15 m, by shape factor and vehicle step",
@@ -228,11 +228,15 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         .zip(["plain Newton", "quasi-static solver"])
     {
         println!("{name}: {}", grid.summary());
-        figure = figure.with(grid.map(
-            name,
-            GridAxis::logarithmic("shape factor b, 1/m", grid.x.clone()),
-            GridAxis::logarithmic("vehicle step", grid.y.clone()).prefixes("m"),
-        ));
+        figure = figure.with(
+            grid.map(
+                name,
+                Axis::logarithmic("shape factor b, 1/m").cells(grid.x.clone()),
+                Axis::logarithmic("vehicle step")
+                    .cells(grid.y.clone())
+                    .prefixes("m"),
+            ),
+        );
         table += &grid.csv(name);
     }
     std::fs::write(out.join("stability-implicit.csv"), table)?;

@@ -2,6 +2,8 @@
 //!
 //! Each map is a file here: a grid of runs coloured by outcome. Without a name all maps are drawn.
 
+#[path = "../shared/bilinear.rs"]
+mod bilinear;
 #[path = "../shared/cable_map.rs"]
 mod cable_map;
 #[path = "../shared/ground_map.rs"]

@@ -9,7 +9,7 @@ use std::error::Error;
 use std::path::Path;
 
 use cable_dem::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, Passage, QuasiStatic};
-use creepage::figure::{GridAxis, Panels};
+use creepage::figure::{Axis, Panels};
 use ground_field::DuctMotion;
 use pass_law::{LawError, PassLaw, Resolution};
 
@@ -104,7 +104,7 @@ pub fn maps(lengths: usize, numbers: usize) -> Result<[Grid; 2], Box<dyn Error>>
 ///
 /// # Errors
 ///
-/// As for writing files and for [`creepage::figure::Map`].
+/// As for writing files and for [`creepage::figure::Chart`].
 pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
     let mut figure =
         Panels::new("Pass law: force after 20 to 200 passes, against the simulation of every pass")
@@ -115,8 +115,8 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         println!("{name}: {}", grid.summary());
         figure = figure.with(grid.map(
             name,
-            GridAxis::logarithmic("length of the duct, depths", grid.x.clone()),
-            GridAxis::logarithmic("friction number EA·D/(q z²)", grid.y.clone()),
+            Axis::logarithmic("length of the duct, depths").cells(grid.x.clone()),
+            Axis::logarithmic("friction number EA·D/(q z²)").cells(grid.y.clone()),
         ));
         table += &grid.csv(name);
     }

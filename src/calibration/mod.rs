@@ -17,22 +17,22 @@
 mod model;
 mod result;
 mod unknown;
+mod watch;
 
 use ::calibrate::{Bootstrap, Calibration, Emulator, Fit, Model, Options, Prior, Profiles};
 
-pub use ::calibrate::{
-    BootstrapOptions, CalibrationError, DataError, Loss, Observer, Progress, Reading, Readings,
-};
+pub use ::calibrate::{BootstrapOptions, CalibrationError, DataError, Loss, Reading, Readings};
 pub use result::{
     BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
 };
 pub use unknown::{Quantity, Unknown, UnknownQuantity};
 
-use crate::analysis::cable::PassMethod;
+use crate::plan::PassMethod;
 use crate::scene::FrictionLaw;
-use crate::{Error, Scene};
+use crate::{Error, Progress, Scene};
 pub(crate) use model::CellEnd;
 use model::{CableModel, SeriesModel};
+use watch::Watch;
 
 /// Shift of a parameter by the mesh, in standard errors, above which a finer one is taken.
 const MESH_SHIFT: f64 = 0.8;
@@ -67,7 +67,7 @@ pub struct Deflection {
 
 /// How to calibrate.
 #[derive(Debug, Clone, Default)]
-pub struct CalibrateOptions {
+pub struct CalibrateOptions<'a> {
     /// What to fit; if empty, the dynamic coefficient and, but for Coulomb's law, the shape factor.
     pub unknowns: Vec<Unknown>,
     /// Prior knowledge of the ground's stiffness, which is then fitted as well.
@@ -78,8 +78,8 @@ pub struct CalibrateOptions {
     pub bootstrap: Option<BootstrapOptions>,
     /// Most model runs without those of the bootstrap; 0 takes 2000.
     pub max_evaluations: usize,
-    /// Hears of every iteration.
-    pub observer: Option<Observer>,
+    /// Called after each model run with its share of all that are allowed; it may stop the calibration.
+    pub progress: Progress<'a>,
 }
 
 /// Calibrates one scene.
@@ -91,7 +91,7 @@ pub struct CalibrateOptions {
 pub fn calibrate(
     scene: &Scene,
     readings: &Readings,
-    options: &CalibrateOptions,
+    options: &CalibrateOptions<'_>,
 ) -> Result<Calibrated, Error> {
     calibrate_jointly(&[Series { scene, readings }], options)
 }
@@ -101,7 +101,7 @@ pub fn calibrate(
 /// # Errors
 ///
 /// As for [`calibrate()`].
-pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions) -> Result<Calibrated, Error> {
+pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
     let unknowns = unknowns(series, options)?;
     if let [only] = series {
         let free = unknowns.len() - usize::from(options.deflection.is_some());
@@ -115,21 +115,27 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions) -> R
         .iter()
         .map(SeriesModel::new)
         .collect::<Result<Vec<_>, _>>()?;
+    let limit = match options.max_evaluations {
+        0 => Options::default().max_evaluations,
+        limit => limit,
+    };
     let ladder = Ladder {
+        watch: Watch::new(options.progress, limit),
         series,
         models: &models,
         unknowns: &unknowns,
         options,
-        limit: match options.max_evaluations {
-            0 => Options::default().max_evaluations,
-            limit => limit,
-        },
+        limit,
     };
-    ladder.climb()
+    let answer = ladder.climb();
+    if ladder.watch.is_stopped() {
+        return Err(Error::Stopped);
+    }
+    answer
 }
 
 /// What is fitted, checked against the scenes.
-fn unknowns(series: &[Series<'_>], options: &CalibrateOptions) -> Result<Vec<Unknown>, Error> {
+fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Vec<Unknown>, Error> {
     if series.is_empty() {
         return Err(Error::Unfit {
             key: "series",
@@ -183,8 +189,9 @@ struct Ladder<'a> {
     series: &'a [Series<'a>],
     models: &'a [SeriesModel],
     unknowns: &'a [Unknown],
-    options: &'a CalibrateOptions,
+    options: &'a CalibrateOptions<'a>,
     limit: usize,
+    watch: Watch<'a>,
 }
 
 /// The rung of the final fit.
@@ -282,6 +289,7 @@ impl Ladder<'_> {
             unknowns: self.unknowns,
             rung,
             correction,
+            watch: &self.watch,
         }
     }
 
@@ -328,7 +336,6 @@ impl Ladder<'_> {
             RIPPLE[model.rung.min(LAST_RUNG) as usize]
         };
         options.profiles = profiles;
-        options.observer = self.options.observer.clone();
         Ok(calibration.with_options(options)?)
     }
 

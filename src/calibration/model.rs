@@ -12,11 +12,12 @@ use rayon::prelude::*;
 
 use super::Series;
 use super::unknown::{Quantity, Unknown};
-use crate::analysis::cable::PassMethod;
-use crate::analysis::passes::simulate;
-use crate::analysis::{law, motion, road};
-use crate::planner::{ground, plan};
-use crate::{Error, PassRecord, Scene};
+use super::watch::Watch;
+use crate::ground::{Ground, road};
+use crate::plan::{PassMethod, plan};
+use crate::run::law;
+use crate::run::passes::simulate;
+use crate::{Error, PassRecord, Progress, Scene};
 
 /// Nodes per depth of the duct on the coarsest mesh; every rung above has twice as many.
 const COARSEST: f64 = 6.0;
@@ -79,9 +80,7 @@ impl SeriesModel {
         let end = CellEnd::of(&scene)?;
         scene.traffic.passes = series.readings.last_pass();
         let method = plan(&scene)?.method.method;
-        let (_, field, accuracy) = ground::exact(&scene)?;
-        let ground = motion::Ground::new(&*field, accuracy);
-        let motions = motion::motions(&scene, &ground, road::reach(&scene))?;
+        let motions = Ground::new(&scene, None, road::reach(&scene))?.motions;
         Ok(Self {
             scene,
             motions,
@@ -145,7 +144,14 @@ impl SeriesModel {
         };
         match self.method {
             PassMethod::EveryPass(method) => {
-                let passes = simulate(scene, method, &motions, self.mesh(rung)?, &[], || {})?;
+                let passes = simulate(
+                    scene,
+                    method,
+                    &motions,
+                    self.mesh(rung)?,
+                    &[],
+                    Progress::default(),
+                )?;
                 let force = |&pass: &u64| {
                     let force = passes.outcomes[pass as usize - 1].force;
                     match self.end {
@@ -177,6 +183,7 @@ pub(super) struct CableModel<'a> {
     pub rung: u32,
     /// Added to what this rung predicts: the difference to the next one, near the optimum.
     pub correction: Option<Vec<f64>>,
+    pub watch: &'a Watch<'a>,
 }
 
 impl Model for CableModel<'_> {
@@ -199,6 +206,7 @@ impl Model for CableModel<'_> {
                 series.predict(&scene, stiffness, self.rung)
             })
             .collect::<Result<_, Error>>()?;
+        self.watch.run()?;
         let mut forces = forces.concat();
         if let Some(correction) = &self.correction {
             for (force, correction) in forces.iter_mut().zip(correction) {

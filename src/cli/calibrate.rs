@@ -1,37 +1,79 @@
 //! `creepage calibrate`: parameters from readings.
 
-use std::io::{self, IsTerminal, Write};
-use std::ops::ControlFlow;
+use std::io::Write;
 
-use super::arguments::{CalibrateArguments, OutputArguments, SceneArguments};
-use super::input::Input;
-use super::{Failure, terminal, write};
+use std::path::PathBuf;
+
+use super::failure::Failure;
+use super::progress::{MODEL_RUNS, with_bar};
+use super::shared::{Input, OutputArguments, SceneArguments};
+use super::terminal;
 use crate::calibration::{
-    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Observer, Readings,
+    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Quantity, Readings,
     Unknown,
 };
 use crate::output::Kind;
-use crate::scene::FrictionLaw;
+use crate::scene::{Dimension, FrictionLaw};
+use crate::shown::{ROWS, percent};
 
-/// Rows of the table of readings on a terminal.
-const ROWS: usize = 16;
+/// Arguments of `creepage calibrate`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  creepage calibrate my-duct.toml --data forces.csv
+  creepage calibrate my-duct.toml --data forces.csv --fit dynamic_coefficient,shape_factor --json")]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Readings: CSV with the columns pass,force_n[,sigma_n], forces after the pass at the held end (the downstream one if both are)
+    #[arg(long, value_name = "FILE")]
+    data: PathBuf,
+    /// What to fit: dynamic_coefficient, shape_factor, ground_stiffness (how many times stiffer than in the scene); by default the
+    /// first two, with the law coulomb the first
+    #[arg(long, value_delimiter = ',', value_name = "NAMES")]
+    fit: Vec<Quantity>,
+    /// Measured deflection of the duct under the first vehicle, "115 um": prior knowledge of ground_stiffness, which is fitted too
+    #[arg(long, value_name = "LENGTH", requires = "deflection_sigma", value_parser = positive_length)]
+    deflection: Option<f64>,
+    /// Standard deviation of the measured deflection, "15 um"
+    #[arg(long, value_name = "LENGTH", requires = "deflection", value_parser = positive_length)]
+    deflection_sigma: Option<f64>,
+    /// Ignore outliers (Tukey's loss)
+    #[arg(long)]
+    robust: bool,
+    /// Also refit N bootstrap samples (at least 10)
+    #[arg(long, value_name = "N")]
+    bootstrap: Option<usize>,
+    /// Random seed of the bootstrap
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Maximum number of model runs, without those of the bootstrap
+    #[arg(long, value_name = "N", default_value_t = 2000)]
+    max_evaluations: usize,
+    #[command(flatten)]
+    output: OutputArguments,
+}
 
-pub fn execute(
-    scene: &SceneArguments,
-    arguments: &CalibrateArguments,
-    output: &OutputArguments,
-) -> Result<(), Failure> {
-    let input = Input::read(scene)?;
+fn positive_length(text: &str) -> Result<f64, String> {
+    match Dimension::Length.parse_argument(text) {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        Ok(_) => Err(format!(
+            "found \"{text}\"; allowed: a finite, positive length such as \"115 um\""
+        )),
+        Err(error) => Err(format!(
+            "found \"{text}\": {error}; allowed: a length such as \"115 um\""
+        )),
+    }
+}
+
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let input = Input::read(&arguments.scene)?;
     let readings = Readings::from_file(&arguments.data).map_err(crate::Error::from)?;
-    let table = write::table(output, Kind::Fit, [&*scene.scene, &arguments.data])?;
-    let scene = &input.scene;
-    let (bar, observer) = progress();
+    let read = [&*arguments.scene.scene, &arguments.data];
+    let destination = arguments.output.destination(Kind::Fit, read)?;
+    let deflection = arguments.deflection.zip(arguments.deflection_sigma);
     let options = CalibrateOptions {
         unknowns: arguments.fit.iter().copied().map(Unknown::shared).collect(),
-        deflection: arguments
-            .deflection
-            .zip(arguments.deflection_sigma)
-            .map(|(value, sigma)| Deflection { value, sigma }),
+        deflection: deflection.map(|(value, sigma)| Deflection { value, sigma }),
         loss: if arguments.robust {
             Loss::TUKEY
         } else {
@@ -42,45 +84,15 @@ pub fn execute(
             seed: arguments.seed,
         }),
         max_evaluations: arguments.max_evaluations,
-        observer,
+        ..CalibrateOptions::default()
     };
-    let answer = crate::calibrate(scene, &readings, &options);
-    bar.finish_and_clear();
-    let mut answer = input.judged(answer)?;
-    for warning in &answer.warnings {
-        terminal::warn(warning);
-    }
-    answer.warnings.splice(0..0, input.warnings);
-    if let Some(table) = table {
-        table.write(&answer.fit)?;
-    }
-    if output.json {
-        write::json(&answer)
-    } else if output.is_on_stdout() {
-        Ok(())
-    } else {
-        print(&answer, scene.friction.law)
-    }
-}
-
-/// The present values beside a spinner, on a terminal only.
-fn progress() -> (indicatif::ProgressBar, Option<Observer>) {
-    if !io::stderr().is_terminal() {
-        return (indicatif::ProgressBar::hidden(), None);
-    }
-    let bar = indicatif::ProgressBar::new_spinner();
-    let shown = bar.clone();
-    let observer = Observer::new(move |progress| {
-        let values: Vec<String> = progress
-            .parameters
-            .iter()
-            .map(|value| format!("{value:.4e}"))
-            .collect();
-        shown.set_message(format!("iteration {}: {}", progress.iteration, values.join(", ")));
-        shown.tick();
-        ControlFlow::Continue(())
+    let answer = with_bar(MODEL_RUNS, arguments.max_evaluations, |progress| {
+        crate::calibrate(&input.scene, &readings, &CalibrateOptions { progress, ..options })
     });
-    (bar, Some(observer))
+    let mut answer = input.located(answer)?;
+    let law = input.scene.friction.law;
+    input.warn(&mut answer.warnings);
+    destination.write(&answer, &answer.fit, || print(&answer, law))
 }
 
 fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
@@ -165,8 +177,8 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     )?;
     writeln!(
         out,
-        "error of the mesh: {:.2} % of the force, at most {:.2} standard errors of a parameter",
-        100.0 * answer.model_error.relative,
+        "error of the mesh: {} of the force, at most {:.2} standard errors of a parameter",
+        percent(answer.model_error.relative),
         answer
             .model_error
             .standard_errors

@@ -1,15 +1,14 @@
-//! `creepage design`: the end spring or clamp that keeps limits of force and movement.
+//! `creepage design`: the end spring or clamp that stays within limits of force and movement.
 
-use std::io::{self, IsTerminal, Write};
+use std::io::Write;
 
-use indicatif::ProgressBar;
-
-use super::Failure;
-use super::arguments::SceneArguments;
-use super::input::Input;
-use super::{terminal, write};
+use super::failure::Failure;
+use super::progress::{PER_MILLE, PERCENT, with_bar};
+use super::shared::{Input, Json, SceneArguments};
+use super::terminal;
 use crate::design::{Design, DesignError, DesignOptions, Limits, Place, TradeOff, design, passes};
 use crate::scene::Dimension;
+use crate::shown::percent;
 
 /// Arguments of `creepage design`.
 #[derive(Debug, clap::Args)]
@@ -25,25 +24,24 @@ Examples:
 )]
 pub struct Arguments {
     #[command(flatten)]
-    pub scene: SceneArguments,
+    scene: SceneArguments,
     /// Largest force on an end
     #[arg(long, value_name = "FORCE", value_parser = force)]
-    pub limit_force: f64,
+    limit_force: f64,
     /// Largest displacement of an end
     #[arg(long, value_name = "LENGTH", value_parser = length)]
-    pub limit_movement: Option<f64>,
+    limit_movement: Option<f64>,
     /// Where the spring is: upstream, downstream (at these ends), or a position for a clamp
     #[arg(long, value_name = "PLACE", default_value = "downstream", value_parser = place)]
-    pub at: Place,
+    at: Place,
     /// Years of traffic, in place of the scene's number of passes
     #[arg(long, value_name = "N", requires = "trucks_per_day")]
-    pub years: Option<f64>,
+    years: Option<f64>,
     /// Trucks a day
     #[arg(long, value_name = "N", requires = "years")]
-    pub trucks_per_day: Option<f64>,
-    /// Print one JSON document on standard output and nothing else there
-    #[arg(long)]
-    pub json: bool,
+    trucks_per_day: Option<f64>,
+    #[command(flatten)]
+    json: Json,
 }
 
 fn force(text: &str) -> Result<f64, String> {
@@ -73,32 +71,20 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     if let (Some(years), Some(trucks)) = (arguments.years, arguments.trucks_per_day) {
         input.scene.traffic.passes = passes(years, trucks)?;
     }
-    let bar = if io::stderr().is_terminal() {
-        ProgressBar::new_spinner()
-    } else {
-        ProgressBar::hidden()
+    let limits = Limits {
+        force_n: arguments.limit_force,
+        movement_m: arguments.limit_movement,
     };
-    let progress = |runs: usize| bar.set_message(format!("{runs} runs"));
-    let options = DesignOptions {
-        place: arguments.at,
-        limits: Limits {
-            force_n: arguments.limit_force,
-            movement_m: arguments.limit_movement,
-        },
-        progress: Some(&progress),
-    };
-    let answer = design(&input.scene, &options);
-    bar.finish_and_clear();
+    let answer = with_bar(PERCENT, PER_MILLE, |progress| {
+        let mut options = DesignOptions::new(arguments.at, limits);
+        options.progress = progress;
+        design(&input.scene, &options)
+    });
     let answer = match answer {
         Err(DesignError::Analysis(error)) => input.located(Err(error))?,
         answer => answer?,
     };
-    let answer = input.judged(Ok(answer))?;
-    if arguments.json {
-        write::json(&answer)
-    } else {
-        print(&answer)
-    }
+    arguments.json.print(&answer, || print(&answer))
 }
 
 fn print(design: &Design) -> Result<(), Failure> {
@@ -146,29 +132,26 @@ fn print(design: &Design) -> Result<(), Failure> {
         Some((from, to)),
     ) = (&design.answer, design.range_n_per_m)
     else {
-        writeln!(out, "no stiffness keeps the limits")?;
+        writeln!(out, "no stiffness stays within the limits")?;
         return Ok(());
     };
     writeln!(
         out,
-        "answer: {}; force {force_n:.1} N, movement {:.4} mm, estimated error {:.2} %",
+        "answer: {}; force {force_n:.1} N, movement {:.4} mm, estimated error {}",
         match (stiffness(design.place, *stiffness_n_per_m), design.place) {
             (text, _) if text.parse::<f64>().is_err() => text,
             (text, Place::Clamp(_)) => format!("a clamp of {text} N/m"),
             (text, _) => format!("a spring of {text} N/m"),
         },
         1e3 * movement_m,
-        100.0 * error_estimate
+        percent(*error_estimate)
     )?;
     let softest = stiffness(design.place, Some(from));
     match to {
-        None => writeln!(
-            out,
-            "the limits are kept from {softest} on, by everything stiffer"
-        )?,
+        None => writeln!(out, "within the limits: {softest} and everything stiffer")?,
         Some(to) if to > from => writeln!(
             out,
-            "the limits are kept from {softest} to {} N/m",
+            "within the limits: {softest} to {} N/m",
             stiffness(design.place, Some(to))
         )?,
         Some(_) => {}

@@ -3,8 +3,9 @@
 use std::io::{self, BufRead, IsTerminal, Write};
 use std::path::PathBuf;
 
-use super::arguments::Force;
-use super::{Failure, terminal, write};
+use super::failure::Failure;
+use super::shared::Force;
+use super::terminal;
 use crate::Scene;
 use crate::output::{Kind, OutputError};
 use crate::template::{Template, TemplateGround};
@@ -12,7 +13,7 @@ use crate::template::{Template, TemplateGround};
 /// Arguments of `creepage new`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "What is not given is asked for at a terminal, and else has the value shown there in brackets.
+    after_help = "At a terminal, missing values are asked for interactively; otherwise defaults are used.
 
 Examples:
   creepage new my-duct.toml
@@ -21,45 +22,45 @@ Examples:
 )]
 pub struct Arguments {
     /// File to write; one that exists is replaced only with --force
-    pub file: PathBuf,
+    file: PathBuf,
     /// Title of the scene
     #[arg(long)]
-    pub title: Option<String>,
+    title: Option<String>,
     /// Length of the duct
     #[arg(long)]
-    pub length: Option<String>,
+    length: Option<String>,
     /// Depth of the cable below the road surface
     #[arg(long)]
-    pub depth: Option<String>,
+    depth: Option<String>,
     /// Young's modulus of the ground, where it is one soil
     #[arg(long, conflicts_with = "pavement")]
-    pub modulus: Option<String>,
+    modulus: Option<String>,
     /// Preset of a pavement, in place of one soil
     #[arg(long, value_name = "PRESET")]
-    pub pavement: Option<String>,
+    pavement: Option<String>,
     /// Preset of the cable
     #[arg(long, value_name = "PRESET")]
-    pub cable: Option<String>,
+    cable: Option<String>,
     /// Dynamic friction coefficient
     #[arg(long, value_name = "NUMBER")]
-    pub friction: Option<String>,
+    friction: Option<String>,
     /// What holds the end where vehicles come in: free, fixed or a spring's stiffness
     #[arg(long, value_name = "END")]
-    pub upstream: Option<String>,
+    upstream: Option<String>,
     /// What holds the other end
     #[arg(long, value_name = "END")]
-    pub downstream: Option<String>,
+    downstream: Option<String>,
     /// Preset of the vehicle
     #[arg(long, value_name = "PRESET")]
-    pub vehicle: Option<String>,
+    vehicle: Option<String>,
     /// Speed of the vehicle
     #[arg(long)]
-    pub speed: Option<String>,
+    speed: Option<String>,
     /// Number of passes
     #[arg(long)]
-    pub passes: Option<String>,
+    passes: Option<String>,
     #[command(flatten)]
-    pub force: Force,
+    force: Force,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
@@ -68,7 +69,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         OutputError::OtherKind { .. } => exists(&name),
         error => error.into(),
     };
-    let file = write::files([], &arguments.force)
+    let file = arguments
+        .force
+        .files([])
         .output(&arguments.file, Kind::Scene)
         .map_err(existing)?;
     let mut template = Template::default();
@@ -80,7 +83,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             None => {}
         }
     }
-    // An answer tells by itself whether it is a modulus or a preset, a flag by its name.
+    // A typed answer shows by itself whether it is a modulus or a preset, a flag by its name.
     if let Some(modulus) = &arguments.modulus {
         template.ground = TemplateGround::Modulus(modulus.clone());
     } else if let Some(pavement) = &arguments.pavement {
@@ -175,7 +178,7 @@ fn answer(question: &Question, name: &str, template: &mut Template) -> Result<()
 
 fn exists(name: &str) -> Failure {
     Failure::Usage {
-        argument: "FILE".into(),
+        argument: "FILE",
         found: format!("{name}, which exists"),
         allowed: "the name of a new file: nothing is overwritten without --force".into(),
     }

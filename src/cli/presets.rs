@@ -2,8 +2,9 @@
 
 use std::io::Write;
 
-use super::Failure;
-use super::{terminal, write};
+use super::failure::Failure;
+use super::shared::Json;
+use super::terminal;
 use crate::presets::{Preset, PresetKind, all};
 
 /// Arguments of `creepage presets`.
@@ -14,10 +15,9 @@ use crate::presets::{Preset, PresetKind, all};
   creepage presets --json")]
 pub struct Arguments {
     /// Show this preset with its values as a scene file has them
-    pub name: Option<String>,
-    /// Print one JSON document on standard output and nothing else there
-    #[arg(long)]
-    pub json: bool,
+    name: Option<String>,
+    #[command(flatten)]
+    json: Json,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
@@ -25,9 +25,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         None => all().iter().collect(),
         Some(name) => vec![find(name)?],
     };
-    if arguments.json {
-        return write::json(&chosen);
-    }
+    arguments
+        .json
+        .print(&chosen, || print(&chosen, arguments.name.is_some()))
+}
+
+fn print(chosen: &[&Preset], with_values: bool) -> Result<(), Failure> {
     let mut out = terminal::out();
     let mut kind = None;
     for group in chosen.chunk_by(|a, b| a.kind == b.kind && a.sources == b.sources) {
@@ -37,7 +40,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         }
         for preset in group {
             writeln!(out, "  {:<22} {}", preset.name, preset.summary)?;
-            if arguments.name.is_some() {
+            if with_values {
                 writeln!(out, "\n{}", preset.toml)?;
             }
         }
@@ -49,7 +52,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     }
     writeln!(
         out,
-        "In a scene: preset = \"NAME\" in that section; what stands beside it counts instead of the preset's value."
+        "In a scene: preset = \"NAME\" in that section; keys given next to a preset override it."
     )?;
     Ok(())
 }
@@ -67,7 +70,7 @@ fn find(name: &str) -> Result<&'static Preset, Failure> {
     all().iter().find(|preset| preset.name == name).ok_or_else(|| {
         let names: Vec<&str> = all().iter().map(|preset| preset.name.as_str()).collect();
         Failure::Usage {
-            argument: "NAME".into(),
+            argument: "NAME",
             found: format!("`{name}`"),
             allowed: names.join(", "),
         }

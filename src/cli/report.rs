@@ -2,9 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::arguments::{Force, SceneArguments};
-use super::input::Input;
-use super::{Failure, write};
+use super::failure::Failure;
+use super::progress::{PER_MILLE, PERCENT, with_bar};
+use super::shared::{Force, Input, SceneArguments};
+use super::terminal;
 use crate::calibration::Readings;
 use crate::output::Kind;
 use crate::report::{Report, ReportOptions};
@@ -21,15 +22,15 @@ Examples:
 )]
 pub struct Arguments {
     #[command(flatten)]
-    pub scene: SceneArguments,
+    scene: SceneArguments,
     /// Page to write (HTML); an older page is replaced
     #[arg(short, long, value_name = "FILE")]
-    pub output: PathBuf,
+    output: PathBuf,
     /// Readings to draw over the force: CSV with the columns pass,force_n[,sigma_n], at the held end (the downstream one if both are)
     #[arg(long, value_name = "FILE")]
-    pub data: Option<PathBuf>,
+    data: Option<PathBuf>,
     #[command(flatten)]
-    pub force: Force,
+    force: Force,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
@@ -41,20 +42,20 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         .transpose()
         .map_err(crate::Error::from)?;
     let read = [Some(&*arguments.scene.scene), arguments.data.as_deref()];
-    let page =
-        write::files(read.into_iter().flatten(), &arguments.force).output(&arguments.output, Kind::Page)?;
-    let report = super::with_progress(|progress| {
+    let mut files = arguments.force.files(read.into_iter().flatten());
+    let page = files.output(&arguments.output, Kind::Page)?;
+    let report = with_bar(PERCENT, PER_MILLE, |progress| {
         Report::new(
             &input.scene,
             &ReportOptions {
                 readings: readings.as_ref(),
                 warnings: &input.warnings,
-                progress: Some(progress),
+                progress,
                 ..ReportOptions::default()
             },
         )
     });
     let report = input.located(report)?;
-    super::warn(&report.run().warnings);
+    terminal::warn_all(&report.run().warnings);
     Ok(page.write(|out| out.write_all(report.to_html().as_bytes()))?)
 }

@@ -1,25 +1,23 @@
 //! `creepage sweep`: one scene with many values of some keys.
 
-use std::cell::RefCell;
-use std::io::{self, IsTerminal, Write};
+use std::io::Write;
 use std::path::PathBuf;
 
-use indicatif::{ProgressBar, ProgressStyle};
-
-use super::arguments::{Force, SceneArguments};
-use super::{Failure, terminal, write};
+use super::failure::Failure;
+use super::progress::{POINTS, with_bar};
+use super::shared::{Force, Json, SceneArguments, warn_of_slips};
+use super::terminal;
 use crate::SceneFile;
 #[cfg(feature = "plot")]
 use crate::output::Kind;
-use crate::sweep::{Axis, Band, Progress, Quantiles, Samples, Sweep, SweepOptions, SweepSummary};
+use crate::sweep::{Axis, Band, Quantiles, Samples, Sweep, SweepOptions, SweepSummary};
 #[cfg(feature = "plot")]
 use crate::sweep::{MapValue, Row, SweepMap};
 
 /// Arguments of `creepage sweep`.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "A sweep that was interrupted goes on where it was when the same command is given again. A point that fails is a row with \
-its error. Numbers in the table are SI. In CSV an apostrophe \
+    after_help = "Rerun the same command to resume an interrupted sweep. A point that fails is a row with its error. Numbers in the table are SI. In CSV an apostrophe \
 stands before a text that a spreadsheet would take for a formula.
 
 Examples:
@@ -30,39 +28,38 @@ Examples:
 )]
 pub struct Arguments {
     #[command(flatten)]
-    pub scene: SceneArguments,
+    scene: SceneArguments,
     /// A key and its values, A:B:STEP or V1,V2,… or normal(MEAN, SD), lognormal(MEDIAN, SIGMA of the logarithm), uniform(LOW, HIGH); may
     /// be repeated, for every combination
     #[arg(long, value_name = "KEY=VALUES", required = true, allow_hyphen_values = true)]
-    pub vary: Vec<String>,
+    vary: Vec<String>,
     /// Table to write, FILE.csv or FILE.parquet
     #[arg(long, value_name = "FILE")]
-    pub out: PathBuf,
-    /// Samples of the keys that have a distribution
+    out: PathBuf,
+    /// Number of samples of the keys that have a distribution
     #[arg(long, value_name = "N")]
-    pub samples: Option<usize>,
-    /// Another seed draws other samples
+    samples: Option<usize>,
+    /// Random seed
     #[arg(long, value_name = "S", default_value_t = 1)]
-    pub seed: u64,
+    seed: u64,
     /// Threads; all cores if left out
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub threads: Option<u16>,
+    threads: Option<u16>,
     /// Draw a map over two varied keys to this file (SVG)
     #[cfg(feature = "plot")]
     #[arg(long, value_name = "FILE.svg")]
-    pub map: Option<PathBuf>,
-    /// What colours the map
+    map: Option<PathBuf>,
+    /// Quantity shown by the map's colour
     #[cfg(feature = "plot")]
     #[arg(long, value_name = "VALUE", default_value = "force", requires = "map")]
-    pub map_of: MapOf,
-    /// Print the summary as one JSON document on standard output and nothing else there
-    #[arg(long)]
-    pub json: bool,
+    map_of: MapOf,
     #[command(flatten)]
-    pub force: Force,
+    json: Json,
+    #[command(flatten)]
+    force: Force,
 }
 
-/// What colours a map.
+/// The quantity shown by a map's colour.
 #[cfg(feature = "plot")]
 #[derive(Debug, Clone, Copy, clap::ValueEnum)]
 pub enum MapOf {
@@ -94,18 +91,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         seed: arguments.seed,
     };
     let sweep = Sweep::new(file, axes, samples)?;
-    for slip in sweep.file_at(0)?.unit_slips() {
-        terminal::warn(format_args!("{slip}{}", slip.location.excerpt()));
-    }
-    let bar = RefCell::new(None);
-    let progress = |progress: Progress| show(&mut bar.borrow_mut(), progress);
+    warn_of_slips(&sweep.file_at(0)?);
     let options = SweepOptions {
         threads: arguments.threads.map(usize::from),
-        progress: io::stderr().is_terminal().then_some(&progress),
         force: arguments.force.force,
         ..SweepOptions::default()
     };
-    let mut files = write::files([&*arguments.scene.scene], &arguments.force);
+    let mut files = arguments.force.files([&*arguments.scene.scene]);
     files.output(&arguments.out, crate::sweep::kind_of(&arguments.out)?)?;
     #[cfg(feature = "plot")]
     let map = match &arguments.map {
@@ -122,11 +114,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         each: each.as_ref().map(|each| each as &dyn Fn(&Row)),
         ..options
     };
-    let summary = sweep.run(&arguments.out, &options);
-    if let Some(bar) = bar.take() {
-        bar.finish_and_clear();
-    }
-    let summary = summary?;
+    let summary = with_bar(POINTS, sweep.count(), |progress| {
+        sweep.run(&arguments.out, &SweepOptions { progress, ..options })
+    })?;
     if let Some(error) = &summary.first_error {
         let SweepSummary { failed, points, .. } = summary;
         terminal::warn(format_args!(
@@ -141,25 +131,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let svg = map.to_svg()?;
         file.write(|out| out.write_all(svg.as_bytes()))?;
     }
-    if arguments.json {
-        write::json(&summary)
-    } else {
-        print(&summary, arguments)
-    }
-}
-
-/// The bar, which tells the time left from the points of this run alone.
-fn show(bar: &mut Option<ProgressBar>, progress: Progress) {
-    let bar = bar.get_or_insert_with(|| {
-        let bar = ProgressBar::new(progress.count as u64);
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len}, {eta} left") {
-            bar.set_style(style);
-        }
-        bar.set_position(progress.resumed as u64);
-        bar.reset_eta();
-        bar
-    });
-    bar.set_position(progress.done as u64);
+    arguments.json.print(&summary, || print(&summary, arguments))
 }
 
 fn print(summary: &SweepSummary, arguments: &Arguments) -> Result<(), Failure> {

@@ -3,8 +3,11 @@
 //! Control characters and those that turn the direction of writing are shown as U+FFFD. Tables and JSON documents are data and do not
 //! pass here: JSON escapes such characters, and a table keeps them.
 
+use std::error::Error;
 use std::fmt::Display;
 use std::io::{self, StderrLock, StdoutLock, Write};
+
+use crate::error::with_causes;
 
 /// What stands for a character that is not shown.
 const REPLACEMENT: &str = "\u{fffd}";
@@ -25,14 +28,19 @@ pub fn err() -> Shown<StderrLock<'static>> {
     Shown(io::stderr().lock())
 }
 
-/// Tells a warning on standard error; a closed one leaves nobody to tell.
+/// Prints a warning on standard error; if that is closed, nobody reads it.
 pub fn warn(warning: impl Display) {
     let _ = writeln!(err(), "warning: {}", cut(&warning.to_string()));
 }
 
-/// Tells an error on standard error.
-pub fn fail(error: impl Display) {
-    let _ = writeln!(err(), "error: {}", cut(&error.to_string()));
+/// Prints warnings on standard error.
+pub fn warn_all(warnings: &[String]) {
+    warnings.iter().for_each(warn);
+}
+
+/// Prints an error with its causes on standard error.
+pub fn fail(error: &dyn Error) {
+    let _ = writeln!(err(), "error: {}", cut(&with_causes(error)));
 }
 
 /// A text of the user's as one line of bounded length.

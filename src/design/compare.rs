@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::search::on_one_mesh;
 use super::{DesignError, Limits, Place, TradeOff};
-use crate::Scene;
+use crate::{Progress, Scene};
 
 /// One way to hold the cable.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,19 +18,19 @@ pub struct Measure {
 }
 
 /// Runs `scene` once with each of `measures`, all on one mesh, on all cores. A run that fails is an error in its own
-/// place; `progress` hears of the number of runs done so far.
+/// place; `progress` is called after each run.
 ///
 /// # Errors
 ///
-/// [`DesignError`] where the run that chooses the mesh fails.
+/// [`DesignError`] where the run that chooses the mesh fails, or `progress` stops the runs.
 pub fn compare(
     scene: &Scene,
     measures: &[Measure],
-    progress: Option<&(dyn Fn(usize) + Sync)>,
+    progress: Progress<'_>,
 ) -> Result<Vec<Result<TradeOff, DesignError>>, DesignError> {
     let mut places = measures.iter().map(|measure| measure.place);
     let end = places.find(|place| !matches!(place, Place::Clamp(_)));
-    let scene = on_one_mesh(scene, end.unwrap_or(Place::Clamp(0.0)))?;
+    let scene = on_one_mesh(scene, end.unwrap_or(Place::Clamp(0.0)), progress)?;
     let done = AtomicUsize::new(0);
     let answer = |measure: &Measure| {
         measure.check(&scene)?;
@@ -38,16 +38,15 @@ pub fn compare(
         let told = measure.stiffness.is_finite().then_some(measure.stiffness);
         Ok(TradeOff::of(&run, measure.place, told, NO_LIMITS))
     };
-    Ok(measures
+    measures
         .par_iter()
         .map(|measure| {
             let answer = answer(measure);
-            if let Some(progress) = progress {
-                progress(done.fetch_add(1, Ordering::Relaxed) + 1);
-            }
-            answer
+            let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+            progress.report(done as f64 / measures.len() as f64)?;
+            Ok(answer)
         })
-        .collect())
+        .collect()
 }
 
 const NO_LIMITS: Limits = Limits {

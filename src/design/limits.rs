@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::scene::{End, Restraint};
-use crate::{Error, Scene};
+use crate::{Error, Progress, Scene};
 
 /// Days of a year, on average.
 const DAYS_PER_YEAR: f64 = 365.25;
@@ -30,13 +30,26 @@ pub struct Limits {
 }
 
 /// How to design.
+#[derive(Debug, Clone, Copy)]
+#[non_exhaustive]
 pub struct DesignOptions<'a> {
     /// Where the spring is.
     pub place: Place,
     /// What it has to keep.
     pub limits: Limits,
-    /// Hears of the number of runs done so far.
-    pub progress: Option<&'a (dyn Fn(usize) + Sync)>,
+    /// Called after each run of the scene; it may stop the search.
+    pub progress: Progress<'a>,
+}
+
+impl DesignOptions<'_> {
+    /// A spring at `place` that stays within `limits`.
+    pub fn new(place: Place, limits: Limits) -> Self {
+        Self {
+            place,
+            limits,
+            progress: Progress::default(),
+        }
+    }
 }
 
 /// Error of a design.
@@ -67,7 +80,7 @@ pub enum DesignError {
         crossings: usize,
     },
     /// The stiffness at a limit was not found.
-    #[error("the stiffness at the limit of {what} was not found: {source}")]
+    #[error("the stiffness at the limit of {what} was not found")]
     Search {
         /// Force or movement.
         what: &'static str,

@@ -8,7 +8,7 @@ use argmin::solver::brent::BrentRoot;
 use rayon::prelude::*;
 
 use super::{Design, DesignError, DesignOptions, Limits, Place, TradeOff};
-use crate::{Error, Scene};
+use crate::{Error, Progress, RunOptions, Scene};
 
 /// The curve goes from this part of the cable's own stiffness EA/L to its inverse, in half decades.
 const DECADES: i32 = 2;
@@ -18,6 +18,8 @@ const ACCURACY: f64 = 0.01;
 /// Name of the law, which has a mesh of its own.
 const PASS_LAW: &str = "pass-law";
 const MOST_STEPS: u64 = 40;
+/// Runs that finding the stiffness at a limit takes, about: only the progress depends on it.
+const USUAL_STEPS: usize = 8;
 /// Stiffnesses that differ by less than this share are the same: a logarithm there and back.
 const SAME: f64 = 1e-9;
 
@@ -32,13 +34,7 @@ type Share = (&'static str, Box<dyn Fn(&TradeOff) -> f64 + Sync>);
 pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, DesignError> {
     options.limits.check()?;
     options.place.check(scene)?;
-    let scene = on_one_mesh(scene, options.place)?;
-    let search = Search {
-        scene: &scene,
-        options,
-        points: Mutex::new(Vec::new()),
-        runs: AtomicUsize::new(0),
-    };
+    let scene = on_one_mesh(scene, options.place, options.progress)?;
     let own = scene.cable.axial_stiffness / scene.duct.length;
     let steps = DECADES * POINTS_PER_DECADE;
     let grid = (-steps..=steps).map(|i| own * 10_f64.powf(f64::from(i) / f64::from(POINTS_PER_DECADE)));
@@ -47,13 +43,21 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         _ => Some(f64::INFINITY),
     };
     let stiffnesses: Vec<f64> = [0.0].into_iter().chain(grid).chain(last).collect();
+    let shares = shares(options.limits);
+    let search = Search {
+        scene: &scene,
+        options,
+        points: Mutex::new(Vec::new()),
+        runs: AtomicUsize::new(0),
+        expected_runs: stiffnesses.len() + USUAL_STEPS * shares.len() + 1,
+    };
     let curve = stiffnesses
         .par_iter()
         .map(|&stiffness| search.run(stiffness))
         .collect::<Result<Vec<_>, _>>()?;
 
     let mut range = Some((0.0, f64::INFINITY));
-    for share in shares(options.limits) {
+    for share in shares {
         let kept = search.kept(&stiffnesses, &curve, &share)?;
         range = range
             .zip(kept)
@@ -78,10 +82,15 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
 
 /// The scene on the mesh that its stiffest variant needs: runs that are to be compared are made on the same one, and where the end
 /// is nearly free there is no force whose relative error a finer mesh could make small.
-pub(super) fn on_one_mesh(scene: &Scene, place: Place) -> Result<Scene, Error> {
+pub(super) fn on_one_mesh(scene: &Scene, place: Place, progress: Progress<'_>) -> Result<Scene, Error> {
+    // This run may be stopped, but its share of the work is not counted.
+    let options = RunOptions {
+        progress: progress.part(0.0, 0.0),
+        ..RunOptions::default()
+    };
     let reference = match place {
-        Place::Clamp(_) => crate::run(scene)?,
-        _ => crate::run(&place.held(scene, f64::INFINITY))?,
+        Place::Clamp(_) => crate::run_with(scene, &options)?,
+        _ => crate::run_with(&place.held(scene, f64::INFINITY), &options)?,
     };
     let mut scene = scene.clone();
     if reference.plan.cable != PASS_LAW {
@@ -127,6 +136,7 @@ struct Search<'a> {
     options: &'a DesignOptions<'a>,
     points: Mutex<Vec<TradeOff>>,
     runs: AtomicUsize,
+    expected_runs: usize,
 }
 
 impl Search<'_> {
@@ -153,9 +163,9 @@ impl Search<'_> {
             self.options.limits,
         );
         points().push(point.clone());
-        if let Some(progress) = self.options.progress {
-            progress(self.runs.fetch_add(1, Ordering::Relaxed) + 1);
-        }
+        let runs = self.runs.fetch_add(1, Ordering::Relaxed) + 1;
+        let share = runs as f64 / self.expected_runs as f64;
+        self.options.progress.report(share.min(1.0))?;
         Ok(point)
     }
 

@@ -8,7 +8,7 @@ use std::path::Path;
 #[non_exhaustive]
 pub enum OutputError {
     /// The place cannot be written; found before anything is computed.
-    #[error("{file}: cannot be written: {source}")]
+    #[error("{file}: cannot be written")]
     Unwritable {
         /// The file.
         file: String,
@@ -40,7 +40,7 @@ pub enum OutputError {
         kind: &'static str,
     },
     /// Writing broke off.
-    #[error("{file}: cannot be written: {source}")]
+    #[error("{file}: cannot be written")]
     Failed {
         /// The file.
         file: String,
@@ -48,8 +48,8 @@ pub enum OutputError {
         source: io::Error,
     },
     /// Writing to standard output broke off.
-    #[error("standard output: cannot be written: {0}")]
-    StandardOutput(io::Error),
+    #[error("standard output: cannot be written")]
+    StandardOutput(#[source] io::Error),
 }
 
 impl OutputError {

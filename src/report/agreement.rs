@@ -9,7 +9,7 @@ pub struct Agreement {
     /// The end that pressed on the load cell.
     pub end: CellEnd,
     pub readings: Vec<Reading>,
-    /// Readings of passes that were computed.
+    /// Number of readings whose pass was computed.
     pub compared: usize,
     /// Root of the mean square of measured minus computed force over these \[N\].
     pub rms_n: f64,
@@ -28,23 +28,25 @@ impl Agreement {
     pub fn new(scene: &Scene, run: &Run, readings: &Readings) -> Result<Self, Error> {
         let end = CellEnd::of(scene)?;
         let readings = readings.readings().to_vec();
-        let differences: Vec<f64> = readings
-            .iter()
-            .filter_map(|reading| Some(reading.force - force_at(&run.passes, end, reading.pass)?))
-            .collect();
+        let difference = |reading: &Reading| Some(reading.force - force_at(&run.passes, end, reading.pass)?);
+        let differences: Vec<f64> = readings.iter().filter_map(difference).collect();
         let mean = |of: fn(f64) -> f64| {
             differences.iter().map(|d| of(*d)).sum::<f64>() / differences.len().max(1) as f64
         };
+        let sizes = readings.iter().map(|reading| reading.force.abs());
         Ok(Self {
             end,
             compared: differences.len(),
             rms_n: mean(|d| d * d).sqrt(),
             mean_n: mean(|d| d),
-            largest_n: readings
-                .iter()
-                .fold(0.0, |largest: f64, reading| largest.max(reading.force.abs())),
+            largest_n: sizes.fold(0.0, f64::max),
             readings,
         })
+    }
+
+    /// The numbers that the page shows.
+    pub fn numbers(&self) -> [f64; 3] {
+        [self.rms_n, self.mean_n, self.largest_n]
     }
 }
 

@@ -1,10 +1,9 @@
 //! Ways to hold the cable, each by a run of the scene.
 
+use super::quantity::{length, quantity};
 use crate::design::{DesignError, Measure, Place, TradeOff, compare};
-use crate::report::quantity::{length, quantity};
-use crate::report::{RUN_SHARE, ReportOptions};
 use crate::scene::End;
-use crate::{Run, Scene};
+use crate::{Error, PassRecord, Progress, Run, Scene};
 
 /// Tolerance of these runs, unless the scene's is looser: they are compared with each other, on one mesh.
 const TOLERANCE: f64 = 0.05;
@@ -35,24 +34,29 @@ pub struct Way {
 }
 
 impl Comparison {
-    /// Runs `scene` with the measures of `options`, or with those that suit it.
-    pub fn new(scene: &Scene, run: &Run, options: &ReportOptions<'_>) -> Self {
+    /// Runs `scene` with each of `measures`, or with those that suit it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Stopped`] where `progress` stops it.
+    pub fn new(
+        scene: &Scene,
+        run: &Run,
+        measures: Option<&[Measure]>,
+        progress: Progress<'_>,
+    ) -> Result<Self, Error> {
         let mut scene = scene.clone();
         let tolerance = scene.solver.tolerance.max(TOLERANCE);
         scene.solver.tolerance = tolerance;
-        let end = end(&scene, run);
-        let measures = options
-            .measures
-            .map_or_else(|| suitable(&scene, end), <[Measure]>::to_vec);
-        let progress = |done: usize| {
-            if let Some(progress) = options.progress {
-                let share = done as f64 / measures.len() as f64;
-                progress(RUN_SHARE + (1.0 - RUN_SHARE) * share);
-            }
-        };
+        let end = run
+            .passes
+            .last()
+            .map_or(Place::Downstream, |last| end(&scene, last));
+        let measures = measures.map_or_else(|| suitable(&scene, end), <[Measure]>::to_vec);
         let held = held(&scene, end);
-        let (answers, failure) = match compare(&scene, &measures, Some(&progress)) {
+        let (answers, failure) = match compare(&scene, &measures, progress) {
             Ok(answers) => (answers, None),
+            Err(DesignError::Analysis(Error::Stopped)) => return Err(Error::Stopped),
             Err(error) => (Vec::new(), Some(error.to_string())),
         };
         let ways = measures.into_iter().zip(answers).map(|(measure, answer)| Way {
@@ -60,16 +64,20 @@ impl Comparison {
             is_scene: measure.place == end && measure.stiffness == held,
             answer,
         });
-        Self {
+        Ok(Self {
             end,
             tolerance,
             ways: ways.collect(),
             failure,
-        }
+        })
     }
 }
 
 impl Way {
+    pub fn is_clamp(&self) -> bool {
+        matches!(self.measure.place, Place::Clamp(_))
+    }
+
     /// What it is, in words.
     pub fn name(&self) -> String {
         let Measure { place, stiffness } = self.measure;
@@ -80,30 +88,31 @@ impl Way {
             _ if stiffness.is_infinite() => "fixed end".to_owned(),
             _ => format!("spring of {spring}"),
         };
-        if self.is_scene {
-            format!("{name}, as in the scene")
-        } else {
-            name
-        }
+        let scene = if self.is_scene { ", as in the scene" } else { "" };
+        name + scene
     }
 }
 
-/// The end to be varied: the one that is pressed harder, or toward which the cable creeps where none is.
-fn end(scene: &Scene, run: &Run) -> Place {
-    let Some(last) = run.passes.last() else {
-        return Place::Downstream;
-    };
-    let upstream = match (scene.ends.upstream, scene.ends.downstream) {
-        (End::Free, End::Free) => -last.upstream_displacement_m > last.downstream_displacement_m,
-        (End::Free, _) => false,
-        (_, End::Free) => true,
-        _ => last.upstream_force_n.abs() > last.downstream_force_n.abs(),
-    };
-    if upstream {
-        Place::Upstream
-    } else {
-        Place::Downstream
+/// The held end that is pressed harder after the `last` pass; `None` where both are free.
+pub fn pressed_end(scene: &Scene, last: &PassRecord) -> Option<Place> {
+    match (scene.ends.upstream, scene.ends.downstream) {
+        (End::Free, End::Free) => None,
+        (_, End::Free) => Some(Place::Upstream),
+        (End::Free, _) => Some(Place::Downstream),
+        _ if last.upstream_force_n.abs() > last.downstream_force_n.abs() => Some(Place::Upstream),
+        _ => Some(Place::Downstream),
     }
+}
+
+/// The end to be varied: the one that is pressed harder, or toward which the cable creeps where both are free.
+fn end(scene: &Scene, last: &PassRecord) -> Place {
+    pressed_end(scene, last).unwrap_or(
+        if -last.upstream_displacement_m > last.downstream_displacement_m {
+            Place::Upstream
+        } else {
+            Place::Downstream
+        },
+    )
 }
 
 /// Free, springs, the scene's own, fixed, and clamps.

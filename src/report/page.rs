@@ -1,13 +1,37 @@
 //! The page: its head, its style, and its sections in their order.
 
-use super::Report;
+use super::cause::cause;
+use super::content::Report;
+use super::force::force;
+use super::headline::headline;
+use super::holding::holding;
 use super::html::{Html, escaped};
-use super::sections;
+use super::plan::plan;
+use super::words;
 use crate::figure::dark_style;
 
 const STYLE: &str = include_str!("style.css");
 
-pub fn page(report: &Report) -> String {
+type Section = (&'static str, fn(&mut Html, &Report));
+
+const SECTIONS: [Section; 7] = [
+    ("Warnings", warnings),
+    ("Scene", scene),
+    ("Force and movement", force),
+    ("Why the cable creeps", cause),
+    ("Ways to hold the cable", holding),
+    ("How it was computed", plan),
+    ("What is left out", limits),
+];
+
+impl Report {
+    /// The page.
+    pub fn to_html(&self) -> String {
+        page(self)
+    }
+}
+
+fn page(report: &Report) -> String {
     let mut html = Html::default();
     html.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>");
     html.raw("<meta charset=\"utf-8\"/>");
@@ -15,7 +39,7 @@ pub fn page(report: &Report) -> String {
     // Nothing is ever loaded, whatever a text on the page may say.
     html.raw("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\"/>");
     html.raw("<meta name=\"color-scheme\" content=\"light dark\"/>");
-    // By this a page of ours is known from another.
+    // This identifies our own pages.
     let version = env!("CARGO_PKG_VERSION");
     html.raw(&format!(
         "<meta name=\"generator\" content=\"creepage {version}\"/>"
@@ -27,7 +51,7 @@ pub fn page(report: &Report) -> String {
         dark_style()
     ));
     html.raw("</head>\n<body>\n<main>");
-    sections::heading(&mut html, report);
+    headline(&mut html, report);
     for (title, write) in SECTIONS {
         html.raw("<section>");
         html.element("h2", title);
@@ -38,14 +62,29 @@ pub fn page(report: &Report) -> String {
     html.finish()
 }
 
-type Section = (&'static str, fn(&mut Html, &Report));
+fn warnings(html: &mut Html, report: &Report) {
+    if report.warnings.is_empty() {
+        html.paragraph("None.");
+    }
+    html.list(&report.warnings);
+}
 
-const SECTIONS: [Section; 7] = [
-    ("Warnings", sections::warnings),
-    ("Scene", sections::scene),
-    ("Force and movement", sections::force),
-    ("Why the cable creeps", sections::cause),
-    ("Ways to hold the cable", sections::holding),
-    ("How it was computed", sections::plan),
-    ("What is left out", sections::limits),
-];
+fn scene(html: &mut Html, report: &Report) {
+    html.list(&words::scene(&report.scene));
+    html.table(&words::ground(&report.scene));
+    if let Some(scaling) = words::scaling(&report.scene) {
+        html.paragraph(&scaling);
+    }
+    html.table(&words::vehicles(&report.scene));
+}
+
+fn limits(html: &mut Html, _: &Report) {
+    html.paragraph(
+        "Heat (a loaded cable expands every day, and may press on its ends harder than creepage does), bends and slopes of the route, \
+         vehicles near the speed of the ground’s waves, and any change of the ground with time.",
+    );
+    html.paragraph(
+        "Method: K. Kashiro, K. Iwamura, T. Kamibayashi, T. Nagayama, H. Nishikubo, “Development of an Analysis Method for Power \
+         Cable Creepage Phenomenon in the Duct”, Furukawa Review.",
+    );
+}

@@ -3,8 +3,8 @@
 use ground_field::{Base, Direction, Modulus, Vehicle};
 
 use super::html::Table;
+use super::quantity::{count, length, quantity, significant};
 use crate::Scene;
-use crate::report::quantity::{count, length, quantity, significant};
 use crate::scene::{End, FrictionLaw, Order, PeakScaling};
 
 /// Kilometres an hour of a metre a second.
@@ -12,42 +12,25 @@ const KILOMETRES_PER_HOUR: f64 = 3.6;
 
 /// What lies where and what holds it, a point for each part.
 pub fn scene(scene: &Scene) -> Vec<String> {
+    let (duct, ends) = (&scene.duct, &scene.ends);
+    let (long, deep) = (length(duct.length), length(duct.depth));
+    let ends = format!(
+        "Ends: upstream (x = 0) {}, downstream (x = {long}) {}.",
+        end(ends.upstream),
+        end(ends.downstream)
+    );
     let mut points = vec![
-        duct(scene),
+        format!("Duct: {long} long, {deep} from the road surface to the cable."),
         cable(scene),
         friction(scene),
-        format!(
-            "Ends: upstream (x = 0) {}, downstream (x = {}) {}.",
-            end(scene.ends.upstream),
-            length(scene.duct.length),
-            end(scene.ends.downstream)
-        ),
+        ends,
     ];
-    for restraint in &scene.restraints {
-        points.push(format!(
-            "Clamp of {} at {}.",
-            quantity(restraint.stiffness, "N/m"),
-            length(restraint.position)
-        ));
-    }
+    points.extend(scene.restraints.iter().map(|clamp| {
+        let (stiffness, place) = (quantity(clamp.stiffness, "N/m"), length(clamp.position));
+        format!("Clamp of {stiffness} at {place}.")
+    }));
     points.push(traffic(scene));
     points
-}
-
-fn duct(scene: &Scene) -> String {
-    let path = if scene.duct.lateral_offset == 0.0 {
-        "the vehicles' axis runs right above it".to_owned()
-    } else {
-        format!(
-            "the vehicles' axis runs {} beside it",
-            length(scene.duct.lateral_offset.abs())
-        )
-    };
-    format!(
-        "Duct: {} long, {} from the road surface to the cable; {path}.",
-        length(scene.duct.length),
-        length(scene.duct.depth)
-    )
 }
 
 fn cable(scene: &Scene) -> String {
@@ -113,6 +96,7 @@ fn traffic(scene: &Scene) -> String {
 /// The layers of the ground from the surface down.
 pub fn ground(scene: &Scene) -> Table {
     let profile = &scene.ground.profile;
+    let row = |depth: String, modulus: String, ratio: f64| vec![depth, modulus, significant(ratio)];
     let mut rows = Vec::new();
     let mut top = 0.0;
     for layer in profile.layers() {
@@ -123,37 +107,22 @@ pub fn ground(scene: &Scene) -> Table {
                 format!("{} to {}", quantity(top, "Pa"), quantity(bottom, "Pa"))
             }
         };
-        rows.push(vec![
-            format!(
-                "{} to {}",
-                if top == 0.0 { "0".into() } else { length(top) },
-                length(bottom)
-            ),
-            modulus,
-            significant(layer.poisson_ratio()),
-        ]);
+        let from = if top == 0.0 { "0".into() } else { length(top) };
+        let depth = format!("{from} to {}", length(bottom));
+        rows.push(row(depth, modulus, layer.poisson_ratio()));
         top = bottom;
     }
+    let below = format!("below {}", length(top));
     rows.push(match profile.base() {
-        Base::HalfSpace(soil) => vec![
-            if top == 0.0 {
-                "everywhere".into()
-            } else {
-                format!("below {}", length(top))
-            },
-            quantity(soil.young_modulus(), "Pa"),
-            significant(soil.poisson_ratio()),
-        ],
-        Base::Rigid => vec![
-            format!("below {}", length(top)),
-            "rock that does not move".into(),
-            "–".into(),
-        ],
+        Base::HalfSpace(soil) => {
+            let depth = if top == 0.0 { "everywhere".into() } else { below };
+            row(depth, quantity(soil.young_modulus(), "Pa"), soil.poisson_ratio())
+        }
+        Base::Rigid => vec![below, "rock that does not move".into(), "–".into()],
     });
+    let head = ["ground at depth", "Young’s modulus", "Poisson’s ratio"];
     Table {
-        head: ["ground at depth", "Young’s modulus", "Poisson’s ratio"]
-            .map(str::to_owned)
-            .to_vec(),
+        head: head.map(str::to_owned).to_vec(),
         rows,
         numbers: vec![false, true, true],
     }
@@ -173,20 +142,18 @@ pub fn scaling(scene: &Scene) -> Option<String> {
     })
 }
 
-/// The vehicles.
+/// The vehicles, and where they drive.
 pub fn vehicles(scene: &Scene) -> Table {
     let rows = scene.vehicles.iter().map(|traffic| {
         let vehicle = &traffic.vehicle;
+        let speed = significant(KILOMETRES_PER_HOUR * vehicle.speed());
+        let direction = match vehicle.direction() {
+            Direction::Forward => "forward",
+            Direction::Reverse => "reverse",
+        };
         vec![
             vehicle.name().to_owned(),
-            format!(
-                "{} km/h {}",
-                significant(KILOMETRES_PER_HOUR * vehicle.speed()),
-                match vehicle.direction() {
-                    Direction::Forward => "forward",
-                    Direction::Reverse => "reverse",
-                }
-            ),
+            format!("{speed} km/h {direction}, {}", lane(scene, vehicle)),
             load(vehicle),
             format!("{} %", significant(100.0 * traffic.share)),
         ]
@@ -195,6 +162,21 @@ pub fn vehicles(scene: &Scene) -> Table {
         head: ["vehicle", "drives", "load", "share"].map(str::to_owned).to_vec(),
         rows: rows.collect(),
         numbers: vec![false, false, false, true],
+    }
+}
+
+/// Where the middle between a vehicle's outer wheels lies.
+fn lane(scene: &Scene, vehicle: &Vehicle) -> String {
+    let sides = || vehicle.wheels().iter().map(|wheel| wheel.y);
+    let (right, left) = (
+        sides().fold(f64::INFINITY, f64::min),
+        sides().fold(f64::NEG_INFINITY, f64::max),
+    );
+    let beside = (0.5 * (right + left) - scene.duct.lateral_offset).abs();
+    if beside < 5e-4 {
+        "right above the duct".into()
+    } else {
+        format!("{} beside the duct", length(beside))
     }
 }
 

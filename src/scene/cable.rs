@@ -1,41 +1,38 @@
 //! `[duct]`, `[cable]`, `[friction]`, `[ends]`, `[[restraints]]`: what the traffic acts on.
 
+use super::data::{Cable, Duct, End, Ends, Friction, FrictionLaw, Restraint};
+use super::error::SceneError;
+use super::keys;
 use super::range::{
-    ANY, AXIAL_STIFFNESS, COEFFICIENT, DEPTH, DUCT_LENGTH, LOAD_FACTOR, OFFSET, SHAPE_FACTOR, STIFFNESS,
-    WEIGHT, positions,
+    AXIAL_STIFFNESS, CLAMP, COEFFICIENT, DEPTH, DUCT_LENGTH, LATERAL_OFFSET, LOAD_FACTOR, POSITION,
+    SHAPE_FACTOR, SPRING, WEIGHT, positions,
 };
 use super::table::Table;
 use super::value::Value;
-use super::{Cable, Dimension, Duct, End, Ends, Friction, FrictionLaw, Restraint, SceneError, keys};
 
-pub(super) fn duct(root: &Table) -> Result<Duct, SceneError> {
+pub fn duct(root: &Table) -> Result<Duct, SceneError> {
     let table = root.table("duct", keys::DUCT)?;
     Ok(Duct {
-        length: table.quantity("length", Dimension::Length, DUCT_LENGTH, "\"30 m\"")?,
-        depth: table.quantity("depth", Dimension::Length, DEPTH, "\"1.2 m\"")?,
+        length: table.quantity("length", DUCT_LENGTH)?,
+        depth: table.quantity("depth", DEPTH)?,
         lateral_offset: table
-            .optional_quantity("lateral_offset", Dimension::Length, OFFSET, "\"0.5 m\"")?
+            .optional_quantity("lateral_offset", LATERAL_OFFSET)?
             .unwrap_or(0.0),
     })
 }
 
-pub(super) fn cable(root: &Table) -> Result<Cable, SceneError> {
+pub fn cable(root: &Table) -> Result<Cable, SceneError> {
     let table = root.table("cable", keys::CABLE)?;
     Ok(Cable {
-        weight: table.quantity("weight", Dimension::ForcePerLength, WEIGHT, "\"108.8 N/m\"")?,
-        axial_stiffness: table.quantity(
-            "axial_stiffness",
-            Dimension::Force,
-            AXIAL_STIFFNESS,
-            "\"8.01e6 N\"",
-        )?,
+        weight: table.quantity("weight", WEIGHT)?,
+        axial_stiffness: table.quantity("axial_stiffness", AXIAL_STIFFNESS)?,
         normal_load_factor: table
             .optional_number("normal_load_factor", LOAD_FACTOR)?
             .unwrap_or(1.0),
     })
 }
 
-pub(super) fn friction(root: &Table) -> Result<Friction, SceneError> {
+pub fn friction(root: &Table) -> Result<Friction, SceneError> {
     const COULOMB: &str = "coulomb";
     const ELASTIC_PLASTIC: &str = "elastic-plastic";
     const SIGMOID: &str = "sigmoid";
@@ -44,19 +41,11 @@ pub(super) fn friction(root: &Table) -> Result<Friction, SceneError> {
     let law = table.word("law", &words, ELASTIC_PLASTIC)?;
     let dynamic_coefficient = table.number("dynamic_coefficient", COEFFICIENT)?;
     let law = if law == COULOMB {
-        table.refuse(
-            "shape_factor",
-            "law",
-            "no `shape_factor` with the law \"coulomb\"",
-        )?;
+        let allowed = "no `shape_factor` with the law \"coulomb\"";
+        table.refuse("shape_factor", "law", allowed)?;
         FrictionLaw::Coulomb
     } else {
-        let shape_factor = table.quantity(
-            "shape_factor",
-            Dimension::InverseLength,
-            SHAPE_FACTOR,
-            "\"2e7 1/m\"",
-        )?;
+        let shape_factor = table.quantity("shape_factor", SHAPE_FACTOR)?;
         if law == SIGMOID {
             FrictionLaw::Sigmoid { shape_factor }
         } else {
@@ -69,7 +58,7 @@ pub(super) fn friction(root: &Table) -> Result<Friction, SceneError> {
     })
 }
 
-pub(super) fn ends(root: &Table) -> Result<Ends, SceneError> {
+pub fn ends(root: &Table) -> Result<Ends, SceneError> {
     let table = root.table("ends", keys::ENDS)?;
     Ok(Ends {
         upstream: end(&table, "upstream")?,
@@ -81,34 +70,26 @@ fn end(table: &Table, key: &str) -> Result<End, SceneError> {
     const ALLOWED: &str = "\"free\", \"fixed\" or { spring = \"3 MN/m\" }";
     let value = table.required(key, ALLOWED)?;
     if value.is_table() {
-        value
-            .table(keys::SPRING)?
-            .quantity("spring", Dimension::ForcePerLength, STIFFNESS, "\"3 MN/m\"")
-            .map(End::Spring)
+        let table = Table::new(value, keys::SPRING)?;
+        table.quantity("spring", SPRING).map(End::Spring)
     } else {
         value.word_of(&[("free", End::Free), ("fixed", End::Fixed)], ALLOWED)
     }
 }
 
-pub(super) fn restraints(root: &Table, duct: &Duct) -> Result<Vec<Restraint>, SceneError> {
-    root.optional("restraints").map_or(Ok(Vec::new()), |list| {
-        list.items("a list of [[restraints]]")?
-            .iter()
-            .map(|item| restraint(item, duct))
-            .collect()
-    })
+pub fn restraints(root: &Table, duct: &Duct) -> Result<Vec<Restraint>, SceneError> {
+    let Some(list) = root.optional("restraints") else {
+        return Ok(Vec::new());
+    };
+    let items = list.items("a list of [[restraints]]")?;
+    items.into_iter().map(|item| restraint(item, duct)).collect()
 }
 
-fn restraint(item: &Value, duct: &Duct) -> Result<Restraint, SceneError> {
-    const EXAMPLE: &str = "\"20 m\"";
-    let table = item.table(keys::RESTRAINT)?;
-    let position = table.quantity("position", Dimension::Length, ANY, EXAMPLE)?;
-    let (range, allowed) = positions(duct.length);
-    if !range.contains(&position) {
-        return Err(table.required("position", &allowed)?.out_of_range(allowed));
-    }
+fn restraint(item: Value, duct: &Duct) -> Result<Restraint, SceneError> {
+    let table = Table::new(item, keys::RESTRAINT)?;
+    let position = table.required("position", &POSITION.allowed())?;
     Ok(Restraint {
-        position,
-        stiffness: table.quantity("stiffness", Dimension::ForcePerLength, STIFFNESS, "\"1 MN/m\"")?,
+        position: position.quantity_within(POSITION, positions(duct.length))?,
+        stiffness: table.quantity("stiffness", CLAMP)?,
     })
 }

@@ -3,6 +3,8 @@
 pub use cable_dem::{End, FrictionLaw, Order, Restraint};
 use ground_field::{SoilProfile, Vehicle};
 
+use super::words::words;
+
 /// A cable in a duct under traffic, in SI.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
@@ -59,6 +61,7 @@ pub struct Ground {
 
 /// Model of the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum GroundModel {
     /// The cheapest that is accurate enough.
     #[default]
@@ -73,8 +76,11 @@ pub enum GroundModel {
     FiniteElements,
 }
 
+words!(GroundModel: Auto "auto", Boussinesq "boussinesq", Odemark "odemark", Burmister "burmister", FiniteElements "fem");
+
 /// A measured peak displacement of the duct that the ground model is scaled to.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum PeakScaling {
     /// `max|D_l|` of each vehicle \[m\], positive: each vehicle gets its own factor.
     Longitudinal(f64),
@@ -153,8 +159,23 @@ pub struct Solver {
     pub approach: Option<f64>,
 }
 
+impl Default for Solver {
+    /// All is chosen to suit the scene, for forces within 1 %.
+    fn default() -> Self {
+        Self {
+            method: SolverMethod::Auto,
+            tolerance: 0.01,
+            node_spacing: None,
+            vehicle_step: None,
+            time_step: None,
+            approach: None,
+        }
+    }
+}
+
 /// How the passes are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
 pub enum SolverMethod {
     /// The cheapest that is accurate enough.
     #[default]
@@ -167,4 +188,13 @@ pub enum SolverMethod {
     Explicit,
     /// The homogenised law for many passes.
     PassLaw,
+}
+
+words!(SolverMethod: Auto "auto", QuasiStatic "quasi-static", Dynamic "dynamic", Explicit "explicit", PassLaw "pass-law");
+
+impl SolverMethod {
+    /// Whether a time step has a meaning with this method.
+    pub(crate) fn has_time_steps(self) -> bool {
+        !matches!(self, Self::QuasiStatic | Self::PassLaw)
+    }
 }

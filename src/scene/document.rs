@@ -1,117 +1,90 @@
 //! A TOML document as a tree in which every key and value knows where it was written.
 
+use std::fmt;
 use std::ops::Range;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::error::shortened;
+use super::error::{SceneError, Wrong, WrongKind};
+use super::location::{Location, shortened};
 use super::syntax::{Fault, fault};
-use super::table::Table;
-use super::{Location, SceneError};
 use crate::presets::Preset;
 
 /// Where something was written: which source, which bytes of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Place {
+pub struct Place {
     /// 0 is the file; then overrides, and presets where they were named.
     pub source: usize,
     pub span: Range<usize>,
 }
 
 /// A value and its place.
-#[derive(Debug, Clone)]
-pub(super) struct Node {
+#[derive(Clone)]
+pub struct Node {
     pub place: Place,
     pub content: Content,
 }
 
 #[derive(Debug, Clone)]
-pub(super) enum Content {
+pub enum Content {
     Text(String),
-    /// A number; `integer` where it is a whole number that fits.
+    /// A number; `integer` where it is a whole number of at least 0 that fits.
     Number {
         value: f64,
-        integer: Option<i64>,
+        integer: Option<u64>,
     },
-    /// Something that no scene holds: a truth value, a date.
+    /// What no scene holds: a truth value, a date.
     Other,
     Array(Vec<Node>),
     /// In the order of the file.
     Table(Vec<Entry>),
 }
 
-impl Content {
-    /// Appends the content in a form that no other content has.
-    #[cfg(feature = "sweep")]
-    fn write(&self, out: &mut String) {
-        use std::fmt::Write;
-        // Writing to a text does not fail.
-        let _ = match self {
-            Self::Text(text) => write!(out, "{text:?}"),
-            Self::Number { value, integer } => write!(out, "{value:?} {integer:?}"),
-            Self::Other => write!(out, "other"),
-            Self::Array(items) => {
-                out.push('[');
-                for item in items {
-                    item.content.write(out);
-                    out.push(',');
-                }
-                write!(out, "]")
-            }
-            Self::Table(entries) => {
-                let mut entries: Vec<&Entry> = entries.iter().collect();
-                entries.sort_by(|one, other| one.key.cmp(&other.key));
-                out.push('{');
-                for entry in entries {
-                    let _ = write!(out, "{:?}=", entry.key);
-                    entry.value.content.write(out);
-                    out.push(',');
-                }
-                write!(out, "}}")
-            }
-        };
-    }
-}
-
-#[derive(Debug, Clone)]
-pub(super) struct Entry {
+#[derive(Clone)]
+pub struct Entry {
     pub key: String,
     pub key_place: Place,
     pub value: Node,
 }
 
-impl Entry {
-    fn move_to(&mut self, source: usize) {
-        self.key_place.source = source;
-        self.value.move_to(source);
+// Neither shows its place: equal texts are equal contents.
+
+impl fmt::Debug for Node {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.content.fmt(f)
     }
 }
 
-impl Node {
-    /// Says that this was written in the source of that number.
-    fn move_to(&mut self, source: usize) {
-        self.place.source = source;
-        match &mut self.content {
-            Content::Array(items) => items.iter_mut().for_each(|item| item.move_to(source)),
-            Content::Table(entries) => entries.iter_mut().for_each(|entry| entry.move_to(source)),
-            _ => {}
-        }
+impl fmt::Debug for Entry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?}={:?}", self.key, self.value)
     }
 }
+
+/// What gave a value. Of values that were given at the same step, one that was written counts instead of a preset's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Origin {
+    /// A preset that was named in what was written.
+    Preset,
+    /// The file or an override.
+    Written,
+}
+
+/// When a value was given: what compares greater was given later, and counts. Step 0 is the file, the next are the overrides.
+type Rank = (usize, Origin);
 
 /// A file, an override or a preset.
 #[derive(Debug, Clone)]
 struct Source {
     name: String,
     text: String,
-    /// What ranks higher was set later. Files and overrides have odd ranks, and a preset the even one below what names it.
-    rank: usize,
+    rank: Rank,
 }
 
 /// A scene file with its overrides.
 #[derive(Debug, Clone)]
-pub(super) struct Document {
+pub struct Document {
     sources: Vec<Source>,
     pub root: Node,
 }
@@ -130,7 +103,7 @@ impl Document {
             sources: vec![Source {
                 name: name.to_owned(),
                 text: text.to_owned(),
-                rank: 1,
+                rank: (0, Origin::Written),
             }],
             root: Node {
                 // What the top level lacks would be added at the end.
@@ -144,61 +117,35 @@ impl Document {
     }
 
     /// Adds an override as a source and returns its number.
-    pub fn add_source(&mut self, text: &str) -> usize {
-        let highest = self.sources.iter().map(|source| source.rank).max();
+    pub fn add_override(&mut self, text: &str) -> usize {
+        let last = self.sources.iter().map(|source| source.rank.0).max();
         self.sources.push(Source {
             name: format!("--set {text}"),
             text: text.to_owned(),
-            rank: highest.unwrap_or_default() + 2,
+            rank: (last.unwrap_or_default() + 1, Origin::Written),
         });
         self.sources.len() - 1
     }
 
     /// Adds a preset that was named at `place` as a source and returns its values.
-    pub fn add_preset(&mut self, preset: &Preset, place: &Place) -> Result<Vec<Entry>, SceneError> {
-        let values = Self::parse(&format!("preset {}", preset.name), &preset.toml)?.root;
+    pub fn add_preset(&mut self, preset: &Preset, place: &Place) -> Vec<Entry> {
         self.sources.push(Source {
             name: format!("preset {}", preset.name),
             text: preset.toml.clone(),
-            rank: self.rank(place) - 1,
+            rank: (self.rank(place).0, Origin::Preset),
         });
-        let Content::Table(mut entries) = values.content else {
-            return Ok(Vec::new());
-        };
-        for entry in &mut entries {
-            entry.move_to(self.sources.len() - 1);
-        }
-        Ok(entries)
+        // Presets are built in, and tests read them all.
+        let table = DeTable::parse_recoverable(&preset.toml).0;
+        entries(table.get_ref(), self.sources.len() - 1, 0)
     }
 
-    /// All keys and values in an order of their own: where they were written, and what was remarked there, does not show.
-    #[cfg(feature = "sweep")]
-    pub fn values(&self) -> String {
-        let mut text = String::new();
-        self.root.content.write(&mut text);
-        text
-    }
-
-    /// What ranks higher was set later.
-    pub fn rank(&self, place: &Place) -> usize {
+    /// When and by what the value at this place was given.
+    pub fn rank(&self, place: &Place) -> Rank {
         self.sources[place.source].rank
     }
 
-    /// Whether a preset gave what stands at this place.
-    pub fn is_preset(&self, place: &Place) -> bool {
-        self.rank(place).is_multiple_of(2)
-    }
-
-    /// The whole document as a table that may hold only the keys `known`.
-    pub fn table(&self, known: &'static [&'static str]) -> Result<Table<'_>, SceneError> {
-        Table::new(self, String::new(), &self.root, known)
-    }
-
-    #[expect(
-        clippy::unnecessary_box_returns,
-        reason = "errors hold it boxed, to stay small"
-    )]
-    pub fn locate(&self, place: &Place) -> Box<Location> {
+    /// Where in its source a place is.
+    pub fn locate(&self, place: &Place) -> Location {
         let source = &self.sources[place.source];
         let mut location = Location::new(&source.name, &source.text, place.span.clone(), place.source == 0);
         if *place == self.root.place {
@@ -207,6 +154,24 @@ impl Document {
             location.marked = 0..0;
         }
         location
+    }
+
+    /// The error for a key or value at this place.
+    pub fn wrong(
+        &self,
+        kind: WrongKind,
+        place: &Place,
+        key: &str,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> SceneError {
+        SceneError::Wrong(Box::new(Wrong {
+            kind,
+            key: key.to_owned(),
+            found: found.into(),
+            allowed: allowed.into(),
+            location: Some(self.locate(place)),
+        }))
     }
 
     /// What was written at a place: its first line, without what is too long to repeat.
@@ -225,7 +190,7 @@ impl Document {
 }
 
 /// The value as a tree; `offset` is where its text begins in the source.
-pub(super) fn node(value: &Spanned<DeValue>, source: usize, offset: usize) -> Node {
+pub fn node(value: &Spanned<DeValue>, source: usize, offset: usize) -> Node {
     let content = match value.get_ref() {
         DeValue::String(text) => Content::Text(text.clone().into_owned()),
         DeValue::Integer(number) => {
@@ -233,7 +198,7 @@ pub(super) fn node(value: &Spanned<DeValue>, source: usize, offset: usize) -> No
             Content::Number {
                 // Whole numbers are needed exactly only where they are small: elsewhere this is a quantity in SI.
                 value: integer.map_or(f64::INFINITY, |i| i as f64),
-                integer: integer.and_then(|i| i64::try_from(i).ok()),
+                integer: integer.and_then(|i| u64::try_from(i).ok()),
             }
         }
         DeValue::Float(number) => number.as_str().parse().map_or(Content::Other, self::number),
@@ -250,12 +215,12 @@ pub(super) fn node(value: &Spanned<DeValue>, source: usize, offset: usize) -> No
 }
 
 /// A number that may be whole: `1e6` passes are as good as `1000000`.
-pub(super) fn number(value: f64) -> Content {
+pub fn number(value: f64) -> Content {
     const LARGEST_EXACT: f64 = 9_007_199_254_740_992.0;
-    let whole = value.fract() == 0.0 && value.abs() <= LARGEST_EXACT;
+    let whole = value.fract() == 0.0 && (0.0..=LARGEST_EXACT).contains(&value);
     Content::Number {
         value,
-        integer: whole.then_some(value as i64),
+        integer: whole.then_some(value as u64),
     }
 }
 

@@ -1,17 +1,19 @@
 //! What can be wrong with a scene.
 
+use std::fmt;
 use std::string::FromUtf8Error;
 
 use ground_field::GroundError;
 
-use super::Location;
+use super::location::{Location, shortened};
+use super::units::Dimension;
 
 /// What is wrong with a scene. The message ends with the faulty line, marked.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
     /// The file cannot be read.
-    #[error("{file}: cannot be read: {source}")]
+    #[error("{file}: cannot be read")]
     Unreadable {
         /// The file.
         file: String,
@@ -30,163 +32,114 @@ pub enum SceneError {
     #[error("{location}: found text that is not UTF-8; allowed: UTF-8, with or without byte order mark{}", .location.excerpt())]
     NotUtf8 {
         /// Where.
-        location: Box<Location>,
+        location: Location,
     },
     /// The file is not TOML.
     #[error("{location}: not valid TOML: {}{}", bounded(.message), .location.excerpt())]
     Syntax {
         /// Where.
-        location: Box<Location>,
+        location: Location,
         /// What is wrong.
         message: String,
     },
-    /// An override is not `KEY=VALUE`, or there is nothing at its key.
-    #[error("{location}: `{}`: found {}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
-    Override {
-        /// Where.
-        location: Box<Location>,
-        /// The key that it meant to set.
-        key: String,
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: String,
-    },
-    /// A key that is not known.
-    #[error("{location}: found unknown key `{}`{}; allowed: {}{}", cut(.key), did_you_mean(.suggestion.as_deref()), bounded(.allowed), .location.excerpt())]
+    /// A key or its value is wrong.
+    #[error(transparent)]
+    Wrong(Box<Wrong>),
+}
+
+/// A wrong key or value.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct Wrong {
+    /// In which way it is wrong.
+    pub kind: WrongKind,
+    /// The key, with its section.
+    pub key: String,
+    /// What was found.
+    pub found: String,
+    /// What is allowed.
+    pub allowed: String,
+    /// Where it stands; `None` in a scene that a program made or changed.
+    pub location: Option<Location>,
+}
+
+/// The ways in which a key or value can be wrong.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum WrongKind {
+    /// The key is not known.
     UnknownKey {
-        /// Where.
-        location: Box<Location>,
-        /// The key, with its section.
-        key: String,
-        /// The known keys.
-        allowed: String,
         /// The nearest known key.
         suggestion: Option<String>,
     },
-    /// A required key is not there.
-    #[error("{location}: key `{}` is missing; allowed: {}{}", cut(.key), bounded(.allowed), .location.excerpt())]
-    MissingKey {
-        /// The section that lacks it.
-        location: Box<Location>,
-        /// The key, with its section.
-        key: String,
-        /// What is allowed.
-        allowed: String,
-    },
-    /// A value of the wrong kind, such as a text where a list belongs.
-    #[error("{location}: `{}`: found {}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
-    WrongType {
-        /// Where.
-        location: Box<Location>,
-        /// The key, with its section.
-        key: String,
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: String,
-    },
-    /// A number in quotes without a unit.
-    #[error("{location}: `{}`: missing unit: found {}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
-    MissingUnit {
-        /// Where.
-        location: Box<Location>,
-        /// The key, with its section.
-        key: String,
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: String,
-    },
-    /// A unit that is not known.
-    #[error("{location}: `{}`: unknown unit `{}`: found {}{}; allowed: {}{}", cut(.key), cut(.unit), cut(.found), did_you_mean(*.suggestion), bounded(.allowed), .location.excerpt())]
+    /// A required key is missing.
+    MissingKey,
+    /// An override is not `KEY=VALUE`, or there is nothing at its key.
+    Override,
+    /// The value is of the wrong type, such as a text in place of a list.
+    WrongType,
+    /// A number in quotes has no unit.
+    MissingUnit,
+    /// The unit is not known.
     UnknownUnit {
-        /// Where.
-        location: Box<Location>,
-        /// The key, with its section.
-        key: String,
         /// The unit as written.
         unit: String,
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: String,
         /// The nearest unit that is allowed.
         suggestion: Option<&'static str>,
     },
-    /// A unit of another dimension.
-    #[error("{location}: `{}`: wrong dimension: found {}, {dimension}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
-    WrongDimension {
-        /// Where.
-        location: Box<Location>,
-        /// The key, with its section.
-        key: String,
-        /// What was found.
-        found: String,
-        /// The dimension that was found, in words.
-        dimension: &'static str,
-        /// What is allowed.
-        allowed: String,
-    },
-    /// A value outside its range, or not a finite number.
-    #[error("{location}: `{}`: out of range: found {}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
-    OutOfRange {
-        /// Where.
-        location: Box<Location>,
-        /// The key, with its section.
-        key: String,
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: String,
-    },
-    /// A word that is not one of the allowed ones.
-    #[error("{location}: `{}`: found {}{}; allowed: {}{}", cut(.key), cut(.found), did_you_mean(.suggestion.as_deref()), bounded(.allowed), .location.excerpt())]
+    /// The unit is one of another dimension.
+    WrongDimension(Dimension),
+    /// The value is outside its range, or not a finite number.
+    OutOfRange,
+    /// The word is not one of the allowed ones.
     UnknownWord {
-        /// Where.
-        location: Box<Location>,
-        /// The key, with its section.
-        key: String,
-        /// What was found.
-        found: String,
-        /// The allowed words.
-        allowed: String,
         /// The nearest of them.
         suggestion: Option<String>,
     },
-    /// A value that contradicts another one.
-    #[error("{location}: `{}`: found {}; allowed: {}{}", cut(.key), cut(.found), bounded(.allowed), .location.excerpt())]
-    Inconsistent {
-        /// Where.
-        location: Box<Location>,
-        /// The key, with its section.
-        key: String,
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: String,
-    },
-    /// A value of a scene that was made or changed by a program.
-    #[error("`{key}`: found {found}; allowed: {allowed}")]
-    Value {
-        /// The key, with its section.
-        key: String,
-        /// What was found.
-        found: String,
-        /// What is allowed.
-        allowed: String,
-    },
+    /// The value contradicts another one.
+    Inconsistent,
     /// The ground or a vehicle cannot be built from these values.
-    #[error("{location}: `{}`: {source}{}", cut(.key), .location.excerpt())]
-    Rejected {
-        /// Where.
-        location: Box<Location>,
-        /// The key, with its section.
-        key: String,
-        /// Why.
-        source: GroundError,
-    },
+    Rejected(GroundError),
 }
+
+impl fmt::Display for Wrong {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (key, found, allowed) = (cut(&self.key), cut(&self.found), bounded(&self.allowed));
+        if let Some(location) = &self.location {
+            write!(f, "{location}: ")?;
+        }
+        match &self.kind {
+            WrongKind::UnknownKey { suggestion } => {
+                let meant = did_you_mean(suggestion.as_deref());
+                write!(f, "found unknown key `{key}`{meant}; allowed: {allowed}")?;
+            }
+            WrongKind::MissingKey => write!(f, "key `{key}` is missing; allowed: {allowed}")?,
+            WrongKind::Rejected(error) => write!(f, "`{key}`: {error}")?,
+            kind => {
+                let (before, after) = match kind {
+                    WrongKind::MissingUnit => ("missing unit: ".into(), String::new()),
+                    WrongKind::UnknownUnit { unit, suggestion } => (
+                        format!("unknown unit `{}`: ", cut(unit)),
+                        did_you_mean(*suggestion),
+                    ),
+                    WrongKind::WrongDimension(dimension) => {
+                        ("wrong dimension: ".into(), format!(", {}", dimension.noun()))
+                    }
+                    WrongKind::OutOfRange => ("out of range: ".into(), String::new()),
+                    WrongKind::UnknownWord { suggestion } => {
+                        (String::new(), did_you_mean(suggestion.as_deref()))
+                    }
+                    _ => (String::new(), String::new()),
+                };
+                write!(f, "`{key}`: {before}found {found}{after}; allowed: {allowed}")?;
+            }
+        }
+        let excerpt = self.location.as_ref().map(Location::excerpt);
+        f.write_str(&excerpt.unwrap_or_default())
+    }
+}
+
+impl std::error::Error for Wrong {}
 
 fn did_you_mean(suggestion: Option<&str>) -> String {
     suggestion.map_or_else(String::new, |word| format!(" (did you mean `{}`?)", cut(word)))
@@ -206,41 +159,45 @@ fn bounded(text: &str) -> String {
     shortened(text, LONGEST)
 }
 
-/// The beginning of the text, and how long it is where that is not all.
-pub(super) fn shortened(text: &str, longest: usize) -> String {
-    match text.char_indices().nth(longest) {
-        None => text.to_owned(),
-        Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
-    }
-}
-
-/// The error for a file whose bytes are not UTF-8.
-pub(super) fn not_utf8(file: &str, error: &FromUtf8Error) -> SceneError {
-    let valid = error.utf8_error().valid_up_to();
-    let text = String::from_utf8_lossy(error.as_bytes());
-    SceneError::NotUtf8 {
-        location: Location::new(file, &text, valid..valid, true),
-    }
-}
-
 impl SceneError {
+    /// The error for a file whose bytes are not UTF-8.
+    pub(super) fn not_utf8(file: &str, error: &FromUtf8Error) -> Self {
+        let valid = error.utf8_error().valid_up_to();
+        let text = String::from_utf8_lossy(error.as_bytes());
+        Self::NotUtf8 {
+            location: Location::new(file, &text, valid..valid, true),
+        }
+    }
+
+    /// The error for a value of a scene that a program made or changed.
+    pub(super) fn value(
+        key: impl Into<String>,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Self {
+        Self::Wrong(Box::new(Wrong {
+            kind: WrongKind::OutOfRange,
+            key: key.into(),
+            found: found.into(),
+            allowed: allowed.into(),
+            location: None,
+        }))
+    }
+
+    /// The error for a scene that has no file.
+    pub(super) fn without_location(mut self) -> Self {
+        if let Self::Wrong(wrong) = &mut self {
+            wrong.location = None;
+        }
+        self
+    }
+
     /// Where the scene is wrong; `None` if its file cannot be read at all, or the scene is not that of a file.
     pub fn location(&self) -> Option<&Location> {
         match self {
-            Self::Unreadable { .. } | Self::TooLarge { .. } | Self::Value { .. } => None,
-            Self::NotUtf8 { location }
-            | Self::Syntax { location, .. }
-            | Self::Override { location, .. }
-            | Self::UnknownKey { location, .. }
-            | Self::MissingKey { location, .. }
-            | Self::WrongType { location, .. }
-            | Self::MissingUnit { location, .. }
-            | Self::UnknownUnit { location, .. }
-            | Self::WrongDimension { location, .. }
-            | Self::OutOfRange { location, .. }
-            | Self::UnknownWord { location, .. }
-            | Self::Inconsistent { location, .. }
-            | Self::Rejected { location, .. } => Some(location),
+            Self::Unreadable { .. } | Self::TooLarge { .. } => None,
+            Self::NotUtf8 { location } | Self::Syntax { location, .. } => Some(location),
+            Self::Wrong(wrong) => wrong.location.as_ref(),
         }
     }
 }

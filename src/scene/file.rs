@@ -4,9 +4,12 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
+use super::data::Scene;
 use super::document::{Content, Document, Node};
+use super::error::SceneError;
+use super::location::Location;
 use super::slips::{self, UnitSlip};
-use super::{Location, Scene, SceneError, error, overrides, preset};
+use super::{overrides, preset, read};
 
 /// A scene file larger than this \[bytes\] is not a scene file.
 const LARGEST_FILE: u64 = 16 << 20;
@@ -37,7 +40,8 @@ impl SceneFile {
     /// # Errors
     ///
     /// [`SceneError`] where the file cannot be read, is not TOML, or names a preset that is not known.
-    pub fn read(path: &Path) -> Result<Self, SceneError> {
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        let path = path.as_ref();
         let file = path.display().to_string();
         let unreadable = |source| SceneError::Unreadable {
             file: file.clone(),
@@ -53,7 +57,7 @@ impl SceneFile {
                 allowed: LARGEST_FILE,
             });
         }
-        let text = String::from_utf8(bytes).map_err(|e| error::not_utf8(&file, &e))?;
+        let text = String::from_utf8(bytes).map_err(|e| SceneError::not_utf8(&file, &e))?;
         Self::from_toml(&file, &text)
     }
 
@@ -91,7 +95,7 @@ impl SceneFile {
     ///
     /// [`SceneError`] with the first thing that is wrong, and where.
     pub fn scene(&self) -> Result<Scene, SceneError> {
-        super::read(&self.name, &self.document)
+        read::scene(&self.name, &self.document)
     }
 
     /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
@@ -105,7 +109,7 @@ impl SceneFile {
             node = inner;
             found = Some(&node.place);
         }
-        found.map(|place| *self.document.locate(place))
+        found.map(|place| self.document.locate(place))
     }
 
     /// Numbers without a unit that someone may have meant in another one.
@@ -113,10 +117,30 @@ impl SceneFile {
         slips::unit_slips(&self.document)
     }
 
-    /// What the file and the overrides say, to tell one scene from another; comments say nothing.
+    /// All keys and values of the file and its overrides, without comments: two files with the same text make the same scenes.
     #[cfg(feature = "sweep")]
     pub(crate) fn values(&self) -> String {
-        self.document.values()
+        format!("{:?}", self.document.root)
+    }
+}
+
+impl Scene {
+    /// Reads the scene file at `path`. For overrides on top of it there is [`SceneFile::with`].
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] with the first thing that is wrong, and where.
+    pub fn from_file(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        SceneFile::read(path)?.scene()
+    }
+
+    /// Reads a scene from TOML `text`; `name` stands for the file in error messages.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Scene::from_file`].
+    pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
+        SceneFile::from_toml(name, text)?.scene()
     }
 }
 

@@ -3,22 +3,19 @@
 use boussinesq::Odemark;
 use ground_field::{Base, Modulus, Soil, SoilLayer, SoilProfile};
 
-use super::range::{MODULUS, PEAK, POISSON, THICKNESS, shown};
+use super::data::{Ground, GroundModel, PeakScaling};
+use super::error::SceneError;
+use super::keys;
+use super::range::{
+    LONGITUDINAL_PEAK, MODULUS, MODULUS_AT_AN_END, POISSON, RIGID_BASE_DEPTH, THICKNESS, THICKNESSES,
+    VERTICAL_PEAK, shown,
+};
 use super::table::Table;
 use super::value::Value;
-use super::{Dimension, Ground, GroundModel, PeakScaling, SceneError, keys};
 
-const MODELS: &[(&str, GroundModel)] = &[
-    ("auto", GroundModel::Auto),
-    ("boussinesq", GroundModel::Boussinesq),
-    ("odemark", GroundModel::Odemark),
-    ("burmister", GroundModel::Burmister),
-    ("fem", GroundModel::FiniteElements),
-];
-
-pub(super) fn ground(root: &Table) -> Result<Ground, SceneError> {
+pub fn ground(root: &Table) -> Result<Ground, SceneError> {
     let table = root.table("ground", keys::GROUND)?;
-    let model = table.word("model", MODELS, GroundModel::Auto)?;
+    let model = table.word("model", GroundModel::WORDS, GroundModel::Auto)?;
     let scaling = scaling(&table)?;
     let profile = profile(&table)?;
     if let (Some(allowed), Some(value)) = (unfit(model, &profile), table.optional("model")) {
@@ -31,14 +28,8 @@ pub(super) fn ground(root: &Table) -> Result<Ground, SceneError> {
     })
 }
 
-/// The model's name in scene files.
-pub(super) fn name(model: GroundModel) -> &'static str {
-    let named = MODELS.iter().find(|(_, other)| *other == model);
-    named.map_or("", |(name, _)| name)
-}
-
 /// What is allowed instead where a model cannot represent the ground.
-pub(super) fn unfit(model: GroundModel, profile: &SoilProfile) -> Option<&'static str> {
+fn unfit(model: GroundModel, profile: &SoilProfile) -> Option<&'static str> {
     let graded = profile.layers().iter().any(|layer| layer.soil().is_none());
     match model {
         GroundModel::Boussinesq if profile.homogeneous().is_none() => Some(
@@ -55,10 +46,9 @@ pub(super) fn unfit(model: GroundModel, profile: &SoilProfile) -> Option<&'stati
 }
 
 fn scaling(table: &Table) -> Result<Option<PeakScaling>, SceneError> {
-    let peak = |value: &Value, example| value.quantity(Dimension::Length, PEAK, example);
     Ok(match table.alternatives("longitudinal_peak", "vertical_peak")? {
-        [Some(value), _] => Some(PeakScaling::Longitudinal(peak(&value, "\"35.7 um\"")?)),
-        [None, Some(value)] => Some(PeakScaling::Vertical(peak(&value, "\"90 um\"")?)),
+        [Some(value), _] => Some(PeakScaling::Longitudinal(value.quantity(LONGITUDINAL_PEAK)?)),
+        [None, Some(value)] => Some(PeakScaling::Vertical(value.quantity(VERTICAL_PEAK)?)),
         [None, None] => None,
     })
 }
@@ -82,7 +72,7 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
     let mut layers = table
         .required("layers", allowed)?
         .some_items(allowed)?
-        .iter()
+        .into_iter()
         .map(layer)
         .collect::<Result<Vec<_>, _>>()?;
     let Some(last) = layers.pop() else {
@@ -90,20 +80,17 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
     };
     let mut upper = Vec::with_capacity(layers.len() + 1);
     for layer in &layers {
-        let thickness = layer
-            .table
-            .quantity("thickness", Dimension::Length, THICKNESS, "\"50 mm\"")?;
+        let thickness = layer.table.quantity("thickness", THICKNESS)?;
         upper.push(layer.of_thickness(thickness)?);
     }
     if let (Some(_), Some(value)) = (last.thickness, last.table.optional("thickness")) {
-        let allowed =
-            "no thickness in the last layer: it goes down to ground.rigid_base_depth, or without end";
+        let allowed = "no thickness in the last layer: it extends down to ground.rigid_base_depth, or to infinite depth";
         return Err(value.inconsistent(value.written(), allowed));
     }
     let base = if let Some(value) = table.optional("rigid_base_depth") {
-        let depth = value.quantity(Dimension::Length, THICKNESS, "\"12 m\"")?;
+        let depth = value.quantity(RIGID_BASE_DEPTH)?;
         let above: f64 = upper.iter().map(SoilLayer::thickness).sum();
-        if !THICKNESS.contains(depth - above) {
+        if !THICKNESSES.contains(depth - above) {
             return Err(value.out_of_range(format!(
                 "a depth below the upper layers, greater than {} m",
                 shown(above)
@@ -113,8 +100,7 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
         Base::Rigid
     } else {
         let Modulus::Uniform(modulus) = last.modulus else {
-            let allowed =
-                "one value in the last layer, which goes down without end; or set ground.rigid_base_depth";
+            let allowed = "one value in the last layer, which extends to infinite depth; or set ground.rigid_base_depth";
             let value = last.table.required("young_modulus", allowed)?;
             return Err(value.inconsistent("a modulus that varies with depth", allowed));
         };
@@ -123,10 +109,10 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
     SoilProfile::new(upper, base).map_err(|e| table.rejected(e))
 }
 
-fn layer<'d>(value: &Value<'d>) -> Result<Layer<'d>, SceneError> {
-    let table = value.table(keys::LAYER)?;
+fn layer(value: Value) -> Result<Layer, SceneError> {
+    let table = Table::new(value, keys::LAYER)?;
     Ok(Layer {
-        thickness: table.optional_quantity("thickness", Dimension::Length, THICKNESS, "\"50 mm\"")?,
+        thickness: table.optional_quantity("thickness", THICKNESS)?,
         modulus: modulus(&table)?,
         poisson_ratio: table.number("poisson_ratio", POISSON)?,
         table,
@@ -134,19 +120,14 @@ fn layer<'d>(value: &Value<'d>) -> Result<Layer<'d>, SceneError> {
 }
 
 fn modulus(table: &Table) -> Result<Modulus, SceneError> {
-    const EXAMPLE: &str =
-        "\"800 MPa\", or { top = \"60 MPa\", bottom = \"200 MPa\" } where it varies with depth";
     match table.optional("young_modulus").filter(Value::is_table) {
         Some(value) => {
-            let graded = value.table(keys::GRADED)?;
-            let end = |key| graded.quantity(key, Dimension::Pressure, MODULUS, "\"60 MPa\"");
+            let graded = Table::new(value, keys::GRADED)?;
             Ok(Modulus::Linear {
-                top: end("top")?,
-                bottom: end("bottom")?,
+                top: graded.quantity("top", MODULUS_AT_AN_END)?,
+                bottom: graded.quantity("bottom", MODULUS_AT_AN_END)?,
             })
         }
-        None => table
-            .quantity("young_modulus", Dimension::Pressure, MODULUS, EXAMPLE)
-            .map(Modulus::Uniform),
+        None => table.quantity("young_modulus", MODULUS).map(Modulus::Uniform),
     }
 }

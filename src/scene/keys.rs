@@ -1,7 +1,7 @@
 //! Every key a scene file may hold.
 
 /// Top level.
-pub(super) const SCENE: &[&str] = &[
+pub const SCENE: &[&str] = &[
     "title",
     "duct",
     "ground",
@@ -14,9 +14,9 @@ pub(super) const SCENE: &[&str] = &[
     "solver",
 ];
 /// `[duct]`
-pub(super) const DUCT: &[&str] = &["length", "depth", "lateral_offset"];
+pub const DUCT: &[&str] = &["length", "depth", "lateral_offset"];
 /// `[ground]`
-pub(super) const GROUND: &[&str] = &[
+pub const GROUND: &[&str] = &[
     "preset",
     "model",
     "rigid_base_depth",
@@ -25,27 +25,27 @@ pub(super) const GROUND: &[&str] = &[
     "layers",
 ];
 /// `[[ground.layers]]`
-pub(super) const LAYER: &[&str] = &["thickness", "young_modulus", "poisson_ratio"];
+pub const LAYER: &[&str] = &["thickness", "young_modulus", "poisson_ratio"];
 /// `young_modulus = { … }`
-pub(super) const GRADED: &[&str] = &["top", "bottom"];
+pub const GRADED: &[&str] = &["top", "bottom"];
 /// `[cable]`
-pub(super) const CABLE: &[&str] = &["preset", "weight", "axial_stiffness", "normal_load_factor"];
+pub const CABLE: &[&str] = &["preset", "weight", "axial_stiffness", "normal_load_factor"];
 /// `[friction]`
-pub(super) const FRICTION: &[&str] = &["preset", "law", "dynamic_coefficient", "shape_factor"];
+pub const FRICTION: &[&str] = &["preset", "law", "dynamic_coefficient", "shape_factor"];
 /// `[ends]`
-pub(super) const ENDS: &[&str] = &["upstream", "downstream"];
+pub const ENDS: &[&str] = &["upstream", "downstream"];
 /// `upstream = { … }`
-pub(super) const SPRING: &[&str] = &["spring"];
+pub const SPRING: &[&str] = &["spring"];
 /// `[[restraints]]`
-pub(super) const RESTRAINT: &[&str] = &["position", "stiffness"];
+pub const RESTRAINT: &[&str] = &["position", "stiffness"];
 /// `[[vehicles]]`
-pub(super) const VEHICLE: &[&str] = &["preset", "name", "speed", "load", "wheels", "direction", "share"];
+pub const VEHICLE: &[&str] = &["preset", "name", "speed", "load", "wheels", "direction", "share"];
 /// `wheels = [ { … } ]`
-pub(super) const WHEEL: &[&str] = &["x", "y", "load", "contact_radius"];
+pub const WHEEL: &[&str] = &["x", "y", "load", "contact_radius"];
 /// `[traffic]`
-pub(super) const TRAFFIC: &[&str] = &["passes", "order", "seed", "sequence"];
+pub const TRAFFIC: &[&str] = &["passes", "order", "seed", "sequence"];
 /// `[solver]`
-pub(super) const SOLVER: &[&str] = &[
+pub const SOLVER: &[&str] = &[
     "method",
     "tolerance",
     "node_spacing",
@@ -55,7 +55,7 @@ pub(super) const SOLVER: &[&str] = &[
 ];
 
 /// Sections and their keys, to find where a misplaced key belongs.
-pub(super) const SECTIONS: &[(&str, &[&str])] = &[
+pub const SECTIONS: &[(&str, &[&str])] = &[
     ("duct", DUCT),
     ("ground", GROUND),
     ("ground.layers", LAYER),
@@ -69,4 +69,13 @@ pub(super) const SECTIONS: &[(&str, &[&str])] = &[
 ];
 
 /// One thing with two names: an end has a `spring`, a clamp a `stiffness`.
-pub(super) const OTHER_NAMES: &[(&str, &str)] = &[("stiffness", "spring"), ("spring", "stiffness")];
+pub const OTHER_NAMES: &[(&str, &str)] = &[("stiffness", "spring"), ("spring", "stiffness")];
+
+/// A key with those of the tables around it.
+pub fn joined(path: &str, key: &str) -> String {
+    if path.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{path}.{key}")
+    }
+}

@@ -3,8 +3,6 @@
 use std::fmt;
 use std::ops::Range;
 
-use super::error::shortened;
-
 /// Longest piece of a line that is shown \[characters\].
 const LONGEST_EXCERPT: usize = 120;
 /// Longest name of a file, or text of an override, that is shown \[characters\].
@@ -12,6 +10,7 @@ const LONGEST_NAME: usize = 300;
 
 /// A place in a scene file or in an override.
 #[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Location {
     /// The file, or `--set KEY=VALUE` for an override.
     pub file: String,
@@ -25,11 +24,7 @@ pub struct Location {
 
 impl Location {
     /// The place of the bytes `span` in `text`. Every span is fine: what lies outside the text is cut off.
-    #[expect(
-        clippy::unnecessary_box_returns,
-        reason = "errors hold it boxed, to stay small"
-    )]
-    pub(super) fn new(file: &str, text: &str, span: Range<usize>, numbered: bool) -> Box<Self> {
+    pub(super) fn new(file: &str, text: &str, span: Range<usize>, numbered: bool) -> Self {
         let bytes = text.as_bytes();
         let start = span.start.min(bytes.len());
         let line_start = bytes[..start]
@@ -55,12 +50,12 @@ impl Location {
             .saturating_sub(line_start)
             .clamp(start + first, line.len());
         let number = 1 + text.get(..line_start).unwrap_or_default().matches('\n').count();
-        Box::new(Self {
+        Self {
             file: file.to_owned(),
             line: numbered.then_some(number),
             text: line.to_owned(),
             marked: start..end,
-        })
+        }
     }
 
     /// The line with its number and the faulty part underlined; it begins with a line break.
@@ -110,6 +105,14 @@ impl fmt::Display for Location {
         // An override stands here as it was written.
         f.write_str(&shortened(&self.file, LONGEST_NAME))?;
         self.line.map_or(Ok(()), |line| write!(f, ", line {line}"))
+    }
+}
+
+/// The beginning of the text, and how long it is where that is not all.
+pub(super) fn shortened(text: &str, longest: usize) -> String {
+    match text.char_indices().nth(longest) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
     }
 }
 

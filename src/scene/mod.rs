@@ -17,7 +17,7 @@
 //! # Presets
 //!
 //! `preset = "t-25"` in a vehicle, the cable, the friction or the ground stands for values with a known source
-//! ([`crate::presets`]); what is given beside it counts instead.
+//! ([`crate::presets`]); keys given next to it override its values.
 //!
 //! # Overrides
 //!
@@ -55,6 +55,7 @@ mod overrides;
 mod preset;
 mod quantity;
 mod range;
+mod read;
 mod slips;
 mod solver;
 mod syntax;
@@ -64,89 +65,21 @@ mod units;
 mod unusual;
 mod validate;
 mod value;
-
-use std::path::Path;
+mod words;
+mod write;
 
 pub use data::{
     Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Order, PeakScaling, Restraint, Scene,
     Solver, SolverMethod, Traffic, TrafficVehicle,
 };
-pub use error::SceneError;
+pub use error::{SceneError, Wrong, WrongKind};
 pub use file::SceneFile;
 pub use location::Location;
+pub use quantity::QuantityError;
 #[cfg(feature = "sweep")]
 pub(crate) use quantity::leading_number;
-pub use quantity::{Dimension, QuantityError};
 pub use slips::UnitSlip;
-
+pub use units::Dimension;
 pub(crate) use unusual::unusual;
-
-use document::Document;
-
-impl Scene {
-    /// Reads the scene file at `path`.
-    ///
-    /// # Errors
-    ///
-    /// [`SceneError`] with the first thing that is wrong, and where.
-    pub fn from_file(path: &Path) -> Result<Self, SceneError> {
-        Self::from_file_with(path, &[])
-    }
-
-    /// Reads the scene file at `path`, then sets each `KEY=VALUE` of `overrides` in turn.
-    ///
-    /// # Errors
-    ///
-    /// As for [`Scene::from_file`]; a value from an override is located as `--set KEY=VALUE`.
-    pub fn from_file_with(path: &Path, overrides: &[String]) -> Result<Self, SceneError> {
-        SceneFile::read(path)?.with(overrides)?.scene()
-    }
-
-    /// Reads a scene from TOML `text`; `name` stands for the file in error messages.
-    ///
-    /// # Errors
-    ///
-    /// As for [`Scene::from_file`].
-    pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
-        Self::from_toml_with(name, text, &[])
-    }
-
-    /// Reads a scene from TOML `text`, then sets each `KEY=VALUE` of `overrides` in turn.
-    ///
-    /// # Errors
-    ///
-    /// As for [`Scene::from_file_with`].
-    pub fn from_toml_with(name: &str, text: &str, overrides: &[String]) -> Result<Self, SceneError> {
-        SceneFile::from_toml(name, text)?.with(overrides)?.scene()
-    }
-}
-
-fn read(name: &str, document: &Document) -> Result<Scene, SceneError> {
-    let root = document.table(keys::SCENE)?;
-    let title = match root.optional("title") {
-        Some(value) => value.text("a text in quotes")?,
-        None => Path::new(name)
-            .file_stem()
-            .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
-    };
-    let duct = cable::duct(&root)?;
-    let ground = ground::ground(&root)?;
-    let cable = cable::cable(&root)?;
-    let friction = cable::friction(&root)?;
-    let ends = cable::ends(&root)?;
-    let restraints = cable::restraints(&root, &duct)?;
-    let (vehicles, traffic) = traffic::traffic(&root, ground.scaling)?;
-    let solver = solver::solver(&root, &duct)?;
-    Ok(Scene {
-        title,
-        duct,
-        ground,
-        cable,
-        friction,
-        ends,
-        restraints,
-        vehicles,
-        traffic,
-        solver,
-    })
-}
+pub use words::UnknownWord;
+pub(crate) use write::quoted;

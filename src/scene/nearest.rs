@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 
 /// The one of `known` nearest to `word`, if any is near enough to be worth suggesting.
-pub(super) fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
+pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let plain = |text: &str| -> Vec<char> {
         text.chars()
             .flat_map(char::to_lowercase)

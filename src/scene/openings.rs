@@ -10,7 +10,7 @@ const DEEPEST: usize = 16;
 
 /// What a scan found.
 #[derive(Debug, Default, PartialEq)]
-pub(super) struct Openings {
+pub struct Openings {
     /// The quotes or the bracket that are not closed.
     pub unclosed: Option<Range<usize>>,
     /// The first place that is deeper than any scene.
@@ -18,7 +18,7 @@ pub(super) struct Openings {
 }
 
 /// Scans `text` up to where the parser gave up; what is closed after that is closed.
-pub(super) fn openings(text: &str) -> Openings {
+pub fn openings(text: &str) -> Openings {
     let bytes = text.as_bytes();
     let mut found = Openings::default();
     // Brackets that are open, and the points in the key that is being read.

@@ -2,41 +2,34 @@
 
 use toml::de::DeValue;
 
-use super::SceneError;
 use super::document::{Content, Document, Entry, Node, Place, node, number};
+use super::error::{SceneError, WrongKind};
 
 /// No key of a scene is deeper: `vehicles.0.wheels.0.contact_radius`.
 const DEEPEST: usize = 8;
 
 /// Sets one key of the document, or removes it where the value is empty.
-pub(super) fn apply(document: &mut Document, text: &str) -> Result<(), SceneError> {
-    let source = document.add_source(text);
-    let error =
-        |document: &Document, place: Place, key: &str, found: String, allowed: &str| SceneError::Override {
-            location: document.locate(&place),
-            key: key.to_owned(),
-            found,
-            allowed: allowed.to_owned(),
-        };
-    let place = |start, end| Place {
-        source,
-        span: start..end,
+pub fn apply(document: &mut Document, text: &str) -> Result<(), SceneError> {
+    let source = document.add_override(text);
+    let place = |end| Place { source, span: 0..end };
+    let wrong = |document: &Document, place: Place, key: &str, found: String, allowed: &str| {
+        document.wrong(WrongKind::Override, &place, key, found, allowed)
     };
     let Some((key, written)) = text.split_once('=') else {
         let allowed = "KEY=VALUE, such as friction.dynamic_coefficient=0.3";
         let found = format!("`{text}`, without `=`");
-        return Err(error(document, place(0, text.len()), text.trim(), found, allowed));
+        return Err(wrong(document, place(text.len()), text.trim(), found, allowed));
     };
-    let key_place = place(0, key.len());
+    let key_place = place(key.len());
     let key = key.trim();
     let segments: Vec<&str> = key.split('.').map(str::trim).collect();
     if segments.len() > DEEPEST || segments.iter().any(|segment| segment.is_empty()) {
         let allowed = "a key such as duct.length or vehicles.0.speed";
-        return Err(error(document, key_place, key, format!("`{key}`"), allowed));
+        return Err(wrong(document, key_place, key, format!("`{key}`"), allowed));
     }
     let value = value(written, source, text.len() - written.len());
     descend(&mut document.root, &segments, value, &key_place)
-        .map_err(|Missing { found, allowed }| error(document, key_place, key, found, &allowed))
+        .map_err(|Missing { found, allowed }| wrong(document, key_place, key, found, &allowed))
 }
 
 /// There is nothing at the key.

@@ -1,11 +1,11 @@
 //! `preset = "…"`: the values of a preset, below those that the scene gives itself.
 //!
-//! What the same file gives beside the preset counts instead of the preset's value, whichever stands first. A preset that
-//! an override names later wins over what was written before it.
+//! Keys given next to a preset override it, whichever stands first. A preset that an override names later wins over what was
+//! written before it.
 
-use super::SceneError;
-use super::document::{Content, Document, Node};
-use super::table::joined;
+use super::document::{Content, Document, Node, Origin};
+use super::error::SceneError;
+use super::keys::joined;
 use super::value::Value;
 use crate::presets::{Preset, PresetKind, of};
 
@@ -18,7 +18,7 @@ const SECTIONS: [(&str, PresetKind); 4] = [
 ];
 
 /// Puts the values of presets into the sections that name one.
-pub(super) fn expand(document: &mut Document) -> Result<(), SceneError> {
+pub fn expand(document: &mut Document) -> Result<(), SceneError> {
     let mut root = document.root.clone();
     if let Content::Table(entries) = &mut root.content {
         for entry in entries {
@@ -54,9 +54,9 @@ fn fill(document: &mut Document, path: &str, kind: PresetKind, section: &mut Nod
         node: &named.value,
     }
     .word(&words)?;
-    let given = document.add_preset(preset, &named.key_place)?;
+    let given = document.add_preset(preset, &named.key_place);
     // An earlier preset goes, and so does what was set before this one was named.
-    entries.retain(|entry| !document.is_preset(&entry.key_place));
+    entries.retain(|entry| document.rank(&entry.key_place).1 == Origin::Written);
     for entry in given {
         let rank = document.rank(&entry.key_place);
         match entries.iter_mut().find(|present| present.key == entry.key) {

@@ -5,28 +5,7 @@
 
 use super::nearest::nearest;
 use super::syntax::with_point;
-use super::units::{UNITS, normalised};
-
-/// Physical dimension of a quantity in a scene.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Dimension {
-    /// Length \[m\].
-    Length,
-    /// Force \[N\].
-    Force,
-    /// Pressure or modulus \[Pa\].
-    Pressure,
-    /// Stiffness, or weight per length \[N/m\].
-    ForcePerLength,
-    /// Inverse length \[1/m\].
-    InverseLength,
-    /// Speed \[m/s\].
-    Speed,
-    /// Time \[s\].
-    Time,
-    /// A ratio, as a percentage.
-    Ratio,
-}
+use super::units::{Dimension, UNITS, normalised};
 
 /// Why a text is not a quantity of the wanted dimension.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -63,32 +42,7 @@ pub enum QuantityError {
 }
 
 impl Dimension {
-    /// The symbols of this dimension's units, the SI unit first.
-    ///
-    /// Written variants are accepted too: `µm` and `μm` for `um`, `N/mm²` and `N/mm^2` for `N/mm2`, `/m` and `m^-1` for
-    /// `1/m`.
-    pub fn units(self) -> impl Iterator<Item = &'static str> {
-        UNITS
-            .iter()
-            .filter(move |unit| unit.dimension == self)
-            .map(|unit| unit.symbol)
-    }
-
-    /// The dimension in words, with its article: "a length".
-    pub fn noun(self) -> &'static str {
-        match self {
-            Self::Length => "a length",
-            Self::Force => "a force",
-            Self::Pressure => "a pressure or modulus",
-            Self::ForcePerLength => "a force per length",
-            Self::InverseLength => "an inverse length",
-            Self::Speed => "a speed",
-            Self::Time => "a time",
-            Self::Ratio => "a ratio",
-        }
-    }
-
-    /// The SI value of `text`, a number followed by one of this dimension's [units](Self::units).
+    /// The SI value of `text`, a number followed by one of this dimension's [units](Dimension::units).
     ///
     /// The value may be infinite or NaN where the text says so or is too large for a number: check its range.
     ///

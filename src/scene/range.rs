@@ -2,93 +2,124 @@
 
 use std::ops::RangeInclusive;
 
-use super::Dimension;
+use super::units::Dimension;
 
-/// A range of values.
+/// A range of finite numbers.
 #[derive(Clone, Copy)]
-pub(super) struct Range {
+pub struct Range {
+    least: f64,
+    most: f64,
     /// In words, after "a length".
     words: &'static str,
-    holds: fn(f64) -> bool,
 }
 
-pub(super) const ANY: Range = Range {
-    words: "of any sign",
-    holds: |_| true,
-};
-pub(super) const POSITIVE: Range = Range {
-    words: "greater than 0",
-    holds: |v| v > 0.0,
-};
+/// A quantity of a scene: its dimension, its range, and how one is written.
+#[derive(Clone, Copy)]
+pub struct Quantity {
+    pub dimension: Dimension,
+    pub range: Range,
+    example: &'static str,
+}
+
+const fn range(least: f64, most: f64, words: &'static str) -> Range {
+    Range { least, most, words }
+}
+
+const fn length(range: Range, example: &'static str) -> Quantity {
+    quantity(Dimension::Length, range, example)
+}
+
+const fn quantity(dimension: Dimension, range: Range, example: &'static str) -> Quantity {
+    Quantity {
+        dimension,
+        range,
+        example,
+    }
+}
+
+/// The smallest number greater than 0.
+const LEAST: f64 = 5e-324;
+const ANY: Range = range(f64::MIN, f64::MAX, "of any sign");
+const POSITIVE: Range = range(LEAST, f64::MAX, "greater than 0");
+
 // The limits of what the models can mean, far outside what is built: beyond them numbers lose their digits, or a run its
 // end.
-macro_rules! range {
-    ($(#[$doc:meta])* $name:ident, $low:expr, $high:expr, $words:expr) => {
-        $(#[$doc])*
-        pub(super) const $name: Range = Range {
-            words: $words,
-            holds: |v| ($low..=$high).contains(&v),
-        };
-    };
-}
-range!(DUCT_LENGTH, 0.1, 1e5, "greater than 0, from 0.1 m to 100 km");
-range!(DEPTH, 0.01, 1e3, "greater than 0, from 1 cm to 1 km");
-range!(OFFSET, -1e3, 1e3, "of any sign, at most 1 km");
-range!(THICKNESS, 1e-6, 1e4, "greater than 0, from 1 um to 10 km");
-range!(CONTACT_RADIUS, 0.0, 100.0, "of at least 0 and at most 100 m");
-range!(PEAK, 1e-12, 1.0, "greater than 0, from 1e-6 um to 1 m");
-range!(MODULUS, 1e3, 1e13, "greater than 0, from 1 kPa to 10000 GPa");
-range!(WEIGHT, 1e-3, 1e6, "greater than 0, from 1e-3 N/m to 1 MN/m");
-range!(AXIAL_STIFFNESS, 1.0, 1e15, "greater than 0, from 1 N to 1e15 N");
-range!(SHAPE_FACTOR, 1.0, 1e18, "greater than 0, from 1 to 1e18 1/m");
-range!(STIFFNESS, 1e-9, 1e18, "greater than 0, from 1e-9 to 1e18 N/m");
-range!(LOAD_FACTOR, 1e-6, 1e6, "greater than 0, from 1e-6 to 1e6");
-range!(LOAD, 0.0, 1e9, "of at least 0 and at most 1000 MN");
-range!(SPEED, 1e-3, 1e3, "greater than 0, from 1 mm/s to 1 km/s");
-range!(APPROACH, 0.1, 1e5, "greater than 0, from 0.1 m to 100 km");
-pub(super) const POISSON: Range = Range {
-    words: "from 0 to 0.5",
-    holds: |v| (0.0..=0.5).contains(&v),
-};
-pub(super) const COEFFICIENT: Range = Range {
-    words: "from 0 to 10",
-    holds: |v| (0.0..=10.0).contains(&v),
-};
-pub(super) const TOLERANCE: Range = Range {
-    words: "greater than 0 and at most 0.5",
-    holds: |v| v > 0.0 && v <= 0.5,
-};
+const OFFSETS: Range = range(-1e3, 1e3, "of any sign, at most 1 km");
+const PEAKS: Range = range(1e-12, 1.0, "greater than 0, from 1e-6 um to 1 m");
+const LOADS: Range = range(0.0, 1e9, "of at least 0 and at most 1000 MN");
+const MODULI: Range = range(1e3, 1e13, "greater than 0, from 1 kPa to 10000 GPa");
+const STIFFNESSES: Range = range(1e-9, 1e18, "greater than 0, from 1e-9 to 1e18 N/m");
+const RADII: Range = range(0.0, 100.0, "of at least 0 and at most 100 m");
+const DUCT_LENGTHS: Range = range(0.1, 1e5, "greater than 0, from 0.1 m to 100 km");
+const DEPTHS: Range = range(0.01, 1e3, "greater than 0, from 1 cm to 1 km");
+const WEIGHTS: Range = range(1e-3, 1e6, "greater than 0, from 1e-3 N/m to 1 MN/m");
+const AXIAL_STIFFNESSES: Range = range(1.0, 1e15, "greater than 0, from 1 N to 1e15 N");
+const SHAPE_FACTORS: Range = range(1.0, 1e18, "greater than 0, from 1 to 1e18 1/m");
+const SPEEDS: Range = range(1e-3, 1e3, "greater than 0, from 1 mm/s to 1 km/s");
+const TOLERANCES: Range = range(LEAST, 0.5, "greater than 0 and at most 0.5");
+/// Thicknesses of layers, and depths of a rigid base below those above it \[m\].
+pub const THICKNESSES: Range = range(1e-6, 1e4, "greater than 0, from 1 um to 10 km");
 
-range!(SHARE, 1e-12, 1e12, "greater than 0, from 1e-12 to 1e12");
+pub const DUCT_LENGTH: Quantity = length(DUCT_LENGTHS, "\"30 m\"");
+pub const DEPTH: Quantity = length(DEPTHS, "\"1.2 m\"");
+pub const LATERAL_OFFSET: Quantity = length(OFFSETS, "\"0.5 m\"");
+pub const WHEEL_X: Quantity = length(OFFSETS, "\"-4 m\"");
+pub const WHEEL_Y: Quantity = length(OFFSETS, "\"0.9 m\"");
+pub const CONTACT_RADIUS: Quantity = length(RADII, "\"0.15 m\"");
+pub const THICKNESS: Quantity = length(THICKNESSES, "\"50 mm\"");
+pub const RIGID_BASE_DEPTH: Quantity = length(THICKNESSES, "\"12 m\"");
+pub const LONGITUDINAL_PEAK: Quantity = length(PEAKS, "\"35.7 um\"");
+pub const VERTICAL_PEAK: Quantity = length(PEAKS, "\"90 um\"");
+pub const POSITION: Quantity = length(ANY, "\"20 m\"");
+pub const STEP: Quantity = length(POSITIVE, "\"0.1 m\"");
+pub const APPROACH: Quantity = length(DUCT_LENGTHS, "\"15 m\"");
+pub const MODULUS: Quantity = quantity(
+    Dimension::Pressure,
+    MODULI,
+    "\"800 MPa\", or { top = \"60 MPa\", bottom = \"200 MPa\" } where it varies with depth",
+);
+pub const MODULUS_AT_AN_END: Quantity = quantity(Dimension::Pressure, MODULI, "\"60 MPa\"");
+pub const WEIGHT: Quantity = quantity(Dimension::ForcePerLength, WEIGHTS, "\"108.8 N/m\"");
+pub const AXIAL_STIFFNESS: Quantity = quantity(Dimension::Force, AXIAL_STIFFNESSES, "\"8.01e6 N\"");
+pub const SHAPE_FACTOR: Quantity = quantity(Dimension::InverseLength, SHAPE_FACTORS, "\"2e7 1/m\"");
+pub const SPRING: Quantity = quantity(Dimension::ForcePerLength, STIFFNESSES, "\"3 MN/m\"");
+pub const CLAMP: Quantity = quantity(Dimension::ForcePerLength, STIFFNESSES, "\"1 MN/m\"");
+pub const LOAD: Quantity = quantity(Dimension::Force, LOADS, "\"20 tf\"");
+pub const WHEEL_LOAD: Quantity = quantity(Dimension::Force, LOADS, "\"50 kN\"");
+pub const SPEED: Quantity = quantity(Dimension::Speed, SPEEDS, "\"40 km/h\"");
+pub const TIME_STEP: Quantity = quantity(Dimension::Time, POSITIVE, "\"0.1 ms\"");
+pub const TOLERANCE: Quantity = quantity(Dimension::Ratio, TOLERANCES, "0.01 or \"1 %\"");
+
+pub const POISSON: Range = range(0.0, 0.5, "from 0 to 0.5");
+pub const COEFFICIENT: Range = range(0.0, 10.0, "from 0 to 10");
+pub const LOAD_FACTOR: Range = range(1e-6, 1e6, "greater than 0, from 1e-6 to 1e6");
+pub const SHARE: Range = range(1e-12, 1e12, "greater than 0, from 1e-12 to 1e12");
+
 /// Numbers of passes that can be computed, by the pass law at the latest.
-pub(super) const PASSES: RangeInclusive<u64> = 1..=pass_law::MOST_PASSES;
+pub const PASSES: RangeInclusive<u64> = 1..=pass_law::MOST_PASSES;
 /// Most nodes and most steps of a vehicle over the duct; where the scene gives no step there are two to a node.
 const MOST_NODES: f64 = 5e6;
 const MOST_STEPS: f64 = 1e7;
 
 /// A range whose ends follow from the rest of the scene, with its words.
-pub(super) type Follows = (RangeInclusive<f64>, String);
+pub type Follows = (RangeInclusive<f64>, String);
 
 /// Node spacings \[m\] in a duct of this length.
-pub(super) fn node_spacings(length: f64) -> Follows {
-    let words = format!(
-        "at most half the duct's length, {} m, and at least its five-millionth part",
-        shown(length / 2.0)
-    );
+pub fn node_spacings(length: f64) -> Follows {
+    let half = shown(length / 2.0);
+    let words = format!("at most half the duct's length, {half} m, and at least its five-millionth part");
     (length / MOST_NODES..=length / 2.0, words)
 }
 
 /// Steps of a vehicle \[m\] over a duct of this length.
-pub(super) fn vehicle_steps(length: f64) -> Follows {
-    let words = format!(
-        "at most the duct's length, {} m, and at least its ten-millionth part",
-        shown(length)
-    );
+pub fn vehicle_steps(length: f64) -> Follows {
+    let all = shown(length);
+    let words = format!("at most the duct's length, {all} m, and at least its ten-millionth part");
     (length / MOST_STEPS..=length, words)
 }
 
 /// Positions of clamps \[m\] in a duct of this length.
-pub(super) fn positions(length: f64) -> Follows {
+pub fn positions(length: f64) -> Follows {
     let words = format!("a position in the duct, from 0 m to {} m", shown(length));
     (0.0..=length, words)
 }
@@ -96,45 +127,39 @@ pub(super) fn positions(length: f64) -> Follows {
 impl Range {
     /// Whether a number lies within.
     pub fn contains(self, value: f64) -> bool {
-        value.is_finite() && (self.holds)(value)
+        (self.least..=self.most).contains(&value)
     }
 
-    /// The range of a quantity in words.
-    pub fn of(self, dimension: Dimension) -> String {
-        format!("{} {}", dimension.noun(), self.words)
-    }
-
-    /// The range of a number in words.
-    pub fn of_number(self) -> String {
-        format!("a number {}", self.words)
+    /// What is allowed where a dimensionless number belongs.
+    pub fn allowed(self) -> String {
+        format!("a number {}, without quotes or unit", self.words)
     }
 }
 
-/// What is allowed where a quantity belongs.
-pub(super) fn allowed_quantity(dimension: Dimension, range: Range, example: &str) -> String {
-    let units: Vec<&str> = dimension.units().collect();
-    format!(
-        "{}, such as {example} (units: {})",
-        range.of(dimension),
-        units.join(", ")
-    )
-}
-
-/// What is allowed where a dimensionless number belongs.
-pub(super) fn allowed_number(range: Range) -> String {
-    format!("{}, without quotes or unit", range.of_number())
+impl Quantity {
+    /// What is allowed where this quantity belongs.
+    pub fn allowed(self) -> String {
+        let units: Vec<&str> = self.dimension.units().collect();
+        format!(
+            "{} {}, such as {} (units: {})",
+            self.dimension.noun(),
+            self.range.words,
+            self.example,
+            units.join(", ")
+        )
+    }
 }
 
 /// What is allowed where a whole number belongs.
-pub(super) fn allowed_whole(range: &RangeInclusive<u64>) -> String {
+pub fn allowed_whole(range: &RangeInclusive<u64>) -> String {
     match (range.start(), range.end()) {
         (least, &u64::MAX) => format!("a whole number of at least {least}, without quotes"),
         (least, most) => format!("a whole number from {least} to {most}, without quotes"),
     }
 }
 
-/// A value of ours in a message, such as the end of a range.
-pub(super) fn shown(value: f64) -> String {
+/// A number of this program in a message, such as the end of a range.
+pub fn shown(value: f64) -> String {
     if (1e-6..1e9).contains(&value.abs()) || value == 0.0 {
         value.to_string()
     } else {

@@ -1,13 +1,13 @@
 //! Bare numbers that were probably meant in another unit.
 //!
 //! A number without a unit is SI: `load = 20` is 20 N, the weight of two bricks, and `speed = 40` is 144 km/h. Both are
-//! valid, so they are told and not refused.
+//! valid, so they are a warning and no error.
 
 use std::fmt;
 
-use super::Location;
 use super::document::{Content, Document, Node};
-use super::table::joined;
+use super::keys::joined;
+use super::location::Location;
 
 /// Loads below this \[N\] are lighter than any vehicle.
 const LIGHT: f64 = 1e3;
@@ -16,6 +16,7 @@ const FAST: f64 = 130.0 / 3.6;
 
 /// A bare number that was probably meant in another unit.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct UnitSlip {
     /// Where it stands.
     pub location: Location,
@@ -40,7 +41,7 @@ impl fmt::Display for UnitSlip {
 }
 
 /// Every one in the vehicles of `document`.
-pub(super) fn unit_slips(document: &Document) -> Vec<UnitSlip> {
+pub fn unit_slips(document: &Document) -> Vec<UnitSlip> {
     let mut slips = Vec::new();
     let mut judge = |path: String, node: &Node| {
         let (Content::Number { value, .. }, Some(key)) = (&node.content, path.rsplit('.').next()) else {
@@ -60,7 +61,7 @@ pub(super) fn unit_slips(document: &Document) -> Vec<UnitSlip> {
             _ => return,
         };
         slips.push(UnitSlip {
-            location: *document.locate(&node.place),
+            location: document.locate(&node.place),
             key: path,
             found,
             meaning,

@@ -8,13 +8,13 @@ use toml::de::{DeTable, DeValue};
 use super::openings::openings;
 
 /// What is wrong, and where.
-pub(super) struct Fault {
+pub struct Fault {
     pub span: Range<usize>,
     pub message: String,
 }
 
 /// What made the parser give up on `text`, told where it was written.
-pub(super) fn fault(text: &str, error: &toml::de::Error) -> Fault {
+pub fn fault(text: &str, error: &toml::de::Error) -> Fault {
     let openings = openings(text);
     // The parser does not tell where keys go too deep.
     let (span, too_deep) = (error.span(), openings.too_deep);
@@ -129,7 +129,7 @@ fn hint(line: &str) -> Option<String> {
 const SMART_QUOTES: [char; 5] = ['“', '”', '„', '‘', '’'];
 
 /// A number written with commas, with or without a unit, as it is to be written here; `None` where there is no comma.
-pub(super) fn with_point(text: &str) -> Option<String> {
+pub fn with_point(text: &str) -> Option<String> {
     let digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
     let bytes = text.as_bytes();
     let commas: Vec<usize> = (0..bytes.len()).filter(|&i| bytes[i] == b',').collect();

@@ -3,118 +3,79 @@
 //! A [`Table`] knows its keys when it is opened, so that a misspelt key is reported as such and not as the lack of the
 //! right one. Every error is made here or in the few checks across keys, with the place where the value was written.
 
+use std::cmp::Ordering;
+
 use ground_field::GroundError;
 
-use super::document::{Content, Document, Entry, Node, Place};
-use super::keys::{OTHER_NAMES, SECTIONS};
+use super::document::{Content, Entry};
+use super::error::{SceneError, WrongKind};
+use super::keys::{OTHER_NAMES, SECTIONS, joined};
 use super::nearest::nearest;
-use super::range::{Range, allowed_number, allowed_quantity};
+use super::range::{Quantity, Range};
 use super::value::Value;
-use super::{Dimension, SceneError};
 
 /// A table of the document.
-pub(super) struct Table<'d> {
-    document: &'d Document,
-    /// Its key with those of the tables around it; empty for the document.
-    path: String,
-    place: &'d Place,
+pub struct Table<'d> {
+    value: Value<'d>,
     entries: &'d [Entry],
 }
 
 impl<'d> Table<'d> {
     /// Opens a table that may hold only the keys `known`.
-    pub fn new(
-        document: &'d Document,
-        path: String,
-        node: &'d Node,
-        known: &'static [&'static str],
-    ) -> Result<Self, SceneError> {
-        let Content::Table(entries) = &node.content else {
-            return Err(SceneError::WrongType {
-                location: document.locate(&node.place),
-                found: document.written(&node.place),
-                key: path,
-                allowed: format!("a table with the keys {}", known.join(", ")),
-            });
+    pub fn new(value: Value<'d>, known: &[&'static str]) -> Result<Self, SceneError> {
+        let Content::Table(entries) = &value.node.content else {
+            let allowed = format!("a table with the keys {}", known.join(", "));
+            return Err(value.wrong(WrongKind::WrongType, value.written(), allowed));
         };
         if let Some(entry) = entries.iter().find(|entry| !known.contains(&entry.key.as_str())) {
-            let elsewhere = || {
-                SECTIONS
-                    .iter()
-                    .find(|(_, keys)| keys.contains(&entry.key.as_str()))
-                    .map(|(section, _)| format!("{section}.{}", entry.key))
+            let kind = WrongKind::UnknownKey {
+                suggestion: suggestion(&entry.key, known),
             };
-            return Err(SceneError::UnknownKey {
-                location: document.locate(&entry.key_place),
-                key: joined(&path, &entry.key),
-                allowed: known.join(", "),
-                suggestion: nearest(&entry.key, known.iter().copied())
-                    .or_else(|| other_name(&entry.key, known))
-                    .map(str::to_owned)
-                    .or_else(elsewhere),
-            });
+            let key = joined(&value.path, &entry.key);
+            let document = value.document;
+            return Err(document.wrong(kind, &entry.key_place, &key, "", known.join(", ")));
         }
-        Ok(Self {
-            document,
-            path,
-            place: &node.place,
-            entries,
-        })
+        Ok(Self { value, entries })
     }
 
     pub fn optional(&self, key: &str) -> Option<Value<'d>> {
         let entry = self.entries.iter().find(|entry| entry.key == key)?;
-        Some(Value {
-            document: self.document,
-            path: joined(&self.path, key),
-            node: &entry.value,
-        })
+        Some(self.value.child(key, &entry.value))
     }
 
     pub fn required(&self, key: &str, allowed: &str) -> Result<Value<'d>, SceneError> {
-        self.optional(key).ok_or_else(|| SceneError::MissingKey {
-            location: self.document.locate(self.place),
-            key: joined(&self.path, key),
-            allowed: allowed.to_owned(),
+        self.optional(key).ok_or_else(|| {
+            // The section that lacks it is shown.
+            let Value { document, path, node } = &self.value;
+            document.wrong(
+                WrongKind::MissingKey,
+                &node.place,
+                &joined(path, key),
+                "",
+                allowed,
+            )
         })
     }
 
     /// The required table at `key`.
-    pub fn table(&self, key: &str, known: &'static [&'static str]) -> Result<Table<'d>, SceneError> {
-        self.required(
-            key,
-            &format!("a section [{key}] with the keys {}", known.join(", ")),
-        )?
-        .table(known)
+    pub fn table(&self, key: &str, known: &[&'static str]) -> Result<Table<'d>, SceneError> {
+        let allowed = format!("a section [{key}] with the keys {}", known.join(", "));
+        Table::new(self.required(key, &allowed)?, known)
     }
 
-    /// The required quantity at `key`; `example` shows how to write one.
-    pub fn quantity(
-        &self,
-        key: &str,
-        dimension: Dimension,
-        range: Range,
-        example: &str,
-    ) -> Result<f64, SceneError> {
-        self.required(key, &allowed_quantity(dimension, range, example))?
-            .quantity(dimension, range, example)
+    /// The required quantity at `key`.
+    pub fn quantity(&self, key: &str, quantity: Quantity) -> Result<f64, SceneError> {
+        self.required(key, &quantity.allowed())?.quantity(quantity)
     }
 
-    pub fn optional_quantity(
-        &self,
-        key: &str,
-        dimension: Dimension,
-        range: Range,
-        example: &str,
-    ) -> Result<Option<f64>, SceneError> {
-        self.optional(key)
-            .map(|value| value.quantity(dimension, range, example))
-            .transpose()
+    pub fn optional_quantity(&self, key: &str, quantity: Quantity) -> Result<Option<f64>, SceneError> {
+        let value = self.optional(key);
+        value.map(|value| value.quantity(quantity)).transpose()
     }
 
     /// The required dimensionless number at `key`.
     pub fn number(&self, key: &str, range: Range) -> Result<f64, SceneError> {
-        self.required(key, &allowed_number(range))?.number(range)
+        self.required(key, &range.allowed())?.number(range)
     }
 
     pub fn optional_number(&self, key: &str, range: Range) -> Result<Option<f64>, SceneError> {
@@ -126,17 +87,19 @@ impl<'d> Table<'d> {
         self.optional(key).map_or(Ok(default), |value| value.word(words))
     }
 
-    fn rank(&self, value: &Value) -> usize {
-        self.document.rank(&value.node.place)
+    /// Which of two values was given later.
+    fn order(&self, one: &Value, other: &Value) -> Ordering {
+        let rank = |value: &Value| self.value.document.rank(&value.node.place);
+        rank(one).cmp(&rank(other))
     }
 
     /// Two keys that exclude each other. Of two that were set at different times the later one stands.
     pub fn alternatives(&self, first: &str, second: &str) -> Result<[Option<Value<'d>>; 2], SceneError> {
         match [self.optional(first), self.optional(second)] {
-            [Some(a), Some(b)] => match self.rank(&a).cmp(&self.rank(&b)) {
-                std::cmp::Ordering::Greater => Ok([Some(a), None]),
-                std::cmp::Ordering::Less => Ok([None, Some(b)]),
-                std::cmp::Ordering::Equal => {
+            [Some(a), Some(b)] => match self.order(&a, &b) {
+                Ordering::Greater => Ok([Some(a), None]),
+                Ordering::Less => Ok([None, Some(b)]),
+                Ordering::Equal => {
                     Err(b.inconsistent(format!("both `{first}` and `{second}`"), "only one of the two"))
                 }
             },
@@ -150,50 +113,37 @@ impl<'d> Table<'d> {
         let Some(value) = self.optional(key) else {
             return Ok(());
         };
-        let chosen = self.optional(choice);
-        if chosen
-            .as_ref()
-            .is_some_and(|chosen| self.rank(chosen) > self.rank(&value))
-        {
-            return Ok(());
-        }
-        let beside = chosen.map_or_else(
-            || format!("no `{choice}`"),
-            |chosen| format!("`{choice}` = {}", self.document.written(&chosen.node.place)),
-        );
+        let beside = match self.optional(choice) {
+            Some(chosen) if self.order(&chosen, &value) == Ordering::Greater => return Ok(()),
+            Some(chosen) => format!("`{choice}` = {}", chosen.written()),
+            None => format!("no `{choice}`"),
+        };
         Err(value.inconsistent(format!("{} with {beside}", value.written()), allowed))
     }
 
     /// The error for what `ground-field` does not accept.
-    pub fn rejected(&self, source: GroundError) -> SceneError {
-        SceneError::Rejected {
-            location: self.document.locate(self.place),
-            key: self.path.clone(),
-            source,
-        }
+    pub fn rejected(&self, error: GroundError) -> SceneError {
+        self.value.wrong(WrongKind::Rejected(error), "", "")
     }
 
     /// The error for a table whose keys contradict each other or another one.
     pub fn inconsistent(&self, found: impl Into<String>, allowed: impl Into<String>) -> SceneError {
-        SceneError::Inconsistent {
-            location: self.document.locate(self.place),
-            key: self.path.clone(),
-            found: found.into(),
-            allowed: allowed.into(),
-        }
+        self.value.inconsistent(found, allowed)
     }
 }
 
-/// The known key that has the meaning of this one elsewhere.
-fn other_name(key: &str, known: &[&'static str]) -> Option<&'static str> {
-    let (_, name) = OTHER_NAMES.iter().find(|(other, _)| *other == key)?;
-    known.contains(name).then_some(*name)
-}
-
-pub(super) fn joined(path: &str, key: &str) -> String {
-    if path.is_empty() {
-        key.to_owned()
-    } else {
-        format!("{path}.{key}")
-    }
+/// The known key that was probably meant: a near miss, another name for it, or a key of another section.
+fn suggestion(key: &str, known: &[&'static str]) -> Option<String> {
+    let other_name = || {
+        let (_, name) = OTHER_NAMES.iter().find(|(other, _)| *other == key)?;
+        known.contains(name).then_some(*name)
+    };
+    let elsewhere = || {
+        let (section, _) = SECTIONS.iter().find(|(_, keys)| keys.contains(&key))?;
+        Some(format!("{section}.{key}"))
+    };
+    nearest(key, known.iter().copied())
+        .or_else(other_name)
+        .map(str::to_owned)
+        .or_else(elsewhere)
 }

@@ -2,29 +2,38 @@
 
 use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
-use super::range::{CONTACT_RADIUS, LOAD, OFFSET, PASSES, SHARE, SPEED, allowed_whole};
+use super::data::{Order, PeakScaling, Traffic, TrafficVehicle};
+use super::error::SceneError;
+use super::keys;
+use super::range::{CONTACT_RADIUS, LOAD, PASSES, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y, allowed_whole};
 use super::table::Table;
 use super::value::Value;
-use super::{Dimension, Order, PeakScaling, SceneError, Traffic, TrafficVehicle, keys};
 
 const DIRECTIONS: &[(&str, Direction)] = &[("forward", Direction::Forward), ("reverse", Direction::Reverse)];
-const LOAD_EXAMPLE: &str = "\"20 tf\"";
 /// Seed of a random order where the file gives none.
 const DEFAULT_SEED: u64 = 1;
 
-pub(super) fn traffic(
+pub fn traffic(
     root: &Table,
     scaling: Option<PeakScaling>,
 ) -> Result<(Vec<TrafficVehicle>, Traffic), SceneError> {
     let allowed = "one [[vehicles]] or more";
     let items = root.required("vehicles", allowed)?.some_items(allowed)?;
     let mut vehicles: Vec<TrafficVehicle> = Vec::with_capacity(items.len());
-    for (index, item) in items.iter().enumerate() {
-        let table = item.table(keys::VEHICLE)?;
+    for (index, item) in items.into_iter().enumerate() {
+        let table = Table::new(item, keys::VEHICLE)?;
         let name = name(&table, index, &vehicles)?;
         let vehicle = vehicle(&table, name)?;
-        if let Some(allowed) = unscalable(&vehicle, index, scaling) {
-            return Err(table.inconsistent("a vehicle without load", allowed));
+        if vehicle.weight() == 0.0
+            && let Some(key) = scales(scaling, index)
+        {
+            let allowed = format!("a load greater than 0, which `{key}` can scale");
+            let load = table.alternatives("load", "wheels")?.into_iter().flatten().next();
+            let found = "a vehicle without load";
+            return Err(load.map_or_else(
+                || table.inconsistent(found, &allowed),
+                |load| load.inconsistent(found, &allowed),
+            ));
         }
         let share = table.optional_number("share", SHARE)?.unwrap_or(1.0);
         vehicles.push(TrafficVehicle { vehicle, share });
@@ -43,8 +52,12 @@ pub(super) fn traffic(
     Ok((vehicles, Traffic { passes, order }))
 }
 
-/// Makes the shares sum to 1, whatever their size.
+/// Makes the shares sum to 1, whatever their size. Shares that do so but for rounding are kept to the last digit.
 fn normalise(vehicles: &mut [TrafficVehicle]) {
+    let sum: f64 = vehicles.iter().map(|v| v.share).sum();
+    if (sum - 1.0).abs() <= f64::EPSILON * vehicles.len() as f64 {
+        return;
+    }
     let largest = vehicles.iter().fold(0.0, |largest: f64, v| largest.max(v.share));
     let sum: f64 = vehicles.iter().map(|v| v.share / largest).sum();
     for vehicle in vehicles {
@@ -72,7 +85,7 @@ fn name(table: &Table, index: usize, others: &[TrafficVehicle]) -> Result<String
 fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {
     let wheels = match table.alternatives("load", "wheels")? {
         [Some(load), _] => {
-            let force = load.quantity(Dimension::Force, LOAD, LOAD_EXAMPLE)?;
+            let force = load.quantity(LOAD)?;
             vec![Wheel {
                 x: 0.0,
                 y: 0.0,
@@ -81,7 +94,7 @@ fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {
         }
         [None, Some(list)] => list
             .some_items("a list of wheels, such as [ { x = \"0 m\", y = \"0.9 m\", load = \"50 kN\" } ]")?
-            .iter()
+            .into_iter()
             .map(wheel)
             .collect::<Result<_, _>>()?,
         [None, None] => {
@@ -91,35 +104,33 @@ fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {
             ));
         }
     };
-    let speed = table.quantity("speed", Dimension::Speed, SPEED, "\"40 km/h\"")?;
+    let speed = table.quantity("speed", SPEED)?;
     let direction = table.word("direction", DIRECTIONS, Direction::Forward)?;
     Vehicle::new(name, wheels, speed, direction).map_err(|e| table.rejected(e))
 }
 
-fn wheel(item: &Value) -> Result<Wheel, SceneError> {
-    let table = item.table(keys::WHEEL)?;
-    let length = |key, range, example| -> Result<f64, SceneError> {
-        Ok(table
-            .optional_quantity(key, Dimension::Length, range, example)?
-            .unwrap_or(0.0))
+fn wheel(item: Value) -> Result<Wheel, SceneError> {
+    let table = Table::new(item, keys::WHEEL)?;
+    let or_zero = |key, quantity| {
+        table
+            .optional_quantity(key, quantity)
+            .map(Option::unwrap_or_default)
     };
-    let force = table.quantity("load", Dimension::Force, LOAD, "\"50 kN\"")?;
-    let contact_radius = length("contact_radius", CONTACT_RADIUS, "\"0.15 m\"")?;
+    let force = table.quantity("load", WHEEL_LOAD)?;
+    let contact_radius = or_zero("contact_radius", CONTACT_RADIUS)?;
     Ok(Wheel {
-        x: length("x", OFFSET, "\"-4 m\"")?,
-        y: length("y", OFFSET, "\"0.9 m\"")?,
+        x: or_zero("x", WHEEL_X)?,
+        y: or_zero("y", WHEEL_Y)?,
         load: SurfaceLoad::new(force, contact_radius).map_err(|e| table.rejected(e))?,
     })
 }
 
-/// What is allowed instead of a vehicle that moves nothing where its displacements are to be scaled.
-pub(super) fn unscalable(vehicle: &Vehicle, index: usize, scaling: Option<PeakScaling>) -> Option<String> {
-    let key = match scaling? {
-        PeakScaling::Longitudinal(_) => "ground.longitudinal_peak",
-        PeakScaling::Vertical(_) if index == 0 => "ground.vertical_peak",
-        PeakScaling::Vertical(_) => return None,
-    };
-    (vehicle.weight() == 0.0).then(|| format!("a load greater than 0, which `{key}` can scale"))
+/// The key that scales the displacements of the vehicle of this index itself: one without load has none that could be scaled.
+fn scales(scaling: Option<PeakScaling>, index: usize) -> Option<&'static str> {
+    match scaling? {
+        PeakScaling::Longitudinal(_) => Some("ground.longitudinal_peak"),
+        PeakScaling::Vertical(_) => (index == 0).then_some("ground.vertical_peak"),
+    }
 }
 
 fn order(table: &Table, vehicles: &[TrafficVehicle]) -> Result<Order, SceneError> {
@@ -139,20 +150,14 @@ fn order(table: &Table, vehicles: &[TrafficVehicle]) -> Result<Order, SceneError
     }
     let choice = if sequence.is_some() { "sequence" } else { "order" };
     table.refuse("seed", choice, "`seed` only with order = \"random\"")?;
-    match sequence {
-        Some(list) => list
-            .some_items("a list of the vehicles' names, such as [\"truck\", \"van\"]")?
-            .iter()
-            .map(|item| {
-                let names: Vec<_> = vehicles
-                    .iter()
-                    .enumerate()
-                    .map(|(index, v)| (v.vehicle.name(), index))
-                    .collect();
-                item.word(&names)
-            })
-            .collect::<Result<_, _>>()
-            .map(Order::Sequence),
-        None => Ok(Order::Interleaved),
-    }
+    let Some(list) = sequence else {
+        return Ok(Order::Interleaved);
+    };
+    let names: Vec<(&str, usize)> = vehicles.iter().map(|v| v.vehicle.name()).zip(0..).collect();
+    let items = list.some_items("a list of the vehicles' names, such as [\"truck\", \"van\"]")?;
+    let sequence = items
+        .iter()
+        .map(|item| item.word(&names))
+        .collect::<Result<_, _>>()?;
+    Ok(Order::Sequence(sequence))
 }

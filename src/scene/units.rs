@@ -1,6 +1,53 @@
-//! The units of scene files.
+//! The dimensions and units of scene files.
 
-use super::Dimension;
+/// Physical dimension of a quantity in a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Dimension {
+    /// Length \[m\].
+    Length,
+    /// Force \[N\].
+    Force,
+    /// Pressure or modulus \[Pa\].
+    Pressure,
+    /// Stiffness, or weight per length \[N/m\].
+    ForcePerLength,
+    /// Inverse length \[1/m\].
+    InverseLength,
+    /// Speed \[m/s\].
+    Speed,
+    /// Time \[s\].
+    Time,
+    /// A ratio, as a percentage.
+    Ratio,
+}
+
+impl Dimension {
+    /// The symbols of this dimension's units, the SI unit first.
+    ///
+    /// Written variants are accepted too: `µm` and `μm` for `um`, `N/mm²` and `N/mm^2` for `N/mm2`, `/m` and `m^-1` for
+    /// `1/m`.
+    pub fn units(self) -> impl Iterator<Item = &'static str> {
+        UNITS
+            .iter()
+            .filter(move |unit| unit.dimension == self)
+            .map(|unit| unit.symbol)
+    }
+
+    /// The dimension in words, with its article: "a length".
+    pub fn noun(self) -> &'static str {
+        match self {
+            Self::Length => "a length",
+            Self::Force => "a force",
+            Self::Pressure => "a pressure or modulus",
+            Self::ForcePerLength => "a force per length",
+            Self::InverseLength => "an inverse length",
+            Self::Speed => "a speed",
+            Self::Time => "a time",
+            Self::Ratio => "a ratio",
+        }
+    }
+}
 
 /// Standard gravity \[m/s²\]: 1 kgf = 9.80665 N by definition.
 const STANDARD_GRAVITY: f64 = 9.80665;
@@ -8,7 +55,7 @@ const STANDARD_GRAVITY: f64 = 9.80665;
 const POUND_FORCE: f64 = 4.4482216152605;
 
 /// A unit: one of it is `factor / divisor · 10^exponent` in SI.
-pub(super) struct Unit {
+pub struct Unit {
     pub symbol: &'static str,
     pub dimension: Dimension,
     pub exponent: i32,
@@ -27,7 +74,7 @@ const fn unit(symbol: &'static str, dimension: Dimension, exponent: i32, factor:
 }
 
 /// Every unit of a scene file, the SI unit of each dimension first.
-pub(super) const UNITS: &[Unit] = &[
+pub const UNITS: &[Unit] = &[
     unit("m", Dimension::Length, 0, 1.0),
     unit("cm", Dimension::Length, -2, 1.0),
     unit("mm", Dimension::Length, -3, 1.0),
@@ -67,11 +114,8 @@ pub(super) const UNITS: &[Unit] = &[
     unit("cm/s", Dimension::Speed, -2, 1.0),
     unit("mm/s", Dimension::Speed, -3, 1.0),
     Unit {
-        symbol: "km/h",
-        dimension: Dimension::Speed,
-        exponent: 0,
-        factor: 1.0,
         divisor: 3.6,
+        ..unit("km/h", Dimension::Speed, 0, 1.0)
     },
     unit("s", Dimension::Time, 0, 1.0),
     unit("ms", Dimension::Time, -3, 1.0),
@@ -83,7 +127,7 @@ pub(super) const UNITS: &[Unit] = &[
 ];
 
 /// The unit in the spelling of [`UNITS`].
-pub(super) fn normalised(unit: &str) -> String {
+pub fn normalised(unit: &str) -> String {
     let plain: String = unit
         .chars()
         .filter(|c| !c.is_whitespace() && *c != '^')

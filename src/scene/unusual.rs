@@ -5,7 +5,7 @@
 
 use ground_field::{Base, Modulus, SoilProfile};
 
-use super::{Ground, Scene};
+use super::data::{Ground, Scene};
 
 /// Moduli \[Pa\] between which soils and pavements lie: peat and granite.
 const SOFTEST: f64 = 1e6;

@@ -3,23 +3,40 @@
 use std::ops::RangeInclusive;
 
 use super::document::{Content, Document, Node};
+use super::error::{SceneError, WrongKind};
+use super::keys::joined;
 use super::nearest::nearest;
-use super::range::{Range, allowed_number, allowed_quantity, allowed_whole};
+use super::quantity::QuantityError;
+use super::range::{Follows, Quantity, Range, allowed_whole};
 use super::syntax::with_point;
-use super::table::{Table, joined};
-use super::{Dimension, QuantityError, SceneError};
+use super::units::Dimension;
 
 /// A value of the document.
 #[derive(Clone)]
-pub(super) struct Value<'d> {
+pub struct Value<'d> {
     pub document: &'d Document,
+    /// Its key with those of the tables around it; empty for the document.
     pub path: String,
     pub node: &'d Node,
 }
 
 impl<'d> Value<'d> {
-    pub fn table(&self, known: &'static [&'static str]) -> Result<Table<'d>, SceneError> {
-        Table::new(self.document, self.path.clone(), self.node, known)
+    /// The whole document.
+    pub fn root(document: &'d Document) -> Self {
+        Self {
+            document,
+            path: String::new(),
+            node: &document.root,
+        }
+    }
+
+    /// A value within this one.
+    pub fn child(&self, key: &str, node: &'d Node) -> Self {
+        Self {
+            document: self.document,
+            path: joined(&self.path, key),
+            node,
+        }
     }
 
     pub fn is_table(&self) -> bool {
@@ -31,14 +48,9 @@ impl<'d> Value<'d> {
         let Content::Array(items) = &self.node.content else {
             return Err(self.wrong_type(allowed));
         };
+        let items = items.iter().enumerate();
         Ok(items
-            .iter()
-            .enumerate()
-            .map(|(index, node)| Value {
-                document: self.document,
-                path: joined(&self.path, &index.to_string()),
-                node,
-            })
+            .map(|(index, node)| self.child(&index.to_string(), node))
             .collect())
     }
 
@@ -51,30 +63,45 @@ impl<'d> Value<'d> {
         Ok(items)
     }
 
-    pub fn quantity(&self, dimension: Dimension, range: Range, example: &str) -> Result<f64, SceneError> {
-        let allowed = || allowed_quantity(dimension, range, example);
+    pub fn quantity(&self, quantity: Quantity) -> Result<f64, SceneError> {
         let value = match &self.node.content {
-            Content::Number { value, .. } => {
-                let meant = || format!("{}{}", allowed(), bare_in(*value, dimension, range));
-                return self.within(*value, range, meant);
-            }
-            Content::Text(text) => dimension
+            Content::Number { value, .. } => *value,
+            Content::Text(text) => quantity
+                .dimension
                 .parse(text)
-                .map_err(|error| self.not_a_quantity(error, allowed()))?,
-            _ => return Err(self.wrong_type(allowed())),
+                .map_err(|error| self.not_a_quantity(error, quantity.allowed()))?,
+            _ => return Err(self.wrong_type(quantity.allowed())),
         };
-        self.within(value, range, allowed)
+        if quantity.range.contains(value) {
+            return Ok(value);
+        }
+        let meant = match self.node.content {
+            Content::Number { value, .. } => bare_in(value, quantity),
+            _ => String::new(),
+        };
+        Err(self.out_of_range(quantity.allowed() + &meant))
     }
 
+    /// A quantity whose range follows from the rest of the scene.
+    pub fn quantity_within(&self, quantity: Quantity, (range, allowed): Follows) -> Result<f64, SceneError> {
+        let value = self.quantity(quantity)?;
+        if range.contains(&value) {
+            Ok(value)
+        } else {
+            Err(self.out_of_range(allowed))
+        }
+    }
+
+    /// A dimensionless number.
     pub fn number(&self, range: Range) -> Result<f64, SceneError> {
-        let allowed = || allowed_number(range);
         match &self.node.content {
-            Content::Number { value, .. } => self.within(*value, range, allowed),
+            Content::Number { value, .. } if range.contains(*value) => Ok(*value),
+            Content::Number { .. } => Err(self.out_of_range(range.allowed())),
             Content::Text(text) => Err(self.wrong_type(match bare(text) {
-                Some(number) => format!("{number}: {}", allowed()),
-                None => allowed(),
+                Some(number) => format!("{number}: {}", range.allowed()),
+                None => range.allowed(),
             })),
-            _ => Err(self.wrong_type(allowed())),
+            _ => Err(self.wrong_type(range.allowed())),
         }
     }
 
@@ -83,7 +110,6 @@ impl<'d> Value<'d> {
         let allowed = allowed_whole(&range);
         match self.node.content {
             Content::Number { integer, .. } => integer
-                .and_then(|integer| u64::try_from(integer).ok())
                 .filter(|integer| range.contains(integer))
                 .ok_or_else(|| self.out_of_range(allowed)),
             _ => Err(self.wrong_type(allowed)),
@@ -108,17 +134,11 @@ impl<'d> Value<'d> {
         let Content::Text(text) = &self.node.content else {
             return Err(self.wrong_type(allowed));
         };
-        words
-            .iter()
-            .find(|(word, _)| word == text)
-            .map(|(_, meaning)| *meaning)
-            .ok_or_else(|| SceneError::UnknownWord {
-                location: self.document.locate(&self.node.place),
-                key: self.path.clone(),
-                found: self.written(),
-                allowed: allowed.to_owned(),
-                suggestion: nearest(text, words.iter().map(|(word, _)| *word)).map(str::to_owned),
-            })
+        if let Some((_, meaning)) = words.iter().find(|(word, _)| word == text) {
+            return Ok(*meaning);
+        }
+        let suggestion = nearest(text, words.iter().map(|(word, _)| *word)).map(str::to_owned);
+        Err(self.wrong(WrongKind::UnknownWord { suggestion }, self.written(), allowed))
     }
 
     /// As it was written.
@@ -126,45 +146,20 @@ impl<'d> Value<'d> {
         self.document.written(&self.node.place)
     }
 
-    fn within(&self, value: f64, range: Range, allowed: impl Fn() -> String) -> Result<f64, SceneError> {
-        if range.contains(value) {
-            Ok(value)
-        } else {
-            Err(self.out_of_range(allowed()))
-        }
-    }
-
     fn not_a_quantity(&self, error: QuantityError, allowed: String) -> SceneError {
-        let location = self.document.locate(&self.node.place);
-        let key = self.path.clone();
-        let found = self.written();
-        match error {
-            QuantityError::NotANumber => self.wrong_type(allowed),
+        let kind = match error {
+            QuantityError::NotANumber => return self.wrong_type(allowed),
             QuantityError::Comma { with_point } => {
-                self.wrong_type(format!("a decimal point, \"{with_point}\": {allowed}"))
+                return self.wrong_type(format!("a decimal point, \"{with_point}\": {allowed}"));
             }
-            QuantityError::MissingUnit => SceneError::MissingUnit {
-                location,
-                key,
-                found,
-                allowed,
-            },
-            QuantityError::UnknownUnit { unit, nearest } => SceneError::UnknownUnit {
-                location,
-                key,
+            QuantityError::MissingUnit => WrongKind::MissingUnit,
+            QuantityError::UnknownUnit { unit, nearest } => WrongKind::UnknownUnit {
                 unit,
-                found,
-                allowed,
                 suggestion: nearest,
             },
-            QuantityError::WrongDimension { dimension, .. } => SceneError::WrongDimension {
-                location,
-                key,
-                found,
-                dimension: dimension.noun(),
-                allowed,
-            },
-        }
+            QuantityError::WrongDimension { dimension, .. } => WrongKind::WrongDimension(dimension),
+        };
+        self.wrong(kind, self.written(), allowed)
     }
 
     pub fn wrong_type(&self, allowed: impl Into<String>) -> SceneError {
@@ -175,42 +170,37 @@ impl<'d> Value<'d> {
             Content::Array(_) => "the list ",
             Content::Table(_) => "the table ",
         };
-        SceneError::WrongType {
-            location: self.document.locate(&self.node.place),
-            key: self.path.clone(),
-            found: format!("{kind}{}", self.written()),
-            allowed: allowed.into(),
-        }
+        self.wrong(WrongKind::WrongType, format!("{kind}{}", self.written()), allowed)
     }
 
     pub fn out_of_range(&self, allowed: impl Into<String>) -> SceneError {
-        SceneError::OutOfRange {
-            location: self.document.locate(&self.node.place),
-            key: self.path.clone(),
-            found: self.written(),
-            allowed: allowed.into(),
-        }
+        self.wrong(WrongKind::OutOfRange, self.written(), allowed)
     }
 
+    /// The error for a value that contradicts another one, or for a table whose keys do.
     pub fn inconsistent(&self, found: impl Into<String>, allowed: impl Into<String>) -> SceneError {
-        SceneError::Inconsistent {
-            location: self.document.locate(&self.node.place),
-            key: self.path.clone(),
-            found: found.into(),
-            allowed: allowed.into(),
-        }
+        self.wrong(WrongKind::Inconsistent, found, allowed)
+    }
+
+    pub fn wrong(&self, kind: WrongKind, found: impl Into<String>, allowed: impl Into<String>) -> SceneError {
+        let Self {
+            document, path, node, ..
+        } = self;
+        document.wrong(kind, &node.place, path, found, allowed)
     }
 }
 
 /// What a bare number out of its range was probably meant in.
-fn bare_in(value: f64, dimension: Dimension, range: Range) -> String {
+fn bare_in(value: f64, quantity: Quantity) -> String {
+    let dimension = quantity.dimension;
     let unit = match dimension {
         Dimension::Length => "mm",
         Dimension::Pressure => "MPa",
         _ => return String::new(),
     };
     let meant = format!("{value} {unit}");
-    if dimension.parse(&meant).is_ok_and(|value| range.contains(value)) {
+    let fits = |value| quantity.range.contains(value);
+    if dimension.parse(&meant).is_ok_and(fits) {
         let si = dimension.units().next().unwrap_or_default();
         format!("; a bare number is in {si}: did you mean \"{meant}\"?")
     } else {

@@ -38,6 +38,9 @@ pub enum SweepError {
         /// What it belongs to.
         found: &'static str,
     },
+    /// The [`Progress`](crate::Progress) callback stopped the sweep. What is done is kept for the next run.
+    #[error("stopped before it was done; the same sweep resumes where it was")]
+    Stopped,
     /// Another process writes the same output.
     #[error("{journal}: another sweep is writing it")]
     Busy {
@@ -56,7 +59,7 @@ pub enum SweepError {
         journal: String,
     },
     /// The journal cannot be opened, and so the output could not be written.
-    #[error("{journal}: cannot be written: {source}")]
+    #[error("{journal}: cannot be written")]
     Unwritable {
         /// The journal.
         journal: String,
@@ -64,7 +67,7 @@ pub enum SweepError {
         source: std::io::Error,
     },
     /// A file cannot be written or read back.
-    #[error("{file}: {source}")]
+    #[error("{file}: cannot be written or read")]
     File {
         /// The file.
         file: String,
@@ -78,7 +81,7 @@ impl SweepError {
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::Output(error) => error.is_bad_input(),
-            Self::File { .. } | Self::Busy { .. } => false,
+            Self::File { .. } | Self::Busy { .. } | Self::Stopped => false,
             _ => true,
         }
     }

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use super::axis::{si, si_unit};
 use super::row::Row;
 use super::{AxisValues, Sweep, SweepError};
-use crate::figure::{Axis, FigureError, GridAxis, Map};
+use crate::figure::{Axis, Chart, FigureError};
 
 /// Most columns and rows of a map: beyond that a cell is smaller than a pixel.
 const MOST_CELLS: usize = 500;
@@ -73,12 +73,12 @@ impl<'a> SweepMap<'a> {
             MapValue::Movement => ("Largest movement of an end", "movement, mm"),
         };
         let [x, y] = [0, 1].map(|index| grid_axis(&self.sweep.axes[index]));
-        Map::of_values(title, x, y, Axis::linear(label), self.cells.borrow().clone()).to_svg()
+        Chart::of_values(title, x, y, Axis::linear(label), self.cells.borrow().clone()).to_svg()
     }
 }
 
 /// Ascending numbers have places, everything else names.
-fn grid_axis(axis: &super::Axis) -> GridAxis {
+fn grid_axis(axis: &super::Axis) -> Axis {
     let list = match &axis.values {
         AxisValues::List(list) => list.as_slice(),
         AxisValues::Drawn(_) => &[],
@@ -88,8 +88,8 @@ fn grid_axis(axis: &super::Axis) -> GridAxis {
     match numbers.filter(|numbers| numbers.is_sorted_by(|a, b| a < b)) {
         Some(numbers) => {
             let unit = unit.map_or_else(String::new, |unit| format!(", {unit}"));
-            GridAxis::linear(format!("{}{unit}", axis.key), numbers)
+            Axis::linear(format!("{}{unit}", axis.key)).cells(numbers)
         }
-        None => GridAxis::names(&axis.key, list),
+        None => Axis::names(&axis.key, list),
     }
 }

@@ -15,7 +15,7 @@
 //! use creepage::SceneFile;
 //! use creepage::sweep::{Axis, Samples, Sweep};
 //!
-//! let file = SceneFile::read("examples/scenes/full-scale-upper.toml".as_ref())?;
+//! let file = SceneFile::read("examples/scenes/full-scale-upper.toml")?;
 //! let axes = vec![Axis::parse("friction.dynamic_coefficient=0.2:0.4:0.1")?, Axis::parse("duct.depth=1.2m,2m")?];
 //! let sweep = Sweep::new(file, axes, Samples::default())?;
 //! assert_eq!(sweep.count(), 6);
@@ -41,11 +41,11 @@ pub use error::SweepError;
 #[cfg(feature = "plot")]
 pub use map::{MapValue, SweepMap};
 pub use row::{Answer, Row};
-pub use run::{Evaluate, Progress, SweepOptions, SweepSummary};
+pub use run::{Evaluate, SweepOptions, SweepSummary};
 
 #[cfg(feature = "cli")]
 use crate::output::Kind;
-use crate::scene::SceneError;
+use crate::scene::{SceneError, WrongKind};
 use crate::{Scene, SceneFile};
 
 /// Most points of a sweep.
@@ -120,7 +120,11 @@ impl Sweep {
         };
         // A key that is none fails everywhere; what fails at some points only is recorded there.
         match sweep.scene(0) {
-            Err(error @ (SceneError::UnknownKey { .. } | SceneError::Override { .. })) => Err(error.into()),
+            Err(SceneError::Wrong(wrong))
+                if matches!(wrong.kind, WrongKind::UnknownKey { .. } | WrongKind::Override) =>
+            {
+                Err(SceneError::Wrong(wrong).into())
+            }
             _ => Ok(sweep),
         }
     }

@@ -14,8 +14,9 @@ use super::journal::Journal;
 use super::row::{Answer, Row};
 use super::table::{self, Cell, Column, Format, Kind, Sink};
 use super::{AxisValues, Sweep, SweepError};
+use crate::error::with_causes;
 use crate::output::{Files, Output};
-use crate::{Error, Run, Scene, finite};
+use crate::{Error, Progress, Run, Scene, finite};
 
 /// Rows that may wait for the journal.
 const WAITING: usize = 64;
@@ -28,25 +29,15 @@ pub type Evaluate<'a> = dyn Fn(&Scene) -> Result<Run, Error> + Sync + 'a;
 pub struct SweepOptions<'a> {
     /// Number of threads; all cores where it is `None`.
     pub threads: Option<usize>,
-    /// Hears of every finished point.
-    pub progress: Option<&'a dyn Fn(Progress)>,
-    /// Hears of every row of the table, in the order of the grid.
+    /// Called with the share of the points that are done, at the start and after each point; it may stop the sweep, which the same call
+    /// resumes later.
+    pub progress: Progress<'a>,
+    /// Called with each row of the table, in the order of the grid.
     pub each: Option<&'a dyn Fn(&Row)>,
     /// Computes a point in place of [`crate::run`].
     pub evaluate: Option<&'a Evaluate<'a>>,
     /// Whether the output replaces a file that is no table of a sweep.
     pub force: bool,
-}
-
-/// How far a sweep is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Progress {
-    /// Points that are done, those of an earlier run included.
-    pub done: usize,
-    /// Points that an earlier run had done.
-    pub resumed: usize,
-    /// All points.
-    pub count: usize,
 }
 
 /// What a sweep did.
@@ -94,17 +85,11 @@ impl Sweep {
             source: std::io::Error::other(error),
         })?;
         let finished = journal.finished();
-        let resumed = journal.done();
-        let report = |done| {
-            if let Some(progress) = options.progress {
-                progress(Progress {
-                    done,
-                    resumed,
-                    count: self.count,
-                });
-            }
+        let report = |done: usize| {
+            let reported = options.progress.report(done as f64 / self.count as f64);
+            reported.map_err(|_| SweepError::Stopped)
         };
-        report(resumed);
+        report(journal.done())?;
         let next = AtomicUsize::new(0);
         let (send, receive) = sync_channel(WAITING);
         let evaluate = options.evaluate.unwrap_or(&crate::run);
@@ -128,7 +113,7 @@ impl Sweep {
             scope.spawn(move || pool.broadcast(|_| work(&send)));
             for row in receive {
                 journal.append(&row)?;
-                report(journal.done());
+                report(journal.done())?;
             }
             Ok(())
         })
@@ -144,7 +129,7 @@ impl Sweep {
         let outcome = match catch_unwind(AssertUnwindSafe(compute)) {
             Ok(Ok(Some(answer))) => Ok(answer),
             Ok(Ok(None)) => Err("no pass was computed".to_owned()),
-            Ok(Err(error)) => Err(error.to_string()),
+            Ok(Err(error)) => Err(with_causes(&error)),
             Err(_) => Err("the computation broke off".to_owned()),
         };
         Row { index, outcome }

@@ -199,7 +199,7 @@ fn located(error: &SceneError, text: &str) {
 /// Overrides, one a line, on top of an example.
 fn overrides(text: &str) -> bool {
     thread_local! {
-        static FILE: SceneFile = SceneFile::read("examples/scenes/full-scale-lower.toml".as_ref()).expect("an example");
+        static FILE: SceneFile = SceneFile::read("examples/scenes/full-scale-lower.toml").expect("an example");
     }
     let list: Vec<&str> = text.split('\n').collect();
     let read = FILE.with(|file| file.with(&list)).and_then(|file| file.scene());

@@ -4,8 +4,6 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use creepage::scene::Scene;
-
 fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data")
 }
@@ -47,7 +45,9 @@ fn names() -> Vec<String> {
 /// Largest errors of D_l, D_v and V_l as shares of their largest values, and the model's name.
 fn errors(name: &str, model: &str) -> ([f64; 3], String) {
     let path = data().join(format!("difficult/{name}.toml"));
-    let scene = Scene::from_file_with(&path, &[format!("ground.model={model}")]).expect("scene");
+    let scene = creepage::SceneFile::read(&path)
+        .and_then(|file| file.with(&[format!("ground.model={model}")])?.scene())
+        .expect("scene");
     let reference = reference(name);
     assert_eq!(reference.positions.len(), 29, "{name}");
     let profile = creepage::profile_at(&scene, &reference.positions).expect("profile");
@@ -112,7 +112,9 @@ fn far_along_a_long_duct(model: &str) {
     ]
     .map(str::to_owned);
     let path = data().join("difficult/table_1.toml");
-    let scene = Scene::from_file_with(&path, &overrides).expect("scene");
+    let scene = creepage::SceneFile::read(&path)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("scene");
     let accuracy = if model == "fem" { 2.5e-3 } else { 1e-7 };
     let profile = creepage::profile_at(&scene, &FAR.map(|point| point.0)).expect("profile");
     for (k, (position, along, down)) in FAR.into_iter().enumerate() {

@@ -39,7 +39,9 @@ passes = 1
 
 fn scene(overrides: &[&str]) -> Scene {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    Scene::from_toml_with("table-1.toml", SCENE, &overrides).expect("scene")
+    creepage::SceneFile::from_toml("table-1.toml", SCENE)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("scene")
 }
 
 /// max|D_l| and D_v under the wheel \[µm\] of the layered half-space and over rock at 12 m, from an independent solver (one
@@ -137,7 +139,9 @@ fn the_preset_has_the_ratio_of_the_papers_figures() {
     let text = format!("{}preset = \"kashiro\"\n{}", &SCENE[..start], &SCENE[end..]);
     let peaks = |overrides: &[&str]| {
         let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-        let scene = Scene::from_toml_with("kashiro.toml", &text, &overrides).expect("scene");
+        let scene = creepage::SceneFile::from_toml("kashiro.toml", &text)
+            .and_then(|file| file.with(&overrides)?.scene())
+            .expect("scene");
         let positions: Vec<f64> = (0..=400).map(|k| 0.01 * f64::from(k)).collect();
         let profile = creepage::profile_at(&scene, &positions).expect("profile");
         let peak = |values: &[f64]| 1e6 * values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));

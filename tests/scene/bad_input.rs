@@ -495,7 +495,7 @@ fn an_empty_file_lacks_a_duct() {
 fn a_file_that_cannot_be_read_is_named() {
     let folder = std::env::temp_dir().join(format!("creepage-scene-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    let missing = Scene::from_file(&folder.join("none.toml")).unwrap_err();
+    let missing = Scene::from_file(folder.join("none.toml")).unwrap_err();
     assert!(matches!(missing, SceneError::Unreadable { .. }));
     assert!(
         missing.to_string().contains("none.toml: cannot be read"),

@@ -181,8 +181,8 @@ fn a_vehicle_without_load_cannot_be_scaled() {
     assert_refused(
         "load = \"20 tf\"",
         "load = 0",
-        "[[vehicles]]",
-        &["`vehicles.0`", "without load", "`ground.longitudinal_peak`"],
+        "load = 0",
+        &["`vehicles.0.load`", "without load", "`ground.longitudinal_peak`"],
     );
     assert!(read_with(&["vehicles.0.load=0", "ground.longitudinal_peak="]).is_ok());
 }

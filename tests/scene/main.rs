@@ -7,6 +7,7 @@ mod edited;
 mod overrides;
 mod presets;
 mod unusual;
+mod written;
 
 use std::path::Path;
 
@@ -82,7 +83,7 @@ fn read(text: &str) -> Result<Scene, SceneError> {
 
 fn read_with(overrides: &[&str]) -> Result<Scene, SceneError> {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    Scene::from_toml_with("bad.toml", FULL, &overrides)
+    creepage::SceneFile::from_toml("bad.toml", FULL).and_then(|file| file.with(&overrides)?.scene())
 }
 
 /// Replaces one line of the full scene (or removes it where `new` is empty) and asserts that the error names the line

@@ -1,6 +1,6 @@
 //! `KEY=VALUE` on top of a scene.
 
-use creepage::scene::{End, FrictionLaw, Order, PeakScaling, Scene, SolverMethod};
+use creepage::scene::{End, FrictionLaw, Order, PeakScaling, SolverMethod};
 use ground_field::{Base, Modulus};
 
 use super::{FULL, assert_override_refused, read_with};
@@ -43,7 +43,9 @@ fn overrides_make_what_is_not_there() {
         "solver.method=auto",
     ]
     .map(str::to_owned);
-    let scene = Scene::from_toml_with("bad.toml", text, &overrides).unwrap();
+    let scene = creepage::SceneFile::from_toml("bad.toml", text)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .unwrap();
     assert_eq!(scene.solver.method, SolverMethod::Auto);
     assert_eq!(scene.ends.upstream, End::Spring(5.0));
 }

@@ -31,7 +31,9 @@ passes = 10
 
 fn read_with(text: &str, overrides: &[&str]) -> Scene {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    Scene::from_toml_with("presets.toml", text, &overrides).unwrap_or_else(|error| panic!("{error}"))
+    creepage::SceneFile::from_toml("presets.toml", text)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn section(kind: PresetKind) -> &'static str {

@@ -37,7 +37,9 @@ tolerance = 0.05
 
 fn warnings(overrides: &[&str]) -> Vec<String> {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
-    let scene = Scene::from_toml_with("unusual.toml", SCENE, &overrides).expect("a scene");
+    let scene = creepage::SceneFile::from_toml("unusual.toml", SCENE)
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("a scene");
     creepage::plan(&scene).expect("a plan").report().warnings
 }
 
@@ -148,7 +150,7 @@ fn too_long_a_duct_for_its_depth_is_told_with_both_keys() {
     let text = SCENE.replace("30 m", "100 km").replace("1.5 m", "0.1 m");
     let file = creepage::SceneFile::from_toml("long.toml", &text).expect("a file");
     let scene = file.scene().expect("a scene");
-    let error = creepage::plan(&scene).err().expect("too many nodes");
+    let error = creepage::plan(&scene).expect_err("too many nodes");
     assert!(error.is_bad_input());
     let message = error.located(&file).to_string();
     assert!(

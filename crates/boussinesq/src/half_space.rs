@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad};
+use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad, check_place};
 
 use crate::{disc, point};
 
@@ -56,31 +56,56 @@ impl HalfSpace {
         self.soil
     }
 
-    /// ∂u_r/∂r under a point load of `force` \[N\] at horizontal distance `radius` and `depth` \[m\]: the horizontal strain
-    /// along a line through the load's axis, positive in extension.
+    /// Stress under a point load P = `force` \[N\] at horizontal distance `radius` and `depth` \[m\]; with R² = r² + z²
+    ///
+    /// ```text
+    /// σ_r = P/(2π) · [ (1−2ν)/(R(R+z)) − 3r²z/R⁵ ]          σ_z = −3Pz³/(2πR⁵)
+    /// σ_θ = (1−2ν)P/(2π) · [ z/R³ − 1/(R(R+z)) ]            τ_rz = −3Prz²/(2πR⁵)
+    /// ```
+    ///
+    /// (K. L. Johnson, *Contact Mechanics* (1985), eq. 3.20). It does not depend on Young's modulus.
     ///
     /// # Errors
     ///
     /// [`GroundError::InvalidParameter`] unless all three are finite and not negative; [`GroundError::Singular`] at the
     /// load.
-    pub fn point_radial_strain(self, force: f64, radius: f64, depth: f64) -> Result<f64, GroundError> {
+    pub fn point_stress(self, force: f64, radius: f64, depth: f64) -> Result<Stress, GroundError> {
         let load = SurfaceLoad::point(force)?;
         check_place(radius, depth)?;
         if load.force() == 0.0 {
-            return Ok(0.0);
+            return Ok(Stress::default());
         }
         let distance = point::distance(radius, depth);
-        if distance == 0.0 {
-            return Err(singular(radius, depth));
-        }
-        let shape = point::radial_strain_shape(radius, depth, distance, self.soil.poisson_ratio());
-        let strain = self.compliance * force / distance / distance * shape;
-        if strain.is_finite() {
-            Ok(strain)
+        let (sine, cosine) = (radius / distance, depth / distance);
+        let free = 1.0 - 2.0 * self.soil.poisson_ratio();
+        let scale = force / TAU / distance / distance;
+        let stress = Stress {
+            radial: scale * (free / (1.0 + cosine) - 3.0 * sine * sine * cosine),
+            vertical: scale * -3.0 * cosine * cosine * cosine,
+            hoop: scale * free * (cosine - 1.0 / (1.0 + cosine)),
+            shear: scale * -3.0 * sine * cosine * cosine,
+        };
+        let finite = [stress.radial, stress.vertical, stress.hoop, stress.shear].map(f64::is_finite);
+        if finite == [true; 4] {
+            Ok(stress)
         } else {
             Err(singular(radius, depth))
         }
     }
+}
+
+/// Stress at a point of the ground in cylindrical components about the load's axis \[Pa\], tension positive.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Stress {
+    /// σ_r, outward from the axis.
+    pub radial: f64,
+    /// σ_z.
+    pub vertical: f64,
+    /// σ_θ, around the axis.
+    pub hoop: f64,
+    /// τ_rz.
+    pub shear: f64,
 }
 
 impl GroundField for HalfSpace {
@@ -106,21 +131,6 @@ impl GroundField for HalfSpace {
             Err(singular(radius, depth))
         }
     }
-}
-
-/// Both coordinates finite and not negative.
-#[inline]
-pub(crate) fn check_place(radius: f64, depth: f64) -> Result<(), GroundError> {
-    for (name, value) in [("radius", radius), ("depth", depth)] {
-        if !(value.is_finite() && value >= 0.0) {
-            return Err(GroundError::InvalidParameter {
-                name,
-                value,
-                allowed: "finite and not negative",
-            });
-        }
-    }
-    Ok(())
 }
 
 #[cold]

@@ -37,5 +37,5 @@ mod odemark;
 mod point;
 mod shape;
 
-pub use half_space::HalfSpace;
+pub use half_space::{HalfSpace, Stress};
 pub use odemark::Odemark;

@@ -3,9 +3,10 @@
 mod layer;
 mod sum;
 
-use ground_field::{Base, Displacement, GroundError, GroundField, Soil, SoilProfile, SurfaceLoad};
+use ground_field::{
+    Base, Displacement, GroundError, GroundField, Soil, SoilProfile, SurfaceLoad, check_place,
+};
 
-use crate::half_space::check_place;
 use layer::{Layer, rotation};
 use sum::{Sum, Transform, scaled};
 

@@ -36,17 +36,3 @@ pub(crate) fn shape(radius: f64, depth: f64, distance: f64) -> Shape {
         surface_vertical: 1.0,
     }
 }
-
-/// ∂u_r/∂r · 2πE/((1+ν)P) · R², the radial strain of the same solution:
-///
-/// ```text
-/// ∂/∂r (r z/R³) = z/R³ − 3 r² z/R⁵,     ∂/∂r (r/(R(R+z))) = z/R³ − 1/(R(R+z))
-/// ```
-///
-/// the second because r/(R(R+z)) = 1/r − z/(rR).
-#[inline]
-pub(crate) fn radial_strain_shape(radius: f64, depth: f64, distance: f64, poisson_ratio: f64) -> f64 {
-    let sine = radius / distance;
-    let cosine = depth / distance;
-    cosine * (1.0 - 3.0 * sine * sine) - (1.0 - 2.0 * poisson_ratio) * (cosine - 1.0 / (1.0 + cosine))
-}

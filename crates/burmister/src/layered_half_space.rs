@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use ground_field::{Displacement, GroundError, GroundField, SoilProfile, SurfaceLoad};
+use ground_field::{Displacement, GroundError, GroundField, SoilProfile, SurfaceLoad, check_place, checked};
 
 use crate::MODEL;
 use crate::remainder::Remainder;
@@ -83,7 +83,7 @@ impl LayeredHalfSpace {
     ///
     /// [`GroundError::InvalidParameter`] unless the depth is finite and not negative.
     pub fn transform_at(&self, depth: f64) -> Result<impl Fn(f64) -> (f64, f64) + use<>, GroundError> {
-        checked("depth", depth, "finite and not negative", |v| v >= 0.0)?;
+        check_place(0.0, depth)?;
         let in_rock = self.ground.base.is_none() && depth >= self.ground.base_depth();
         let stack = self.ground.cut(depth);
         Ok(move |wavenumber: f64| {
@@ -107,10 +107,9 @@ impl LayeredHalfSpace {
         radii: &[f64],
         depth: f64,
     ) -> Result<(Vec<Displacement>, Statistics), GroundError> {
-        let allowed = "finite and not negative";
-        checked("depth", depth, allowed, |v| v >= 0.0)?;
+        check_place(0.0, depth)?;
         for &radius in radii {
-            checked("radius", radius, allowed, |v| v >= 0.0)?;
+            check_place(radius, depth)?;
         }
         if self.ground.base.is_none() && depth >= self.ground.base_depth() {
             return Ok((vec![Displacement::ZERO; radii.len()], Statistics::default()));
@@ -163,19 +162,5 @@ impl GroundField for LayeredHalfSpace {
         depth: f64,
     ) -> Result<Vec<Displacement>, GroundError> {
         Ok(self.displacements_with_statistics(load, radii, depth)?.0)
-    }
-}
-
-/// `value` if it is finite and `holds`, or the error that says what is allowed.
-pub(crate) fn checked(
-    name: &'static str,
-    value: f64,
-    allowed: &'static str,
-    holds: impl Fn(f64) -> bool,
-) -> Result<f64, GroundError> {
-    if value.is_finite() && holds(value) {
-        Ok(value)
-    } else {
-        Err(GroundError::InvalidParameter { name, value, allowed })
     }
 }

@@ -15,11 +15,11 @@
 //! microseconds, a small part of an exact profile.
 
 use boussinesq::Odemark;
-use ground_field::{Base, GroundError, SoilProfile, SurfaceLoad};
+use ground_field::{Base, GroundError, SoilProfile, SurfaceLoad, checked};
 
 use crate::bessel::{disc_factor, j0_j1};
 use crate::gauss::rule_of_class;
-use crate::layered_half_space::{LayeredHalfSpace, checked};
+use crate::layered_half_space::LayeredHalfSpace;
 
 /// Largest wavenumber in units of 1/depth: e^−16 is far below any error of the approximation.
 const LONGEST: f64 = 16.0;

@@ -1,13 +1,13 @@
 //! Force on a joint, fixed or on a spring, while trucks pass: `cargo run -p cable-dem --example joint_force`.
 
 use boussinesq::HalfSpace;
-use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
+use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, QuasiStatic};
 use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
 
-/// Length of the duct \[m\], depth \[m\] and spacing of the nodes \[m\].
+/// Length and depth of the duct \[m\], and nodes per depth.
 const LENGTH: f64 = 30.0;
 const DEPTH: f64 = 1.2;
-const SPACING: f64 = 0.1;
+const NODES: f64 = 12.0;
 /// How far beyond the duct the truck is followed \[m\]: until the duct's motion no longer turns, twelve depths away.
 const APPROACH: f64 = 15.0;
 
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         shape_factor: 2.0 * shear_stiffness / limit,
     };
     let friction = Friction::new(law, limit)?;
-    let mesh = Mesh::new(LENGTH, SPACING, 0.5 * SPACING)?;
+    let mesh = Mesh::for_depth(LENGTH, DEPTH, NODES)?;
     println!("downstream end     passes   force, N   movement, mm");
     for (name, end) in [
         ("fixed", End::Fixed),
@@ -31,9 +31,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ("spring 0.1 MN/m", End::Spring(1e5)),
     ] {
         let cable = DuctedCable::new(LENGTH, 8.01e6, friction)?.with_ends(End::Free, end)?;
-        let passage = Passage::new(&cable, &mesh, &motion, APPROACH)?;
         let mut solver = QuasiStatic::new(cable, mesh)?;
-        let mut state = CableState::at_rest(&mesh);
+        let passage = solver.passage(&motion, APPROACH)?;
+        let mut state = solver.at_rest();
         for pass in 1..=60 {
             let outcome = solver.pass(&passage, &mut state)?;
             if [1, 10, 60].contains(&pass) {

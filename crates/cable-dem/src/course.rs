@@ -1,27 +1,33 @@
-//! The duct's motion as the driver sees it, if the motion is known far enough and the mesh is fine enough for it.
-//!
-//! Between two nodes the cable knows nothing of the duct. What elements of length s leave out of it is the bend
-//! max |D(ξ) − ½ (D(ξ − s) + D(ξ + s))|. Under one wheel at depth z it is 28 % of the peak for s = z/3, 45 % for z/2 and 90 % for z,
-//! where the force after fifty passes was off by 1.4, 3 and 14 %; a mesh of 5 m in a duct at 1.2 m gave a force of the other sign.
+//! A vehicle's course over the duct: where it comes from, and the duct's motion under it.
 
 use ground_field::{Direction, DuctMotion};
 
+use crate::error::checked;
 use crate::{CableError, Mesh};
 
 /// Largest share of the duct's peak displacement that an element may leave out.
 const MOST_LEFT_OUT: f64 = 0.65;
-/// The bends are looked for at so many points an element, to so many elements from the wheels.
+/// The bend is evaluated at this many points per element, out to this many elements from the wheels.
 const POINTS: usize = 4;
 const ELEMENTS: usize = 8;
 
-/// Which way the vehicle of `motion` drives, and the duct's displacement \[m\] ahead of it, both positive in that direction;
-/// the vehicle is followed to `approach` \[m\] beyond the ends of `mesh`.
+/// A shape of the duct's displacement that travels along the duct.
+pub(crate) struct Course<F> {
+    pub direction: Direction,
+    /// Displacement \[m\] of the duct at ξ \[m\] ahead of the vehicle, both positive in its direction.
+    pub shape: F,
+    /// Distance \[m\] before and past the duct over which the vehicle is followed.
+    pub approach: f64,
+}
+
+/// The course of a vehicle whose duct motion is `motion` over a duct with nodes as in `mesh`, if the motion is known far enough and the
+/// mesh is fine enough for it.
 pub(crate) fn as_driven(
     motion: &DuctMotion,
     mesh: &Mesh,
     approach: f64,
-) -> Result<(Direction, impl Fn(f64) -> f64), CableError> {
-    let needed = mesh.spacing() * mesh.elements() as f64 + approach;
+) -> Result<Course<impl Fn(f64) -> f64>, CableError> {
+    let needed = mesh.length() + checked_approach(approach)?;
     let reach = motion.reach();
     if needed > reach * (1.0 + 1e-9) {
         return Err(CableError::OutOfReach { needed, reach });
@@ -37,12 +43,45 @@ pub(crate) fn as_driven(
         Direction::Forward
     };
     let sign = direction.sign();
-    // A lattice needs a few points more.
-    let shape = move |xi: f64| sign * motion.longitudinal(sign * xi.clamp(-reach, reach));
-    Ok((direction, shape))
+    Ok(Course {
+        direction,
+        // A lattice needs a few points more than the reach.
+        shape: move |xi: f64| sign * motion.longitudinal(sign * xi.clamp(-reach, reach)),
+        approach,
+    })
 }
 
-/// Share of the peak that elements of `length` \[m\] leave out.
+impl<F: Fn(f64) -> f64> Course<F> {
+    /// The course of a given shape.
+    pub fn new(direction: Direction, shape: F, approach: f64) -> Result<Self, CableError> {
+        Ok(Self {
+            direction,
+            shape,
+            approach: checked_approach(approach)?,
+        })
+    }
+
+    /// The shape at the lattice points `points` of `step` \[m\], ξ = 0 being point 0.
+    pub fn tabulate(&self, points: std::ops::Range<i64>, step: f64) -> Result<Vec<f64>, CableError> {
+        let value = |point: i64| {
+            let displacement = (self.shape)(step * point as f64);
+            checked("displacement of the duct", displacement, "finite", |_| true)
+        };
+        points.map(value).collect()
+    }
+}
+
+fn checked_approach(approach: f64) -> Result<f64, CableError> {
+    checked("approach", approach, "positive and at most 1e5 m", |v| {
+        v > 0.0 && v <= 1e5
+    })
+}
+
+/// Share of the duct's peak displacement that elements of `length` s \[m\] leave out: the cable's nodes see nothing of the bend
+/// max |D(ξ) − ½ (D(ξ − s) + D(ξ + s))| between them.
+///
+/// Under one wheel at depth z it is 28 % of the peak for s = z/3, 45 % for z/2 and 90 % for z, where the force after fifty passes was
+/// off by 1.4, 3 and 14 %; a mesh of 5 m in a duct at 1.2 m gave a force of the other sign.
 fn left_out(motion: &DuctMotion, length: f64) -> f64 {
     let step = length / POINTS as f64;
     let count = (motion.half_length() / step).ceil() as usize + ELEMENTS * POINTS;

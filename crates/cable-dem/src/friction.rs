@@ -67,13 +67,18 @@ pub struct Friction {
 }
 
 impl Friction {
-    /// `law` with the largest friction `limit` q = μ_d N′ \[N/m\]; 0 is a frictionless duct.
+    /// `law` with the largest friction `limit_per_metre` q = μ_d N′ \[N/m\]; 0 is a frictionless duct.
     ///
     /// # Errors
     ///
     /// [`CableError::InvalidParameter`] unless the limit is finite and not negative, the shape factor finite and positive.
-    pub fn new(law: FrictionLaw, limit: f64) -> Result<Self, CableError> {
-        checked("friction limit", limit, "finite and not negative", |v| v >= 0.0)?;
+    pub fn new(law: FrictionLaw, limit_per_metre: f64) -> Result<Self, CableError> {
+        let limit = checked(
+            "friction limit",
+            limit_per_metre,
+            "finite and not negative",
+            |v| v >= 0.0,
+        )?;
         if law != FrictionLaw::Coulomb {
             let shape_factor = law.shape_factor();
             checked("shape_factor", shape_factor, "finite and positive", |v| v > 0.0)?;

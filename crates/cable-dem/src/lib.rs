@@ -17,7 +17,7 @@
 //! SI units throughout; forces in the cable are positive in compression.
 //!
 //! ```
-//! use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
+//! use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
 //! use ground_field::Direction;
 //!
 //! // A bump of 15 µm that draws the duct away from the vehicle on both sides, as ground does under a wheel.
@@ -29,13 +29,14 @@
 //! let passage = Passage::from_shape(&cable, &mesh, Direction::Forward, shape, 15.0)?;
 //!
 //! let mut solver = QuasiStatic::new(cable, mesh)?;
-//! let mut state = CableState::at_rest(&mesh);
+//! let mut state = solver.at_rest();
 //! let first = solver.pass(&passage, &mut state)?.force.downstream;
 //! let second = solver.pass(&passage, &mut state)?.force.downstream;
 //! assert!(first > 50.0 && second > 1.3 * first);
 //! # Ok::<(), cable_dem::CableError>(())
 //! ```
 
+mod approach;
 mod cable;
 mod course;
 mod dynamic;
@@ -47,10 +48,12 @@ mod held;
 mod mesh;
 mod outcome;
 mod quasi_static;
+mod solver;
 mod state;
 mod traffic;
 mod transient;
 
+pub use approach::approach;
 pub use cable::{DuctedCable, End, Restraint};
 pub use dynamic::Dynamic;
 pub use ends::EndForces;
@@ -60,6 +63,7 @@ pub use friction::{Friction, FrictionLaw};
 pub use mesh::Mesh;
 pub use outcome::{PassOutcome, Statistics};
 pub use quasi_static::{Passage, QuasiStatic, SlipLengths, StepView};
+pub use solver::{Solver, SolverPassage};
 pub use state::CableState;
 pub use traffic::{Order, Traffic};
 pub use transient::{EnergyBalance, MovingDuct, SigmoidLeak, TransientOutcome, inertia_ratio};

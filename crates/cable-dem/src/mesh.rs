@@ -25,8 +25,8 @@ impl Mesh {
     /// A mesh of a cable of `length` \[m\] with nodes at most `node_spacing` \[m\] and vehicle positions at most
     /// `vehicle_step` \[m\] apart.
     ///
-    /// The mesh knows no depth of the duct, and takes any spacing: what the cable feels is about as long as the duct is deep, so three
-    /// nodes a depth are the fewest that mean anything: [`Mesh::for_depth`] keeps that and tells the errors.
+    /// Any spacing is taken, as the mesh knows no depth of the duct. What the cable feels is about as long as the duct is deep, so that
+    /// three nodes per depth are the least: prefer [`Mesh::for_depth`], which keeps to that and states the errors.
     ///
     /// # Errors
     ///
@@ -80,6 +80,29 @@ impl Mesh {
         Self::new(length, spacing, spacing / STEPS_PER_SPACING)
     }
 
+    /// `elements` of length `spacing` \[m\], as a stored state names them.
+    #[cfg(feature = "serde")]
+    pub(crate) fn of_elements(elements: usize, spacing: f64) -> Result<Self, CableError> {
+        checked("nodes", (elements + 1) as f64, "from 3 to 1e7", |v| {
+            (3.0..=MAX_NODES).contains(&v)
+        })?;
+        Ok(Self {
+            elements,
+            spacing: checked("node_spacing", spacing, "finite and positive", |v| v > 0.0)?,
+            steps_per_spacing: 1,
+            spacings_per_step: 1,
+        })
+    }
+
+    /// The same nodes, whatever the vehicle's steps.
+    pub(crate) fn nodes_alone(&self) -> Self {
+        Self {
+            steps_per_spacing: 1,
+            spacings_per_step: 1,
+            ..*self
+        }
+    }
+
     /// Number of elements n; there are n + 1 nodes.
     pub fn elements(&self) -> usize {
         self.elements
@@ -93,6 +116,11 @@ impl Mesh {
     /// Distance h between nodes \[m\].
     pub fn spacing(&self) -> f64 {
         self.spacing
+    }
+
+    /// Length of the cable \[m\].
+    pub fn length(&self) -> f64 {
+        self.spacing * self.elements as f64
     }
 
     /// Advance of the vehicle per step \[m\].
@@ -111,8 +139,7 @@ impl Mesh {
 
     /// Whether the mesh is one of this cable.
     pub(crate) fn check_length(&self, cable: &DuctedCable) -> Result<(), CableError> {
-        let length = self.spacing * self.elements as f64;
-        checked("mesh length", length, "the cable's length", |v| {
+        checked("mesh length", self.length(), "the cable's length", |v| {
             (v / cable.length() - 1.0).abs() < 1e-9
         })
         .map(|_| ())

@@ -1,6 +1,6 @@
 //! What a pass reports: forces, peaks, movements, and what it cost.
 
-use crate::{CableState, DuctedCable, EndForces, Mesh};
+use crate::{CableState, DuctedCable, EndForces};
 
 /// What one pass did.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -89,17 +89,11 @@ impl Recorder {
     }
 
     /// The outcome of a pass that left the cable in `state` with `force` on its ends.
-    pub fn outcome(
-        mut self,
-        cable: &DuctedCable,
-        mesh: &Mesh,
-        state: &CableState,
-        force: EndForces,
-    ) -> PassOutcome {
+    pub fn outcome(mut self, cable: &DuctedCable, state: &CableState, force: EndForces) -> PassOutcome {
         self.record(force);
         let (least, largest) = [force.upstream, force.downstream]
             .into_iter()
-            .fold(state.extremes(cable, mesh), |(least, largest), force| {
+            .fold(state.extremes(cable), |(least, largest), force| {
                 (least.min(force), largest.max(force))
             });
         PassOutcome {
@@ -109,7 +103,7 @@ impl Recorder {
             max_compression: largest,
             max_tension: -least,
             upstream_displacement: state.displacement()[0],
-            downstream_displacement: state.displacement()[mesh.elements()],
+            downstream_displacement: state.displacement()[state.displacement().len() - 1],
             dissipated: self.dissipated,
             statistics: self.statistics,
         }

@@ -7,32 +7,58 @@ use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 /// A clamp nearer to a node than this share of the spacing counts as on it.
 const AT_NODE: f64 = 1e-6;
 
-/// The cable at rest: displacement and friction of every node, with no vehicle near.
+/// The cable at rest: displacement and friction of every node of its mesh, with no vehicle near.
+///
+/// ```
+/// use cable_dem::{CableState, DuctedCable, Friction, FrictionLaw, Mesh};
+///
+/// let cable = DuctedCable::new(10.0, 8.01e6, Friction::new(FrictionLaw::Coulomb, 27.2)?)?;
+/// let mesh = Mesh::for_depth(10.0, 1.2, 6.0)?;
+/// // Pushed evenly by 1 mm over its length: F = −EA u′ everywhere.
+/// let displacement = (0..mesh.nodes()).map(|i| -1e-4 * mesh.spacing() * i as f64).collect();
+/// let state = CableState::from_parts(&mesh, displacement, vec![0.0; mesh.nodes()])?;
+/// assert!(state.element_forces(&cable)?.all(|force| (force - 801.0).abs() < 1e-6));
+/// # Ok::<(), cable_dem::CableError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[cfg_attr(feature = "serde", serde(try_from = "Parts"))]
+#[cfg_attr(feature = "serde", serde(into = "Stored", try_from = "Stored"))]
 pub struct CableState {
+    /// The nodes; of the vehicle's steps it knows nothing.
+    mesh: Mesh,
     /// Displacement u \[m\], positive toward growing x.
     pub(crate) displacement: Vec<f64>,
     /// Friction f on the cable per metre \[N/m\], positive toward growing x.
     pub(crate) friction: Vec<f64>,
 }
 
-/// A state as it is stored, before it is checked.
+/// A state as it is stored; checked as it is read.
 #[cfg(feature = "serde")]
-#[derive(serde::Deserialize)]
-struct Parts {
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Stored {
+    node_spacing: f64,
     displacement: Vec<f64>,
     friction: Vec<f64>,
 }
 
 #[cfg(feature = "serde")]
-impl TryFrom<Parts> for CableState {
+impl From<CableState> for Stored {
+    fn from(state: CableState) -> Self {
+        Self {
+            node_spacing: state.mesh.spacing(),
+            displacement: state.displacement,
+            friction: state.friction,
+        }
+    }
+}
+
+#[cfg(feature = "serde")]
+impl TryFrom<Stored> for CableState {
     type Error = CableError;
 
-    fn try_from(parts: Parts) -> Result<Self, CableError> {
-        let nodes = parts.displacement.len();
-        Self::of_nodes(nodes, parts.displacement, parts.friction)
+    fn try_from(stored: Stored) -> Result<Self, CableError> {
+        let mesh = Mesh::of_elements(stored.displacement.len().saturating_sub(1), stored.node_spacing)?;
+        Self::from_parts(&mesh, stored.displacement, stored.friction)
     }
 }
 
@@ -40,25 +66,22 @@ impl CableState {
     /// A cable as laid: no displacement, no friction.
     pub fn at_rest(mesh: &Mesh) -> Self {
         Self {
+            mesh: mesh.nodes_alone(),
             displacement: vec![0.0; mesh.nodes()],
             friction: vec![0.0; mesh.nodes()],
         }
     }
 
-    /// A cable at rest with `displacement` u \[m\] and `friction` f \[N/m\] at every node. Whether they balance each other is
-    /// for the solver to see: what is out of balance moves as soon as a vehicle passes.
+    /// A cable at rest with `displacement` u \[m\] and `friction` f \[N/m\] at every node. They are not checked against each
+    /// other: what is out of balance moves as soon as a vehicle passes.
     ///
     /// # Errors
     ///
     /// [`CableError::StateMismatch`] unless there is a value of each for every node of `mesh`,
     /// [`CableError::InvalidParameter`] unless all are finite.
     pub fn from_parts(mesh: &Mesh, displacement: Vec<f64>, friction: Vec<f64>) -> Result<Self, CableError> {
-        Self::of_nodes(mesh.nodes(), displacement, friction)
-    }
-
-    fn of_nodes(expected: usize, displacement: Vec<f64>, friction: Vec<f64>) -> Result<Self, CableError> {
         for (name, values) in [("displacement", &displacement), ("friction", &friction)] {
-            let found = values.len();
+            let (found, expected) = (values.len(), mesh.nodes());
             if found != expected {
                 return Err(CableError::StateMismatch { found, expected });
             }
@@ -67,9 +90,15 @@ impl CableState {
             }
         }
         Ok(Self {
+            mesh: mesh.nodes_alone(),
             displacement,
             friction,
         })
+    }
+
+    /// Distance between nodes \[m\].
+    pub fn node_spacing(&self) -> f64 {
+        self.mesh.spacing()
     }
 
     /// Displacement u of every node \[m\].
@@ -86,14 +115,13 @@ impl CableState {
     ///
     /// # Errors
     ///
-    /// [`CableError::StateMismatch`] for a mesh of another size, [`CableError::InvalidParameter`] unless it is as long as the cable.
+    /// [`CableError::InvalidParameter`] unless the cable is as long as the state's mesh.
     pub fn element_forces<'a>(
         &'a self,
         cable: &DuctedCable,
-        mesh: &Mesh,
     ) -> Result<impl Iterator<Item = f64> + 'a, CableError> {
-        self.check_beside(cable, mesh)?;
-        Ok(self.elements(cable, mesh))
+        self.mesh.check_length(cable)?;
+        Ok(self.elements(cable))
     }
 
     /// Force \[N\] on what holds each end, compression positive: the reading of a load cell there. What clamps on the same
@@ -102,9 +130,9 @@ impl CableState {
     /// # Errors
     ///
     /// As for [`CableState::element_forces`].
-    pub fn end_forces(&self, cable: &DuctedCable, mesh: &Mesh) -> Result<EndForces, CableError> {
-        self.check_beside(cable, mesh)?;
-        Ok(self.ends(cable, mesh))
+    pub fn end_forces(&self, cable: &DuctedCable) -> Result<EndForces, CableError> {
+        self.mesh.check_length(cable)?;
+        Ok(self.ends(cable))
     }
 
     /// Force \[N\] of the cable on each of its clamps, positive toward growing x, in the order of
@@ -113,10 +141,10 @@ impl CableState {
     /// # Errors
     ///
     /// As for [`CableState::element_forces`].
-    pub fn restraint_forces(&self, cable: &DuctedCable, mesh: &Mesh) -> Result<Vec<f64>, CableError> {
-        self.check_beside(cable, mesh)?;
+    pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
+        self.mesh.check_length(cable)?;
         let on = |restraint: &Restraint| {
-            let springs = restraint.by_node(mesh).into_iter();
+            let springs = restraint.by_node(&self.mesh).into_iter();
             springs
                 .map(|(node, stiffness)| stiffness * self.displacement[node])
                 .sum()
@@ -132,8 +160,9 @@ impl CableState {
     /// # Errors
     ///
     /// As for [`CableState::element_forces`].
-    pub fn friction_needed(&self, cable: &DuctedCable, mesh: &Mesh) -> Result<f64, CableError> {
-        self.check_beside(cable, mesh)?;
+    pub fn friction_needed(&self, cable: &DuctedCable) -> Result<f64, CableError> {
+        self.mesh.check_length(cable)?;
+        let mesh = &self.mesh;
         let last = mesh.elements();
         let mut held = vec![0.0; mesh.nodes()];
         for (node, end) in [(0, cable.upstream()), (last, cable.downstream())] {
@@ -143,7 +172,7 @@ impl CableState {
             held[node] += stiffness;
         }
         let mut before = 0.0;
-        let after = self.elements(cable, mesh).chain([0.0]);
+        let after = self.elements(cable).chain([0.0]);
         let mut worst = 0.0_f64;
         for (node, after) in after.enumerate() {
             let fixed = (node == 0 && cable.upstream().stiffness().is_none())
@@ -161,8 +190,9 @@ impl CableState {
     /// Least and largest force along the cable \[N\]. Friction lets the force change evenly on either half of an element, so that it
     /// is largest in its middle, at a node, or beside a clamp, where it jumps. An element with a clamp within it is pulled from both sides: what its
     /// neighbours say of the force beside the clamp counts.
-    pub(crate) fn extremes(&self, cable: &DuctedCable, mesh: &Mesh) -> (f64, f64) {
-        let (h, f) = (mesh.spacing(), &self.friction);
+    pub(crate) fn extremes(&self, cable: &DuctedCable) -> (f64, f64) {
+        let (mesh, f) = (&self.mesh, &self.friction);
+        let h = mesh.spacing();
         let stiffness = cable.axial_stiffness() / h;
         let force =
             |element: usize| stiffness * (self.displacement[element] - self.displacement[element + 1]);
@@ -196,22 +226,18 @@ impl CableState {
         (least, largest)
     }
 
-    /// [`CableState::element_forces`] on the mesh that this state is known to have.
-    pub(crate) fn elements<'a>(&'a self, cable: &DuctedCable, mesh: &Mesh) -> impl Iterator<Item = f64> + 'a {
-        let stiffness = cable.axial_stiffness() / mesh.spacing();
+    /// [`CableState::element_forces`] of a cable that is known to be as long as the mesh.
+    fn elements<'a>(&'a self, cable: &DuctedCable) -> impl Iterator<Item = f64> + 'a {
+        let stiffness = cable.axial_stiffness() / self.mesh.spacing();
         self.displacement
             .windows(2)
             .map(move |pair| stiffness * (pair[0] - pair[1]))
     }
 
-    /// [`CableState::end_forces`] on the mesh that this state is known to have.
-    pub(crate) fn ends(&self, cable: &DuctedCable, mesh: &Mesh) -> EndForces {
-        EndReader::new(cable, mesh).read(Balance::AtRest, |i| self.displacement[i], |i| self.friction[i])
-    }
-
-    fn check_beside(&self, cable: &DuctedCable, mesh: &Mesh) -> Result<(), CableError> {
-        self.check(mesh)?;
-        mesh.check_length(cable)
+    /// [`CableState::end_forces`] of a cable that is known to be as long as the mesh.
+    pub(crate) fn ends(&self, cable: &DuctedCable) -> EndForces {
+        let reader = EndReader::new(cable, &self.mesh);
+        reader.read(Balance::AtRest, |i| self.displacement[i], |i| self.friction[i])
     }
 
     /// Lets go of all friction: the cable returns to where its ends and clamps want it, or, held by none, keeps its mean
@@ -233,15 +259,20 @@ impl CableState {
         self.friction.fill(0.0);
     }
 
+    /// Refuses a state of another mesh.
     pub(crate) fn check(&self, mesh: &Mesh) -> Result<(), CableError> {
-        if self.displacement.len() == mesh.nodes() && self.friction.len() == mesh.nodes() {
-            Ok(())
-        } else {
-            Err(CableError::StateMismatch {
-                found: self.displacement.len(),
-                expected: mesh.nodes(),
-            })
+        let (found, expected) = (self.mesh.nodes(), mesh.nodes());
+        if found != expected {
+            return Err(CableError::StateMismatch { found, expected });
         }
+        let same = |spacing: f64| (spacing / mesh.spacing() - 1.0).abs() < 1e-9;
+        checked(
+            "the state's node spacing",
+            self.mesh.spacing(),
+            "the mesh's",
+            same,
+        )
+        .map(|_| ())
     }
 
     /// The same state seen in a mirror across the duct's middle.
@@ -291,13 +322,16 @@ mod tests {
             expected: 9,
         };
         let state = CableState::at_rest(&coarse);
-        assert_eq!(state.end_forces(&cable, &fine), Err(mismatch.clone()));
-        assert_eq!(state.restraint_forces(&cable, &fine), Err(mismatch.clone()));
-        assert_eq!(state.element_forces(&cable, &fine).err(), Some(mismatch));
+        assert_eq!(state.check(&fine), Err(mismatch));
+        assert_eq!(state.element_forces(&cable)?.count(), 2);
         // As many nodes, at another spacing.
-        let longer = Mesh::new(2.0, 1.0, 1.0)?;
-        assert!(state.element_forces(&cable, &longer).is_err());
-        assert_eq!(state.element_forces(&cable, &coarse)?.count(), 2);
+        let longer = CableState::at_rest(&Mesh::new(2.0, 1.0, 1.0)?);
+        assert!(longer.check(&coarse).is_err());
+        assert!(longer.element_forces(&cable).is_err());
+        assert!(longer.end_forces(&cable).is_err());
+        assert!(longer.restraint_forces(&cable).is_err());
+        // The same nodes under another vehicle.
+        assert_eq!(state.check(&Mesh::new(1.0, 0.5, 0.1)?), Ok(()));
         Ok(())
     }
 
@@ -309,8 +343,10 @@ mod tests {
         let text = serde_json::to_string(&state)?;
         assert_eq!(serde_json::from_str::<CableState>(&text)?, state);
         for bad in [
-            r#"{"displacement":[0,0,0,0,0],"friction":[]}"#,
-            r#"{"displacement":[0,0],"friction":[0,0,0]}"#,
+            r#"{"node_spacing":1,"displacement":[0,0,0,0,0],"friction":[]}"#,
+            r#"{"node_spacing":1,"displacement":[0,0],"friction":[0,0,0]}"#,
+            r#"{"node_spacing":1,"displacement":[],"friction":[]}"#,
+            r#"{"node_spacing":0,"displacement":[0,0,0],"friction":[0,0,0]}"#,
             r#"{"displacement":[0]}"#,
         ] {
             assert!(serde_json::from_str::<CableState>(bad).is_err(), "{bad}");

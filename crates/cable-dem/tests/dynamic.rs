@@ -17,7 +17,7 @@ fn the_step_is_of_second_order() -> Outcome {
     let force = |vehicle_step: f64| -> Result<f64, cable_dem::CableError> {
         let mesh = Mesh::new(10.0, 0.5, vehicle_step)?;
         let bump = |xi: f64| 2e-5 * (-xi * xi / 4.0).exp();
-        let duct = MovingDuct::from_shape(&cable, &mesh, (Direction::Forward, 100.0), bump, 12.0)?;
+        let duct = MovingDuct::from_shape(&cable, &mesh, Direction::Forward, 100.0, bump, 12.0)?;
         let outcome =
             Dynamic::new(cable.clone(), mesh, MASS)?.pass(&duct, &mut CableState::at_rest(&mesh))?;
         Ok(outcome.force_before_rest.downstream)
@@ -116,7 +116,7 @@ fn the_sigmoid_leaks_at_the_rate_of_its_formula() -> Outcome {
         QuasiStatic::new(loaded, mesh)?.pass(&passage, &mut state)?;
 
         let cable = build(law)?;
-        let still = MovingDuct::from_shape(&cable, &mesh, (Direction::Forward, 40.0 / 3.6), |_| 0.0, 15.0)?;
+        let still = MovingDuct::from_shape(&cable, &mesh, Direction::Forward, 40.0 / 3.6, |_| 0.0, 15.0)?;
         let mut solver = Dynamic::new(cable, mesh, MASS)?;
         let leak = solver.leak(&still).ok_or("no leak")?;
         let mut force = |passes: usize| -> Result<f64, cable_dem::CableError> {
@@ -196,7 +196,7 @@ fn the_sigmoid_depends_on_the_time_step_through_the_product_with_b() -> Outcome 
 fn a_law_with_memory_has_no_leak() -> Outcome {
     let cable = DuctedCable::new(30.0, EA, Friction::new(STIFF_SHEATH, LIMIT)?)?;
     let mesh = Mesh::new(30.0, 1.0, 1.0)?;
-    let still = MovingDuct::from_shape(&cable, &mesh, (Direction::Forward, 10.0), |_| 0.0, 15.0)?;
+    let still = MovingDuct::from_shape(&cable, &mesh, Direction::Forward, 10.0, |_| 0.0, 15.0)?;
     assert_eq!(SigmoidLeak::new(&cable, 1e-3, &still), None);
     Ok(())
 }

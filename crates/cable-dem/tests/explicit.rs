@@ -92,7 +92,7 @@ fn a_state_at_rest_is_in_equilibrium_within_the_friction_limit() -> Outcome {
     let mut solver = Explicit::new(scene.cable.clone(), scene.mesh, MASS, ExplicitOptions::default())?;
     let mut state = CableState::at_rest(&scene.mesh);
     solver.pass(&scene.duct, &mut state)?;
-    let forces: Vec<f64> = state.element_forces(&scene.cable, &scene.mesh)?.collect();
+    let forces: Vec<f64> = state.element_forces(&scene.cable)?.collect();
     let f = state.friction();
     assert!(f.iter().all(|f| f.abs() <= LIMIT));
     for node in 1..forces.len() {
@@ -199,7 +199,7 @@ fn reverse_traffic_is_the_mirror_image() -> Outcome {
         (cable.clone(), Direction::Forward),
         (cable.mirrored(), Direction::Reverse),
     ] {
-        let duct = MovingDuct::from_shape(&cable, &mesh, (direction, 30.0), shape, 8.0)?;
+        let duct = MovingDuct::from_shape(&cable, &mesh, direction, 30.0, shape, 8.0)?;
         let mut explicit = Explicit::new(cable.clone(), mesh, MASS, ExplicitOptions::default())?;
         let mut dynamic = cable_dem::Dynamic::new(cable, mesh, MASS)?;
         outcomes.push((

@@ -147,7 +147,7 @@ fn evaluations_of_the_duct() -> Outcome {
         let distances = 2.0 * (length + APPROACH);
         Passage::from_shape(&cable, &mesh, Direction::Forward, shape, APPROACH)?;
         assert!((calls.take() as f64) < 1.05 * distances / 0.05);
-        MovingDuct::from_shape(&cable, &mesh, (Direction::Forward, 10.0), shape, APPROACH)?;
+        MovingDuct::from_shape(&cable, &mesh, Direction::Forward, 10.0, shape, APPROACH)?;
         assert!((calls.take() as f64) < 1.05 * distances / 0.02);
     }
     Ok(())

@@ -4,6 +4,8 @@
 //! cargo run -p calibrate --example saturating_force
 //! ```
 
+use std::ops::ControlFlow;
+
 use calibrate::{Calibration, Loss, Model, ModelError, Observer, Options, Parameter, Readings, Scale};
 
 /// F = F_s (1 − e^(−n/τ)), a force that levels off after n passes.
@@ -49,14 +51,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Parameter::new("saturated_force", 50.0, 5000.0, Scale::Logarithmic)?,
         Parameter::new("passes", 1.0, 1000.0, Scale::Logarithmic)?,
     ];
+    let mut options = Options::default();
+    options.loss = Loss::TUKEY;
+    options.observer = Some(Observer::new(|progress| {
+        println!("iteration {:>2}: {:?}", progress.iteration, progress.parameters);
+        ControlFlow::Continue(())
+    }));
     let fit = Calibration::new(&model, parameters, readings.forces())?
-        .with_options(Options {
-            loss: Loss::TUKEY,
-            observer: Some(Observer::new(|progress| {
-                println!("iteration {:>2}: {:?}", progress.iteration, progress.parameters);
-            })),
-            ..Options::default()
-        })?
+        .with_options(options)?
         .fit()?;
     for estimate in &fit.estimates {
         println!(

@@ -51,7 +51,7 @@ pub enum GroundError {
         limit: &'static str,
     },
     /// A model's own error.
-    #[error("{model}: {source}")]
+    #[error("{model} failed")]
     Model {
         /// The ground model.
         model: &'static str,
@@ -60,8 +60,21 @@ pub enum GroundError {
     },
 }
 
-/// `value` if it is a finite number for which `holds`, or the error that says what is allowed.
-pub(crate) fn checked(
+/// `value` if it is a finite number for which `holds`, or the error that says what is allowed: what a constructor does with its
+/// arguments.
+///
+/// ```
+/// let speed = ground_field::checked("speed", 11.1, "finite and positive", |v| v > 0.0)?;
+/// assert_eq!(speed, 11.1);
+/// assert!(ground_field::checked("speed", f64::NAN, "finite and positive", |v| v > 0.0).is_err());
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
+///
+/// # Errors
+///
+/// [`GroundError::InvalidParameter`].
+#[inline]
+pub fn checked(
     name: &'static str,
     value: f64,
     allowed: &'static str,
@@ -72,4 +85,17 @@ pub(crate) fn checked(
     } else {
         Err(GroundError::InvalidParameter { name, value, allowed })
     }
+}
+
+/// Checks the place a ground model is asked about: radius and depth \[m\], both finite and not negative.
+///
+/// # Errors
+///
+/// [`GroundError::InvalidParameter`].
+#[inline]
+pub fn check_place(radius: f64, depth: f64) -> Result<(), GroundError> {
+    let allowed = "finite and not negative";
+    checked("radius", radius, allowed, |v| v >= 0.0)?;
+    checked("depth", depth, allowed, |v| v >= 0.0)?;
+    Ok(())
 }

@@ -28,7 +28,7 @@ mod soil;
 mod vehicle;
 
 pub use displacement::Displacement;
-pub use error::GroundError;
+pub use error::{GroundError, check_place, checked};
 pub use field::GroundField;
 pub use load::SurfaceLoad;
 pub use motion::{DuctLine, DuctMotion};

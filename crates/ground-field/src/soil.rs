@@ -123,18 +123,19 @@ impl SoilLayer {
         }
     }
 
+    /// The soil at `height` \[m\] below the layer's top.
+    pub fn soil_at(&self, height: f64) -> Soil {
+        Soil {
+            young_modulus: self.young_modulus_at(height),
+            poisson_ratio: self.poisson_ratio,
+        }
+    }
+
     /// The layer's soil where it is uniform; `None` where the modulus varies with depth.
     pub fn soil(&self) -> Option<Soil> {
         match self.modulus {
-            Modulus::Uniform(young_modulus) => Some(Soil {
-                young_modulus,
-                poisson_ratio: self.poisson_ratio,
-            }),
-            Modulus::Linear { top, bottom } if top == bottom => Some(Soil {
-                young_modulus: top,
-                poisson_ratio: self.poisson_ratio,
-            }),
-            Modulus::Linear { .. } => None,
+            Modulus::Linear { top, bottom } if top != bottom => None,
+            _ => Some(self.soil_at(0.0)),
         }
     }
 }
@@ -181,6 +182,48 @@ impl SoilProfile {
             });
         }
         Ok(Self { layers, base })
+    }
+
+    /// The same ground with every layer whose modulus varies cut into `count` uniform sublayers, each with the modulus at its middle:
+    /// what a model of uniform layers takes in its place. The error falls with the square of `count`.
+    ///
+    /// The deeper a sublayer the thicker it is, in proportion to its depth plus `finest` \[m\]: a load's strains fade so. Take the depth
+    /// at which the displacement is looked for.
+    ///
+    /// ```
+    /// # use ground_field::{Base, Modulus, SoilLayer, SoilProfile};
+    /// let fill = SoilLayer::new(3.0, Modulus::Linear { top: 40e6, bottom: 100e6 }, 0.35)?;
+    /// let cut = SoilProfile::new(vec![fill], Base::Rigid)?.sublayered(2, 1.0)?;
+    /// // 1 m and 2 m thick.
+    /// assert_eq!(cut.layers()[0].modulus(), Modulus::Uniform(50e6));
+    /// assert_eq!(cut.layers()[1].modulus(), Modulus::Uniform(80e6));
+    /// # Ok::<(), ground_field::GroundError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`GroundError::InvalidParameter`] where a sublayer would have no thickness.
+    pub fn sublayered(&self, count: usize, finest: f64) -> Result<Self, GroundError> {
+        let mut layers = Vec::new();
+        let mut top = 0.0;
+        for layer in &self.layers {
+            let parts = if layer.soil().is_some() { 1 } else { count.max(1) };
+            let growth = 1.0 + layer.thickness / (top + finest);
+            let bound = |k: usize| match k {
+                0 => 0.0,
+                k if k == parts => layer.thickness,
+                k => (top + finest) * (growth.powf(k as f64 / parts as f64) - 1.0),
+            };
+            for k in 0..parts {
+                let (upper, lower) = (bound(k), bound(k + 1));
+                layers.push(SoilLayer::uniform(
+                    lower - upper,
+                    layer.soil_at(0.5 * (upper + lower)),
+                )?);
+            }
+            top += layer.thickness;
+        }
+        Self::new(layers, self.base)
     }
 
     /// One soil everywhere.

@@ -4,33 +4,11 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FemError {
-    /// An element has no positive area: its nodes are out of order or on one line.
-    #[error(
-        "element {element} has a Jacobian determinant of {determinant:.3e}: its nodes must run round a convex quadrilateral"
-    )]
+    /// An element has no positive area: lines of the mesh coincide in rounding.
+    #[error("an element has a Jacobian determinant of {determinant:.3e}, which must be positive")]
     Degenerate {
-        /// Index of the element.
-        element: usize,
         /// The Jacobian determinant that was not positive.
         determinant: f64,
-    },
-    /// An element names a node that does not exist, or has the wrong number of nodes.
-    #[error("element {element} does not fit the mesh: {problem}")]
-    Connectivity {
-        /// Index of the element.
-        element: usize,
-        /// What does not fit.
-        problem: &'static str,
-    },
-    /// A vector does not have one entry per degree of freedom.
-    #[error("{name} has {given} entries where {expected} are needed")]
-    Length {
-        /// What was given.
-        name: &'static str,
-        /// Its length.
-        given: usize,
-        /// The length it must have.
-        expected: usize,
     },
     /// The mesh would need more unknowns than allowed.
     #[error("the mesh needs {needed} unknowns, {allowed} are allowed")]
@@ -41,12 +19,12 @@ pub enum FemError {
         allowed: usize,
     },
     /// The stiffness matrix is not positive definite in floating-point arithmetic.
-    #[error("the stiffness matrix with {unknowns} unknowns could not be factored: {reason}")]
+    #[error(
+        "the stiffness matrix with {unknowns} unknowns could not be factored: it is not positive definite"
+    )]
     Factorisation {
         /// Unknowns of the system.
         unknowns: usize,
-        /// What the factorisation reports.
-        reason: &'static str,
     },
     /// The solution does not satisfy the equations: solving for what remains changes it.
     #[error(

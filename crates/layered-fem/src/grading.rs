@@ -37,6 +37,8 @@ pub(crate) struct Lines {
     pub(crate) depths: Vec<f64>,
     /// Layer of each row of elements; the number of layers for the base.
     pub(crate) layer_of_row: Vec<usize>,
+    /// Depth of each layer's top \[m\].
+    pub(crate) tops: Vec<f64>,
     /// Columns of elements in the block around the load.
     pub(crate) block_columns: usize,
     /// Rows of elements in the block around the load.
@@ -137,9 +139,10 @@ impl Lines {
             None => grade.fill(block, &mut depths)?,
         };
         layer_of_row.extend(std::iter::repeat_n(0, block_rows));
-        let mut bottom = 0.0;
+        let (mut tops, mut bottom) = (Vec::new(), 0.0);
         for (index, layer) in profile.layers().iter().enumerate() {
             let top = bottom;
+            tops.push(top);
             bottom += layer.thickness();
             let rows = grade.fill_steep(bottom, &mut depths, steepness(layer, top))?;
             layer_of_row.extend(std::iter::repeat_n(index, rows));
@@ -162,6 +165,7 @@ impl Lines {
             radii,
             depths,
             layer_of_row,
+            tops,
             block_columns,
             block_rows,
             scale,

@@ -10,87 +10,26 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use ground_field::{Base, SoilProfile};
+use ground_field::{Base, Displacement, Soil, SoilProfile};
 
 use crate::FemError;
-use crate::element::{Quadrilateral, Volumetric};
+use crate::element::{ElementMatrix, NODES};
 use crate::grading::Lines;
 use crate::half_space::HalfSpace;
 use crate::line::DepthLine;
 use crate::load;
 use crate::material::Elasticity;
 use crate::mesh::{Mesh, with_midpoints};
-use crate::system::{System, SystemSize, prescribed_force};
+use crate::system::System;
 
 /// Node rows used to interpolate in depth.
 const ROWS_IN_DEPTH: usize = 5;
 
-/// Young's modulus and Poisson's ratio by layer index (the base is the last) and depth.
-#[derive(Debug, Clone)]
-struct Ground {
-    profile: SoilProfile,
-    tops: Vec<f64>,
-}
-
-impl Ground {
-    fn new(profile: &SoilProfile) -> Self {
-        let mut depth = 0.0;
-        let tops = profile
-            .layers()
-            .iter()
-            .map(|layer| {
-                let top = depth;
-                depth += layer.thickness();
-                top
-            })
-            .collect();
-        Self {
-            profile: profile.clone(),
-            tops,
-        }
-    }
-
-    fn at(&self, layer: usize, depth: f64) -> (f64, f64) {
-        match (self.profile.layers().get(layer), self.profile.base()) {
-            (Some(soil), _) => (
-                soil.young_modulus_at(depth - self.tops[layer]),
-                soil.poisson_ratio(),
-            ),
-            (None, Base::HalfSpace(soil)) => (soil.young_modulus(), soil.poisson_ratio()),
-            // No row of elements lies in rock.
-            (None, Base::Rigid) => (f64::NAN, f64::NAN),
-        }
-    }
-
-    /// The closed form with the soil at the surface.
-    fn near(&self) -> HalfSpace {
-        let (young_modulus, poisson_ratio) = self.at(0, 0.0);
-        HalfSpace::new(young_modulus, poisson_ratio)
-    }
-
-    /// The closed form with the base's soil; `None` over rock.
-    fn far(&self) -> Option<HalfSpace> {
-        match self.profile.base() {
-            Base::HalfSpace(soil) => Some(HalfSpace::new(soil.young_modulus(), soil.poisson_ratio())),
-            Base::Rigid => None,
-        }
-    }
-}
-
-/// Moduli in `element` of a rectangular mesh of `kind` at depth `z`.
-fn elasticity(ground: &Ground, lines: &Lines, kind: Quadrilateral, element: usize, z: f64) -> Elasticity {
-    let across = (lines.radii.len() - 1) * kind.per_interval();
-    let row = element / across / kind.per_interval();
-    let (young_modulus, poisson_ratio) = ground.at(lines.layer_of_row[row], z);
-    Elasticity::new(young_modulus, poisson_ratio)
-}
-
 /// A factored mesh.
 #[derive(Debug)]
 pub(crate) struct Level {
-    ground: Ground,
+    profile: SoilProfile,
     lines: Lines,
-    mesh: Mesh,
     /// Radii of all columns of nodes.
     columns: Vec<f64>,
     /// Depths of all rows of nodes.
@@ -98,67 +37,76 @@ pub(crate) struct Level {
     system: System,
     /// Largest change by which a solution may still be corrected.
     rounding: f64,
+    /// The closed form with the soil at the surface.
+    near: HalfSpace,
+    /// The closed form with the base's soil; `None` over rock.
+    far: Option<HalfSpace>,
     far_displacement: Vec<f64>,
-    far_force: Vec<f64>,
     /// Solutions u* under a unit load by the bits of the contact radius.
     solutions: Mutex<HashMap<u64, Arc<Vec<f64>>>>,
 }
 
+/// The soil of a layer (the base comes last) at a depth.
+fn soil_at(profile: &SoilProfile, lines: &Lines, layer: usize, depth: f64) -> Soil {
+    match profile.base() {
+        Base::HalfSpace(soil) if layer >= profile.layers().len() => soil,
+        // No row of elements lies in rock.
+        _ => profile.layers()[layer].soil_at(depth - lines.tops[layer]),
+    }
+}
+
 impl Level {
-    pub(crate) fn new(
-        profile: &SoilProfile,
-        kind: Quadrilateral,
-        rounding: f64,
-        lines: Lines,
-    ) -> Result<Self, FemError> {
-        let ground = Ground::new(profile);
-        let mesh = Mesh::rectangular(kind, &lines.radii, &lines.depths);
+    pub(crate) fn new(profile: &SoilProfile, rounding: f64, lines: Lines) -> Result<Self, FemError> {
+        let mesh = Mesh::rectangular(&lines.radii, &lines.depths);
         let (columns, rows) = (with_midpoints(&lines.radii), with_midpoints(&lines.depths));
+        let far = match profile.base() {
+            Base::HalfSpace(soil) => Some(HalfSpace::new(soil)),
+            Base::Rigid => None,
+        };
         let width = columns.len();
         let mut prescribed = vec![false; mesh.dofs()];
         let mut far_displacement = vec![0.0; mesh.dofs()];
-        for (index, &[r, z]) in mesh.nodes().iter().enumerate() {
+        for (index, &[r, z]) in mesh.nodes.iter().enumerate() {
             let (column, row) = (index % width, index / width);
             if column + 1 == width || row + 1 == rows.len() {
                 prescribed[2 * index] = true;
                 prescribed[2 * index + 1] = true;
-                if let Some(far) = ground.far() {
+                if let Some(far) = far {
                     let u = far.displacement(r, z);
-                    far_displacement[2 * index] = u[0];
-                    far_displacement[2 * index + 1] = u[1];
+                    far_displacement[2 * index] = u.radial;
+                    far_displacement[2 * index + 1] = u.vertical;
                 }
             } else if column == 0 {
                 prescribed[2 * index] = true;
             }
         }
-        let elasticity = |element: usize, _: f64, z: f64| elasticity(&ground, &lines, kind, element, z);
-        let system = System::new(&mesh, Volumetric::Projected, &prescribed, elasticity)?;
-        let across = (lines.radii.len() - 1) * kind.per_interval();
-        let last_row = lines.layer_of_row.len() * kind.per_interval() - 1;
-        let far_force = prescribed_force(
-            &mesh,
-            Volumetric::Projected,
-            &far_displacement,
-            |e| e % across == across - 1 || e / across == last_row,
-            elasticity,
-        )?;
+        let across = mesh.across;
+        let system = System::new(mesh, &prescribed, |element, _, z| {
+            let layer = lines.layer_of_row[element / across];
+            Elasticity::new(soil_at(profile, &lines, layer, z))
+        })?;
         Ok(Self {
-            ground,
+            near: HalfSpace::new(soil_at(profile, &lines, 0, 0.0)),
+            far,
+            profile: profile.clone(),
             lines,
-            mesh,
             columns,
             rows,
             system,
             rounding,
             far_displacement,
-            far_force,
             solutions: Mutex::default(),
         })
     }
 
-    /// Size of the factored system.
-    pub(crate) fn size(&self) -> SystemSize {
-        self.system.size()
+    /// Unknowns of the factored system.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.system.unknowns()
+    }
+
+    /// Entries of its Cholesky factor.
+    pub(crate) fn factor_entries(&self) -> usize {
+        self.system.factor_entries()
     }
 
     /// Loads solved so far.
@@ -169,10 +117,11 @@ impl Level {
             .len()
     }
 
-    /// Bytes held: matrix, factor, their indices, mesh and solutions.
+    /// Bytes held: element matrices, factor, mesh and solutions.
     pub(crate) fn bytes(&self) -> usize {
-        let size = self.size();
-        16 * size.matrix_entries + 8 * size.factor_entries + self.mesh.dofs() * (8 * (4 + self.solves()) + 18)
+        let mesh = self.system.mesh();
+        let element = size_of::<ElementMatrix>() + size_of::<[usize; NODES]>();
+        element * mesh.elements.len() + 8 * self.factor_entries() + mesh.dofs() * 8 * (3 + self.solves())
     }
 
     /// The solution u* under a unit load, solved at its first use.
@@ -181,25 +130,15 @@ impl Level {
         if let Some(found) = solutions.get(&contact_radius.to_bits()) {
             return Ok(Arc::clone(found));
         }
-        let mut force = if contact_radius == 0.0 {
-            load::point(
-                &self.mesh,
-                &self.lines,
-                Volumetric::Projected,
-                self.ground.near(),
-                |element, _, z| elasticity(&self.ground, &self.lines, self.mesh.kind(), element, z),
-                |z| self.ground.at(0, z).0,
-            )?
+        let force = if contact_radius == 0.0 {
+            load::point(&self.system, &self.lines, self.near, |z| {
+                soil_at(&self.profile, &self.lines, 0, z).young_modulus()
+            })
         } else {
-            load::disc(&self.mesh, &self.lines, contact_radius)
+            load::disc(self.system.mesh(), &self.lines, contact_radius)
         };
-        for (value, far) in force.iter_mut().zip(&self.far_force) {
-            *value += far;
-        }
-        let solved = Arc::new(
-            self.system
-                .solve_within(&force, &self.far_displacement, self.rounding)?,
-        );
+        let solved = self.system.solve(&force, &self.far_displacement, self.rounding)?;
+        let solved = Arc::new(solved);
         solutions.insert(contact_radius.to_bits(), Arc::clone(&solved));
         Ok(solved)
     }
@@ -208,16 +147,16 @@ impl Level {
     pub(crate) fn line(&self, contact_radius: f64, depth: f64) -> Result<DepthLine, FemError> {
         let bottom = self.rows[self.rows.len() - 1];
         if depth >= bottom {
-            return Ok(DepthLine::beyond(self.ground.far(), depth));
+            return Ok(DepthLine::beyond(self.far, depth));
         }
         let solution = self.solution(contact_radius)?;
         let weights = self.depth_weights(depth);
         let width = self.columns.len();
         let in_block = depth < self.lines.depths[self.lines.block_rows] && contact_radius == 0.0;
-        let near = self.ground.near();
+        let near = self.near;
         let last_column = 2 * self.lines.block_columns;
         let edge = if in_block {
-            load::edge_displacement(&self.mesh, &self.lines, near)
+            load::edge_displacement(self.system.mesh(), &self.lines, near)
         } else {
             Vec::new()
         };
@@ -226,22 +165,17 @@ impl Level {
             .iter()
             .enumerate()
             .map(|(column, &r)| {
-                let mut u = [0.0; 2];
+                let mut u = Displacement::ZERO;
                 for &(row, weight) in &weights {
-                    for (c, value) in u.iter_mut().enumerate() {
-                        let dof = 2 * (column + row * width) + c;
-                        // Inside the block the unknown is the difference already; on its edge it is made one.
-                        let known = if in_block && column <= last_column {
-                            edge[dof]
-                        } else {
-                            0.0
-                        };
-                        *value += weight * (solution[dof] - known);
+                    let node = column + row * width;
+                    u += at_node(&solution, node) * weight;
+                    // Inside the block the unknown is the difference already; on its edge it is made one.
+                    if in_block && column <= last_column {
+                        u += at_node(&edge, node) * -weight;
                     }
                 }
                 if in_block && column > last_column {
-                    let known = near.displacement(r, depth);
-                    u = [u[0] - known[0], u[1] - known[1]];
+                    u = u - near.displacement(r, depth);
                 }
                 u
             })
@@ -251,7 +185,7 @@ impl Level {
             self.lines.scale,
             &values,
             in_block.then_some(near),
-            self.ground.far(),
+            self.far,
             depth,
         ))
     }
@@ -306,27 +240,35 @@ impl Level {
     }
 }
 
+/// A node's entries of a vector over the degrees of freedom.
+fn at_node(values: &[f64], node: usize) -> Displacement {
+    Displacement {
+        radial: values[2 * node],
+        vertical: values[2 * node + 1],
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::LARGEST_CHANGE;
+    use crate::system::LEAST_CHANGE;
     use ground_field::Soil;
 
     #[test]
     fn whole_model_converges_with_the_order_of_its_elements() {
         let soil = Soil::new(80e6, 0.35).unwrap();
         let profile = SoilProfile::half_space(soil);
-        let exact = HalfSpace::new(80e6, 0.35);
+        let exact = HalfSpace::new(soil);
         // Largest error of u_r over depths and radii, each depth by its own peak.
-        let error = |kind, parts: usize| {
+        let error = |parts: usize| {
             let lines = Lines::new(&profile, 0.4, parts, usize::MAX).unwrap();
-            let level = Level::new(&profile, kind, LARGEST_CHANGE, lines).unwrap();
+            let level = Level::new(&profile, LEAST_CHANGE, lines).unwrap();
             let depths = (0..15).map(|k| 0.6 + 0.1 * f64::from(k));
             let shares = depths.map(|depth| {
                 let line = level.line(0.0, depth).unwrap();
                 let pairs = (0..100).map(|k| {
                     let r = 0.1 * f64::from(k);
-                    (line.at(r).radial, exact.displacement(r, depth)[0])
+                    (line.at(r).radial, exact.displacement(r, depth).radial)
                 });
                 let (gap, peak) = pairs.fold((0.0_f64, 0.0_f64), |(gap, peak), (found, truth)| {
                     (gap.max((found - truth).abs()), peak.max(truth.abs()))
@@ -335,12 +277,10 @@ mod tests {
             });
             shares.fold(0.0, f64::max)
         };
-        for (kind, least) in [(Quadrilateral::Quadratic9, 2.7), (Quadrilateral::Linear4, 1.7)] {
-            let errors = [1, 2, 4].map(|parts| error(kind, parts));
-            for pair in errors.windows(2) {
-                let order = (pair[0] / pair[1]).log2();
-                assert!(order > least, "{kind:?}: order {order} of {errors:?}");
-            }
+        let errors = [1, 2, 4].map(error);
+        for pair in errors.windows(2) {
+            let order = (pair[0] / pair[1]).log2();
+            assert!(order > 2.7, "order {order} of {errors:?}");
         }
     }
 }

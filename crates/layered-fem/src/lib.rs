@@ -32,23 +32,20 @@
 //! T. J. R. Hughes, *The Finite Element Method* (1987); K. L. Johnson, *Contact Mechanics* (1985); I. M. Smith,
 //! D. V. Griffiths, L. Margetts, *Programming the Finite Element Method*, 5th ed. (2014).
 
-// What the model is made of, for this crate's own tests and the charts of locking: no part of its interface.
-#[doc(hidden)]
-pub mod element;
+mod dissection;
+mod element;
 mod error;
+mod front;
 mod grading;
 mod half_space;
 mod level;
 mod line;
 mod load;
-#[doc(hidden)]
-pub mod material;
-#[doc(hidden)]
-pub mod mesh;
+mod material;
+mod mesh;
 mod model;
 mod options;
-#[doc(hidden)]
-pub mod system;
+mod system;
 
 pub use error::FemError;
 pub use model::LayeredFem;

@@ -31,11 +31,11 @@ pub(crate) struct DepthLine {
 }
 
 impl DepthLine {
-    /// A line through `values` (`u_r`, `u_z`) at `radii`, the first of which is the axis.
+    /// A line through `values` at `radii`, the first of which is the axis.
     pub(crate) fn new(
         radii: &[f64],
         scale: f64,
-        values: &[[f64; 2]],
+        values: &[Displacement],
         near: Option<HalfSpace>,
         far: Option<HalfSpace>,
         depth: f64,
@@ -70,18 +70,14 @@ impl DepthLine {
 
     /// Displacement at radius `r` \[m/N\]; not finite at a point load.
     pub(crate) fn at(&self, r: f64) -> Displacement {
-        let outside =
-            |soil: Option<HalfSpace>| soil.map_or([0.0; 2], |soil| soil.displacement(r, self.depth));
-        let value = if r >= self.reach {
-            outside(self.far)
-        } else {
-            let (inner, closed) = (self.interpolate((r / self.scale).asinh()), outside(self.near));
-            [inner[0] + closed[0], inner[1] + closed[1]]
+        let outside = |soil: Option<HalfSpace>| {
+            soil.map_or(Displacement::ZERO, |soil| soil.displacement(r, self.depth))
         };
-        Displacement {
-            radial: value[0],
-            vertical: value[1],
+        if r >= self.reach {
+            return outside(self.far);
         }
+        let [radial, vertical] = self.interpolate((r / self.scale).asinh());
+        Displacement { radial, vertical } + outside(self.near)
     }
 
     fn interpolate(&self, s: f64) -> [f64; 2] {
@@ -113,7 +109,7 @@ impl DepthLine {
 }
 
 /// Value and the first two derivatives at node `k` of the polynomial through the nearest nodes.
-fn derivatives(s: &[f64], values: &[[f64; 2]], k: usize) -> [[f64; 3]; 2] {
+fn derivatives(s: &[f64], values: &[Displacement], k: usize) -> [[f64; 3]; 2] {
     let half = (STENCIL / 2) as isize;
     let last = s.len() as isize - 1;
     // Indices below zero are mirror images in the axis.
@@ -125,16 +121,17 @@ fn derivatives(s: &[f64], values: &[[f64; 2]], k: usize) -> [[f64; 3]; 2] {
         let node = index.unsigned_abs().min(s.len() - 1);
         let sign = if index < 0 { -1.0 } else { 1.0 };
         *place = sign * s[node] - s[k];
-        *sample = [sign * values[node][0], values[node][1]];
+        *sample = [sign * values[node].radial, values[node].vertical];
     }
     let weights = fornberg(&places);
+    let own = [values[k].radial, values[k].vertical];
     [0, 1].map(|c| {
         let sum = |order: usize| {
             (0..STENCIL)
                 .map(|m| weights[m][order] * samples[m][c])
                 .sum::<f64>()
         };
-        [values[k][c], sum(1), sum(2)]
+        [own[c], sum(1), sum(2)]
     })
 }
 
@@ -174,6 +171,7 @@ fn fornberg(places: &[f64; STENCIL]) -> [[f64; 3]; STENCIL] {
 mod tests {
     use super::*;
     use approx::assert_relative_eq;
+    use ground_field::Soil;
 
     #[test]
     fn weights_differentiate_a_polynomial_exactly() {
@@ -192,14 +190,14 @@ mod tests {
     #[test]
     fn line_reproduces_smooth_values_and_their_second_difference() {
         let radii: Vec<f64> = (0..60).map(|k| 0.15 * (0.1 * f64::from(k)).sinh()).collect();
-        let soil = HalfSpace::new(1.0, 0.3);
-        let values: Vec<[f64; 2]> = radii.iter().map(|&r| soil.displacement(r, 1.2)).collect();
+        let soil = HalfSpace::new(Soil::new(1.0, 0.3).unwrap());
+        let values: Vec<Displacement> = radii.iter().map(|&r| soil.displacement(r, 1.2)).collect();
         let line = DepthLine::new(&radii, 0.15, &values, None, Some(soil), 1.2);
         for k in 0..100 {
             let r = 0.0433 * f64::from(k);
             let exact = soil.displacement(r, 1.2);
-            assert_relative_eq!(line.at(r).radial, exact[0], epsilon = 1e-5);
-            assert_relative_eq!(line.at(r).vertical, exact[1], epsilon = 1e-5);
+            assert_relative_eq!(line.at(r).radial, exact.radial, epsilon = 1e-5);
+            assert_relative_eq!(line.at(r).vertical, exact.vertical, epsilon = 1e-5);
         }
     }
 }

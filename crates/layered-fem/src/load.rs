@@ -22,26 +22,17 @@
 
 use std::f64::consts::PI;
 
-use crate::FemError;
-use crate::element::{GAUSS_3, GAUSS_6, Quadrilateral, Volumetric};
+use crate::dissection::dofs;
+use crate::element::{GAUSS_3, GAUSS_6, Shape, edge_shape};
 use crate::grading::Lines;
 use crate::half_space::HalfSpace;
-use crate::material::Elasticity;
-use crate::mesh::{Mesh, with_midpoints};
+use crate::mesh::Mesh;
+use crate::system::System;
 
 /// Edges of elements along `lines`: the lattice index of the first node, and both ends \[m\].
-fn edges(kind: Quadrilateral, lines: &[f64]) -> impl Iterator<Item = (usize, f64, f64)> {
-    let lattice = with_midpoints(lines);
-    let step = 2 / kind.per_interval();
-    (0..lattice.len().saturating_sub(1))
-        .step_by(step)
-        .map(move |first| (first, lattice[first], lattice[first + step]))
-}
-
-/// Shape functions of an edge of `kind` with their places along it.
-fn edge_shape(kind: Quadrilateral, x: f64) -> impl Iterator<Item = (usize, f64)> {
-    let nodes = 1 + 2 / kind.per_interval();
-    kind.edge_shape(x).into_iter().take(nodes).enumerate()
+fn edges(lines: &[f64]) -> impl Iterator<Item = (usize, f64, f64)> {
+    let ends = lines.windows(2).enumerate();
+    ends.map(|(index, pair)| (2 * index, pair[0], pair[1]))
 }
 
 /// Node (column, row) of the lattice of corners and mid-points.
@@ -54,7 +45,7 @@ pub(crate) fn disc(mesh: &Mesh, lines: &Lines, contact_radius: f64) -> Vec<f64> 
     let mut force = vec![0.0; mesh.dofs()];
     // Per radian the pressure 1/(π a²) acts on ∫ r dr.
     let pressure = 1.0 / (PI * contact_radius * contact_radius);
-    for (first, left, right) in edges(mesh.kind(), &lines.radii) {
+    for (first, left, right) in edges(&lines.radii) {
         let end = right.min(contact_radius);
         if end <= left {
             break;
@@ -62,7 +53,8 @@ pub(crate) fn disc(mesh: &Mesh, lines: &Lines, contact_radius: f64) -> Vec<f64> 
         for (x, weight) in GAUSS_3 {
             let half = 0.5 * (end - left);
             let r = left + half * (1.0 + x);
-            for (k, value) in edge_shape(mesh.kind(), 2.0 * (r - left) / (right - left) - 1.0) {
+            let shape = edge_shape(2.0 * (r - left) / (right - left) - 1.0);
+            for (k, value) in shape.into_iter().enumerate() {
                 force[2 * node(lines, first + k, 0) + 1] += pressure * weight * half * r * value;
             }
         }
@@ -71,78 +63,54 @@ pub(crate) fn disc(mesh: &Mesh, lines: &Lines, contact_radius: f64) -> Vec<f64> 
 }
 
 /// Force on every degree of freedom under a unit point load, for the unknown u* of the [module documentation](self).
-///
-/// # Errors
-///
-/// [`FemError::Degenerate`] only.
 pub(crate) fn point(
-    mesh: &Mesh,
+    system: &System,
     lines: &Lines,
-    volumetric: Volumetric,
     near: HalfSpace,
-    elasticity: impl Fn(usize, f64, f64) -> Elasticity,
     young_modulus: impl Fn(f64) -> f64,
-) -> Result<Vec<f64>, FemError> {
+) -> Vec<f64> {
+    let mesh = system.mesh();
     let mut force = vec![0.0; mesh.dofs()];
-    let per_interval = mesh.kind().per_interval();
-    let columns = (lines.radii.len() - 1) * per_interval;
-    let (block_columns, block_rows) = (
-        lines.block_columns * per_interval,
-        lines.block_rows * per_interval,
-    );
     let (last_column, last_row) = (2 * lines.block_columns, 2 * lines.block_rows);
     let edge = edge_displacement(mesh, lines, near);
-    for row in 0..block_rows {
-        for column in 0..block_columns {
-            let element = column + row * columns;
-            let coordinates = mesh.element_nodes(element);
-            let nodes = mesh.element(element);
-            if row + 1 == block_rows || column + 1 == block_columns {
-                let matrix = mesh.kind().stiffness(element, &coordinates, volumetric, |r, z| {
-                    elasticity(element, r, z)
-                })?;
-                for (a, &at) in nodes.iter().enumerate() {
-                    for c in 0..2 {
-                        force[2 * at + c] += nodes
-                            .iter()
-                            .enumerate()
-                            .map(|(b, &other)| {
-                                matrix[2 * a + c][2 * b] * edge[2 * other]
-                                    + matrix[2 * a + c][2 * b + 1] * edge[2 * other + 1]
-                            })
-                            .sum::<f64>();
-                    }
-                }
+    for row in 0..lines.block_rows {
+        for column in 0..lines.block_columns {
+            let element = column + row * mesh.across;
+            for (dof, value) in dofs(&mesh.elements[element])
+                .into_iter()
+                .zip(system.reaction(element, &edge))
+            {
+                force[dof] += value;
             }
             add_mismatch(mesh, element, near, &young_modulus, &mut force);
         }
     }
     // −∮ (σ_B n)·v: downward normal at the bottom, outward at the side.
     let (outer, bottom) = (lines.radii[lines.block_columns], lines.depths[lines.block_rows]);
-    for (first, left, right) in edges(mesh.kind(), &lines.radii[..=lines.block_columns]) {
+    for (first, left, right) in edges(&lines.radii[..=lines.block_columns]) {
         let half = 0.5 * (right - left);
         for (x, weight) in GAUSS_6 {
             let r = left + half * (1.0 + x);
             let stress = near.stress(r, bottom);
-            for (k, value) in edge_shape(mesh.kind(), x) {
+            for (k, value) in edge_shape(x).into_iter().enumerate() {
                 let at = node(lines, first + k, last_row);
-                force[2 * at] -= weight * half * r * value * stress[3];
-                force[2 * at + 1] -= weight * half * r * value * stress[1];
+                force[2 * at] -= weight * half * r * value * stress.shear;
+                force[2 * at + 1] -= weight * half * r * value * stress.vertical;
             }
         }
     }
-    for (first, top, end) in edges(mesh.kind(), &lines.depths[..=lines.block_rows]) {
+    for (first, top, end) in edges(&lines.depths[..=lines.block_rows]) {
         let half = 0.5 * (end - top);
         for (x, weight) in GAUSS_6 {
             let stress = near.stress(outer, top + half * (1.0 + x));
-            for (k, value) in edge_shape(mesh.kind(), x) {
+            for (k, value) in edge_shape(x).into_iter().enumerate() {
                 let at = node(lines, last_column, first + k);
-                force[2 * at] -= weight * half * outer * value * stress[0];
-                force[2 * at + 1] -= weight * half * outer * value * stress[3];
+                force[2 * at] -= weight * half * outer * value * stress.radial;
+                force[2 * at + 1] -= weight * half * outer * value * stress.shear;
             }
         }
     }
-    Ok(force)
+    force
 }
 
 /// The closed form at the nodes on the block's boundary, zero elsewhere.
@@ -153,10 +121,10 @@ pub(crate) fn edge_displacement(mesh: &Mesh, lines: &Lines, near: HalfSpace) -> 
     let side = (0..last_row).map(|row| (last_column, row));
     for (column, row) in bottom.chain(side) {
         let at = node(lines, column, row);
-        let [r, z] = mesh.nodes()[at];
+        let [r, z] = mesh.nodes[at];
         let u = near.displacement(r, z);
-        edge[2 * at] = u[0];
-        edge[2 * at + 1] = u[1];
+        edge[2 * at] = u.radial;
+        edge[2 * at + 1] = u.vertical;
     }
     edge
 }
@@ -169,23 +137,23 @@ fn add_mismatch(
     young_modulus: &impl Fn(f64) -> f64,
     force: &mut [f64],
 ) {
-    let coordinates = mesh.element_nodes(element);
+    let corners = mesh.corners(element);
     let surface = near.young_modulus();
     for (eta, weight_eta) in GAUSS_6 {
         for (xi, weight_xi) in GAUSS_6 {
-            let shape = mesh.kind().shape(&coordinates, xi, eta);
+            let shape = Shape::at(&corners, xi, eta);
             let mismatch = (young_modulus(shape.depth) - surface) / surface;
             if mismatch == 0.0 {
                 continue;
             }
             let weight = -mismatch * weight_eta * weight_xi * shape.determinant * shape.radius;
             let stress = near.stress(shape.radius, shape.depth);
-            for (k, &at) in mesh.element(element).iter().enumerate() {
+            for (k, &at) in mesh.elements[element].iter().enumerate() {
                 force[2 * at] += weight
-                    * (stress[0] * shape.d_r[k]
-                        + stress[2] * shape.value[k] / shape.radius
-                        + stress[3] * shape.d_z[k]);
-                force[2 * at + 1] += weight * (stress[1] * shape.d_z[k] + stress[3] * shape.d_r[k]);
+                    * (stress.radial * shape.d_r[k]
+                        + stress.hoop * shape.value[k] / shape.radius
+                        + stress.shear * shape.d_z[k]);
+                force[2 * at + 1] += weight * (stress.vertical * shape.d_z[k] + stress.shear * shape.d_r[k]);
             }
         }
     }

@@ -1,19 +1,19 @@
-//! Isotropic linear elasticity at a point, in the two moduli the element integrals need.
-//!
-//! Stress σ = 2 G ε + λ (tr ε) I with G = E / (2 (1 + ν)) and λ = 2 G ν / (1 − 2 ν). In axisymmetry without torsion the
-//! components are (r, z, θ, rz) with the engineering shear strain `γ_rz` = 2 `ε_rz`.
+//! Isotropic linear elasticity at a point, in the two moduli the element integrals need: the stress is
+//! σ = 2 G ε + λ (tr ε) I with G = E / (2 (1 + ν)) and λ = 2 G ν / (1 − 2 ν).
 //!
 //! # Limit
 //!
 //! At ν = 1/2 λ is infinite. A ratio above [`LARGEST_POISSON_RATIO`] is replaced by it: that changes displacements by
 //! about 1/2 − ν = 1e-5 of themselves, far below what a mesh resolves. The elements keep their accuracy up to it.
 
-/// The largest Poisson's ratio the elements use; see the [module documentation](self).
-pub const LARGEST_POISSON_RATIO: f64 = 0.499_99;
+use ground_field::Soil;
+
+/// The largest Poisson's ratio the elements use.
+pub(crate) const LARGEST_POISSON_RATIO: f64 = 0.499_99;
 
 /// Elastic moduli at a point \[Pa\].
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Elasticity {
+pub(crate) struct Elasticity {
     /// Shear modulus G \[Pa\].
     pub shear: f64,
     /// Lamé's first parameter λ \[Pa\].
@@ -21,44 +21,65 @@ pub struct Elasticity {
 }
 
 impl Elasticity {
-    /// From Young's modulus \[Pa\] and Poisson's ratio, the latter at most [`LARGEST_POISSON_RATIO`].
-    pub fn new(young_modulus: f64, poisson_ratio: f64) -> Self {
-        let nu = poisson_ratio.min(LARGEST_POISSON_RATIO);
-        let shear = young_modulus / (2.0 * (1.0 + nu));
+    /// The moduli of `soil`, its Poisson's ratio taken as [`LARGEST_POISSON_RATIO`] at most.
+    pub(crate) fn new(soil: Soil) -> Self {
+        let nu = soil.poisson_ratio().min(LARGEST_POISSON_RATIO);
+        let shear = soil.young_modulus() / (2.0 * (1.0 + nu));
         Self {
             shear,
             lame: 2.0 * shear * nu / (1.0 - 2.0 * nu),
         }
-    }
-
-    /// Stress (r, z, θ, rz) \[Pa\] from strain (`ε_r`, `ε_z`, `ε_θ`, `γ_rz`), tension positive.
-    pub fn stress(self, strain: [f64; 4]) -> [f64; 4] {
-        let pressure = self.lame * (strain[0] + strain[1] + strain[2]);
-        let twice = 2.0 * self.shear;
-        [
-            twice * strain[0] + pressure,
-            twice * strain[1] + pressure,
-            twice * strain[2] + pressure,
-            self.shear * strain[3],
-        ]
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::half_space::HalfSpace;
     use approx::assert_relative_eq;
+
+    /// Stress (r, z, θ, rz) from strain (`ε_r`, `ε_z`, `ε_θ`, `γ_rz`).
+    fn stress(moduli: Elasticity, strain: [f64; 4]) -> [f64; 4] {
+        let pressure = moduli.lame * (strain[0] + strain[1] + strain[2]);
+        let twice = 2.0 * moduli.shear;
+        [
+            twice * strain[0] + pressure,
+            twice * strain[1] + pressure,
+            twice * strain[2] + pressure,
+            moduli.shear * strain[3],
+        ]
+    }
 
     #[test]
     fn uniaxial_stress_gives_back_young_and_poisson() {
         let (e, nu) = (80e6, 0.3);
-        let stress = Elasticity::new(e, nu).stress([-nu * 1e-4, 1e-4, -nu * 1e-4, 0.0]);
+        let moduli = Elasticity::new(Soil::new(e, nu).unwrap());
+        let stress = stress(moduli, [-nu * 1e-4, 1e-4, -nu * 1e-4, 0.0]);
         assert_relative_eq!(stress[1], e * 1e-4, max_relative = 1e-13);
         assert!(stress[0].abs() < 1e-10 * stress[1] && stress[2].abs() < 1e-10 * stress[1]);
     }
 
     #[test]
     fn incompressible_soil_stays_finite() {
-        assert!(Elasticity::new(40e6, 0.5).lame.is_finite());
+        assert!(Elasticity::new(Soil::new(40e6, 0.5).unwrap()).lame.is_finite());
+    }
+
+    #[test]
+    fn stress_is_hookes_law_of_the_displacement() {
+        let soil = Soil::new(80e6, 0.35).unwrap();
+        let half_space = HalfSpace::new(soil);
+        let (r, z, h) = (0.7, 1.1, 1e-4);
+        let slope = |dr: f64, dz: f64| {
+            let gap = half_space.displacement(r + dr, z + dz) - half_space.displacement(r - dr, z - dz);
+            gap * (0.5 / h)
+        };
+        let (d_r, d_z) = (slope(h, 0.0), slope(0.0, h));
+        let hoop = half_space.displacement(r, z).radial / r;
+        let strain = [d_r.radial, d_z.vertical, hoop, d_z.radial + d_r.vertical];
+        let exact = half_space.stress(r, z);
+        let exact = [exact.radial, exact.vertical, exact.hoop, exact.shear];
+        for (found, exact) in stress(Elasticity::new(soil), strain).into_iter().zip(exact) {
+            assert_relative_eq!(found, exact, epsilon = 1e-8);
+        }
     }
 }

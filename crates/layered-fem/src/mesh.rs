@@ -1,126 +1,64 @@
-//! A mesh of quadrilaterals in the (r, z) half-plane, and the rectangular meshes of layered ground.
+//! A mesh of nine-node quadrilaterals in the (r, z) half-plane, numbered like a rectangle.
 
-use crate::FemError;
-use crate::element::{MAX_NODES, Quadrilateral};
+use crate::element::{Corners, NODES};
 
-/// Nodes and elements of one kind.
+/// Columns and rows, from its first, of an element's nodes in the lattice of corners and mid-points.
+const OFFSETS: [(usize, usize); NODES] = [
+    (0, 0),
+    (2, 0),
+    (2, 2),
+    (0, 2),
+    (1, 0),
+    (2, 1),
+    (1, 2),
+    (0, 1),
+    (1, 1),
+];
+
+/// Nodes, and elements in columns and rows.
 #[derive(Debug, Clone)]
-pub struct Mesh {
-    kind: Quadrilateral,
-    nodes: Vec<[f64; 2]>,
-    /// Node indices, `kind.nodes()` an element.
-    connectivity: Vec<usize>,
+pub(crate) struct Mesh {
+    /// Coordinates (r, z) of the nodes \[m\].
+    pub nodes: Vec<[f64; 2]>,
+    /// Node indices of each element, row by row.
+    pub elements: Vec<[usize; NODES]>,
+    /// Elements in a row.
+    pub across: usize,
 }
 
 impl Mesh {
-    /// A mesh of `nodes` (r, z) \[m\] and elements given by their node indices, in the order that
-    /// [`crate::element`] describes.
+    /// Rectangles between the lines `radii` and `depths` \[m\], both strictly increasing.
     ///
-    /// # Errors
-    ///
-    /// [`FemError::Connectivity`] for a wrong number of nodes or an index beyond the nodes.
-    pub fn new(kind: Quadrilateral, nodes: Vec<[f64; 2]>, elements: &[Vec<usize>]) -> Result<Self, FemError> {
-        for (element, list) in elements.iter().enumerate() {
-            if list.len() != kind.nodes() {
-                return Err(FemError::Connectivity {
-                    element,
-                    problem: "wrong number of nodes",
-                });
-            }
-            if list.iter().any(|&node| node >= nodes.len()) {
-                return Err(FemError::Connectivity {
-                    element,
-                    problem: "a node that does not exist",
-                });
-            }
-        }
-        Ok(Self {
-            kind,
-            nodes,
-            connectivity: elements.concat(),
-        })
-    }
-
-    /// Rectangles of `kind` between the lines `radii` and `depths` \[m\], both strictly increasing, and the lines half-way
-    /// between these: nine-node elements fill an interval, four-node elements half of one, so that both kinds have the same
-    /// nodes.
-    ///
-    /// Nodes are numbered along r first: the node in column `i` and row `j` of the (2n+1) × (2m+1) lattice of corners and
-    /// mid-points has the index `i + (2n+1) j`; so are the elements.
-    pub fn rectangular(kind: Quadrilateral, radii: &[f64], depths: &[f64]) -> Self {
-        let across = with_midpoints(radii);
-        let down = with_midpoints(depths);
-        let width = across.len();
-        let nodes = down
+    /// The node in column `i` and row `j` of the (2n+1) × (2m+1) lattice of corners and mid-points has the index
+    /// `i + (2n+1) j`.
+    pub(crate) fn rectangular(radii: &[f64], depths: &[f64]) -> Self {
+        let (columns, rows) = (with_midpoints(radii), with_midpoints(depths));
+        let width = columns.len();
+        let (across, down) = (width / 2, rows.len() / 2);
+        let nodes = rows
             .iter()
-            .flat_map(|&z| across.iter().map(move |&r| [r, z]))
+            .flat_map(|&z| columns.iter().map(move |&r| [r, z]))
             .collect();
-        let step = 2 / kind.per_interval();
-        // Columns and rows of an element's nodes, from its first.
-        let offsets: &[(usize, usize)] = match kind {
-            Quadrilateral::Linear4 => &[(0, 0), (1, 0), (1, 1), (0, 1)],
-            Quadrilateral::Quadratic9 => &[
-                (0, 0),
-                (2, 0),
-                (2, 2),
-                (0, 2),
-                (1, 0),
-                (2, 1),
-                (1, 2),
-                (0, 1),
-                (1, 1),
-            ],
-        };
-        let mut connectivity = Vec::with_capacity(9 * radii.len() * depths.len());
-        for row in (0..down.len().saturating_sub(1)).step_by(step) {
-            for column in (0..width.saturating_sub(1)).step_by(step) {
-                let first = column + row * width;
-                connectivity.extend(offsets.iter().map(|&(a, b)| first + a + b * width));
-            }
-        }
+        let elements = (0..across * down)
+            .map(|element| {
+                let first = 2 * (element % across + element / across * width);
+                OFFSETS.map(|(i, j)| first + i + j * width)
+            })
+            .collect();
         Self {
-            kind,
             nodes,
-            connectivity,
+            elements,
+            across,
         }
     }
 
-    /// Kind of the elements.
-    pub fn kind(&self) -> Quadrilateral {
-        self.kind
-    }
-
-    /// Coordinates (r, z) of the nodes \[m\].
-    pub fn nodes(&self) -> &[[f64; 2]] {
-        &self.nodes
-    }
-
-    /// Number of elements.
-    pub fn element_count(&self) -> usize {
-        self.connectivity.len() / self.kind.nodes()
-    }
-
-    /// Node indices of one element; none where there is no such element.
-    pub fn element(&self, element: usize) -> &[usize] {
-        self.elements().nth(element).unwrap_or_default()
-    }
-
-    /// All elements' node indices in turn.
-    pub fn elements(&self) -> impl Iterator<Item = &[usize]> {
-        self.connectivity.chunks_exact(self.kind.nodes())
-    }
-
-    /// Coordinates of one element's nodes; only the first `kind.nodes()` entries are meant.
-    pub fn element_nodes(&self, element: usize) -> [[f64; 2]; MAX_NODES] {
-        let mut coordinates = [[0.0; 2]; MAX_NODES];
-        for (slot, &node) in coordinates.iter_mut().zip(self.element(element)) {
-            *slot = self.nodes[node];
-        }
-        coordinates
+    /// Coordinates of one element's nodes \[m\].
+    pub(crate) fn corners(&self, element: usize) -> Corners {
+        self.elements[element].map(|node| self.nodes[node])
     }
 
     /// Number of degrees of freedom: two a node, (`u_r`, `u_z`).
-    pub fn dofs(&self) -> usize {
+    pub(crate) fn dofs(&self) -> usize {
         2 * self.nodes.len()
     }
 }
@@ -133,4 +71,46 @@ pub(crate) fn with_midpoints(lines: &[f64]) -> Vec<f64> {
     }
     out.extend(lines.last());
     out
+}
+
+/// Four distorted elements round one inner corner.
+#[cfg(test)]
+pub(crate) fn distorted() -> Mesh {
+    let corner = [
+        [1.0, 0.0],
+        [2.2, -0.1],
+        [3.0, 0.0],
+        [0.9, 1.2],
+        [1.8, 0.9],
+        [3.1, 1.1],
+        [1.0, 2.0],
+        [2.1, 2.2],
+        [3.0, 2.0],
+    ];
+    let mut nodes: Vec<[f64; 2]> = Vec::new();
+    let mut index = |point: [f64; 2]| {
+        nodes
+            .iter()
+            .position(|n| (n[0] - point[0]).hypot(n[1] - point[1]) < 1e-9)
+            .unwrap_or_else(|| {
+                nodes.push(point);
+                nodes.len() - 1
+            })
+    };
+    let middle = |points: &[[f64; 2]]| {
+        let n = points.len() as f64;
+        [0, 1].map(|c| points.iter().map(|p| p[c]).sum::<f64>() / n)
+    };
+    let elements = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| {
+        let c = [i + 3 * j, i + 1 + 3 * j, i + 4 + 3 * j, i + 3 + 3 * j].map(|k| corner[k]);
+        let sides: [[f64; 2]; 4] = std::array::from_fn(|k| middle(&[c[k], c[(k + 1) % 4]]));
+        let points = c.into_iter().chain(sides).chain([middle(&c)]);
+        let list: Vec<usize> = points.map(&mut index).collect();
+        std::array::from_fn(|k| list[k])
+    });
+    Mesh {
+        nodes,
+        elements: elements.to_vec(),
+        across: 2,
+    }
 }

@@ -11,7 +11,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use ground_field::{Displacement, GroundError, GroundField, SoilProfile, SurfaceLoad};
+use ground_field::{Displacement, GroundError, GroundField, SoilProfile, SurfaceLoad, check_place};
 
 use crate::FemError;
 use crate::grading::Lines;
@@ -145,7 +145,7 @@ impl LayeredFem {
     ///
     /// As for [`GroundField::displacement`].
     pub fn error_estimate(&self, load: SurfaceLoad, depth: f64) -> Result<ErrorEstimate, GroundError> {
-        check("depth", depth)?;
+        check_place(0.0, depth)?;
         Ok(self.answer(load.contact_radius(), depth)?.estimate)
     }
 
@@ -153,11 +153,9 @@ impl LayeredFem {
     pub fn statistics(&self) -> FemStatistics {
         let meshes = self.meshes();
         let (coarse, fine) = (&meshes.coarse.level, &meshes.fine.level);
-        let size = fine.size();
         FemStatistics {
-            unknowns: size.unknowns,
-            matrix_entries: size.matrix_entries,
-            factor_entries: size.factor_entries,
+            unknowns: fine.unknowns(),
+            factor_entries: fine.factor_entries(),
             factorisations: meshes.factorisations,
             solves: coarse.solves() + fine.solves(),
             bytes: coarse.bytes() + fine.bytes(),
@@ -228,8 +226,7 @@ impl LayeredFem {
 
 impl GroundField for LayeredFem {
     fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
-        check("radius", radius)?;
-        check("depth", depth)?;
+        check_place(radius, depth)?;
         let answer = self.answer(load.contact_radius(), depth)?;
         evaluate(&answer.line, load, radius, depth)
     }
@@ -240,7 +237,7 @@ impl GroundField for LayeredFem {
         radii: &[f64],
         depth: f64,
     ) -> Result<Vec<Displacement>, GroundError> {
-        check("depth", depth)?;
+        check_place(0.0, depth)?;
         let answer = self.answer(load.contact_radius(), depth)?;
         radii
             .iter()
@@ -254,7 +251,7 @@ impl Step {
         let lines = Lines::new(profile, alpha, parts, options.max_unknowns())?;
         Ok(Self {
             parts,
-            level: Level::new(profile, options.element(), options.rounding(), lines)?,
+            level: Level::new(profile, options.rounding(), lines)?,
         })
     }
 }
@@ -309,7 +306,7 @@ fn evaluate(
     radius: f64,
     depth: f64,
 ) -> Result<Displacement, GroundError> {
-    check("radius", radius)?;
+    check_place(radius, depth)?;
     let value = line.at(radius) * load.force();
     if value.is_finite() {
         return Ok(value);
@@ -319,18 +316,6 @@ fn evaluate(
         radius,
         depth,
     })
-}
-
-fn check(name: &'static str, value: f64) -> Result<(), GroundError> {
-    if value.is_finite() && value >= 0.0 {
-        Ok(())
-    } else {
-        Err(GroundError::InvalidParameter {
-            name,
-            value,
-            allowed: "finite and not negative",
-        })
-    }
 }
 
 fn in_model(error: FemError) -> GroundError {

@@ -1,12 +1,8 @@
 //! What is asked of the solver, and what it reports about itself.
 
-use ground_field::GroundError;
+use ground_field::{GroundError, checked};
 
-use crate::element::Quadrilateral;
-use crate::system::LARGEST_CHANGE;
-
-/// Loosest and tightest accuracy that can be asked.
-const ACCURACY_ALLOWED: &str = "between 1e-6 and 0.1";
+use crate::system::LEAST_CHANGE;
 
 /// Accuracy and limits of a [`crate::LayeredFem`].
 ///
@@ -22,7 +18,6 @@ const ACCURACY_ALLOWED: &str = "between 1e-6 and 0.1";
 pub struct FemOptions {
     accuracy: f64,
     max_unknowns: usize,
-    element: Quadrilateral,
 }
 
 impl FemOptions {
@@ -36,19 +31,12 @@ impl FemOptions {
     ///
     /// [`GroundError::InvalidParameter`] unless it lies between 1e-6 and 0.1.
     pub fn new(accuracy: f64) -> Result<Self, GroundError> {
-        if (1e-6..=0.1).contains(&accuracy) {
-            Ok(Self {
-                accuracy,
-                max_unknowns: Self::DEFAULT_MAX_UNKNOWNS,
-                element: Quadrilateral::Quadratic9,
-            })
-        } else {
-            Err(GroundError::InvalidParameter {
-                name: "accuracy",
-                value: accuracy,
-                allowed: ACCURACY_ALLOWED,
-            })
-        }
+        Ok(Self {
+            accuracy: checked("accuracy", accuracy, "between 1e-6 and 0.1", |v| {
+                (1e-6..=0.1).contains(&v)
+            })?,
+            max_unknowns: Self::DEFAULT_MAX_UNKNOWNS,
+        })
     }
 
     /// Most unknowns that can be allowed: some hundred gigabytes.
@@ -62,14 +50,6 @@ impl FemOptions {
         self
     }
 
-    /// The same with another kind of element on the same nodes: the order of the method. Quadratic elements, the default, are
-    /// cheaper at every accuracy; linear ones are there to be compared with.
-    #[must_use]
-    pub fn with_element(mut self, element: Quadrilateral) -> Self {
-        self.element = element;
-        self
-    }
-
     /// Asked error, as a share of the peak at a depth.
     pub fn accuracy(self) -> f64 {
         self.accuracy
@@ -78,12 +58,7 @@ impl FemOptions {
     /// How much of a solution a last correction may still change: rounding, a thousandth of the accuracy. Where λ is large beside a
     /// stiff layer rounding is felt long before it matters.
     pub(crate) fn rounding(self) -> f64 {
-        (1e-3 * self.accuracy).max(LARGEST_CHANGE)
-    }
-
-    /// Kind of the elements.
-    pub fn element(self) -> Quadrilateral {
-        self.element
+        (1e-3 * self.accuracy).max(LEAST_CHANGE)
     }
 
     /// Most unknowns a mesh may have.
@@ -94,6 +69,7 @@ impl FemOptions {
 
 /// Estimated error of a displacement at one depth, from the difference between two meshes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct ErrorEstimate {
     /// Largest error of `u_r` over all radii, as a share of the largest |`u_r`| at this depth.
     pub radial: f64,
@@ -117,18 +93,16 @@ impl ErrorEstimate {
 
 /// What a [`crate::LayeredFem`] has done so far and what it holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct FemStatistics {
     /// Unknowns of the finest mesh.
     pub unknowns: usize,
-    /// Entries of the lower triangle of its stiffness.
-    pub matrix_entries: usize,
     /// Entries of its Cholesky factor.
     pub factor_entries: usize,
     /// Meshes factored since construction.
     pub factorisations: usize,
     /// Loads solved on the meshes that are held.
     pub solves: usize,
-    /// Bytes held by the meshes, their matrices, factors and solutions; the factorisation itself needs about half as
-    /// much again while it runs.
+    /// Bytes held by the meshes, their matrices, factors and solutions.
     pub bytes: usize,
 }

@@ -1,265 +1,130 @@
-//! The assembled stiffness: sparse, factored once by Cholesky, solved for any number of loads.
-//!
-//! Prescribed degrees of freedom are eliminated; the free ones keep the order of the mesh, and faer's approximate minimum
-//! degree ordering reduces the fill. Only the lower triangle is stored.
+//! The stiffness of a mesh, factored once, solved for any number of loads.
 //!
 //! A factorisation of a nearly singular matrix may pass without an error, so every solution u is checked. The residual
 //! r = f − K u is solved for once more: K⁻¹r is both a correction and an estimate of the error that rounding has left in u.
-//! It is applied twice, and if the second is still more than [`LARGEST_CHANGE`] of u the solution is an error.
-
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering, factorize_symbolic_cholesky,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::{Conj, MatMut, Par, Side};
+//! It is applied twice, and if the second is still more than is allowed the solution is an error.
 
 use crate::FemError;
-use crate::element::{ElementMatrix, MAX_DOFS, Volumetric};
+use crate::dissection::{FIXED, Factor, dofs};
+use crate::element::{DOFS, ElementMatrix, stiffness};
 use crate::material::Elasticity;
 use crate::mesh::Mesh;
 
-/// Largest change K⁻¹(f − K u) of an accepted solution u, relative to it (largest components).
-pub const LARGEST_CHANGE: f64 = 1e-7;
+/// Least change K⁻¹(f − K u) of a solution u, relative to it (largest components), that may be asked for.
+pub(crate) const LEAST_CHANGE: f64 = 1e-7;
 /// Corrections applied to a solution.
 const CORRECTIONS: usize = 2;
 
-const FIXED: usize = usize::MAX;
-
 /// A factored stiffness matrix with some degrees of freedom prescribed.
 #[derive(Debug)]
-pub struct System {
-    /// Free unknown of each degree of freedom, or `FIXED`.
+pub(crate) struct System {
+    mesh: Mesh,
+    matrices: Vec<ElementMatrix>,
+    /// Number of each degree of freedom among the unknowns, or `FIXED`.
     unknown: Vec<usize>,
-    pattern: SymbolicSparseColMat<usize>,
-    values: Vec<f64>,
-    symbolic: SymbolicCholesky<usize>,
-    factor: Vec<f64>,
-}
-
-/// Size of a factored system.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SystemSize {
-    /// Unknowns after elimination of prescribed ones.
-    pub unknowns: usize,
-    /// Stored entries of the lower triangle of the stiffness.
-    pub matrix_entries: usize,
-    /// Stored entries of the Cholesky factor.
-    pub factor_entries: usize,
+    unknowns: usize,
+    factor: Factor,
 }
 
 impl System {
-    /// Assembles and factors the stiffness of `mesh`.
-    ///
-    /// `prescribed` tells for each degree of freedom whether its displacement is given, `elasticity` the moduli in
-    /// element `e` at (r, z).
+    /// Factors the stiffness of `mesh`; `prescribed` says for each degree of freedom whether its displacement is given,
+    /// `elasticity` gives the moduli in element `e` at (r, z).
     ///
     /// # Errors
     ///
-    /// [`FemError::Length`], [`FemError::Degenerate`], or [`FemError::Factorisation`] where the mesh is not held or the
-    /// numbers do not suffice.
-    pub fn new(
-        mesh: &Mesh,
-        volumetric: Volumetric,
+    /// [`FemError::Degenerate`], or [`FemError::Factorisation`] where the mesh is not held or the numbers do not suffice.
+    pub(crate) fn new(
+        mesh: Mesh,
         prescribed: &[bool],
         elasticity: impl Fn(usize, f64, f64) -> Elasticity,
     ) -> Result<Self, FemError> {
-        check_length("prescribed", prescribed.len(), mesh.dofs())?;
-        let mut count = 0;
+        let mut unknowns = 0;
         let unknown: Vec<usize> = prescribed
             .iter()
             .map(|&fixed| {
                 if fixed {
                     return FIXED;
                 }
-                count += 1;
-                count - 1
+                unknowns += 1;
+                unknowns - 1
             })
             .collect();
-        let pattern = pattern(mesh, &unknown, count);
-        let mut values = vec![0.0; pattern.row_idx().len()];
-        for element in 0..mesh.element_count() {
-            let matrix =
-                mesh.kind()
-                    .stiffness(element, &mesh.element_nodes(element), volumetric, |r, z| {
-                        elasticity(element, r, z)
-                    })?;
-            scatter(mesh.element(element), &matrix, &unknown, &pattern, &mut values);
-        }
-        let failed = |reason| FemError::Factorisation {
-            unknowns: count,
-            reason,
-        };
-        let symbolic = factorize_symbolic_cholesky(
-            pattern.as_ref(),
-            Side::Lower,
-            SymmetricOrdering::Amd,
-            CholeskySymbolicParams::default(),
-        )
-        .map_err(|_| failed("the symbolic factorisation ran out of memory or indices"))?;
-        let mut factor = vec![0.0; symbolic.len_val()];
-        let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, faer::prelude::default());
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| failed("out of memory"))?;
-        symbolic
-            .factorize_numeric_llt(
-                &mut factor,
-                SparseColMatRef::new(pattern.as_ref(), &values),
-                Side::Lower,
-                LltRegularization::default(),
-                Par::Seq,
-                MemStack::new(&mut memory),
-                faer::prelude::default(),
-            )
-            .map_err(|_| failed("it is not positive definite"))?;
+        let matrices = (0..mesh.elements.len())
+            .map(|element| stiffness(&mesh.corners(element), |r, z| elasticity(element, r, z)))
+            .collect::<Result<Vec<_>, _>>()?;
+        let factor = Factor::new(&mesh, &matrices, &unknown).ok_or(FemError::Factorisation { unknowns })?;
         Ok(Self {
+            mesh,
+            matrices,
             unknown,
-            pattern,
-            values,
-            symbolic,
+            unknowns,
             factor,
         })
     }
 
-    /// Size of the system.
-    pub fn size(&self) -> SystemSize {
-        SystemSize {
-            unknowns: self.pattern.ncols(),
-            matrix_entries: self.values.len(),
-            factor_entries: self.factor.len(),
-        }
+    pub(crate) fn mesh(&self) -> &Mesh {
+        &self.mesh
     }
 
-    /// Displacements at all degrees of freedom under `force` (per radian), with the prescribed ones taken from
-    /// `displacement`, whose other entries are ignored.
-    ///
-    /// `force` must already contain −K u of the prescribed displacements; see [`prescribed_force`].
+    /// Unknowns after elimination of prescribed degrees of freedom.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.unknowns
+    }
+
+    /// Entries of the Cholesky factor.
+    pub(crate) fn factor_entries(&self) -> usize {
+        self.factor.entries()
+    }
+
+    /// Displacements at all degrees of freedom under `force` (per radian), where the prescribed ones have the values in `given`,
+    /// which is zero elsewhere. A last correction may change them by `allowed` of themselves.
     ///
     /// # Errors
     ///
-    /// [`FemError::Length`] or [`FemError::Inaccurate`].
-    pub fn solve(&self, force: &[f64], displacement: &[f64]) -> Result<Vec<f64>, FemError> {
-        self.solve_within(force, displacement, LARGEST_CHANGE)
-    }
-
-    /// The same with another limit in the place of [`LARGEST_CHANGE`].
-    ///
-    /// # Errors
-    ///
-    /// As for [`System::solve`].
-    pub fn solve_within(
-        &self,
-        force: &[f64],
-        displacement: &[f64],
-        allowed: f64,
-    ) -> Result<Vec<f64>, FemError> {
-        check_length("force", force.len(), self.unknown.len())?;
-        check_length("displacement", displacement.len(), self.unknown.len())?;
-        let mut right = vec![0.0; self.pattern.ncols()];
-        for (&unknown, &value) in self.unknown.iter().zip(force) {
-            if unknown != FIXED {
-                right[unknown] = value;
-            }
-        }
-        let mut solution = right.clone();
-        self.back_substitute(&mut solution);
+    /// [`FemError::Inaccurate`].
+    pub(crate) fn solve(&self, force: &[f64], given: &[f64], allowed: f64) -> Result<Vec<f64>, FemError> {
+        let mut displacement = given.to_vec();
         let mut change = 0.0;
-        for _ in 0..CORRECTIONS {
-            let mut correction = self.residual(&solution, &right);
-            self.back_substitute(&mut correction);
-            for (value, change) in solution.iter_mut().zip(&correction) {
-                *value += change;
+        for _ in 0..=CORRECTIONS {
+            let mut correction = vec![0.0; self.unknowns];
+            let free = || {
+                self.unknown
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, unknown)| **unknown != FIXED)
+            };
+            let residual = self.residual(force, &displacement);
+            for (dof, &unknown) in free() {
+                correction[unknown] = residual[dof];
             }
-            change = largest(&correction) / largest(&solution).max(f64::MIN_POSITIVE);
-        }
-        if change.is_nan() || change > allowed {
-            return Err(FemError::Inaccurate { change, allowed });
-        }
-        let mut out = displacement.to_vec();
-        for (value, &unknown) in out.iter_mut().zip(&self.unknown) {
-            if unknown != FIXED {
-                *value = solution[unknown];
+            self.factor.solve(&mut correction);
+            for (dof, &unknown) in free() {
+                displacement[dof] += correction[unknown];
             }
+            change = largest(&correction) / largest(&displacement).max(f64::MIN_POSITIVE);
         }
-        Ok(out)
-    }
-
-    fn back_substitute(&self, right: &mut [f64]) {
-        let rows = right.len();
-        let scratch = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
-        let mut memory = MemBuffer::new(scratch);
-        LltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(right, rows, 1),
-            Par::Seq,
-            MemStack::new(&mut memory),
-        );
+        if change <= allowed {
+            Ok(displacement)
+        } else {
+            Err(FemError::Inaccurate { change, allowed })
+        }
     }
 
     /// f − K u.
-    fn residual(&self, solution: &[f64], right: &[f64]) -> Vec<f64> {
-        let mut residual = right.to_vec();
-        for column in 0..self.pattern.ncols() {
-            for k in self.pattern.col_range(column) {
-                let row = self.pattern.row_idx()[k];
-                residual[row] -= self.values[k] * solution[column];
-                if row != column {
-                    residual[column] -= self.values[k] * solution[row];
-                }
+    fn residual(&self, force: &[f64], displacement: &[f64]) -> Vec<f64> {
+        let mut residual = force.to_vec();
+        for (element, nodes) in self.mesh.elements.iter().enumerate() {
+            for (dof, value) in dofs(nodes).into_iter().zip(self.reaction(element, displacement)) {
+                residual[dof] -= value;
             }
         }
         residual
     }
-}
 
-/// The force −K u of prescribed displacements `displacement` (zero where free), over all degrees of freedom; only
-/// elements for which `touches` holds are looked at.
-///
-/// # Errors
-///
-/// [`FemError::Length`] or [`FemError::Degenerate`].
-pub fn prescribed_force(
-    mesh: &Mesh,
-    volumetric: Volumetric,
-    displacement: &[f64],
-    touches: impl Fn(usize) -> bool,
-    elasticity: impl Fn(usize, f64, f64) -> Elasticity,
-) -> Result<Vec<f64>, FemError> {
-    check_length("displacement", displacement.len(), mesh.dofs())?;
-    let mut force = vec![0.0; mesh.dofs()];
-    for element in (0..mesh.element_count()).filter(|&e| touches(e)) {
-        let matrix = mesh
-            .kind()
-            .stiffness(element, &mesh.element_nodes(element), volumetric, |r, z| {
-                elasticity(element, r, z)
-            })?;
-        let nodes = mesh.element(element);
-        for (a, &node) in nodes.iter().enumerate() {
-            for c in 0..2 {
-                let product: f64 = nodes
-                    .iter()
-                    .enumerate()
-                    .map(|(b, &other)| {
-                        let row = &matrix[2 * a + c];
-                        row[2 * b] * displacement[2 * other] + row[2 * b + 1] * displacement[2 * other + 1]
-                    })
-                    .sum();
-                force[2 * node + c] -= product;
-            }
-        }
-    }
-    Ok(force)
-}
-
-fn check_length(name: &'static str, given: usize, expected: usize) -> Result<(), FemError> {
-    if given == expected {
-        Ok(())
-    } else {
-        Err(FemError::Length {
-            name,
-            given,
-            expected,
-        })
+    /// K u of one element.
+    pub(crate) fn reaction(&self, element: usize, displacement: &[f64]) -> [f64; DOFS] {
+        let local = dofs(&self.mesh.elements[element]).map(|dof| displacement[dof]);
+        self.matrices[element].map(|row| row.iter().zip(&local).map(|(k, u)| k * u).sum())
     }
 }
 
@@ -274,61 +139,186 @@ fn largest(values: &[f64]) -> f64 {
     })
 }
 
-/// Lower triangle of the couplings between unknowns that share an element.
-fn pattern(mesh: &Mesh, unknown: &[usize], count: usize) -> SymbolicSparseColMat<usize> {
-    let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); mesh.nodes().len()];
-    for nodes in mesh.elements() {
-        for &node in nodes {
-            // Only later nodes: the unknowns are numbered along the nodes.
-            neighbours[node].extend(nodes.iter().copied().filter(|&other| other >= node));
-        }
-    }
-    let mut col_ptr = Vec::with_capacity(count + 1);
-    let mut row_idx = Vec::new();
-    col_ptr.push(0);
-    for (node, list) in neighbours.iter_mut().enumerate() {
-        list.sort_unstable();
-        list.dedup();
-        for component in 0..2 {
-            let column = unknown[2 * node + component];
-            if column == FIXED {
-                continue;
-            }
-            let rows = list
-                .iter()
-                .flat_map(|&other| [unknown[2 * other], unknown[2 * other + 1]]);
-            row_idx.extend(rows.filter(|&row| row != FIXED && row >= column));
-            col_ptr.push(row_idx.len());
-        }
-    }
-    SymbolicSparseColMat::new_checked(count, count, col_ptr, None, row_idx)
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::distorted;
+    use ground_field::Soil;
 
-/// Adds an element's matrix to the lower triangle.
-fn scatter(
-    nodes: &[usize],
-    matrix: &ElementMatrix,
-    unknown: &[usize],
-    pattern: &SymbolicSparseColMat<usize>,
-    values: &mut [f64],
-) {
-    let mut places = [FIXED; MAX_DOFS];
-    for (k, &node) in nodes.iter().enumerate() {
-        places[2 * k] = unknown[2 * node];
-        places[2 * k + 1] = unknown[2 * node + 1];
+    fn soil(young_modulus: f64, poisson_ratio: f64) -> Elasticity {
+        Elasticity::new(Soil::new(young_modulus, poisson_ratio).unwrap())
     }
-    let places = &places[..2 * nodes.len()];
-    for (b, &column) in places.iter().enumerate().filter(|&(_, &column)| column != FIXED) {
-        let range = pattern.col_range(column);
-        let start = range.start;
-        let rows = &pattern.row_idx()[range];
-        for (a, &row) in places.iter().enumerate() {
-            if row != FIXED
-                && row >= column
-                && let Ok(found) = rows.binary_search(&row)
-            {
-                values[start + found] += matrix[a][b];
+
+    #[test]
+    fn patch_test_on_distorted_elements() {
+        // A state of constant strain in axisymmetry: u_r = a r, u_z = b z + c.
+        let exact = |[r, z]: [f64; 2]| [0.3 * r, -0.7 * z + 0.2];
+        let mesh = distorted();
+        let inside = |[r, z]: [f64; 2]| r > 1.01 && r < 2.99 && z > 0.05 && z < 1.95;
+        // The outer sides are bent, so the free nodes are known by their elements: those shared by all four or by two.
+        let shared = |node: usize| mesh.elements.iter().filter(|list| list.contains(&node)).count() > 1;
+        let free = |node: usize| {
+            shared(node) && inside(mesh.nodes[node]) || mesh.elements.iter().any(|list| list[8] == node)
+        };
+        let fixed: Vec<bool> = (0..mesh.nodes.len()).flat_map(|node| [!free(node); 2]).collect();
+        let displacement: Vec<f64> = mesh
+            .nodes
+            .iter()
+            .zip(fixed.chunks_exact(2))
+            .flat_map(|(&node, fixed)| if fixed[0] { exact(node) } else { [0.0; 2] })
+            .collect();
+        assert!(fixed.iter().filter(|&&f| !f).count() >= 10);
+        let system = System::new(mesh, &fixed, |_, _, _| soil(10.0, 0.3)).unwrap();
+        let force = vec![0.0; displacement.len()];
+        let found = system.solve(&force, &displacement, LEAST_CHANGE).unwrap();
+        for (u, &node) in found.chunks_exact(2).zip(&system.mesh.nodes) {
+            let truth = exact(node);
+            assert!(
+                (u[0] - truth[0]).abs() < 1e-13 && (u[1] - truth[1]).abs() < 1e-13,
+                "{u:?} {truth:?}"
+            );
+        }
+    }
+
+    /// Whether a symmetric matrix is positive definite, by elimination.
+    fn positive_definite(mut matrix: ElementMatrix) -> bool {
+        for p in 0..DOFS {
+            if matrix[p][p] <= 1e-9 {
+                return false;
             }
+            let pivot = matrix[p];
+            for row in &mut matrix[p + 1..] {
+                let factor = row[p] / pivot[p];
+                for (value, other) in row[p..].iter_mut().zip(&pivot[p..]) {
+                    *value -= factor * other;
+                }
+            }
+        }
+        true
+    }
+
+    #[test]
+    fn vertical_translation_is_the_only_rigid_mode() {
+        for element in [0, 3] {
+            let mut matrix = stiffness(&distorted().corners(element), |_, _| soil(1.0, 0.3)).unwrap();
+            for row in &matrix {
+                let force: f64 = row.iter().skip(1).step_by(2).sum();
+                assert!(force.abs() < 1e-14, "{force}");
+            }
+            assert!(!positive_definite(matrix));
+            // With that mode made stiff nothing soft remains.
+            for row in matrix.iter_mut().skip(1).step_by(2) {
+                for value in row.iter_mut().skip(1).step_by(2) {
+                    *value += 1.0;
+                }
+            }
+            assert!(positive_definite(matrix), "a spurious mode");
+        }
+    }
+
+    /// Largest nodal error, relative to the largest displacement, with the exact field prescribed on the whole boundary of n × n
+    /// elements.
+    fn boundary_value_error(n: usize, nu: f64) -> f64 {
+        // A point load on a half-space, away from its singular point (K. L. Johnson, Contact Mechanics, eq. 3.18).
+        let exact = |[r, z]: [f64; 2]| {
+            let d = r.hypot(z);
+            [
+                r * z / d.powi(3) - (1.0 - 2.0 * nu) * r / (d * (d + z)),
+                z * z / d.powi(3) + 2.0 * (1.0 - nu) / d,
+            ]
+        };
+        let (r, z) = ((0.0, 1.5), (0.5, 2.0));
+        let lines = |(from, to): (f64, f64)| -> Vec<f64> {
+            (0..=n)
+                .map(|k| from + (to - from) * k as f64 / n as f64)
+                .collect()
+        };
+        let mesh = Mesh::rectangular(&lines(r), &lines(z));
+        let edge = |[a, b]: [f64; 2]| a == r.0 || a == r.1 || b == z.0 || b == z.1;
+        let fixed: Vec<bool> = mesh
+            .nodes
+            .iter()
+            .flat_map(|&node| {
+                [
+                    edge(node),
+                    edge(node) && node[0] != r.0 || node[1] == z.0 || node[1] == z.1,
+                ]
+            })
+            .collect();
+        let given = |(&node, fixed): (&[f64; 2], &[bool])| {
+            let u = exact(node);
+            [0, 1].map(|c| if fixed[c] { u[c] } else { 0.0 })
+        };
+        let displacement: Vec<f64> = mesh
+            .nodes
+            .iter()
+            .zip(fixed.chunks_exact(2))
+            .flat_map(given)
+            .collect();
+        let system = System::new(mesh, &fixed, |_, _, _| soil(1.0, nu)).unwrap();
+        let force = vec![0.0; displacement.len()];
+        let found = system.solve(&force, &displacement, LEAST_CHANGE).unwrap();
+        let errors = found.chunks_exact(2).zip(&system.mesh.nodes).map(|(u, &node)| {
+            let truth = exact(node);
+            (u[0] - truth[0]).abs().max((u[1] - truth[1]).abs())
+        });
+        errors.fold(0.0, f64::max) / exact([0.0, 0.5])[1]
+    }
+
+    #[test]
+    fn observed_order_of_convergence() {
+        let errors = [8, 16, 32, 64].map(|n| boundary_value_error(n, 0.35));
+        for pair in errors.windows(2).skip(1) {
+            let order = (pair[0] / pair[1]).log2();
+            assert!(order > 2.8, "order {order} of {errors:?}");
+        }
+    }
+
+    #[test]
+    fn nothing_locks_near_incompressibility() {
+        let compressible = boundary_value_error(12, 0.3);
+        for nu in [0.49, 0.499, 0.4999, 0.49999] {
+            let found = boundary_value_error(12, nu);
+            assert!(
+                found < 2.0 * compressible,
+                "ν = {nu}: {found:.1e} against {compressible:.1e} at 0.3"
+            );
+        }
+    }
+
+    #[test]
+    fn what_cannot_be_solved_is_an_error() {
+        let lines = [0.0, 1.0];
+        let square = Mesh::rectangular(&lines, &lines);
+        let mut clockwise = square.clone();
+        for node in &mut clockwise.nodes {
+            node.swap(0, 1);
+        }
+        assert!(matches!(
+            System::new(clockwise, &[false; 18], |_, _, _| soil(1.0, 0.3)),
+            Err(FemError::Degenerate { .. })
+        ));
+        let no_number = |_: usize, _: f64, _: f64| Elasticity {
+            shear: f64::NAN,
+            lame: 1.0,
+        };
+        assert!(System::new(square.clone(), &[false; 18], no_number).is_err());
+        // Nothing holds it up: either the factorisation fails or the residual shows it.
+        let system = System::new(square.clone(), &[false; 18], |_, _, _| soil(1.0, 0.3));
+        let mut force = [0.0; 18];
+        force[1] = 1.0;
+        assert!(
+            system
+                .and_then(|system| system.solve(&force, &[0.0; 18], LEAST_CHANGE))
+                .is_err()
+        );
+        // All of it held, or no element at all: nothing is left to solve.
+        let system = System::new(square, &[true; 18], |_, _, _| soil(1.0, 0.3)).unwrap();
+        assert_eq!(system.solve(&force, &[1.0; 18], LEAST_CHANGE), Ok(vec![1.0; 18]));
+        for lines in [&[][..], &[0.0]] {
+            let mesh = Mesh::rectangular(lines, &[0.0, 1.0]);
+            let held = vec![true; mesh.dofs()];
+            assert!(System::new(mesh, &held, |_, _, _| soil(1.0, 0.3)).is_ok());
         }
     }
 }

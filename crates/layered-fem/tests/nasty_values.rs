@@ -1,10 +1,6 @@
 //! Nothing that can be given to the public interface makes it panic or hang: an answer that is finite, or an error.
 
 use ground_field::{Base, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad};
-use layered_fem::element::{Quadrilateral, Volumetric};
-use layered_fem::material::Elasticity;
-use layered_fem::mesh::Mesh;
-use layered_fem::system::{System, prescribed_force};
 use layered_fem::{FemOptions, LayeredFem};
 
 /// Everything a float can be.
@@ -100,56 +96,5 @@ fn options_are_taken_or_refused() {
         let layer = SoilLayer::uniform(f64::MAX, soil).expect("a layer");
         let endless = SoilProfile::new(vec![layer; 2], Base::HalfSpace(soil)).expect("a profile");
         assert!(LayeredFem::with_options(&endless, options).is_err());
-    }
-}
-
-#[test]
-fn meshes_and_systems_are_made_or_refused() {
-    let elasticity = |_: usize, _: f64, _: f64| Elasticity::new(1e7, 0.3);
-    for kind in [Quadrilateral::Linear4, Quadrilateral::Quadratic9] {
-        let lines: [&[f64]; 6] = [
-            &[],
-            &[0.0],
-            &[0.0, 1.0],
-            &[1.0, 0.0],
-            &[0.0, f64::NAN, 1.0],
-            &[0.0, 1.0, 2.0],
-        ];
-        for radii in lines {
-            for depths in lines {
-                let mesh = Mesh::rectangular(kind, radii, depths);
-                assert!(mesh.element(usize::MAX).is_empty());
-                let _ = (
-                    mesh.element_nodes(usize::MAX),
-                    mesh.element_count(),
-                    mesh.elements().count(),
-                );
-                for count in [0, 1, mesh.dofs()] {
-                    let held: Vec<bool> = (0..count).map(|k| k % 3 == 0).collect();
-                    let numbers = vec![1.0; count];
-                    let _ = prescribed_force(&mesh, Volumetric::Projected, &numbers, |_| true, elasticity);
-                    if let Ok(system) = System::new(&mesh, Volumetric::Full, &held, elasticity) {
-                        let _ = (
-                            system.size(),
-                            system.solve(&numbers, &numbers),
-                            system.solve(&[], &[1.0]),
-                        );
-                        let _ = system.solve_within(&numbers, &numbers, f64::NAN);
-                    }
-                }
-            }
-        }
-        assert!(Mesh::new(kind, Vec::new(), &[]).is_ok_and(|mesh| mesh.element_count() == 0));
-        assert!(Mesh::new(kind, Vec::new(), &[vec![0; kind.nodes()]]).is_err());
-        for value in NASTY {
-            let _ = kind.shape(&[[value, 1.0]; 9], value, value);
-            let _ = kind.strain(&[], &[value], value, 0.0);
-            let material = Elasticity::new(value, value);
-            let _ = material.stress([value; 4]);
-            assert!(
-                kind.stiffness(0, &[[value, 0.0]], Volumetric::Projected, |_, _| material)
-                    .is_err()
-            );
-        }
     }
 }

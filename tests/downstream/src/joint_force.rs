@@ -1,6 +1,6 @@
 //! Force on a joint as a model to be calibrated: friction and stiffness of the ground in, forces after listed passes out.
 
-use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
+use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, QuasiStatic};
 use calibrate::{Model, ModelError};
 use ground_field::{DuctLine, DuctMotion, Vehicle};
 
@@ -49,11 +49,10 @@ impl JointForce {
         let shape_factor = 2.0 * SHEAR_STIFFNESS / limit;
         let friction = Friction::new(FrictionLaw::ElasticPlastic { shape_factor }, limit)?;
         let cable = DuctedCable::new(LENGTH, AXIAL_STIFFNESS, friction)?.with_ends(End::Free, End::Fixed)?;
-        let mesh = Mesh::new(LENGTH, 0.2, 0.1)?;
         let motion = self.motion.clone().scaled(1.0 / stiffness)?;
-        let passage = Passage::new(&cable, &mesh, &motion, APPROACH)?;
-        let mut solver = QuasiStatic::new(cable, mesh)?;
-        let mut state = CableState::at_rest(&mesh);
+        let mut solver = QuasiStatic::new(cable, Mesh::for_depth(LENGTH, DEPTH, 6.0)?)?;
+        let passage = solver.passage(&motion, APPROACH)?;
+        let mut state = solver.at_rest();
         let mut forces = Vec::new();
         for pass in 1..=self.passes.last().copied().unwrap_or(0) {
             let outcome = solver.pass(&passage, &mut state)?;

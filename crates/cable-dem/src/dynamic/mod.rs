@@ -20,6 +20,8 @@
 mod history;
 mod prediction;
 
+use ground_field::DuctMotion;
+
 use crate::outcome::Recorder;
 use crate::transient::{
     Departed, EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, SigmoidSolver, StepSolver,
@@ -95,6 +97,21 @@ impl Dynamic {
 
     fn steps(&self, duct: &MovingDuct) -> f64 {
         duct.steps(self.lumped.mesh.vehicle_step() / duct.speed())
+    }
+
+    /// The cable as laid.
+    pub fn at_rest(&self) -> CableState {
+        CableState::at_rest(&self.lumped.mesh)
+    }
+
+    /// The passage of a vehicle whose duct motion is `motion`, followed from `approach` \[m\] before the duct to `approach` past it
+    /// ([`crate::approach`] says how far that has to be).
+    ///
+    /// # Errors
+    ///
+    /// As for [`MovingDuct::new`].
+    pub fn passage(&self, motion: &DuctMotion, approach: f64) -> Result<MovingDuct, CableError> {
+        MovingDuct::new(&self.lumped.cable, &self.lumped.mesh, motion, approach)
     }
 
     /// Lets one vehicle pass and carries `state` on. When it fails, `state` is as it was.

@@ -22,6 +22,8 @@ mod tanh;
 
 pub use limits::{StepLimit, StepLimits};
 
+use ground_field::DuctMotion;
+
 use crate::error::checked;
 use crate::outcome::Recorder;
 use crate::transient::{Departed, EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, TransientOutcome};
@@ -143,6 +145,21 @@ impl Explicit {
         let advance = self.lumped.mesh.vehicle_step() / duct.speed();
         let longest = self.limits.advised().min(advance);
         duct.steps(self.options.time_step.unwrap_or(longest))
+    }
+
+    /// The cable as laid.
+    pub fn at_rest(&self) -> CableState {
+        CableState::at_rest(&self.lumped.mesh)
+    }
+
+    /// The passage of a vehicle whose duct motion is `motion`, followed from `approach` \[m\] before the duct to `approach` past it
+    /// ([`crate::approach`] says how far that has to be).
+    ///
+    /// # Errors
+    ///
+    /// As for [`MovingDuct::new`].
+    pub fn passage(&self, motion: &DuctMotion, approach: f64) -> Result<MovingDuct, CableError> {
+        MovingDuct::new(&self.lumped.cable, &self.lumped.mesh, motion, approach)
     }
 
     /// Lets one vehicle pass and carries `state` on. When it fails, `state` is as it was.

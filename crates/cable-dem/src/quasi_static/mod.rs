@@ -31,7 +31,7 @@ pub(crate) use chain::{Chain, Contact, Load, Stretch, Tolerance, Trial};
 pub(crate) use exact::contacts;
 pub(crate) use support::Support;
 
-use ground_field::Direction;
+use ground_field::{Direction, DuctMotion};
 
 use crate::outcome::Recorder;
 use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
@@ -67,12 +67,7 @@ impl QuasiStatic {
                 reason: "its friction depends on the time step and fades at rest",
             });
         }
-        crate::error::checked(
-            "mesh length",
-            mesh.spacing() * mesh.elements() as f64,
-            "the cable's length",
-            |v| (v / cable.length() - 1.0).abs() < 1e-9,
-        )?;
+        mesh.check_length(&cable)?;
         Ok(Self {
             forward: Sweeper::new(&cable, &mesh),
             reverse: None,
@@ -99,6 +94,21 @@ impl QuasiStatic {
     /// The cable.
     pub fn cable(&self) -> &DuctedCable {
         &self.cable
+    }
+
+    /// The cable as laid.
+    pub fn at_rest(&self) -> CableState {
+        CableState::at_rest(&self.mesh)
+    }
+
+    /// The passage of a vehicle whose duct motion is `motion`, followed from `approach` \[m\] before the duct to `approach` past it
+    /// ([`crate::approach`] says how far that has to be).
+    ///
+    /// # Errors
+    ///
+    /// As for [`Passage::new`].
+    pub fn passage(&self, motion: &DuctMotion, approach: f64) -> Result<Passage, CableError> {
+        Passage::new(&self.cable, &self.mesh, motion, approach)
     }
 
     /// Lets one vehicle pass and carries `state` on. When it fails, `state` is as it was.
@@ -130,7 +140,7 @@ impl QuasiStatic {
         if self.cable.friction().limit() == 0.0 {
             // Nothing drags the cable, and what held it is gone.
             state.release(&self.cable);
-            return Ok(self.outcome(state, Recorder::new(state.ends(&self.cable, &self.mesh))));
+            return Ok(self.outcome(state, Recorder::new(state.ends(&self.cable))));
         }
         self.check_precision(passage, state)?;
         let mirrored = passage.direction() == Direction::Reverse;
@@ -163,8 +173,8 @@ impl QuasiStatic {
     }
 
     fn outcome(&self, state: &CableState, recorder: Recorder) -> PassOutcome {
-        let force = state.ends(&self.cable, &self.mesh);
-        recorder.outcome(&self.cable, &self.mesh, state, force)
+        let force = state.ends(&self.cable);
+        recorder.outcome(&self.cable, state, force)
     }
 
     /// Rounding of k (2 u_i − u_{i−1} − u_{i+1}) beside the friction on one element.

@@ -19,8 +19,7 @@ use ground_field::{Direction, DuctMotion};
 
 use super::schedule::schedule;
 use super::window::NEGLIGIBLE;
-use crate::course::as_driven;
-use crate::error::checked;
+use crate::course::{Course, as_driven};
 use crate::{CableError, DuctedCable, Friction, Mesh};
 
 static NEXT_ID: AtomicU64 = AtomicU64::new(0);
@@ -87,12 +86,8 @@ impl Passage {
         motion: &DuctMotion,
         approach: f64,
     ) -> Result<Self, CableError> {
-        checked("approach", approach, "positive and at most 1e5 m", |v| {
-            v > 0.0 && v <= 1e5
-        })?;
         // The solver always drives forward; reverse traffic is its mirror image.
-        let (direction, shape) = as_driven(motion, mesh, approach)?;
-        Self::from_shape(cable, mesh, direction, shape, approach)
+        Self::on_course(cable, mesh, &as_driven(motion, mesh, approach)?)
     }
 
     /// The passage of a travelling longitudinal displacement `shape`(ξ) \[m\], ξ positive ahead of the vehicle and the
@@ -110,28 +105,24 @@ impl Passage {
         shape: impl Fn(f64) -> f64,
         approach: f64,
     ) -> Result<Self, CableError> {
-        checked("approach", approach, "positive and at most 1e5 m", |v| {
-            v > 0.0 && v <= 1e5
-        })?;
+        Self::on_course(cable, mesh, &Course::new(direction, shape, approach)?)
+    }
+
+    fn on_course(
+        cable: &DuctedCable,
+        mesh: &Mesh,
+        course: &Course<impl Fn(f64) -> f64>,
+    ) -> Result<Self, CableError> {
         let step = mesh.lattice_step();
         let limit = NEGLIGIBLE * cable.friction().limit();
         let m = mesh.phases() as i64;
         let (end, stride) = (mesh.elements() as i64 * m, mesh.stride() as i64);
-        let approach = (approach / mesh.vehicle_step()).ceil() as i64 * stride;
+        let approach = (course.approach / mesh.vehicle_step()).ceil() as i64 * stride;
 
         // Every ξ-index that a node, or the neighbour outside an end, can have; whole phases on both sides.
         let behind = ((end + stride + approach) / m + 3) * m;
         let ahead = (approach / m + mesh.elements() as i64 + 3) * m;
-        let shape = (-behind..ahead)
-            .map(|j| {
-                checked(
-                    "displacement of the duct",
-                    shape(step * j as f64),
-                    "finite",
-                    |_| true,
-                )
-            })
-            .collect::<Result<Vec<f64>, _>>()?;
+        let shape = course.tabulate(-behind..ahead, step)?;
         let positions = schedule(&shape, behind as usize, end, approach, stride);
         let compliance = cable.friction().compliance();
         let stiffness = cable.axial_stiffness() / mesh.spacing();
@@ -162,7 +153,7 @@ impl Passage {
             mesh: *mesh,
             axial_stiffness: cable.axial_stiffness(),
             friction: cable.friction(),
-            direction,
+            direction: course.direction,
             phases,
             behind: behind as usize,
             positions,

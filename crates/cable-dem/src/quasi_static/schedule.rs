@@ -13,10 +13,10 @@
 //!
 //! for a stride s, than a step does where the bend is sharpest: from there a vehicle is followed to 300 m in some thirty steps.
 
+use crate::approach::SETTLED;
+
 /// Ratio of a stride to its distance from the duct at most.
 const LONGEST: f64 = 0.5;
-/// How far beyond the last turn, as a multiple of its distance, the order of slopes has settled.
-const SETTLED: f64 = 1.5;
 /// Share of the largest displacement by which the duct has to come back for a turn to count. Less is the noise of a table.
 const TURN: f64 = 1e-4;
 

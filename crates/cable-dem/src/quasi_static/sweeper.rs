@@ -175,7 +175,7 @@ impl Sweeper {
             slip: SLIP_ACCURACY * largest + self.chain.compliance * friction,
         };
 
-        let mut recorder = Recorder::new(state.ends(&self.cable, &self.mesh));
+        let mut recorder = Recorder::new(state.ends(&self.cable));
         let memory = self.recall(passage.id());
         self.rest();
         let mut travelling: Option<Stretch> = None;

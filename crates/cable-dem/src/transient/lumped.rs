@@ -36,10 +36,7 @@ impl Lumped {
         checked("mass_per_metre", mass_per_metre, "finite and positive", |v| {
             v > 0.0
         })?;
-        let length = mesh.spacing() * mesh.elements() as f64;
-        checked("mesh length", length, "the cable's length", |v| {
-            (v / cable.length() - 1.0).abs() < 1e-9
-        })?;
+        mesh.check_length(&cable)?;
         let supports = Support::of(&cable, &mesh);
         let held = |node: usize| supports.iter().any(|s| s.node == node && s.stiffness.is_none());
         Ok(Self {

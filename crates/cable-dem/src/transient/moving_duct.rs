@@ -10,7 +10,7 @@
 
 use ground_field::{Direction, DuctMotion};
 
-use crate::course::as_driven;
+use crate::course::{Course, as_driven};
 use crate::error::checked;
 use crate::{CableError, DuctedCable, Mesh};
 
@@ -69,16 +69,12 @@ impl MovingDuct {
         motion: &DuctMotion,
         approach: f64,
     ) -> Result<Self, CableError> {
-        checked("approach", approach, "positive and at most 1e5 m", |v| {
-            v > 0.0 && v <= 1e5
-        })?;
-        let (direction, shape) = as_driven(motion, mesh, approach)?;
-        Self::from_shape(cable, mesh, (direction, motion.velocity().abs()), shape, approach)
+        let speed = motion.velocity().abs();
+        Self::on_course(cable, mesh, speed, &as_driven(motion, mesh, approach)?)
     }
 
     /// The duct under a travelling displacement `shape`(ξ) \[m\], ξ positive ahead of the vehicle and the displacement
-    /// positive in its direction of travel; `course` is that direction and the speed \[m/s\]. ξ = 0 travels from `approach`
-    /// \[m\] before the duct to `approach` past it.
+    /// positive in its direction of travel; ξ = 0 travels at `speed` \[m/s\] from `approach` \[m\] before the duct to `approach` past it.
     ///
     /// # Errors
     ///
@@ -87,22 +83,27 @@ impl MovingDuct {
     pub fn from_shape(
         cable: &DuctedCable,
         mesh: &Mesh,
-        course: (Direction, f64),
+        direction: Direction,
+        speed: f64,
         shape: impl Fn(f64) -> f64,
         approach: f64,
     ) -> Result<Self, CableError> {
-        let (direction, speed) = course;
+        Self::on_course(cable, mesh, speed, &Course::new(direction, shape, approach)?)
+    }
+
+    fn on_course(
+        cable: &DuctedCable,
+        mesh: &Mesh,
+        speed: f64,
+        course: &Course<impl Fn(f64) -> f64>,
+    ) -> Result<Self, CableError> {
+        let (direction, approach) = (course.direction, course.approach);
         checked("speed", speed, "finite and positive", |v| v > 0.0)?;
-        checked("approach", approach, "positive and at most 1e5 m", |v| {
-            v > 0.0 && v <= 1e5
-        })?;
+        mesh.check_length(cable)?;
         let h = mesh.spacing();
         let phases = (h / LATTICE_STEP).ceil().max(1.0);
         let step = h / phases;
-        let length = h * mesh.elements() as f64;
-        checked("cable length", cable.length(), "the mesh's length", |v| {
-            (v / length - 1.0).abs() < 1e-9
-        })?;
+        let length = mesh.length();
         // Spacings from the first lattice point to ξ = 0, and altogether; one to spare on both sides.
         let before = ((length + approach) / h).ceil() + 1.0;
         let per_row = 2.0 * before + 1.0;
@@ -112,15 +113,17 @@ impl MovingDuct {
         let (phases, per_row) = (phases as usize, per_row as usize);
         let origin = before * h;
 
-        let sign = direction.sign();
-        // Two points more on both sides, for the slopes.
-        let values: Vec<f64> = (0..phases * per_row + 4)
-            .map(|j| sign * shape(sign * (step * (j as f64 - 2.0) - origin)))
-            .collect();
+        // Along x, whichever way the vehicle drives; two points more on both sides, for the slopes.
+        let first = -(before as i64 * phases as i64) - 2;
+        let count = (phases * per_row + 4) as i64;
+        let values = match direction {
+            Direction::Forward => course.tabulate(first..first + count, step)?,
+            Direction::Reverse => {
+                let ahead = course.tabulate(1 - first - count..1 - first, step)?;
+                ahead.into_iter().rev().map(|d| -d).collect()
+            }
+        };
         let peak = values.iter().fold(0.0_f64, |peak, d| peak.max(d.abs()));
-        for &value in &values {
-            checked("duct displacement", value, "finite", |_| true)?;
-        }
         let slope = |j: usize| (8.0 * (values[j + 3] - values[j + 1]) - (values[j + 4] - values[j])) / 12.0;
         let steepest = (0..phases * per_row).fold(0.0_f64, |most, j| most.max(slope(j).abs())) / step;
         let rows = (0..phases)

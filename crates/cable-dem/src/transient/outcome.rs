@@ -27,7 +27,7 @@ impl TransientOutcome {
     pub(crate) fn untouched(lumped: &Lumped, state: &CableState, time_step: f64) -> Self {
         let force = lumped.end_forces(&state.displacement, &state.friction);
         Self {
-            pass: Recorder::new(force).outcome(&lumped.cable, &lumped.mesh, state, force),
+            pass: Recorder::new(force).outcome(&lumped.cable, state, force),
             time_step,
             energy: EnergyBalance::default(),
             force_before_rest: force,
@@ -69,7 +69,7 @@ impl Departed<'_> {
         recorder.dissipated = arrival_heat + energy.dissipated + departure_heat;
         let force = lumped.end_forces(&state.displacement, &state.friction);
         let outcome = TransientOutcome {
-            pass: recorder.outcome(&lumped.cable, &lumped.mesh, &state, force),
+            pass: recorder.outcome(&lumped.cable, &state, force),
             time_step,
             energy,
             force_before_rest,

@@ -63,7 +63,8 @@ impl Scene {
             duct: MovingDuct::from_shape(
                 &cable,
                 &mesh,
-                (Direction::Forward, motion.velocity()),
+                Direction::Forward,
+                motion.velocity(),
                 shape,
                 APPROACH,
             )?,
@@ -96,7 +97,7 @@ impl Scene {
                 last = CableState::from_parts(&self.mesh, displacement, friction).expect("a finite state");
             })?;
         }
-        Ok(last.end_forces(&self.cable, &self.mesh)?.downstream)
+        Ok(last.end_forces(&self.cable)?.downstream)
     }
 
     pub fn dynamic(&self, passes: usize) -> Result<TransientOutcome, CableError> {

@@ -109,20 +109,12 @@ impl Scene {
             let passage = Passage::from_shape(&self.cable, &self.mesh, direction, shape, approach)
                 .expect("a valid passage");
             run.watch(&passage, |_, state| {
-                let forces = state
-                    .element_forces(&self.cable, &self.mesh)
-                    .expect("the state's mesh");
+                let forces = state.element_forces(&self.cable).expect("the state's mesh");
                 largest = forces.fold(largest, |largest, force| largest.max(force.abs()));
             });
         }
-        let ends = run
-            .state
-            .end_forces(&self.cable, &self.mesh)
-            .expect("the state's mesh");
-        let inner = run
-            .state
-            .element_forces(&self.cable, &self.mesh)
-            .expect("the state's mesh");
+        let ends = run.state.end_forces(&self.cable).expect("the state's mesh");
+        let inner = run.state.element_forces(&self.cable).expect("the state's mesh");
         (
             [ends.upstream, ends.downstream]
                 .into_iter()

@@ -80,10 +80,7 @@ fn anchored_forces(friction: Friction, nodes_per_length: f64, moves: &[f64]) -> 
     let outcome = run.watch(&passage, |position, cable| {
         let stages = (position - start) / stage(&bar, width);
         let number = (stages.ceil() as usize).clamp(1, moves.len());
-        forces[number - 1] = cable
-            .end_forces(&bar, &mesh)
-            .expect("the state's mesh")
-            .downstream;
+        forces[number - 1] = cable.end_forces(&bar).expect("the state's mesh").downstream;
     });
     forces[moves.len()] = outcome.force.downstream;
     forces
@@ -107,17 +104,13 @@ fn a_short_bar_is_fully_mobilised() {
             let exact = Q * length;
             let far = stretch + yielded;
             for (state, sign) in [(&pushed, 1.0), (&run.state, -1.0)] {
-                let force = state.end_forces(&bar, &mesh).expect("the state's mesh");
+                let force = state.end_forces(&bar).expect("the state's mesh");
                 assert_eq!(force.upstream, 0.0);
                 assert!((sign * force.downstream / exact - 1.0).abs() < 1e-4, "{force:?}");
                 let u = state.displacement();
                 assert!((sign * u[0] / far - 1.0).abs() < 1e-4, "{u:?}");
                 assert!((sign * u[mesh.elements()] - yielded).abs() < 1e-4 * far, "{u:?}");
-                for (i, force) in state
-                    .element_forces(&bar, &mesh)
-                    .expect("the state's mesh")
-                    .enumerate()
-                {
+                for (i, force) in state.element_forces(&bar).expect("the state's mesh").enumerate() {
                     let x = (i as f64 + 0.5) * mesh.spacing();
                     assert!((force - sign * Q * x).abs() < 1e-4 * exact, "{force} N at {x} m");
                 }
@@ -236,10 +229,7 @@ fn a_bar_that_only_shears_its_sheath_pulls_with_ea_d_over_lambda() {
     let mut run = Run::new(bar.clone(), mesh);
     let passage = front(&bar, &mesh, 2.0 * screening_length, D);
     let (outcome, pushed) = run.pass_and_last(&passage);
-    let force = pushed
-        .end_forces(&bar, &mesh)
-        .expect("the state's mesh")
-        .downstream;
+    let force = pushed.end_forces(&bar).expect("the state's mesh").downstream;
     let exact = EA * D / screening_length;
     assert!((force / exact - 1.0).abs() < 3e-4, "{force} N, exact {exact} N");
     // Nothing has slipped: the return gives all of it back.
@@ -342,7 +332,7 @@ fn a_spring_end_gives_way() {
         let slipping = |share: f64| (compliance * compliance + share * x * x).sqrt() - compliance;
         let pushed = Q * slipping(1.0);
         let kept = pushed - 2.0 * Q * slipping(0.5);
-        let force = last.end_forces(&bar, &mesh).expect("the state's mesh").downstream;
+        let force = last.end_forces(&bar).expect("the state's mesh").downstream;
         for (found, exact) in [(force, pushed), (outcome.force.downstream, kept)] {
             assert!((found - exact).abs() < 2e-4 * Q * x, "{found} N, exact {exact} N");
         }
@@ -368,7 +358,7 @@ fn a_clamp_holds_a_long_cable_from_both_sides() {
         let slipping = |share: f64| (compliance * compliance + share * x * x).sqrt() - compliance;
         let (pushed, kept) = (slipping(1.0), slipping(1.0) - 2.0 * slipping(0.5));
         for (state, half) in [(&last, Q * pushed), (&run.state, Q * kept)] {
-            let reaction = state.restraint_forces(&bar, &mesh).expect("the state's mesh")[0];
+            let reaction = state.restraint_forces(&bar).expect("the state's mesh")[0];
             assert!(
                 (reaction - 2.0 * half).abs() < 4e-4 * Q * x,
                 "{reaction} N, exact {} N",
@@ -376,7 +366,7 @@ fn a_clamp_holds_a_long_cable_from_both_sides() {
             );
         }
         let largest = last
-            .element_forces(&bar, &mesh)
+            .element_forces(&bar)
             .expect("the state's mesh")
             .fold(0.0, f64::max);
         assert!((largest - Q * pushed).abs() < Q * mesh.spacing());

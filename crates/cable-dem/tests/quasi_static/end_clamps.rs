@@ -44,12 +44,12 @@ fn readings(cable: &DuctedCable) -> [Vec<f64>; 2] {
         clamp.stiffness * ((1.0 - share) * u[left] + share * u[left + 1])
     };
     let (found, expected) = (
-        run.state.end_forces(cable, &mesh).expect("the state's mesh"),
+        run.state.end_forces(cable).expect("the state's mesh"),
         oracle.end_forces(),
     );
     let forces = run
         .state
-        .restraint_forces(cable, &mesh)
+        .restraint_forces(cable)
         .expect("the state's mesh")
         .into_iter();
     [
@@ -128,10 +128,10 @@ fn ends_and_clamps_together_carry_the_friction() {
         let passage = Passage::new(&cable, &mesh, &reference_motion(), APPROACH).expect("a valid passage");
         let mut run = Run::new(cable.clone(), mesh);
         run.passes(PASSES, &passage);
-        let force = run.state.end_forces(&cable, &mesh).expect("the state's mesh");
+        let force = run.state.end_forces(&cable).expect("the state's mesh");
         let held: f64 = run
             .state
-            .restraint_forces(&cable, &mesh)
+            .restraint_forces(&cable)
             .expect("the state's mesh")
             .iter()
             .sum();
@@ -153,7 +153,7 @@ fn a_cable_that_has_come_to_rest_reads_the_same_by_balance_and_by_its_springs() 
         let mut state = CableState::at_rest(&mesh);
         for _ in 0..PASSES {
             let moving = solver.pass(&duct, &mut state).expect("an answer").pass.force;
-            let resting = state.end_forces(&cable, &mesh).expect("the state's mesh");
+            let resting = state.end_forces(&cable).expect("the state's mesh");
             for (one, other) in [
                 (moving.upstream, resting.upstream),
                 (moving.downstream, resting.downstream),

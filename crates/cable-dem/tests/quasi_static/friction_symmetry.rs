@@ -143,7 +143,7 @@ impl Scene {
 
     fn forces(run: &Run) -> Vec<f64> {
         run.state
-            .element_forces(run.solver.cable(), run.solver.mesh())
+            .element_forces(run.solver.cable())
             .expect("the state's mesh")
             .collect()
     }
@@ -249,8 +249,8 @@ proptest! {
             };
         }
         let (one, other) = (scene.run(), mirrored.run());
-        let ends = one.state.end_forces(&scene.cable(), &scene.mesh()).expect("the state's mesh");
-        let seen = other.state.end_forces(&mirrored.cable(), &mirrored.mesh()).expect("the state's mesh");
+        let ends = one.state.end_forces(&scene.cable()).expect("the state's mesh");
+        let seen = other.state.end_forces(&mirrored.cable()).expect("the state's mesh");
         let size = scene.friction.limit() * scene.length;
         prop_assert!((ends.upstream - seen.downstream).abs() < 1e-6 * size);
         prop_assert!((ends.downstream - seen.upstream).abs() < 1e-6 * size);

@@ -139,7 +139,7 @@ fn profiles(node_spacing: f64) -> Vec<f64> {
             let end = run.pass(&passage).force.downstream;
             let forces: Vec<f64> = run
                 .state
-                .element_forces(&cable, &mesh)
+                .element_forces(&cable)
                 .expect("the state's mesh")
                 .collect();
             let stride = (0.8 / mesh.spacing()).round() as usize;

@@ -100,7 +100,7 @@ fn every_shape_factor_gives_the_oracles_answer() {
             assert!(survives(&mut run, &passage, 3));
             let rigid: Vec<f64> = run
                 .state
-                .element_forces(&cable, &mesh)
+                .element_forces(&cable)
                 .expect("the state's mesh")
                 .collect();
             for forces in &forces[8..] {
@@ -169,10 +169,7 @@ fn every_spring_and_clamp_is_solved() {
             let passage = Passage::new(&cable, &mesh, &motion, APPROACH).expect("a valid passage");
             let mut run = Run::new(cable.clone(), mesh);
             assert!(survives(&mut run, &passage, 5));
-            run.state
-                .end_forces(&cable, &mesh)
-                .expect("the state's mesh")
-                .downstream
+            run.state.end_forces(&cable).expect("the state's mesh").downstream
         };
         let fixed = run_with(End::Free, End::Fixed, Vec::new());
         let mut last = 0.0;

@@ -77,12 +77,8 @@ fn any_scene() -> impl Strategy<Value = (Problem, Vec<usize>)> {
 
 /// Forces on the ends and in the elements after all passes.
 fn forces(problem: &Problem, state: &CableState) -> Vec<f64> {
-    let ends = state
-        .end_forces(&problem.cable, &problem.mesh)
-        .expect("the state's mesh");
-    let inner = state
-        .element_forces(&problem.cable, &problem.mesh)
-        .expect("the state's mesh");
+    let ends = state.end_forces(&problem.cable).expect("the state's mesh");
+    let inner = state.element_forces(&problem.cable).expect("the state's mesh");
     [ends.upstream, ends.downstream]
         .into_iter()
         .chain(inner)

@@ -115,9 +115,9 @@ impl Scene {
     }
 
     fn forces(&self, run: &Run) -> Vec<f64> {
-        let Problem { cable, mesh, .. } = &self.problem;
-        let ends = run.state.end_forces(cable, mesh).expect("the state's mesh");
-        let inner = run.state.element_forces(cable, mesh).expect("the state's mesh");
+        let Problem { cable, .. } = &self.problem;
+        let ends = run.state.end_forces(cable).expect("the state's mesh");
+        let inner = run.state.element_forces(cable).expect("the state's mesh");
         [ends.upstream]
             .into_iter()
             .chain(inner)
@@ -171,8 +171,8 @@ proptest! {
             let mut run = Run::new(kind, &scene.problem).expect("a valid problem");
             for &drive in &scene.traffic {
                 run.pass(drive).expect("an equilibrium");
-                let forces: Vec<f64> = run.state.element_forces(cable, mesh).expect("the state's mesh").collect();
-                let clamps = run.state.restraint_forces(cable, mesh).expect("the state's mesh");
+                let forces: Vec<f64> = run.state.element_forces(cable).expect("the state's mesh").collect();
+                let clamps = run.state.restraint_forces(cable).expect("the state's mesh");
                 for (i, j) in (0..forces.len()).flat_map(|i| (i + 1..forces.len()).map(move |j| (i, j))) {
                     // A clamp within an element pulls at both of its nodes; those between are i + 1 to j.
                     let (from, to) = (i as f64 * mesh.spacing(), (j + 1) as f64 * mesh.spacing());

@@ -154,8 +154,8 @@ impl Run {
         let Problem { cable, mesh, drives } = problem;
         let ducts = || -> Result<Vec<MovingDuct>, CableError> {
             let duct = |drive: &Drive| {
-                let course = (drive.direction, drive.speed);
-                MovingDuct::from_shape(cable, mesh, course, &*drive.shape, drive.approach)
+                let shape = &*drive.shape;
+                MovingDuct::from_shape(cable, mesh, drive.direction, drive.speed, shape, drive.approach)
             };
             drives.iter().map(duct).collect()
         };
@@ -189,7 +189,7 @@ impl Run {
                 })?;
                 return Ok(Pass {
                     outcome,
-                    before_rest: last.end_forces(&cable, &mesh)?,
+                    before_rest: last.end_forces(&cable)?,
                     energy: None,
                 });
             }

@@ -99,7 +99,7 @@ impl Quantity {
             Self::ElementForce(element) => {
                 let mut forces = run
                     .state
-                    .element_forces(&problem.cable, &problem.mesh)
+                    .element_forces(&problem.cable)
                     .expect("the state's mesh");
                 forces.nth(element).unwrap_or(f64::NAN)
             }

@@ -1,0 +1,150 @@
+//! A chart: series and cells over two axes.
+
+use crate::axis::Axis;
+use crate::cells::Cells;
+use crate::error::FigureError;
+use crate::series::{Along, Kind, Reference, Series};
+
+/// Series of points over two axes, with references and notes, or a map: a grid of cells coloured by class or by value.
+///
+/// ```
+/// use plain_figure::{Axis, Chart, Series};
+///
+/// let svg = Chart::of_classes(
+///     "Explicit solver",
+///     Axis::logarithmic("time step, s").cells([1e-5, 1e-4, 1e-3]),
+///     Axis::names("law", ["sigmoid", "coulomb"]),
+///     ["right", "wrong", "refused"],
+///     [0, 0, 2, 0, 1, 2],
+/// )
+/// .with(Series::line("predicted limit", [(3e-4, -0.5), (3e-4, 1.5)]))
+/// .to_svg()?;
+/// assert!(svg.contains("refused"));
+/// # Ok::<(), plain_figure::FigureError>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chart {
+    pub(crate) title: String,
+    pub(crate) x: Axis,
+    pub(crate) y: Axis,
+    pub(crate) cells: Option<Cells>,
+    pub(crate) series: Vec<Series>,
+    pub(crate) references: Vec<Reference>,
+    pub(crate) notes: Vec<((f64, f64), String)>,
+}
+
+impl Chart {
+    /// An empty chart. The title may be empty too.
+    #[must_use]
+    pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
+        Self {
+            title: title.into(),
+            x,
+            y,
+            cells: None,
+            series: Vec::new(),
+            references: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// A map of cells coloured by class, over axes of [cells](Axis::cells) or [names](Axis::names). `cells` names the class of each
+    /// cell by its index in `classes`, row by row from the lowest, each row along x. Classes look, in turn: blue, vermilion with a
+    /// cross, yellow with a stroke, black, purple with a dot, green with a ring.
+    #[must_use]
+    pub fn of_classes<Name: Into<String>>(
+        title: impl Into<String>,
+        x: Axis,
+        y: Axis,
+        classes: impl IntoIterator<Item = Name>,
+        cells: impl IntoIterator<Item = usize>,
+    ) -> Self {
+        let classes = classes.into_iter().map(Into::into).collect();
+        let cells = Cells::Classes(classes, cells.into_iter().collect());
+        Self {
+            cells: Some(cells),
+            ..Self::new(title, x, y)
+        }
+    }
+
+    /// A map of cells coloured by value on the scale `value`, which is drawn as a bar on the right; `None` leaves a cell white. Axes
+    /// and order of cells as for [`Chart::of_classes`].
+    #[must_use]
+    pub fn of_values(
+        title: impl Into<String>,
+        x: Axis,
+        y: Axis,
+        value: Axis,
+        cells: impl IntoIterator<Item = Option<f64>>,
+    ) -> Self {
+        let cells = Cells::Values(value, cells.into_iter().collect());
+        Self {
+            cells: Some(cells),
+            ..Self::new(title, x, y)
+        }
+    }
+
+    /// Adds a series; the later is drawn above the earlier, and all above the cells.
+    #[must_use]
+    pub fn with(mut self, series: Series) -> Self {
+        self.series.push(series);
+        self
+    }
+
+    /// Adds a reference line or band, drawn below the series.
+    #[must_use]
+    pub fn refer(mut self, reference: Reference) -> Self {
+        self.references.push(reference);
+        self
+    }
+
+    /// Adds a text centred at (x, y), moved just far enough to stay in the plot.
+    #[must_use]
+    pub fn note(mut self, x: f64, y: f64, text: impl Into<String>) -> Self {
+        self.notes.push(((x, y), text.into()));
+        self
+    }
+
+    pub(crate) fn check(&self) -> Result<(), FigureError> {
+        if self.series.is_empty() && self.cells.is_none() {
+            return Err(FigureError::empty("chart", &self.title));
+        }
+        if let Some(cells) = &self.cells {
+            cells.check(&self.title, self.x.count(), self.y.count())?;
+        }
+        self.x.check_cells()?;
+        self.y.check_cells()?;
+        if let Some(series) = self.series.iter().find(|series| series.points.is_empty()) {
+            return Err(FigureError::empty("series", &series.name));
+        }
+        for (what, x, y) in self.contents() {
+            self.x.check(&what, x)?;
+            self.y.check(&what, y)?;
+        }
+        for ((x, y), text) in &self.notes {
+            let what = format!("note \"{text}\"");
+            self.x.check(&what, [*x])?;
+            self.y.check(&what, [*y])?;
+        }
+        Ok(())
+    }
+
+    /// What the axes have to hold: what it is, its abscissae, and its ordinates.
+    pub(crate) fn contents(&self) -> impl Iterator<Item = (String, Vec<f64>, Vec<f64>)> {
+        let series = self.series.iter().map(|series| {
+            let (x, mut y): (Vec<f64>, Vec<f64>) = series.points.iter().copied().unzip();
+            // Areas reach down to zero.
+            y.extend((series.kind == Kind::Area && !self.y.logarithmic).then_some(0.0));
+            (format!("series \"{}\"", series.name), x, y)
+        });
+        let references = self.references.iter().map(|reference| {
+            let what = format!("reference \"{}\"", reference.label);
+            let values = vec![reference.from, reference.to];
+            match reference.along {
+                Along::Horizontal => (what, Vec::new(), values),
+                Along::Vertical => (what, values, Vec::new()),
+            }
+        });
+        series.chain(references)
+    }
+}

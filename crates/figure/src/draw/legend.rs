@@ -1,0 +1,81 @@
+//! The legend: rows of names below the plot.
+
+use super::canvas::{Canvas, Point, Rect};
+use super::mark;
+use super::series::Shown;
+use super::text::{TEXT, check_room, text_width};
+use crate::error::FigureError;
+
+const ROW: f64 = 23.0;
+const SAMPLE: f64 = 38.0;
+const GAP: f64 = 7.0;
+const BETWEEN: f64 = 20.0;
+const PADDING: f64 = 8.0;
+
+/// What an entry shows beside its name.
+enum Sample<'a> {
+    Series(&'a Shown<'a>),
+    /// A class by its index.
+    Class(usize),
+}
+
+/// Entries, laid out in rows.
+pub struct Legend<'a> {
+    /// Sample, name, and place from the legend's left and top \[px\].
+    entries: Vec<(Sample<'a>, &'a String, Point)>,
+    height: f64,
+}
+
+impl<'a> Legend<'a> {
+    /// Names of classes and of series, in rows of at most `width` \[px\].
+    ///
+    /// # Errors
+    ///
+    /// [`FigureError::NoRoom`] for a name wider than that.
+    pub fn new(classes: &'a [String], series: &'a [Shown<'a>], width: f64) -> Result<Self, FigureError> {
+        let classes = classes
+            .iter()
+            .enumerate()
+            .map(|(k, name)| (Sample::Class(k), name));
+        let series = series
+            .iter()
+            .map(|shown| (Sample::Series(shown), &shown.series.name));
+        let named = classes.chain(series).filter(|(_, name)| !name.is_empty());
+        let (mut x, mut row) = (0.0, 0.0);
+        let mut entries = Vec::new();
+        for (sample, name) in named {
+            let needed = SAMPLE + GAP + text_width(name, TEXT);
+            check_room(name, needed, width)?;
+            if x > 0.0 && x + needed > width {
+                (x, row) = (0.0, row + 1.0);
+            }
+            entries.push((sample, name, (x, PADDING + ROW * (row + 0.5))));
+            x += needed + BETWEEN;
+        }
+        let height = if entries.is_empty() {
+            0.0
+        } else {
+            ROW * (row + 1.0) + 2.0 * PADDING
+        };
+        Ok(Self { entries, height })
+    }
+
+    /// Height of all rows \[px\].
+    pub fn height(&self) -> f64 {
+        self.height
+    }
+
+    pub fn draw(&self, canvas: &mut Canvas, (left, top): Point) {
+        for (sample, name, (x, y)) in &self.entries {
+            let (x, y) = (left + x, top + y);
+            match sample {
+                Sample::Series(shown) => shown.draw_sample(canvas, (x, y), SAMPLE),
+                Sample::Class(index) => {
+                    let cell = Rect::around((x + 0.5 * SAMPLE, y), 11.0, 8.0);
+                    mark::class_cell(canvas, *index, cell);
+                }
+            }
+            canvas.text(name, (x + SAMPLE + GAP, y), "start");
+        }
+    }
+}

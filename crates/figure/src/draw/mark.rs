@@ -1,0 +1,74 @@
+//! Markers of points and marks in cells.
+
+use std::f64::consts::TAU;
+
+use super::canvas::{Canvas, Point, Rect, Stroke};
+use crate::palette::{BLACK, CLASSES, Colour, WHITE};
+
+/// Half the size of a marker \[px\].
+const RADIUS: f64 = 4.0;
+/// Marks are drawn in cells at least this large \[px\].
+const SMALLEST_CELL: f64 = 7.0;
+
+/// Outlines and strokes around (0, 0), of about the size 1: square, triangle, diamond, triangle on its tip.
+const OUTLINES: [&[Point]; 4] = [
+    &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
+    &[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)],
+    &[(0.0, -1.3), (1.1, 0.0), (0.0, 1.3), (-1.1, 0.0)],
+    &[(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)],
+];
+const CROSS: [[Point; 2]; 2] = [[(-0.9, -0.9), (0.9, 0.9)], [(-0.9, 0.9), (0.9, -0.9)]];
+const PLUS: [[Point; 2]; 2] = [[(-1.2, 0.0), (1.2, 0.0)], [(0.0, -1.2), (0.0, 1.2)]];
+
+/// A circle of radius 1.
+fn circle() -> [Point; 16] {
+    std::array::from_fn(|k| {
+        let (sine, cosine) = (TAU * k as f64 / 16.0).sin_cos();
+        (cosine, sine)
+    })
+}
+
+/// A shape of size 1, scaled and moved.
+fn placed(shape: &[Point], at: Point, size: f64) -> Vec<Point> {
+    let point = |(x, y): &Point| (at.0 + size * x, at.1 + size * y);
+    shape.iter().map(point).collect()
+}
+
+fn strokes(canvas: &mut Canvas, at: Point, size: f64, lines: &[[Point; 2]], stroke: Stroke) {
+    for line in lines {
+        canvas.line(&placed(line, at, size), stroke);
+    }
+}
+
+/// Draws the marker of the `index`-th series: circle, square, triangle, diamond, triangle on its tip, star, cross.
+pub fn marker(canvas: &mut Canvas, index: usize, at: Point, colour: Colour) {
+    let stroke = Stroke::solid(colour, 1.7);
+    match index % 7 {
+        0 => canvas.outlined(&placed(&circle(), at, RADIUS), WHITE, stroke),
+        k @ 1..=4 => canvas.outlined(&placed(OUTLINES[k - 1], at, RADIUS), WHITE, stroke),
+        5 => strokes(canvas, at, RADIUS, &[CROSS, PLUS].concat(), stroke),
+        _ => strokes(canvas, at, RADIUS, &CROSS, stroke),
+    }
+}
+
+/// Fills a cell with the colour and the mark of the `index`-th class.
+pub fn class_cell(canvas: &mut Canvas, index: usize, cell: Rect) {
+    let look = index % CLASSES.len();
+    canvas.rectangle(cell, CLASSES[look], 1.0);
+    let size = cell.width().min(cell.height());
+    if size < SMALLEST_CELL {
+        return;
+    }
+    let centre = cell.centre();
+    let radius = (0.22 * size).min(6.0);
+    match look {
+        1 => strokes(canvas, centre, radius, &CROSS, Stroke::solid(WHITE, 1.6)),
+        2 => strokes(canvas, centre, radius, &CROSS[1..], Stroke::solid(BLACK, 1.2)),
+        4 => canvas.area(&placed(&circle(), centre, 0.5 * radius), BLACK, 1.0),
+        5 => {
+            let ring = placed(&circle(), centre, 0.8 * radius);
+            canvas.outlined(&ring, CLASSES[look], Stroke::solid(WHITE, 1.4));
+        }
+        _ => {}
+    }
+}

@@ -1,0 +1,18 @@
+#![doc = include_str!("../README.md")]
+
+mod axis;
+mod cells;
+mod chart;
+mod draw;
+mod error;
+mod palette;
+mod panels;
+mod scale;
+mod series;
+
+pub use axis::Axis;
+pub use chart::Chart;
+pub use error::FigureError;
+pub use palette::dark_style;
+pub use panels::Panels;
+pub use series::{Reference, Series};

@@ -1,0 +1,162 @@
+//! What stands in a chart: series of points, reference lines and bands.
+
+/// How a series is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Line,
+    Points,
+    LinePoints,
+    Area,
+}
+
+/// Points with a name.
+///
+/// Colour, dash and marker follow from the index of the series in its chart, unless [`look`](Series::look) and the like set them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    pub(crate) name: String,
+    pub(crate) kind: Kind,
+    pub(crate) points: Vec<(f64, f64)>,
+    pub(crate) colour: Option<usize>,
+    pub(crate) dash: Option<usize>,
+    pub(crate) marker: Option<usize>,
+}
+
+impl Series {
+    fn new(name: impl Into<String>, kind: Kind, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self {
+            name: name.into(),
+            kind,
+            points: points.into_iter().collect(),
+            colour: None,
+            dash: None,
+            marker: None,
+        }
+    }
+
+    /// A line through the points. With an empty name it has no entry in the legend.
+    #[must_use]
+    pub fn line(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self::new(name, Kind::Line, points)
+    }
+
+    /// A marker at each point.
+    #[must_use]
+    pub fn points(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self::new(name, Kind::Points, points)
+    }
+
+    /// A line with a marker at each point.
+    #[must_use]
+    pub fn line_points(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self::new(name, Kind::LinePoints, points)
+    }
+
+    /// A line with the area down to zero (on a logarithmic axis: to its start) filled.
+    #[must_use]
+    pub fn area(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
+        Self::new(name, Kind::Area, points)
+    }
+
+    /// Colour, dash and marker of the `index`-th series, from 0.
+    #[must_use]
+    pub fn look(mut self, index: usize) -> Self {
+        self.dash = Some(index);
+        self.colour(index).marker(index)
+    }
+
+    /// Colour of the `index`-th series, from 0.
+    #[must_use]
+    pub fn colour(mut self, index: usize) -> Self {
+        self.colour = Some(index);
+        self
+    }
+
+    /// Marker of the `index`-th series, from 0.
+    #[must_use]
+    pub fn marker(mut self, index: usize) -> Self {
+        self.marker = Some(index);
+        self
+    }
+
+    /// A line without gaps.
+    #[must_use]
+    pub fn solid(mut self) -> Self {
+        self.dash = Some(0);
+        self
+    }
+
+    /// A dashed line.
+    #[must_use]
+    pub fn dashed(mut self) -> Self {
+        self.dash = Some(1);
+        self
+    }
+
+    /// A dotted line.
+    #[must_use]
+    pub fn dotted(mut self) -> Self {
+        self.dash = Some(2);
+        self
+    }
+}
+
+/// Which way a reference line or band runs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Along {
+    /// At values of y, across the whole width.
+    Horizontal,
+    /// At values of x, over the whole height.
+    Vertical,
+}
+
+/// A line or band across the whole plot, with a label.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reference {
+    pub(crate) along: Along,
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    pub(crate) label: String,
+    pub(crate) colour: Option<usize>,
+}
+
+impl Reference {
+    fn new(along: Along, from: f64, to: f64, label: impl Into<String>) -> Self {
+        Self {
+            along,
+            from,
+            to,
+            label: label.into(),
+            colour: None,
+        }
+    }
+
+    /// A horizontal line at `y`.
+    #[must_use]
+    pub fn horizontal(y: f64, label: impl Into<String>) -> Self {
+        Self::new(Along::Horizontal, y, y, label)
+    }
+
+    /// A vertical line at `x`.
+    #[must_use]
+    pub fn vertical(x: f64, label: impl Into<String>) -> Self {
+        Self::new(Along::Vertical, x, x, label)
+    }
+
+    /// A band between two values of x.
+    #[must_use]
+    pub fn vertical_band(from: f64, to: f64, label: impl Into<String>) -> Self {
+        Self::new(Along::Vertical, from.min(to), to.max(from), label)
+    }
+
+    pub(crate) fn is_line(&self) -> bool {
+        self.from == self.to
+    }
+
+    /// Colour of the `index`-th series, from 0; grey otherwise.
+    #[must_use]
+    pub fn colour(mut self, index: usize) -> Self {
+        self.colour = Some(index);
+        self
+    }
+}

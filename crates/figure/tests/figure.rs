@@ -1,0 +1,381 @@
+//! Figures: well-formed SVG with all names in it, points where the axes say, errors instead of wrong pictures.
+
+mod xml;
+
+use plain_figure::{Axis, Chart, FigureError, Panels, Reference, Series};
+use xml::{Element, parse};
+
+fn texts(elements: &[Element]) -> Vec<&str> {
+    elements
+        .iter()
+        .filter(|e| e.name == "text")
+        .map(|e| e.text.as_str())
+        .collect()
+}
+
+/// Where the tick with this label stands: x of a label below the plot, y of one beside it \[px\].
+fn tick(elements: &[Element], label: &str, anchor: &str) -> f64 {
+    let found: Vec<&Element> = elements
+        .iter()
+        .filter(|e| e.name == "text" && e.text == label && e.get("text-anchor") == anchor)
+        .collect();
+    assert_eq!(found.len(), 1, "label {label}: {found:?}");
+    found[0].number(if anchor == "end" { "y" } else { "x" })
+}
+
+/// The points of the one solid line in the first series' colour.
+fn first_line(elements: &[Element]) -> Vec<(f64, f64)> {
+    let lines: Vec<&Element> = elements
+        .iter()
+        .filter(|e| e.name == "polyline" && e.get("stroke") == "#0072B2" && e.points().len() > 2)
+        .collect();
+    assert_eq!(lines.len(), 1);
+    lines[0].points()
+}
+
+fn line() -> Series {
+    Series::line("line", [(0.0, 0.0), (1.0, 1.0)])
+}
+
+fn axes() -> (Axis, Axis) {
+    (Axis::linear("x"), Axis::linear("y"))
+}
+
+fn chart(series: Series) -> Chart {
+    let (x, y) = axes();
+    Chart::new("chart", x, y).with(series)
+}
+
+#[test]
+fn a_chart_is_well_formed_and_names_everything() {
+    let (x, y) = (Axis::linear("place, m"), Axis::linear("D_l, µm"));
+    let points = [(0.0, 1.0), (1.0, 3.0), (2.0, -1.0)];
+    let chart = Chart::new("a < b & \"c\"", x, y)
+        .with(Series::line("a line", points))
+        .with(Series::points("points <2>", points))
+        .with(Series::line_points("both & all", points))
+        .with(Series::line("dashes", points).dashed())
+        .with(Series::area("area\u{1}", points))
+        .refer(Reference::horizontal(2.0, "limit"))
+        .refer(Reference::vertical_band(0.5, 0.7, "band"))
+        .note(1.0, 1.0, "a note");
+    let svg = chart.to_svg().expect("svg");
+    let elements = parse(&svg);
+    let texts = texts(&elements);
+    for text in [
+        "a < b & \"c\"",
+        "place, m",
+        "D_l, µm",
+        "a line",
+        "points <2>",
+        "both & all",
+        "dashes",
+        "area\u{fffd}",
+        "limit",
+        "band",
+        "a note",
+    ] {
+        assert_eq!(
+            texts.iter().filter(|found| **found == text).count(),
+            1,
+            "{text} in {texts:?}"
+        );
+    }
+    assert_eq!(elements[0].get("role"), "img");
+    assert_eq!(
+        (elements[1].name.as_str(), elements[1].text.as_str()),
+        ("title", "a < b & \"c\"")
+    );
+    assert_eq!(
+        (elements[2].name.as_str(), elements[2].get("fill")),
+        ("rect", "#FFFFFF")
+    );
+    // 14 px of a figure 800 px wide, and nothing drawn outside of it.
+    assert_eq!(elements[0].get("viewBox"), "0 0 800 500");
+    for element in elements.iter().filter(|e| e.name == "text") {
+        assert!(element.number("font-size") >= 14.0, "{element:?}");
+        assert!((0.0..=800.0).contains(&element.number("x")), "{element:?}");
+        assert!((0.0..=500.0).contains(&element.number("y")), "{element:?}");
+    }
+    assert_eq!(svg, chart.to_svg().expect("svg"), "the same figure twice");
+}
+
+#[test]
+fn points_lie_at_their_ticks() {
+    let linear = Chart::new(
+        "",
+        Axis::linear("x").range(0.0, 12.0),
+        Axis::linear("y").range(-50.0, 100.0),
+    )
+    .with(Series::line("", [(2.0, -40.0), (4.0, 20.0), (10.0, 80.0)]));
+    let logarithmic = Chart::new(
+        "",
+        Axis::logarithmic("x").range(0.5, 2e4),
+        Axis::logarithmic("y").range(1e-7, 1e-3),
+    )
+    .with(Series::line("", [(1.0, 1e-6), (10.0, 1e-4), (1e4, 1e-5)]));
+    let cases = [
+        (linear, [["2", "−40"], ["4", "20"], ["10", "80"]]),
+        (logarithmic, [["1", "10⁻⁶"], ["10", "10⁻⁴"], ["10000", "10⁻⁵"]]),
+    ];
+    for (chart, labels) in cases {
+        let elements = parse(&chart.to_svg().expect("svg"));
+        let points = first_line(&elements);
+        assert_eq!(points.len(), 3);
+        for ((x, y), [below, beside]) in points.into_iter().zip(labels) {
+            assert!((x - tick(&elements, below, "middle")).abs() <= 0.1, "{x} {below}");
+            assert!((y - tick(&elements, beside, "end")).abs() <= 0.1, "{y} {beside}");
+        }
+    }
+}
+
+#[test]
+fn what_lies_beyond_the_range_is_cut_off() {
+    let series = Series::line("", [(-5.0, 0.5), (0.5, 0.5), (0.5, 0.7), (9.0, 0.7)]);
+    let chart = Chart::new(
+        "",
+        Axis::linear("x").range(0.0, 1.0),
+        Axis::linear("y").range(0.0, 1.0),
+    )
+    .with(series);
+    let elements = parse(&chart.to_svg().expect("svg"));
+    let points = first_line(&elements);
+    let (left, right) = (tick(&elements, "0", "middle"), tick(&elements, "1", "middle"));
+    assert!(
+        (points[0].0 - left).abs() <= 0.1 && (points[3].0 - right).abs() <= 0.1,
+        "{points:?}"
+    );
+}
+
+#[test]
+fn a_map_colours_each_cell() {
+    let classes = || ["right", "wrong", "refused"];
+    let x = || Axis::logarithmic("step, s").cells([1e-3, 1e-2, 1e-1]);
+    let y = || Axis::names("law", ["coulomb", "sigmoid"]);
+    let map = Chart::of_classes("stability", x(), y(), classes(), [0, 1, 2, 0, 0, 1])
+        .with(Series::line("limit", [(3e-3, -0.5), (3e-3, 1.5)]));
+    let elements = parse(&map.to_svg().expect("svg"));
+    let texts = texts(&elements);
+    for text in [
+        "stability",
+        "right",
+        "wrong",
+        "refused",
+        "limit",
+        "coulomb",
+        "sigmoid",
+        "step, s",
+        "law",
+    ] {
+        assert!(texts.contains(&text), "{text} in {texts:?}");
+    }
+    let filled = |colour: &str| {
+        elements
+            .iter()
+            .filter(|e| e.name == "polygon" && e.get("fill") == colour)
+            .count()
+    };
+    // One more of each in the legend.
+    assert_eq!(["#56B4E9", "#D55E00", "#F0E442"].map(filled), [4, 3, 2]);
+    // The cell of class 2 lies around the tick of 0.1 s, at the height of the first name.
+    let cell = elements
+        .iter()
+        .find(|e| e.get("fill") == "#F0E442" && e.name == "polygon")
+        .expect("the cell")
+        .points();
+    let middle = 0.25
+        * cell
+            .iter()
+            .fold((0.0, 0.0), |sum, p| (sum.0 + p.0, sum.1 + p.1))
+            .0;
+    assert!(
+        (middle - tick(&elements, "0.1", "middle")).abs() <= 0.1,
+        "{middle}"
+    );
+    let height = 0.25 * cell.iter().map(|point| point.1).sum::<f64>();
+    assert!(
+        (height - tick(&elements, "coulomb", "end")).abs() <= 0.1,
+        "{height}"
+    );
+
+    let values = [Some(1.0), Some(10.0), None, Some(3.0), Some(5.0), Some(100.0)];
+    let map = Chart::of_values("error", x(), y(), Axis::logarithmic("error, %"), values);
+    let elements = parse(&map.to_svg().expect("svg"));
+    // The lowest and the highest value have the ends of the scale.
+    for colour in ["#440154", "#FDE725"] {
+        assert!(elements.iter().any(|e| e.get("fill") == colour), "{colour}");
+    }
+}
+
+#[test]
+fn panels_stand_in_rows() {
+    let panels = Panels::new("all").columns(2).panel_size(400.0, 300.0);
+    let panels = ["a", "b", "c"].into_iter().fold(panels, |panels, name| {
+        panels.with(Chart::new(format!("panel {name}"), axes().0, axes().1).with(line()))
+    });
+    let elements = parse(&panels.to_svg().expect("svg"));
+    assert_eq!(elements[1].text, "all; panel a; panel b; panel c");
+    let title = |name: &str| {
+        let found = elements
+            .iter()
+            .find(|e| e.name == "text" && e.text == name)
+            .expect("title");
+        (found.number("x"), found.number("y"))
+    };
+    assert_eq!(title("panel a").0 + 400.0, title("panel b").0);
+    assert_eq!(title("panel a").1 + 300.0, title("panel c").1);
+    assert_eq!(title("panel a").0, title("panel c").0);
+}
+
+#[test]
+fn errors_instead_of_wrong_pictures() {
+    let (x, y) = axes();
+    let is = |chart: Chart, wanted: fn(&FigureError) -> bool| {
+        let error = chart.to_svg().expect_err("an error");
+        assert!(wanted(&error), "{error}");
+    };
+    is(Chart::new("none", x, y), |e| {
+        matches!(e, FigureError::Empty { .. })
+    });
+    is(chart(Series::line("none", [])), |e| {
+        matches!(e, FigureError::Empty { .. })
+    });
+    for value in [f64::NAN, f64::INFINITY] {
+        is(chart(Series::line("bad", [(0.0, 0.0), (value, 0.0)])), |e| {
+            matches!(e, FigureError::NotFinite { index: 1, .. })
+        });
+        is(chart(line()).refer(Reference::horizontal(value, "")), |e| {
+            matches!(e, FigureError::NotFinite { .. })
+        });
+        is(chart(line()).note(0.0, value, ""), |e| {
+            matches!(e, FigureError::NotFinite { .. })
+        });
+    }
+    let on_logarithmic =
+        |chart: fn(Chart) -> Chart| chart(Chart::new("", Axis::logarithmic("x"), Axis::linear("y")));
+    is(on_logarithmic(|chart| chart.with(line())), |e| {
+        matches!(e, FigureError::NotPositive { .. })
+    });
+    is(
+        on_logarithmic(|chart| {
+            chart
+                .with(Series::line("", [(1.0, 1.0), (2.0, 2.0)]))
+                .refer(Reference::vertical(0.0, ""))
+        }),
+        |e| matches!(e, FigureError::NotPositive { .. }),
+    );
+    for (from, to) in [(1.0, 1.0), (2.0, 1.0), (f64::NAN, 1.0), (0.0, f64::INFINITY)] {
+        is(
+            Chart::new("", Axis::linear("x").range(from, to), Axis::linear("y")).with(line()),
+            |e| matches!(e, FigureError::BadRange { .. }),
+        );
+    }
+    let long = "long ".repeat(40);
+    is(chart(Series::line(&long, [(0.0, 0.0), (1.0, 1.0)])), |e| {
+        matches!(e, FigureError::NoRoom { .. })
+    });
+    is(
+        Chart::new("", Axis::linear(&long), Axis::linear("y")).with(line()),
+        |e| matches!(e, FigureError::NoRoom { .. }),
+    );
+    is(chart(line()).note(0.5, 0.5, &long), |e| {
+        matches!(e, FigureError::NoRoom { .. })
+    });
+    assert!(matches!(
+        Panels::new("none").to_svg(),
+        Err(FigureError::Empty { .. })
+    ));
+}
+
+#[test]
+fn errors_of_maps() {
+    let grid = |values: [f64; 2]| Axis::linear("x").cells(values);
+    let classes =
+        |cells: &[usize], x| Chart::of_classes("", x, grid([0.0, 1.0]), ["a", "b"], cells.to_vec()).to_svg();
+    assert!(classes(&[0, 1, 1, 0], grid([0.0, 1.0])).is_ok());
+    assert!(matches!(
+        classes(&[], grid([0.0, 1.0])),
+        Err(FigureError::Empty { .. })
+    ));
+    assert!(matches!(
+        classes(&[0, 1, 1], grid([0.0, 1.0])),
+        Err(FigureError::CellCount { found: 3, .. })
+    ));
+    assert!(matches!(
+        classes(&[0, 1, 2, 0], grid([0.0, 1.0])),
+        Err(FigureError::UnknownClass { index: 2, .. })
+    ));
+    assert!(matches!(
+        classes(&[0; 4], grid([1.0, 1.0])),
+        Err(FigureError::NotAscending { .. })
+    ));
+    assert!(matches!(
+        classes(&[0; 4], grid([0.0, f64::NAN])),
+        Err(FigureError::NotFinite { .. })
+    ));
+    let logarithmic = Axis::logarithmic("x").cells([0.0, 1.0]);
+    assert!(matches!(
+        classes(&[0; 4], logarithmic),
+        Err(FigureError::NotPositive { .. })
+    ));
+    let values = |cells: [Option<f64>; 4], axis| {
+        Chart::of_values("", grid([0.0, 1.0]), grid([0.0, 1.0]), axis, cells).to_svg()
+    };
+    let linear = || Axis::linear("v");
+    assert!(values([Some(1.0), None, None, Some(2.0)], linear()).is_ok());
+    assert!(matches!(
+        values([None; 4], linear()),
+        Err(FigureError::Empty { .. })
+    ));
+    assert!(matches!(
+        values([Some(f64::NAN); 4], linear()),
+        Err(FigureError::NotFinite { .. })
+    ));
+    assert!(matches!(
+        values([Some(0.0); 4], Axis::logarithmic("v")),
+        Err(FigureError::NotPositive { .. })
+    ));
+}
+
+/// No number, however large or small, makes the drawing panic.
+#[test]
+fn extreme_numbers_give_a_figure_or_an_error() {
+    let numbers = [
+        -f64::MAX,
+        -1.0,
+        -f64::MIN_POSITIVE,
+        0.0,
+        f64::MIN_POSITIVE,
+        1e-300,
+        1.0,
+        1.0 + f64::EPSILON,
+        1e300,
+        f64::MAX,
+    ];
+    for a in numbers {
+        for b in numbers {
+            for axis in [
+                Axis::linear("v"),
+                Axis::logarithmic("v"),
+                Axis::linear("v").range(0.0, 1.0),
+            ] {
+                for series in [
+                    Series::area("", [(a, b), (b, a)]),
+                    Series::line_points("", [(a, a), (b, b)]),
+                ] {
+                    if let Ok(svg) = Chart::new("", axis.clone(), axis.clone()).with(series).to_svg() {
+                        parse(&svg);
+                    }
+                }
+            }
+            let _ = Chart::of_values(
+                "",
+                Axis::linear("x").cells([a, b]),
+                Axis::linear("y").cells([b]),
+                Axis::linear("v"),
+                [Some(a), Some(b)],
+            )
+            .to_svg();
+        }
+    }
+}

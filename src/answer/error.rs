@@ -1,0 +1,225 @@
+//! How wrong the forces and the movements of a run are.
+//!
+//! The passes are computed on meshes each twice as fine as the one before. Their differences tell the error of the last:
+//! a scheme of second order leaves a third of the last difference and a twelfth of the one before. Friction that turns
+//! at a node or between two makes the sequence uneven, and two meshes may agree by chance; so more than that is counted: the
+//! largest of a share of each difference seen so far, and never less than what is typical of so many nodes a depth.
+//!
+//! A force is compared with itself, or with a tenth of the largest one of the run where it is less than that, or with what
+//! friction holds on a centimetre of cable; a movement of an end with the largest of the run, or with a tenth of the
+//! duct's own.
+
+use cable_dem::PassOutcome;
+
+use crate::Error;
+use crate::shown::percent;
+
+/// Shares of the differences between meshes that count as error: of the last one, the one before, and so on. Fitted to 200 random
+/// scenes, so that the error is above them in one or two of a hundred.
+const SHARES: [f64; 4] = [1.5, 0.35, 0.12, 0.04];
+/// The same from so many passes on, all of which can hardly agree by chance.
+const OF_MANY: [f64; 4] = [1.5, 0.2, 0.06, 0.02];
+const MANY: usize = 40;
+/// Of the only one.
+const ALONE: f64 = 2.0;
+/// What the error is beside the difference to a mesh twice as fine, at second order.
+const VERIFIED: f64 = 4.0 / 3.0;
+/// Forces below this share of the largest one count as nothing when errors are compared, and movements of an end below this
+/// share of the duct's largest.
+const SMALL: f64 = 0.1;
+/// So does what friction holds on so much cable \[m\].
+const SHORT: f64 = 0.01;
+/// A larger error than this, or the tolerance if that is larger still, is no answer.
+const DOUBTFUL: f64 = 0.1;
+
+/// A share of the forces and one of the movements.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Shares {
+    pub force: f64,
+    pub movement: f64,
+}
+
+impl Shares {
+    /// The same share of both.
+    pub fn both(share: f64) -> Self {
+        Self {
+            force: share,
+            movement: share,
+        }
+    }
+
+    fn map(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            force: f(self.force, other.force),
+            movement: f(self.movement, other.movement),
+        }
+    }
+
+    pub fn max(self, other: Self) -> Self {
+        self.map(other, f64::max)
+    }
+
+    pub fn times(self, factor: f64) -> Self {
+        self.map(self, |share, _| factor * share)
+    }
+}
+
+impl std::ops::Add for Shares {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        self.map(other, |a, b| a + b)
+    }
+}
+
+/// What counts as nothing in a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// \[N\]
+    force: f64,
+    /// \[m\]
+    movement: f64,
+}
+
+impl Scale {
+    /// Of a cable with the friction `limit` \[N/m\] in a duct that moves by `peak` \[m\].
+    pub fn new(limit: f64, peak: f64) -> Self {
+        Self {
+            force: SHORT * limit,
+            movement: SMALL * peak,
+        }
+    }
+}
+
+/// The error of a run by its parts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ErrorParts {
+    /// Node spacing and vehicle step.
+    pub mesh: Shares,
+    /// What the ground model leaves out, as it comes through.
+    pub ground: Shares,
+    /// Inertia, where it is left out.
+    pub inertia: f64,
+    /// Road beyond where vehicles are followed.
+    pub road: Shares,
+    /// Whether a finer run was made to measure mesh and ground.
+    pub measured: bool,
+}
+
+impl ErrorParts {
+    pub fn total(&self) -> Shares {
+        self.mesh + self.ground + self.road + Shares::both(self.inertia)
+    }
+}
+
+impl std::fmt::Display for ErrorParts {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "{}: mesh {}, ground {}, inertia {}, road {}; movement of the ends {}",
+            if self.measured {
+                "measured by a run on a mesh twice as fine"
+            } else {
+                "from runs on coarser meshes"
+            },
+            percent(self.mesh.force),
+            percent(self.ground.force),
+            percent(self.inertia),
+            percent(self.road.force),
+            percent(self.total().movement)
+        )
+    }
+}
+
+/// Error of the last of `levels`, the outcomes of all passes on two or more meshes from coarse to fine; at least `typical`.
+pub fn of_mesh(levels: &[&[PassOutcome]], typical: f64, scale: Scale) -> Shares {
+    let differences: Vec<Shares> = levels
+        .windows(2)
+        .rev()
+        .map(|pair| difference(pair[1], pair[0], scale))
+        .collect();
+    let least = Shares::both(typical);
+    if let [only] = differences[..] {
+        return only.times(ALONE).max(least);
+    }
+    let passes = levels.last().map_or(0, |finest| finest.len());
+    let shares = if passes < MANY { SHARES } else { OF_MANY };
+    shares
+        .iter()
+        .zip(&differences)
+        .map(|(&share, difference)| difference.times(share))
+        .fold(least, Shares::max)
+}
+
+/// Error of `passes`, measured against a run twice as fine.
+pub fn measured(passes: &[PassOutcome], finer: &[PassOutcome], scale: Scale) -> Shares {
+    difference(passes, finer, scale).times(VERIFIED)
+}
+
+/// Whether an error of the force is too large for an answer.
+pub fn is_doubtful(reached: f64, tolerance: f64) -> bool {
+    reached.is_nan() || reached > tolerance.max(DOUBTFUL)
+}
+
+/// Refuses an answer whose error of the force, `reached`, is too large to be one.
+pub fn judge(reached: f64, tolerance: f64) -> Result<(), Error> {
+    if is_doubtful(reached, tolerance) {
+        return Err(Error::Inaccurate {
+            reached,
+            asked: tolerance,
+        });
+    }
+    Ok(())
+}
+
+/// Largest difference of a force after a pass, as a share of the largest force or tension after that pass, or of a tenth of
+/// the largest in the run; and largest difference of a movement.
+pub fn difference(a: &[PassOutcome], b: &[PassOutcome], scale: Scale) -> Shares {
+    let forces = |outcome: &PassOutcome| {
+        [
+            outcome.force.upstream,
+            outcome.force.downstream,
+            outcome.max_compression,
+        ]
+    };
+    let movements = |outcome: &PassOutcome| [outcome.upstream_displacement, outcome.downstream_displacement];
+    let largest = |outcome: &PassOutcome| {
+        [
+            outcome.peak.upstream,
+            outcome.peak.downstream,
+            outcome.lowest.upstream,
+            outcome.lowest.downstream,
+            outcome.max_tension,
+        ]
+        .into_iter()
+        .chain(forces(outcome))
+        .map(f64::abs)
+        .fold(0.0, f64::max)
+    };
+    let floor = (SMALL * a.iter().map(largest).fold(0.0, f64::max)).max(scale.force);
+    let moved = a
+        .iter()
+        .flat_map(movements)
+        .fold(scale.movement, |largest, u| largest.max(u.abs()));
+    let mut worst = Shares::default();
+    for (a, b) in a.iter().zip(b) {
+        // A clamp may hold a cable whose ends are free: what is compressed is then small beside what is stretched.
+        let scale = forces(a)
+            .into_iter()
+            .chain([a.max_tension])
+            .map(f64::abs)
+            .fold(floor, f64::max);
+        for (a, b) in forces(a).into_iter().zip(forces(b)) {
+            worst.force = worst.force.max(share((a - b).abs(), scale));
+        }
+        for (a, b) in movements(a).into_iter().zip(movements(b)) {
+            worst.movement = worst.movement.max(share((a - b).abs(), moved));
+        }
+    }
+    worst
+}
+
+/// part/whole; nothing of nothing is nothing.
+fn share(part: f64, whole: f64) -> f64 {
+    if part == 0.0 { 0.0 } else { part / whole }
+}

@@ -1,0 +1,94 @@
+//! What keeps a command from finishing, what is printed then, and the exit status.
+
+use std::ffi::OsString;
+use std::io::{self, ErrorKind, Write};
+use std::process::ExitCode;
+
+use super::terminal;
+use crate::output::OutputError;
+
+/// Something that keeps a command from finishing.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    #[error(transparent)]
+    Analysis(#[from] crate::Error),
+    #[error(transparent)]
+    Sweep(#[from] crate::sweep::SweepError),
+    #[cfg(feature = "plot")]
+    #[error("the figure cannot be drawn")]
+    Figure(#[from] crate::figure::FigureError),
+    #[error(transparent)]
+    Design(#[from] crate::design::DesignError),
+    #[error("no point of the sweep has an answer")]
+    Nothing,
+    #[error("bad usage, already printed")]
+    Unparsed,
+    #[error("{argument}: found {found}; allowed: {allowed}")]
+    Usage {
+        argument: &'static str,
+        found: String,
+        allowed: String,
+    },
+    #[error(transparent)]
+    File(#[from] OutputError),
+    #[error("standard output: cannot be written")]
+    Output(#[from] io::Error),
+    #[error("standard output: cannot be written")]
+    Json(#[from] serde_json::Error),
+}
+
+impl From<crate::SceneError> for Failure {
+    fn from(error: crate::SceneError) -> Self {
+        Self::Analysis(error.into())
+    }
+}
+
+impl Failure {
+    /// Prints the failure; its exit status.
+    pub fn end(&self) -> ExitCode {
+        if self.reader_has_left() {
+            return ExitCode::SUCCESS;
+        }
+        if !matches!(self, Self::Unparsed) {
+            terminal::fail(self);
+        }
+        ExitCode::from(if self.is_bad_input() { 2 } else { 1 })
+    }
+
+    /// Whether the reader of a pipe has gone: it has what it wanted.
+    fn reader_has_left(&self) -> bool {
+        match self {
+            Self::Output(error) | Self::File(OutputError::StandardOutput(error)) => {
+                error.kind() == ErrorKind::BrokenPipe
+            }
+            _ => false,
+        }
+    }
+
+    fn is_bad_input(&self) -> bool {
+        match self {
+            Self::Usage { .. } | Self::Unparsed => true,
+            Self::File(error) => error.is_bad_input(),
+            Self::Design(error) => error.is_bad_input(),
+            Self::Sweep(error) => error.is_bad_input(),
+            Self::Analysis(error) => error.is_bad_input(),
+            _ => false,
+        }
+    }
+}
+
+/// Prints help, or what is wrong with the arguments.
+pub fn unparsed(error: &clap::Error) -> Result<(), Failure> {
+    if !error.use_stderr() {
+        return Ok(error.print()?);
+    }
+    let text = error.render().to_string();
+    let is_hidden = |argument: OsString| argument.to_string_lossy().contains(terminal::is_hidden);
+    if terminal::cut(&text) == text && !std::env::args_os().any(is_hidden) {
+        // With its colours.
+        let _ = error.print();
+    } else {
+        let _ = writeln!(terminal::err(), "{}", terminal::cut(text.trim_end()));
+    }
+    Err(Failure::Unparsed)
+}

@@ -1,0 +1,97 @@
+//! `creepage plan`: which models would be used, and why.
+
+use std::io::Write;
+
+use super::failure::Failure;
+use super::shared::{Input, Json, SceneArguments};
+use super::terminal;
+use crate::occurrence::Occurrence;
+use crate::shown::{percent, time};
+use crate::{Part, PlanReport};
+
+/// Arguments of `creepage plan`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  creepage plan my-duct.toml
+  creepage plan my-duct.toml --set solver.tolerance=0.05 --json")]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    #[command(flatten)]
+    json: Json,
+}
+
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let input = Input::read(&arguments.scene)?;
+    let mut plan = input.located(crate::plan(&input.scene))?.report();
+    input.warn(&mut plan.warnings);
+    arguments.json.print(&plan, || print(&plan))
+}
+
+/// Every candidate, the chosen ones marked.
+fn print(plan: &PlanReport) -> Result<(), Failure> {
+    let mut out = terminal::out();
+    writeln!(out, "{}", terminal::line(&plan.title))?;
+    let error = plan.estimated_error.map_or_else(
+        || "not known before the run".to_owned(),
+        |error| format!("about {}", percent(error)),
+    );
+    writeln!(
+        out,
+        "ground {}, cable {}, node spacing {:.3} m, vehicle step {:.3} m; error {error}, time {}",
+        plan.ground,
+        plan.cable,
+        plan.node_spacing_m,
+        plan.vehicle_step_m,
+        time(plan.estimated_seconds)
+    )?;
+    if let Some(occurrence) = &plan.occurrence {
+        print_occurrence(&mut out, occurrence)?;
+    }
+    for part in [Part::Ground, Part::Cable, Part::Mesh] {
+        let candidates: Vec<_> = plan
+            .candidates
+            .iter()
+            .filter(|candidate| candidate.part == part)
+            .collect();
+        if candidates.is_empty() {
+            continue;
+        }
+        writeln!(out)?;
+        writeln!(out, "{part:<14} {:>10} {:>10}  why, or why not", "error", "time")?;
+        for candidate in candidates {
+            writeln!(
+                out,
+                "{} {:<12} {:>10} {:>10}  {}",
+                if candidate.chosen { '→' } else { ' ' },
+                candidate.name,
+                candidate.estimated_error.map_or_else(String::new, percent),
+                candidate.estimated_seconds.map_or_else(String::new, time),
+                terminal::sentence(&candidate.reason)
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// A go or no-go before anything is run.
+fn print_occurrence(out: &mut impl Write, occurrence: &Occurrence) -> Result<(), Failure> {
+    write!(out, "Q = q z²/(EA max|D_l|) = {:.2}: ", occurrence.q_number)?;
+    if occurrence.creeps() {
+        write!(
+            out,
+            "{:.0} % of the friction stays locked in at saturation; at most about {:.0} N in this duct, whatever the friction",
+            100.0 * occurrence.locked_share,
+            occurrence.ceiling_n
+        )?;
+    } else {
+        write!(out, "nothing creeps")?;
+    }
+    let rough = if occurrence.rough {
+        " (rough: the numbers are those of one concentrated load on a half-space)"
+    } else {
+        ""
+    };
+    writeln!(out, "{rough}")?;
+    Ok(())
+}

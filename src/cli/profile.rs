@@ -1,0 +1,82 @@
+//! `creepage profile`: the motion of the duct under the first vehicle.
+
+use std::io::Write;
+
+use serde::Serialize;
+
+use super::failure::Failure;
+use super::shared::{Input, OutputArguments, SceneArguments};
+use super::terminal;
+use crate::Profile;
+use crate::output::Kind;
+
+/// Arguments of `creepage profile`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  creepage profile my-duct.toml
+  creepage profile my-duct.toml --positions -1.5,0,1.5 --json
+  creepage profile my-duct.toml --csv motion.csv")]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Positions along the duct, measured from the vehicle, in m: 0,0.5,1
+    #[arg(long, value_delimiter = ',', allow_hyphen_values = true, value_parser = finite)]
+    positions: Option<Vec<f64>>,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+fn finite(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(format!("found \"{text}\"; allowed: a finite number in m")),
+    }
+}
+
+/// A row of the table.
+#[derive(Serialize)]
+struct Row {
+    position_m: f64,
+    longitudinal_m: f64,
+    vertical_m: f64,
+    longitudinal_velocity_m_per_s: f64,
+}
+
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let input = Input::read(&arguments.scene)?;
+    let destination = arguments
+        .output
+        .destination(Kind::Motion, [&*arguments.scene.scene])?;
+    let answer = input.located(match &arguments.positions {
+        Some(positions) => crate::profile_at(&input.scene, positions),
+        None => crate::profile(&input.scene),
+    })?;
+    let rows = (0..answer.positions_m.len()).map(|i| Row {
+        position_m: answer.positions_m[i],
+        longitudinal_m: answer.longitudinal_m[i],
+        vertical_m: answer.vertical_m[i],
+        longitudinal_velocity_m_per_s: answer.longitudinal_velocity_m_per_s[i],
+    });
+    destination.write(&answer, rows, || print(&answer))
+}
+
+fn print(profile: &Profile) -> Result<(), Failure> {
+    let mut out = terminal::out();
+    writeln!(out, "ground: {}", profile.ground)?;
+    writeln!(
+        out,
+        "{:>10} {:>12} {:>12} {:>14}",
+        "ξ, m", "D_l, µm", "D_v, µm", "V_l, µm/s"
+    )?;
+    for i in 0..profile.positions_m.len() {
+        writeln!(
+            out,
+            "{:>10.3} {:>12.4} {:>12.4} {:>14.3}",
+            profile.positions_m[i],
+            1e6 * profile.longitudinal_m[i],
+            1e6 * profile.vertical_m[i],
+            1e6 * profile.longitudinal_velocity_m_per_s[i]
+        )?;
+    }
+    Ok(())
+}

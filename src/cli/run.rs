@@ -1,0 +1,121 @@
+//! `creepage run`: the force after every pass.
+
+use std::io::Write;
+
+use super::failure::Failure;
+use super::progress::{PER_MILLE, PERCENT, with_bar};
+use super::shared::{Input, OutputArguments, SceneArguments};
+use super::terminal;
+use crate::answer::selected;
+use crate::output::Kind;
+use crate::shown::{percent, rounded};
+use crate::{Run, RunOptions};
+
+/// Arguments of `creepage run`.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:
+  creepage run my-duct.toml
+  creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --set vehicles.0.load=15tf
+  creepage run my-duct.toml --json > answer.json
+  creepage run my-duct.toml --csv forces.csv --verify")]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    /// Measure the error by a second run on a mesh twice as fine
+    #[arg(long)]
+    verify: bool,
+    #[command(flatten)]
+    output: OutputArguments,
+}
+
+pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
+    let input = Input::read(&arguments.scene)?;
+    let destination = arguments
+        .output
+        .destination(Kind::Passes, [&*arguments.scene.scene])?;
+    let answer = with_bar(PERCENT, PER_MILLE, |progress| {
+        let options = RunOptions {
+            verify: arguments.verify,
+            progress,
+            ..RunOptions::default()
+        };
+        crate::run_with(&input.scene, &options)
+    });
+    let mut answer = input.located(answer)?;
+    input.warn(&mut answer.warnings);
+    destination.write(&answer, &answer.passes, || print(&answer))
+}
+
+fn print(run: &Run) -> Result<(), Failure> {
+    let mut out = terminal::out();
+    writeln!(out, "{}", terminal::line(&run.title))?;
+    writeln!(
+        out,
+        "duct motion: {:.2} µm along, {:.1} µm down",
+        1e6 * run.duct_motion.peak_longitudinal_m,
+        1e6 * run.duct_motion.peak_vertical_m
+    )?;
+    writeln!(out)?;
+    writeln!(
+        out,
+        "{:>9} {:>23} {:>23} {:>12}",
+        "", "force after pass, N", "end moved, mm", "largest"
+    )?;
+    writeln!(
+        out,
+        "{:>9} {:>11} {:>11} {:>11} {:>11} {:>12}",
+        "pass", "upstream", "downstream", "upstream", "downstream", "in cable, N"
+    )?;
+    for record in selected(&run.passes) {
+        writeln!(
+            out,
+            "{:>9} {:>11} {:>11} {:>11} {:>11} {:>12}",
+            record.pass,
+            rounded(record.upstream_force_n, 1),
+            rounded(record.downstream_force_n, 1),
+            rounded(1e3 * record.upstream_displacement_m, 4),
+            rounded(1e3 * record.downstream_displacement_m, 4),
+            rounded(record.max_compression_n, 1)
+        )?;
+    }
+    writeln!(out)?;
+    match &run.saturation {
+        Some(saturation) => writeln!(
+            out,
+            "saturation: {:.1} N, 95 % of it after {} passes",
+            saturation.force_n, saturation.passes_to_95_percent
+        )?,
+        None => writeln!(out, "saturation: not reached within these passes")?,
+    }
+    for restraint in &run.restraints {
+        writeln!(
+            out,
+            "clamp at {} m: {:.1} N, moved {:.4} mm",
+            restraint.position_m,
+            restraint.force_n,
+            1e3 * restraint.force_n / restraint.stiffness_n_per_m
+        )?;
+    }
+    if let Some(slip) = &run.slip_lengths {
+        writeln!(
+            out,
+            "length slipping with the vehicle at mid-duct: {:.2} m forward, {:.2} m backward",
+            slip.forward_m, slip.backward_m
+        )?;
+    }
+    writeln!(
+        out,
+        "estimated error: {} ({})",
+        percent(run.error_estimate.relative),
+        run.error_estimate.method
+    )?;
+    writeln!(
+        out,
+        "plan: ground {}, cable {}, node spacing {:.3} m, vehicle step {:.3} m",
+        run.plan.ground, run.plan.cable, run.plan.node_spacing_m, run.plan.vehicle_step_m
+    )?;
+    for reason in &run.plan.reasons {
+        writeln!(out, "  {}", terminal::sentence(reason))?;
+    }
+    Ok(())
+}

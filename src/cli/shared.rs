@@ -1,0 +1,221 @@
+//! What several commands have in common: the scene they read, and where their answer goes.
+
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use serde::Serialize;
+
+use super::failure::Failure;
+use super::{signals, terminal};
+use crate::output::{Files, Kind, Output};
+use crate::{Error, Scene, SceneFile, finite};
+
+/// What stands for standard output in place of a file.
+const STDOUT: &str = "-";
+
+#[derive(Debug, clap::Args)]
+pub struct SceneArguments {
+    /// Scene file (TOML)
+    pub scene: PathBuf,
+    /// Override a key of the scene, such as friction.dynamic_coefficient=0.3; a number without a unit is SI; may be repeated
+    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    pub set: Vec<String>,
+}
+
+#[derive(Debug, clap::Args)]
+pub struct OutputArguments {
+    #[command(flatten)]
+    json: Json,
+    /// Write a table to this file; - is standard output, where nothing else is printed then
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    #[command(flatten)]
+    force: Force,
+}
+
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub struct Json {
+    /// Print only JSON to standard output
+    #[arg(long)]
+    json: bool,
+}
+
+/// Whether files that are not this command's own are replaced.
+#[derive(Debug, clap::Args)]
+pub struct Force {
+    /// Replace a file even if it is of another kind than what is written; a file that the command reads is never replaced
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// A scene and the file it came from.
+pub struct Input {
+    file: SceneFile,
+    pub scene: Scene,
+    /// What looks like a slip in the file.
+    pub warnings: Vec<String>,
+}
+
+impl Input {
+    /// Reads the scene and warns of numbers that look like slips.
+    pub fn read(arguments: &SceneArguments) -> Result<Self, Failure> {
+        let file = SceneFile::read(&arguments.scene)?.with(&arguments.set)?;
+        Ok(Self {
+            scene: file.scene()?,
+            warnings: warn_of_slips(&file),
+            file,
+        })
+    }
+
+    /// The answer, or the error with the line of the key at fault.
+    pub fn located<T>(&self, answer: Result<T, Error>) -> Result<T, Failure> {
+        answer.map_err(|error| Failure::Analysis(error.located(&self.file)))
+    }
+
+    /// Warns of what the answer warns of, and adds to it the warnings of the scene.
+    pub fn warn(self, warnings: &mut Vec<String>) {
+        terminal::warn_all(warnings);
+        warnings.splice(0..0, self.warnings);
+    }
+}
+
+/// Warns of numbers that look like slips.
+pub fn warn_of_slips(file: &SceneFile) -> Vec<String> {
+    let slips = file.unit_slips();
+    for slip in &slips {
+        terminal::warn(format_args!("{slip}{}", slip.location.excerpt()));
+    }
+    slips.iter().map(ToString::to_string).collect()
+}
+
+impl Force {
+    /// What a command reads and writes. When the process is stopped, nothing half written is left.
+    pub fn files<'p>(&self, read: impl IntoIterator<Item = &'p Path>) -> Files {
+        signals::clean_up_when_stopped();
+        Files::reading(read, self.force)
+    }
+}
+
+impl Json {
+    /// Prints the answer, all of whose numbers are finite, as one JSON document or by `print`.
+    pub fn print<T: Serialize + ?Sized>(
+        self,
+        answer: &T,
+        print: impl FnOnce() -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        finite::check(answer)?;
+        if !self.json {
+            return print();
+        }
+        // Through a string, so that a document is written whole or not at all.
+        let text = serde_json::to_string_pretty(answer)?;
+        Ok(writeln!(std::io::stdout().lock(), "{text}")?)
+    }
+}
+
+/// Where an answer and its table go.
+pub struct Destination {
+    json: Json,
+    table: Table,
+}
+
+enum Table {
+    None,
+    StandardOutput,
+    File(Output),
+}
+
+impl OutputArguments {
+    /// Makes sure before hours of computing that the table can be written; an older one stays as it is till then.
+    pub fn destination<'p>(
+        &self,
+        kind: Kind,
+        read: impl IntoIterator<Item = &'p Path>,
+    ) -> Result<Destination, Failure> {
+        let (table, file) = match self.csv.as_deref() {
+            None => (Table::None, None),
+            Some(file) if file == Path::new(STDOUT) => (Table::StandardOutput, Some(file)),
+            Some(file) => (
+                Table::File(self.force.files(read).output(file, kind)?),
+                Some(file),
+            ),
+        };
+        let on_stdout = match &table {
+            Table::None => false,
+            Table::StandardOutput => true,
+            Table::File(file) => file.is_standard_output(),
+        };
+        match file {
+            Some(file) if self.json.json && on_stdout => Err(Failure::Usage {
+                argument: "--csv",
+                found: format!("`{}`, standard output, where --json prints", file.display()),
+                allowed: "a file beside --json".into(),
+            }),
+            _ => Ok(Destination {
+                json: self.json,
+                table,
+            }),
+        }
+    }
+}
+
+impl Destination {
+    /// Writes the answer and its table, one row a record with the record's fields as columns.
+    pub fn write<T: Serialize, R: Serialize>(
+        &self,
+        answer: &T,
+        rows: impl IntoIterator<Item = R>,
+        print: impl FnOnce() -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        finite::check(answer)?;
+        match &self.table {
+            Table::None => {}
+            // There it stands alone.
+            Table::StandardOutput => return Ok(std::io::stdout().lock().write_all(&csv(rows)?)?),
+            Table::File(file) => {
+                let text = csv(rows)?;
+                file.write(|out| out.write_all(&text))?;
+            }
+        }
+        self.json.print(answer, print)
+    }
+}
+
+fn csv<R: Serialize>(rows: impl IntoIterator<Item = R>) -> Result<Vec<u8>, Failure> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for row in rows {
+        writer.serialize(row).map_err(std::io::Error::from)?;
+    }
+    Ok(writer.into_inner().map_err(csv::IntoInnerError::into_error)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_document_and_no_table_holds_a_number_that_is_none() {
+        for table in [Table::None, Table::StandardOutput] {
+            for json in [false, true].map(|json| Json { json }) {
+                let destination = Destination {
+                    json,
+                    table: match table {
+                        Table::None => Table::None,
+                        _ => Table::StandardOutput,
+                    },
+                };
+                for answer in [Some(f64::NAN), Some(f64::INFINITY)] {
+                    let printed = || -> Result<(), Failure> { panic!("it was printed") };
+                    let failure = destination.write(&answer, [answer], printed);
+                    let Err(Failure::Analysis(error)) = failure else {
+                        panic!("it was written");
+                    };
+                    assert!(
+                        matches!(error, Error::NotFinite { .. }) && !error.is_bad_input(),
+                        "{error}"
+                    );
+                }
+            }
+        }
+    }
+}

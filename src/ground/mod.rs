@@ -1,0 +1,8 @@
+//! From a scene to the motion of its duct: which model of the ground, how far along the road, under which vehicle.
+
+mod model;
+mod motion;
+pub mod profile;
+pub mod road;
+
+pub use model::Ground;

@@ -1,0 +1,71 @@
+//! Motion of the duct under each of a scene's vehicles.
+
+use ground_field::{DuctLine, DuctMotion, GroundField};
+
+use crate::Error;
+use crate::scene::{PeakScaling, Scene};
+
+/// Points at which two motions are compared, this far on either side of the vehicle \[depths\].
+const COMPARED: (usize, f64) = (241, 12.0);
+
+/// The motion under every vehicle for |ξ| up to `reach` \[m\], to `accuracy` as a share of its peak; scaled to a measured peak
+/// where the scene has one.
+pub fn motions(
+    scene: &Scene,
+    field: &dyn GroundField,
+    accuracy: f64,
+    reach: f64,
+) -> Result<Vec<DuctMotion>, Error> {
+    let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
+    let motions = scene
+        .vehicles
+        .iter()
+        .map(|traffic| DuctMotion::new(field, &traffic.vehicle, line, reach, accuracy))
+        .collect::<Result<_, _>>()?;
+    scale(scene, motions)
+}
+
+fn scale(scene: &Scene, motions: Vec<DuctMotion>) -> Result<Vec<DuctMotion>, Error> {
+    let scaled = |motion: DuctMotion, wanted: f64, peak: f64, key: &'static str| {
+        let factor = wanted / peak;
+        if factor.is_finite() {
+            return Ok(motion.scaled(factor)?);
+        }
+        Err(Error::Unfit {
+            key,
+            found: "a peak",
+            reason: "the vehicle does not move the duct, so there is nothing to scale".into(),
+        })
+    };
+    let first = motions[0].peak_vertical();
+    let each = motions.into_iter();
+    match scene.ground.scaling {
+        None => Ok(each.collect()),
+        Some(PeakScaling::Longitudinal(wanted)) => each
+            .map(|motion| {
+                let peak = motion.peak_longitudinal();
+                scaled(motion, wanted, peak, "ground.longitudinal_peak")
+            })
+            .collect(),
+        Some(PeakScaling::Vertical(wanted)) => each
+            .map(|motion| scaled(motion, wanted, first, "ground.vertical_peak"))
+            .collect(),
+    }
+}
+
+/// Largest |ΔD_l| of any vehicle, as a share of the peak of its `exact` D_l.
+pub fn difference(motions: &[DuctMotion], exact: &[DuctMotion], depth: f64) -> f64 {
+    let (count, depths) = COMPARED;
+    let mut largest = 0.0_f64;
+    for (motion, exact) in motions.iter().zip(exact) {
+        let half = exact.half_length() + depths * depth;
+        for k in 0..count {
+            let xi = half * (2.0 * k as f64 / (count - 1) as f64 - 1.0);
+            let off = (motion.longitudinal(xi) - exact.longitudinal(xi)).abs();
+            if off > 0.0 {
+                largest = largest.max(off / exact.peak_longitudinal());
+            }
+        }
+    }
+    largest
+}

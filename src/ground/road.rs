@@ -1,0 +1,47 @@
+//! How far out on the road a vehicle is followed; [`cable_dem::approach`] says why.
+
+use cable_dem::CableError;
+use ground_field::DuctMotion;
+
+use crate::scene::Scene;
+
+/// The road is looked at over a hundred times the distance from wheel to duct, and ten times the thickness of the layers.
+const FARTHEST_DISTANCES: f64 = 100.0;
+const FARTHEST_THICKNESSES: f64 = 10.0;
+/// But no farther than this \[m\].
+const FARTHEST: f64 = 3000.0;
+/// How far the road is looked at \[m\], measured from a vehicle's origin.
+pub fn farthest(scene: &Scene) -> f64 {
+    let wheels = || scene.vehicles.iter().flat_map(|traffic| traffic.vehicle.wheels());
+    let ahead = wheels().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
+    let aside = wheels()
+        .map(|wheel| wheel.y.abs() + scene.duct.lateral_offset.abs())
+        .fold(0.0, f64::max);
+    let thickness: f64 = scene
+        .ground
+        .profile
+        .layers()
+        .iter()
+        .map(ground_field::SoilLayer::thickness)
+        .sum();
+    let far = (FARTHEST_DISTANCES * scene.duct.depth.hypot(aside)).max(FARTHEST_THICKNESSES * thickness);
+    ahead + far.min(FARTHEST)
+}
+
+/// How far from a vehicle's origin its motion of the duct has to be known \[m\].
+pub fn reach(scene: &Scene) -> f64 {
+    scene.duct.length + scene.solver.approach.unwrap_or(0.0).max(farthest(scene))
+}
+
+/// How far beyond the duct's ends vehicles are followed \[m\]: as the scene says, or to the outermost turn of D_l.
+pub fn approach(scene: &Scene, motions: &[DuctMotion]) -> Result<f64, CableError> {
+    match scene.solver.approach {
+        Some(approach) => Ok(approach),
+        None => needed(scene, motions),
+    }
+}
+
+/// How far beyond the duct's ends vehicles have to be followed \[m\].
+pub fn needed(scene: &Scene, motions: &[DuctMotion]) -> Result<f64, CableError> {
+    cable_dem::approach(motions, scene.duct.depth, farthest(scene))
+}

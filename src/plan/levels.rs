@@ -1,0 +1,158 @@
+//! Meshes of a scene, from coarse to fine.
+//!
+//! The natural length is the duct's depth. Level 0 has three nodes a depth and two steps of the vehicle a node spacing, each
+//! level after it twice as many of both. Every tolerance climbs the same levels and stops at its own, so that a looser
+//! one never costs more, and the levels passed on the way tell the error of the last.
+
+use cable_dem::{CableError, Mesh};
+
+use crate::Error;
+use crate::scene::{Scene, SolverMethod};
+
+/// Nodes per depth of the duct on level 0.
+const COARSEST: f64 = 3.0;
+/// Fewest elements of a short duct on level 0.
+const FEWEST: f64 = 8.0;
+/// Steps of the vehicle per node spacing.
+const STEPS_PER_SPACING: f64 = 2.0;
+/// Typical errors of the force on each level: medians of 200 random scenes, rounded up, measured against far finer runs
+/// (`tests/planner/honest.rs`). No error is stated below them.
+const TYPICAL: [f64; 7] = [5e-2, 3e-2, 6e-3, 1.5e-3, 4e-4, 1e-4, 2e-5];
+/// The finest level that is tried.
+const FINEST: usize = TYPICAL.len() - 1;
+/// The level that a mesh named by the scene counts as: two coarser ones tell its error.
+const NAMED: usize = 2;
+/// Length of cable that one step of the vehicle moves \[depths of the duct\], solves and all; it is within a factor of three.
+const MOVED: f64 = 8.0;
+
+/// The meshes that a scene may be computed on.
+#[derive(Debug, Clone, Copy)]
+pub struct Levels {
+    length: f64,
+    depth: f64,
+    /// How far vehicles drive in one pass \[m\].
+    road: f64,
+    /// Spacing and vehicle step on level 0 \[m\].
+    spacing: f64,
+    step: f64,
+    /// Whether the vehicle's step follows the spacing; a law without memory depends on it.
+    steps_follow: bool,
+    /// The level to begin with, and the finest one to try.
+    first: usize,
+    finest: usize,
+    /// Whether the scene says how fine to be.
+    named: bool,
+    /// Whether the spacing follows from the duct's depth and length.
+    spacing_follows: bool,
+}
+
+impl Levels {
+    pub fn new(scene: &Scene, approach: f64) -> Self {
+        let solver = &scene.solver;
+        let length = scene.duct.length;
+        let steps_follow = scene.friction.law.has_memory();
+        let by_time_step = solver.method == SolverMethod::Explicit && solver.time_step.is_some();
+        // The answer of a law without memory depends on its time step: there is no limit to refine towards.
+        let named =
+            solver.node_spacing.is_some() || solver.vehicle_step.is_some() || by_time_step || !steps_follow;
+        let natural = (scene.duct.depth / COARSEST).min(length / FEWEST);
+        let refinement = f64::from(1 << NAMED);
+        let (spacing, step) = if named {
+            let spacing = solver.node_spacing.unwrap_or_else(|| {
+                (natural / refinement)
+                    .max(solver.vehicle_step.unwrap_or(0.0))
+                    .min(length / FEWEST)
+            });
+            let step = solver.vehicle_step.unwrap_or(spacing / STEPS_PER_SPACING);
+            (
+                refinement * spacing,
+                if steps_follow { refinement * step } else { step },
+            )
+        } else {
+            (natural, natural / STEPS_PER_SPACING)
+        };
+        let wanted = TYPICAL
+            .iter()
+            .position(|&error| error <= solver.tolerance)
+            .unwrap_or(FINEST);
+        Self {
+            length,
+            depth: scene.duct.depth,
+            road: length + 2.0 * approach,
+            spacing,
+            step,
+            steps_follow,
+            first: if named { NAMED } else { wanted.max(1) },
+            finest: if named { NAMED } else { FINEST },
+            named,
+            spacing_follows: solver.node_spacing.is_none(),
+        }
+    }
+
+    /// The level to begin with.
+    pub fn first(&self) -> usize {
+        self.first
+    }
+
+    /// The finest level to try.
+    pub fn finest(&self) -> usize {
+        self.finest
+    }
+
+    /// Whether the scene says how fine to be.
+    pub fn named(&self) -> bool {
+        self.named
+    }
+
+    /// Node spacing and vehicle step on `level` \[m\].
+    pub fn spacing(&self, level: usize) -> (f64, f64) {
+        let share = 0.5_f64.powi(level as i32);
+        let step = if self.steps_follow {
+            share * self.step
+        } else {
+            self.step
+        };
+        (share * self.spacing, step)
+    }
+
+    /// The mesh of `level`; an error where the duct is too short for one so coarse, or what the scene asks for is out of
+    /// range.
+    pub fn mesh(&self, level: usize) -> Result<Mesh, Error> {
+        let (spacing, step) = self.spacing(level);
+        Mesh::new(self.length, spacing, step).map_err(|error| match error {
+            // The spacing is ours: what it follows from is what the scene says.
+            CableError::InvalidParameter { .. } if self.spacing_follows => Error::TooManyNodes {
+                length: self.length,
+                depth: self.depth,
+                nodes: self.length / spacing,
+            },
+            error => error.into(),
+        })
+    }
+
+    /// Typical error of the force on `level`, as a share of it.
+    pub fn typical_error(level: usize) -> f64 {
+        TYPICAL[level.min(FINEST)]
+    }
+
+    /// Error to expect on `level` before anything is computed; `None` on a mesh that the scene names.
+    pub fn expected_error(&self, level: usize) -> Option<f64> {
+        (!self.named).then(|| Self::typical_error(level))
+    }
+
+    /// About how many nodes are solved for in `passes` passes on `level`, without inertia.
+    pub fn node_updates(&self, level: usize, passes: u64) -> f64 {
+        let moved = (MOVED * self.depth).min(self.length);
+        self.updates(level, passes, moved)
+    }
+
+    /// Nodes of the whole cable times steps of the vehicle in `passes` passes on `level`.
+    pub fn lattice(&self, level: usize, passes: u64) -> f64 {
+        self.updates(level, passes, self.length)
+    }
+
+    fn updates(&self, level: usize, passes: u64, moved: f64) -> f64 {
+        let share = 0.5_f64.powi(level as i32);
+        passes as f64 * self.road / (share * self.step) * moved / (share * self.spacing)
+    }
+}

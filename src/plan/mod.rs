@@ -1,0 +1,56 @@
+//! How a scene is computed: the ground's motion, the method, the meshes. Data only; `run` carries it out.
+//!
+//! A plan is made from the motion of the duct and from estimates: how far inertia can matter, what the passes will cost.
+//! The run measures what the estimates promise, and refines where they promise too much.
+
+mod levels;
+mod method;
+pub mod occurrence;
+mod report;
+mod warnings;
+
+use ground_field::GroundField;
+
+use crate::ground::{Ground, road};
+use crate::{Error, Scene};
+pub use levels::Levels;
+pub use method::{CableMethod, LAW_ERROR, MethodChoice, PassMethod};
+pub use report::{Candidate, Part, PlanReport};
+
+/// How a scene will be computed.
+#[derive(Debug)]
+pub struct Plan<'a> {
+    pub(crate) scene: &'a Scene,
+    pub(crate) ground: Ground,
+    pub(crate) method: MethodChoice,
+    pub(crate) levels: Levels,
+    pub(crate) warnings: Vec<String>,
+}
+
+/// Plans how to compute `scene`.
+///
+/// # Errors
+///
+/// [`Error`] when the scene asks for what does not fit together.
+pub fn plan(scene: &Scene) -> Result<Plan<'_>, Error> {
+    plan_on(scene, None)
+}
+
+/// Plans how to compute `scene` on a ground model of the caller's own, where there is one.
+///
+/// # Errors
+///
+/// As for [`plan`].
+pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Plan<'a>, Error> {
+    scene.validate()?;
+    let ground = Ground::new(scene, own, road::reach(scene))?;
+    let levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
+    levels.mesh(levels.first())?;
+    Ok(Plan {
+        scene,
+        method: method::choose(scene, &levels)?,
+        warnings: warnings::warnings(scene),
+        ground,
+        levels,
+    })
+}

@@ -1,0 +1,196 @@
+//! A plan for a reader: what was chosen, what was not, and why.
+
+use std::cmp::Ordering;
+
+use serde::{Deserialize, Serialize};
+
+use super::Plan;
+use super::method::{CableMethod, PassMethod};
+use super::occurrence::Occurrence;
+
+/// What a candidate models.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[non_exhaustive]
+pub enum Part {
+    /// The ground under the wheels.
+    Ground,
+    /// The cable and its passes.
+    Cable,
+    /// Node spacing and vehicle step.
+    Mesh,
+}
+
+impl std::fmt::Display for Part {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.pad(match self {
+            Self::Ground => "ground",
+            Self::Cable => "cable",
+            Self::Mesh => "mesh",
+        })
+    }
+}
+
+/// A model or mesh that was considered, chosen or not.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Candidate {
+    /// What it models.
+    pub part: Part,
+    /// Name of the model.
+    pub name: String,
+    /// Whether it was chosen.
+    pub chosen: bool,
+    /// How wrong it is, as a share: of the peak of D_l for the ground, of the force for the others.
+    pub estimated_error: Option<f64>,
+    /// Time it takes \[s\] on a core of about 3 GHz, within a factor of three or so.
+    pub estimated_seconds: Option<f64>,
+    /// Why it was chosen, or why not.
+    pub reason: String,
+}
+
+/// A plan for a reader. The names of the fields are those of the JSON document, units included.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct PlanReport {
+    /// The scene's title.
+    pub title: String,
+    /// Ground model.
+    pub ground: String,
+    /// How the passes are computed.
+    pub cable: String,
+    /// Distance between nodes to begin with \[m\]; the run refines it until its error is small enough.
+    pub node_spacing_m: f64,
+    /// Advance of the vehicle per step to begin with \[m\].
+    pub vehicle_step_m: f64,
+    /// Why these.
+    pub reasons: Vec<String>,
+    /// Error to expect, as a share of the force; `None` on a mesh that the scene names.
+    pub estimated_error: Option<f64>,
+    /// Time of the run \[s\] on a core of about 3 GHz, within a factor of three or so.
+    pub estimated_seconds: f64,
+    /// Whether the cable creeps, and how much force there can be, by one number; `None` where nothing moves the duct.
+    pub occurrence: Option<Occurrence>,
+    /// Everything that was considered.
+    pub candidates: Vec<Candidate>,
+    /// What the user should know before trusting the answer.
+    pub warnings: Vec<String>,
+}
+
+impl Plan<'_> {
+    /// Why the ground model and the method were chosen.
+    pub(crate) fn reasons(&self) -> Vec<String> {
+        vec![
+            format!("ground {}: {}", self.ground.name, self.ground.reason),
+            format!("cable {}: {}", self.method.method.name(), self.method.reason),
+        ]
+    }
+
+    /// The plan for a reader.
+    pub fn report(&self) -> PlanReport {
+        let Self {
+            scene,
+            ground,
+            method,
+            levels,
+            ..
+        } = self;
+        let first = levels.first();
+        let law = method.method == PassMethod::Law;
+        let mesh_error = if law {
+            Some(0.0)
+        } else {
+            levels.expected_error(first)
+        };
+        let method_error = method.estimates.error(scene, method.method).unwrap_or(0.0);
+        let spacing = levels.spacing(first);
+        let mut candidates = self.grounds();
+        candidates.extend(self.methods());
+        if !law {
+            candidates.extend(self.meshes());
+        }
+        PlanReport {
+            title: scene.title.clone(),
+            ground: ground.name.into(),
+            cable: method.method.name().into(),
+            node_spacing_m: spacing.0,
+            vehicle_step_m: spacing.1,
+            reasons: self.reasons(),
+            estimated_error: mesh_error.map(|error| error + method_error + ground.accuracy),
+            estimated_seconds: method.estimates.seconds(method.method),
+            occurrence: Occurrence::new(scene, &ground.motions),
+            candidates,
+            warnings: self.warnings.clone(),
+        }
+    }
+
+    fn grounds(&self) -> Vec<Candidate> {
+        let chosen = Candidate {
+            part: Part::Ground,
+            name: self.ground.name.into(),
+            chosen: true,
+            estimated_error: Some(self.ground.accuracy),
+            estimated_seconds: None,
+            reason: self.ground.reason.into(),
+        };
+        let simpler = self
+            .ground
+            .equivalent_thickness_error(self.scene)
+            .map(|error| Candidate {
+                part: Part::Ground,
+                name: "odemark".into(),
+                chosen: false,
+                estimated_error: Some(error),
+                estimated_seconds: None,
+                reason: "an approximation, which saves nothing: a run costs the same on any ground".into(),
+            });
+        [chosen].into_iter().chain(simpler).collect()
+    }
+
+    fn methods(&self) -> Vec<Candidate> {
+        let estimates = &self.method.estimates;
+        let all = [
+            PassMethod::Law,
+            PassMethod::EveryPass(CableMethod::QuasiStatic),
+            PassMethod::EveryPass(CableMethod::Dynamic),
+            PassMethod::EveryPass(CableMethod::Explicit),
+        ];
+        let candidate = |method: PassMethod| {
+            let chosen = method == self.method.method;
+            Candidate {
+                part: Part::Cable,
+                name: method.name().into(),
+                chosen,
+                estimated_error: estimates.error(self.scene, method),
+                estimated_seconds: Some(estimates.seconds(method)),
+                reason: if chosen {
+                    self.method.reason.clone()
+                } else {
+                    estimates.against(self.scene, method)
+                },
+            }
+        };
+        all.map(candidate).into()
+    }
+
+    fn meshes(&self) -> Vec<Candidate> {
+        let levels = &self.levels;
+        let candidate = |level: usize| Candidate {
+            part: Part::Mesh,
+            name: format!("{:.3} m", levels.spacing(level).0),
+            chosen: level == levels.first(),
+            estimated_error: levels.expected_error(level),
+            estimated_seconds: None,
+            reason: match level.cmp(&levels.first()) {
+                Ordering::Less => "too coarse; computed to measure the error of the next".into(),
+                Ordering::Equal if levels.named() => "the scene asks for it".into(),
+                Ordering::Equal => "the coarsest that should keep the tolerance".into(),
+                Ordering::Greater => "only if the one before proves too coarse".into(),
+            },
+        };
+        (0..=levels.finest())
+            .filter(|&level| levels.mesh(level).is_ok())
+            .map(candidate)
+            .collect()
+    }
+}

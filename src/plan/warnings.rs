@@ -1,0 +1,39 @@
+//! What lies outside the model's range, whatever is chosen.
+
+use ground_field::Base;
+
+use crate::scene::{Scene, unusual};
+
+/// Density of soil \[kg/m³\] for the speed of its shear waves: moist sand and clay have 1700 to 2000.
+const SOIL_DENSITY: f64 = 1800.0;
+/// Mach number of a vehicle in the ground above which the ground's own inertia is no longer small.
+const FAST: f64 = 0.3;
+
+/// What the user should know before trusting any answer.
+pub fn warnings(scene: &Scene) -> Vec<String> {
+    let mut warnings = unusual(scene);
+    warnings.extend(fast(scene));
+    warnings
+}
+
+fn fast(scene: &Scene) -> Option<String> {
+    let profile = &scene.ground.profile;
+    let base = match profile.base() {
+        Base::HalfSpace(soil) => Some(soil.shear_modulus()),
+        Base::Rigid => None,
+    };
+    let layers = profile.layers().iter().map(|layer| {
+        let ends = [0.0, layer.thickness()].map(|depth| layer.young_modulus_at(depth));
+        ends[0].min(ends[1]) / (2.0 * (1.0 + layer.poisson_ratio()))
+    });
+    let softest = layers.chain(base).fold(f64::INFINITY, f64::min);
+    let wave = (softest / SOIL_DENSITY).sqrt();
+    let speeds = scene.vehicles.iter().map(|traffic| traffic.vehicle.speed());
+    let mach = speeds.fold(0.0, f64::max) / wave;
+    (mach > FAST).then(|| {
+        format!(
+            "a vehicle drives at {mach:.2} of the speed of shear waves in the softest soil ({wave:.0} m/s at {SOIL_DENSITY} kg/m³): \
+             the ground is computed without its inertia, which matters above {FAST}"
+        )
+    })
+}

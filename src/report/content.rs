@@ -1,0 +1,153 @@
+//! What a report contains: everything that is computed for it.
+
+use super::agreement::Agreement;
+use super::friction::Friction;
+use super::measures::Comparison;
+use crate::calibration::{CellEnd, Readings};
+use crate::design::Measure;
+use crate::{Error, PlanReport, Profile, Progress, Run, RunOptions, Scene, finite, profile_at};
+
+/// Positions at which the motion of the duct is drawn, and how far on either side of the vehicle \[depths\].
+const POSITIONS: i32 = 301;
+const REACH_DEPTHS: f64 = 10.0;
+/// Lengths that are called round, in powers of ten.
+const ROUND_LENGTHS: [f64; 7] = [1.0, 1.5, 2.0, 2.5, 3.0, 5.0, 7.5];
+/// Passes after which the cable is shown, at most.
+const STAGES: u32 = 4;
+/// Share of the work that the scene's own run is taken to be; the rest are ways to hold the cable.
+const RUN_SHARE: f64 = 0.3;
+
+/// What a report contains besides the scene's answer.
+#[derive(Default)]
+pub struct ReportOptions<'a> {
+    /// Readings of the load cell, drawn over the computed force.
+    pub readings: Option<&'a Readings>,
+    /// Ways to hold the cable; without any, fixed end, springs and clamps that suit the scene.
+    pub measures: Option<&'a [Measure]>,
+    /// Warnings in addition to those of the run.
+    pub warnings: &'a [String],
+    /// Called after each pass of the scene's run, then after each way to hold the cable; it may stop the report.
+    pub progress: Progress<'a>,
+}
+
+/// The content of the page; [`to_html`](Report::to_html) writes it.
+#[derive(Debug)]
+pub struct Report {
+    pub(super) scene: Scene,
+    pub(super) run: Run,
+    pub(super) plan: PlanReport,
+    pub(super) motion: Profile,
+    pub(super) friction: Friction,
+    pub(super) agreement: Option<Agreement>,
+    pub(super) measures: Comparison,
+    pub(super) warnings: Vec<String>,
+}
+
+impl Report {
+    /// Computes everything.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] when the scene's own run fails or gives a number that is not finite, and when readings are given and no end of the cable is
+    /// held. Ways to hold the cable that fail are stated on the page.
+    pub fn new(scene: &Scene, options: &ReportOptions<'_>) -> Result<Self, Error> {
+        scene.validate()?;
+        if options.readings.is_some() {
+            CellEnd::of(scene)?;
+        }
+        let plan = crate::plan(scene)?;
+        let stages = stages(scene.traffic.passes);
+        let options_of_run = RunOptions {
+            progress: options.progress.part(0.0, RUN_SHARE),
+            stages: &stages,
+            ..RunOptions::default()
+        };
+        let run = crate::run_plan(&plan, &options_of_run)?;
+        let agreement = options
+            .readings
+            .map(|readings| Agreement::new(scene, &run, readings));
+        let ways = options.progress.part(RUN_SHARE, 1.0);
+        let report = Self {
+            plan: plan.report(),
+            motion: profile_at(scene, &positions(scene))?,
+            friction: Friction::new(scene, &run),
+            agreement: agreement.transpose()?,
+            measures: Comparison::new(scene, &run, options.measures, ways)?,
+            warnings: options.warnings.iter().chain(&run.warnings).cloned().collect(),
+            run,
+            scene: scene.clone(),
+        };
+        report.check()?;
+        Ok(report)
+    }
+
+    /// Makes sure that every number on the page is finite.
+    fn check(&self) -> Result<(), Error> {
+        finite::check(&self.run)?;
+        finite::check(&self.plan)?;
+        finite::check(&self.motion)?;
+        finite::check(&self.friction.passes)?;
+        finite::check(&self.agreement.as_ref().map(Agreement::numbers))?;
+        let mut answers = self.measures.ways.iter().flat_map(|way| &way.answer);
+        answers.try_for_each(finite::check)
+    }
+
+    /// The scene's answer.
+    pub fn run(&self) -> &Run {
+        &self.run
+    }
+}
+
+/// How far on either side of the vehicle the figures go \[m\]: a round length, so that their axes have ticks on both sides.
+pub(super) fn reach(scene: &Scene) -> f64 {
+    let wheels = scene.vehicles[0].vehicle.wheels();
+    let longest = wheels.iter().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
+    let reach = REACH_DEPTHS * scene.duct.depth + longest;
+    let power = 10_f64.powf(reach.log10().floor());
+    let above = ROUND_LENGTHS.into_iter().find(|length| length * power >= reach);
+    above.unwrap_or(10.0) * power
+}
+
+/// Positions ξ \[m\] of the figures of the duct's motion.
+fn positions(scene: &Scene) -> Vec<f64> {
+    let (half, middle) = (reach(scene), POSITIONS / 2);
+    let position = |k: i32| half * f64::from(k) / f64::from(middle);
+    (-middle..=middle).map(position).collect()
+}
+
+/// The first pass, the last, and round numbers between them.
+fn stages(count: u64) -> Vec<u64> {
+    let between = |k: u32| round((count as f64).powf(f64::from(k) / f64::from(STAGES - 1)));
+    let mut stages: Vec<u64> = (0..STAGES - 1)
+        .map(between)
+        .filter(|&pass| pass < count)
+        .collect();
+    stages.push(count);
+    stages.dedup();
+    stages
+}
+
+/// The largest of 1, 2, 5, 10, 20, … that is not above `number`, which is at least 1.
+fn round(number: f64) -> u64 {
+    // The cube root of a thousand comes out a little below ten.
+    let number = number * (1.0 + 1e-9);
+    let power = 10_f64.powf(number.log10().floor());
+    let step = [5.0, 2.0].into_iter().find(|step| number / power >= *step);
+    (step.unwrap_or(1.0) * power).round() as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stages_are_round_and_end_with_the_last_pass() {
+        assert_eq!(stages(1), [1]);
+        assert_eq!(stages(2), [1, 2]);
+        assert_eq!(stages(5), [1, 2, 5]);
+        assert_eq!(stages(200), [1, 5, 20, 200]);
+        assert_eq!(stages(1000), [1, 10, 100, 1000]);
+        assert_eq!(stages(10_000_000), [1, 200, 20_000, 10_000_000]);
+        assert_eq!(stages(30), [1, 2, 5, 30]);
+    }
+}

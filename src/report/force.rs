@@ -1,0 +1,152 @@
+//! Force and movement over the passes, and force along the cable.
+
+use super::agreement::Agreement;
+use super::content::Report;
+use super::figure::{MILLI, figure, passes_axis, series};
+use super::html::{Html, Table};
+use super::quantity::{count, length};
+use crate::PassRecord;
+use crate::answer::selected;
+use crate::figure::{Axis, Chart, Reference, Series};
+use crate::scene::End;
+use crate::shown::rounded;
+
+/// Readings that are drawn at most: of more every second, third, … is.
+const READINGS: usize = 300;
+
+pub fn force(html: &mut Html, report: &Report) {
+    html.raw("<div class=\"figures\">");
+    let measured = report.agreement.as_ref().map_or(String::new(), measured);
+    let caption = format!("Force after each pass, compression positive. A free end carries none.{measured}");
+    figure(html, [over_passes(report)], &caption);
+    let caption = "Force along the cable after the passes named, compression positive.";
+    figure(html, [along(report)], caption);
+    let caption = "Displacement of the cable’s ends, positive toward growing x, downstream.";
+    figure(html, [movement(report)], caption);
+    html.table(&passes(&report.run.passes));
+    html.raw("</div>");
+    for clamp in &report.run.restraints {
+        let (place, force) = (length(clamp.position_m), rounded(clamp.force_n, 1));
+        html.paragraph(&format!("The clamp at {place} carries {force} N."));
+    }
+}
+
+fn measured(agreement: &Agreement) -> String {
+    let [rms, mean, largest] = agreement.numbers().map(|force| rounded(force, 1));
+    let bars = if agreement.readings.iter().any(|reading| reading.sigma.is_some()) {
+        " Bars are one standard deviation long to either side."
+    } else {
+        ""
+    };
+    format!(
+        " {} readings at the {} end; measured minus computed force of {} of them: mean {mean} N, root of the mean square {rms} N, \
+         largest reading {largest} N.{bars}",
+        agreement.readings.len(),
+        agreement.end.name(),
+        agreement.compared,
+    )
+}
+
+/// Force on the ends against passes, the saturated force, and readings.
+fn over_passes(report: &Report) -> Chart {
+    let run = &report.run;
+    let readings = report.agreement.as_ref().map_or(&[][..], |a| &a.readings);
+    let computed = run.passes.iter().map(|record| record.pass);
+    let last = computed.chain(readings.iter().map(|reading| reading.pass)).max();
+    let axes = (passes_axis(last.unwrap_or(1)), Axis::linear("force, N"));
+    let mut chart = Chart::new("Force against passes", axes.0, axes.1);
+    let line = |name: &str, look, value: fn(&PassRecord) -> f64| {
+        Series::line(name, series(&run.passes, value)).look(look)
+    };
+    let ends = &report.scene.ends;
+    if ends.downstream != End::Free {
+        chart = chart.with(line("downstream end", 0, |record| record.downstream_force_n));
+    }
+    if ends.upstream != End::Free {
+        chart = chart.with(line("upstream end", 1, |record| record.upstream_force_n));
+    }
+    if (ends.upstream, ends.downstream) == (End::Free, End::Free) {
+        chart = chart.with(line("largest in the cable", 0, |record| record.max_compression_n));
+    }
+    if let Some(saturation) = &run.saturation {
+        let label = format!("levels off at {:.1} N", saturation.force_n);
+        chart = chart.refer(Reference::horizontal(saturation.force_n, label));
+    }
+    if readings.is_empty() {
+        return chart;
+    }
+    let shown = || readings.iter().step_by(readings.len().div_ceil(READINGS));
+    for reading in shown() {
+        if let Some(sigma) = reading.sigma {
+            let bar = [-sigma, sigma].map(|sigma| (reading.pass as f64, reading.force + sigma));
+            chart = chart.with(Series::line("", bar).colour(1).solid());
+        }
+    }
+    let points = shown().map(|reading| (reading.pass as f64, reading.force));
+    chart.with(Series::points("measured", points).look(1).marker(0))
+}
+
+/// Force along the cable after some passes.
+fn along(report: &Report) -> Chart {
+    let axes = (Axis::linear("place along the duct, m"), Axis::linear("force, N"));
+    let chart = Chart::new("Force along the cable", axes.0, axes.1);
+    let stages = report.run.stages.iter();
+    stages.fold(chart, |chart, stage| {
+        let profile = &stage.force_profile;
+        let points = profile.positions_m.iter().zip(&profile.force_n);
+        let name = if stage.pass == 1 {
+            "pass 1".into()
+        } else {
+            count(stage.pass)
+        };
+        chart.with(Series::line(name, points.map(|(x, force)| (*x, *force))))
+    })
+}
+
+/// Movement of both ends against passes.
+fn movement(report: &Report) -> Chart {
+    let passes = &report.run.passes;
+    let last = passes.last().map_or(1, |record| record.pass);
+    let upstream = series(passes, |record| MILLI * record.upstream_displacement_m);
+    let downstream = series(passes, |record| MILLI * record.downstream_displacement_m);
+    let axes = (passes_axis(last), Axis::linear("movement, mm"));
+    Chart::new("Movement of the ends", axes.0, axes.1)
+        .with(Series::line("upstream end", upstream))
+        .with(Series::line("downstream end", downstream))
+}
+
+/// Some passes, as the terminal shows them; without what stays zero, as the force on a free end.
+fn passes(passes: &[PassRecord]) -> Table {
+    type Column = (&'static str, fn(&PassRecord) -> f64, usize);
+    // Soft hyphens: a phone is narrow.
+    let mut columns: Vec<Column> = vec![
+        ("force up\u{ad}stream, N", |record| record.upstream_force_n, 1),
+        ("force down\u{ad}stream, N", |record| record.downstream_force_n, 1),
+        (
+            "moved up\u{ad}stream, mm",
+            |record| MILLI * record.upstream_displacement_m,
+            4,
+        ),
+        (
+            "moved down\u{ad}stream, mm",
+            |record| MILLI * record.downstream_displacement_m,
+            4,
+        ),
+    ];
+    let is_shown = |(_, value, _): &Column| passes.iter().any(|record| value(record) != 0.0);
+    if columns.iter().any(is_shown) {
+        columns.retain(is_shown);
+    }
+    let row = |record: &PassRecord| {
+        let values = columns
+            .iter()
+            .map(|(_, value, decimals)| rounded(value(record), *decimals));
+        std::iter::once(count(record.pass)).chain(values).collect()
+    };
+    let names = columns.iter().map(|(name, ..)| *name);
+    Table {
+        head: std::iter::once("pass").chain(names).map(str::to_owned).collect(),
+        rows: selected(passes).into_iter().map(row).collect(),
+        numbers: vec![true; 1 + columns.len()],
+    }
+}

@@ -1,0 +1,55 @@
+//! How the answer was computed, and how wrong it may be.
+
+use super::content::Report;
+use super::html::{Html, Table};
+use crate::shown::{percent, time};
+
+pub fn plan(html: &mut Html, report: &Report) {
+    let (run, plan) = (&report.run, &report.plan);
+    html.paragraph(&format!(
+        "Ground {}, cable {}, node spacing {:.3} m, vehicle step {:.3} m.",
+        run.plan.ground, run.plan.cable, run.plan.node_spacing_m, run.plan.vehicle_step_m
+    ));
+    html.list(&run.plan.reasons);
+    html.element("h3", "What was considered");
+    let rows = plan.candidates.iter().map(|candidate| {
+        let cost = [
+            candidate.estimated_error.map(percent),
+            candidate.estimated_seconds.map(time),
+        ];
+        let fate = if candidate.chosen { "chosen" } else { "rejected" };
+        vec![
+            format!("{} {}: {fate}", candidate.part, candidate.name),
+            cost.into_iter().flatten().collect::<Vec<_>>().join(", "),
+            candidate.reason.clone(),
+        ]
+    });
+    html.table(&Table {
+        head: ["model", "error, time", "why, or why not"]
+            .map(str::to_owned)
+            .to_vec(),
+        rows: rows.collect(),
+        numbers: vec![false; 3],
+    });
+    html.element("h3", "Error of the forces");
+    let error = &run.error_estimate;
+    html.paragraph(&format!(
+        "{} in all, {}. How well the equations are solved, not how well they describe a duct.",
+        percent(error.relative),
+        error.method
+    ));
+    let parts = error.parts;
+    let row = |name: &str, part: f64| vec![name.to_owned(), percent(part)];
+    html.table(&Table {
+        head: vec!["part".into(), "error".into()],
+        rows: vec![
+            row("node spacing and vehicle step", parts.mesh),
+            row("ground model", parts.ground),
+            row("inertia of the cable", parts.inertia),
+            row("road beyond where vehicles are followed", parts.road),
+            row("passes that were not simulated", parts.passes),
+            row("movement of the ends, all parts together", parts.movement),
+        ],
+        numbers: vec![false, true],
+    });
+}

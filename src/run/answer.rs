@@ -1,0 +1,216 @@
+//! The answer of a run, by whatever way it was found.
+
+use cable_dem::PassOutcome;
+
+use super::law::LawRun;
+use super::passes::{Passes, force_profile, simulate};
+use super::refine::Solved;
+use crate::answer::{
+    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
+    Stage, balance, error, force_series, listed, saturation,
+};
+use crate::plan::Plan;
+use crate::{Error, Progress};
+
+/// A law that loses more than this share of the stored force in one pass gives no answer.
+const LARGEST_LEAK: f64 = 0.9;
+/// Passes up to which every one is listed.
+const ALL_LISTED: u64 = 10_000;
+
+/// What every answer holds, however it was found.
+pub struct Answer<'a> {
+    plan: &'a Plan<'a>,
+    summary: PlanSummary,
+    pub warnings: Vec<String>,
+}
+
+impl<'a> Answer<'a> {
+    pub fn new(plan: &'a Plan<'a>) -> Self {
+        Self {
+            summary: PlanSummary {
+                ground: plan.ground.name.into(),
+                cable: plan.method.method.name().into(),
+                node_spacing_m: 0.0,
+                vehicle_step_m: 0.0,
+                reasons: plan.reasons(),
+            },
+            warnings: plan.warnings.clone(),
+            plan,
+        }
+    }
+
+    /// The law's answer, if it can be true and is as accurate as it has to be.
+    pub fn trusted(&self, law: LawRun) -> Result<LawRun, Error> {
+        let tolerance = self.plan.scene.solver.tolerance;
+        let relative = law.error.relative;
+        error::judge(relative, tolerance)?;
+        if self.plan.method.may_simulate && relative > tolerance {
+            return Err(Error::Inaccurate {
+                reached: relative,
+                asked: tolerance,
+            });
+        }
+        balance::of_records(self.plan.scene, &law.passes, &law.restraints)?;
+        Ok(law)
+    }
+
+    /// Every pass is simulated after all.
+    pub fn gives_up_the_law(&mut self, error: &Error) {
+        self.summary.cable = self.plan.method.method.solver().name().into();
+        self.summary.reasons.push(format!(
+            "the pass law gave no answer here ({error}): every pass was simulated after all"
+        ));
+    }
+
+    fn duct_motion(&self) -> DuctMotionSummary {
+        let first = &self.plan.ground.motions[0];
+        DuctMotionSummary {
+            peak_longitudinal_m: first.peak_longitudinal(),
+            peak_vertical_m: first.peak_vertical(),
+        }
+    }
+
+    pub fn by_law(mut self, law: LawRun) -> Run {
+        (self.summary.node_spacing_m, self.summary.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
+        self.warnings.extend(law.warnings);
+        let saturation = law.saturation;
+        Run {
+            title: self.plan.scene.title.clone(),
+            duct_motion: self.duct_motion(),
+            plan: self.summary,
+            saturation: saturation.and_then(|s| balance::of_saturation(self.plan.scene, &law.passes, s)),
+            passes: law.passes,
+            force_profile: law.force_profile,
+            restraints: law.restraints,
+            stages: law.stages,
+            slip_lengths: None,
+            error_estimate: law.error,
+            cost: law.cost,
+            warnings: self.warnings,
+        }
+    }
+
+    pub fn by_simulation(mut self, solved: &Solved) -> Result<Run, Error> {
+        for leak in solved.passes.leaks.iter().filter(|leak| leak.matters()) {
+            if leak.loss_per_pass > LARGEST_LEAK {
+                return Err(Error::Unfit {
+                    key: "friction.law",
+                    found: "sigmoid",
+                    reason: leak.to_string().into(),
+                });
+            }
+            self.warnings.push(leak.to_string());
+        }
+        let summary = &mut self.summary;
+        (summary.node_spacing_m, summary.vehicle_step_m) =
+            (solved.mesh.spacing(), solved.mesh.vehicle_step());
+        summary.reasons.extend(solved.reasons.iter().cloned());
+        summary.reasons.extend(solved.passes.step_limits.clone());
+        let outcomes = &solved.passes.outcomes;
+        let (series, scale) = force_series(self.plan.scene, outcomes);
+        let passes = records(outcomes);
+        let total = solved.error.total();
+        Ok(Run {
+            title: self.plan.scene.title.clone(),
+            duct_motion: self.duct_motion(),
+            plan: self.summary,
+            saturation: saturation(&series, scale)
+                .and_then(|saturation| balance::of_saturation(self.plan.scene, &passes, saturation)),
+            passes,
+            force_profile: force_profile(&solved.passes.cable, &solved.passes.state)?,
+            restraints: restraints(&solved.passes)?,
+            slip_lengths: solved.passes.slip,
+            stages: solved.passes.stages.clone(),
+            error_estimate: ErrorEstimate {
+                relative: total.force,
+                method: solved.error.to_string(),
+                parts: ErrorShares {
+                    mesh: solved.error.mesh.force,
+                    ground: solved.error.ground.force,
+                    inertia: solved.error.inertia,
+                    road: solved.error.road.force,
+                    movement: total.movement,
+                    ..ErrorShares::default()
+                },
+            },
+            cost: Cost::new(&solved.statistics),
+            warnings: self.warnings,
+        })
+    }
+
+    /// Without friction every pass leaves the cable as the first one did: where it was laid.
+    pub fn without_friction(mut self, stages: &[u64]) -> Result<Run, Error> {
+        let Plan {
+            method,
+            levels,
+            ground,
+            ..
+        } = self.plan;
+        let method = method.method.solver();
+        let mesh = levels.mesh(levels.first())?;
+        let mut scene = self.plan.scene.clone();
+        scene.traffic.passes = 1;
+        let first = simulate(&scene, method, &ground.motions, mesh, &[], Progress::default())?;
+        let profile = force_profile(&first.cable, &first.state)?;
+        let count = self.plan.scene.traffic.passes;
+        let summary = &mut self.summary;
+        summary.cable = method.name().into();
+        (summary.node_spacing_m, summary.vehicle_step_m) = (mesh.spacing(), mesh.vehicle_step());
+        summary
+            .reasons
+            .push("without friction nothing drags the cable: every pass is like the first".into());
+        let stages = stages.iter().filter(|pass| (1..=count).contains(*pass));
+        Ok(Run {
+            title: self.plan.scene.title.clone(),
+            duct_motion: self.duct_motion(),
+            plan: self.summary,
+            passes: listed(count)
+                .into_iter()
+                .map(|pass| PassRecord::new(pass, &first.outcomes[0]))
+                .collect(),
+            saturation: None,
+            restraints: restraints(&first)?,
+            slip_lengths: None,
+            stages: stages
+                .map(|&pass| Stage {
+                    pass,
+                    force_profile: profile.clone(),
+                    friction: None,
+                })
+                .collect(),
+            force_profile: profile,
+            error_estimate: ErrorEstimate {
+                relative: 0.0,
+                method: "exact: without friction the cable stays where it was laid".into(),
+                parts: ErrorShares::default(),
+            },
+            cost: Cost::new(&first.statistics),
+            warnings: self.warnings,
+        })
+    }
+}
+
+fn restraints(passes: &Passes) -> Result<Vec<RestraintRecord>, Error> {
+    let Passes { state, cable, .. } = passes;
+    let forces = state.restraint_forces(cable)?;
+    let restraints = cable.restraints().iter().zip(forces);
+    Ok(restraints
+        .map(|(restraint, force_n)| RestraintRecord {
+            position_m: restraint.position,
+            stiffness_n_per_m: restraint.stiffness,
+            force_n,
+        })
+        .collect())
+}
+
+/// All passes, or those that a list of very many shows.
+fn records(outcomes: &[PassOutcome]) -> Vec<PassRecord> {
+    let count = outcomes.len() as u64;
+    let passes = if count <= ALL_LISTED {
+        (1..=count).collect()
+    } else {
+        listed(count)
+    };
+    let record = |pass: u64| PassRecord::new(pass, &outcomes[pass as usize - 1]);
+    passes.into_iter().map(record).collect()
+}
