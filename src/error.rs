@@ -3,11 +3,12 @@
 use std::borrow::Cow;
 
 use cable_dem::CableError;
-use calibrate::{CalibrationError, DataError};
+use calibrate::CalibrationError;
 use ground_field::GroundError;
 use pass_law::LawError;
 
-use crate::SceneError;
+use crate::readings::DataError;
+use crate::scene::SceneError;
 use crate::scene::{Location, SceneFile};
 use crate::shown::{exact_percent, percent};
 

@@ -61,6 +61,7 @@ pub mod output;
 mod plan;
 pub mod presets;
 mod progress;
+pub mod readings;
 #[cfg(feature = "plot")]
 pub mod report;
 mod run;
@@ -86,6 +87,7 @@ pub use error::Error;
 pub use ground::profile::{Profile, profile, profile_at};
 pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
 pub use progress::Progress;
+pub use readings::{DataError, Reading, Readings};
 pub use run::{RunOptions, check, run, run_plan, run_with};
 pub use scene::{Scene, SceneError, SceneFile};
 

@@ -9,10 +9,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use creepage::Scene;
-use creepage::calibration::Readings;
 use creepage::design::{Measure, Place};
 use creepage::report::{Report, ReportOptions};
+use creepage::{Readings, Scene};
 use serde_json::Value;
 use xml::{Element, parse};
 

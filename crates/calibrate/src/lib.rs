@@ -42,7 +42,6 @@
 mod answer;
 mod bootstrap;
 mod calibration;
-mod data;
 mod descent;
 mod deviance;
 mod emulated;
@@ -65,7 +64,6 @@ mod warning;
 
 pub use bootstrap::{Bootstrap, BootstrapOptions};
 pub use calibration::Calibration;
-pub use data::{DataError, Reading, Readings};
 pub use emulator::Emulator;
 pub use error::CalibrationError;
 pub use fit::{Estimate, Fit, Interval};
