@@ -8,31 +8,18 @@
 //! An end is closed only if the data exclude what lies beyond it, up to the bound, by twice the distance that makes an interval: by four
 //! standard errors. For a true value at the bound itself, one such distance would close one of forty intervals by chance.
 
-use nalgebra::{DMatrix, DVector};
-
-use crate::CalibrationError;
-use crate::descent::{Descent, Optimum};
+use crate::descent::Optimum;
 use crate::parameter::FARTHEST;
-use crate::point::{Point, all_over};
-use crate::search::{BETTER, FEW_ITERATIONS, MAX_ROUNDS, ROUGH, Search};
-use crate::uncertainty::Covariance;
+use crate::point::Point;
+use crate::search::MAX_ROUNDS;
+use crate::station::{Profiler, Station, Stop};
 
 /// Distance at which the bound is excluded, in those that make an interval.
 pub(crate) const EXCLUSION: f64 = 2.0;
 /// Accuracy of the root of the rise at an end, as a share of it.
-const ACCURACY: f64 = 0.03;
+pub(crate) const ACCURACY: f64 = 0.03;
 /// Least and largest factors by which the walk outwards goes on.
 const STRIDES: (f64, f64) = (1.3, 2.5);
-/// Best places of a scan from which the others are fitted at a station.
-const STARTS: usize = 2;
-/// Free variable up to which a start for the others goes: nearer to a bound the deviance hardly changes with it, and a descent stays.
-const START_REACH: f64 = 7.0;
-
-/// Distance in the free variable up to which what is known at one station holds at the next.
-const NEAR: f64 = 2.0;
-/// Rise that no fit of the others brings down to what an interval ends at: they may take away all but a ten-millionth.
-const HOPELESS: f64 = 1e8;
-
 /// The profile of one parameter.
 #[derive(Debug, Default)]
 pub(crate) struct Profile {
@@ -53,43 +40,6 @@ pub(crate) struct Witness {
     pub threshold: f64,
     /// The parameter whose bound it stands at, the upper one or the lower.
     pub bound: Option<(usize, bool)>,
-}
-
-/// Why a profile was not finished.
-pub(crate) enum Stop {
-    /// A point lower than the optimum.
-    Better(Point),
-    Failed(CalibrationError),
-}
-
-impl From<CalibrationError> for Stop {
-    fn from(error: CalibrationError) -> Self {
-        Self::Failed(error)
-    }
-}
-
-/// Profiles parameters around an optimum.
-pub(crate) struct Profiler<'a> {
-    pub search: &'a Search<'a>,
-    pub optimum: &'a Optimum,
-    pub covariance: &'a Covariance,
-    /// Root of the rise at which an interval ends.
-    pub wanted: f64,
-    /// A minimum elsewhere that is hardly higher: an interval reaches beyond it.
-    pub rival: Option<&'a Point>,
-    /// Places all over the ranges of the others, for each of them, from the best of which they are fitted as well: what a narrow and bent
-    /// valley needs, where a run costs nothing.
-    pub scan: usize,
-}
-
-/// A point of the profile.
-#[derive(Debug, Clone)]
-struct Station {
-    optimum: Optimum,
-    /// Distance from the estimate in the parameter's coordinate.
-    distance: f64,
-    /// Root of the rise, less what the others might still gain.
-    root: f64,
 }
 
 impl Profiler<'_> {
@@ -131,10 +81,6 @@ impl Profiler<'_> {
         Ok(profile)
     }
 
-    fn coordinate(&self, k: usize) -> f64 {
-        self.search.evaluator.parameters[k].bounded(self.optimum.point.free[k])
-    }
-
     fn at_optimum(&self) -> Station {
         Station {
             optimum: self.optimum.clone(),
@@ -156,11 +102,6 @@ impl Profiler<'_> {
             },
             distance,
         })
-    }
-
-    /// Rise of the deviance from the optimum.
-    fn rise(&self, point: &Point) -> f64 {
-        self.optimum.deviance.total(&point.residuals) - self.optimum.value()
     }
 
     /// Distance of the end on one side, where it is closed. `stations` are those known, by distance, and stay so; the bound is the last.
@@ -199,15 +140,19 @@ impl Profiler<'_> {
             let place = self.crossing(stations, inner);
             let near = |station: &Station| (station.root - self.wanted).abs() < ACCURACY * self.wanted;
             let (inner, outer) = (&stations[inner], &stations[outer]);
-            if near(inner) || near(outer) {
+            let width = outer.distance - inner.distance;
+            // Beyond an infinite rise the model has no answer.
+            let edge = outer.root.is_infinite() && width < ACCURACY * outer.distance;
+            if near(inner) || near(outer) || edge {
                 return Ok(Some(place));
             }
-            let middle = 0.5 * (inner.distance + outer.distance);
+            let middle = inner.distance + 0.5 * width;
             let next = if round % 3 == 2 { middle } else { place };
             let station = self.station(k, sign, next, stations)?;
             insert(stations, station);
         }
-        Ok(Some(stations[self.bracket(stations).1].distance))
+        // The rise has no jumps: where it seems to, the others are stuck, and nothing is excluded.
+        Ok(None)
     }
 
     /// The outermost stations between which the root of the rise crosses what is wanted: what lies beyond a barrier and is not excluded
@@ -235,97 +180,6 @@ impl Profiler<'_> {
         });
         let middle = 0.5 * (a.0 + b.0);
         parabola.filter(inside).or(chord).unwrap_or(middle)
-    }
-
-    /// Fits all parameters but `k`, which lies `distance` away from its estimate.
-    fn station(&self, k: usize, sign: f64, distance: f64, known: &[Station]) -> Result<Station, Stop> {
-        let held = self.search.evaluator.parameters[k].free(self.coordinate(k) + sign * distance);
-        let (near, jacobian) = self.near(k, held, known);
-        let mut found = Optimum {
-            point: self.best_of(near, 1)?.swap_remove(0),
-            offset: 0.0,
-            ..self.optimum.clone()
-        };
-        // Without an answer there, it is as good as excluded; without other parameters, there is nothing to fit.
-        let others = found.point.free.len() - 1;
-        if others > 0 && self.rise(&found.point) < HOPELESS {
-            found = self.fit_others(k, found.point, jacobian.clone())?;
-            let places = all_over(others, self.scan * others);
-            let places = places
-                .into_iter()
-                .map(|place| place.insert_row(k, held))
-                .collect();
-            for start in self.best_of(places, STARTS)? {
-                let other = self.fit_others(k, start, jacobian.clone())?;
-                if other.value() < found.value() {
-                    found = other;
-                }
-            }
-        }
-        let rise = self.rise(&found.point);
-        if rise < -BETTER {
-            return Err(Stop::Better(found.point));
-        }
-        Ok(Station {
-            // What the others might still gain is taken as gained, which widens the interval at most.
-            root: (rise - found.offset.powi(2)).max(0.0).sqrt(),
-            distance,
-            optimum: found,
-        })
-    }
-
-    fn fit_others(
-        &self,
-        k: usize,
-        start: Point,
-        jacobian: Option<DMatrix<f64>>,
-    ) -> Result<Optimum, CalibrationError> {
-        Descent {
-            held: Some(k),
-            verified: false,
-            tolerance: ROUGH,
-            iterations: FEW_ITERATIONS,
-            ..self.search.descent(self.optimum.deviance, jacobian)
-        }
-        .run(start)
-    }
-
-    /// The `count` best points of `places`.
-    fn best_of(&self, places: Vec<DVector<f64>>, count: usize) -> Result<Vec<Point>, CalibrationError> {
-        let mut points = self.search.evaluator.points(places)?;
-        points.sort_by(|a, b| self.rise(a).total_cmp(&self.rise(b)));
-        points.truncate(count);
-        Ok(points)
-    }
-
-    /// Where the others should be by what is known nearby, and J there.
-    fn near(&self, k: usize, held: f64, known: &[Station]) -> (Vec<DVector<f64>>, Option<DMatrix<f64>>) {
-        let off = |station: &Station| (station.optimum.point.free[k] - held).abs();
-        let mut by_distance: Vec<&Station> = known.iter().collect();
-        by_distance.sort_by(|a, b| off(a).total_cmp(&off(b)));
-        let nearest = &by_distance[0].optimum;
-        let free = &nearest.point.free;
-        // Along the line through the two nearest stations, or the tangent at the optimum.
-        let slope = match by_distance.get(1).map(|other| &other.optimum.point.free) {
-            Some(other) if by_distance[0].distance > 0.0 => (other - free) / (other[k] - free[k]),
-            _ => self.covariance.drift(k),
-        };
-        let mut places = vec![free + slope * (held - free[k])];
-        let far = off(by_distance[0]) > NEAR;
-        if far {
-            places.push(free.clone());
-        }
-        for place in &mut places {
-            place.apply(|z| {
-                *z = if z.is_finite() {
-                    z.clamp(-START_REACH, START_REACH)
-                } else {
-                    0.0
-                }
-            });
-            place[k] = held;
-        }
-        (places, (!far).then(|| nearest.jacobian.clone()))
     }
 }
 

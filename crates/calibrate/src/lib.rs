@@ -58,6 +58,7 @@ mod parameter;
 mod point;
 mod search;
 mod solution;
+mod station;
 mod step;
 mod uncertainty;
 mod warning;

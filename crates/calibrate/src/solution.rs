@@ -6,10 +6,11 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use crate::descent::Optimum;
 use crate::evaluator::Evaluator;
 use crate::fit::{Estimate, Interval};
-use crate::interval::{Profile, Profiler, Stop, Witness};
+use crate::interval::{Profile, Witness};
 use crate::parameter::FARTHEST;
 use crate::point::Point;
 use crate::search::{MAX_ROUNDS, Search};
+use crate::station::{Profiler, Stop};
 use crate::uncertainty::{Covariance, parameters_from_data, quantile};
 use crate::{Calibration, CalibrationError, Loss, Parameter, Profiles, Warning};
 

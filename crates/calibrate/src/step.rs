@@ -22,8 +22,8 @@ const GAINS: (f64, f64) = (0.1, 0.5);
 /// Added to the diagonal of H: as much as knowing a free variable to ±4, so that one of which the data know nothing, whose slopes are
 /// noise, stays about where it is. Beside the information in data that determine a parameter it is nothing.
 const RIDGE: f64 = 1.0 / 16.0;
-/// Longest step of a free variable: a third of the way from the middle of a range to its bound.
-const LONGEST_STEP: f64 = 2.0;
+/// Longest step of a free variable, a third of the way from the middle of a range to its bound, and so far as J holds at all.
+pub(crate) const LONGEST_STEP: f64 = 2.0;
 
 /// The deviance to second order around a point.
 pub(crate) struct Quadratic {
