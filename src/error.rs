@@ -109,6 +109,7 @@ pub enum Error {
 }
 
 /// The error's message with those of its causes. Some errors repeat their cause: it is not added again.
+#[cfg(feature = "sweep")]
 pub(crate) fn with_causes(error: &dyn std::error::Error) -> String {
     let mut message = error.to_string();
     let mut cause = error.source();
