@@ -343,13 +343,14 @@ fn a_way_that_fails_is_told_and_the_others_stay() {
 
 #[test]
 fn other_scenes_have_their_pages() {
-    // No force at all; both ends free; inertia; more passes than can be computed one by one.
+    // No force at all; both ends free; a lane beside the duct; inertia; more passes than can be computed one by one.
     for (overrides, said) in [
         (
             &["friction.dynamic_coefficient=0"][..],
             "There is no friction here",
         ),
         (&["ends.downstream=free"], "largest compression in the cable"),
+        (&["duct.lateral_offset=2 m"], "2 m beside the duct"),
         (
             &["solver.method=dynamic"],
             "The method dynamic does not show friction",

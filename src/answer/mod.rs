@@ -1,7 +1,7 @@
 //! What a run gives, whether it can be true, and how wrong it may be.
 
 pub mod balance;
-pub mod error;
+pub mod error_estimate;
 mod listed;
 mod record;
 mod saturation;

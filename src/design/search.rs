@@ -17,7 +17,7 @@ const DECADES: i32 = 2;
 const POINTS_PER_DECADE: i32 = 2;
 /// Width of the last bracket around a stiffness, as a share of it.
 const ACCURACY: f64 = 0.01;
-/// Name of the law, which has a mesh of its own.
+/// Name of the pass law, which chooses its own mesh.
 const PASS_LAW: &str = "pass-law";
 const MOST_STEPS: u64 = 40;
 /// Runs that finding the stiffness at a limit takes, about: only the progress depends on it.
@@ -26,6 +26,18 @@ const USUAL_STEPS: usize = 8;
 const SAME: f64 = 1e-9;
 
 /// Finds the stiffnesses within the limits.
+///
+/// ```
+/// use creepage::Scene;
+/// use creepage::design::{DesignOptions, Limits, Place, design};
+///
+/// let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml")?;
+/// scene.traffic.passes = 2;
+/// let limits = Limits { force_n: 100.0, movement_m: None };
+/// let design = design(&scene, &DesignOptions::new(Place::Downstream, limits))?;
+/// assert!(design.answer.is_some_and(|answer| answer.force_n <= 100.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 ///
@@ -159,7 +171,7 @@ impl Search<'_> {
         Ok(point)
     }
 
-    /// The stiffnesses from and to which one limit is kept; `None` where none keeps it.
+    /// The least and the largest stiffness within one limit; `None` where there is none.
     fn kept(
         &self,
         stiffnesses: &[f64],
@@ -185,7 +197,7 @@ impl Search<'_> {
         }
     }
 
-    /// The stiffness on the side that keeps the limit, next to where it is crossed between two.
+    /// The last stiffness within the limit, where it is crossed between two.
     fn edge(
         &self,
         low: f64,

@@ -8,7 +8,7 @@ use super::place::Place;
 use super::target::Output;
 use super::temporary::Temporary;
 
-/// A file in the making. Dropped before it is finished, it leaves nothing behind.
+/// A file that is being written. Dropped before it is finished, it leaves nothing behind.
 pub struct Draft {
     output: Output,
     writer: BufWriter<To>,

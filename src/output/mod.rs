@@ -5,8 +5,8 @@
 //! and its owner where that is allowed. A symbolic link stays one, and what it points to is replaced. What is no file of a disk, such as
 //! `/dev/stdout`, `/dev/null` or a named pipe, is written as it is.
 //!
-//! A file that the same command reads is never replaced, nor is a file written twice: files are told apart by what they are, not by what
-//! they are called. A file of another kind is replaced only by force.
+//! A file that the same command reads is never replaced, nor is a file written twice: files are compared by their identity, not by
+//! their names. A file of another kind is replaced only by force.
 //!
 //! Limits: another name of the replaced file (a hard link) keeps the old content. Nothing guards against someone who puts a file of
 //! another kind there between the last look and the rename.

@@ -9,7 +9,7 @@ use super::kind::{Kind, described};
 use super::place::Place;
 use super::temporary::Temporary;
 
-/// Bytes of a file that tell its kind.
+/// Bytes at the beginning of a file that show its kind.
 const HEAD: u64 = 1 << 16;
 
 /// A file that is going to be written.

@@ -20,7 +20,7 @@ pub enum SweepError {
         /// What is allowed.
         allowed: String,
     },
-    /// The sweep as a whole makes no sense.
+    /// Keys, samples or output do not fit together.
     #[error("found {found}; allowed: {allowed}")]
     Unfit {
         /// What was found.

@@ -33,8 +33,8 @@ impl Sweep {
     /// # Errors
     ///
     /// [`SweepError::Unfit`] where there is nothing to vary, a key stands twice or has no value, samples are asked without a distribution or the
-    /// other way round, or there are more than ten million points; [`SweepError::Scene`] where a varied key is none of a
-    /// scene.
+    /// other way round, or there are more than ten million points; [`SweepError::Scene`] where a scene has no such
+    /// key.
     pub fn new(file: SceneFile, axes: Vec<Axis>, samples: Samples) -> Result<Self, SweepError> {
         let unfit = |found: String, allowed| Err(SweepError::Unfit { found, allowed });
         if axes.is_empty() {
@@ -126,7 +126,7 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SceneError`] where its values make no scene.
+    /// [`SceneError`] where its values are not valid.
     pub fn scene(&self, index: usize) -> Result<Scene, SceneError> {
         self.file_at(index)?.scene()
     }

@@ -16,7 +16,7 @@ use crate::output::OutputError;
 
 const MAGIC: &str = "creepage sweep journal 2";
 const FORCED_EVERY: Duration = Duration::from_secs(1);
-/// A header longer than this \[bytes\] is none.
+/// No header is longer than this \[bytes\].
 const LONGEST_HEADER: u64 = 256;
 
 /// The journal of a sweep.

@@ -22,7 +22,7 @@ pub enum MapValue {
     Movement,
 }
 
-/// A map in the making: takes the rows of a sweep, then draws them. A point that failed stays white.
+/// A map: takes the rows of a sweep, then draws them. A point that failed stays white.
 #[derive(Debug)]
 pub struct SweepMap<'a> {
     sweep: &'a Sweep,

@@ -4,7 +4,7 @@
 //! drawn from a distribution: then every point of the grid is computed with the same samples, and the forces have quantiles
 //! ([`Band`]).
 //!
-//! All cores work, each on a point of its own. A finished point is kept at once in a journal beside the output, so that a sweep
+//! All cores work, each on one point. A finished point is kept at once in a journal beside the output, so that a sweep
 //! that was interrupted or killed goes on where it was and ends with the same file, byte for byte. The table stands in the order
 //! of the grid; a point that fails is a row with its error. Memory: about 100 bytes a point.
 //!

@@ -16,7 +16,7 @@ use crate::output::Draft;
 /// Rows that are kept in memory before they are written.
 const GROUP: usize = 8192;
 
-/// A Parquet file in the making.
+/// Writes a Parquet file.
 pub struct Parquet {
     writer: SerializedFileWriter<Draft>,
     columns: Vec<Values>,

@@ -67,7 +67,7 @@ impl Answer {
 }
 
 impl PointError {
-    /// What is told of it.
+    /// Its message.
     pub fn message(&self) -> &str {
         match self {
             Self::BadInput(message) | Self::Failed(message) => message,

@@ -19,7 +19,7 @@ const SMALLEST: f64 = 50.0;
 /// Axes and ticks.
 pub const AXIS: Stroke = Stroke::solid(INK, 1.2);
 
-/// Points beyond so many frames are taken to stand there, so that lengths stay finite.
+/// Points farther out than this many frames are drawn there, so that lengths stay finite.
 const FAR: f64 = 1e9;
 
 /// The scales of both axes, and the plot's place.
@@ -122,11 +122,8 @@ impl Frame {
 fn labels_fit(scale: &Scale, length: f64, size: impl Fn(&str) -> f64) -> Result<(), FigureError> {
     for pair in scale.ticks.windows(2) {
         let room = (scale.share(pair[1].value) - scale.share(pair[0].value)) * length;
-        check_room(
-            &pair[1].label,
-            0.5 * (size(&pair[0].label) + size(&pair[1].label)),
-            room,
-        )?;
+        let needed = 0.5 * (size(&pair[0].label) + size(&pair[1].label));
+        check_room(&pair[1].label, needed, room)?;
     }
     Ok(())
 }
