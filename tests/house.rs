@@ -74,8 +74,8 @@ fn every_test_belongs_to_a_program() {
             .flatten()
         {
             let name = entry.file_name().to_string_lossy().into_owned();
-            let program = entry.path().join("main.rs").exists() || name.ends_with(".rs");
             let stem = name.trim_end_matches(".rs");
+            let program = entry.path().join("main.rs").exists() || stem != name;
             let names = [stem.to_owned(), format!("{stem}.rs"), format!("{stem}/main.rs")];
             if program && !names.iter().any(|name| named.contains(&format!("\"{name}\""))) {
                 lost.push(entry.path());
@@ -195,7 +195,7 @@ impl Package {
             }
         }
         while let Some(name) = rest.first() {
-            let child = [module.as_slice(), &[name.clone()]].concat();
+            let child = [module.as_slice(), std::slice::from_ref(name)].concat();
             if !self.sources.contains_key(&child) {
                 break;
             }

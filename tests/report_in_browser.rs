@@ -14,10 +14,9 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use creepage::Scene;
-use creepage::calibration::Readings;
 use creepage::design::{Measure, Place};
 use creepage::report::{Report, ReportOptions};
+use creepage::{Readings, Scene};
 use serde_json::Value;
 
 const PHONE: u32 = 390;
@@ -26,7 +25,7 @@ const DESK: u32 = 1200;
 const SMALLEST_TEXT: f64 = 10.0;
 /// Least contrast of text (WCAG 2.1, success criterion 1.4.3).
 const LEAST_CONTRAST: f64 = 4.5;
-const PATIENCE: Duration = Duration::from_mins(2);
+const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Runs in the page around the frame.
 const MEASURE: &str = r#"

@@ -80,7 +80,7 @@ pub enum CableError {
         /// Nodes of the mesh.
         expected: usize,
     },
-    /// A time step beyond what the explicit scheme bears.
+    /// A time step beyond the explicit scheme's limit.
     #[error(
         "a time step of {time_step:.3e} s is beyond the explicit scheme's limit of {limit:.3e} s ({formula})"
     )]

@@ -38,7 +38,7 @@ pub struct Statistics {
     pub sweeps: usize,
     /// Nodes eliminated in these, or advanced in time.
     pub node_updates: usize,
-    /// Windows for which the iteration gave up, or was not wanted, and the exact step was taken.
+    /// Windows that the iteration did not solve, so that the exact step was taken.
     pub exact_steps: usize,
     /// Corners of graphs that these touched, each about as much work as a node.
     pub corners: usize,

@@ -25,7 +25,7 @@ const AT_NODE: f64 = 1e-6;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(into = "Stored", try_from = "Stored"))]
 pub struct CableState {
-    /// The nodes; of the vehicle's steps it knows nothing.
+    /// The nodes, without the vehicle's steps.
     mesh: Mesh,
     /// Displacement u \[m\], positive toward growing x.
     pub(crate) displacement: Vec<f64>,
@@ -153,10 +153,8 @@ impl CableState {
         Ok(cable.restraints().iter().map(on).collect())
     }
 
-    /// Largest friction per metre \[N/m\] that the forces in the cable ask for: what is left of the difference between two
-    /// neighbouring elements once clamps and end springs have taken their part, over the node's length of cable. More than the
-    /// friction limit q is impossible at rest: then between any two points the force differs by at most q times their distance
-    /// and what clamps between them carry.
+    /// Largest friction per metre \[N/m\] that equilibrium needs at any node: the difference of the forces in both elements, less what
+    /// clamps and end springs carry, over the node's length of cable. In a state at rest it is at most the friction limit q.
     ///
     /// # Errors
     ///
@@ -231,8 +229,7 @@ impl CableState {
         reader.read(Balance::AtRest, |i| self.displacement[i], |i| self.friction[i])
     }
 
-    /// Lets go of all friction: the cable returns to where its ends and clamps want it, or, held by none, keeps its mean
-    /// position.
+    /// Removes all friction: ends and clamps draw the cable back to zero; held by none, it keeps its mean position.
     pub(crate) fn release(&mut self, cable: &DuctedCable) {
         let supports = Support::of(cable, &self.mesh);
         let held = supports.iter().any(|support| support.stiffness != Some(0.0));

@@ -27,7 +27,7 @@ pub struct StepLimit {
 /// | Coulomb | friction found together with the velocity, by projection | Δt² ω_e²/4 < 1 |
 ///
 /// (roots of the central difference's characteristic polynomial at z = −1). Each left side is a sum of two terms: the
-/// *elastic limit* Δt_e = 2/ω_e and the *friction limit* Δt_f are the steps that each would bear alone, and together
+/// *elastic limit* Δt_e = 2/ω_e and the *friction limit* Δt_f are the steps that each would allow alone, and together
 ///
 /// 1/Δt² = 1/Δt_e² + 1/Δt_f²,
 ///

@@ -25,12 +25,10 @@ pub struct ExplicitOptions {
     /// Time step \[s\]; by default [`StepLimits::advised`], and short enough for the vehicle to advance no more than the mesh's
     /// vehicle step.
     pub time_step: Option<f64>,
-    /// Whether a step beyond the limit is refused. Without the limit the energy balance still is watched: that is what
-    /// this switch is there to show.
+    /// Whether a step beyond the limit is refused; for tests of the energy balance, which watches independently.
     #[doc(hidden)]
     pub check_limits: bool,
-    /// Whether a pass whose energy does not balance is an error. Without either check the scheme may return any number: only
-    /// to show what they are for.
+    /// Whether a pass whose energy does not balance is an error; for tests. Without either check the scheme may return any number.
     #[doc(hidden)]
     pub check_energy: bool,
     /// Most node updates (steps × nodes) that one pass may take.

@@ -87,7 +87,7 @@ impl QuasiStatic {
     }
 
     /// The same solver, which takes the exact step (dynamic programming along the cable) in every window instead of
-    /// iterating first. The answer is the same and costs more: it is there to check the iteration by another method.
+    /// iterating first: the same answer at a higher cost, for tests of the iteration.
     #[doc(hidden)]
     #[must_use]
     pub fn without_iteration(mut self) -> Self {
@@ -151,7 +151,7 @@ impl QuasiStatic {
             state.release(&self.cable);
             return Ok(self.outcome(state, Recorder::new(state.ends(&self.cable))));
         }
-        check_precision(&self.cable, &self.mesh, state.displacement(), passage.peak())?;
+        check_precision(&self.cable, &self.mesh, state.displacement(), passage.peak)?;
         let mirrored = passage.direction() == Direction::Reverse;
         let mirror = mirrored.then(|| self.cable.mirrored());
         let (cable, solver) = match &mirror {

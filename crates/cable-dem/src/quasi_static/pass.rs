@@ -67,17 +67,17 @@ impl ForwardSolver {
     ) -> Result<Recorder, CableError> {
         self.r.copy_from_slice(&state.displacement);
         self.g.copy_from_slice(&state.friction);
-        self.step.start(largest(&self.r, passage.peak()));
+        self.step.start(largest(&self.r, passage.peak));
         self.step.trial.r.copy_from_slice(&self.r);
         self.supports.rest();
         let (points, phases) = passage.lattice();
         self.prediction.fit(points, phases);
         self.recorder = Recorder::new(state.ends(cable));
-        let last_pass = self.memories.remove(&passage.id()).unwrap_or_default();
+        let last_pass = self.memories.remove(&passage.id).unwrap_or_default();
         let mut this_pass = PassMemory::default();
 
         let mut travelling = None;
-        for (step, &position) in passage.positions().iter().enumerate() {
+        for (step, &position) in passage.positions.iter().enumerate() {
             let snapshot = passage.snapshot(position);
             if step == 0 {
                 self.step_whole(&snapshot, passage)?;
@@ -88,7 +88,7 @@ impl ForwardSolver {
             }
             observe(&self.r, &self.g, snapshot);
         }
-        self.memories.insert(passage.id(), this_pass);
+        self.memories.insert(passage.id, this_pass);
 
         // The ground comes to rest. What the windows left out of account is settled by the same step.
         self.step_whole(&passage.still(), passage)?;
@@ -117,7 +117,7 @@ impl ForwardSolver {
     ) -> Result<Option<Stretch>, CableError> {
         self.update_supports(snapshot, false);
         let limit = self.step.chain.limit * (1.0 + NEGLIGIBLE);
-        let near = self.room.under(snapshot.node, passage.reach());
+        let near = self.room.under(snapshot.node, passage.reach);
         let travelling = window::travelling(self.room, near, travelling, |&i| {
             (self.g[i] + snapshot.adhesion[i + 1]).abs() > limit
         });

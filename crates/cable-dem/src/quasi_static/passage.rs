@@ -30,7 +30,7 @@ static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 #[derive(Debug, Clone)]
 pub struct Passage {
     /// Tells passages apart, so that a solver can remember the last pass of each.
-    id: u64,
+    pub(super) id: u64,
     /// What it was computed for.
     mesh: Mesh,
     axial_stiffness: f64,
@@ -41,10 +41,11 @@ pub struct Passage {
     /// Lattice indices before the vehicle's origin.
     behind: usize,
     /// Vehicle positions, in lattice units, from before the duct to past it.
-    positions: Vec<i64>,
+    pub(super) positions: Vec<i64>,
     /// Nodes on either side of the vehicle beyond which adhesion cannot matter.
-    reach: usize,
-    peak: f64,
+    pub(super) reach: usize,
+    /// Largest adherent displacement \[m\].
+    pub(super) peak: f64,
     /// Zeros, one a node and one beyond either end: the ground at rest.
     still: Vec<f64>,
 }
@@ -168,10 +169,6 @@ impl Passage {
             && self.friction == cable.friction()
     }
 
-    pub(super) fn id(&self) -> u64 {
-        self.id
-    }
-
     /// Which way the vehicle drives.
     pub fn direction(&self) -> Direction {
         self.direction
@@ -180,19 +177,6 @@ impl Passage {
     /// Vehicle positions of one pass.
     pub fn steps(&self) -> usize {
         self.positions.len()
-    }
-
-    pub(super) fn positions(&self) -> &[i64] {
-        &self.positions
-    }
-
-    pub(super) fn reach(&self) -> usize {
-        self.reach
-    }
-
-    /// Largest adherent displacement \[m\].
-    pub(super) fn peak(&self) -> f64 {
-        self.peak
     }
 
     /// Number of lattice points in the vehicle's frame, and of those per node spacing.

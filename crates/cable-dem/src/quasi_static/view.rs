@@ -41,24 +41,15 @@ impl StepView<'_> {
         }
     }
 
-    /// Displacement of a node \[m\]; past the last one, of the last.
-    pub fn displacement(&self, node: usize) -> f64 {
-        let (node, sign) = self.place(node);
-        sign * (self.r[node] + self.snapshot.adherent[node + 1])
-    }
-
-    /// Friction on the cable at a node \[N/m\]; past the last one, of the last.
-    pub fn friction(&self, node: usize) -> f64 {
-        let (node, sign) = self.place(node);
-        sign * (self.g[node] + self.snapshot.adhesion[node + 1])
-    }
-
     /// Displacement and friction of every node, whose forces [`CableState`] reads.
     pub fn state(&self) -> CableState {
         let mut state = CableState::at_rest(self.mesh);
         for node in 0..self.mesh.nodes() {
-            state.displacement[node] = self.displacement(node);
-            state.friction[node] = self.friction(node);
+            state.displacement[node] = self.r[node] + self.snapshot.adherent[node + 1];
+            state.friction[node] = self.g[node] + self.snapshot.adhesion[node + 1];
+        }
+        if self.mirrored {
+            state.mirror();
         }
         state
     }
@@ -67,8 +58,7 @@ impl StepView<'_> {
     pub fn slip_lengths(&self) -> SlipLengths {
         let limit = (1.0 - AT_LIMIT) * self.limit;
         let mut lengths = SlipLengths::default();
-        for node in 0..self.mesh.nodes() {
-            let friction = self.friction(node);
+        for (node, &friction) in self.state().friction().iter().enumerate() {
             if friction >= limit {
                 lengths.forward += self.mesh.tributary_length(node);
             } else if friction <= -limit {
@@ -76,15 +66,5 @@ impl StepView<'_> {
             }
         }
         lengths
-    }
-
-    fn place(&self, node: usize) -> (usize, f64) {
-        let last = self.mesh.elements();
-        let node = node.min(last);
-        if self.mirrored {
-            (last - node, -1.0)
-        } else {
-            (node, 1.0)
-        }
     }
 }

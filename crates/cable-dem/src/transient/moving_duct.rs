@@ -25,8 +25,6 @@ pub struct MovingDuct {
     direction: Direction,
     speed: f64,
     mesh: Mesh,
-    /// Length of the duct \[m\].
-    length: f64,
     approach: f64,
     /// Rows by phase: the lattice points p, p + M, p + 2M, …
     rows: Vec<Row>,
@@ -132,7 +130,6 @@ impl MovingDuct {
             direction,
             speed,
             mesh: *mesh,
-            length,
             approach,
             rows,
             origin,
@@ -154,7 +151,7 @@ impl MovingDuct {
 
     /// Duration of one pass \[s\]: over the duct and both approaches.
     pub fn duration(&self) -> f64 {
-        (self.length + 2.0 * self.approach) / self.speed
+        (self.mesh.length() + 2.0 * self.approach) / self.speed
     }
 
     /// Largest displacement of the duct \[m\].
@@ -195,7 +192,7 @@ impl MovingDuct {
     pub(crate) fn vehicle_position(&self, t: f64) -> f64 {
         match self.direction {
             Direction::Forward => self.speed * t - self.approach,
-            Direction::Reverse => self.length + self.approach - self.speed * t,
+            Direction::Reverse => self.mesh.length() + self.approach - self.speed * t,
         }
     }
 

@@ -1,12 +1,10 @@
 //! The dynamic implicit solver: its order, what inertia does, and the sigmoid law.
 
-mod common;
-
+use crate::common::{APPROACH, EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, relative, truck};
 use cable_dem::{
     CableState, DuctedCable, Dynamic, End, ExplicitOptions, Friction, FrictionLaw, Mesh, MovingDuct,
     QuasiStatic, SigmoidLeak, inertia_ratio,
 };
-use common::{APPROACH, EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, relative, truck};
 use ground_field::Direction;
 
 /// A soft sheath that never slips, shaken by a fast bump: a smooth problem, read in mid-swing.
