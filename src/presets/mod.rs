@@ -21,7 +21,6 @@ use toml::de::{DeTable, DeValue};
 /// What a preset describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
-#[non_exhaustive]
 pub enum PresetKind {
     /// `[[vehicles]]`
     Vehicle,
