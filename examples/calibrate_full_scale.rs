@@ -12,9 +12,9 @@
 //! cargo run --release --example calibrate_full_scale
 //! ```
 
-use creepage::calibration::{Calibrated, Deflection, Quantity, Reading, Readings, Unknown};
+use creepage::calibration::{Calibrated, Deflection, Quantity, Unknown};
 use creepage::scene::PeakScaling;
-use creepage::{CalibrateOptions, Scene, Series, calibrate, calibrate_jointly};
+use creepage::{CalibrateOptions, Reading, Readings, Scene, Series, calibrate, calibrate_jointly};
 
 type Failure = Box<dyn std::error::Error>;
 

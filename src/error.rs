@@ -4,11 +4,13 @@ use std::borrow::Cow;
 
 use cable_dem::CableError;
 #[cfg(feature = "calibrate")]
-use calibrate::{CalibrationError, DataError};
+use calibrate::CalibrationError;
 use ground_field::GroundError;
 use pass_law::LawError;
 
-use crate::SceneError;
+#[cfg(feature = "calibrate")]
+use crate::readings::DataError;
+use crate::scene::SceneError;
 use crate::scene::{Location, SceneFile};
 use crate::shown::{exact_percent, percent};
 

@@ -69,6 +69,8 @@ pub mod output;
 mod plan;
 pub mod presets;
 mod progress;
+#[cfg(feature = "calibrate")]
+pub mod readings;
 #[cfg(feature = "plot")]
 pub mod report;
 mod run;
@@ -100,6 +102,8 @@ pub use error::Error;
 pub use ground::profile::{Profile, profile, profile_at};
 pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
 pub use progress::Progress;
+#[cfg(feature = "calibrate")]
+pub use readings::{DataError, Reading, Readings};
 pub use run::{RunOptions, check, run, run_plan, run_with};
 pub use scene::{Scene, SceneError, SceneFile};
 

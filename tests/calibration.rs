@@ -4,9 +4,12 @@ use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use creepage::calibration::{BootstrapOptions, Deflection, Loss, Quantity, Reading, Readings, Unknown};
+use creepage::calibration::{BootstrapOptions, Deflection, Loss, Quantity, Unknown};
 use creepage::scene::{End, FrictionLaw, PeakScaling, SolverMethod};
-use creepage::{CalibrateOptions, Calibrated, Error, Progress, Scene, Series, calibrate, calibrate_jointly};
+use creepage::{
+    CalibrateOptions, Calibrated, Error, Progress, Reading, Readings, Scene, Series, calibrate,
+    calibrate_jointly,
+};
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
 

@@ -7,10 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use super::xml::{Element, parse};
-use creepage::Scene;
-use creepage::calibration::Readings;
 use creepage::design::{Measure, Place};
 use creepage::report::{Report, ReportOptions};
+use creepage::{Readings, Scene};
 use serde_json::Value;
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";

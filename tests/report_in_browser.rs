@@ -14,10 +14,9 @@ use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use creepage::Scene;
-use creepage::calibration::Readings;
 use creepage::design::{Measure, Place};
 use creepage::report::{Report, ReportOptions};
+use creepage::{Readings, Scene};
 use serde_json::Value;
 
 const PHONE: u32 = 390;

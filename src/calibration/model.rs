@@ -5,67 +5,30 @@
 
 use std::borrow::Cow;
 
-use cable_dem::{End, Mesh};
-use calibrate::{Model, ModelError, Reading};
+use cable_dem::Mesh;
+use calibrate::{Model, ModelError};
 use ground_field::DuctMotion;
 use rayon::prelude::*;
 
-use super::Series;
+use super::cell::CellEnd;
+use super::options::Series;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
 use crate::ground::{Ground, road};
 use crate::plan::{PassMethod, plan};
 use crate::run::law;
 use crate::run::passes::simulate;
-use crate::{Error, PassRecord, Progress, Scene};
+use crate::{Error, Progress, Reading, Scene};
 
-/// Nodes per depth of the duct on the coarsest mesh; every rung above has twice as many.
+/// Nodes per depth of the duct on the coarsest mesh; every further level has twice as many.
 const COARSEST: f64 = 6.0;
 /// Steps of the vehicle per node spacing.
 const STEPS_PER_SPACING: f64 = 2.0;
 /// Passes below which the pass law is rough.
 const LAW_FROM: u64 = 10;
 
-/// The end of the cable that pressed on the load cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum CellEnd {
-    Upstream,
-    Downstream,
-}
-
-impl CellEnd {
-    /// The end that is held in `scene`, the downstream one if both are.
-    pub fn of(scene: &Scene) -> Result<Self, Error> {
-        match (scene.ends.upstream, scene.ends.downstream) {
-            (End::Free, End::Free) => Err(Error::Unfit {
-                key: "ends",
-                found: "both free",
-                reason: "a load cell was at an end that is held".into(),
-            }),
-            (_, End::Free) => Ok(Self::Upstream),
-            _ => Ok(Self::Downstream),
-        }
-    }
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Upstream => "upstream",
-            Self::Downstream => "downstream",
-        }
-    }
-
-    /// The force on it after a pass \[N\].
-    pub fn force(self, record: &PassRecord) -> f64 {
-        match self {
-            Self::Upstream => record.upstream_force_n,
-            Self::Downstream => record.downstream_force_n,
-        }
-    }
-}
-
 /// One series, ready to be predicted.
-pub(super) struct SeriesModel {
+pub struct SeriesModel {
     scene: Scene,
     motions: Vec<DuctMotion>,
     pub method: PassMethod,
@@ -115,14 +78,14 @@ impl SeriesModel {
         self.scene.solver.node_spacing.is_some() || self.scene.solver.vehicle_step.is_some()
     }
 
-    fn nodes_per_depth(rung: u32) -> f64 {
-        COARSEST * f64::from(1 << rung)
+    fn nodes_per_depth(level: u32) -> f64 {
+        COARSEST * f64::from(1 << level)
     }
 
-    /// The mesh of a rung. One that the scene names is the first, and every further one halves it.
-    pub fn mesh(&self, rung: u32) -> Result<Mesh, Error> {
+    /// The mesh of a level. One that the scene names is the first, and every further one halves it.
+    pub fn mesh(&self, level: u32) -> Result<Mesh, Error> {
         let Scene { duct, solver, .. } = &self.scene;
-        let finer = f64::from(1 << rung);
+        let finer = f64::from(1 << level);
         let natural = (duct.depth / COARSEST).min(duct.length / 8.0);
         let spacing = solver
             .node_spacing
@@ -135,7 +98,7 @@ impl SeriesModel {
     }
 
     /// Forces at the load cell after each reading's pass.
-    fn predict(&self, scene: &Scene, stiffness: f64, rung: u32) -> Result<Vec<f64>, Error> {
+    fn predict(&self, scene: &Scene, stiffness: f64, level: u32) -> Result<Vec<f64>, Error> {
         let motions: Cow<'_, [DuctMotion]> = if stiffness == 1.0 {
             Cow::Borrowed(&self.motions)
         } else {
@@ -148,7 +111,7 @@ impl SeriesModel {
                     scene,
                     method,
                     &motions,
-                    self.mesh(rung)?,
+                    self.mesh(level)?,
                     &[],
                     Progress::default(),
                 )?;
@@ -165,7 +128,7 @@ impl SeriesModel {
                 let mut wanted = self.passes.clone();
                 wanted.sort_unstable();
                 wanted.dedup();
-                let records = law::records(scene, &motions, Self::nodes_per_depth(rung), &wanted)?;
+                let records = law::records(scene, &motions, Self::nodes_per_depth(level), &wanted)?;
                 let force = |pass: &u64| {
                     self.end
                         .force(&records[wanted.partition_point(|other| other < pass)])
@@ -176,12 +139,12 @@ impl SeriesModel {
     }
 }
 
-/// All series on one rung of meshes.
-pub(super) struct CableModel<'a> {
+/// All series on one level of meshes.
+pub struct CableModel<'a> {
     pub series: &'a [SeriesModel],
     pub unknowns: &'a [Unknown],
-    pub rung: u32,
-    /// Added to what this rung predicts: the difference to the next one, near the optimum.
+    pub level: u32,
+    /// Added to what this level predicts: the difference to the next one, near the optimum.
     pub correction: Option<Vec<f64>>,
     pub watch: &'a Watch<'a>,
 }
@@ -203,7 +166,7 @@ impl Model for CableModel<'_> {
                         }
                     }
                 }
-                series.predict(&scene, stiffness, self.rung)
+                series.predict(&scene, stiffness, self.level)
             })
             .collect::<Result<_, Error>>()?;
         self.watch.run()?;

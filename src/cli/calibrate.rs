@@ -9,10 +9,10 @@ use super::progress::{MODEL_RUNS, with_bar};
 use super::shared::{Input, OutputArguments, SceneArguments};
 use super::terminal;
 use crate::calibration::{
-    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Quantity, Readings,
-    Unknown,
+    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Quantity, Unknown,
 };
 use crate::output::Kind;
+use crate::readings::Readings;
 use crate::scene::{Dimension, FrictionLaw};
 use crate::shown::{ROWS, percent};
 

@@ -6,8 +6,8 @@ use super::failure::Failure;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::shared::{Force, Input, SceneArguments};
 use super::terminal;
-use crate::calibration::Readings;
 use crate::output::Kind;
+use crate::readings::Readings;
 use crate::report::{Report, ReportOptions};
 
 /// Arguments of `creepage report`.

@@ -1,6 +1,7 @@
 //! Computed force against readings of a load cell.
 
-use crate::calibration::{CellEnd, Reading, Readings};
+use crate::calibration::CellEnd;
+use crate::readings::{Reading, Readings};
 use crate::{Error, PassRecord, Run, Scene};
 
 /// Readings beside the force computed at the same passes.

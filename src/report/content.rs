@@ -3,8 +3,9 @@
 use super::agreement::Agreement;
 use super::friction::Friction;
 use super::measures::Comparison;
-use crate::calibration::{CellEnd, Readings};
+use crate::calibration::CellEnd;
 use crate::design::Measure;
+use crate::readings::Readings;
 use crate::{Error, PlanReport, Profile, Progress, Run, RunOptions, Scene, finite, profile_at};
 
 /// Positions at which the motion of the duct is drawn, and how far on either side of the vehicle \[depths\].

@@ -9,7 +9,7 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-use calibrate::Readings;
+use creepage::Readings;
 use creepage::SceneFile;
 use creepage::presets::{self, PresetKind};
 use creepage::scene::{Dimension, SceneError};

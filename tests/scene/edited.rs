@@ -1,6 +1,6 @@
 //! A scene that a program changed: refused with the key, or computed to finite numbers, never a panic.
 
-use calibrate::Readings;
+use creepage::Readings;
 use creepage::calibration::{Quantity, Unknown};
 use creepage::design::{DesignOptions, Limits, Measure, Place, compare, design};
 use creepage::scene::{

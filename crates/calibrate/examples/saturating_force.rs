@@ -1,4 +1,4 @@
-//! A model of one's own, fitted to readings from CSV, with an outlier and an observer.
+//! A model of one's own, fitted to readings with an outlier; an observer follows it.
 //!
 //! ```sh
 //! cargo run -p calibrate --example saturating_force
@@ -6,7 +6,7 @@
 
 use std::ops::ControlFlow;
 
-use calibrate::{Calibration, Loss, Model, ModelError, Observer, Options, Parameter, Readings, Scale};
+use calibrate::{Calibration, Loss, Model, ModelError, Observer, Options, Parameter, Scale};
 
 /// F = F_s (1 − e^(−n/τ)), a force that levels off after n passes.
 struct Saturating {
@@ -23,30 +23,23 @@ impl Model for Saturating {
     }
 }
 
-const DATA: &str = "\
-# made up; the reading after pass 40 was taken with a slipped cell
-pass,force_n
-2,66.1
-5,150.8
-10,262.3
-15,340.5
-20,395.2
-30,470.9
-40,340.0
-50,532.7
-60,541.5
-80,546.2
-";
+/// Pass and force, made up; the reading after pass 40 was taken with a slipped cell.
+const READINGS: [(f64, f64); 10] = [
+    (2.0, 66.1),
+    (5.0, 150.8),
+    (10.0, 262.3),
+    (15.0, 340.5),
+    (20.0, 395.2),
+    (30.0, 470.9),
+    (40.0, 340.0),
+    (50.0, 532.7),
+    (60.0, 541.5),
+    (80.0, 546.2),
+];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let readings = Readings::from_csv("made-up.csv", DATA.as_bytes())?;
-    let model = Saturating {
-        passes: readings
-            .readings()
-            .iter()
-            .map(|reading| reading.pass as f64)
-            .collect(),
-    };
+    let (passes, forces) = READINGS.into_iter().unzip();
+    let model = Saturating { passes };
     let parameters = vec![
         Parameter::new("saturated_force", 50.0, 5000.0, Scale::Logarithmic)?,
         Parameter::new("passes", 1.0, 1000.0, Scale::Logarithmic)?,
@@ -57,7 +50,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         println!("iteration {:>2}: {:?}", progress.iteration, progress.parameters);
         ControlFlow::Continue(())
     }));
-    let fit = Calibration::new(&model, parameters, readings.forces())?
+    let fit = Calibration::new(&model, parameters, forces)?
         .with_options(options)?
         .fit()?;
     for estimate in &fit.estimates {

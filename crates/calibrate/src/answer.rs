@@ -2,20 +2,18 @@
 
 use crate::evaluator::Evaluator;
 use crate::fit::Fit;
+use crate::interval::EXCLUSION;
 use crate::parameter::FARTHEST;
+use crate::search::ROUGH;
 use crate::solution::Solution;
 use crate::{Calibration, Warning};
 
 /// Correlation from which two parameters count as hardly told apart.
 const CORRELATED: f64 = 0.99;
-/// Standard errors from which a rival is another optimum, not a place beside this one.
-const RIVALRY: f64 = 4.0;
 /// Weight below which an observation counts as an outlier: Tukey's at three of its sigmas, Huber's at four.
 const OUTLIER: f64 = 0.35;
 /// Degrees of freedom below which the noise is hardly known: its own standard error is a third.
 const FEW: f64 = 5.0;
-/// Distance to the minimum, in standard errors, that is worth a warning.
-const ROUGH: f64 = 0.1;
 
 impl Calibration<'_> {
     /// What a solution says.
@@ -115,11 +113,11 @@ impl Calibration<'_> {
         warnings
     }
 
-    /// A rival that is no part of the optimum's own surroundings, where the intervals are all closed: one that is open says more.
+    /// A rival that is no part of the optimum's own surroundings, which are twice what excludes a bound, where the intervals are all closed: one that is open says more.
     fn ambiguity(&self, solution: &Solution) -> Option<Warning> {
         let rival = solution.rival.as_ref()?;
         let own = |k: usize| {
-            let reach = RIVALRY * solution.covariance.standard_error(k).unwrap_or(f64::INFINITY);
+            let reach = 2.0 * EXCLUSION * solution.covariance.standard_error(k).unwrap_or(f64::INFINITY);
             (rival.free[k] - solution.optimum.point.free[k]).abs() <= reach
         };
         let closed = solution.estimates.iter().all(|estimate| estimate.identifiable);

@@ -145,7 +145,7 @@ impl<'a> Calibration<'a> {
             scan: self.scan(),
             start,
             profiles: options.profiles,
-            starts: 0,
+            scan_others: 0,
         };
         let solution = self.solve(&evaluator, &route)?;
         Ok(self.answer(&evaluator, solution))

@@ -69,7 +69,7 @@ impl Descent<'_> {
             },
             jacobian: self.jacobian.clone(),
             point: start,
-            damping: Damping::LEAST,
+            damping: Damping::FIRST,
             offset: f64::INFINITY,
             descent: self,
         };
@@ -182,7 +182,7 @@ impl LevenbergMarquardt<'_> {
         if doubtful && self.trust == Trust::Updated {
             self.trust = Trust::Lost;
             self.jacobian = Some(jacobian);
-            self.damping = Damping::LEAST;
+            self.damping = Damping::FIRST;
             (here, jacobian) = self.quadratic(&weights)?;
         }
         let reason = if self.offset < tolerance {

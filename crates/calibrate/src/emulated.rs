@@ -10,22 +10,16 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::evaluator::Evaluator;
-use crate::interval::{EXCLUSION, Witness};
+use crate::interval::{ACCURACY, EXCLUSION, Witness};
 use crate::point::{Point, all_over, score};
 use crate::search::MAX_ROUNDS;
 use crate::solution::{Route, Solution};
 use crate::{Calibration, CalibrationError, Emulator, Fit, Options, Profiles};
 
-/// Points of the emulator that are scanned for each parameter and one more.
-const SCAN: usize = 64;
-/// Starts on the emulator for each of the other parameters along a profile.
-const STARTS: usize = 24;
-/// Score above the least of runs of a coarser model that are repeated, and how many more than the best of them, a parameter.
-const VALLEY: f64 = 16.0;
+/// Points of the emulator that are scanned for each parameter and one more, and for each of the others along a profile.
+const SCAN: usize = 32;
+/// Runs of a coarser model that are repeated, beside the best, for each parameter.
 const ANCHORS: usize = 2;
-/// Accuracy of the root of the rise where an answer rests on it: as a share of what it is compared with, and of its distance from that.
-const END: f64 = 0.03;
-const MARGIN: f64 = 0.5;
 /// Distance, in the model's own noise, that an optimum may be off where the model has run.
 const RIPPLE: f64 = 3.0;
 
@@ -69,11 +63,11 @@ impl Calibration<'_> {
             let residuals = runs.standardised(free, predicted);
             score(&residuals, self.observations().len(), self.sigmas().is_some())
         };
-        match coarse {
+        design.extend(match coarse {
             // Along the whole valley, so that what the coarse model misses is known where it may matter.
-            Some(coarse) => design.extend(coarse.low_points(score, VALLEY, ANCHORS * dimensions)),
-            None => design.extend(all_over(dimensions, self.scan())),
-        }
+            Some(coarse) => coarse.low_points(score, (2.0 * EXCLUSION).powi(2), ANCHORS * dimensions),
+            None => all_over(dimensions, self.scan()),
+        });
         let fit = if let Some(solution) = emulation.converge(design, start)? {
             self.answer(&runs, solution)
         } else {
@@ -194,7 +188,7 @@ impl Emulation<'_> {
             start,
             scan: SCAN * (1 + self.calibration.parameters().len()),
             profiles,
-            starts: STARTS,
+            scan_others: SCAN,
         };
         let emulator = self.runs.of(&self.emulator);
         match self.calibration.solve(&emulator, &route) {
@@ -256,8 +250,9 @@ impl Emulation<'_> {
     /// Whether the model found a root of the rise at a witness that means what the emulator's does.
     fn agrees(&self, solution: &Solution, witness: &Witness, found: f64) -> bool {
         let expected = root(solution, &witness.point, &solution.optimum.point);
-        let margin = MARGIN * (expected - witness.threshold).abs();
-        let accuracy = (END * witness.threshold).max(self.noise(solution));
+        // Half of what would make it another answer.
+        let margin = 0.5 * (expected - witness.threshold).abs();
+        let accuracy = (ACCURACY * witness.threshold).max(self.noise(solution));
         (expected - found).abs() <= margin.max(accuracy)
     }
 }

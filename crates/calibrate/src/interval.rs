@@ -8,29 +8,18 @@
 //! An end is closed only if the data exclude what lies beyond it, up to the bound, by twice the distance that makes an interval: by four
 //! standard errors. For a true value at the bound itself, one such distance would close one of forty intervals by chance.
 
-use nalgebra::{DMatrix, DVector};
-
-use crate::CalibrationError;
-use crate::descent::{Descent, Optimum};
+use crate::descent::Optimum;
 use crate::parameter::FARTHEST;
-use crate::point::{Point, all_over};
-use crate::search::{BETTER, FEW_ITERATIONS, MAX_ROUNDS, Search};
-use crate::uncertainty::Covariance;
+use crate::point::Point;
+use crate::search::MAX_ROUNDS;
+use crate::station::{Profiler, Station, Stop};
 
 /// Distance at which the bound is excluded, in those that make an interval.
 pub(crate) const EXCLUSION: f64 = 2.0;
 /// Accuracy of the root of the rise at an end, as a share of it.
-const ACCURACY: f64 = 0.01;
+pub(crate) const ACCURACY: f64 = 0.03;
 /// Least and largest factors by which the walk outwards goes on.
 const STRIDES: (f64, f64) = (1.3, 2.5);
-/// Accuracy of the other parameters at a station, in standard errors.
-const TOLERANCE: f64 = 0.1;
-/// Free variable up to which a start for the others goes: nearer to a bound the deviance hardly changes with it, and a descent stays.
-const START_REACH: f64 = 3.0;
-
-/// Rise that no fit of the others brings down to what an interval ends at: they may take away all but a ten-millionth.
-const HOPELESS: f64 = 1e8;
-
 /// The profile of one parameter.
 #[derive(Debug, Default)]
 pub(crate) struct Profile {
@@ -51,43 +40,6 @@ pub(crate) struct Witness {
     pub threshold: f64,
     /// The parameter whose bound it stands at, the upper one or the lower.
     pub bound: Option<(usize, bool)>,
-}
-
-/// Why a profile was not finished.
-pub(crate) enum Stop {
-    /// A point lower than the optimum.
-    Better(Point),
-    Failed(CalibrationError),
-}
-
-impl From<CalibrationError> for Stop {
-    fn from(error: CalibrationError) -> Self {
-        Self::Failed(error)
-    }
-}
-
-/// Profiles parameters around an optimum.
-pub(crate) struct Profiler<'a> {
-    pub search: &'a Search<'a>,
-    pub optimum: &'a Optimum,
-    pub covariance: &'a Covariance,
-    /// Root of the rise at which an interval ends.
-    pub wanted: f64,
-    /// A minimum elsewhere that is hardly higher: an interval reaches beyond it.
-    pub rival: Option<&'a Point>,
-    /// Places all over the ranges of the others from the best of which they are fitted as well, for each of the others: what a narrow and
-    /// bent valley needs, where a run costs nothing.
-    pub starts: usize,
-}
-
-/// A point of the profile.
-#[derive(Debug, Clone)]
-struct Station {
-    optimum: Optimum,
-    /// Distance from the estimate in the parameter's coordinate.
-    distance: f64,
-    /// Root of the rise, less what the others might still gain.
-    root: f64,
 }
 
 impl Profiler<'_> {
@@ -129,10 +81,6 @@ impl Profiler<'_> {
         Ok(profile)
     }
 
-    fn coordinate(&self, k: usize) -> f64 {
-        self.search.evaluator.parameters[k].bounded(self.optimum.point.free[k])
-    }
-
     fn at_optimum(&self) -> Station {
         Station {
             optimum: self.optimum.clone(),
@@ -154,11 +102,6 @@ impl Profiler<'_> {
             },
             distance,
         })
-    }
-
-    /// Rise of the deviance from the optimum.
-    fn rise(&self, point: &Point) -> f64 {
-        self.optimum.deviance.total(&point.residuals) - self.optimum.value()
     }
 
     /// Distance of the end on one side, where it is closed. `stations` are those known, by distance, and stay so; the bound is the last.
@@ -184,7 +127,7 @@ impl Profiler<'_> {
                 break;
             }
             let station = self.station(k, sign, next, stations)?;
-            let stride = (excluded / station.root).clamp(STRIDES.0, STRIDES.1);
+            let stride = (1.1 * excluded / station.root).clamp(STRIDES.0, STRIDES.1);
             next = if station.root < excluded {
                 stride * next
             } else {
@@ -194,108 +137,49 @@ impl Profiler<'_> {
         }
         for round in 0..MAX_ROUNDS {
             let (inner, outer) = self.bracket(stations);
-            let chord = inner.distance
-                + (self.wanted - inner.root) / (outer.root - inner.root) * (outer.distance - inner.distance);
+            let place = self.crossing(stations, inner);
             let near = |station: &Station| (station.root - self.wanted).abs() < ACCURACY * self.wanted;
-            if near(inner) || near(outer) {
-                return Ok(Some(chord));
+            let (inner, outer) = (&stations[inner], &stations[outer]);
+            let width = outer.distance - inner.distance;
+            // Beyond an infinite rise the model has no answer.
+            let edge = outer.root.is_infinite() && width < ACCURACY * outer.distance;
+            if near(inner) || near(outer) || edge {
+                return Ok(Some(place));
             }
-            let middle = 0.5 * (inner.distance + outer.distance);
-            let next = if round % 3 == 2 || outer.root.is_infinite() {
-                middle
-            } else {
-                chord
-            };
+            let middle = inner.distance + 0.5 * width;
+            let next = if round % 3 == 2 { middle } else { place };
             let station = self.station(k, sign, next, stations)?;
             insert(stations, station);
         }
-        Ok(Some(self.bracket(stations).1.distance))
+        // The rise has no jumps: where it seems to, the others are stuck, and nothing is excluded.
+        Ok(None)
     }
 
     /// The outermost stations between which the root of the rise crosses what is wanted: what lies beyond a barrier and is not excluded
     /// belongs to the interval.
-    fn bracket<'s>(&self, stations: &'s [Station]) -> (&'s Station, &'s Station) {
+    fn bracket(&self, stations: &[Station]) -> (usize, usize) {
         let inside = |station: &Station| station.root < self.wanted;
         let inner = stations.iter().rposition(inside).unwrap_or(0);
-        (&stations[inner], &stations[(inner + 1).min(stations.len() - 1)])
+        (inner, (inner + 1).min(stations.len() - 1))
     }
 
-    /// Fits all parameters but `k`, which lies `distance` away from its estimate.
-    fn station(&self, k: usize, sign: f64, distance: f64, known: &[Station]) -> Result<Station, Stop> {
-        let held = self.search.evaluator.parameters[k].free(self.coordinate(k) + sign * distance);
-        let (places, jacobian) = self.starts(k, held, known);
-        let mut starts = self.search.evaluator.points(places)?;
-        starts.sort_by(|a, b| self.rise(a).total_cmp(&self.rise(b)));
-        let start = starts.swap_remove(0);
-        let rise = self.rise(&start);
-        let mut found = Optimum {
-            point: start.clone(),
-            offset: 0.0,
-            ..self.optimum.clone()
-        };
-        if start.free.len() > 1 && rise < HOPELESS {
-            found = self.fit_others(k, start, jacobian)?;
-        }
-        let rise = self.rise(&found.point);
-        if rise < -BETTER {
-            return Err(Stop::Better(found.point));
-        }
-        Ok(Station {
-            // What the others might still gain is taken as gained, which widens the interval at most.
-            root: (rise - found.offset.powi(2)).max(0.0).sqrt(),
-            distance,
-            optimum: found,
-        })
-    }
-
-    fn fit_others(
-        &self,
-        k: usize,
-        start: Point,
-        jacobian: DMatrix<f64>,
-    ) -> Result<Optimum, CalibrationError> {
-        Descent {
-            held: Some(k),
-            verified: false,
-            tolerance: TOLERANCE,
-            iterations: FEW_ITERATIONS,
-            ..self.search.descent(self.optimum.deviance, Some(jacobian))
-        }
-        .run(start)
-    }
-
-    /// Where to fit the others from.
-    fn starts(&self, k: usize, held: f64, known: &[Station]) -> (Vec<DVector<f64>>, DMatrix<f64>) {
-        let off = |station: &Station| (station.optimum.point.free[k] - held).abs();
-        let mut near: Vec<&Station> = known.iter().collect();
-        near.sort_by(|a, b| off(a).total_cmp(&off(b)));
-        let nearest = &near[0].optimum.point.free;
-        // Along the line through the two nearest stations, or the tangent at the optimum.
-        let slope = match near.get(1).map(|other| &other.optimum.point.free) {
-            Some(other) => (other - nearest) / (other[k] - nearest[k]),
-            None => self.covariance.drift(k),
-        };
-        let followed = nearest + slope * (held - nearest[k]);
-        let others = nearest.len() - 1;
-        let spread = all_over(others, self.starts * others)
-            .into_iter()
-            .map(|place| place.insert_row(k, held));
-        let mut starts = vec![followed, nearest.clone()];
-        for start in &mut starts {
-            start.apply(|z| {
-                *z = if z.is_finite() {
-                    z.clamp(-START_REACH, START_REACH)
-                } else {
-                    0.0
-                }
-            });
-            start[k] = held;
-        }
-        if others == 0 {
-            starts.truncate(1);
-        }
-        starts.extend(spread);
-        (starts, near[0].optimum.jacobian.clone())
+    /// Where the root of the rise should cross what is wanted, beyond station `inner`: the root is nearly a straight line through the
+    /// estimate, so that a parabola through three stations holds it; else the line through two, or their middle.
+    fn crossing(&self, stations: &[Station], inner: usize) -> f64 {
+        let at = |index: usize| (stations[index].distance, stations[index].root);
+        let (a, b) = (at(inner), at((inner + 1).min(stations.len() - 1)));
+        let inside = |place: &f64| *place > a.0 && *place < b.0;
+        let line = |a: (f64, f64), b: (f64, f64)| a.0 + (self.wanted - a.1) / (b.1 - a.1) * (b.0 - a.0);
+        let chord = Some(line(a, b)).filter(inside);
+        let third = if inner > 0 { inner - 1 } else { inner + 2 };
+        let parabola = (third < stations.len()).then(|| {
+            // A. C. Aitken's scheme.
+            let c = at(third);
+            let (ab, ac) = (line(a, b), line(a, c));
+            ab + (self.wanted - b.1) / (c.1 - b.1) * (ac - ab)
+        });
+        let middle = 0.5 * (a.0 + b.0);
+        parabola.filter(inside).or(chord).unwrap_or(middle)
     }
 }
 

@@ -42,7 +42,6 @@
 mod answer;
 mod bootstrap;
 mod calibration;
-mod data;
 mod descent;
 mod deviance;
 mod emulated;
@@ -59,13 +58,13 @@ mod parameter;
 mod point;
 mod search;
 mod solution;
+mod station;
 mod step;
 mod uncertainty;
 mod warning;
 
 pub use bootstrap::{Bootstrap, BootstrapOptions};
 pub use calibration::Calibration;
-pub use data::{DataError, Reading, Readings};
 pub use emulator::Emulator;
 pub use error::CalibrationError;
 pub use fit::{Estimate, Fit, Interval};

@@ -18,9 +18,22 @@ pub struct Progress {
     pub parameters: Vec<f64>,
 }
 
+type Callback = dyn Fn(&Progress) -> ControlFlow<()> + Send + Sync;
+
 /// Called after each iteration; it can stop the fit.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use calibrate::{Observer, Options};
+///
+/// let mut options = Options::default();
+/// options.observer = Some(Observer::new(|progress| {
+///     println!("{}: {:?}", progress.iteration, progress.parameters);
+///     ControlFlow::Continue(())
+/// }));
+/// ```
 #[derive(Clone)]
-pub struct Observer(Arc<dyn Fn(&Progress) -> ControlFlow<()> + Send + Sync>);
+pub struct Observer(Arc<Callback>);
 
 impl Observer {
     /// Calls `observe` after each iteration. [`ControlFlow::Break`] ends the fit with [`CalibrationError::Stopped`].

@@ -15,6 +15,8 @@ pub(crate) const MAX_ROUNDS: usize = 24;
 /// Iterations of a descent to the optimum, and of one that is only compared with it.
 const ITERATIONS: u64 = 200;
 pub(crate) const FEW_ITERATIONS: u64 = 12;
+/// Next step in standard errors at which a descent that is only compared has converged.
+pub(crate) const ROUGH: f64 = 0.1;
 /// Next step in standard errors at which a descent may stop where no step lowers the deviance: noise of the model hides the rest.
 const NOISY: f64 = 0.5;
 /// Change of the noise's scale at which the rounds of fit and scale end.
@@ -186,6 +188,7 @@ impl Search<'_> {
         };
         let descent = Descent {
             verified: false,
+            tolerance: ROUGH,
             iterations: FEW_ITERATIONS,
             ..self.descent(optimum.deviance, None)
         };

@@ -6,10 +6,11 @@ use statrs::distribution::{ChiSquared, ContinuousCDF};
 use crate::descent::Optimum;
 use crate::evaluator::Evaluator;
 use crate::fit::{Estimate, Interval};
-use crate::interval::{Profile, Profiler, Stop, Witness};
+use crate::interval::{Profile, Witness};
 use crate::parameter::FARTHEST;
 use crate::point::Point;
 use crate::search::{MAX_ROUNDS, Search};
+use crate::station::{Profiler, Stop};
 use crate::uncertainty::{Covariance, parameters_from_data, quantile};
 use crate::{Calibration, CalibrationError, Loss, Parameter, Profiles, Warning};
 
@@ -23,8 +24,8 @@ pub(crate) struct Route {
     /// Points all over the range to try.
     pub scan: usize,
     pub profiles: Profiles,
-    /// Starts of the other parameters' fits along a profile, see [`Profiler::starts`].
-    pub starts: usize,
+    /// Points to try for each of the others along a profile, see [`Profiler::scan`].
+    pub scan_others: usize,
 }
 
 /// An optimum and what is known around it.
@@ -126,7 +127,7 @@ impl Calibration<'_> {
             covariance: &covariance,
             wanted: quantile(0.5 * tail, noise_estimated.then(|| self.freedom(optimum))),
             rival,
-            starts: route.starts,
+            scan: route.scan_others,
         };
         let mut estimates = Vec::new();
         let mut witnesses: Vec<Witness> = rival

@@ -98,15 +98,12 @@ pub(crate) fn parameters_from_data(
     jacobian.ncols() as f64 - (covariance.matrix * priors.transpose() * priors).trace()
 }
 
-/// Degrees of freedom from which Student's t is Gauss's: statrs does not end its search for a quantile with many more.
-const MANY: f64 = 1e6;
-
-/// The value that a standardised estimate exceeds with probability `tail`: Student's t where the noise was estimated with this many
-/// degrees of freedom, at least a half, else Gauss's.
+/// The value that a standardised estimate exceeds with probability `tail`: Student's t where the noise was estimated with these degrees of
+/// freedom, else Gauss's.
 pub(crate) fn quantile(tail: f64, degrees_of_freedom: Option<f64>) -> f64 {
-    let student = degrees_of_freedom
-        .filter(|&freedom| freedom <= MANY)
-        .and_then(|freedom| StudentsT::new(0.0, 1.0, freedom.max(0.5)).ok());
+    // From a million on both are the same, and statrs's search for a quantile does not end with many more.
+    let student =
+        degrees_of_freedom.and_then(|freedom| StudentsT::new(0.0, 1.0, freedom.clamp(0.5, 1e6)).ok());
     match student {
         Some(student) => student.inverse_cdf(1.0 - tail),
         None => Normal::standard().inverse_cdf(1.0 - tail),

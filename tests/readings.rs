@@ -1,6 +1,6 @@
 //! Readings from CSV: what is taken as it is meant, and what is refused, with its line.
 
-use calibrate::{DataError, Readings};
+use creepage::{DataError, Readings};
 
 fn read(text: &str) -> Result<Readings, DataError> {
     Readings::from_csv("cell.csv", text.as_bytes())

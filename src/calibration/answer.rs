@@ -1,0 +1,148 @@
+//! From the final fit to what the user reads.
+
+use calibrate::{Bootstrap, BootstrapOptions, Estimate, Fit, Loss};
+
+use super::meshes::{Final, MESH_SHIFT};
+use super::model::SeriesModel;
+use super::problem::Problem;
+use super::result::{
+    BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
+};
+use super::unknown::Unknown;
+use crate::Error;
+
+/// The answer that a fit gives to a problem.
+pub fn answer(problem: &Problem<'_>, found: &Final) -> Result<Calibrated, Error> {
+    let fit = &found.fit;
+    let model_error = model_error(found);
+    let parameters = fit.estimates.iter().zip(problem.unknowns);
+    let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());
+    Ok(Calibrated {
+        titles: problem.series.iter().map(|one| one.scene.title.clone()).collect(),
+        parameters: parameters
+            .map(|(estimate, unknown)| parameter(estimate, *unknown))
+            .collect(),
+        correlation: fit.correlation.clone(),
+        residual_rms_n: fit.residual_rms,
+        r_squared: fit.r_squared,
+        evaluations: found.evaluations,
+        warnings: warnings(problem, fit, &model_error),
+        // Where readings have their own sigmas, there is no single noise.
+        noise_n: (!own_sigmas).then_some(fit.noise),
+        degrees_of_freedom: fit.degrees_of_freedom,
+        method: method(problem, found)?,
+        model_error,
+        fit: readings(problem, fit),
+        bootstrap: found
+            .bootstrap
+            .as_ref()
+            .map(|(bootstrap, options)| summary(bootstrap, options)),
+    })
+}
+
+/// Half the difference to a mesh twice as fine.
+fn model_error(found: &Final) -> ModelErrorEstimate {
+    let most = |forces: &[f64]| forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+    let largest = most(&found.fit.fitted);
+    ModelErrorEstimate {
+        relative: if largest > 0.0 {
+            0.5 * most(&found.mesh.difference) / largest
+        } else {
+            0.0
+        },
+        standard_errors: found.mesh.shift.iter().map(|shift| 0.5 * shift.abs()).collect(),
+    }
+}
+
+fn warnings(problem: &Problem<'_>, fit: &Fit, error: &ModelErrorEstimate) -> Vec<String> {
+    let mut warnings: Vec<String> = fit.warnings.iter().map(ToString::to_string).collect();
+    warnings.extend(problem.models.iter().filter_map(SeriesModel::concern));
+    for (estimate, error) in fit.estimates.iter().zip(&error.standard_errors) {
+        if *error > MESH_SHIFT {
+            warnings.push(format!(
+                "the mesh may move {} by {error:.1} standard errors: its interval is too narrow",
+                estimate.name
+            ));
+        }
+    }
+    let skipped: usize = problem.series.iter().map(|one| one.readings.skipped()).sum();
+    if skipped > 0 {
+        warnings.push(format!("{skipped} rows without a force were left out"));
+    }
+    warnings
+}
+
+fn parameter(estimate: &Estimate, unknown: Unknown) -> FittedParameter {
+    let profile = estimate.profile.iter();
+    FittedParameter {
+        name: estimate.name.clone(),
+        unit: unknown.quantity.unit(),
+        value: estimate.value,
+        standard_error: estimate.standard_error,
+        interval_95: [estimate.interval.lower, estimate.interval.upper],
+        identifiable: estimate.identifiable,
+        profile: profile
+            .map(|&(value, rise)| ProfilePoint { value, rise })
+            .collect(),
+    }
+}
+
+fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
+    let mesh = |model: &SeriesModel| model.mesh(found.mesh.level);
+    let meshes = problem.models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
+    let fit = &found.fit;
+    Ok(FitMethod {
+        cable: problem.models[0].method.name().into(),
+        load_cell: problem.models.iter().map(|model| model.end.name()).collect(),
+        node_spacing_m: meshes.iter().map(cable_dem::Mesh::spacing).collect(),
+        vehicle_step_m: meshes.iter().map(cable_dem::Mesh::vehicle_step).collect(),
+        loss: match problem.options.loss {
+            Loss::Squares => "squares",
+            Loss::Huber { .. } => "huber",
+            Loss::Tukey { .. } => "tukey",
+            _ => "other",
+        },
+        intervals: if fit.noise_estimated {
+            format!(
+                "profile likelihood, Student's t with {:.1} degrees of freedom",
+                fit.degrees_of_freedom
+            )
+        } else {
+            "profile likelihood with the given sigmas".into()
+        },
+    })
+}
+
+fn readings(problem: &Problem<'_>, fit: &Fit) -> Vec<FittedReading> {
+    let series = problem.series.iter().enumerate();
+    let readings = series.flat_map(|(index, one)| {
+        let list = one.readings.readings().iter();
+        list.map(move |reading| (index, reading))
+    });
+    readings
+        .enumerate()
+        .map(|(row, (index, reading))| FittedReading {
+            series: index + 1,
+            pass: reading.pass,
+            force_n: reading.force,
+            fitted_n: fit.fitted[row],
+            residual_n: fit.residuals[row],
+            weight: fit.weights[row],
+        })
+        .collect()
+}
+
+fn summary(bootstrap: &Bootstrap, options: &BootstrapOptions) -> BootstrapSummary {
+    BootstrapSummary {
+        replicates: bootstrap.samples.len(),
+        failed: bootstrap.failed,
+        seed: options.seed,
+        standard_errors: bootstrap.standard_errors.clone(),
+        interval_95: bootstrap
+            .intervals
+            .iter()
+            .map(|interval| [interval.lower, interval.upper])
+            .collect(),
+        evaluations: bootstrap.evaluations,
+    }
+}

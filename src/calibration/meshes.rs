@@ -1,0 +1,118 @@
+//! A fit on ever finer meshes, until a finer one hardly moves the parameters.
+
+use calibrate::{Bootstrap, BootstrapOptions, Calibration, CalibrationError, Emulator, Fit, Model, Profiles};
+
+use super::model::SeriesModel;
+use super::problem::{Effort, LAST_LEVEL, Problem};
+use crate::Error;
+
+/// Shift of a parameter by the mesh, in standard errors, above which a finer one is taken.
+pub const MESH_SHIFT: f64 = 0.8;
+/// Distance to the minimum, in standard errors, at which a fit is good enough to look at its mesh, and in the end.
+const PILOT_TOLERANCE: f64 = 0.3;
+const TOLERANCE: f64 = 0.03;
+
+/// The final fit.
+pub struct Final {
+    pub fit: Fit,
+    pub mesh: MeshChoice,
+    /// Model runs, all levels together.
+    pub evaluations: usize,
+    pub bootstrap: Option<(Bootstrap, BootstrapOptions)>,
+}
+
+/// The level of meshes of the final fit.
+pub struct MeshChoice {
+    pub level: u32,
+    /// What the finer mesh of the last two that were compared says more there, and how many standard errors that moves each parameter.
+    pub difference: Vec<f64>,
+    pub shift: Vec<f64>,
+    /// Whether that is still to be added.
+    corrected: bool,
+    /// Where a fit on this level or the one below led.
+    values: Vec<f64>,
+    /// What was learned of the forces on the last level that was fitted.
+    emulator: Emulator,
+}
+
+/// Fits with at most `limit` model runs.
+pub fn fit(problem: &Problem<'_>, limit: usize) -> Result<Final, Error> {
+    let (mesh, mut evaluations) = find_level(problem, limit)?;
+    let model = problem.model(mesh.level, mesh.corrected.then(|| mesh.difference.clone()));
+    let effort = Effort {
+        profiles: Profiles::All,
+        tolerance: TOLERANCE,
+        runs: limit.saturating_sub(evaluations),
+    };
+    let calibration = problem.calibration(&model, Some(mesh.values.clone()), &effort)?;
+    let (fit, _) = emulated(&calibration, Some(&mesh.emulator), limit)?;
+    evaluations += fit.evaluations;
+    let bootstrap = match &problem.options.bootstrap {
+        Some(options) => Some((calibration.bootstrap(&fit, options)?, *options)),
+        None => None,
+    };
+    Ok(Final {
+        fit,
+        mesh,
+        evaluations,
+        bootstrap,
+    })
+}
+
+/// The coarsest level that moves the parameters hardly away from those of the level below, and the model runs that it took.
+fn find_level(problem: &Problem<'_>, limit: usize) -> Result<(MeshChoice, usize), Error> {
+    let mut evaluations = 0;
+    let mut level = 0;
+    let mut start = None;
+    let mut coarser: Option<Emulator> = None;
+    loop {
+        let model = problem.model(level, None);
+        let effort = Effort {
+            // What is learned on the coarsest mesh costs least: there the intervals are explored too.
+            profiles: if level == 0 { Profiles::All } else { Profiles::None },
+            tolerance: PILOT_TOLERANCE,
+            runs: limit.saturating_sub(evaluations),
+        };
+        let calibration = problem.calibration(&model, start, &effort)?;
+        let (fit, emulator) = emulated(&calibration, coarser.as_ref(), limit)?;
+        let values = fit.values();
+        let finer = problem
+            .model(level + 1, None)
+            .predict(&values)
+            .map_err(|source| CalibrationError::NoFeasibleStart { starts: 1, source })?;
+        evaluations += fit.evaluations + 1;
+        let difference: Vec<f64> = finer.iter().zip(&fit.fitted).map(|(a, b)| a - b).collect();
+        let shift = fit.shift(&difference);
+        let enough = shift.iter().all(|shift| shift.abs() <= MESH_SHIFT);
+        let last = level == LAST_LEVEL || problem.models.iter().any(SeriesModel::is_meshed);
+        if enough || last {
+            let found = MeshChoice {
+                level: if last { level } else { level + 1 },
+                corrected: last,
+                values,
+                difference,
+                shift,
+                emulator,
+            };
+            return Ok((found, evaluations));
+        }
+        start = Some(values);
+        coarser = Some(emulator);
+        level += 1;
+    }
+}
+
+/// Fits with what is left of the runs; an error states the `limit` of them all.
+fn emulated(
+    calibration: &Calibration<'_>,
+    coarser: Option<&Emulator>,
+    limit: usize,
+) -> Result<(Fit, Emulator), Error> {
+    calibration.fit_emulated(coarser).map_err(|error| {
+        match error {
+            CalibrationError::EvaluationLimit { .. } => CalibrationError::EvaluationLimit { limit },
+            other => other,
+        }
+        .into()
+    })
+}

@@ -1,0 +1,42 @@
+//! What a calibration is given.
+
+use calibrate::{BootstrapOptions, Loss};
+
+use super::unknown::Unknown;
+use crate::readings::Readings;
+use crate::{Progress, Scene};
+
+/// A scene and what was measured in it.
+#[derive(Debug, Clone, Copy)]
+pub struct Series<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Readings of its load cell.
+    pub readings: &'a Readings,
+}
+
+/// A measured deflection: how far the duct went down under the first vehicle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Deflection {
+    /// Measured peak \[m\].
+    pub value: f64,
+    /// Its standard deviation \[m\].
+    pub sigma: f64,
+}
+
+/// How to calibrate.
+#[derive(Debug, Clone, Default)]
+pub struct CalibrateOptions<'a> {
+    /// What to fit; if empty, the dynamic coefficient and, but for Coulomb's law, the shape factor.
+    pub unknowns: Vec<Unknown>,
+    /// Prior knowledge of the ground's stiffness, which is then fitted as well.
+    pub deflection: Option<Deflection>,
+    /// How much residuals count.
+    pub loss: Loss,
+    /// Refits to data drawn anew, if wanted.
+    pub bootstrap: Option<BootstrapOptions>,
+    /// Largest number of model runs without those of the bootstrap; 0 takes 2000.
+    pub max_evaluations: usize,
+    /// Called after each model run with its share of all that are allowed; it may stop the calibration.
+    pub progress: Progress<'a>,
+}

@@ -1,0 +1,108 @@
+//! What is known and what is asked, as the crate `calibrate` takes it.
+
+use calibrate::{Calibration, Options, Prior, Profiles};
+
+use super::model::{CableModel, SeriesModel};
+use super::options::{CalibrateOptions, Series};
+use super::unknown::{Quantity, Unknown};
+use super::watch::Watch;
+use crate::Error;
+use crate::plan::PassMethod;
+use crate::readings::Readings;
+
+/// Finest level of meshes that is fitted: 24 nodes per depth, corrected by 48.
+pub const LAST_LEVEL: u32 = 2;
+/// Ripple of the forces as parameters change on a fixed mesh, as a share of them: as a node more slips, their slope jumps.
+/// Measured on the full-scale scenes; from the coarsest level up.
+const RIPPLE: [f64; 3] = [3e-4, 1e-4, 3e-5];
+/// The same of the pass law, whose steps adapt.
+const LAW_RIPPLE: f64 = 1e-4;
+
+/// Scenes, readings and unknowns.
+pub struct Problem<'a> {
+    pub series: &'a [Series<'a>],
+    pub models: &'a [SeriesModel],
+    pub unknowns: &'a [Unknown],
+    pub options: &'a CalibrateOptions<'a>,
+    pub watch: &'a Watch<'a>,
+}
+
+/// How well to fit.
+pub struct Effort {
+    pub profiles: Profiles,
+    /// Distance to the minimum, in standard errors, at which the fit is good enough.
+    pub tolerance: f64,
+    /// Model runs that are left.
+    pub runs: usize,
+}
+
+impl Problem<'_> {
+    /// The model on a level of meshes; `correction` is added to what it predicts.
+    pub fn model(&self, level: u32, correction: Option<Vec<f64>>) -> CableModel<'_> {
+        CableModel {
+            series: self.models,
+            unknowns: self.unknowns,
+            level,
+            correction,
+            watch: self.watch,
+        }
+    }
+
+    /// Scans all over the range where there is no `start` from a coarser mesh.
+    pub fn calibration<'m>(
+        &self,
+        model: &'m CableModel<'m>,
+        start: Option<Vec<f64>>,
+        effort: &Effort,
+    ) -> Result<Calibration<'m>, Error> {
+        let parameters = self
+            .unknowns
+            .iter()
+            .map(|unknown| unknown.parameter(self.prior(*unknown)))
+            .collect::<Result<Vec<_>, _>>()?;
+        let readings = || self.series.iter().map(|series| series.readings);
+        let forces = readings().flat_map(Readings::forces).collect();
+        let sigmas: Option<Vec<Vec<f64>>> = readings().map(Readings::sigmas).collect();
+        let mut calibration = Calibration::new(model, parameters, forces)?;
+        if let Some(sigmas) = sigmas {
+            calibration = calibration.with_sigmas(sigmas.concat())?;
+        }
+        let mut options = Options::default();
+        options.loss = self.options.loss;
+        options.scan = start.is_some().then_some(0);
+        options.start = Some(start.unwrap_or_else(|| self.scene_values()));
+        options.tolerance = effort.tolerance;
+        options.max_evaluations = effort.runs.max(1);
+        options.relative_noise = if self.models.iter().any(|series| series.method == PassMethod::Law) {
+            LAW_RIPPLE
+        } else {
+            RIPPLE[model.level.min(LAST_LEVEL) as usize]
+        };
+        options.profiles = effort.profiles;
+        Ok(calibration.with_options(options)?)
+    }
+
+    /// What the scenes say.
+    fn scene_values(&self) -> Vec<f64> {
+        self.unknowns
+            .iter()
+            .map(|unknown| {
+                let (lower, upper) = unknown.quantity.bounds();
+                let scene = self.series[unknown.series.unwrap_or(0)].scene;
+                unknown.quantity.value(scene).clamp(lower, upper)
+            })
+            .collect()
+    }
+
+    /// The ground's stiffness by the deflection: u_z is inversely proportional to it.
+    fn prior(&self, unknown: Unknown) -> Option<Prior> {
+        let deflection = self
+            .options
+            .deflection
+            .filter(|_| unknown == Unknown::shared(Quantity::GroundStiffness))?;
+        Some(Prior {
+            value: self.models[0].peak_vertical() / deflection.value,
+            sigma: deflection.sigma / deflection.value,
+        })
+    }
+}

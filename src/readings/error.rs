@@ -1,0 +1,91 @@
+//! What is wrong with a file of readings, and where.
+
+/// What is wrong with a data file, and where.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum DataError {
+    /// The file cannot be read.
+    #[error("{file}: cannot be read")]
+    Unreadable {
+        /// The file.
+        file: String,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The file is far larger than any readings.
+    #[error("{file}: found more than {allowed} bytes; allowed: a table of at most {allowed} bytes")]
+    TooLarge {
+        /// The file.
+        file: String,
+        /// Largest size allowed \[bytes\].
+        allowed: u64,
+    },
+    /// The file is no CSV.
+    #[error("{file}:{line}: not a table")]
+    Table {
+        /// The file.
+        file: String,
+        /// The line, 0 where it is not known.
+        line: u64,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+    /// The header lacks a column or names one twice.
+    #[error(
+        "{file}:{line}: {problem} column {column}; allowed: a header `pass,force_n` or `pass,force_n,sigma_n`"
+    )]
+    Column {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// What is wrong with it: there is none, or a second.
+        problem: &'static str,
+        /// The column.
+        column: &'static str,
+    },
+    /// A cell does not hold what it should.
+    #[error("{file}:{line}: {column}: found \"{found}\"; allowed: {allowed}")]
+    Cell {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// The column.
+        column: &'static str,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: &'static str,
+    },
+    /// Some readings have a sigma and some have none.
+    #[error("{file}:{line}: sigma_n is blank, but given for other readings; allowed: all or none")]
+    SomeSigmas {
+        /// The file.
+        file: String,
+        /// The first line without one.
+        line: u64,
+    },
+    /// There is nothing in the file.
+    #[error("{file}: no readings; allowed: a table with the columns pass,force_n[,sigma_n]")]
+    Empty {
+        /// The file.
+        file: String,
+    },
+    /// Fewer readings than parameters.
+    #[error(
+        "{file}: {readings} readings, the last on line {line}; needed for {parameters} parameters: {needed}"
+    )]
+    TooFew {
+        /// The file.
+        file: String,
+        /// Number of readings.
+        readings: usize,
+        /// Line of the last.
+        line: u64,
+        /// Parameters to be fitted.
+        parameters: usize,
+        /// Fewest readings.
+        needed: usize,
+    },
+}
