@@ -29,6 +29,8 @@ mod occurrence;
 mod paper;
 #[path = "planner/main.rs"]
 mod planner;
+#[path = "readings.rs"]
+mod readings;
 #[path = "report.rs"]
 mod report;
 #[path = "scene/main.rs"]
