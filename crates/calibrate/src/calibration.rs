@@ -1,17 +1,31 @@
 //! A calibration: model, parameters, observations and options.
 
+use std::fmt;
+
 use nalgebra::DVector;
 
 use crate::evaluator::Evaluator;
 use crate::solution::Route;
 use crate::{CalibrationError, Fit, Model, Options, Parameter};
 
-/// Scanned points for each parameter and one more.
+/// Scanned points for each parameter and one more: 24 for two, of which the emulator learns as well.
 const SCAN: usize = 8;
 /// Least noise of the model itself, as a share of its largest prediction: rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// A model to be fitted to observations.
+///
+/// ```
+/// use calibrate::{Calibration, ModelError, Parameter, Scale};
+///
+/// // A line through the origin, measured at 1, 2, 3 and 4 with a standard deviation of 0.1.
+/// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok([1.0, 2.0, 3.0, 4.0].map(|x| p[0] * x).to_vec()) };
+/// let slope = Parameter::new("slope", 0.0, 10.0, Scale::Linear)?;
+/// let calibration = Calibration::new(&model, vec![slope], vec![2.1, 3.9, 6.05, 7.95])?.with_sigmas(vec![0.1; 4])?;
+/// let fit = calibration.fit()?;
+/// assert!((fit.estimates[0].value - 2.0).abs() < 0.02);
+/// # Ok::<(), calibrate::CalibrationError>(())
+/// ```
 #[derive(Clone)]
 pub struct Calibration<'a> {
     model: &'a dyn Model,
@@ -19,6 +33,17 @@ pub struct Calibration<'a> {
     pub(crate) observations: Vec<f64>,
     sigmas: Option<Vec<f64>>,
     pub(crate) options: Options,
+}
+
+impl fmt::Debug for Calibration<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Calibration")
+            .field("parameters", &self.parameters)
+            .field("observations", &self.observations)
+            .field("sigmas", &self.sigmas)
+            .field("options", &self.options)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'a> Calibration<'a> {
@@ -151,7 +176,7 @@ impl<'a> Calibration<'a> {
         Ok(self.answer(&evaluator, solution))
     }
 
-    /// The model against the observations, for so many runs.
+    /// The model against the observations, for at most `limit` runs.
     pub(crate) fn evaluator<'e>(&'e self, units: &'e [f64], limit: usize) -> Evaluator<'e> {
         Evaluator::new(
             self.model,
