@@ -95,8 +95,12 @@ pub fn snapshots(axial_stiffness: f64, passes: &[u32]) -> Result<Vec<Snapshot>, 
                 snapshot = Some(Snapshot {
                     axial_stiffness,
                     pass,
-                    friction: (0..mesh.nodes())
-                        .map(|node| (place(node), view.friction(node)))
+                    friction: view
+                        .state()
+                        .friction()
+                        .iter()
+                        .enumerate()
+                        .map(|(node, friction)| (place(node), *friction))
                         .collect(),
                     slip: view.slip_lengths(),
                 });

@@ -3,10 +3,12 @@
 use std::borrow::Cow;
 
 use cable_dem::CableError;
+#[cfg(feature = "calibrate")]
 use calibrate::CalibrationError;
 use ground_field::GroundError;
 use pass_law::LawError;
 
+#[cfg(feature = "calibrate")]
 use crate::readings::DataError;
 use crate::scene::SceneError;
 use crate::scene::{Location, SceneFile};
@@ -31,9 +33,11 @@ pub enum Error {
     )]
     Law(#[from] LawError),
     /// The readings of a load cell are wrong.
+    #[cfg(feature = "calibrate")]
     #[error(transparent)]
     Data(#[from] DataError),
     /// The parameters could not be fitted.
+    #[cfg(feature = "calibrate")]
     #[error(transparent)]
     Calibration(#[from] CalibrationError),
     /// The finest affordable mesh leaves too large an error.
@@ -107,6 +111,7 @@ pub enum Error {
 }
 
 /// The error's message with those of its causes. Some errors repeat their cause: it is not added again.
+#[cfg(feature = "sweep")]
 pub(crate) fn with_causes(error: &dyn std::error::Error) -> String {
     let mut message = error.to_string();
     let mut cause = error.source();
@@ -147,9 +152,11 @@ impl Error {
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::Located { error, .. } => error.is_bad_input(),
+            #[cfg(feature = "calibrate")]
             Self::Calibration(error) => error.is_bad_input(),
+            #[cfg(feature = "calibrate")]
+            Self::Data(_) => true,
             Self::Scene(_)
-            | Self::Data(_)
             | Self::Unfit { .. }
             | Self::TooManyNodes { .. }
             | Self::Ground(GroundError::InvalidParameter { .. } | GroundError::Unsupported { .. })

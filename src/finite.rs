@@ -1,7 +1,7 @@
-//! The last guard before an answer is told: every number in it is one.
+//! The last guard before an answer is given: every number in it is finite.
 //!
 //! JSON has no word for infinity, and serialises it as the `null` that stands for a missing value; a table would hold the text `inf`.
-//! So an answer is gone through before, by a serializer that writes nothing.
+//! So a serializer that writes nothing goes through the answer before.
 
 use std::fmt::{self, Display};
 
@@ -21,7 +21,7 @@ pub fn check<T: Serialize + ?Sized>(answer: &T) -> Result<(), Error> {
     })
 }
 
-/// A number that is none, and the fields around it.
+/// A number that is not finite, and the fields around it.
 #[derive(Debug)]
 struct NotFinite {
     field: String,
@@ -77,10 +77,11 @@ impl Items {
     }
 }
 
-macro_rules! passes {
-    ($($method:ident: $kind:ty),*) => {
-        $(fn $method(self, _: $kind) -> Checked {
-            Ok(())
+/// Methods that look at none of their arguments.
+macro_rules! answers {
+    ($answer:expr, $result:ty; $($method:ident($($argument:ty),*)),*) => {
+        $(fn $method(self, $(_: $argument),*) -> Result<$result, NotFinite> {
+            Ok($answer)
         })*
     };
 }
@@ -96,10 +97,19 @@ impl Serializer for Finite {
     type SerializeStruct = Items;
     type SerializeStructVariant = Items;
 
-    passes!(
-        serialize_bool: bool, serialize_i8: i8, serialize_i16: i16, serialize_i32: i32, serialize_i64: i64,
-        serialize_u8: u8, serialize_u16: u16, serialize_u32: u32, serialize_u64: u64, serialize_char: char,
-        serialize_str: &str, serialize_bytes: &[u8], serialize_unit_struct: &'static str
+    answers!(
+        (), ();
+        serialize_bool(bool), serialize_i8(i8), serialize_i16(i16), serialize_i32(i32), serialize_i64(i64),
+        serialize_u8(u8), serialize_u16(u16), serialize_u32(u32), serialize_u64(u64), serialize_char(char),
+        serialize_str(&str), serialize_bytes(&[u8]), serialize_none(), serialize_unit(),
+        serialize_unit_struct(&'static str), serialize_unit_variant(&'static str, u32, &'static str)
+    );
+    answers!(
+        Items::default(), Items;
+        serialize_seq(Option<usize>), serialize_tuple(usize), serialize_map(Option<usize>),
+        serialize_tuple_struct(&'static str, usize), serialize_struct(&'static str, usize),
+        serialize_tuple_variant(&'static str, u32, &'static str, usize),
+        serialize_struct_variant(&'static str, u32, &'static str, usize)
     );
 
     fn serialize_f32(self, value: f32) -> Checked {
@@ -114,20 +124,8 @@ impl Serializer for Finite {
         Err(NotFinite { field, value })
     }
 
-    fn serialize_none(self) -> Checked {
-        Ok(())
-    }
-
     fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Checked {
         value.serialize(self)
-    }
-
-    fn serialize_unit(self) -> Checked {
-        Ok(())
-    }
-
-    fn serialize_unit_variant(self, _: &'static str, _: u32, _: &'static str) -> Checked {
-        Ok(())
     }
 
     fn serialize_newtype_struct<T: Serialize + ?Sized>(self, _: &'static str, value: &T) -> Checked {
@@ -142,46 +140,6 @@ impl Serializer for Finite {
         value: &T,
     ) -> Checked {
         value.serialize(self).map_err(|found| found.within(variant))
-    }
-
-    fn serialize_seq(self, _: Option<usize>) -> Result<Items, NotFinite> {
-        Ok(Items::default())
-    }
-
-    fn serialize_tuple(self, _: usize) -> Result<Items, NotFinite> {
-        Ok(Items::default())
-    }
-
-    fn serialize_tuple_struct(self, _: &'static str, _: usize) -> Result<Items, NotFinite> {
-        Ok(Items::default())
-    }
-
-    fn serialize_tuple_variant(
-        self,
-        _: &'static str,
-        _: u32,
-        _: &'static str,
-        _: usize,
-    ) -> Result<Items, NotFinite> {
-        Ok(Items::default())
-    }
-
-    fn serialize_map(self, _: Option<usize>) -> Result<Items, NotFinite> {
-        Ok(Items::default())
-    }
-
-    fn serialize_struct(self, _: &'static str, _: usize) -> Result<Items, NotFinite> {
-        Ok(Items::default())
-    }
-
-    fn serialize_struct_variant(
-        self,
-        _: &'static str,
-        _: u32,
-        _: &'static str,
-        _: usize,
-    ) -> Result<Items, NotFinite> {
-        Ok(Items::default())
     }
 }
 

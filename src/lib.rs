@@ -43,15 +43,23 @@
 //! }
 //! ```
 //!
-//! The parts are crates of their own: `ground-field` (the contract), `boussinesq` (closed forms), `burmister` (layers by
-//! Hankel transform), `layered-fem` (layers by finite elements), `cable-dem` (the cable), `pass-law` (many passes), `calibrate` (parameters from measurements), `plain-figure` (charts as SVG).
+//! The parts are crates of their own, handed on here so that their versions fit: [`ground_field`] (the contract), [`boussinesq`] (closed
+//! forms), [`burmister`] (layers by Hankel transform), `layered_fem` (layers by finite elements), [`cable_dem`] (the cable), [`pass_law`]
+//! (many passes), `fitting` (the crate `calibrate`: parameters from measurements), `figure` (the crate `plain-figure`: charts as SVG).
+//!
+//! # Features
+//!
+//! All are on unless `default-features = false`: `calibrate`, `design`, `fem`, `parquet`, `plot` (figures and the report), `sweep`, and
+//! `cli`, the command. Without them a scene is read, planned and run, with 28 crates in all.
 
 mod answer;
 mod cable;
+#[cfg(feature = "calibrate")]
 pub mod calibration;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+#[cfg(feature = "design")]
 pub mod design;
 mod error;
 mod finite;
@@ -61,6 +69,7 @@ pub mod output;
 mod plan;
 pub mod presets;
 mod progress;
+#[cfg(feature = "calibrate")]
 pub mod readings;
 #[cfg(feature = "plot")]
 pub mod report;
@@ -75,18 +84,25 @@ mod shown;
 pub mod sweep;
 pub mod template;
 
+#[cfg(feature = "calibrate")]
+pub use ::calibrate as fitting;
+#[cfg(feature = "fem")]
+pub use layered_fem;
 #[cfg(feature = "plot")]
 pub use plain_figure as figure;
+pub use {boussinesq, burmister, cable_dem, ground_field, pass_law};
 
 pub use answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, FrictionProfile, PassRecord,
     PlanSummary, RestraintRecord, Run, Saturation, SlipRecord, Stage,
 };
+#[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
 pub use error::Error;
 pub use ground::profile::{Profile, profile, profile_at};
 pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
 pub use progress::Progress;
+#[cfg(feature = "calibrate")]
 pub use readings::{DataError, Reading, Readings};
 pub use run::{RunOptions, check, run, run_plan, run_with};
 pub use scene::{Scene, SceneError, SceneFile};

@@ -1,8 +1,6 @@
 //! A commented scene to start from.
 //!
-//! The text is made from few answers and checked by reading it: what [`Template::to_toml`] returns is a valid scene.
-
-use std::fmt::Write;
+//! The text is made from a few answers and checked by reading it: [`Template::to_toml`] returns a valid scene.
 
 use crate::scene::{FrictionLaw, SceneError, quoted};
 use crate::{Scene, presets};
@@ -12,6 +10,8 @@ use crate::{Scene, presets};
 const SLOPE: f64 = 1e8;
 /// Shape factor \[1/m\] where there is no friction.
 const FRICTIONLESS_SHAPE_FACTOR: f64 = 1e7;
+/// The text with places for the answers.
+const TEXT: &str = include_str!("template.toml");
 /// Column of the comments.
 const COMMENTS: usize = 36;
 
@@ -91,140 +91,76 @@ impl Template {
 
     /// The file with this shape factor, or with Coulomb's law where it is not known yet.
     fn text(&self, shape_factor: Option<f64>) -> String {
-        let mut file = File::default();
-        file.remark("A cable in a duct under traffic. To compute: creepage run FILE");
-        file.remark("A quantity is a text with its unit, or a bare number in SI. `creepage presets` lists the presets,");
-        file.remark("with the source of every value; what stands beside a preset counts instead of it.");
-        file.blank();
-        file.set("title", &self.title, "");
-
-        file.section("[duct]", "straight, at constant depth");
-        file.set("length", &self.length, "from manhole to manhole");
-        file.set("depth", &self.depth, "from the road surface to the cable");
-        file.option(
-            "lateral_offset = \"0.5 m\"",
-            "from the vehicles' axis to the duct's; 0 if left out",
-        );
-
-        file.section("[ground]", "");
-        if let TemplateGround::Pavement(preset) = &self.ground {
-            file.set("preset", preset, &summary(preset));
-        }
-        file.option(
-            "vertical_peak = \"120 um\"",
-            "if you measured how far the duct goes down: scales the ground",
-        );
-        file.option(
-            "rigid_base_depth = \"12 m\"",
-            "bedrock; the ground goes down without end if left out",
-        );
-        if let TemplateGround::Modulus(modulus) = &self.ground {
-            file.section(
-                "[[ground.layers]]",
-                "from the top; every layer but the last has a thickness",
-            );
-            file.set(
-                "young_modulus",
-                modulus,
-                "that of small strains, several times that of settlements",
-            );
-            file.set("poisson_ratio", "0.4", "");
-        }
-
-        file.section("[cable]", "");
-        file.set("preset", &self.cable, &summary(&self.cable));
-        file.option("weight = \"108.8 N/m\"", "instead of the preset's");
-        file.option("axial_stiffness = \"8.01e6 N\"", "EA, instead of the preset's");
-        file.option(
-            "normal_load_factor = 1.5",
-            "normal force per metre = factor x weight; 1 if left out",
-        );
-
-        file.section("[friction]", "between cable and duct");
-        file.set("dynamic_coefficient", &self.friction, "");
-        if let Some(shape_factor) = shape_factor {
-            let comment = "how steeply friction builds up before slip: assumed, as 1e8 N/m per metre";
-            file.set("shape_factor", &format!("{shape_factor:.4e} 1/m"), comment);
-        } else {
-            file.set("law", "coulomb", "");
-        }
-
-        file.section("[ends]", "\"free\", \"fixed\" or { spring = \"3 MN/m\" }");
-        file.end(
-            "upstream",
-            &self.upstream,
-            "where forward vehicles come in, x = 0",
-        );
-        file.end("downstream", &self.downstream, "x = length");
-
-        file.section("[[vehicles]]", "one section for each kind of vehicle");
-        file.set("preset", &self.vehicle, &summary(&self.vehicle));
-        file.set("speed", &self.speed, "");
-        file.option("share = 0.5", "of the passes; equal shares if left out");
-        file.option("direction = \"reverse\"", "\"forward\" if left out");
-
-        file.section("[traffic]", "");
-        file.set("passes", &self.passes, "of all vehicles together");
-        file.text
-    }
-}
-
-/// What a preset is; nothing where it is not known, which reading the scene will tell.
-fn summary(name: &str) -> String {
-    presets::all()
-        .iter()
-        .find(|preset| preset.name == name)
-        .map_or_else(String::new, |preset| preset.summary.clone())
-}
-
-/// A commented TOML file in the making.
-#[derive(Default)]
-struct File {
-    text: String,
-}
-
-impl File {
-    fn blank(&mut self) {
-        self.text.push('\n');
+        let lines = TEXT.lines().filter_map(|line| self.line(line, shape_factor));
+        lines.map(|line| line + "\n").collect()
     }
 
-    fn remark(&mut self, text: &str) {
-        self.line(&format!("# {text}"), "");
-    }
-
-    fn section(&mut self, heading: &str, comment: &str) {
-        self.blank();
-        self.line(heading, comment);
-    }
-
-    fn set(&mut self, key: &str, value: &str, comment: &str) {
-        self.line(&format!("{key} = {}", toml(value)), comment);
-    }
-
-    /// A key that is left out.
-    fn option(&mut self, text: &str, comment: &str) {
-        self.line(&format!("# {text}"), comment);
-    }
-
-    fn end(&mut self, key: &str, value: &str, comment: &str) {
-        if matches!(value, "free" | "fixed") {
-            self.set(key, value, comment);
-        } else {
-            self.line(&format!("{key} = {{ spring = {} }}", toml(value)), comment);
-        }
-    }
-
-    fn line(&mut self, code: &str, comment: &str) {
-        // Writing to a text does not fail.
-        let _ = match comment {
-            "" => writeln!(self.text, "{code}"),
-            _ => writeln!(self.text, "{code:<COMMENTS$}# {comment}"),
+    /// A line of the file: `CONDITION| CODE @NAME  # COMMENT`, all but the code optional.
+    fn line(&self, line: &str, shape_factor: Option<f64>) -> Option<String> {
+        let line = match line.split_once('|') {
+            Some((condition, line)) if self.holds(condition, shape_factor) => line.trim_start(),
+            Some(_) => return None,
+            None => line,
         };
-        if !comment.is_empty() && code.len() >= COMMENTS {
-            // No blank was left before the comment.
-            let at = self.text.len() - comment.len() - "# \n".len();
-            self.text.insert(at, ' ');
+        let (code, comment) = line.split_once("  # ").unwrap_or((line, ""));
+        let (code, comment) = match code.split_once('@') {
+            Some((before, name)) => {
+                let value = self.value(name, shape_factor);
+                let comment = comment.replace("@summary", summary(&value));
+                (format!("{before}{}", literal(name, &value)), comment)
+            }
+            None => (code.to_owned(), comment.to_owned()),
+        };
+        Some(match comment.as_str() {
+            "" => code,
+            // At least one blank stands before the comment.
+            _ => format!("{:<COMMENTS$}# {comment}", code + " "),
+        })
+    }
+
+    fn holds(&self, condition: &str, shape_factor: Option<f64>) -> bool {
+        match condition {
+            "modulus" => matches!(self.ground, TemplateGround::Modulus(_)),
+            "pavement" => matches!(self.ground, TemplateGround::Pavement(_)),
+            "coulomb" => shape_factor.is_none(),
+            _ => shape_factor.is_some(),
         }
+    }
+
+    /// The answer of this name in the text.
+    fn value(&self, name: &str, shape_factor: Option<f64>) -> String {
+        match name {
+            "title" => &self.title,
+            "length" => &self.length,
+            "depth" => &self.depth,
+            "modulus" | "pavement" => match &self.ground {
+                TemplateGround::Modulus(text) | TemplateGround::Pavement(text) => text,
+            },
+            "cable" => &self.cable,
+            "friction" => &self.friction,
+            "upstream" => &self.upstream,
+            "downstream" => &self.downstream,
+            "vehicle" => &self.vehicle,
+            "speed" => &self.speed,
+            "passes" => &self.passes,
+            _ => return format!("{:.4e} 1/m", shape_factor.unwrap_or_default()),
+        }
+        .clone()
+    }
+}
+
+/// What a preset is; empty where it is not known, which is an error when the scene is read.
+fn summary(name: &str) -> &'static str {
+    let preset = presets::all().iter().find(|preset| preset.name == name);
+    preset.map_or("", |preset| &preset.summary)
+}
+
+/// The value as it stands behind a key: an end that is neither free nor fixed is a spring.
+fn literal(name: &str, value: &str) -> String {
+    match (name, value) {
+        (_, "free" | "fixed") => toml(value),
+        ("upstream" | "downstream", _) => format!("{{ spring = {} }}", toml(value)),
+        _ => toml(value),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Do 95 % intervals hold the truth in 95 % of all cases? Minutes of computing, so left out of an ordinary test run:
 //!
 //! ```sh
-//! cargo test --release --test calibration_coverage --test calibration -- --ignored --nocapture
+//! cargo test --release --test calibration_coverage --test main calibration -- --ignored --nocapture
 //! ```
 //!
 //! Readings are those of the solver with inertia: 60, after every second of 119 passes, with Gaussian noise of 2.5 N. Two hundred fits of each
@@ -9,7 +9,6 @@
 //! difference to the solver itself at one point, here the true one, corrects it. Both have 24 nodes a depth: with 6, forces are off by up
 //! to 5 N where the shape factor is 2.5e7 1/m and by 1 N where it is 1e7 1/m, and a second optimum appears.
 
-use std::f64::consts::TAU;
 use std::fmt::Write;
 use std::sync::OnceLock;
 
@@ -184,11 +183,6 @@ fn polynomials(range: Range, value: f64) -> Vec<f64> {
     values
 }
 
-fn gaussian(random: &mut fastrand::Rng) -> f64 {
-    let radius = (-2.0 * (1.0 - random.f64()).ln()).sqrt();
-    radius * (TAU * random.f64()).cos()
-}
-
 /// What came out of the repetitions at one truth.
 #[derive(Default, Clone, Copy)]
 struct Count {
@@ -298,7 +292,7 @@ fn repeat(table: &Table, method: Method, friction: f64, shape_factor: f64) -> Co
         let mut random = fastrand::Rng::with_seed(seed);
         let data = truth
             .iter()
-            .map(|force| force + NOISE * gaussian(&mut random))
+            .map(|force| force + NOISE * testkit::gaussian(&mut random))
             .collect();
         let parameters = vec![
             Parameter::new("friction", 0.14, 0.7, Scale::Logarithmic).unwrap(),

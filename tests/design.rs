@@ -252,3 +252,17 @@ fn the_progress_grows_and_may_stop_the_search() {
     let error = compare(&scene(), &measures, Progress::new(&stop_at_once)).expect_err("stopped");
     assert!(matches!(error, DesignError::Analysis(Error::Stopped)), "{error}");
 }
+
+#[test]
+fn answers_are_read_as_they_were_written() {
+    let limits = Limits {
+        force_n: 150.0,
+        movement_m: None,
+    };
+    let design = design(&scene(), &DesignOptions::new(Place::Clamp(7.5), limits)).unwrap();
+    let text = serde_json::to_string(&design).unwrap();
+    assert_eq!(serde_json::from_str::<Design>(&text).unwrap(), design);
+    let run = creepage::run(&scene()).unwrap();
+    let text = serde_json::to_string(&run).unwrap();
+    assert_eq!(serde_json::from_str::<Run>(&text).unwrap(), run);
+}

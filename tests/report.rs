@@ -2,18 +2,15 @@
 
 #![cfg(all(feature = "cli", feature = "plot"))]
 
-#[path = "../crates/figure/tests/xml/mod.rs"]
-mod xml;
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use super::xml::{Element, parse};
 use creepage::design::{Measure, Place};
 use creepage::report::{Report, ReportOptions};
 use creepage::{Readings, Scene};
 use serde_json::Value;
-use xml::{Element, parse};
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
 const FIGURES: [&str; 7] = [
@@ -345,13 +342,14 @@ fn a_way_that_fails_is_told_and_the_others_stay() {
 
 #[test]
 fn other_scenes_have_their_pages() {
-    // No force at all; both ends free; inertia; more passes than can be computed one by one.
+    // No force at all; both ends free; a lane beside the duct; inertia; more passes than can be computed one by one.
     for (overrides, said) in [
         (
             &["friction.dynamic_coefficient=0"][..],
             "There is no friction here",
         ),
         (&["ends.downstream=free"], "largest compression in the cable"),
+        (&["duct.lateral_offset=2 m"], "2 m beside the duct"),
         (
             &["solver.method=dynamic"],
             "The method dynamic does not show friction",

@@ -25,7 +25,7 @@ const DESK: u32 = 1200;
 const SMALLEST_TEXT: f64 = 10.0;
 /// Least contrast of text (WCAG 2.1, success criterion 1.4.3).
 const LEAST_CONTRAST: f64 = 4.5;
-const PATIENCE: Duration = Duration::from_mins(2);
+const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Runs in the page around the frame.
 const MEASURE: &str = r#"

@@ -279,7 +279,7 @@ fn fit(table: &Table, b: f64, noise: f64, seed: u64) -> Result<Draw, String> {
     let measured = table
         .readings(TRUE_COEFFICIENT, b)
         .into_iter()
-        .map(|force| force + noise * gaussian(&mut random))
+        .map(|force| force + noise * testkit::gaussian(&mut random))
         .collect();
     let model = |p: &[f64]| Ok::<_, ModelError>(table.readings(p[0], p[1]));
     let parameter = |name, (from, to, _)| Parameter::new(name, from, to, Scale::Logarithmic);
@@ -312,12 +312,6 @@ fn judge(estimate: &Estimate, truth: f64) -> Draw {
     } else {
         Draw::Wrong
     }
-}
-
-/// A standard normal number (G. E. P. Box, M. E. Muller, 1958).
-fn gaussian(random: &mut Rng) -> f64 {
-    let radius = (-2.0 * (1.0 - random.f64()).ln()).sqrt();
-    radius * (std::f64::consts::TAU * random.f64()).cos()
 }
 
 pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {

@@ -2,10 +2,10 @@
 
 use cable_dem::{PassOutcome, SlipLengths, Statistics};
 use pass_law::EvolutionStatistics;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Answer of a run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Run {
     /// The scene's title.
     pub title: String,
@@ -23,7 +23,7 @@ pub struct Run {
     pub restraints: Vec<RestraintRecord>,
     /// The cable after the passes that [`RunOptions::stages`](crate::RunOptions::stages) names; not in the JSON document
     /// where none are.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stages: Vec<Stage>,
     /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure 7); not from solvers
     /// with inertia.
@@ -37,7 +37,7 @@ pub struct Run {
 }
 
 /// Which models and steps were used, and why.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PlanSummary {
     /// Ground model.
     pub ground: String,
@@ -52,7 +52,7 @@ pub struct PlanSummary {
 }
 
 /// Peaks of the duct's motion.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct DuctMotionSummary {
     /// max |D_l| \[m\].
     pub peak_longitudinal_m: f64,
@@ -61,7 +61,7 @@ pub struct DuctMotionSummary {
 }
 
 /// Force and movement after one pass; forces in N, compression positive.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PassRecord {
     /// Number of the pass, from 1.
     pub pass: u64,
@@ -84,7 +84,7 @@ pub struct PassRecord {
 }
 
 /// Force along the cable after the last pass.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ForceProfile {
     /// Positions along the duct \[m\], midway between nodes.
     pub positions_m: Vec<f64>,
@@ -93,7 +93,7 @@ pub struct ForceProfile {
 }
 
 /// The cable at one pass.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Stage {
     /// Number of the pass, from 1.
     pub pass: u64,
@@ -104,7 +104,7 @@ pub struct Stage {
 }
 
 /// Friction along the cable with the vehicle over the duct's middle (Kashiro et al., Figure 7).
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FrictionProfile {
     /// Place of the vehicle in the scene's list, from 0.
     pub vehicle: usize,
@@ -119,7 +119,7 @@ pub struct FrictionProfile {
 }
 
 /// What a clamp carries after the last pass.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RestraintRecord {
     /// Position along the duct \[m\].
     pub position_m: f64,
@@ -130,7 +130,7 @@ pub struct RestraintRecord {
 }
 
 /// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SlipRecord {
     /// Friction at its limit toward growing x \[m\].
     pub forward_m: f64,
@@ -139,7 +139,7 @@ pub struct SlipRecord {
 }
 
 /// Where the force levels off.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Saturation {
     /// The force in the end \[N\].
     pub force_n: f64,
@@ -148,7 +148,7 @@ pub struct Saturation {
 }
 
 /// Work of the cable solver for the passes as listed; of the pass law, that of its evolution in the pass number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cost {
     /// Vehicle positions, steps of time, or of the pass number.
     pub steps: u64,
@@ -159,7 +159,7 @@ pub struct Cost {
 }
 
 /// How wrong the forces may be: how well the equations are solved, not how well they describe a duct.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ErrorEstimate {
     /// Largest error of a force as a share of it, or of a tenth of the largest force of the run where it is less than that.
     pub relative: f64,
@@ -170,7 +170,7 @@ pub struct ErrorEstimate {
 }
 
 /// Error by its causes, each as a share of the force but the movement's own.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct ErrorShares {
     /// Node spacing and vehicle step.
     pub mesh: f64,

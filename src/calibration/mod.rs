@@ -28,6 +28,7 @@ mod watch;
 use ::calibrate::Options;
 
 pub use ::calibrate::{BootstrapOptions, CalibrationError, Loss};
+#[cfg(feature = "plot")]
 pub(crate) use cell::CellEnd;
 pub use options::{CalibrateOptions, Deflection, Series};
 pub use result::{

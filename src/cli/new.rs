@@ -83,7 +83,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             None => {}
         }
     }
-    // A typed answer shows by itself whether it is a modulus or a preset, a flag by its name.
+    // A typed answer is a modulus if it begins with a digit; a flag says which it is.
     if let Some(modulus) = &arguments.modulus {
         template.ground = TemplateGround::Modulus(modulus.clone());
     } else if let Some(pavement) = &arguments.pavement {

@@ -26,7 +26,7 @@ pub fn clean_up_when_stopped() {
 #[cfg(not(unix))]
 pub fn clean_up_when_stopped() {}
 
-/// The signals that ask a process to stop, without those that it ignores. Where the system does not tell which these are, a closed
+/// The signals that ask a process to stop, without those that it ignores. Where the system does not say which these are, a closed
 /// terminal is left alone: a long sweep under `nohup` counts for more than a file that is left.
 #[cfg(unix)]
 fn heeded() -> Vec<std::ffi::c_int> {

@@ -42,7 +42,7 @@ pub struct Arguments {
     /// Random seed
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// Threads; all cores if left out
+    /// Number of threads; all cores if omitted
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     threads: Option<u16>,
     /// Draw a map over two varied keys to this file (SVG)

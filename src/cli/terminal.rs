@@ -59,7 +59,7 @@ pub fn cut(message: &str) -> String {
     shortened(message, LONGEST_MESSAGE, KEPT_END)
 }
 
-/// The text, at most `longest` characters of it, so many of them from its end.
+/// At most `longest` characters of the text, `kept_end` of them from its end.
 fn shortened(text: &str, longest: usize, kept_end: usize) -> String {
     let count = text.chars().count();
     if count <= longest {

@@ -4,8 +4,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
+use super::limits::{DesignError, Limits, Place};
 use super::search::on_one_mesh;
-use super::{DesignError, Limits, Place, TradeOff};
+use super::trade_off::TradeOff;
 use crate::{Progress, Scene};
 
 /// One way to hold the cable.
@@ -35,8 +36,8 @@ pub fn compare(
     let answer = |measure: &Measure| {
         measure.check(&scene)?;
         let run = crate::run(&measure.place.held(&scene, measure.stiffness))?;
-        let told = measure.stiffness.is_finite().then_some(measure.stiffness);
-        Ok(TradeOff::of(&run, measure.place, told, NO_LIMITS))
+        let stated = measure.stiffness.is_finite().then_some(measure.stiffness);
+        Ok(TradeOff::of(&run, measure.place, stated, NO_LIMITS))
     };
     measures
         .par_iter()

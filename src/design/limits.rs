@@ -1,6 +1,6 @@
 //! What is asked of a design, and what can be wrong with that.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::scene::{End, Restraint};
 use crate::{Error, Progress, Scene};
@@ -9,7 +9,7 @@ use crate::{Error, Progress, Scene};
 const DAYS_PER_YEAR: f64 = 365.25;
 
 /// Where a spring is put.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Place {
     /// At the upstream end, in place of what holds it in the scene.
@@ -21,7 +21,7 @@ pub enum Place {
 }
 
 /// What must not be exceeded.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Limits {
     /// Largest force on an end \[N\], positive.
     pub force_n: f64,
@@ -35,7 +35,7 @@ pub struct Limits {
 pub struct DesignOptions<'a> {
     /// Where the spring is.
     pub place: Place,
-    /// What it has to keep.
+    /// What it has to stay within.
     pub limits: Limits,
     /// Called after each run of the scene; it may stop the search.
     pub progress: Progress<'a>,
@@ -71,7 +71,7 @@ pub enum DesignError {
     },
     /// A limit is crossed more than once as the stiffness grows.
     #[error(
-        "the {what} crosses its limit {crossings} times as the stiffness grows: there is no single range of stiffness to tell"
+        "the {what} crosses its limit {crossings} times as the stiffness grows: there is no single range of stiffness"
     )]
     NotMonotone {
         /// Force or movement.
@@ -151,7 +151,7 @@ impl Place {
     }
 }
 
-/// The passes of so many years with so many trucks a day.
+/// The passes of a number of years with a number of trucks a day.
 ///
 /// # Errors
 ///

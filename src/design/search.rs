@@ -1,13 +1,15 @@
 //! The curve of force against movement, and where it crosses the limits.
 
-use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use argmin::core::{CostFunction, Executor};
 use argmin::solver::brent::BrentRoot;
 use rayon::prelude::*;
 
-use super::{Design, DesignError, DesignOptions, Limits, Place, TradeOff};
+use super::answer::Design;
+use super::limits::{DesignError, DesignOptions, Place};
+use super::trade_off::{Share, TradeOff, shares};
 use crate::{Error, Progress, RunOptions, Scene};
 
 /// The curve goes from this part of the cable's own stiffness EA/L to its inverse, in half decades.
@@ -15,7 +17,7 @@ const DECADES: i32 = 2;
 const POINTS_PER_DECADE: i32 = 2;
 /// Width of the last bracket around a stiffness, as a share of it.
 const ACCURACY: f64 = 0.01;
-/// Name of the law, which has a mesh of its own.
+/// Name of the pass law, which chooses its own mesh.
 const PASS_LAW: &str = "pass-law";
 const MOST_STEPS: u64 = 40;
 /// Runs that finding the stiffness at a limit takes, about: only the progress depends on it.
@@ -23,10 +25,19 @@ const USUAL_STEPS: usize = 8;
 /// Stiffnesses that differ by less than this share are the same: a logarithm there and back.
 const SAME: f64 = 1e-9;
 
-/// A limited quantity: its name, and what of a point it is beside its limit, at most 1 where the limit is kept.
-type Share = (&'static str, Box<dyn Fn(&TradeOff) -> f64 + Sync>);
-
-/// Finds the stiffnesses that keep the limits.
+/// Finds the stiffnesses within the limits.
+///
+/// ```
+/// use creepage::Scene;
+/// use creepage::design::{DesignOptions, Limits, Place, design};
+///
+/// let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml")?;
+/// scene.traffic.passes = 2;
+/// let limits = Limits { force_n: 100.0, movement_m: None };
+/// let design = design(&scene, &DesignOptions::new(Place::Downstream, limits))?;
+/// assert!(design.answer.is_some_and(|answer| answer.force_n <= 100.0));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 ///
 /// # Errors
 ///
@@ -117,14 +128,6 @@ fn choice(place: Place, (from, to): (f64, f64)) -> f64 {
     }
 }
 
-pub(super) fn shares(limits: Limits) -> Vec<Share> {
-    let mut shares: Vec<Share> = vec![("force", Box::new(move |point| point.force_n / limits.force_n))];
-    if let Some(limit) = limits.movement_m {
-        shares.push(("movement", Box::new(move |point| point.movement_m / limit)));
-    }
-    shares
-}
-
 fn sorted(mut points: Vec<TradeOff>) -> Vec<TradeOff> {
     let key = |point: &TradeOff| point.stiffness_n_per_m.unwrap_or(f64::INFINITY);
     points.sort_by(|a, b| key(a).total_cmp(&key(b)));
@@ -140,36 +143,35 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
+    fn points(&self) -> MutexGuard<'_, Vec<TradeOff>> {
+        self.points.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
     /// Runs the scene with this stiffness, or finds the run in what was done.
     fn run(&self, stiffness: f64) -> Result<TradeOff, Error> {
-        let told = stiffness.is_finite().then_some(stiffness);
-        let points = || {
-            self.points
-                .lock()
-                .unwrap_or_else(std::sync::PoisonError::into_inner)
-        };
-        let same = |done: Option<f64>| match (done, told) {
+        let stated = stiffness.is_finite().then_some(stiffness);
+        let same = |done: Option<f64>| match (done, stated) {
             (Some(a), Some(b)) => (a - b).abs() <= SAME * b,
             (a, b) => a == b,
         };
-        if let Some(done) = points().iter().find(|point| same(point.stiffness_n_per_m)) {
+        if let Some(done) = self.points().iter().find(|point| same(point.stiffness_n_per_m)) {
             return Ok(done.clone());
         }
         let scene = self.options.place.held(self.scene, stiffness);
         let point = TradeOff::of(
             &crate::run(&scene)?,
             self.options.place,
-            told,
+            stated,
             self.options.limits,
         );
-        points().push(point.clone());
+        self.points().push(point.clone());
         let runs = self.runs.fetch_add(1, Ordering::Relaxed) + 1;
         let share = runs as f64 / self.expected_runs as f64;
         self.options.progress.report(share.min(1.0))?;
         Ok(point)
     }
 
-    /// The stiffnesses from and to which one limit is kept; `None` where none keeps it.
+    /// The least and the largest stiffness within one limit; `None` where there is none.
     fn kept(
         &self,
         stiffnesses: &[f64],
@@ -195,7 +197,7 @@ impl Search<'_> {
         }
     }
 
-    /// The stiffness on the side that keeps the limit, next to where it is crossed between two.
+    /// The last stiffness within the limit, where it is crossed between two.
     fn edge(
         &self,
         low: f64,
@@ -218,10 +220,7 @@ impl Search<'_> {
             .run()
             .map_err(failed)?;
         // Brent's last bracket holds a run on either side of the limit: the one that keeps it is the edge.
-        let points = self
-            .points
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        let points = self.points();
         let edge = points
             .iter()
             .filter(|point| share(point) <= 1.0)

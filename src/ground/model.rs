@@ -8,7 +8,6 @@
 use boussinesq::{HalfSpace, Odemark};
 use burmister::LayeredHalfSpace;
 use ground_field::{DuctMotion, GroundField, SoilProfile};
-use layered_fem::LayeredFem;
 
 use super::motion::{difference, motions};
 use crate::Error;
@@ -21,9 +20,6 @@ const CLOSED_FORM_ACCURACY: f64 = 1e-9;
 const TRANSFORM_ACCURACY: f64 = 1e-7;
 /// The same for a model of unknown smoothness.
 const OWN_ACCURACY: f64 = 1e-6;
-/// Tightest and loosest accuracy asked of finite elements, and the share of the tolerance they get.
-const ELEMENTS_ACCURACY: (f64, f64) = (2e-4, 5e-3);
-const ELEMENTS_SHARE: f64 = 0.25;
 /// Sublayers of a layer whose modulus varies, to begin with, and the most of all layers together.
 const FEWEST_SUBLAYERS: usize = 16;
 const MOST_LAYERS: usize = 1000;
@@ -84,13 +80,25 @@ impl Ground {
                 Self::of_field(scene, "odemark", &field, TRANSFORM_ACCURACY, named, reach)
             }
             GroundModel::Burmister => Self::layered(scene, profile, named, reach),
-            GroundModel::FiniteElements => {
-                let (tightest, loosest) = ELEMENTS_ACCURACY;
-                let accuracy = (ELEMENTS_SHARE * scene.solver.tolerance).clamp(tightest, loosest);
-                let field = LayeredFem::new(profile, accuracy)?;
-                Self::of_field(scene, "fem", &field, accuracy, named, reach)
-            }
+            GroundModel::FiniteElements => Self::elements(scene, named, reach),
         }
+    }
+
+    #[cfg(feature = "fem")]
+    fn elements(scene: &Scene, reason: &'static str, reach: f64) -> Result<Self, Error> {
+        // A quarter of the tolerance is for the ground.
+        let accuracy = (0.25 * scene.solver.tolerance).clamp(2e-4, 5e-3);
+        let field = layered_fem::LayeredFem::new(&scene.ground.profile, accuracy)?;
+        Self::of_field(scene, "fem", &field, accuracy, reason, reach)
+    }
+
+    #[cfg(not(feature = "fem"))]
+    fn elements(_: &Scene, _: &'static str, _: f64) -> Result<Self, Error> {
+        Err(Error::Unfit {
+            key: "ground.model",
+            found: "fem",
+            reason: "this program was built without finite elements (feature `fem`)".into(),
+        })
     }
 
     /// By how much the motions over equivalent thicknesses (Odemark) differ from these, as a share of the peak; `None` where that

@@ -1,30 +1,49 @@
 //! Content on its way to its place.
 
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufWriter, Stdout, Write};
+use std::fs::OpenOptions;
+use std::io::{self, BufWriter, Write};
 
+use super::error::OutputError;
 use super::place::Place;
+use super::target::Output;
 use super::temporary::Temporary;
-use super::{Output, OutputError};
 
-/// A file in the making. Dropped before it is finished, it leaves nothing behind.
+/// A file that is being written. Dropped before it is finished, it leaves nothing behind.
 pub struct Draft {
     output: Output,
     writer: BufWriter<To>,
 }
 
 enum To {
-    StandardOutput(Stdout),
-    Special(File),
+    /// What is written as it is.
+    Stream(Box<dyn Write + Send>),
     Temporary(Temporary),
+}
+
+impl Output {
+    /// Begins to write.
+    pub fn begin(&self) -> Result<Draft, OutputError> {
+        Draft::of(self)
+    }
+
+    /// Writes all of it: what `fill` writes stands there if it succeeds, and else what stood there before.
+    #[cfg(feature = "cli")]
+    pub fn write(&self, fill: impl FnOnce(&mut dyn io::Write) -> io::Result<()>) -> Result<(), OutputError> {
+        let mut draft = self.begin()?;
+        fill(&mut draft).map_err(|source| self.failed(source))?;
+        draft.finish()
+    }
 }
 
 impl Draft {
     pub(super) fn of(output: &Output) -> Result<Self, OutputError> {
         let to = match &output.place {
-            Place::StandardOutput => Ok(To::StandardOutput(io::stdout())),
+            Place::StandardOutput => Ok(To::Stream(Box::new(io::stdout()))),
             // What another program handed over goes on where it is.
-            Place::Special(path) => OpenOptions::new().append(true).open(path).map(To::Special),
+            Place::Special(path) => {
+                let file = OpenOptions::new().append(true).open(path);
+                file.map(|file| To::Stream(Box::new(file)))
+            }
             Place::File(path) => Temporary::beside(path).map(To::Temporary),
         };
         Ok(Self {
@@ -43,8 +62,8 @@ impl Draft {
                 output.check_kind(path)?;
                 temporary.replace(path)
             }
-            (Ok(To::StandardOutput(mut out)), _) => out.flush(),
-            (Ok(_), _) => Ok(()),
+            (Ok(To::Stream(mut out)), _) => out.flush(),
+            (Ok(To::Temporary(_)), _) => Ok(()),
             (Err(error), _) => Err(error),
         }
         .map_err(|source| output.failed(source))
@@ -61,20 +80,21 @@ impl Write for Draft {
     }
 }
 
+impl To {
+    fn out(&mut self) -> &mut dyn Write {
+        match self {
+            Self::Stream(out) => out,
+            Self::Temporary(temporary) => temporary,
+        }
+    }
+}
+
 impl Write for To {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        match self {
-            Self::StandardOutput(out) => out.write(bytes),
-            Self::Special(file) => file.write(bytes),
-            Self::Temporary(temporary) => temporary.write(bytes),
-        }
+        self.out().write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        match self {
-            Self::StandardOutput(out) => out.flush(),
-            Self::Special(file) => file.flush(),
-            Self::Temporary(temporary) => temporary.flush(),
-        }
+        self.out().flush()
     }
 }

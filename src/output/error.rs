@@ -35,9 +35,9 @@ pub enum OutputError {
         /// The file.
         file: String,
         /// What it looks like.
-        found: &'static str,
+        found: String,
         /// What would be replaced.
-        kind: &'static str,
+        kind: String,
     },
     /// Writing broke off.
     #[error("{file}: cannot be written")]
@@ -53,7 +53,7 @@ pub enum OutputError {
 }
 
 impl OutputError {
-    pub(super) fn unwritable(file: &Path, source: io::Error) -> Self {
+    pub(crate) fn unwritable(file: &Path, source: io::Error) -> Self {
         Self::Unwritable {
             file: file.display().to_string(),
             source,

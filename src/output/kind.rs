@@ -25,24 +25,36 @@ pub enum Kind {
     Scene,
 }
 
-/// Kinds that are told by columns of a table's first line.
-const TABLES: [Kind; 4] = [Kind::Passes, Kind::Motion, Kind::Fit, Kind::Sweep];
+/// Kinds that are recognised by the beginning of a file.
+const RECOGNISED: [Kind; 6] = [
+    Kind::Passes,
+    Kind::Motion,
+    Kind::Fit,
+    Kind::Sweep,
+    Kind::Parquet,
+    Kind::Figure,
+];
 /// What the head of a page of ours holds.
 pub const GENERATOR: &str = "<meta name=\"generator\" content=\"creepage";
 
 impl Kind {
-    /// In words.
-    pub fn name(self) -> &'static str {
+    fn noun(self) -> &'static str {
         match self {
-            Self::Passes => "an older table of `creepage run`",
-            Self::Motion => "an older table of `creepage profile`",
-            Self::Fit => "an older table of `creepage calibrate`",
-            Self::Sweep => "an older table of `creepage sweep`",
-            Self::Parquet => "an older Parquet file",
-            Self::Figure => "an older SVG figure",
-            Self::Page => "an older page of `creepage report`",
-            Self::Scene => "an empty file",
+            Self::Passes => "table of `creepage run`",
+            Self::Motion => "table of `creepage profile`",
+            Self::Fit => "table of `creepage calibrate`",
+            Self::Sweep => "table of `creepage sweep`",
+            Self::Parquet => "Parquet file",
+            Self::Figure => "SVG figure",
+            Self::Page => "page of `creepage report`",
+            Self::Scene => "empty file",
         }
+    }
+
+    /// What may be replaced, in words.
+    pub fn older(self) -> String {
+        let older = if self == Self::Scene { "an" } else { "an older" };
+        format!("{older} {}", self.noun())
     }
 
     /// Columns that every table of this kind has.
@@ -93,21 +105,15 @@ impl Kind {
 }
 
 /// What a file looks like that begins with `head`.
-pub fn described(head: &[u8]) -> &'static str {
-    if let Some(kind) = TABLES.into_iter().find(|kind| kind.is_kind_of(head)) {
-        return match kind {
-            Kind::Passes => "a table of `creepage run`",
-            Kind::Motion => "a table of `creepage profile`",
-            Kind::Fit => "a table of `creepage calibrate`",
-            _ => "a table of `creepage sweep`",
-        };
+pub fn described(head: &[u8]) -> String {
+    match RECOGNISED.into_iter().find(|kind| kind.is_kind_of(head)) {
+        Some(Kind::Figure) => format!("an {}", Kind::Figure.noun()),
+        Some(kind) => format!("a {}", kind.noun()),
+        None => something_else(head).to_owned(),
     }
-    if Kind::Parquet.is_kind_of(head) {
-        return "a Parquet file";
-    }
-    if Kind::Figure.is_kind_of(head) {
-        return "an SVG figure";
-    }
+}
+
+fn something_else(head: &[u8]) -> &'static str {
     if begins(head, b"<!doctype html") || begins(head, b"<html") {
         return "a page of HTML";
     }

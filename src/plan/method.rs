@@ -7,7 +7,7 @@
 use cable_dem::inertia_ratio;
 use pass_law::{Concern, Resolution, concerns_before};
 
-use super::levels::Levels;
+use super::mesh::Levels;
 use crate::Error;
 use crate::cable;
 use crate::scene::{Scene, SolverMethod};

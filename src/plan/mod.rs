@@ -3,7 +3,7 @@
 //! A plan is made from the motion of the duct and from estimates: how far inertia can matter, what the passes will cost.
 //! The run measures what the estimates promise, and refines where they promise too much.
 
-mod levels;
+mod mesh;
 mod method;
 pub mod occurrence;
 mod report;
@@ -13,7 +13,7 @@ use ground_field::GroundField;
 
 use crate::ground::{Ground, road};
 use crate::{Error, Scene};
-pub use levels::Levels;
+pub use mesh::Levels;
 pub use method::{CableMethod, LAW_ERROR, MethodChoice, PassMethod};
 pub use report::{Candidate, Part, PlanReport};
 

@@ -11,8 +11,6 @@ use crate::{Error, PlanReport, Profile, Progress, Run, RunOptions, Scene, finite
 /// Positions at which the motion of the duct is drawn, and how far on either side of the vehicle \[depths\].
 const POSITIONS: i32 = 301;
 const REACH_DEPTHS: f64 = 10.0;
-/// Lengths that are called round, in powers of ten.
-const ROUND_LENGTHS: [f64; 7] = [1.0, 1.5, 2.0, 2.5, 3.0, 5.0, 7.5];
 /// Passes after which the cable is shown, at most.
 const STAGES: u32 = 4;
 /// Share of the work that the scene's own run is taken to be; the rest are ways to hold the cable.
@@ -104,9 +102,8 @@ pub(super) fn reach(scene: &Scene) -> f64 {
     let wheels = scene.vehicles[0].vehicle.wheels();
     let longest = wheels.iter().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
     let reach = REACH_DEPTHS * scene.duct.depth + longest;
-    let power = 10_f64.powf(reach.log10().floor());
-    let above = ROUND_LENGTHS.into_iter().find(|length| length * power >= reach);
-    above.unwrap_or(10.0) * power
+    let step = 0.5 * 10_f64.powf(reach.log10().floor());
+    step * (reach / step).ceil()
 }
 
 /// Positions ξ \[m\] of the figures of the duct's motion.

@@ -145,8 +145,8 @@ fn passes(passes: &[PassRecord]) -> Table {
     };
     let names = columns.iter().map(|(name, ..)| *name);
     Table {
-        head: std::iter::once("pass").chain(names).map(str::to_owned).collect(),
+        head: std::iter::once("pass").chain(names).collect(),
         rows: selected(passes).into_iter().map(row).collect(),
-        numbers: vec![true; 1 + columns.len()],
+        texts: 0,
     }
 }

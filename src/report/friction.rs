@@ -33,7 +33,6 @@ impl Friction {
             stages: &[1],
             ..RunOptions::default()
         };
-        let method = &run.plan.cable;
         let (passes, instead) = match crate::run_with(&scene, &options) {
             Ok(first) => (
                 shown(&first),
@@ -44,12 +43,9 @@ impl Friction {
                 format!("the method quasi-static does not apply: {error}."),
             ),
         };
-        with(
-            passes,
-            Some(format!(
-                "The method {method} does not show friction while a vehicle passes; {instead}"
-            )),
-        )
+        let method = &run.plan.cable;
+        let remark = format!("The method {method} does not show friction while a vehicle passes; {instead}");
+        with(passes, Some(remark))
     }
 }
 

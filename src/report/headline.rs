@@ -2,7 +2,7 @@
 
 use super::content::Report;
 use super::figure::{MICRO, MILLI};
-use super::html::{Headline, Html};
+use super::html::Html;
 use super::measures::pressed_end;
 use super::quantity::count;
 use crate::design::Place;
@@ -24,52 +24,32 @@ pub fn headline(html: &mut Html, report: &Report) {
     };
     let newtons = |force| format!("{} N", rounded(force, 1));
     // What a force does, where that is not what one expects.
-    let tension = |force| if force < 0.0 { ", tension" } else { "" };
-    let mut headlines = match &run.saturation {
-        Some(saturation) => vec![
-            Headline {
-                name: "Saturated force",
-                value: newtons(saturation.force_n),
-                note: format!("{place}{}", tension(saturation.force_n)),
-            },
-            Headline {
-                name: "Passes to 95 % of it",
-                value: count(saturation.passes_to_95_percent),
-                note: format!("of {passes} computed"),
-            },
-        ],
-        None => vec![Headline {
-            name: "Force after the last pass",
-            value: newtons(force),
-            note: format!(
-                "{place}{}, not levelled off after {passes} passes",
-                tension(force)
-            ),
-        }],
-    };
+    let place = |force| format!("{place}{}", if force < 0.0 { ", tension" } else { "" });
+    html.raw("<dl class=\"headlines\">");
+    if let Some(saturation) = &run.saturation {
+        let force = saturation.force_n;
+        html.headline("Saturated force", &newtons(force), &place(force));
+        let reached = count(saturation.passes_to_95_percent);
+        html.headline("Passes to 95 % of it", &reached, &format!("of {passes} computed"));
+    } else {
+        let note = format!("{}, not levelled off after {passes} passes", place(force));
+        html.headline("Force after the last pass", &newtons(force), &note);
+    }
     let (upstream, downstream) = (last.upstream_displacement_m, last.downstream_displacement_m);
     let (end, moved) = if upstream.abs() > downstream.abs() {
         ("upstream", upstream)
     } else {
         ("downstream", downstream)
     };
+    let moved = format!("{} mm", rounded(MILLI * moved, 3));
+    let note = format!("{end} end, after {passes} passes");
+    html.headline("Movement of an end", &moved, &note);
     let motion = &run.duct_motion;
-    headlines.extend([
-        Headline {
-            name: "Movement of an end",
-            value: format!("{} mm", rounded(MILLI * moved, 3)),
-            note: format!("{end} end, after {passes} passes"),
-        },
-        Headline {
-            name: "Peak motion of the duct",
-            value: format!("{:.2} µm", MICRO * motion.peak_longitudinal_m),
-            note: format!("along its axis; {:.1} µm down", MICRO * motion.peak_vertical_m),
-        },
-        Headline {
-            name: "Estimated error",
-            value: percent(run.error_estimate.relative),
-            note: "of the forces, from the computation alone".into(),
-        },
-    ]);
-    html.headlines(&headlines);
+    let along = format!("{:.2} µm", MICRO * motion.peak_longitudinal_m);
+    let down = format!("along its axis; {:.1} µm down", MICRO * motion.peak_vertical_m);
+    html.headline("Peak motion of the duct", &along, &down);
+    let error = percent(run.error_estimate.relative);
+    let note = "of the forces, from the computation alone";
+    html.headline("Estimated error", &error, note);
+    html.raw("</dl>");
 }

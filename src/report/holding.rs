@@ -4,10 +4,9 @@ use super::content::Report;
 use super::figure::{MILLI, figure};
 use super::html::{Html, Table};
 use super::measures::Way;
-use super::quantity::significant;
 use crate::design::{Place, TradeOff};
 use crate::figure::{Axis, Chart, Series};
-use crate::shown::{percent, rounded};
+use crate::shown::{exact_percent, percent, rounded};
 
 /// Ratio of the largest to the smallest movement beyond which their axis is logarithmic.
 const WIDE: f64 = 50.0;
@@ -20,10 +19,10 @@ pub fn holding(html: &mut Html, report: &Report) {
     };
     html.paragraph(&format!(
         "The same traffic with the {end} end held in other ways, and with a clamp in addition to what the scene has. Force and movement are \
-         the largest at either end during all passes. Each row is a separate run with a tolerance of {} %, all on one mesh, so that they \
+         the largest at either end during all passes. Each row is a separate run with a tolerance of {}, all on one mesh, so that they \
          can be compared; they may differ a little from the numbers above. The command “creepage design” finds the stiffness for given \
          limits.",
-        significant(100.0 * comparison.tolerance)
+        exact_percent(comparison.tolerance)
     ));
     if let Some(failure) = &comparison.failure {
         html.paragraph(&format!("The comparison failed: {failure}"));
@@ -51,11 +50,9 @@ pub fn holding(html: &mut Html, report: &Report) {
         std::iter::once(way.name()).chain(numbers).collect()
     });
     html.table(&Table {
-        head: ["held by", "force, N", "movement, mm", "on clamp, N", "error"]
-            .map(str::to_owned)
-            .to_vec(),
+        head: vec!["held by", "force, N", "movement, mm", "on clamp, N", "error"],
         rows: rows.collect(),
-        numbers: vec![false, true, true, true, true],
+        texts: 1,
     });
     html.list(&failures(&comparison.ways));
 }

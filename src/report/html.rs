@@ -4,19 +4,12 @@
 #[derive(Default)]
 pub struct Html(String);
 
-/// A table: its head, rows of cells, and for each column whether it holds numbers.
+/// A table: columns of text, then columns of numbers.
 pub struct Table {
-    pub head: Vec<String>,
+    pub head: Vec<&'static str>,
     pub rows: Vec<Vec<String>>,
-    /// Columns set to the right.
-    pub numbers: Vec<bool>,
-}
-
-/// A number at the top of the page: what it is, the number with its unit, and a remark.
-pub struct Headline {
-    pub name: &'static str,
-    pub value: String,
-    pub note: String,
+    /// The number of columns of text, which stand on the left.
+    pub texts: usize,
 }
 
 impl Html {
@@ -50,36 +43,35 @@ impl Html {
 
     /// A table as wide as its content.
     pub fn table(&mut self, table: &Table) {
-        let row = |tag: &str, cells: &[String]| {
-            let cell = |(column, text): (usize, &String)| {
-                let is_number = table.numbers.get(column) == Some(&true);
-                let class = if is_number { " class=\"number\"" } else { "" };
-                format!("<{tag}{class}>{}</{tag}>", escaped(text))
+        let cell = |tag: &str, column: usize, text: &str| {
+            let class = if column >= table.texts {
+                " class=\"number\""
+            } else {
+                ""
             };
-            let cells: Vec<String> = cells.iter().enumerate().map(cell).collect();
-            format!("<tr>{}</tr>", cells.concat())
+            format!("<{tag}{class}>{}</{tag}>", escaped(text))
         };
+        let head = table.head.iter().enumerate();
+        let head: String = head.map(|(k, text)| cell("th", k, text)).collect();
         self.raw("<table>");
-        self.raw(&format!("<thead>{}</thead>", row("th", &table.head)));
+        self.raw(&format!("<thead><tr>{head}</tr></thead>"));
         self.raw("<tbody>");
-        for cells in &table.rows {
-            self.raw(&row("td", cells));
+        for row in &table.rows {
+            let row = row.iter().enumerate();
+            let cells: String = row.map(|(k, text)| cell("td", k, text)).collect();
+            self.raw(&format!("<tr>{cells}</tr>"));
         }
         self.raw("</tbody>");
         self.raw("</table>");
     }
 
-    /// Numbers side by side.
-    pub fn headlines(&mut self, headlines: &[Headline]) {
-        self.raw("<dl class=\"headlines\">");
-        for Headline { name, value, note } in headlines {
-            self.raw("<div>");
-            self.element("dt", name);
-            self.raw(&format!("<dd class=\"value\">{}</dd>", escaped(value)));
-            self.element("dd", note);
-            self.raw("</div>");
-        }
-        self.raw("</dl>");
+    /// A number at the top of the page: what it is, the number with its unit, and a remark.
+    pub fn headline(&mut self, name: &str, value: &str, note: &str) {
+        self.raw("<div>");
+        self.element("dt", name);
+        self.raw(&format!("<dd class=\"value\">{}</dd>", escaped(value)));
+        self.element("dd", note);
+        self.raw("</div>");
     }
 
     /// A drawing with words below it.
@@ -121,15 +113,11 @@ mod tests {
         html.paragraph(nasty);
         html.list(std::slice::from_ref(&text));
         html.table(&Table {
-            head: vec![text.clone()],
-            rows: vec![vec![text.clone()]],
-            numbers: vec![true],
+            head: vec![nasty],
+            rows: vec![vec![text]],
+            texts: 0,
         });
-        html.headlines(&[Headline {
-            name: nasty,
-            value: text.clone(),
-            note: text,
-        }]);
+        html.headline(nasty, nasty, nasty);
         html.figure("<svg/>", nasty);
         let page = html.finish();
         assert_eq!(page.matches(safe).count(), 8, "{page}");

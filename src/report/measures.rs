@@ -123,21 +123,17 @@ fn suitable(scene: &Scene, end: Place) -> Vec<Measure> {
     stiffnesses.extend([0.0, f64::INFINITY, held]);
     stiffnesses.sort_by(f64::total_cmp);
     stiffnesses.dedup();
+    let springs = stiffnesses.into_iter().map(|stiffness| (end, stiffness));
     let clamps = CLAMPS.iter().map(|&(from_end, share)| {
-        let position = match end {
-            Place::Upstream => from_end * scene.duct.length,
-            _ => (1.0 - from_end) * scene.duct.length,
+        let share_of_length = if end == Place::Upstream {
+            from_end
+        } else {
+            1.0 - from_end
         };
-        Measure {
-            place: Place::Clamp(position),
-            stiffness: share * own,
-        }
+        (Place::Clamp(share_of_length * scene.duct.length), share * own)
     });
-    let springs = stiffnesses.into_iter().map(|stiffness| Measure {
-        place: end,
-        stiffness,
-    });
-    springs.chain(clamps).collect()
+    let measure = |(place, stiffness)| Measure { place, stiffness };
+    springs.chain(clamps).map(measure).collect()
 }
 
 /// Stiffness with which `scene` holds the end \[N/m\].
@@ -146,9 +142,5 @@ fn held(scene: &Scene, end: Place) -> f64 {
         Place::Upstream => scene.ends.upstream,
         _ => scene.ends.downstream,
     };
-    match end {
-        End::Free => 0.0,
-        End::Spring(stiffness) => stiffness,
-        End::Fixed => f64::INFINITY,
-    }
+    end.stiffness().unwrap_or(f64::INFINITY)
 }

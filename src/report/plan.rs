@@ -25,11 +25,9 @@ pub fn plan(html: &mut Html, report: &Report) {
         ]
     });
     html.table(&Table {
-        head: ["model", "error, time", "why, or why not"]
-            .map(str::to_owned)
-            .to_vec(),
+        head: vec!["model", "error, time", "why, or why not"],
         rows: rows.collect(),
-        numbers: vec![false; 3],
+        texts: 3,
     });
     html.element("h3", "Error of the forces");
     let error = &run.error_estimate;
@@ -41,7 +39,7 @@ pub fn plan(html: &mut Html, report: &Report) {
     let parts = error.parts;
     let row = |name: &str, part: f64| vec![name.to_owned(), percent(part)];
     html.table(&Table {
-        head: vec!["part".into(), "error".into()],
+        head: vec!["part", "error"],
         rows: vec![
             row("node spacing and vehicle step", parts.mesh),
             row("ground model", parts.ground),
@@ -50,6 +48,6 @@ pub fn plan(html: &mut Html, report: &Report) {
             row("passes that were not simulated", parts.passes),
             row("movement of the ends, all parts together", parts.movement),
         ],
-        numbers: vec![false, true],
+        texts: 1,
     });
 }

@@ -24,12 +24,9 @@ pub fn quantity(value: f64, unit: &str) -> String {
 /// A whole number in groups of three digits, which do not break: "5 840 000".
 pub fn count(number: u64) -> String {
     let digits = number.to_string();
-    if digits.len() <= 4 {
-        return digits;
-    }
     let mut grouped = String::new();
     for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+        if digits.len() > 4 && index > 0 && (digits.len() - index).is_multiple_of(3) {
             grouped.push('\u{a0}');
         }
         grouped.push(digit);
@@ -56,10 +53,10 @@ pub fn significant(value: f64) -> String {
         return format!("{value:.3e}");
     }
     let text = format!("{value:.*}", (3 - magnitude).max(0) as usize);
-    match text.split_once('.') {
-        Some(_) => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        None => text,
+    if text.contains('.') {
+        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
     }
+    text
 }
 
 #[cfg(test)]

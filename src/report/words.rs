@@ -34,30 +34,28 @@ pub fn scene(scene: &Scene) -> Vec<String> {
 }
 
 fn cable(scene: &Scene) -> String {
-    let pressed = if scene.cable.normal_load_factor == 1.0 {
-        "it lies on the duct with its own weight".to_owned()
-    } else {
-        format!(
+    let cable = &scene.cable;
+    let pressed = match cable.normal_load_factor {
+        1.0 => "it lies on the duct with its own weight".to_owned(),
+        factor => format!(
             "it presses on the duct with {} times its weight",
-            significant(scene.cable.normal_load_factor)
-        )
+            significant(factor)
+        ),
     };
-    format!(
-        "Cable: {} heavy, axial stiffness EA {}; {pressed}.",
-        quantity(scene.cable.weight, "N/m"),
-        quantity(scene.cable.axial_stiffness, "N")
-    )
+    let (weight, stiffness) = (
+        quantity(cable.weight, "N/m"),
+        quantity(cable.axial_stiffness, "N"),
+    );
+    format!("Cable: {weight} heavy, axial stiffness EA {stiffness}; {pressed}.")
 }
 
 fn friction(scene: &Scene) -> String {
     let law = match scene.friction.law {
         FrictionLaw::Coulomb => "Coulomb's law".to_owned(),
-        FrictionLaw::ElasticPlastic { shape_factor } => {
-            format!("elastic-plastic law, shape factor {shape_factor:.3e} 1/m")
+        FrictionLaw::ElasticPlastic { shape_factor: b } => {
+            format!("elastic-plastic law, shape factor {b:.3e} 1/m")
         }
-        FrictionLaw::Sigmoid { shape_factor } => {
-            format!("sigmoid law, shape factor {shape_factor:.3e} 1/m")
-        }
+        FrictionLaw::Sigmoid { shape_factor: b } => format!("sigmoid law, shape factor {b:.3e} 1/m"),
         _ => "a law of its own".to_owned(),
     };
     format!(
@@ -68,7 +66,7 @@ fn friction(scene: &Scene) -> String {
 }
 
 /// What holds an end.
-pub fn end(end: End) -> String {
+fn end(end: End) -> String {
     match end {
         End::Free => "free".into(),
         End::Fixed => "fixed".into(),
@@ -77,11 +75,9 @@ pub fn end(end: End) -> String {
 }
 
 fn traffic(scene: &Scene) -> String {
-    let passes = scene.traffic.passes;
-    let passes = if passes == 1 {
-        "one pass".to_owned()
-    } else {
-        format!("{} passes", count(passes))
+    let passes = match scene.traffic.passes {
+        1 => "one pass".to_owned(),
+        passes => format!("{} passes", count(passes)),
     };
     let vehicles = scene.vehicles.len();
     let order = match &scene.traffic.order {
@@ -103,9 +99,7 @@ pub fn ground(scene: &Scene) -> Table {
         let bottom = top + layer.thickness();
         let modulus = match layer.modulus() {
             Modulus::Uniform(modulus) => quantity(modulus, "Pa"),
-            Modulus::Linear { top, bottom } => {
-                format!("{} to {}", quantity(top, "Pa"), quantity(bottom, "Pa"))
-            }
+            Modulus::Linear { top, bottom } => [top, bottom].map(|end| quantity(end, "Pa")).join(" to "),
         };
         let from = if top == 0.0 { "0".into() } else { length(top) };
         let depth = format!("{from} to {}", length(bottom));
@@ -120,11 +114,10 @@ pub fn ground(scene: &Scene) -> Table {
         }
         Base::Rigid => vec![below, "rock that does not move".into(), "–".into()],
     });
-    let head = ["ground at depth", "Young’s modulus", "Poisson’s ratio"];
     Table {
-        head: head.map(str::to_owned).to_vec(),
+        head: vec!["ground at depth", "Young’s modulus", "Poisson’s ratio"],
         rows,
-        numbers: vec![false, true, true],
+        texts: 1,
     }
 }
 
@@ -159,9 +152,9 @@ pub fn vehicles(scene: &Scene) -> Table {
         ]
     });
     Table {
-        head: ["vehicle", "drives", "load", "share"].map(str::to_owned).to_vec(),
+        head: vec!["vehicle", "drives", "load", "share"],
         rows: rows.collect(),
-        numbers: vec![false, false, false, true],
+        texts: 3,
     }
 }
 

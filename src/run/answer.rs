@@ -7,7 +7,7 @@ use super::passes::{Passes, force_profile, simulate};
 use super::refine::Solved;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
-    Stage, balance, error, force_series, listed, saturation,
+    Stage, balance, error_estimate, force_series, listed, saturation,
 };
 use crate::plan::Plan;
 use crate::{Error, Progress};
@@ -43,7 +43,7 @@ impl<'a> Answer<'a> {
     pub fn trusted(&self, law: LawRun) -> Result<LawRun, Error> {
         let tolerance = self.plan.scene.solver.tolerance;
         let relative = law.error.relative;
-        error::judge(relative, tolerance)?;
+        error_estimate::judge(relative, tolerance)?;
         if self.plan.method.may_simulate && relative > tolerance {
             return Err(Error::Inaccurate {
                 reached: relative,

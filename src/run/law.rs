@@ -178,6 +178,7 @@ fn evolve(
 }
 
 /// The records after `passes`, ascending, with so many nodes per depth in the law's cells.
+#[cfg(feature = "calibrate")]
 pub fn records(
     scene: &Scene,
     motions: &[DuctMotion],

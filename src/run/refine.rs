@@ -6,7 +6,7 @@ use cable_dem::{CableError, Mesh, PassOutcome, Statistics};
 use ground_field::DuctMotion;
 
 use super::passes::{Passes, simulate};
-use crate::answer::error::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
+use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use crate::ground::road;
 use crate::plan::{CableMethod, Levels, Plan};
 use crate::shown::percent;
@@ -89,7 +89,7 @@ impl Refinement<'_> {
         }
         // One mesh alone does not show its error; and no mesh that the scene names is refused for what coarser ones show.
         let alone = passes.len() == 1;
-        let doubtful = levels.named() && error::is_doubtful(error.total().force, tolerance);
+        let doubtful = levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
         let mesh = levels.mesh(level)?;
         let finest = passes.pop().expect("the first level was computed");
         error.road = self.road_error(&finest, mesh, &mut statistics)?;
@@ -169,7 +169,7 @@ impl Refinement<'_> {
         let scene = self.plan.scene;
         let tolerance = scene.solver.tolerance;
         let total = error.total();
-        error::judge(total.force, tolerance)?;
+        error_estimate::judge(total.force, tolerance)?;
         for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
             if share > tolerance {
                 let (share, tolerance) = (percent(share), percent(tolerance));

@@ -78,7 +78,7 @@ impl PassSolver {
                         vehicle,
                         vehicle_position_m: view.vehicle_position(),
                         positions_m: (0..nodes).map(|node| spacing * node as f64).collect(),
-                        friction_n_per_m: (0..nodes).map(|node| view.friction(node)).collect(),
+                        friction_n_per_m: view.state().friction().to_vec(),
                         slip_lengths: view.slip_lengths().into(),
                     });
                 }

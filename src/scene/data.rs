@@ -127,7 +127,7 @@ pub struct Ends {
 /// A vehicle and how often it drives.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrafficVehicle {
-    /// The vehicle: wheels, speed, direction and a name of its own.
+    /// The vehicle: wheels, speed, direction and a name that no other has.
     pub vehicle: Vehicle,
     /// Its share of the passes; all shares sum to 1. With [`Order::Sequence`], its share of the sequence, which may be 0.
     pub share: f64,

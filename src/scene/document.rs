@@ -62,7 +62,7 @@ impl fmt::Debug for Entry {
     }
 }
 
-/// What gave a value. Of values that were given at the same step, one that was written counts instead of a preset's.
+/// What gave a value. Of values given at the same step, a written one overrides a preset's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Origin {
     /// A preset that was named in what was written.

@@ -2,7 +2,7 @@
 
 use std::cmp::Reverse;
 
-/// The one of `known` nearest to `word`, if any is near enough to be worth suggesting.
+/// The one of `known` nearest to `word`, if one is near enough to be suggested.
 pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
     let plain = |text: &str| -> Vec<char> {
         text.chars()

@@ -118,7 +118,7 @@ mod tests {
             "[a]\nb = [1, { c = \"]\" }] # [\n[[d]]\n",
             "a = '''\n[\n'''\nb = \"\"\"\"quoted\\\"\"\"\"",
             "a = \"[\\\"[\"\nb = 'C:\\'\n",
-            // A heading without its end is the parser's to tell, at its line.
+            // The parser reports a heading without its end, at its line.
             "[duct\nlength = 1\n",
             "[[duct\n",
         ] {

@@ -97,7 +97,7 @@ impl Dimension {
     }
 }
 
-/// The number that a text begins with, and the rest: its unit, or nothing. What goes on like a number is none.
+/// The number that a text begins with, and its unit, which may be empty. `None` where digits or points follow the number.
 #[cfg(feature = "sweep")]
 pub(crate) fn leading_number(text: &str) -> Option<(f64, &str)> {
     let (number, rest) = split(text.trim())?;

@@ -13,10 +13,10 @@ pub struct Fault {
     pub message: String,
 }
 
-/// What made the parser give up on `text`, told where it was written.
+/// Why the parser gave up on `text`, and where that was written.
 pub fn fault(text: &str, error: &toml::de::Error) -> Fault {
     let openings = openings(text);
-    // The parser does not tell where keys go too deep.
+    // The parser does not say where keys are nested too deep.
     let (span, too_deep) = (error.span(), openings.too_deep);
     let Some(span) = span.filter(|_| too_deep.is_none() || !error.message().contains("recurs")) else {
         let start = too_deep.unwrap_or_default();
@@ -94,7 +94,7 @@ fn first_key(text: &str, second: &Range<usize>) -> Option<usize> {
         .max()
 }
 
-/// A hint for `line` of a scene file: a decimal comma, a quantity without quotes, quotes that are none, a colon.
+/// A hint for `line` of a scene file: a decimal comma, a quantity without quotes, typographic quotes, a colon.
 fn hint(line: &str) -> Option<String> {
     let Some((key, value)) = line.split_once('=') else {
         let (key, value) = line.split_once(':')?;

@@ -23,6 +23,18 @@ pub enum Dimension {
 }
 
 impl Dimension {
+    /// Every dimension.
+    pub const ALL: [Self; 8] = [
+        Self::Length,
+        Self::Force,
+        Self::Pressure,
+        Self::ForcePerLength,
+        Self::InverseLength,
+        Self::Speed,
+        Self::Time,
+        Self::Ratio,
+    ];
+
     /// The symbols of this dimension's units, the SI unit first.
     ///
     /// Written variants are accepted too: `µm` and `μm` for `um`, `N/mm²` and `N/mm^2` for `N/mm2`, `/m` and `m^-1` for

@@ -1,7 +1,7 @@
 //! What is valid and yet hardly meant: values that no ground, cable or road has.
 //!
-//! A range refuses what the models cannot mean. Between it and what is built lie slips of a unit or a digit, which are told
-//! and not refused.
+//! A range refuses what the models cannot represent. Between it and what is built lie slips of a unit or a digit, which are
+//! warnings.
 
 use ground_field::{Base, Modulus, SoilProfile};
 
@@ -18,7 +18,7 @@ const CONTRAST: f64 = 100.0;
 const PAVEMENT: f64 = 0.5;
 /// Friction coefficients of cables in ducts are below 1.
 const ROUGHEST: f64 = 1.5;
-/// Beyond so many depths beside the wheel path a duct hardly moves.
+/// Beyond this number of depths beside the wheel path a duct hardly moves.
 const FARTHEST: f64 = 10.0;
 
 /// A warning for every value that is unusual.

@@ -1,6 +1,6 @@
 //! Values that stand as words in a scene file.
 
-/// A text that is none of the allowed words.
+/// A text that is not one of the allowed words.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("found \"{found}\"; allowed: {allowed}")]
 #[non_exhaustive]

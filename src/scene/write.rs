@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Write};
 
-use ground_field::{Base, Direction, Modulus, SoilLayer, Wheel};
+use ground_field::{Base, Modulus, SoilLayer, Wheel};
 
 use super::data::{End, Ends, FrictionLaw, Ground, Order, PeakScaling, Scene, Solver, TrafficVehicle};
 
@@ -59,7 +59,7 @@ impl Scene {
     }
 }
 
-/// A TOML file in the making.
+/// The TOML text so far.
 #[derive(Default)]
 struct Text(String);
 
@@ -152,9 +152,7 @@ impl Text {
         self.section("[[vehicles]]");
         self.word("name", vehicle.name());
         self.quantity("speed", vehicle.speed(), "m/s");
-        if vehicle.direction() == Direction::Reverse {
-            self.word("direction", "reverse");
-        }
+        self.word("direction", &vehicle.direction().to_string());
         match vehicle.wheels() {
             [Wheel { x, y, load }] if (*x, *y, load.contact_radius()) == (0.0, 0.0, 0.0) => {
                 self.quantity("load", load.force(), "N");

@@ -1,25 +1,13 @@
 //! One varied key: a list of values, or a distribution to draw from.
 
-use statrs::distribution::{ContinuousCDF, LogNormal, Normal, Uniform};
-
-use super::SweepError;
-use crate::scene::{Dimension, leading_number as number};
+use super::distribution::Distribution;
+use super::error::SweepError;
+use super::numbers::{number, numbers};
 
 /// Most values of one key.
 const MOST_VALUES: f64 = 1e6;
 /// Digits kept of A + i·STEP: the decimals that were written, without the binary dust of their sum.
 const DIGITS: usize = 12;
-
-const DIMENSIONS: [Dimension; 8] = [
-    Dimension::Length,
-    Dimension::Force,
-    Dimension::Pressure,
-    Dimension::ForcePerLength,
-    Dimension::InverseLength,
-    Dimension::Speed,
-    Dimension::Time,
-    Dimension::Ratio,
-];
 
 /// A key and the values it takes.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,23 +23,8 @@ pub struct Axis {
 pub enum AxisValues {
     /// These, as they would stand after `--set KEY=`.
     List(Vec<String>),
-    /// Drawn anew for every sample.
+    /// Drawn for each sample.
     Drawn(Distribution),
-}
-
-/// A distribution of a key's value.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Distribution {
-    law: Law,
-    /// Unit behind every drawn number; may be empty.
-    unit: String,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Law {
-    Normal(Normal),
-    LogNormal(LogNormal),
-    Uniform(Uniform),
 }
 
 impl Axis {
@@ -80,8 +53,8 @@ impl Axis {
                 "a key such as duct.depth, and its values",
             ));
         }
-        let values = if let Some((name, parameters)) = call(written) {
-            AxisValues::Drawn(distribution(name, parameters).map_err(|allowed| error(written, allowed))?)
+        let values = if let Some(distribution) = Distribution::parse(written) {
+            AxisValues::Drawn(distribution.map_err(|allowed| error(written, allowed))?)
         } else if let Some(range) = range(written) {
             AxisValues::List(range.map_err(|allowed| error(written, allowed))?)
         } else {
@@ -100,40 +73,6 @@ impl Axis {
             AxisValues::Drawn(_) => 1,
         }
     }
-}
-
-impl Distribution {
-    /// The value below which the share `probability` of all draws lies, and its text with the unit; NaN unless it is from 0 to 1.
-    pub fn quantile(&self, probability: f64) -> (f64, String) {
-        let value = match &self.law {
-            _ if !(0.0..=1.0).contains(&probability) => f64::NAN,
-            Law::Normal(law) => law.inverse_cdf(probability),
-            Law::LogNormal(law) => law.inverse_cdf(probability),
-            Law::Uniform(law) => law.inverse_cdf(probability),
-        };
-        (value, format!("{value:?} {}", self.unit).trim_end().to_owned())
-    }
-}
-
-/// The SI value of a number with or without a unit; `None` for any other text.
-pub fn si(text: &str) -> Option<f64> {
-    let text = text.trim().trim_matches(['"', '\'']);
-    // No unit belongs to two dimensions.
-    let value = DIMENSIONS
-        .iter()
-        .find_map(|dimension| dimension.parse_argument(text).ok())?;
-    value.is_finite().then_some(value)
-}
-
-/// The SI unit of a number with a unit.
-#[cfg(feature = "plot")]
-pub fn si_unit(text: &str) -> Option<&'static str> {
-    let text = text.trim().trim_matches(['"', '\'']);
-    DIMENSIONS
-        .iter()
-        .find(|dimension| dimension.parse(text).is_ok())?
-        .units()
-        .next()
 }
 
 /// The parts of a list; commas inside brackets and quotes part nothing.
@@ -155,22 +94,6 @@ fn split(text: &str) -> Vec<&str> {
     }
     parts.push(&text[start..]);
     parts
-}
-
-/// Numbers and the one unit that all of them have, or all but none.
-fn numbers<const N: usize>(texts: &[&str]) -> Option<([f64; N], String)> {
-    let texts: [&str; N] = texts.try_into().ok()?;
-    let mut unit = "";
-    let mut values = [0.0; N];
-    for (value, text) in values.iter_mut().zip(texts) {
-        let (number, written) = number(text)?;
-        if !unit.is_empty() && !written.is_empty() && unit != written {
-            return None;
-        }
-        unit = if written.is_empty() { unit } else { written };
-        *value = number;
-    }
-    Some((values, unit.to_owned()))
 }
 
 /// What is wrong with a list.
@@ -269,50 +192,6 @@ fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
         .collect()))
 }
 
-/// The name and the parameters of `name(…)`.
-fn call(text: &str) -> Option<(&str, &str)> {
-    let (name, rest) = text.split_once('(')?;
-    let parameters = rest.strip_suffix(')')?;
-    name.trim()
-        .chars()
-        .all(|c| c.is_ascii_alphabetic())
-        .then_some((name.trim(), parameters))
-}
-
-fn distribution(name: &str, parameters: &str) -> Result<Distribution, &'static str> {
-    let parts: Vec<&str> = parameters.split(',').collect();
-    let (law, unit) = match name {
-        "normal" => {
-            let allowed = "normal(MEAN, SD) with SD > 0, in one unit";
-            let ([mean, deviation], unit) = numbers(&parts).ok_or(allowed)?;
-            (
-                Law::Normal(Normal::new(mean, deviation).map_err(|_| allowed)?),
-                unit,
-            )
-        }
-        "lognormal" => {
-            let allowed = "lognormal(MEDIAN, SIGMA) with MEDIAN > 0 and SIGMA > 0, the standard deviation of the logarithm, a bare number";
-            let [median, sigma] = parts[..] else {
-                return Err(allowed);
-            };
-            let ((median, unit), (sigma, none)) =
-                (number(median).ok_or(allowed)?, number(sigma).ok_or(allowed)?);
-            if median <= 0.0 || !none.is_empty() {
-                return Err(allowed);
-            }
-            let law = LogNormal::new(median.ln(), sigma).map_err(|_| allowed)?;
-            (Law::LogNormal(law), unit.to_owned())
-        }
-        "uniform" => {
-            let allowed = "uniform(LOW, HIGH) with LOW < HIGH, in one unit";
-            let ([low, high], unit) = numbers(&parts).ok_or(allowed)?;
-            (Law::Uniform(Uniform::new(low, high).map_err(|_| allowed)?), unit)
-        }
-        _ => return Err("normal(MEAN, SD), lognormal(MEDIAN, SIGMA) or uniform(LOW, HIGH)"),
-    };
-    Ok(Distribution { law, unit })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -339,14 +218,6 @@ mod tests {
         assert_eq!(listed("a=5:5:1"), ["5"]);
         assert_eq!(listed("a=0:0.3:0.1").len(), 4);
         assert_eq!(listed("a=0:1:0.001").len(), 1001);
-    }
-
-    #[test]
-    fn what_goes_on_like_a_number_is_no_number() {
-        assert_eq!(number("1.2.3"), None);
-        assert_eq!(number("1 2"), None);
-        assert_eq!(number("1.2m"), Some((1.2, "m")));
-        // A step that is none makes no range, and so no millions of values.
     }
 
     #[test]
@@ -414,30 +285,5 @@ mod tests {
         assert_eq!(listed("a=1m,5m"), ["1m", "5m"]);
         assert_eq!(listed("a=0.2,0.3"), ["0.2", "0.3"]);
         assert_eq!(listed("ends.downstream=fixed,free"), ["fixed", "free"]);
-    }
-
-    #[test]
-    fn quantiles_of_distributions_are_theirs() {
-        // Standard normal deviate of 97.5 %.
-        let z = 1.959963984540054;
-        let quantile = |text: &str, p| match Axis::parse(text).expect("an axis").values {
-            AxisValues::Drawn(distribution) => distribution.quantile(p),
-            AxisValues::List(_) => panic!("a distribution"),
-        };
-        let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
-        close(quantile("a=normal(0.25, 0.03)", 0.975).0, 0.25 + 0.03 * z);
-        close(quantile("a=lognormal(2, 0.5)", 0.975).0, 2.0 * (0.5 * z).exp());
-        close(quantile("a=uniform(3, 7)", 0.25).0, 4.0);
-        assert_eq!(quantile("a=uniform(10 tf, 20 tf)", 0.5).1, "15.0 tf");
-    }
-
-    #[test]
-    fn values_with_units_become_si() {
-        assert_eq!(si("2 m"), Some(2.0));
-        assert_eq!(si("\"3 MN/m\""), Some(3e6));
-        assert_eq!(si("0.25"), Some(0.25));
-        for text in ["t-25", "fixed", "{ spring = 3 }", "nan", ""] {
-            assert_eq!(si(text), None, "{text}");
-        }
     }
 }

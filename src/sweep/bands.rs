@@ -1,12 +1,13 @@
 //! Quantiles of the forces where a sweep draws samples.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use statrs::statistics::{Data, Distribution, OrderStatistics};
 
 use super::row::{Answer, Row};
 
 /// What the samples at one point of the grid say.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Band {
     /// The listed keys and their values.
     pub at: Vec<(String, String)>,
@@ -23,7 +24,8 @@ pub struct Band {
 }
 
 /// Mean, standard deviation and quantiles of the samples.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Quantiles {
     /// Mean.
     pub mean: f64,

@@ -20,7 +20,7 @@ pub enum SweepError {
         /// What is allowed.
         allowed: String,
     },
-    /// The sweep as a whole makes no sense.
+    /// Keys, samples or output do not fit together.
     #[error("found {found}; allowed: {allowed}")]
     Unfit {
         /// What was found.
@@ -28,14 +28,14 @@ pub enum SweepError {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// The journal beside the output belongs to something else.
+    /// What stands at the journal's place beside the output is not the journal of this sweep.
     #[error(
-        "{journal}: found the journal of {found}; allowed: that of this sweep, or none: remove it or name another output"
+        "{journal}: found {found}; allowed: the journal of this sweep, or none: remove it or name another output"
     )]
     OtherJournal {
         /// The journal.
         journal: String,
-        /// What it belongs to.
+        /// What was found.
         found: &'static str,
     },
     /// The [`Progress`](crate::Progress) callback stopped the sweep. What is done is kept for the next run.
@@ -50,22 +50,6 @@ pub enum SweepError {
     /// The output cannot be written, or would replace what must not be lost.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// The journal's name is taken by a link or by something that is not a file.
-    #[error(
-        "{journal}: found a link or something that is no file; allowed: the journal of this sweep, or none: remove it or name another output"
-    )]
-    NoJournal {
-        /// The journal.
-        journal: String,
-    },
-    /// The journal cannot be opened, and so the output could not be written.
-    #[error("{journal}: cannot be written")]
-    Unwritable {
-        /// The journal.
-        journal: String,
-        /// Why.
-        source: std::io::Error,
-    },
     /// A file cannot be written or read back.
     #[error("{file}: cannot be written or read")]
     File {

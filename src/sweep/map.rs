@@ -2,16 +2,19 @@
 
 use std::cell::RefCell;
 
-use super::axis::{si, si_unit};
+use super::axis::AxisValues;
+use super::error::SweepError;
+use super::grid::Sweep;
+use super::numbers::{si, si_unit};
 use super::row::Row;
-use super::{AxisValues, Sweep, SweepError};
 use crate::figure::{Axis, Chart, FigureError};
 
 /// Most columns and rows of a map: beyond that a cell is smaller than a pixel.
 const MOST_CELLS: usize = 500;
 
-/// What colours a map.
+/// The quantity shown by a map's colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum MapValue {
     /// The larger force on an end after the last pass \[N\].
     Force,
@@ -19,7 +22,8 @@ pub enum MapValue {
     Movement,
 }
 
-/// A map in the making: takes the rows of a sweep, then draws them. A point that failed stays white.
+/// A map: takes the rows of a sweep, then draws them. A point that failed stays white.
+#[derive(Debug)]
 pub struct SweepMap<'a> {
     sweep: &'a Sweep,
     value: MapValue,
@@ -33,8 +37,7 @@ impl<'a> SweepMap<'a> {
     ///
     /// [`SweepError::Unfit`] unless two keys are varied, by lists of at most 500 values.
     pub fn new(sweep: &'a Sweep, value: MapValue) -> Result<Self, SweepError> {
-        let listed =
-            |axis: &super::Axis| matches!(&axis.values, AxisValues::List(list) if list.len() <= MOST_CELLS);
+        let listed = |axis: &super::axis::Axis| matches!(&axis.values, AxisValues::List(list) if list.len() <= MOST_CELLS);
         if sweep.axes.len() != 2 || !sweep.axes.iter().all(listed) {
             return Err(SweepError::Unfit {
                 found: "a map of other than two lists".into(),
@@ -44,7 +47,7 @@ impl<'a> SweepMap<'a> {
         Ok(Self {
             sweep,
             value,
-            cells: RefCell::new(vec![None; sweep.count]),
+            cells: RefCell::new(vec![None; sweep.count()]),
         })
     }
 
@@ -78,7 +81,7 @@ impl<'a> SweepMap<'a> {
 }
 
 /// Ascending numbers have places, everything else names.
-fn grid_axis(axis: &super::Axis) -> Axis {
+fn grid_axis(axis: &super::axis::Axis) -> Axis {
     let list = match &axis.values {
         AxisValues::List(list) => list.as_slice(),
         AxisValues::Drawn(_) => &[],

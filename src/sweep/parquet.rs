@@ -10,13 +10,13 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
-use super::table::{Cell, Column, Kind, Sink};
+use super::sink::{Cell, Column, Kind, Sink};
 use crate::output::Draft;
 
 /// Rows that are kept in memory before they are written.
 const GROUP: usize = 8192;
 
-/// A Parquet file in the making.
+/// Writes a Parquet file.
 pub struct Parquet {
     writer: SerializedFileWriter<Draft>,
     columns: Vec<Values>,

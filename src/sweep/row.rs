@@ -1,11 +1,15 @@
 //! The answer of one point, and how it stands in the journal.
 
-use std::fmt::Write;
+use std::fmt;
 
-use crate::Run;
+use serde::{Deserialize, Serialize};
+
+use crate::error::with_causes;
+use crate::{Error, Run};
 
 /// What one point of a sweep answers.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Answer {
     /// Force on the downstream end after the last pass \[N\].
     pub downstream_force_n: f64,
@@ -25,18 +29,29 @@ pub struct Answer {
     pub error_estimate: f64,
 }
 
-/// A point that is done: its answer, or why there is none.
-#[derive(Debug, Clone, PartialEq)]
+/// Why a point has no answer. The message is one line, as it stands in the table.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub enum PointError {
+    /// The scene of this point is wrong.
+    BadInput(String),
+    /// The computation failed.
+    Failed(String),
+}
+
+/// A point that is done.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Row {
     /// Number of the point in the grid, from 0.
     pub index: usize,
-    /// The answer, or the error in one line.
-    pub outcome: Result<Answer, String>,
+    /// The answer, or why there is none.
+    pub outcome: Result<Answer, PointError>,
 }
 
 impl Answer {
     /// The last pass of a run; `None` for a run without passes.
-    pub fn of(run: &Run) -> Option<Self> {
+    pub(super) fn of(run: &Run) -> Option<Self> {
         let last = run.passes.last()?;
         Some(Self {
             downstream_force_n: last.downstream_force_n,
@@ -51,90 +66,53 @@ impl Answer {
     }
 }
 
-const ABSENT: &str = "-";
-const ERROR: &str = "error";
+impl PointError {
+    /// Its message.
+    pub fn message(&self) -> &str {
+        match self {
+            Self::BadInput(message) | Self::Failed(message) => message,
+        }
+    }
+}
+
+impl fmt::Display for PointError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.message())
+    }
+}
+
+impl std::error::Error for PointError {}
+
+impl From<Error> for PointError {
+    /// Keeps the first line of the message: what follows shows the place in the file again.
+    fn from(error: Error) -> Self {
+        let message = with_causes(&error);
+        let line = message.lines().next().unwrap_or_default();
+        let line = line.replace(char::is_control, " ");
+        if error.is_bad_input() {
+            Self::BadInput(line)
+        } else {
+            Self::Failed(line)
+        }
+    }
+}
 
 impl Row {
-    /// The row as a line without its end: checksum, number, and the answer's numbers to the last digit.
-    pub fn to_line(&self) -> String {
-        let mut text = self.index.to_string();
-        // Writing to a text does not fail.
-        match &self.outcome {
-            Ok(answer) => {
-                let optional =
-                    |value: Option<f64>| value.map_or_else(|| ABSENT.to_owned(), |v| format!("{v:e}"));
-                let passes = answer.passes_to_95_percent;
-                let _ = write!(
-                    text,
-                    " {:e} {:e} {:e} {} {} {:e} {:e} {:e}",
-                    answer.downstream_force_n,
-                    answer.upstream_force_n,
-                    answer.max_compression_n,
-                    optional(answer.saturation_force_n),
-                    passes.map_or_else(|| ABSENT.to_owned(), |passes| passes.to_string()),
-                    answer.upstream_displacement_m,
-                    answer.downstream_displacement_m,
-                    answer.error_estimate
-                );
-            }
-            Err(message) => {
-                let _ = write!(text, " {ERROR} {}", one_line(message));
-            }
-        }
-        format!("{:016x} {text}", checksum(text.as_bytes()))
+    /// The row as a line without its end: a checksum, then JSON with all digits of its numbers.
+    pub(super) fn to_line(&self) -> Result<String, serde_json::Error> {
+        let text = serde_json::to_string(self)?;
+        Ok(format!("{:016x} {text}", checksum(text.as_bytes())))
     }
 
-    /// The row of a line; `None` for one that was not written whole.
-    pub fn of_line(line: &str) -> Option<Self> {
+    /// The row of a line; `None` for one that was not written whole, or holds a number that is not finite.
+    pub(super) fn of_line(line: &str) -> Option<Self> {
         let (sum, text) = line.split_once(' ')?;
-        if u64::from_str_radix(sum, 16).ok()? != checksum(text.as_bytes()) {
-            return None;
-        }
-        let (index, rest) = text.split_once(' ')?;
-        let index = index.parse().ok()?;
-        if let Some(message) = rest.strip_prefix(ERROR) {
-            let outcome = Err(message.trim_start().to_owned());
-            return Some(Self { index, outcome });
-        }
-        let mut words = rest.split(' ');
-        let finite = |word: &str| word.parse().ok().filter(|value: &f64| value.is_finite());
-        let mut number = || finite(words.next()?);
-        let (downstream_force_n, upstream_force_n, max_compression_n) = (number()?, number()?, number()?);
-        let saturation_force_n = match words.next()? {
-            ABSENT => None,
-            word => Some(finite(word)?),
-        };
-        let passes_to_95_percent = match words.next()? {
-            ABSENT => None,
-            word => Some(word.parse().ok()?),
-        };
-        let mut number = || finite(words.next()?);
-        let answer = Answer {
-            downstream_force_n,
-            upstream_force_n,
-            max_compression_n,
-            saturation_force_n,
-            passes_to_95_percent,
-            upstream_displacement_m: number()?,
-            downstream_displacement_m: number()?,
-            error_estimate: number()?,
-        };
-        Some(Self {
-            index,
-            outcome: Ok(answer),
-        })
+        let is_whole = u64::from_str_radix(sum, 16).ok()? == checksum(text.as_bytes());
+        is_whole.then(|| serde_json::from_str(text).ok())?
     }
 }
 
-/// The first line of a message: what follows shows the place in the file again.
-fn one_line(message: &str) -> String {
-    let line = message.lines().next().unwrap_or_default();
-    line.chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect()
-}
-
-/// FNV-1a, 64 bits: tells a torn line from a whole one, and one sweep from another.
+/// FNV-1a, 64 bits: distinguishes a torn line from a whole one, and one sweep from another.
 pub fn checksum(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, &byte| {
         (sum ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
@@ -161,33 +139,23 @@ mod tests {
             passes_to_95_percent: Some(u64::MAX),
             ..answer
         };
-        [
-            Row {
-                index: 7,
-                outcome: Ok(answer),
-            },
-            Row {
-                index: 0,
-                outcome: Ok(saturated),
-            },
-            Row {
-                index: 123,
-                outcome: Err("out of range: found -1\n  |\n".into()),
-            },
-        ]
+        let refused = PointError::BadInput("out of range: found -1".into());
+        [(7, Ok(answer)), (0, Ok(saturated)), (123, Err(refused))]
+            .map(|(index, outcome)| Row { index, outcome })
     }
 
     #[test]
     fn a_line_gives_its_row_back_to_the_last_bit() {
         for row in rows() {
-            let line = row.to_line();
+            let line = row.to_line().expect("a line");
             assert!(!line.contains('\n'));
             let back = Row::of_line(&line).expect("a row");
-            let expected = Row {
-                index: row.index,
-                outcome: row.outcome.map_err(|_| "out of range: found -1".to_owned()),
-            };
-            assert_eq!(back, expected);
+            assert_eq!(back, row);
+            if let (Ok(back), Ok(answer)) = (back.outcome, row.outcome) {
+                let bits =
+                    |answer: Answer| [answer.upstream_force_n, answer.error_estimate].map(f64::to_bits);
+                assert_eq!(bits(back), bits(answer));
+            }
         }
     }
 
@@ -199,27 +167,31 @@ mod tests {
                 panic!("an answer")
             };
             answer.error_estimate = value;
-            assert_eq!(Row::of_line(&row.to_line()), None);
+            assert_eq!(Row::of_line(&row.to_line().expect("a line")), None);
         }
     }
 
     #[test]
     fn a_torn_or_changed_line_is_no_row() {
         for row in rows() {
-            let line = row.to_line();
+            let line = row.to_line().expect("a line");
             for end in 0..line.len() {
                 assert_eq!(Row::of_line(&line[..end]), None, "{}", &line[..end]);
             }
-            assert_eq!(
-                Row::of_line(
-                    &line
-                        .replacen("e0", "e1", 1)
-                        .replacen("found", "fount", 1)
-                        .replacen("e2", "e3", 1)
-                ),
-                None
-            );
+            let changed = line.replacen('1', "2", 1);
+            assert_ne!(changed, line);
+            assert_eq!(Row::of_line(&changed), None, "{changed}");
         }
+    }
+
+    #[test]
+    fn an_error_is_one_line() {
+        let message = Error::Unfit {
+            key: "a\nb\tc",
+            found: "d",
+            reason: "e".into(),
+        };
+        assert_eq!(PointError::from(message), PointError::BadInput("a".into()));
     }
 
     #[test]

@@ -1,20 +1,23 @@
 //! All points of a sweep, and their table.
 
+use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
-use super::axis::si;
+use super::axis::AxisValues;
 use super::bands::{Band, Gatherer};
+use super::error::SweepError;
+use super::grid::Sweep;
 use super::journal::Journal;
-use super::row::{Answer, Row};
-use super::table::{self, Cell, Column, Format, Kind, Sink};
-use super::{AxisValues, Sweep, SweepError};
-use crate::error::with_causes;
+use super::numbers::si;
+use super::row::{Answer, PointError, Row};
+use super::sink::{Cell, Column, Kind};
+use super::table::{self, Format};
 use crate::output::{Files, Output};
 use crate::{Error, Progress, Run, Scene, finite};
 
@@ -24,8 +27,34 @@ const WAITING: usize = 64;
 /// Computes a point.
 pub type Evaluate<'a> = dyn Fn(&Scene) -> Result<Run, Error> + Sync + 'a;
 
+/// Columns of an answer, in the order of [`cells`].
+const COLUMNS: [(&str, Kind); 8] = [
+    ("downstream_force_n", Kind::Number),
+    ("upstream_force_n", Kind::Number),
+    ("max_compression_n", Kind::Number),
+    ("saturation_force_n", Kind::Number),
+    ("passes_to_95_percent", Kind::Count),
+    ("upstream_displacement_m", Kind::Number),
+    ("downstream_displacement_m", Kind::Number),
+    ("error_estimate", Kind::Number),
+];
+
+fn cells(answer: Option<&Answer>) -> [Cell<'static>; 8] {
+    let number = |value: fn(&Answer) -> f64| Cell::Number(answer.map(value));
+    [
+        number(|answer| answer.downstream_force_n),
+        number(|answer| answer.upstream_force_n),
+        number(|answer| answer.max_compression_n),
+        Cell::Number(answer.and_then(|answer| answer.saturation_force_n)),
+        Cell::Count(answer.and_then(|answer| answer.passes_to_95_percent)),
+        number(|answer| answer.upstream_displacement_m),
+        number(|answer| answer.downstream_displacement_m),
+        number(|answer| answer.error_estimate),
+    ]
+}
+
 /// How to sweep.
-#[derive(Default)]
+#[derive(Default, Clone, Copy)]
 pub struct SweepOptions<'a> {
     /// Number of threads; all cores where it is `None`.
     pub threads: Option<usize>,
@@ -41,7 +70,8 @@ pub struct SweepOptions<'a> {
 }
 
 /// What a sweep did.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct SweepSummary {
     /// Points in the table.
     pub points: usize,
@@ -53,6 +83,16 @@ pub struct SweepSummary {
     pub first_error: Option<String>,
     /// Quantiles at every point of the grid, where keys are drawn.
     pub bands: Vec<Band>,
+}
+
+impl fmt::Debug for SweepOptions<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("SweepOptions")
+            .field("threads", &self.threads)
+            .field("progress", &self.progress)
+            .field("force", &self.force)
+            .finish_non_exhaustive()
+    }
 }
 
 impl Sweep {
@@ -68,7 +108,7 @@ impl Sweep {
     pub fn run(&self, output: &Path, options: &SweepOptions<'_>) -> Result<SweepSummary, SweepError> {
         let format = Format::of(output)?;
         let output = Files::reading([], options.force).output(output, format.kind())?;
-        let mut journal = Journal::open(table::beside(output.path(), "journal"), self.name(), self.count)?;
+        let mut journal = Journal::open(table::beside(output.path(), "journal"), self.name(), self.count())?;
         let resumed = journal.done();
         self.compute(&mut journal, options)?;
         journal.force()?;
@@ -86,7 +126,7 @@ impl Sweep {
         })?;
         let finished = journal.finished();
         let report = |done: usize| {
-            let reported = options.progress.report(done as f64 / self.count as f64);
+            let reported = options.progress.report(done as f64 / self.count() as f64);
             reported.map_err(|_| SweepError::Stopped)
         };
         report(journal.done())?;
@@ -112,7 +152,7 @@ impl Sweep {
             // `send` ends with the workers, and with it the rows.
             scope.spawn(move || pool.broadcast(|_| work(&send)));
             for row in receive {
-                journal.append(&row)?;
+                journal.append(row)?;
                 report(journal.done())?;
             }
             Ok(())
@@ -121,17 +161,14 @@ impl Sweep {
 
     /// Computes one point. Whatever goes wrong there is its answer.
     fn row(&self, index: usize, evaluate: &Evaluate<'_>) -> Row {
-        let compute = || {
-            let run = evaluate(&self.scene(index)?)?;
+        let compute = || -> Result<Answer, PointError> {
+            let scene = self.scene(index).map_err(Error::from)?;
+            let run = evaluate(&scene)?;
             finite::check(&run)?;
-            Ok::<_, Error>(Answer::of(&run))
+            Answer::of(&run).ok_or_else(|| PointError::Failed("no pass was computed".into()))
         };
-        let outcome = match catch_unwind(AssertUnwindSafe(compute)) {
-            Ok(Ok(Some(answer))) => Ok(answer),
-            Ok(Ok(None)) => Err("no pass was computed".to_owned()),
-            Ok(Err(error)) => Err(with_causes(&error)),
-            Err(_) => Err("the computation broke off".to_owned()),
-        };
+        let outcome = catch_unwind(AssertUnwindSafe(compute))
+            .unwrap_or_else(|_| Err(PointError::Failed("the computation broke off".into())));
         Row { index, outcome }
     }
 
@@ -140,31 +177,15 @@ impl Sweep {
             name: name.to_owned(),
             kind,
         };
-        let mut columns: Vec<Column> = self
-            .axes
-            .iter()
-            .map(|axis| {
-                let text =
-                    matches!(&axis.values, AxisValues::List(list) if list.iter().any(|v| si(v).is_none()));
-                column(&axis.key, if text { Kind::Text } else { Kind::Number })
-            })
-            .collect();
-        if self.samples.count > 0 {
-            columns.push(column("sample", Kind::Count));
-        }
-        columns.extend([
-            column("downstream_force_n", Kind::Number),
-            column("upstream_force_n", Kind::Number),
-            column("max_compression_n", Kind::Number),
-            column("saturation_force_n", Kind::Number),
-            column("passes_to_95_percent", Kind::Count),
-            column("upstream_displacement_m", Kind::Number),
-            column("downstream_displacement_m", Kind::Number),
-            column("error_estimate", Kind::Number),
-            column("status", Kind::Text),
-            column("error", Kind::Text),
-        ]);
-        columns
+        let is_number = |value: &String| si(value).is_some();
+        let varied = self.axes.iter().map(|axis| match &axis.values {
+            AxisValues::List(list) if !list.iter().all(is_number) => column(&axis.key, Kind::Text),
+            _ => column(&axis.key, Kind::Number),
+        });
+        let sample = (self.samples.count > 0).then(|| column("sample", Kind::Count));
+        let answer = COLUMNS.map(|(name, kind)| column(name, kind));
+        let end = ["status", "error"].map(|name| column(name, Kind::Text));
+        varied.chain(sample).chain(answer).chain(end).collect()
     }
 
     fn write(
@@ -177,75 +198,63 @@ impl Sweep {
     ) -> Result<SweepSummary, SweepError> {
         let columns = self.columns();
         let mut summary = SweepSummary {
-            points: self.count,
+            points: self.count(),
             resumed,
             failed: 0,
             first_error: None,
             bands: Vec::new(),
         };
         let mut gatherer = Gatherer::default();
+        let failed = |source| SweepError::File {
+            file: output.path().display().to_string(),
+            source,
+        };
         table::write(output, format, &columns, |sink| {
-            journal.in_order(|row| {
+            for row in journal.rows() {
                 if let Some(each) = each {
-                    each(&row);
+                    each(row);
                 }
                 if let Err(error) = &row.outcome {
                     summary.failed += 1;
-                    summary.first_error.get_or_insert_with(|| error.clone());
+                    summary.first_error.get_or_insert_with(|| error.to_string());
                 }
+                let values = self.values(row.index);
                 if self.samples.count > 0 {
-                    gatherer.add(&row);
+                    gatherer.add(row);
                     if (row.index + 1).is_multiple_of(self.samples.count) {
-                        summary.bands.push(gatherer.band(self.listed(row.index)));
+                        summary.bands.push(gatherer.band(self.listed(&values)));
                     }
                 }
-                self.record(sink, &columns, &row)
-                    .map_err(|source| SweepError::File {
-                        file: output.path().display().to_string(),
-                        source,
-                    })
-            })
+                sink.row(&self.cells(&values, &columns, row)).map_err(failed)?;
+            }
+            Ok(())
         })?;
         Ok(summary)
     }
 
-    /// The keys that are not drawn, with their values at a point.
-    fn listed(&self, index: usize) -> Vec<(String, String)> {
-        self.axes
-            .iter()
-            .zip(self.values(index))
+    /// The keys that are not drawn, with their values.
+    fn listed(&self, values: &[String]) -> Vec<(String, String)> {
+        let pairs = self.axes.iter().zip(values);
+        pairs
             .filter(|(axis, _)| matches!(axis.values, AxisValues::List(_)))
-            .map(|(axis, value)| (axis.key.clone(), value))
+            .map(|(axis, value)| (axis.key.clone(), value.clone()))
             .collect()
     }
 
-    fn record(&self, sink: &mut dyn Sink, columns: &[Column], row: &Row) -> std::io::Result<()> {
-        let values = self.values(row.index);
-        let mut cells: Vec<Cell> = values
+    fn cells<'r>(&self, values: &'r [String], columns: &[Column], row: &'r Row) -> Vec<Cell<'r>> {
+        let varied = values
             .iter()
             .zip(columns)
             .map(|(value, column)| match column.kind {
                 Kind::Text => Cell::Text(Some(value)),
                 _ => Cell::Number(si(value)),
-            })
-            .collect();
-        if self.samples.count > 0 {
-            cells.push(Cell::Count(Some((row.index % self.samples.count) as u64)));
-        }
-        let answer = row.outcome.as_ref().ok();
-        let number = |field: fn(&Answer) -> f64| Cell::Number(answer.map(field));
-        cells.extend([
-            number(|answer| answer.downstream_force_n),
-            number(|answer| answer.upstream_force_n),
-            number(|answer| answer.max_compression_n),
-            Cell::Number(answer.and_then(|answer| answer.saturation_force_n)),
-            Cell::Count(answer.and_then(|answer| answer.passes_to_95_percent)),
-            number(|answer| answer.upstream_displacement_m),
-            number(|answer| answer.downstream_displacement_m),
-            number(|answer| answer.error_estimate),
-            Cell::Text(Some(if answer.is_some() { "ok" } else { "error" })),
-            Cell::Text(row.outcome.as_ref().err().map(String::as_str)),
-        ]);
-        sink.row(&cells)
+            });
+        let samples = self.samples.count;
+        let sample = (samples > 0).then(|| Cell::Count(Some((row.index % samples) as u64)));
+        let answer = cells(row.outcome.as_ref().ok());
+        let status = if row.outcome.is_ok() { "ok" } else { "error" };
+        let error = row.outcome.as_ref().err().map(PointError::message);
+        let end = [Cell::Text(Some(status)), Cell::Text(error)];
+        varied.chain(sample).chain(answer).chain(end).collect()
     }
 }

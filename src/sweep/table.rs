@@ -3,9 +3,10 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::SweepError;
-use super::axis::si;
-use crate::output::{Draft, Kind as FileKind, Output};
+use super::error::SweepError;
+use super::numbers::si;
+use super::sink::{Cell, Column, Sink};
+use crate::output::{Draft, Kind, Output};
 
 /// Kind of the table file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,34 +16,6 @@ pub enum Format {
     /// Apache Parquet.
     #[cfg(feature = "parquet")]
     Parquet,
-}
-
-/// A column and what it holds.
-pub struct Column {
-    pub name: String,
-    pub kind: Kind,
-}
-
-/// What a column holds; a value may be absent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    Number,
-    Count,
-    Text,
-}
-
-/// One value of a row.
-pub enum Cell<'a> {
-    Number(Option<f64>),
-    Count(Option<u64>),
-    Text(Option<&'a str>),
-}
-
-/// Takes rows one after the other.
-pub trait Sink {
-    fn row(&mut self, cells: &[Cell]) -> io::Result<()>;
-    /// Everything that was written, on its way to its place.
-    fn finish(self: Box<Self>) -> io::Result<Draft>;
 }
 
 impl Format {
@@ -65,11 +38,11 @@ impl Format {
     }
 
     /// What a file of this format is.
-    pub fn kind(self) -> FileKind {
+    pub fn kind(self) -> Kind {
         match self {
-            Self::Csv => FileKind::Sweep,
+            Self::Csv => Kind::Sweep,
             #[cfg(feature = "parquet")]
-            Self::Parquet => FileKind::Parquet,
+            Self::Parquet => Kind::Parquet,
         }
     }
 
@@ -80,6 +53,12 @@ impl Format {
             Self::Parquet => Box::new(super::parquet::Parquet::new(file, columns)?),
         })
     }
+}
+
+/// What the name of an output asks for.
+#[cfg(feature = "cli")]
+pub fn kind_of(output: &Path) -> Result<Kind, SweepError> {
+    Ok(Format::of(output)?.kind())
 }
 
 /// Writes a table, which comes into its place when it is whole.

@@ -3,7 +3,7 @@
 use std::fs::{File, OpenOptions};
 use std::process::Stdio;
 
-use crate::common::{Folder, SCENE, WRITERS, creepage, said};
+use super::common::{Folder, SCENE, WRITERS, creepage, said};
 
 #[test]
 fn an_input_is_never_replaced_by_any_of_its_names() {

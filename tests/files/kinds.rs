@@ -1,6 +1,6 @@
 //! What is not the command's own is replaced only by force.
 
-use crate::common::{Folder, PRECIOUS, READINGS, SCENE, WRITERS, assert_complete};
+use super::common::{Folder, PRECIOUS, READINGS, SCENE, WRITERS, assert_complete};
 
 #[test]
 fn what_is_of_another_kind_is_kept_unless_forced() {

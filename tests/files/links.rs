@@ -3,7 +3,7 @@
 use std::fs::{self, OpenOptions};
 use std::os::unix::fs::{FileTypeExt, MetadataExt, chown};
 
-use crate::common::{Folder, PRECIOUS, WRITERS, assert_complete, said};
+use super::common::{Folder, PRECIOUS, WRITERS, assert_complete, said};
 
 #[test]
 fn what_a_link_points_to_is_replaced_and_the_link_stays() {
@@ -84,7 +84,7 @@ fn devices_and_pipes_are_written_as_they_are() {
         .append(true)
         .open(folder.path("both"));
     let mut command = folder.command(
-        crate::common::creepage(),
+        super::common::creepage(),
         &[&table[..], &["/dev/stdout"]].concat(),
     );
     assert!(

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::process::Stdio;
 
-use crate::common::{Folder, PRECIOUS, WRITERS, assert_complete, said};
+use super::common::{Folder, PRECIOUS, WRITERS, assert_complete, said};
 
 /// What stands at an output's place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,7 +4,7 @@ use std::os::unix::process::ExitStatusExt;
 use std::process::{Child, Stdio};
 use std::time::Duration;
 
-use crate::common::{Folder, assert_complete, creepage};
+use super::common::{Folder, assert_complete, creepage};
 
 const SIGNALS: [(&str, i32); 3] = [("HUP", 1), ("INT", 2), ("TERM", 15)];
 /// Computed within a second or so: long enough to be stopped at any moment.

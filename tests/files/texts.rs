@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use crate::common::{Folder, SCENE, said};
+use super::common::{Folder, SCENE, said};
 
 /// Orders for a terminal: a colour, a title, a bell, DEL, one of C1, and a turn of the direction of writing.
 const ORDERS: &str = "\u{1b}[31m\u{1b}]0;x\u{7}\u{7f}\u{9b}2J\u{202e}\u{2066}\r";

@@ -1,6 +1,6 @@
 //! A file is there as a whole or as it was before.
 
-use crate::common::{Folder, PRECIOUS, said};
+use super::common::{Folder, PRECIOUS, said};
 
 #[test]
 fn on_a_full_disk_the_older_file_stays() {

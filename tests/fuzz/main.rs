@@ -311,7 +311,7 @@ fn a_hundred_thousand_inputs_are_read_or_refused() {
 }
 
 #[test]
-#[ignore = "half a minute, cargo test --release --test fuzz -- --ignored"]
+#[ignore = "half a minute, cargo test --release --test main fuzz:: -- --ignored"]
 fn a_million_inputs_are_read_or_refused() {
     fuzz(MANY, 2);
 }

@@ -5,7 +5,7 @@ use layered_fem::LayeredFem;
 use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 
-use crate::common::{
+use super::common::{
     FEM_ACCURACY, any_base, any_layers, depth_in, distance, line, load, peaks, profile, radii, soil,
 };
 

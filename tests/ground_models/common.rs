@@ -1,21 +1,17 @@
 //! Grounds, lines of displacements and how far two of them are apart.
 
-use ground_field::{Base, Displacement, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
+use ground_field::{Base, Displacement, GroundField, Soil, SoilProfile, SurfaceLoad};
 use proptest::prelude::*;
+pub use testkit::soil;
 
 /// Accuracy asked of the finite elements.
 pub const FEM_ACCURACY: f64 = 5e-3;
 
-pub fn soil(young_modulus: f64, poisson_ratio: f64) -> Soil {
-    Soil::new(young_modulus, poisson_ratio).expect("soil")
-}
-
 pub fn profile(layers: &[(f64, Soil)], base: Base) -> SoilProfile {
     let layers = layers
         .iter()
-        .map(|&(thickness, soil)| SoilLayer::uniform(thickness, soil).expect("layer"))
-        .collect();
-    SoilProfile::new(layers, base).expect("profile")
+        .map(|&(thickness, soil)| testkit::layer(thickness, soil));
+    SoilProfile::new(layers.collect(), base).expect("profile")
 }
 
 /// Table 1 of the paper: surface course and binder on the subgrade.

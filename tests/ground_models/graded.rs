@@ -4,7 +4,7 @@ use burmister::LayeredHalfSpace;
 use ground_field::{Base, Displacement, GroundField, Modulus, SoilLayer, SoilProfile};
 use layered_fem::LayeredFem;
 
-use crate::common::{distance, line, load, radii, soil};
+use super::common::{distance, line, load, radii, soil};
 
 const ACCURACY: f64 = 1e-3;
 

@@ -5,7 +5,7 @@ use burmister::{DEFAULT_ACCURACY, LayeredHalfSpace};
 use ground_field::{Base, GroundField};
 use layered_fem::LayeredFem;
 
-use crate::common::{FEM_ACCURACY, distance, johnson, line, load, profile, radii, soil};
+use super::common::{FEM_ACCURACY, distance, johnson, line, load, profile, radii, soil};
 
 /// Every model that can be asked, with its promised share of the peak. The base differs from the layers by `contrast`, so that
 /// nothing can be recognised as one soil and short-cut.

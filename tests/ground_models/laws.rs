@@ -7,7 +7,7 @@ use burmister::LayeredHalfSpace;
 use ground_field::{Direction, DuctLine, DuctMotion, GroundField, Vehicle, Wheel};
 use layered_fem::LayeredFem;
 
-use crate::common::{FEM_ACCURACY, line, load, peaks, radii, soil, table_1};
+use super::common::{FEM_ACCURACY, line, load, peaks, radii, soil, table_1};
 
 /// Accuracy to which a duct's motion follows its ground: finite elements are smooth from piece to piece only.
 fn motion_accuracy(model: &str) -> f64 {

@@ -3,7 +3,7 @@
 use burmister::LayeredHalfSpace;
 use ground_field::{Base, Direction, DuctLine, DuctMotion, GroundField, SoilProfile, Vehicle, Wheel};
 
-use crate::common::{load, profile, soil, table_1};
+use super::common::{load, profile, soil, table_1};
 
 const FORCE: f64 = 5e4;
 

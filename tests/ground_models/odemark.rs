@@ -7,7 +7,7 @@ use ground_field::Base;
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
-use crate::common::{distance, line, load, profile, soil};
+use super::common::{distance, line, load, profile, soil};
 
 const GROUNDS: usize = 120;
 

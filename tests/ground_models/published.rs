@@ -7,7 +7,7 @@ use burmister::LayeredHalfSpace;
 use ground_field::{Base, GroundField, SoilProfile};
 use layered_fem::LayeredFem;
 
-use crate::common::{FEM_ACCURACY, load, profile, soil};
+use super::common::{FEM_ACCURACY, load, profile, soil};
 
 const MILLIMETRE: f64 = 1e-3;
 const INCH: f64 = 0.0254;

@@ -2,7 +2,7 @@
 
 use creepage::scene::Scene;
 
-use crate::common::{johnson, soil};
+use super::common::{johnson, soil};
 
 #[allow(dead_code, reason = "its main is the example's own")]
 #[path = "../../examples/table_3.rs"]

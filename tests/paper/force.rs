@@ -6,8 +6,8 @@ use cable_dem::{CableState, DuctedCable, Friction, Mesh, Passage, QuasiStatic};
 use creepage::Scene;
 use ground_field::{DuctLine, DuctMotion, GroundField};
 
-use crate::figure_12::{CABLES, SPEEDS, common::scene, forces, with_inertia};
-use crate::load_and_deflection::{GROUNDS, LOADS, WITHIN, on, outcome};
+use super::figure_12::{CABLES, SPEEDS, common::scene, forces, with_inertia};
+use super::load_and_deflection::{GROUNDS, LOADS, WITHIN, on, outcome};
 
 /// Followed so far beyond the duct's ends \[m\]: past the outermost turn of D_l of all vehicles here.
 const APPROACH: f64 = 30.0;

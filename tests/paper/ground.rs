@@ -1,6 +1,6 @@
 //! Section 2: motion of the ground, its velocity, friction.
 
-use crate::{figure_6, figure_7, figures_2_to_4};
+use super::{figure_6, figure_7, figures_2_to_4};
 
 /// Section 2.1: at most 16 µm along the duct and 90 µm down.
 #[test]

@@ -1,6 +1,6 @@
 //! Section 5: what makes a cable creep.
 
-use crate::{figure_13, figure_14};
+use super::{figure_13, figure_14};
 
 /// Figure 13: ΔC is proportional to μ X²/(EA).
 #[test]

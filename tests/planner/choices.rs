@@ -3,7 +3,7 @@
 use creepage::scene::GroundModel;
 use creepage::{Part, PlanReport, Scene};
 
-use crate::scenes;
+use super::scenes;
 
 fn plan(text: &str) -> PlanReport {
     let scene = Scene::from_toml("scene", text).expect("a valid scene");

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use creepage::Scene;
 
-use crate::scenes;
+use super::scenes;
 
 #[test]
 fn doubling_the_tolerance_never_costs_more() {
@@ -31,7 +31,7 @@ fn doubling_the_tolerance_never_costs_more() {
     }
 }
 
-// Alone on a quiet machine: cargo test --release --test planner planning -- --ignored
+// Alone on a quiet machine: cargo test --release --test main planning -- --ignored
 #[test]
 #[ignore = "a time, which other work on the machine disturbs"]
 fn planning_takes_less_than_a_tenth_of_the_run_or_five_milliseconds() {

@@ -3,7 +3,7 @@
 use creepage::scene::{GroundModel, SolverMethod};
 use creepage::{PassRecord, Run, Scene};
 
-use crate::scenes;
+use super::scenes;
 
 const TOLERANCES: [f64; 3] = [0.05, 0.01, 0.002];
 /// Forces below this share of the run's largest count as nothing, as in the estimate.
@@ -129,7 +129,7 @@ fn cases(kind: &'static str, seed: u64) -> Vec<Case> {
 }
 
 #[test]
-#[ignore = "minutes of references on two cores: cargo test --release --test planner -- --ignored --nocapture"]
+#[ignore = "minutes of references on two cores: cargo test --release --test main planner::statistics -- --ignored --nocapture"]
 fn the_tolerance_holds_on_random_scenes_and_the_estimate_is_honest() {
     use rayon::prelude::*;
     let count: u64 = std::env::var("SCENES")

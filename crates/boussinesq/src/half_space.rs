@@ -10,7 +10,12 @@ const MODEL: &str = "boussinesq half-space";
 
 /// One isotropic elastic soil without end below a flat surface.
 ///
-/// - **Point load**: K. L. Johnson, *Contact Mechanics* (1985), eq. 3.18; exact to rounding.
+/// - **Point load** P, with R² = r² + z² (K. L. Johnson, *Contact Mechanics* (1985), eq. 3.18), exact to rounding:
+///
+///   ```text
+///   u_r = (1+ν)P/(2πE) · [ r z/R³ − (1−2ν) r/(R(R+z)) ]
+///   u_z = (1+ν)P/(2πE) · [ z²/R³ + 2(1−ν)/R ]
+///   ```
 /// - **Uniform pressure on a disc**: the same integrated over the disc, everywhere: inside and outside, on the rim, on the
 ///   surface and below. Exact up to rounding, below 1e-12 of the peak of the component at that depth; far from the disc
 ///   the error is that small relative to the value itself. As the contact radius goes to 0 the disc's field goes over

@@ -1,13 +1,6 @@
 //! Point load on a half-space.
 //!
-//! Boussinesq's solution as in K. L. Johnson, *Contact Mechanics* (1985), eq. 3.18, with R² = r² + z²:
-//!
-//! ```text
-//! u_r = (1+ν)P/(2πE) · [ r z/R³ − (1−2ν) r/(R(R+z)) ]
-//! u_z = (1+ν)P/(2πE) · [ z²/R³ + 2(1−ν)/R ]
-//! ```
-//!
-//! Written in sin θ = r/R and cos θ = z/R, each bracket is 1/R times a number of order one, so nothing but the answer
+//! [Boussinesq's solution](crate::HalfSpace), with R² = r² + z². Written in sin θ = r/R and cos θ = z/R, each bracket is 1/R times a number of order one, so nothing but the answer
 //! itself can overflow. The displacement grows as 1/R toward the load and has no value at R = 0.
 
 use crate::shape::Shape;

@@ -1,49 +1,8 @@
 //! Nothing that can be given to the public interface makes it panic or hang: an answer that is finite, or an error.
 
 use boussinesq::{HalfSpace, Odemark};
-use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
-
-/// Everything a float can be.
-const NASTY: [f64; 16] = [
-    f64::NAN,
-    f64::INFINITY,
-    f64::NEG_INFINITY,
-    f64::MIN,
-    -1.0,
-    -0.0,
-    0.0,
-    5e-324,
-    f64::MIN_POSITIVE,
-    1e-160,
-    1e-9,
-    1.0,
-    1e9,
-    1e160,
-    1e300,
-    f64::MAX,
-];
-
-/// Grounds whose numbers are as far apart as numbers can be.
-fn grounds() -> Vec<SoilProfile> {
-    let sizes = [5e-324, 1e-300, 1e-9, 1.0, 1e9, 1e300, f64::MAX];
-    let mut grounds = Vec::new();
-    for thickness in sizes {
-        for modulus in sizes {
-            for poisson in [0.0, 0.5] {
-                let soil = Soil::new(modulus, poisson).expect("a soil");
-                let other = Soil::new(1e7, 0.3).expect("a soil");
-                let layer = SoilLayer::uniform(thickness, soil).expect("a layer");
-                let thin = SoilLayer::uniform(0.1, other).expect("a layer");
-                for layers in [vec![], vec![layer], vec![thin, layer], vec![layer, thin, layer]] {
-                    for base in [Base::Rigid, Base::HalfSpace(soil), Base::HalfSpace(other)] {
-                        grounds.extend(SoilProfile::new(layers.clone(), base));
-                    }
-                }
-            }
-        }
-    }
-    grounds
-}
+use ground_field::{GroundField, Soil, SurfaceLoad};
+use testkit::{NASTY, nasty_grounds};
 
 /// Loads of every size that one can have.
 fn loads() -> impl Iterator<Item = SurfaceLoad> {
@@ -94,7 +53,7 @@ fn half_spaces() {
 
 #[test]
 fn layers() {
-    for (k, profile) in grounds().iter().enumerate() {
+    for (k, profile) in nasty_grounds().iter().enumerate() {
         let Ok(ground) = Odemark::new(profile) else {
             continue;
         };

@@ -7,14 +7,7 @@ use ground_field::{
     Base, Displacement, GroundError, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad,
 };
 use proptest::prelude::*;
-
-fn soil(young_modulus: f64, poisson_ratio: f64) -> Soil {
-    Soil::new(young_modulus, poisson_ratio).expect("a valid soil")
-}
-
-fn layer(thickness: f64, soil: Soil) -> SoilLayer {
-    SoilLayer::uniform(thickness, soil).expect("a valid layer")
-}
+use testkit::{layer, soil};
 
 fn model(layers: &[(f64, Soil)], base: Base) -> Odemark {
     let layers = layers

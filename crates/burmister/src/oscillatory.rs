@@ -113,9 +113,8 @@ impl<'a> Prepared<'a> {
             let nodes = weighted_nodes(self.panel, self.terms, from, to, class);
             return sum(&nodes, radius, self.tolerance);
         }
-        if from > 0.0
-            && let Some(done) = self.levin(radius, from, to)
-        {
+        let by_levin = (from > 0.0).then(|| self.levin(radius, from, to));
+        if let Some(done) = by_levin.flatten() {
             return done;
         }
         if halvings == MAX_HALVINGS || *pieces == 0 {

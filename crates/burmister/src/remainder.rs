@@ -35,10 +35,9 @@ impl Remainder {
     pub fn new(ground: &Ground, contact_radius: f64, depth: f64) -> Self {
         let mut images = Vec::with_capacity(3);
         let mut decay_length = depth;
-        if let Some((thickness, soil)) = ground.top()
-            && !ground.laminae.is_empty()
-            && depth < thickness * (2.0 / 3.0)
-        {
+        let shallow =
+            |&(thickness, _): &(f64, _)| !ground.laminae.is_empty() && depth < thickness * (2.0 / 3.0);
+        if let Some((thickness, soil)) = ground.top().filter(shallow) {
             decay_length = 2.0 * thickness - depth;
             images.push(Image::new(1.0, soil, depth));
             images.push(Image::new(-1.0, soil, decay_length.max(contact_radius)));

@@ -1,9 +1,7 @@
 //! Every input has a finite answer or an error that says why not; and the work stays within bounds.
 
-mod common;
-
+use super::common::{case, ground, profile};
 use burmister::LayeredHalfSpace;
-use common::{case, ground, profile};
 use ground_field::{
     Base, Displacement, GroundError, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad,
 };

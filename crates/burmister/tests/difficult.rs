@@ -2,10 +2,8 @@
 //! (`tests/data/reference_figures.py`): contrasts up to 1e4 between neighbours and 1e8 in all, sheets of 2 mm, layers of 10 m,
 //! ν = 0.5, rock, depths within and at interfaces, radii 0 to 50 m.
 
-mod common;
-
+use super::common::{error, ground, table};
 use burmister::{DEFAULT_ACCURACY, LayeredHalfSpace};
-use common::{error, ground, table};
 use ground_field::{GroundError, SurfaceLoad};
 
 const FORCE: f64 = 100_000.0;

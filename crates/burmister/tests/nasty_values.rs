@@ -2,48 +2,7 @@
 
 use burmister::{LayeredHalfSpace, odemark_error_bound};
 use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
-
-/// Everything a float can be.
-const NASTY: [f64; 16] = [
-    f64::NAN,
-    f64::INFINITY,
-    f64::NEG_INFINITY,
-    f64::MIN,
-    -1.0,
-    -0.0,
-    0.0,
-    5e-324,
-    f64::MIN_POSITIVE,
-    1e-160,
-    1e-9,
-    1.0,
-    1e9,
-    1e160,
-    1e300,
-    f64::MAX,
-];
-
-/// Grounds whose numbers are as far apart as numbers can be.
-fn grounds() -> Vec<SoilProfile> {
-    let sizes = [5e-324, 1e-300, 1e-9, 1.0, 1e9, 1e300, f64::MAX];
-    let mut grounds = Vec::new();
-    for thickness in sizes {
-        for modulus in sizes {
-            for poisson in [0.0, 0.5] {
-                let soil = Soil::new(modulus, poisson).expect("a soil");
-                let other = Soil::new(1e7, 0.3).expect("a soil");
-                let layer = SoilLayer::uniform(thickness, soil).expect("a layer");
-                let thin = SoilLayer::uniform(0.1, other).expect("a layer");
-                for layers in [vec![], vec![layer], vec![thin, layer], vec![layer, thin, layer]] {
-                    for base in [Base::Rigid, Base::HalfSpace(soil), Base::HalfSpace(other)] {
-                        grounds.extend(SoilProfile::new(layers.clone(), base));
-                    }
-                }
-            }
-        }
-    }
-    grounds
-}
+use testkit::{NASTY, nasty_grounds};
 
 #[test]
 fn grounds_are_answered_or_refused() {
@@ -55,7 +14,7 @@ fn grounds_are_answered_or_refused() {
         (0.0, 0.0),
     ];
     let loads = loads.map(|(force, radius)| SurfaceLoad::new(force, radius).expect("a load"));
-    for (k, profile) in grounds().iter().enumerate() {
+    for (k, profile) in nasty_grounds().iter().enumerate() {
         let Ok(ground) = LayeredHalfSpace::new(profile) else {
             continue;
         };

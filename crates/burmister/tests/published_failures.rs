@@ -1,9 +1,7 @@
 //! The ways in which published layered-elastic programs fail, each with a test that this one does not.
 
-mod common;
-
+use super::common::{case, ground, table};
 use burmister::LayeredHalfSpace;
-use common::{case, ground, table};
 use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
 
 /// Transfer matrices overflow: exp(m h) with a load of 15 cm on layers of 1 km reaches exp(100 000).

@@ -1,9 +1,7 @@
 //! Every case of the reference tables, to the default accuracy of 1e-8 of the peak at each depth.
 
-mod common;
-
+use super::common::{case, error, table};
 use burmister::DEFAULT_ACCURACY;
-use common::{case, error, table};
 
 fn meets_its_accuracy(file: &str, alone: (&str, f64)) {
     let rows = table(file, alone);

@@ -47,6 +47,18 @@ impl Restraint {
 }
 
 /// A straight cable in a duct from x = 0 (upstream) to x = length (downstream).
+///
+/// ```
+/// use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Restraint};
+///
+/// let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;
+/// let clamp = Restraint { position: 12.0, stiffness: 1e6 };
+/// let cable = DuctedCable::new(30.0, 8.01e6, friction)?
+///     .with_ends(End::Spring(5e6), End::Fixed)?
+///     .with_restraints(vec![clamp])?;
+/// assert_eq!(cable.upstream().stiffness(), Some(5e6));
+/// # Ok::<(), cable_dem::CableError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct DuctedCable {
     length: f64,

@@ -61,13 +61,11 @@ impl<F: Fn(f64) -> f64> Course<F> {
         })
     }
 
-    /// The shape at the lattice points `points` of `step` \[m\], ξ = 0 being point 0.
-    pub fn tabulate(&self, points: std::ops::Range<i64>, step: f64) -> Result<Vec<f64>, CableError> {
-        let value = |point: i64| {
-            let displacement = (self.shape)(step * point as f64);
-            checked("displacement of the duct", displacement, "finite", |_| true)
-        };
-        points.map(value).collect()
+    /// The shape at every ξ \[m\] of `distances`.
+    pub fn tabulate(&self, distances: impl Iterator<Item = f64>) -> Result<Vec<f64>, CableError> {
+        distances
+            .map(|xi| checked("displacement of the duct", (self.shape)(xi), "finite", |_| true))
+            .collect()
     }
 }
 

@@ -1,23 +1,24 @@
 //! What a load cell at an end of the cable reads.
-//!
-//! The half element beyond the middle of the last one balances
-//!
-//! F = k (u_inner − u_end) + w f,  w = h/2,
-//!
-//! the chain's force and the friction on that half: what arrives at the end, of second order in the spacing h wherever the
-//! slip near the end is resolved. What of it the end reads depends on what else holds its node:
-//!
-//! | end | reading at rest | while masses move |
-//! |---|---|---|
-//! | free | 0 | 0 |
-//! | fixed | F: a clamp on a node that does not move carries nothing | F |
-//! | spring s, beside clamps with c on that node | F s/(s + c) | s u: F also accelerates the half element |
-//!
-//! At rest s u is the same, but for a stiff spring u is a small difference of large numbers and has no digits left.
 
+use crate::step::Support;
 use crate::{DuctedCable, End, Mesh};
 
-/// Forces at both ends \[N\], compression positive.
+/// Forces at both ends \[N\], compression positive: what load cells there read.
+///
+/// The half element beyond the middle of the last one balances
+///
+/// F = k (u_inner − u_end) + w f,  w = h/2,
+///
+/// the chain's force and the friction on that half: what arrives at the end, of second order in the spacing h wherever the
+/// slip near the end is resolved. What of it the end reads depends on what else holds its node:
+///
+/// | end | reading at rest | while masses move |
+/// |---|---|---|
+/// | free | 0 | 0 |
+/// | fixed | F: a clamp on a node that does not move carries nothing | F |
+/// | spring s, beside clamps with c on that node | F s/(s + c) | s u: F also accelerates the half element |
+///
+/// At rest s u is the same, but for a stiff spring u is a small difference of large numbers and has no digits left.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct EndForces {
     /// At x = 0.
@@ -54,11 +55,12 @@ struct Reading {
 impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();
+        let supports = Support::of(cable, mesh);
         let reading = |node: usize, end: End| {
-            let shares = cable.restraints().iter().flat_map(|clamp| clamp.by_node(mesh));
-            let clamps: f64 = shares.filter(|(at, _)| *at == node).map(|(_, c)| c).sum();
+            let all = supports.iter().find(|support| support.node == node);
+            let all = all.and_then(|support| support.stiffness).unwrap_or(0.0);
             let share = match end {
-                End::Spring(spring) if spring > 0.0 => 1.0 / (1.0 + clamps / spring),
+                End::Spring(spring) if spring > 0.0 => spring / all,
                 End::Free | End::Spring(_) => 0.0,
                 End::Fixed => 1.0,
             };

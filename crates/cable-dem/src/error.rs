@@ -80,7 +80,7 @@ pub enum CableError {
         /// Nodes of the mesh.
         expected: usize,
     },
-    /// A time step beyond what the explicit scheme bears.
+    /// A time step beyond the explicit scheme's limit.
     #[error(
         "a time step of {time_step:.3e} s is beyond the explicit scheme's limit of {limit:.3e} s ({formula})"
     )]
@@ -106,7 +106,7 @@ pub enum CableError {
         /// Largest number of node updates allowed.
         allowed: f64,
     },
-    /// The energy of a pass does not balance: the answer is one of the scheme, not of the cable.
+    /// The energy of a pass does not balance: the answer comes from the scheme, not from the cable.
     #[error(
         "energy is not conserved: {unbalanced:.1e} of it is unaccounted for, and friction returned {returned:.1e} of its heat: the time step is too long"
     )]

@@ -1,23 +1,23 @@
 //! Friction between cable and duct, per metre of cable.
-//!
-//! The slip Δs = ΔD − Δu of the duct past the cable over a step changes the friction f \[N/m\] on the cable, positive
-//! toward growing x; |f| never exceeds the limit q = μ_d N′. Every law is monotone in Δs, so that an implicit step minimises
-//! a convex energy.
-//!
-//! | law | f after the step | source |
-//! |---|---|---|
-//! | Coulomb | ±q while slipping, anything between while stuck | Popov, Contact Mechanics and Friction, 2010, §10.2 |
-//! | elastic-plastic | clamp(f + (q b/2) Δs, −q, q) | the sheath shears, then slips: Kashiro et al., Figure 10 |
-//! | sigmoid | q (1 − e^(−bΔs))/(1 + e^(−bΔs)) = q tanh(bΔs/2) | Kashiro et al., Equation (2) |
-//!
-//! The shape factor b \[1/m\] is Kashiro et al.'s: both of the latter start with the slope q b/2, and Coulomb's law is
-//! the limit b → ∞. The sigmoid has no memory: Δs is the slip within one step of time, so that at rest it is a dashpot
-//! with reference speed 2/(bΔt), stored force leaks away, and the answer depends on Δt.
 
 use crate::CableError;
 use crate::error::checked;
 
 /// How friction follows slip.
+///
+/// The slip Δs = ΔD − Δu of the duct past the cable over a step changes the friction f \[N/m\] on the cable, positive
+/// toward growing x; |f| never exceeds the limit q = μ_d N′. Every law is monotone in Δs, so that an implicit step minimises
+/// a convex energy.
+///
+/// | law | f after the step | source |
+/// |---|---|---|
+/// | Coulomb | ±q while slipping, anything between while stuck | Popov, Contact Mechanics and Friction, 2010, §10.2 |
+/// | elastic-plastic | clamp(f + (q b/2) Δs, −q, q) | the sheath shears, then slips: Kashiro et al., Figure 10 |
+/// | sigmoid | q (1 − e^(−bΔs))/(1 + e^(−bΔs)) = q tanh(bΔs/2) | Kashiro et al., Equation (2) |
+///
+/// The shape factor b \[1/m\] is Kashiro et al.'s: both of the latter start with the slope q b/2, and Coulomb's law is
+/// the limit b → ∞. The sigmoid has no memory: Δs is the slip within one step of time, so that at rest it is a dashpot
+/// with reference speed 2/(bΔt), stored force leaks away, and the answer depends on Δt ([`crate::SigmoidLeak`]).
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum FrictionLaw {
@@ -59,7 +59,18 @@ impl FrictionLaw {
     }
 }
 
-/// A friction law with its limit.
+/// A friction law with its limit q = μ_d N′ per metre of cable; [`FrictionLaw`] has the equations.
+///
+/// ```
+/// use cable_dem::{Friction, FrictionLaw};
+///
+/// // μ_d = 0.25 under 108.8 N/m; the sheath shears by q/1e8 N/m² before it slips.
+/// let q = 0.25 * 108.8;
+/// let friction = Friction::new(FrictionLaw::ElasticPlastic { shape_factor: 2e8 / q }, q)?;
+/// assert!((friction.after_slip(0.0, 1e-7) - 10.0).abs() < 1e-9);
+/// assert_eq!(friction.after_slip(0.0, 1e-3), q);
+/// # Ok::<(), cable_dem::CableError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Friction {
     law: FrictionLaw,

@@ -44,12 +44,12 @@ mod ends;
 mod error;
 mod explicit;
 mod friction;
-mod held;
 mod mesh;
 mod outcome;
 mod quasi_static;
 mod solver;
 mod state;
+mod step;
 mod traffic;
 mod transient;
 

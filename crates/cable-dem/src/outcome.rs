@@ -4,6 +4,7 @@ use crate::{CableState, DuctedCable, EndForces};
 
 /// What one pass did.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct PassOutcome {
     /// Force on each end after the pass \[N\], compression positive.
     pub force: EndForces,
@@ -27,6 +28,7 @@ pub struct PassOutcome {
 
 /// Counts of work that do not depend on the machine.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub struct Statistics {
     /// Vehicle positions and the return to rest, or steps of time.
     pub steps: usize,
@@ -36,7 +38,7 @@ pub struct Statistics {
     pub sweeps: usize,
     /// Nodes eliminated in these, or advanced in time.
     pub node_updates: usize,
-    /// Windows for which the iteration gave up, or was not wanted, and the exact step was taken.
+    /// Windows that the iteration did not solve, so that the exact step was taken.
     pub exact_steps: usize,
     /// Corners of graphs that these touched, each about as much work as a node.
     pub corners: usize,

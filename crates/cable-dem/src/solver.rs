@@ -1,6 +1,6 @@
 //! One of the three solvers, chosen while the program runs.
 
-use ground_field::{Direction, DuctMotion};
+use ground_field::DuctMotion;
 
 use crate::{
     CableError, CableState, DuctedCable, Dynamic, Explicit, Mesh, MovingDuct, PassOutcome, Passage,
@@ -109,29 +109,6 @@ impl Solver {
             Self::QuasiStatic(solver) => Kind::Still(solver.passage(motion, approach)?),
             Self::Dynamic(solver) => Kind::Moving(solver.passage(motion, approach)?),
             Self::Explicit(solver) => Kind::Moving(solver.passage(motion, approach)?),
-        }))
-    }
-
-    /// The passage of a travelling displacement `shape`(ξ) \[m\] at `speed` \[m/s\]; see [`MovingDuct::from_shape`].
-    ///
-    /// # Errors
-    ///
-    /// As for [`Passage::from_shape`] and [`MovingDuct::from_shape`].
-    pub fn passage_from_shape(
-        &self,
-        direction: Direction,
-        speed: f64,
-        shape: impl Fn(f64) -> f64,
-        approach: f64,
-    ) -> Result<SolverPassage, CableError> {
-        let (cable, mesh) = (self.cable(), self.mesh());
-        Ok(SolverPassage(match self {
-            Self::QuasiStatic(_) => {
-                Kind::Still(Passage::from_shape(cable, mesh, direction, shape, approach)?)
-            }
-            Self::Dynamic(_) | Self::Explicit(_) => Kind::Moving(MovingDuct::from_shape(
-                cable, mesh, direction, speed, shape, approach,
-            )?),
         }))
     }
 

@@ -2,6 +2,7 @@
 
 use crate::ends::{Balance, EndReader};
 use crate::error::checked;
+use crate::step::Support;
 use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 
 /// A clamp nearer to a node than this share of the spacing counts as on it.
@@ -24,7 +25,7 @@ const AT_NODE: f64 = 1e-6;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(into = "Stored", try_from = "Stored"))]
 pub struct CableState {
-    /// The nodes; of the vehicle's steps it knows nothing.
+    /// The nodes, without the vehicle's steps.
     mesh: Mesh,
     /// Displacement u \[m\], positive toward growing x.
     pub(crate) displacement: Vec<f64>,
@@ -120,7 +121,7 @@ impl CableState {
         &'a self,
         cable: &DuctedCable,
     ) -> Result<impl Iterator<Item = f64> + 'a, CableError> {
-        self.mesh.check_length(cable)?;
+        self.mesh.check_length(cable.length())?;
         Ok(self.elements(cable))
     }
 
@@ -131,7 +132,7 @@ impl CableState {
     ///
     /// As for [`CableState::element_forces`].
     pub fn end_forces(&self, cable: &DuctedCable) -> Result<EndForces, CableError> {
-        self.mesh.check_length(cable)?;
+        self.mesh.check_length(cable.length())?;
         Ok(self.ends(cable))
     }
 
@@ -142,7 +143,7 @@ impl CableState {
     ///
     /// As for [`CableState::element_forces`].
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
-        self.mesh.check_length(cable)?;
+        self.mesh.check_length(cable.length())?;
         let on = |restraint: &Restraint| {
             let springs = restraint.by_node(&self.mesh).into_iter();
             springs
@@ -152,35 +153,23 @@ impl CableState {
         Ok(cable.restraints().iter().map(on).collect())
     }
 
-    /// Largest friction per metre \[N/m\] that the forces in the cable ask for: what is left of the difference between two
-    /// neighbouring elements once clamps and end springs have taken their part, over the node's length of cable. More than the
-    /// friction limit q is impossible at rest: then between any two points the force differs by at most q times their distance
-    /// and what clamps between them carry.
+    /// Largest friction per metre \[N/m\] that equilibrium needs at any node: the difference of the forces in both elements, less what
+    /// clamps and end springs carry, over the node's length of cable. In a state at rest it is at most the friction limit q.
     ///
     /// # Errors
     ///
     /// As for [`CableState::element_forces`].
     pub fn friction_needed(&self, cable: &DuctedCable) -> Result<f64, CableError> {
-        self.mesh.check_length(cable)?;
-        let mesh = &self.mesh;
-        let last = mesh.elements();
-        let mut held = vec![0.0; mesh.nodes()];
-        for (node, end) in [(0, cable.upstream()), (last, cable.downstream())] {
-            held[node] += end.stiffness().unwrap_or(0.0);
+        self.mesh.check_length(cable.length())?;
+        let mut springs = vec![Some(0.0); self.mesh.nodes()];
+        for support in Support::of(cable, &self.mesh) {
+            springs[support.node] = support.stiffness;
         }
-        for (node, stiffness) in cable.restraints().iter().flat_map(|clamp| clamp.by_node(mesh)) {
-            held[node] += stiffness;
-        }
-        let mut before = 0.0;
-        let after = self.elements(cable).chain([0.0]);
-        let mut worst = 0.0_f64;
-        for (node, after) in after.enumerate() {
-            let fixed = (node == 0 && cable.upstream().stiffness().is_none())
-                || (node == last && cable.downstream().stiffness().is_none());
-            if !fixed {
-                let friction =
-                    (after - before + held[node] * self.displacement[node]) / mesh.tributary_length(node);
-                worst = worst.max(friction.abs());
+        let (mut before, mut worst) = (0.0, 0.0_f64);
+        for (node, after) in self.elements(cable).chain([0.0]).enumerate() {
+            if let Some(spring) = springs[node] {
+                let carried = after - before + spring * self.displacement[node];
+                worst = worst.max((carried / self.mesh.tributary_length(node)).abs());
             }
             before = after;
         }
@@ -188,8 +177,8 @@ impl CableState {
     }
 
     /// Least and largest force along the cable \[N\]. Friction lets the force change evenly on either half of an element, so that it
-    /// is largest in its middle, at a node, or beside a clamp, where it jumps. An element with a clamp within it is pulled from both sides: what its
-    /// neighbours say of the force beside the clamp counts.
+    /// is largest in its middle, at a node, or beside a clamp, where it jumps. An element with a clamp within it is pulled from both
+    /// sides: the force beside the clamp follows from its neighbours.
     pub(crate) fn extremes(&self, cable: &DuctedCable) -> (f64, f64) {
         let (mesh, f) = (&self.mesh, &self.friction);
         let h = mesh.spacing();
@@ -240,16 +229,10 @@ impl CableState {
         reader.read(Balance::AtRest, |i| self.displacement[i], |i| self.friction[i])
     }
 
-    /// Lets go of all friction: the cable returns to where its ends and clamps want it, or, held by none, keeps its mean
-    /// position.
+    /// Removes all friction: ends and clamps draw the cable back to zero; held by none, it keeps its mean position.
     pub(crate) fn release(&mut self, cable: &DuctedCable) {
-        let held = [cable.upstream(), cable.downstream()]
-            .iter()
-            .any(|end| end.stiffness() != Some(0.0))
-            || cable
-                .restraints()
-                .iter()
-                .any(|restraint| restraint.stiffness > 0.0);
+        let supports = Support::of(cable, &self.mesh);
+        let held = supports.iter().any(|support| support.stiffness != Some(0.0));
         let rest = if held {
             0.0
         } else {
@@ -265,14 +248,9 @@ impl CableState {
         if found != expected {
             return Err(CableError::StateMismatch { found, expected });
         }
-        let same = |spacing: f64| (spacing / mesh.spacing() - 1.0).abs() < 1e-9;
-        checked(
-            "the state's node spacing",
-            self.mesh.spacing(),
-            "the mesh's",
-            same,
-        )
-        .map(|_| ())
+        let (spacing, wanted) = (self.mesh.spacing(), mesh.spacing());
+        let same = |v: f64| (v / wanted - 1.0).abs() < 1e-9;
+        checked("node spacing of the state", spacing, "the mesh's", same).map(|_| ())
     }
 
     /// The same state seen in a mirror across the duct's middle.

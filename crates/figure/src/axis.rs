@@ -12,7 +12,7 @@ pub struct Axis {
     unit: Option<String>,
     range: Option<(f64, f64)>,
     /// Centres of cells, of a map.
-    centres: Vec<f64>,
+    pub(crate) centres: Vec<f64>,
     /// Names of these cells, if they have any.
     names: Vec<String>,
 }
@@ -73,11 +73,6 @@ impl Axis {
     pub fn prefixes(mut self, unit: impl Into<String>) -> Self {
         self.unit = Some(unit.into());
         self
-    }
-
-    /// How many cells the axis has.
-    pub(crate) fn count(&self) -> usize {
-        self.centres.len()
     }
 
     /// Whether each of the `values` of `what` has a place on this axis.

@@ -110,7 +110,7 @@ impl Chart {
             return Err(FigureError::empty("chart", &self.title));
         }
         if let Some(cells) = &self.cells {
-            cells.check(&self.title, self.x.count(), self.y.count())?;
+            cells.check(&self.title, self.x.centres.len(), self.y.centres.len())?;
         }
         self.x.check_cells()?;
         self.y.check_cells()?;

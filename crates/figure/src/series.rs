@@ -1,5 +1,7 @@
 //! What stands in a chart: series of points, reference lines and bands.
 
+use crate::palette::{Colour, GREY, PALETTE};
+
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
@@ -117,7 +119,7 @@ pub struct Reference {
     pub(crate) from: f64,
     pub(crate) to: f64,
     pub(crate) label: String,
-    pub(crate) colour: Option<usize>,
+    pub(crate) colour: Colour,
 }
 
 impl Reference {
@@ -127,7 +129,7 @@ impl Reference {
             from,
             to,
             label: label.into(),
-            colour: None,
+            colour: GREY,
         }
     }
 
@@ -156,7 +158,7 @@ impl Reference {
     /// Colour of the `index`-th series, from 0; grey otherwise.
     #[must_use]
     pub fn colour(mut self, index: usize) -> Self {
-        self.colour = Some(index);
+        self.colour = PALETTE[index % PALETTE.len()];
         self
     }
 }

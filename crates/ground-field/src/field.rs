@@ -6,7 +6,8 @@ use crate::{Displacement, GroundError, SurfaceLoad};
 
 /// A model of the ground: the displacement it shows under one vertical surface load.
 ///
-/// The ground is axisymmetric about the load and linear in its force. Implementations answer for every finite
+/// The displacement (u_r, u_z) at (r, z) is axisymmetric about the load's axis and linear in its force P: u(P) = P u(1). Several loads
+/// superpose, which is how [`DuctMotion`](crate::DuctMotion) is made of wheels. Implementations answer for every finite
 /// `radius ≥ 0` and `depth ≥ 0`, or return an error; they never return a value that is not finite.
 ///
 /// # Example

@@ -1,11 +1,4 @@
 //! Motion of a straight duct at constant depth while a vehicle drives along it.
-//!
-//! The duct moves with the ground. In the vehicle's frame, ξ = x − x_v with x_v the vehicle's origin, the duct's
-//! displacement is a fixed shape: D_l(ξ) along the duct, D_v(ξ) downward, superposed from the wheels. A wheel at (x_w, y_w)
-//! contributes u_r · (ξ − x_w)/r to D_l, where r is the horizontal distance. As the shape travels, a point of the duct
-//! moves along it at the velocity (Kashiro et al., Equation (1))
-//!
-//! V_l = ∂D_l(x − v t)/∂t = −v dD_l/dξ.
 
 use crate::error::checked;
 use crate::peaks;
@@ -21,6 +14,13 @@ const OUTPOSTS: i32 = 10;
 const MAX_EXTENSIONS: usize = 20;
 
 /// Where the duct lies relative to the road and the wheel path.
+///
+/// ```
+/// let line = ground_field::DuctLine::new(1.2, 0.5)?;
+/// assert_eq!((line.depth(), line.lateral_offset()), (1.2, 0.5));
+/// assert!(ground_field::DuctLine::new(0.0, 0.5).is_err());
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DuctLine {
     depth: f64,
@@ -51,9 +51,24 @@ impl DuctLine {
     }
 }
 
-/// The duct's displacement in a vehicle's frame; see the module's text for the equations.
+/// The displacement of a straight duct that moves with the ground, in the frame of the vehicle that drives along it.
 ///
-/// ξ is measured along x, whichever way the vehicle drives: for a reverse vehicle the duct ahead of it has ξ < 0.
+/// With ξ = x − x_v from the vehicle's origin x_v, the displacement is a fixed shape: D_l(ξ) along the duct and D_v(ξ) downward,
+/// superposed from the wheels at (x_w, y_w) with loads P_w, at horizontal distances r_w from the duct's point at offset y:
+///
+/// ```text
+/// D_l(ξ) = Σ_w P_w u_r(r_w) (ξ − x_w)/r_w      D_v(ξ) = Σ_w P_w u_z(r_w)      r_w² = (ξ − x_w)² + (y − y_w)²
+/// ```
+///
+/// with u_r and u_z the ground's displacement under a unit load at the duct's depth ([`GroundField`]). As the shape travels at the
+/// velocity v, a point of the duct moves along it at (Kashiro et al., Furukawa Review, Equation (1))
+///
+/// ```text
+/// V_l = ∂D_l(x − v t)/∂t = −v dD_l/dξ
+/// ```
+///
+/// ξ is measured along x, whichever way the vehicle drives: for a reverse vehicle the duct ahead of it has ξ < 0. The speed enters V_l
+/// alone: the load is static, so the vehicle must be much slower than the ground's shear waves.
 ///
 /// ```
 /// use ground_field::{Displacement, DuctLine, DuctMotion, GroundError, GroundField, SurfaceLoad, Vehicle};

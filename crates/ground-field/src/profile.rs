@@ -1,13 +1,4 @@
 //! A radial profile: one load's displacement at one depth, sampled adaptively and evaluated fast.
-//!
-//! A ground model may cost microseconds or milliseconds a point; a duct's motion needs thousands of points. The profile
-//! asks the model at as few radii as the accuracy allows and interpolates between them with piecewise Chebyshev
-//! polynomials. At depth z the field is analytic in r up to the complex points r = ±i z, so that cells as wide as
-//! their distance to these converge geometrically (L. N. Trefethen, Approximation Theory and Approximation Practice,
-//! SIAM 2013, theorem 8.2); where a layer or a contact patch asks for more, cells are bisected.
-//!
-//! Interpolated is u_r / r rather than u_r: it is even and smooth through the axis, and the components along a duct
-//! follow from it without a division.
 
 use crate::error::checked;
 use crate::{Displacement, GroundError, GroundField, SurfaceLoad};
@@ -24,6 +15,33 @@ const MAX_LEVEL: usize = 24;
 type Series = [f64; NODES];
 
 /// Displacement under a unit load at one depth, as a function of the radius.
+///
+/// A ground model may cost microseconds or milliseconds a point; a duct's motion needs thousands of points. The profile
+/// asks the model at as few radii as the accuracy allows and interpolates between them with piecewise Chebyshev
+/// polynomials. At depth z the field is analytic in r up to the complex points r = ±i z, so that cells as wide as
+/// their distance to these converge geometrically (L. N. Trefethen, Approximation Theory and Approximation Practice,
+/// SIAM 2013, theorem 8.2); where a layer or a contact patch asks for more, cells are bisected.
+///
+/// Interpolated is u_r / r rather than u_r: it is even and smooth through the axis, and the components along a duct
+/// follow from it without a division.
+///
+/// ```
+/// use ground_field::{Displacement, GroundError, GroundField, RadialProfile, SurfaceLoad};
+///
+/// struct Bowl;
+///
+/// impl GroundField for Bowl {
+///     fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
+///         let distance = radius.hypot(depth);
+///         Ok(Displacement { radial: load.force() * radius * depth / distance.powi(3), vertical: load.force() / distance })
+///     }
+/// }
+///
+/// let profile = RadialProfile::sample(&Bowl, 0.0, 1.2, 20.0, 1e-6)?;
+/// let exact = 1.0 / 2.5_f64.hypot(1.2);
+/// assert!((profile.displacement(2.5).vertical - exact).abs() < 1e-6 / 1.2);
+/// # Ok::<(), GroundError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct RadialProfile {
     /// Left ends of the cells, ascending from 0, and the end of the last one.

@@ -7,6 +7,12 @@ const MODULUS_ALLOWED: &str = "finite and positive";
 const POISSON_ALLOWED: &str = "between 0 and 0.5, both included";
 
 /// An isotropic linear elastic material.
+///
+/// ```
+/// let soil = ground_field::Soil::new(80e6, 0.25)?;
+/// assert_eq!(soil.shear_modulus(), 32e6);
+/// # Ok::<(), ground_field::GroundError>(())
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Soil {
     young_modulus: f64,

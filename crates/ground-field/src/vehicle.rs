@@ -1,5 +1,8 @@
 //! Vehicles: wheels that travel together.
 
+use std::fmt;
+use std::str::FromStr;
+
 use crate::error::checked;
 use crate::{GroundError, SurfaceLoad};
 
@@ -30,6 +33,29 @@ impl Direction {
         match self {
             Self::Forward => 1.0,
             Self::Reverse => -1.0,
+        }
+    }
+}
+
+impl fmt::Display for Direction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(match self {
+            Self::Forward => "forward",
+            Self::Reverse => "reverse",
+        })
+    }
+}
+
+impl FromStr for Direction {
+    type Err = GroundError;
+
+    fn from_str(text: &str) -> Result<Self, GroundError> {
+        match text {
+            "forward" => Ok(Self::Forward),
+            "reverse" => Ok(Self::Reverse),
+            _ => Err(GroundError::UnknownDirection {
+                found: text.to_owned(),
+            }),
         }
     }
 }

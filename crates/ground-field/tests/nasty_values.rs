@@ -4,26 +4,7 @@ use ground_field::{
     Base, Direction, Displacement, DuctLine, DuctMotion, GroundError, GroundField, Modulus, RadialProfile,
     Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle, Wheel,
 };
-
-/// Everything a float can be.
-const NASTY: [f64; 16] = [
-    f64::NAN,
-    f64::INFINITY,
-    f64::NEG_INFINITY,
-    f64::MIN,
-    -1.0,
-    -0.0,
-    0.0,
-    5e-324,
-    f64::MIN_POSITIVE,
-    1e-160,
-    1e-9,
-    1.0,
-    1e9,
-    1e160,
-    1e300,
-    f64::MAX,
-];
+use testkit::NASTY;
 
 /// Boussinesq's u_z and a u_r of its kind, with an error where they are no numbers.
 struct Ground;

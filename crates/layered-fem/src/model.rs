@@ -1,12 +1,4 @@
 //! The ground model: meshes, answers and their error.
-//!
-//! # Error estimate
-//!
-//! Every answer is computed on two meshes whose spacing ratio is ρ = 2, the outer boundary of the finer one being
-//! ρ times as far away. The error of discretisation falls with ρ³ and more, the boundary's with ρ²; that it falls at least
-//! three times is assumed, and then half the difference bounds the finer answer's error. (Just below the edge of a disc it
-//! falls more slowly, and twice the difference is taken.) On the coarse meshes of a loose accuracy the estimate may fall short
-//! of the truth by half. Where the estimate exceeds the accuracy asked, a finer mesh is made, up to the unknowns allowed; beyond, the answer is an error.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -42,6 +34,33 @@ const LEAST_RADIAL: f64 = 0.01;
 const MOST_ANSWERS: usize = 512;
 
 /// Axisymmetric finite elements of a layered ground.
+///
+/// Static linear elasticity, ∇·σ = 0 with σ = λ(z) (tr ε) I + 2 G(z) ε, under a vertical load on the surface: the weak form is solved
+/// for (`u_r`, `u_z`) per radian in the half-plane r ≥ 0 (T. J. R. Hughes, *The Finite Element Method* (1987)).
+///
+/// - Nine-node quadrilaterals whose dilatation is projected, so that nothing locks as ν → 1/2.
+/// - Lines graded as the distance to the load, so that few elements reach hundreds of metres away; the outer boundary moves
+///   as the base half-space's closed form, and beyond it that closed form answers.
+/// - The point load's singularity is subtracted in a block of elements around it, and only there.
+/// - Along r the nodal values are joined with continuous second derivative, because friction on a buried cable follows the
+///   second difference of `u_r`.
+///
+/// # Error estimate
+///
+/// Every answer is computed on two meshes whose spacing ratio is ρ = 2, the outer boundary of the finer one being
+/// ρ times as far away. The error of discretisation falls with ρ³ and more, the boundary's with ρ²; that it falls at least
+/// three times is assumed, and then half the difference bounds the finer answer's error. (Just below the edge of a disc it
+/// falls more slowly, and twice the difference is taken.) On the coarse meshes of a loose accuracy the estimate may fall short
+/// of the truth by half. Where the estimate exceeds the accuracy asked, a finer mesh is made, up to the unknowns allowed; beyond, the
+/// answer is [`GroundError::Accuracy`].
+///
+/// # Limits
+///
+/// Layers are bonded and horizontal; a Poisson's ratio above 0.49999 is replaced by it. The edge of a loaded disc is not meshed: within
+/// about a fifth of its radius below the surface the error falls slowly, and for tight accuracies the answer is an error. So it is
+/// where the largest `u_r` at a depth happens to be tiny, as within a very stiff layer.
+///
+/// # Cost
 ///
 /// Mesh and factorisation are made at construction; each contact radius then costs one solution, each further depth an
 /// interpolation, each further point a few operations. The field is smooth along r (continuous second derivative).

@@ -1,14 +1,12 @@
 //! Laws of elasticity and habits of a well-behaved field, on grounds drawn at random and chosen ones.
 
-mod common;
-
 use ground_field::{
     Base, Displacement, GroundError, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad,
 };
 use layered_fem::{FemOptions, LayeredFem};
 use proptest::prelude::*;
 
-use common::{layer, on_soil, task3};
+use super::common::{layer, on_soil, task3};
 
 const ACCURACY: f64 = 5e-3;
 
@@ -245,8 +243,8 @@ fn second_difference_error(found: &[f64], exact: &[f64]) -> f64 {
 
 #[test]
 fn second_differences_of_the_radial_displacement_are_smooth() {
-    let points = common::task3_points();
-    let case = common::shared_case("task3").unwrap();
+    let points = super::common::task3_points();
+    let case = super::common::shared_case("task3").unwrap();
     let ground = LayeredFem::new(&case.profile, ACCURACY).unwrap();
     let places: Vec<f64> = points.iter().map(|point| point.radius).collect();
     let found: Vec<f64> = ground

@@ -2,24 +2,7 @@
 
 use ground_field::{Base, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad};
 use layered_fem::{FemOptions, LayeredFem};
-
-/// Everything a float can be.
-const NASTY: [f64; 14] = [
-    f64::NAN,
-    f64::INFINITY,
-    f64::NEG_INFINITY,
-    f64::MIN,
-    -1.0,
-    -0.0,
-    0.0,
-    5e-324,
-    1e-160,
-    1e-9,
-    1.0,
-    1e9,
-    1e160,
-    f64::MAX,
-];
+use testkit::NASTY;
 
 #[test]
 fn grounds_are_answered_or_refused() {

@@ -1,13 +1,11 @@
 //! The model against exact layered solutions, at the accuracy promised.
 
-mod common;
-
 use std::collections::BTreeMap;
 
 use ground_field::GroundField;
 use layered_fem::LayeredFem;
 
-use common::{Case, Point, errors};
+use super::common::{Case, Point, errors};
 
 /// The accuracy promised: half a percent of the peak at depths 0.6–2.0 m and radii to 10 m, on every system.
 const PROMISED: f64 = 5e-3;
@@ -50,17 +48,17 @@ fn verify(systems: Vec<(String, Case, BTreeMap<u64, Vec<Point>>)>, accuracy: f64
 
 #[test]
 fn shared_systems_within_half_a_percent() {
-    verify(common::shared(), PROMISED);
+    verify(super::common::shared(), PROMISED);
 }
 
 #[test]
 fn shared_systems_within_a_thousandth() {
-    verify(common::shared(), 1e-3);
+    verify(super::common::shared(), 1e-3);
 }
 
 #[test]
 fn further_systems_within_half_a_percent() {
-    verify(common::further(), PROMISED);
+    verify(super::common::further(), PROMISED);
 }
 
 /// Factor within which the estimate bounds the truth on the coarse meshes of a loose accuracy, near the load.
@@ -70,7 +68,7 @@ const SHALLOW_FACTOR: f64 = 1.5;
 #[test]
 fn shallow_depths_within_five_percent() {
     let accuracy = 0.05;
-    for (name, case, rows) in common::shared() {
+    for (name, case, rows) in super::common::shared() {
         let ground = LayeredFem::new(&case.profile, accuracy).unwrap();
         for (micrometres, points) in rows.range(..599_000) {
             let depth = *micrometres as f64 * 1e-6;

@@ -1,8 +1,8 @@
 //! Force on a joint as a model to be calibrated: friction and stiffness of the ground in, forces after listed passes out.
 
-use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, QuasiStatic};
-use calibrate::{Model, ModelError};
-use ground_field::{DuctLine, DuctMotion, Vehicle};
+use creepage::cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, QuasiStatic};
+use creepage::fitting::{Model, ModelError};
+use creepage::ground_field::{DuctLine, DuctMotion, Vehicle};
 
 use crate::MeasuredGround;
 

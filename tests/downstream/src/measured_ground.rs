@@ -10,17 +10,18 @@
 //!
 //! with the depths z_k at which E changes and z_0 = z. One modulus throughout gives back Boussinesq exactly.
 //!
-//! *Limits.* Slow variation with depth, Poisson's ratio 0.5, and a wheel counts as a point load.
+//! *Limits.* Slow variation with depth, Poisson's ratio 0.5.
 
-use std::f64::consts::PI;
-
-use ground_field::{Displacement, GroundError, GroundField, SurfaceLoad};
+use creepage::boussinesq::HalfSpace;
+use creepage::ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad, checked};
 
 /// Incompressible ground with a modulus from a table.
 #[derive(Debug, Clone)]
 pub struct MeasuredGround {
     /// Depth of the top of each stretch \[m\], and its Young's modulus \[Pa\]; the last goes down without end.
     stretches: Vec<(f64, f64)>,
+    /// Half-space of 1 Pa.
+    unit: HalfSpace,
 }
 
 impl MeasuredGround {
@@ -30,65 +31,40 @@ impl MeasuredGround {
     ///
     /// [`GroundError::InvalidParameter`] unless the depths begin at 0 and grow and the moduli are finite and positive.
     pub fn new(stretches: Vec<(f64, f64)>) -> Result<Self, GroundError> {
-        let refuse = |name, value, allowed| Err(GroundError::InvalidParameter { name, value, allowed });
-        match stretches.first() {
-            Some(&(top, _)) if top == 0.0 => {}
-            first => return refuse("first depth", first.map_or(f64::NAN, |s| s.0), "0"),
+        let first = stretches.first().map_or(f64::NAN, |stretch| stretch.0);
+        checked("first depth", first, "0", |depth| depth == 0.0)?;
+        for pair in stretches.windows(2) {
+            checked("depth", pair[1].0, "below the one before", |depth| {
+                depth > pair[0].0
+            })?;
         }
-        for (k, &(depth, modulus)) in stretches.iter().enumerate() {
-            if !(depth.is_finite() && (k == 0 || depth > stretches[k - 1].0)) {
-                return refuse("depth", depth, "finite and below the one before");
-            }
-            if !(modulus.is_finite() && modulus > 0.0) {
-                return refuse("young_modulus", modulus, "finite and positive");
-            }
+        for &(_, modulus) in &stretches {
+            checked("young_modulus", modulus, "finite and positive", |value| {
+                value > 0.0
+            })?;
         }
-        Ok(Self { stretches })
+        let unit = HalfSpace::new(Soil::new(1.0, 0.5)?);
+        Ok(Self { stretches, unit })
     }
-
-    /// Young's modulus \[Pa\] at `depth` \[m\].
-    pub fn young_modulus(&self, depth: f64) -> f64 {
-        let below = self.stretches.partition_point(|&(top, _)| top <= depth);
-        self.stretches[below.saturating_sub(1)].1
-    }
-}
-
-/// U_z under 1 N on a half-space of 1 Pa: 3/(4π) (z²/R³ + 1/R); 0 at infinite depth.
-fn unit_vertical(radius: f64, depth: f64) -> f64 {
-    let distance = radius.hypot(depth);
-    if distance.is_infinite() {
-        return 0.0;
-    }
-    3.0 / (4.0 * PI * distance) * ((depth / distance).powi(2) + 1.0)
 }
 
 impl GroundField for MeasuredGround {
     fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
-        for (name, value) in [("radius", radius), ("depth", depth)] {
-            if !(value.is_finite() && value >= 0.0) {
-                let allowed = "finite and not negative";
-                return Err(GroundError::InvalidParameter { name, value, allowed });
-            }
+        let at = |depth| self.unit.displacement(load, radius, depth);
+        let here = self.stretches.partition_point(|&(top, _)| top <= depth).max(1) - 1;
+        let (mut sum, mut upper) = (0.0, at(depth)?);
+        for (k, &(_, modulus)) in self.stretches.iter().enumerate().skip(here) {
+            let lower = match self.stretches.get(k + 1) {
+                Some(&(top, _)) => at(top)?,
+                None => Displacement::ZERO,
+            };
+            sum += (upper - lower).vertical / modulus;
+            upper = lower;
         }
-        let distance = radius.hypot(depth);
-        if distance == 0.0 {
-            let model = "measured ground";
-            return Err(GroundError::Singular { model, radius, depth });
-        }
-        let unit_radial = 3.0 / (4.0 * PI) * radius * depth / distance.powi(3);
-        let bottoms = self.stretches[1..].iter().map(|s| s.0).chain([f64::INFINITY]);
-        let vertical: f64 = self
-            .stretches
-            .iter()
-            .zip(bottoms)
-            .filter(|&(_, bottom)| bottom > depth)
-            .map(|(&(top, modulus), bottom)| {
-                (unit_vertical(radius, top.max(depth)) - unit_vertical(radius, bottom)) / modulus
-            })
-            .sum();
+        let radial = at(depth)?.radial / self.stretches[here].1;
         Ok(Displacement {
-            radial: load.force() * unit_radial / self.young_modulus(depth),
-            vertical: load.force() * vertical,
+            radial,
+            vertical: sum,
         })
     }
 }

@@ -1,6 +1,6 @@
 //! The stranger's model in the calibrator: what made the data comes back out of them.
 
-use calibrate::{Calibration, Parameter, Scale};
+use creepage::fitting::{Calibration, Parameter, Scale};
 use downstream::{BoxError, JointForce, MeasuredGround};
 
 /// Two newtons of noise, drawn once.

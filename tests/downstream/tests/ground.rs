@@ -1,7 +1,9 @@
 //! The stranger's ground below a duct, a cable and a whole scene.
 
+use creepage::ground_field::{
+    Direction, DuctLine, DuctMotion, GroundError, GroundField, SurfaceLoad, Vehicle,
+};
 use downstream::{BoxError, JointForce, MeasuredGround};
-use ground_field::{Direction, DuctLine, DuctMotion, GroundError, GroundField, SurfaceLoad, Vehicle};
 
 /// 196 133 N on 0.5 as Poisson's ratio: c = 3P/(4πE).
 const FORCE: f64 = 196_133.0;

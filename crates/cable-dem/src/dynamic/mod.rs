@@ -1,56 +1,67 @@
-//! Dynamic implicit passes: the quasi-static step with inertia as one more term.
-//!
-//! Time is discretised by the second backward difference (C. W. Gear; E. Hairer, G. Wanner, Solving Ordinary
-//! Differential Equations II, 1996, §V.1), for displacement and velocity alike,
-//!
-//! v_n = (3 u_n − 4 u_{n−1} + u_{n−2})/(2Δt),  a_n = (3 v_n − 4 v_{n−1} + v_{n−2})/(2Δt),
-//!
-//! so that each step solves (K + S + 9/(4Δt²) M) r = p + w f_n for the increment r, with friction by the law at the
-//! end of the step: the quasi-static convex problem with more on the diagonal. The formula is of second order and
-//! L-stable: any step is stable, and vibration faster than the step resolves is damped instead of ringing against the
-//! friction, which the trapezoidal rule would let it do. Its numerical damping is the residual of the energy balance.
-//!
-//! The step is the mesh's vehicle step, as in the quasi-static solver; it then costs a few sweeps over the whole cable.
-//! Inertia is worth this where [`crate::inertia_ratio`] is not far below the accuracy wanted. After the vehicle has left
-//! ground and cable come to rest as after an explicit pass.
-//!
-//! The `sigmoid` law is solved too (`transient::sigmoid`): its answer depends on the time step by the law's own definition, and what it
-//! loses at rest comes with every outcome ([`SigmoidLeak`]).
+//! The implicit solver with inertia.
 
 mod history;
-mod prediction;
 
-use ground_field::DuctMotion;
+use ground_field::{Direction, DuctMotion};
 
 use crate::outcome::Recorder;
-use crate::transient::{
-    Departed, EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, SigmoidSolver, StepSolver,
-    TransientOutcome, tolerance,
-};
-use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
+use crate::step::{Prediction, Stretch, largest};
+use crate::transient::{EnergyBalance, Implicit, Lumped, MovingDuct, Settler, TransientOutcome, pass};
+use crate::{CableError, CableState, DuctedCable, Mesh};
 use history::History;
-use prediction::Prediction;
 
-/// Dynamic implicit solver for one cable on one mesh.
+/// Dynamic implicit solver for one cable on one mesh: the quasi-static step with inertia as one more term.
+///
+/// M ü + K u + S u = w f is discretised by the second backward difference (C. W. Gear; E. Hairer, G. Wanner, Solving Ordinary
+/// Differential Equations II, 1996, §V.1), for displacement and velocity alike,
+///
+/// v_n = (3 u_n − 4 u_{n−1} + u_{n−2})/(2Δt),  a_n = (3 v_n − 4 v_{n−1} + v_{n−2})/(2Δt),
+///
+/// so that each step solves (K + S + 9/(4Δt²) M) r = p + w f_n for the increment r, with friction by the law at the
+/// end of the step. The formula is of second order and L-stable: any step is stable, and vibration faster than the step resolves is
+/// damped instead of ringing against the friction, which the trapezoidal rule would let it do. Its numerical damping is the residual of
+/// the [`EnergyBalance`].
+///
+/// The step is the mesh's vehicle step, as in the quasi-static solver; it then costs a few linear solves of the whole cable.
+/// Inertia is worth this where [`crate::inertia_ratio`] is not far below the accuracy wanted. The steps from rest and to it are taken
+/// without inertia, and the last one ends the cable's vibration.
+///
+/// The `sigmoid` law is solved too: its answer depends on the time step by the law's own definition, and what it loses at rest comes
+/// with every outcome ([`crate::SigmoidLeak`]).
+///
+/// ```
+/// use cable_dem::{DuctedCable, Dynamic, End, Friction, FrictionLaw, Mesh, MovingDuct};
+/// use ground_field::Direction;
+///
+/// // A bump that draws the duct away from the vehicle on both sides, at 11.1 m/s.
+/// let shape = |xi: f64| 40e-6 * xi / (1.0 + xi * xi).powf(1.5);
+/// let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;
+/// let cable = DuctedCable::new(10.0, 8.01e6, friction)?.with_ends(End::Free, End::Fixed)?;
+/// let mesh = Mesh::for_depth(10.0, 1.2, 6.0)?;
+/// let duct = MovingDuct::from_shape(&cable, &mesh, Direction::Forward, 11.1, shape, 15.0)?;
+/// let mut solver = Dynamic::new(cable, mesh, 108.8 / 9.80665)?;
+/// let outcome = solver.pass(&duct, &mut solver.at_rest())?;
+/// assert!(outcome.pass.force.downstream > 10.0 && outcome.energy.returned_share() < 1e-6);
+/// # Ok::<(), cable_dem::CableError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Dynamic {
     lumped: Lumped,
+    settler: Settler,
+    moving: Moving,
+}
+
+/// The cable in motion.
+#[derive(Debug, Clone)]
+struct Moving {
     history: History,
     prediction: Prediction,
     friction: Vec<f64>,
     before: Vec<f64>,
     duct: Vec<f64>,
     increment: Vec<f64>,
-    settler: Settler,
     /// Step solver for the time step it was made for.
-    solver: Option<(f64, Solver)>,
-}
-
-/// Whichever solves the cable's law.
-#[derive(Debug, Clone)]
-enum Solver {
-    Memory(Box<StepSolver>),
-    Sigmoid(Box<SigmoidSolver>),
+    solver: Option<(f64, Implicit)>,
 }
 
 impl Dynamic {
@@ -63,14 +74,16 @@ impl Dynamic {
         let lumped = Lumped::new(cable, mesh, mass_per_metre)?;
         let zeros = || vec![0.0; mesh.nodes()];
         Ok(Self {
-            history: History::new(mesh.nodes()),
-            prediction: Prediction::default(),
-            friction: zeros(),
-            before: zeros(),
-            duct: zeros(),
-            increment: zeros(),
             settler: Settler::new(&lumped),
-            solver: None,
+            moving: Moving {
+                history: History::new(mesh.nodes()),
+                prediction: Prediction::default(),
+                friction: zeros(),
+                before: zeros(),
+                duct: zeros(),
+                increment: zeros(),
+                solver: None,
+            },
             lumped,
         })
     }
@@ -88,11 +101,6 @@ impl Dynamic {
     /// The time step \[s\] of a pass of `duct`: the vehicle's advance by one vehicle step.
     pub fn time_step(&self, duct: &MovingDuct) -> f64 {
         duct.duration() / self.steps(duct)
-    }
-
-    /// What a law without memory loses in a pass of `duct`; `None` for the others.
-    pub fn leak(&self, duct: &MovingDuct) -> Option<SigmoidLeak> {
-        SigmoidLeak::new(&self.lumped.cable, self.time_step(duct), duct)
     }
 
     fn steps(&self, duct: &MovingDuct) -> f64 {
@@ -127,151 +135,109 @@ impl Dynamic {
         duct: &MovingDuct,
         state: &mut CableState,
     ) -> Result<TransientOutcome, CableError> {
-        state.check(&self.lumped.mesh)?;
-        duct.check(&self.lumped.mesh)?;
         let time_step = self.time_step(duct);
-        if self.lumped.cable.friction().limit() == 0.0 {
-            // Nothing drags the cable.
-            return Ok(TransientOutcome::untouched(&self.lumped, state, time_step));
-        }
-        self.lumped.check(state, duct.peak())?;
-        self.prepare(time_step);
-        let start = self.lumped.end_forces(&state.displacement, &state.friction);
-        let mut recorder = Recorder::new(start);
-        let mut moving = state.clone();
-        let arrival_heat = self
-            .settler
-            .arrive(&self.lumped, duct, &mut moving, &mut recorder.statistics)?;
-        let energy = self.run(duct, &moving, &mut recorder)?;
-        energy.check(false)?;
-        moving.displacement.copy_from_slice(&self.history.displacement);
-        moving.friction.copy_from_slice(&self.friction);
-        let departed = Departed {
-            duct,
-            time_step,
-            energy,
-            arrival_heat,
+        let Self {
+            lumped,
+            settler,
             moving,
-            recorder,
-        };
-        let (after, outcome) = departed.close(&self.lumped, &mut self.settler)?;
-        *state = after;
-        Ok(outcome)
+        } = self;
+        pass(lumped, settler, duct, time_step, state, |state, recorder| {
+            let energy = moving.run(lumped, duct, time_step, state, recorder)?;
+            energy.check(false)?;
+            Ok(energy)
+        })
     }
+}
 
-    /// Has a solver for this time step ready.
-    fn prepare(&mut self, time_step: f64) {
-        if self
-            .solver
-            .as_ref()
-            .is_some_and(|(made_for, _)| *made_for == time_step)
-        {
-            return;
-        }
-        let inertia = 9.0 / (4.0 * time_step * time_step);
-        let solver = if self.lumped.cable.friction().law().has_memory() {
-            Solver::Memory(Box::new(StepSolver::new(&self.lumped, inertia)))
-        } else {
-            Solver::Sigmoid(Box::new(SigmoidSolver::new(&self.lumped, inertia)))
-        };
-        self.solver = Some((time_step, solver));
-    }
-
-    /// All steps of one pass.
+impl Moving {
+    /// All steps of one pass; `state` is carried on.
     fn run(
         &mut self,
+        lumped: &Lumped,
         duct: &MovingDuct,
-        state: &CableState,
+        time_step: f64,
+        state: &mut CableState,
         recorder: &mut Recorder,
     ) -> Result<EnergyBalance, CableError> {
-        let nodes = self.lumped.mesh.nodes();
-        let steps = self.steps(duct) as usize;
-        let time_step = duct.duration() / steps as f64;
-        let largest = state.displacement.iter().fold(duct.peak(), |l, u| l.max(u.abs()));
-        let tolerance = tolerance(&self.lumped, largest);
-        self.history.start(&state.displacement);
-        self.prediction.start(&self.lumped.mesh, duct.direction(), steps);
-        if let Some((_, Solver::Sigmoid(solver))) = &mut self.solver {
-            solver.start();
-        }
+        let (solver, history) = (self.solver.take(), &mut self.history);
+        let mut solver = match solver {
+            Some((made_for, solver)) if made_for == time_step => solver,
+            _ => Implicit::new(lumped, 9.0 / (4.0 * time_step * time_step)),
+        };
+        let (mesh, nodes) = (&lumped.mesh, lumped.mesh.nodes());
+        let steps = (duct.duration() / time_step).round() as usize;
+        history.start(&state.displacement);
+        self.prediction.clear();
+        self.prediction
+            .fit(steps * mesh.stride() + nodes * mesh.phases(), mesh.phases());
+        solver.start(largest(&state.displacement, duct.peak()));
         self.friction.copy_from_slice(&state.friction);
         duct.displacement(0.0, &mut self.duct);
-        let elastic = self.lumped.elastic_energy(&state.displacement);
-        let stored = self.lumped.stored_energy(&state.friction);
+        let elastic = lumped.elastic_energy(&state.displacement);
+        let stored = lumped.stored_energy(&state.friction);
         let mut energy = EnergyBalance {
             initial: elastic + stored,
-            reference: self.lumped.reference_work(duct.peak()),
+            reference: lumped.reference_work(duct.peak()),
             ..EnergyBalance::default()
         };
         for step in 1..=steps {
             let t = time_step * step as f64;
             duct.at(t, nodes).advance(&mut self.duct, &mut self.increment);
             self.before.copy_from_slice(&self.friction);
-            self.prediction.advance();
-            self.step(time_step, tolerance, recorder)
+            let advanced = match duct.direction() {
+                Direction::Forward => steps - step,
+                Direction::Reverse => step,
+            };
+            self.step(lumped, &mut solver, time_step, advanced * mesh.stride())
                 .map_err(|violation| CableError::NoConvergence {
                     vehicle_position: duct.vehicle_position(t),
                     violation,
                 })?;
-            self.account(&mut energy);
-            recorder.record(self.end_forces());
+            self.account(lumped, &mut energy);
+            recorder.record(lumped.end_forces(&self.history.displacement, &self.friction));
         }
-        energy.elastic = self.lumped.elastic_energy(&self.history.displacement) - elastic;
-        energy.stored = self.lumped.stored_energy(&self.friction) - stored;
+        energy.elastic = lumped.elastic_energy(&self.history.displacement) - elastic;
+        energy.stored = lumped.stored_energy(&self.friction) - stored;
+        state.displacement.copy_from_slice(&self.history.displacement);
+        state.friction.copy_from_slice(&self.friction);
+        recorder.statistics += solver.statistics();
         recorder.statistics.steps = steps;
         recorder.statistics.widest_window = nodes;
+        self.solver = Some((time_step, solver));
         Ok(energy)
     }
 
-    /// One step; on failure the largest violation as a share of the friction limit.
+    /// One step, whose contact states are predicted from lattice point `first` on; on failure the largest violation as a share of the
+    /// friction limit.
     fn step(
         &mut self,
+        lumped: &Lumped,
+        solver: &mut Implicit,
         time_step: f64,
-        tolerance: crate::quasi_static::Tolerance,
-        recorder: &mut Recorder,
+        first: usize,
     ) -> Result<(), f64> {
-        let Self {
-            lumped,
-            history,
-            prediction,
-            solver,
-            friction,
-            increment,
-            ..
-        } = self;
-        let statistics = &mut recorder.statistics;
-        let Some((_, solver)) = solver else {
-            return Err(f64::INFINITY);
+        let whole = Stretch {
+            lo: 0,
+            hi: lumped.mesh.elements(),
         };
-        let r = match solver {
-            Solver::Memory(solver) => {
-                solver.load_elastic(lumped, &history.displacement);
-                history.load_inertia(lumped, time_step, &mut solver.load);
-                prediction.read(solver.contacts());
-                solver.solve(lumped, tolerance, increment, friction, statistics)?;
-                prediction.write(solver.contacts());
-                solver.increments()
-            }
-            Solver::Sigmoid(solver) => {
-                solver.inner.load_elastic(lumped, &history.displacement);
-                history.load_inertia(lumped, time_step, &mut solver.inner.load);
-                solver.solve(lumped, tolerance, increment, friction, statistics)?
-            }
-        };
-        history.advance(r, time_step);
+        solver.load_elastic(lumped, &self.history.displacement);
+        self.history.load_inertia(lumped, time_step, &mut solver.load);
+        if let Some(contacts) = solver.contacts() {
+            self.prediction.read(first, whole, contacts);
+        }
+        let r = solver.solve(lumped, &self.increment, &mut self.friction)?;
+        self.history.advance(r, time_step);
+        if let Some(contacts) = solver.contacts() {
+            self.prediction.write(first, whole, contacts);
+        }
         Ok(())
     }
 
     /// Books the step just taken. Friction acts at its mean over the step where it changes by shear, at its value at
     /// the end where it jumps.
-    fn account(&self, energy: &mut EnergyBalance) {
-        let friction = self.lumped.cable.friction();
-        let sheared = friction.law().has_memory() && friction.compliance() > 0.0;
-        let (compliance, share) = if sheared {
-            (friction.compliance(), 0.5)
-        } else {
-            (0.0, 0.0)
-        };
+    fn account(&self, lumped: &Lumped, energy: &mut EnergyBalance) {
+        let compliance = lumped.elastic_compliance();
+        let share = if compliance > 0.0 { 0.5 } else { 0.0 };
         let (f, before, duct, moved) = (
             &self.friction,
             &self.before,
@@ -280,20 +246,11 @@ impl Dynamic {
         );
         let acting = |i: usize| (1.0 - share) * f[i] + share * before[i];
         let heat = |i: usize| acting(i) * (duct[i] - moved[i] - compliance * (f[i] - before[i]));
-        let nodes = f.len();
-        energy.duct_work += self.lumped.weighted(nodes, |i| acting(i) * duct[i]);
-        energy.dissipated += self.lumped.weighted(nodes, heat);
+        energy.duct_work += lumped.weighted(|i| acting(i) * duct[i]);
+        energy.dissipated += lumped.weighted(heat);
         // A held node cannot chatter; what its friction returns is the stretch of the cable within its half element.
-        let fixed = self.lumped.fixed;
-        let held = |i: usize| (i == 0 && fixed[0]) || (i + 1 == nodes && fixed[1]);
-        energy.returned += self
-            .lumped
-            .weighted(nodes, |i| if held(i) { 0.0 } else { (-heat(i)).max(0.0) });
-        energy.kinetic = self.lumped.kinetic_energy(&self.history.velocity);
+        energy.returned += lumped.weighted(|i| if lumped.holds(i) { 0.0 } else { (-heat(i)).max(0.0) });
+        energy.kinetic = lumped.kinetic_energy(&self.history.velocity);
         energy.peak_kinetic = energy.peak_kinetic.max(energy.kinetic);
-    }
-
-    fn end_forces(&self) -> EndForces {
-        self.lumped.end_forces(&self.history.displacement, &self.friction)
     }
 }

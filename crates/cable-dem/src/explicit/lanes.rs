@@ -1,9 +1,5 @@
 //! One explicit step, as loops over plain slices that the compiler can vectorise.
 //!
-//! Central differences with velocities half a step apart (leapfrog):
-//!
-//! v ← v + Δt (−K u + w f)/m,  u ← u + Δt v,  f ← law(f, ΔD − Δt v).
-//!
 //! Displacements carry a ghost at either end, the mirror image of the first inner node: with half the mass at the ends
 //! the same stencil then holds at every node.
 
@@ -28,7 +24,7 @@ pub(super) struct Lanes {
     pub increment: Vec<f64>,
     /// ΔD of the step before.
     earlier: Vec<f64>,
-    /// Slip of the current step.
+    /// Plastic slip of the current step.
     slip: Vec<f64>,
     /// Plastic slip of the step before.
     plastic: Vec<f64>,
@@ -39,12 +35,16 @@ pub(super) struct Lanes {
 }
 
 impl Lanes {
-    pub fn new(nodes: usize) -> Self {
+    /// At rest in `state`.
+    pub fn new(state: &CableState) -> Self {
+        let nodes = state.friction.len();
         let zeros = || vec![0.0; nodes];
+        let mut displacement = vec![0.0; nodes + 2];
+        displacement[1..=nodes].copy_from_slice(&state.displacement);
         Self {
-            displacement: vec![0.0; nodes + 2],
+            displacement,
             velocity: zeros(),
-            friction: zeros(),
+            friction: state.friction.clone(),
             before: zeros(),
             duct: zeros(),
             increment: zeros(),
@@ -57,78 +57,43 @@ impl Lanes {
         }
     }
 
-    /// Starts a pass from rest in `state`.
-    pub fn start(&mut self, state: &CableState) {
-        for lane in [
-            &mut self.velocity,
-            &mut self.plastic,
-            &mut self.heat,
-            &mut self.gross,
-            &mut self.work,
-            &mut self.duct,
-            &mut self.earlier,
-        ] {
-            lane.fill(0.0);
-        }
-        let n = self.friction.len();
-        self.displacement[1..=n].copy_from_slice(&state.displacement);
-        self.friction.copy_from_slice(&state.friction);
-    }
-
     /// One step of `time_step` \[s\]; the duct's increments stand in `increment`.
-    pub fn step<L: ContactLaw>(&mut self, lumped: &Lumped, law: L, time_step: f64, compliance: f64) {
+    pub fn step<L: ContactLaw>(&mut self, lumped: &Lumped, law: L, time_step: f64) {
         let n = self.velocity.len();
-        self.displacement[0] = self.displacement[2];
-        self.displacement[n + 1] = self.displacement[n - 1];
-        let spacing = lumped.mesh.spacing();
-        accelerate(
-            &mut self.velocity,
-            &self.displacement,
-            time_step * lumped.stiffness / (lumped.mass_per_metre * spacing),
-        );
+        let u = &mut self.displacement;
+        (u[0], u[n + 1]) = (u[2], u[n - 1]);
+        let per_bend = time_step * lumped.stiffness / (lumped.mass_per_metre * lumped.mesh.spacing());
+        accelerate(&mut self.velocity, u, per_bend);
         for &(node, spring) in &lumped.springs {
-            self.velocity[node] -= time_step * spring / lumped.mass(node) * self.displacement[node + 1];
+            self.velocity[node] -= time_step * spring / lumped.mass(node) * u[node + 1];
         }
         std::mem::swap(&mut self.friction, &mut self.before);
-        rub(
-            &mut self.velocity,
-            &mut self.friction,
-            &self.before,
-            &self.increment,
-            law,
-        );
-        self.hold_ends(lumped);
-        advance(
-            &mut self.displacement[1..=n],
-            &self.velocity,
-            &self.increment,
-            &mut self.slip,
-            time_step,
-        );
-        let acting = if L::LAGS { &self.before } else { &self.friction };
-        account_work(&mut self.work, acting, &self.earlier, &self.increment);
-        // Slip minus its elastic part is plastic.
+        let (v, increment) = (&mut self.velocity, &self.increment);
+        rub(v, &mut self.friction, &self.before, increment, law);
+        // Fixed ends do not move; their friction follows their own slip.
+        let held = [0, n - 1].map(|node| lumped.holds(node).then_some(node));
+        for node in held.into_iter().flatten() {
+            v[node] = 0.0;
+            self.friction[node] = lumped.held.after_slip(self.before[node], increment[node]);
+        }
+        advance(&mut u[1..=n], v, increment, &mut self.slip, time_step);
+        let compliance = lumped.elastic_compliance();
         unload(&mut self.slip, &self.before, &self.friction, compliance);
-        account_heat(&mut self.heat, &mut self.gross, acting, &self.plastic, &self.slip);
+        let acting = if L::LAGS { &self.before } else { &self.friction };
+        for (work, done) in self.work.iter_mut().zip(done(acting, &self.earlier, increment)) {
+            *work += done;
+        }
+        let accounts = self.heat.iter_mut().zip(&mut self.gross);
+        for ((heat, gross), done) in accounts.zip(done(acting, &self.plastic, &self.slip)) {
+            *heat += done;
+            *gross += done.abs();
+        }
         // A held node cannot chatter; what its friction returns is the stretch of the cable within its half element.
-        for (end, node) in [0, n - 1].into_iter().enumerate() {
-            if lumped.fixed[end] {
-                self.gross[node] = self.heat[node];
-            }
+        for node in held.into_iter().flatten() {
+            self.gross[node] = self.heat[node];
         }
         std::mem::swap(&mut self.plastic, &mut self.slip);
         std::mem::swap(&mut self.earlier, &mut self.increment);
-    }
-
-    /// Fixed ends do not move; their friction follows their own slip.
-    fn hold_ends(&mut self, lumped: &Lumped) {
-        let last = self.velocity.len() - 1;
-        for (end, node) in [0, last].into_iter().enumerate() {
-            if lumped.fixed[end] {
-                self.velocity[node] = 0.0;
-                self.friction[node] = lumped.held.after_slip(self.before[node], self.increment[node]);
-            }
-        }
     }
 
     pub fn kinetic_energy(&self, lumped: &Lumped) -> f64 {
@@ -150,7 +115,7 @@ impl Lanes {
     /// The accounts of a pass that began in `state`.
     pub fn energy(&self, lumped: &Lumped, state: &CableState, peak_kinetic: f64) -> EnergyBalance {
         let n = self.velocity.len();
-        let sum = |lane: &[f64]| lumped.weighted(n, |i| lane[i]);
+        let sum = |lane: &[f64]| lumped.weighted(|i| lane[i]);
         let elastic = lumped.elastic_energy(&state.displacement);
         let stored = lumped.stored_energy(&state.friction);
         let dissipated = sum(&self.heat);
@@ -198,35 +163,20 @@ fn advance(u: &mut [f64], v: &[f64], increment: &[f64], slip: &mut [f64], time_s
     }
 }
 
-/// slip ← slip − γ Δf.
+/// Slip minus its elastic part is plastic: slip ← slip − γ Δf.
 #[inline]
 fn unload(slip: &mut [f64], before: &[f64], after: &[f64], compliance: f64) {
-    let n = slip.len();
-    let (before, after) = (&before[..n], &after[..n]);
-    for i in 0..n {
-        slip[i] -= compliance * (after[i] - before[i]);
+    for (slip, (before, after)) in slip.iter_mut().zip(before.iter().zip(after)) {
+        *slip -= compliance * (after - before);
     }
 }
 
-/// Heat f Δp. Friction acts from one half step to the next: on half the slip of either step.
+/// Work of `friction`, which acts from one half step to the next: on half the slip of either step.
 #[inline]
-fn account_heat(heat: &mut [f64], gross: &mut [f64], friction: &[f64], earlier: &[f64], now: &[f64]) {
-    let n = heat.len();
-    let (gross, friction) = (&mut gross[..n], &friction[..n]);
-    let (earlier, now) = (&earlier[..n], &now[..n]);
-    for i in 0..n {
-        let q = 0.5 * friction[i] * (earlier[i] + now[i]);
-        heat[i] += q;
-        gross[i] += q.abs();
-    }
-}
-
-/// Work f ΔD, with the same halves.
-#[inline]
-fn account_work(work: &mut [f64], friction: &[f64], earlier: &[f64], now: &[f64]) {
-    let n = work.len();
-    let (friction, earlier, now) = (&friction[..n], &earlier[..n], &now[..n]);
-    for i in 0..n {
-        work[i] += 0.5 * friction[i] * (earlier[i] + now[i]);
-    }
+fn done(friction: &[f64], earlier: &[f64], now: &[f64]) -> impl Iterator<Item = f64> {
+    let slips = earlier.iter().zip(now);
+    friction
+        .iter()
+        .zip(slips)
+        .map(|(friction, (earlier, now))| 0.5 * friction * (earlier + now))
 }

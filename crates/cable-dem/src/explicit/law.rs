@@ -59,15 +59,9 @@ impl ContactLaw for ElasticPlastic {
 
     #[inline]
     fn step(self, velocity: f64, duct: f64, friction: f64) -> (f64, f64) {
-        let Constants {
-            limit,
-            time_step,
-            per_mass,
-            factor,
-        } = self.0;
-        let velocity = velocity + per_mass * friction;
-        let trial = friction + factor * (duct - time_step * velocity);
-        (velocity, trial.max(-limit).min(limit))
+        let velocity = velocity + self.0.per_mass * friction;
+        let trial = friction + self.0.factor * (duct - self.0.time_step * velocity);
+        (velocity, trial.max(-self.0.limit).min(self.0.limit))
     }
 }
 
@@ -76,14 +70,11 @@ impl ContactLaw for Sigmoid {
 
     #[inline]
     fn step(self, velocity: f64, duct: f64, friction: f64) -> (f64, f64) {
-        let Constants {
-            limit,
-            time_step,
-            per_mass,
-            factor,
-        } = self.0;
-        let velocity = velocity + per_mass * friction;
-        (velocity, limit * tanh(factor * (duct - time_step * velocity)))
+        let velocity = velocity + self.0.per_mass * friction;
+        (
+            velocity,
+            self.0.limit * tanh(self.0.factor * (duct - self.0.time_step * velocity)),
+        )
     }
 }
 
@@ -92,14 +83,8 @@ impl ContactLaw for Coulomb {
 
     #[inline]
     fn step(self, velocity: f64, duct: f64, _: f64) -> (f64, f64) {
-        let Constants {
-            limit,
-            per_mass,
-            factor,
-            ..
-        } = self.0;
-        let stopping = (duct * factor - velocity) / per_mass;
-        let friction = stopping.max(-limit).min(limit);
-        (velocity + per_mass * friction, friction)
+        let stopping = (duct * self.0.factor - velocity) / self.0.per_mass;
+        let friction = stopping.max(-self.0.limit).min(self.0.limit);
+        (velocity + self.0.per_mass * friction, friction)
     }
 }

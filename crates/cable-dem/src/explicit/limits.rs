@@ -1,26 +1,4 @@
 //! The longest time step of the explicit scheme.
-//!
-//! With the stiffness row sums Σ_j |K_ij| (Gershgorin) the highest elastic frequency is at most ω_e,
-//! ω_e² = max_i Σ_j |K_ij|/m_i, which is 4 EA/(m′h²) without springs. Linearised about stuck contact,
-//!
-//! | law | stuck node | stable while |
-//! |---|---|---|
-//! | elastic-plastic | ü + (ω_e² + q b/(2m′)) u = 0 | Δt² ω_e²/4 + Δt² q b/(8 m′) < 1 |
-//! | sigmoid | ü + (q b Δt/(2m′)) u̇ + ω_e² u = 0, drag lagging by half a step | Δt² ω_e²/4 + Δt² q b/(4 m′) < 1 |
-//! | Coulomb | friction found together with the velocity, by projection | Δt² ω_e²/4 < 1 |
-//!
-//! (roots of the central difference's characteristic polynomial at z = −1). Each left side is a sum of two terms: the
-//! *elastic limit* Δt_e = 2/ω_e and the *friction limit* Δt_f are the steps that each would bear alone, and together
-//!
-//! 1/Δt² = 1/Δt_e² + 1/Δt_f²,
-//!
-//! a little shorter than the smaller of both. For the sigmoid Δt_f is where Δt·q/(m′ v_b) = 2 with v_b = 2/(b Δt).
-//!
-//! That is stability, not accuracy: stuck nodes that swing on their contact near the friction limit slip in the wrong
-//! places (3 % of the force at 0.9 Δt_f and b = 3e9 1/m, where friction returns 0.5 % of its heat), while at half of it the
-//! answer no longer depends on the step. A node that swings on an end spring does the same; the waves of the plain chain
-//! do no such harm. The advised step is therefore 0.9 of what Δt_e and Δt_f/2 allow together, springs counted four times in
-//! Δt_e.
 
 use std::fmt;
 
@@ -29,6 +7,7 @@ use crate::transient::Lumped;
 
 /// One limit of the time step.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct StepLimit {
     /// Longest stable step \[s\]; infinite where nothing limits it.
     pub time_step: f64,
@@ -37,7 +16,30 @@ pub struct StepLimit {
 }
 
 /// Limits of the explicit scheme's time step for one cable on one mesh.
+///
+/// With the stiffness row sums Σ_j |K_ij| (Gershgorin) the highest elastic frequency is at most ω_e,
+/// ω_e² = max_i Σ_j |K_ij|/m_i, which is 4 EA/(m′h²) without springs. Linearised about stuck contact,
+///
+/// | law | stuck node | stable while |
+/// |---|---|---|
+/// | elastic-plastic | ü + (ω_e² + q b/(2m′)) u = 0 | Δt² ω_e²/4 + Δt² q b/(8 m′) < 1 |
+/// | sigmoid | ü + (q b Δt/(2m′)) u̇ + ω_e² u = 0, drag lagging by half a step | Δt² ω_e²/4 + Δt² q b/(4 m′) < 1 |
+/// | Coulomb | friction found together with the velocity, by projection | Δt² ω_e²/4 < 1 |
+///
+/// (roots of the central difference's characteristic polynomial at z = −1). Each left side is a sum of two terms: the
+/// *elastic limit* Δt_e = 2/ω_e and the *friction limit* Δt_f are the steps that each would allow alone, and together
+///
+/// 1/Δt² = 1/Δt_e² + 1/Δt_f²,
+///
+/// a little shorter than the smaller of both. For the sigmoid Δt_f is where Δt·q/(m′ v_b) = 2 with v_b = 2/(b Δt).
+///
+/// That is stability, not accuracy: stuck nodes that swing on their contact near the friction limit slip in the wrong
+/// places (3 % of the force at 0.9 Δt_f and b = 3e9 1/m, where friction returns 0.5 % of its heat), while at half of it the
+/// answer no longer depends on the step. A node that swings on an end spring does the same; the waves of the plain chain
+/// do no such harm. The advised step is therefore 0.9 of what Δt_e and Δt_f/2 allow together, springs counted four times in
+/// Δt_e.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct StepLimits {
     /// From the cable's and its supports' springs.
     pub elastic: StepLimit,
@@ -55,9 +57,8 @@ impl StepLimits {
             (neighbours * lumped.stiffness + spring) / lumped.mass(node)
         };
         // A clamp's part at a fixed end does not matter, as that node does not move.
-        let free = |node: usize| !(lumped.fixed[0] && node == 0 || lumped.fixed[1] && node == last);
         let fastest = |weight: f64| {
-            let springs = lumped.springs.iter().filter(|(node, _)| free(*node));
+            let springs = lumped.springs.iter().filter(|(node, _)| !lumped.holds(*node));
             springs.fold(row(1, 0.0), |most, &(node, spring)| {
                 most.max(row(node, weight * spring))
             })

@@ -1,19 +1,4 @@
-//! Explicit discrete elements: masses, springs and friction, by central differences (Kashiro et al., Equations (2), (3)).
-//!
-//! The cable is a row of masses on springs that the duct rubs,
-//!
-//! m a + K u = w f,
-//!
-//! advanced by central differences (`lanes`). The step has a limit (`StepLimits`), which is enforced: beyond it the
-//! sigmoid chatters from +q to −q and reads next to nothing where hundreds of newtons are right, without ever
-//! overflowing. Independently of the limit every pass must balance its energy ([`crate::EnergyBalance`]); one that does
-//! not is an error and never a number.
-//!
-//! Before the vehicle comes and after it has left the ground is at rest; both steps are taken without inertia
-//! (`transient::rest`), and the last one ends the cable's vibration.
-//!
-//! The cost is steps times nodes, some 3e4 × 150 for a pass at 40 km/h over 30 m with h = 0.2 m: forty times the
-//! quasi-static one, four times the dynamic implicit one; it falls with the speed, theirs does not. It is the reference for what that leaves out, and the paper's own scheme.
+//! The explicit solver.
 
 mod lanes;
 mod law;
@@ -26,7 +11,7 @@ use ground_field::DuctMotion;
 
 use crate::error::checked;
 use crate::outcome::Recorder;
-use crate::transient::{Departed, EnergyBalance, Lumped, MovingDuct, Settler, SigmoidLeak, TransientOutcome};
+use crate::transient::{EnergyBalance, Lumped, MovingDuct, Settler, TransientOutcome, pass};
 use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh};
 use lanes::Lanes;
 use law::{Constants, ContactLaw, Coulomb, ElasticPlastic, Sigmoid};
@@ -40,12 +25,10 @@ pub struct ExplicitOptions {
     /// Time step \[s\]; by default [`StepLimits::advised`], and short enough for the vehicle to advance no more than the mesh's
     /// vehicle step.
     pub time_step: Option<f64>,
-    /// Whether a step beyond the limit is refused. Without the limit the energy balance still is watched: that is what
-    /// this switch is there to show.
+    /// Whether a step beyond the limit is refused; for tests of the energy balance, which watches independently.
     #[doc(hidden)]
     pub check_limits: bool,
-    /// Whether a pass whose energy does not balance is an error. Without either check the scheme may return any number: only
-    /// to show what they are for.
+    /// Whether a pass whose energy does not balance is an error; for tests. Without either check the scheme may return any number.
     #[doc(hidden)]
     pub check_energy: bool,
     /// Most node updates (steps × nodes) that one pass may take.
@@ -64,13 +47,42 @@ impl Default for ExplicitOptions {
     }
 }
 
-/// Explicit solver for one cable on one mesh.
+/// Explicit solver for one cable on one mesh: masses, springs and friction by central differences (Kashiro et al., Equations (2), (3)).
+///
+/// The cable is a row of masses on springs that the duct rubs, m a + K u = w f, with velocities half a step apart:
+///
+/// v ← v + Δt (−K u + w f)/m,  u ← u + Δt v,  f ← law(f, ΔD − Δt v).
+///
+/// The step has a limit ([`StepLimits`]), which is enforced: beyond it the sigmoid chatters from +q to −q and reads next to nothing
+/// where hundreds of newtons are right, without ever overflowing. Independently of the limit every pass must balance its energy
+/// ([`EnergyBalance`]); one that does not is an error and never a number.
+///
+/// Before the vehicle comes and after it has left the ground is at rest; both steps are taken without inertia, and the last one ends
+/// the cable's vibration.
+///
+/// The cost is steps times nodes, some 3e4 × 150 for a pass at 40 km/h over 30 m with h = 0.2 m: forty times the quasi-static one, four
+/// times the dynamic implicit one; it falls with the speed, theirs does not. It is the reference for what they leave out, and the
+/// paper's own scheme.
+///
+/// ```
+/// use cable_dem::{DuctedCable, End, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh, MovingDuct};
+/// use ground_field::Direction;
+///
+/// let shape = |xi: f64| 40e-6 * xi / (1.0 + xi * xi).powf(1.5);
+/// let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;
+/// let cable = DuctedCable::new(10.0, 8.01e6, friction)?.with_ends(End::Free, End::Fixed)?;
+/// let mesh = Mesh::for_depth(10.0, 1.2, 3.0)?;
+/// let duct = MovingDuct::from_shape(&cable, &mesh, Direction::Forward, 11.1, shape, 15.0)?;
+/// let mut solver = Explicit::new(cable, mesh, 108.8 / 9.80665, ExplicitOptions::default())?;
+/// let outcome = solver.pass(&duct, &mut solver.at_rest())?;
+/// assert!(outcome.time_step < solver.limits().together());
+/// # Ok::<(), cable_dem::CableError>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct Explicit {
     lumped: Lumped,
     options: ExplicitOptions,
     limits: StepLimits,
-    lanes: Lanes,
     settler: Settler,
 }
 
@@ -108,7 +120,6 @@ impl Explicit {
             }
         }
         Ok(Self {
-            lanes: Lanes::new(mesh.nodes()),
             settler: Settler::new(&lumped),
             lumped,
             options,
@@ -134,11 +145,6 @@ impl Explicit {
     /// The time step \[s\] of a pass of `duct`, a whole fraction of its duration.
     pub fn time_step(&self, duct: &MovingDuct) -> f64 {
         duct.duration() / self.steps(duct)
-    }
-
-    /// What a law without memory loses in a pass of `duct`; `None` for the others.
-    pub fn leak(&self, duct: &MovingDuct) -> Option<SigmoidLeak> {
-        SigmoidLeak::new(&self.lumped.cable, self.time_step(duct), duct)
     }
 
     fn steps(&self, duct: &MovingDuct) -> f64 {
@@ -176,104 +182,79 @@ impl Explicit {
         duct: &MovingDuct,
         state: &mut CableState,
     ) -> Result<TransientOutcome, CableError> {
-        state.check(&self.lumped.mesh)?;
-        duct.check(&self.lumped.mesh)?;
         let steps = self.steps(duct);
         let time_step = duct.duration() / steps;
-        if self.lumped.cable.friction().limit() == 0.0 {
-            // Nothing drags the cable.
-            return Ok(TransientOutcome::untouched(&self.lumped, state, time_step));
-        }
-        self.lumped.check(state, duct.peak())?;
-        let node_updates = steps * self.lumped.mesh.nodes() as f64;
-        if node_updates > self.options.max_node_updates {
-            return Err(CableError::TooManySteps {
-                steps,
-                time_step,
-                node_updates,
-                allowed: self.options.max_node_updates,
-            });
-        }
-        let constants = Constants::new(
-            self.lumped.cable.friction(),
-            self.lumped.mass_per_metre,
-            time_step,
-        );
-        match self.lumped.cable.friction().law() {
-            FrictionLaw::Coulomb => self.run(duct, state, Coulomb(constants), steps as usize),
-            FrictionLaw::ElasticPlastic { .. } => {
-                self.run(duct, state, ElasticPlastic(constants), steps as usize)
-            }
-            FrictionLaw::Sigmoid { .. } => self.run(duct, state, Sigmoid(constants), steps as usize),
-        }
-    }
-
-    fn run<L: ContactLaw>(
-        &mut self,
-        duct: &MovingDuct,
-        state: &mut CableState,
-        law: L,
-        steps: usize,
-    ) -> Result<TransientOutcome, CableError> {
         let Self {
             lumped,
-            lanes,
             settler,
             options,
             ..
         } = self;
-        let nodes = lumped.mesh.nodes();
-        let time_step = duct.duration() / steps as f64;
-        let remembers = lumped.cable.friction().law().has_memory();
-        let compliance = if remembers {
-            lumped.cable.friction().compliance()
-        } else {
-            0.0
-        };
-        let mut recorder = Recorder::new(lumped.end_forces(&state.displacement, &state.friction));
-        let mut moving = state.clone();
-        let arrival_heat = settler.arrive(lumped, duct, &mut moving, &mut recorder.statistics)?;
-        lanes.start(&moving);
-        duct.displacement(0.0, &mut lanes.duct);
-        let mut peak_kinetic = 0.0_f64;
-        for step in 1..=steps {
-            duct.at(time_step * step as f64, nodes)
-                .advance(&mut lanes.duct, &mut lanes.increment);
-            lanes.step(lumped, law, time_step, compliance);
-            recorder.record(lanes.end_forces(lumped));
-            if step % LOOK == 0 || step == steps {
-                let kinetic = lanes.kinetic_energy(lumped);
-                if !kinetic.is_finite() {
-                    return Err(CableError::EnergyNotConserved {
-                        unbalanced: 1.0,
-                        returned: lanes.energy(lumped, &moving, peak_kinetic).returned_share(),
-                    });
-                }
-                peak_kinetic = peak_kinetic.max(kinetic);
+        pass(lumped, settler, duct, time_step, state, |state, recorder| {
+            let node_updates = steps * lumped.mesh.nodes() as f64;
+            let allowed = options.max_node_updates;
+            if node_updates > allowed {
+                return Err(CableError::TooManySteps {
+                    steps,
+                    time_step,
+                    node_updates,
+                    allowed,
+                });
             }
-        }
-        let energy = EnergyBalance {
-            reference: lumped.reference_work(duct.peak()),
-            ..lanes.energy(lumped, &moving, peak_kinetic)
-        };
-        if options.check_energy {
-            energy.check(true)?;
-        }
-
-        recorder.statistics.steps = steps;
-        recorder.statistics.node_updates += steps * nodes;
-        recorder.statistics.widest_window = nodes;
-        lanes.store(&mut moving);
-        let departed = Departed {
-            duct,
-            time_step,
-            energy,
-            arrival_heat,
-            moving,
-            recorder,
-        };
-        let (after, outcome) = departed.close(lumped, settler)?;
-        *state = after;
-        Ok(outcome)
+            let constants = Constants::new(lumped.cable.friction(), lumped.mass_per_metre, time_step);
+            let steps = steps as usize;
+            let energy = match lumped.cable.friction().law() {
+                FrictionLaw::Coulomb => run(lumped, Coulomb(constants), duct, steps, state, recorder),
+                FrictionLaw::ElasticPlastic { .. } => {
+                    run(lumped, ElasticPlastic(constants), duct, steps, state, recorder)
+                }
+                FrictionLaw::Sigmoid { .. } => run(lumped, Sigmoid(constants), duct, steps, state, recorder),
+            }?;
+            if options.check_energy {
+                energy.check(true)?;
+            }
+            Ok(energy)
+        })
     }
+}
+
+/// All steps of one pass by one law; `state` is carried on.
+fn run<L: ContactLaw>(
+    lumped: &Lumped,
+    law: L,
+    duct: &MovingDuct,
+    steps: usize,
+    state: &mut CableState,
+    recorder: &mut Recorder,
+) -> Result<EnergyBalance, CableError> {
+    let nodes = lumped.mesh.nodes();
+    let time_step = duct.duration() / steps as f64;
+    let mut lanes = Lanes::new(state);
+    duct.displacement(0.0, &mut lanes.duct);
+    let mut peak_kinetic = 0.0_f64;
+    for step in 1..=steps {
+        duct.at(time_step * step as f64, nodes)
+            .advance(&mut lanes.duct, &mut lanes.increment);
+        lanes.step(lumped, law, time_step);
+        recorder.record(lanes.end_forces(lumped));
+        if step % LOOK == 0 || step == steps {
+            let kinetic = lanes.kinetic_energy(lumped);
+            if !kinetic.is_finite() {
+                return Err(CableError::EnergyNotConserved {
+                    unbalanced: 1.0,
+                    returned: lanes.energy(lumped, state, peak_kinetic).returned_share(),
+                });
+            }
+            peak_kinetic = peak_kinetic.max(kinetic);
+        }
+    }
+    let energy = EnergyBalance {
+        reference: lumped.reference_work(duct.peak()),
+        ..lanes.energy(lumped, state, peak_kinetic)
+    };
+    recorder.statistics.steps = steps;
+    recorder.statistics.node_updates += steps * nodes;
+    recorder.statistics.widest_window = nodes;
+    lanes.store(state);
+    Ok(energy)
 }

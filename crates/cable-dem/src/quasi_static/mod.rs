@@ -1,54 +1,64 @@
-//! Quasi-static passes: inertia left out, every step an equilibrium.
-//!
-//! The vehicle advances in steps; each is one implicit step of a rate-independent system, which is exact as long as no
-//! node reverses its slip within the step. Work is done only where something moves: in a window that travels with the
-//! vehicle (see [`passage`]) and in small ones at ends and clamps, which are solved again when the vehicle's effect on them
-//! has changed. A window grows when its edge is disturbed and shrinks when it is quiet.
-//!
-//! Before the vehicle comes and after it has left the ground is at rest. The first step takes the duct from there to the vehicle's
-//! first position, the last one from its last position back: steps of the whole cable, so that the state a pass leaves is in
-//! equilibrium and within the friction bounds everywhere.
+//! The solver without inertia.
 
-mod active_set;
-mod chain;
-mod exact;
-mod graph;
 mod memory;
+mod pass;
 mod passage;
 mod schedule;
-mod settle;
-mod support;
-mod sweeper;
+mod supports;
 mod view;
 mod window;
 
 pub use passage::Passage;
 pub use view::{SlipLengths, StepView};
 
-// The solvers with inertia take the same step on the whole cable.
-pub(crate) use active_set::{Elimination, Outcome};
-pub(crate) use chain::{Chain, Contact, Load, Stretch, Tolerance, Trial};
-pub(crate) use exact::contacts;
-pub(crate) use support::Support;
-
 use ground_field::{Direction, DuctMotion};
 
 use crate::outcome::Recorder;
+use crate::step::check_precision;
 use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
-use sweeper::Sweeper;
+use pass::ForwardSolver;
 
-/// Share of the friction limit up to which rounding may blur equilibrium.
-const MAX_ROUNDING: f64 = 1e-3;
-
-/// Quasi-static solver for one cable on one mesh.
+/// Quasi-static solver for one cable on one mesh: inertia left out, every step an equilibrium.
+///
+/// The vehicle advances in steps. Each solves, for the displacements u and the friction f after it,
+///
+/// K u + S u = w f,  f from the slip ΔD − Δu by the [friction law](crate::FrictionLaw),
+///
+/// with K the stiffness of a chain of springs EA/h, S the springs of ends and clamps and w a node's length of cable: one implicit step of
+/// a rate-independent system, exact as long as no node reverses its slip within the step. Work is done only where something moves: in a
+/// window that travels with the vehicle and in small ones at ends and clamps, which are solved again when the vehicle's effect on them
+/// has changed. Outside the windows up to 1e-3 of the friction limit stays unbalanced while the vehicle passes.
+///
+/// Before the vehicle comes and after it has left the ground is at rest. The first step takes the duct from there to the vehicle's
+/// first position, the last one from its last position back: steps of the whole cable, so that the state a pass leaves is in
+/// equilibrium and within the friction bounds everywhere.
+///
+/// ```
+/// use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, QuasiStatic};
+/// use boussinesq::HalfSpace;
+/// use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
+///
+/// let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
+/// let truck = Vehicle::point("truck", 196_133.0, 11.1)?;
+/// let motion = DuctMotion::new(&ground, &truck, DuctLine::new(1.2, 0.0)?, 46.0, 1e-6)?;
+///
+/// let q = 0.25 * 108.8;
+/// let friction = Friction::new(FrictionLaw::ElasticPlastic { shape_factor: 2e8 / q }, q)?;
+/// let cable = DuctedCable::new(30.0, 8.01e6, friction)?.with_ends(End::Free, End::Fixed)?;
+/// let mut solver = QuasiStatic::new(cable, Mesh::for_depth(30.0, 1.2, 12.0)?)?;
+/// let passage = solver.passage(&motion, 15.0)?;
+/// let mut state = solver.at_rest();
+/// let force = solver.pass(&passage, &mut state)?.force.downstream;
+/// assert!((force / 102.0 - 1.0).abs() < 0.01);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Debug, Clone)]
 pub struct QuasiStatic {
     cable: DuctedCable,
     mesh: Mesh,
-    forward: Sweeper,
+    forward: ForwardSolver,
     /// The cable seen in the mirror, for reverse traffic; made when first needed.
-    reverse: Option<Sweeper>,
-    without_iteration: bool,
+    reverse: Option<ForwardSolver>,
 }
 
 impl QuasiStatic {
@@ -67,22 +77,21 @@ impl QuasiStatic {
                 reason: "its friction depends on the time step and fades at rest",
             });
         }
-        mesh.check_length(&cable)?;
+        mesh.check_length(cable.length())?;
         Ok(Self {
-            forward: Sweeper::new(&cable, &mesh),
+            forward: ForwardSolver::new(&cable, &mesh),
             reverse: None,
-            without_iteration: false,
             cable,
             mesh,
         })
     }
 
     /// The same solver, which takes the exact step (dynamic programming along the cable) in every window instead of
-    /// iterating first. The answer is the same and costs more: it is there to check the iteration by another method.
+    /// iterating first: the same answer at a higher cost, for tests of the iteration.
+    #[doc(hidden)]
     #[must_use]
     pub fn without_iteration(mut self) -> Self {
-        self.without_iteration = true;
-        self.forward.without_iteration = true;
+        self.forward.step.without_iteration = true;
         self
     }
 
@@ -142,24 +151,31 @@ impl QuasiStatic {
             state.release(&self.cable);
             return Ok(self.outcome(state, Recorder::new(state.ends(&self.cable))));
         }
-        self.check_precision(passage, state)?;
+        check_precision(&self.cable, &self.mesh, state.displacement(), passage.peak)?;
         let mirrored = passage.direction() == Direction::Reverse;
-        let sweeper = if mirrored {
-            let reverse = self
-                .reverse
-                .get_or_insert_with(|| Sweeper::new(&self.cable.mirrored(), &self.mesh));
-            reverse.without_iteration = self.without_iteration;
-            reverse
-        } else {
-            &mut self.forward
+        let mirror = mirrored.then(|| self.cable.mirrored());
+        let (cable, solver) = match &mirror {
+            Some(cable) => {
+                let without_iteration = self.forward.step.without_iteration;
+                let solver = self
+                    .reverse
+                    .get_or_insert_with(|| ForwardSolver::new(cable, &self.mesh));
+                solver.step.without_iteration = without_iteration;
+                (cable, solver)
+            }
+            None => (&self.cable, &mut self.forward),
         };
         let mut after = state.clone();
         if mirrored {
             after.mirror();
         }
-        let mut recorder = sweeper.pass(passage, &mut after, |sweeper, snapshot| {
+        let (mesh, limit) = (&self.mesh, self.cable.friction().limit());
+        let mut recorder = solver.pass(passage, &mut after, cable, |r, g, snapshot| {
             observe(StepView {
-                sweeper,
+                mesh,
+                limit,
+                r,
+                g,
                 snapshot,
                 mirrored,
             });
@@ -173,25 +189,6 @@ impl QuasiStatic {
     }
 
     fn outcome(&self, state: &CableState, recorder: Recorder) -> PassOutcome {
-        let force = state.ends(&self.cable);
-        recorder.outcome(&self.cable, state, force)
-    }
-
-    /// Rounding of k (2 u_i − u_{i−1} − u_{i+1}) beside the friction on one element.
-    fn check_precision(&self, passage: &Passage, state: &CableState) -> Result<(), CableError> {
-        let largest = state
-            .displacement()
-            .iter()
-            .fold(passage.peak(), |largest, u| largest.max(u.abs()));
-        let share = sweeper::rounding(&self.cable, &self.mesh, largest) / self.cable.friction().limit();
-        if share <= MAX_ROUNDING {
-            Ok(())
-        } else {
-            Err(CableError::Precision {
-                share,
-                axial_stiffness: self.cable.axial_stiffness(),
-                spacing: self.mesh.spacing(),
-            })
-        }
+        recorder.outcome(&self.cable, state, state.ends(&self.cable))
     }
 }

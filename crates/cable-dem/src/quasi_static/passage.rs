@@ -1,36 +1,36 @@
-//! A vehicle's passage as the cable feels it.
-//!
-//! A cable stuck to its duct all along would move by the *adherent motion* a(ξ): the duct's motion D(ξ), smoothed by the
-//! sheath's shear over the screening length λ,
-//!
-//! (a − D)/γ = EA a″,  discretely  −k (a_{i−1} − 2 a_i + a_{i+1}) = h A_i,  A = (D − a)/γ.
-//!
-//! A(ξ) is the friction that adhesion takes: −EA D″ for Coulomb's law, where a = D. Measured from the adherent motion,
-//! r = u − a and g = f − A, the cable feels the passing vehicle only through the friction bounds, which it shifts,
-//!
-//! −q − A(ξ) ≤ g ≤ q − A(ξ),
-//!
-//! and at ends and clamps. Where g stays within them nothing changes: r and g are the cable's state, and only the
-//! zone where the travelling shift presses g against a bound has to be solved.
+//! A vehicle's passage as the quasi-static solver takes it.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use ground_field::{Direction, DuctMotion};
 
 use super::schedule::schedule;
-use super::window::NEGLIGIBLE;
 use crate::course::{Course, as_driven};
+use crate::step::NEGLIGIBLE;
 use crate::{CableError, DuctedCable, Friction, Mesh};
 
 static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 
-/// Adherent motion and adhesion of one vehicle on the lattice of one mesh.
+/// A vehicle's passage as the cable feels it: adherent motion and adhesion on the lattice of one mesh.
 ///
 /// Depends on the cable, the mesh and the vehicle, not on the cable's state: computed once, used for every pass.
+///
+/// A cable stuck to its duct all along would move by the *adherent motion* a(ξ): the duct's motion D(ξ), smoothed by the
+/// sheath's shear over the screening length λ,
+///
+/// (a − D)/γ = EA a″,  discretely  −k (a_{i−1} − 2 a_i + a_{i+1}) = h A_i,  A = (D − a)/γ.
+///
+/// A(ξ) is the friction that adhesion takes: −EA D″ for Coulomb's law, where a = D. Measured from the adherent motion,
+/// r = u − a and g = f − A, the cable feels the passing vehicle only through the friction bounds, which it shifts,
+///
+/// −q − A(ξ) ≤ g ≤ q − A(ξ),
+///
+/// and at ends and clamps. Where g stays within them nothing changes: r and g are the cable's state, and only the
+/// zone where the travelling shift presses g against a bound has to be solved.
 #[derive(Debug, Clone)]
 pub struct Passage {
     /// Tells passages apart, so that a solver can remember the last pass of each.
-    id: u64,
+    pub(super) id: u64,
     /// What it was computed for.
     mesh: Mesh,
     axial_stiffness: f64,
@@ -41,10 +41,11 @@ pub struct Passage {
     /// Lattice indices before the vehicle's origin.
     behind: usize,
     /// Vehicle positions, in lattice units, from before the duct to past it.
-    positions: Vec<i64>,
+    pub(super) positions: Vec<i64>,
     /// Nodes on either side of the vehicle beyond which adhesion cannot matter.
-    reach: usize,
-    peak: f64,
+    pub(super) reach: usize,
+    /// Largest adherent displacement \[m\].
+    pub(super) peak: f64,
     /// Zeros, one a node and one beyond either end: the ground at rest.
     still: Vec<f64>,
 }
@@ -67,19 +68,17 @@ pub(super) struct Snapshot<'a> {
 }
 
 impl Passage {
-    /// The passage of a vehicle whose duct motion is `motion` over `cable`, meshed by `mesh`.
+    /// The passage of a vehicle whose duct motion is `motion` over `cable`, meshed by `mesh`; see [`crate::QuasiStatic::passage`].
     ///
     /// Its origin is followed from `approach` \[m\] before the duct to `approach` past it; before and after that the ground is at
-    /// rest, D = 0. What the duct does while the vehicle is farther away is taken in one step, there and back. That is exact if
-    /// D no longer turns there and its parts no longer change the order in which they lead: 1.5 times as far as the outermost turn.
-    /// On a half-space a wheel's last turn is some twelve depths away, and is counted from every wheel; to follow the vehicle
-    /// farther than needed changes nothing and costs little.
+    /// rest, D = 0. What the duct does while the vehicle is farther away is taken in one step, there and back;
+    /// [`crate::approach`] says how far out that is exact.
     ///
     /// # Errors
     ///
     /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m, [`CableError::OutOfReach`] where the motion
     /// is not known as far as the duct's length and the approach together, [`CableError::CoarseMesh`] for a mesh that leaves out
-    /// more than 65 % of the duct's peak: coarser than some one and a half nodes a depth.
+    /// more than 65 % of the duct's peak: coarser than some one and a half nodes per depth.
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,
@@ -122,7 +121,7 @@ impl Passage {
         // Every ξ-index that a node, or the neighbour outside an end, can have; whole phases on both sides.
         let behind = ((end + stride + approach) / m + 3) * m;
         let ahead = (approach / m + mesh.elements() as i64 + 3) * m;
-        let shape = course.tabulate(-behind..ahead, step)?;
+        let shape = course.tabulate((-behind..ahead).map(|j| step * j as f64))?;
         let positions = schedule(&shape, behind as usize, end, approach, stride);
         let compliance = cable.friction().compliance();
         let stiffness = cable.axial_stiffness() / mesh.spacing();
@@ -170,10 +169,6 @@ impl Passage {
             && self.friction == cable.friction()
     }
 
-    pub(super) fn id(&self) -> u64 {
-        self.id
-    }
-
     /// Which way the vehicle drives.
     pub fn direction(&self) -> Direction {
         self.direction
@@ -184,45 +179,33 @@ impl Passage {
         self.positions.len()
     }
 
-    pub(super) fn positions(&self) -> &[i64] {
-        &self.positions
+    /// Number of lattice points in the vehicle's frame, and of those per node spacing.
+    pub(super) fn lattice(&self) -> (usize, usize) {
+        let phases = self.phases.len();
+        (phases * self.phases[0].adherent.len(), phases)
     }
 
-    pub(super) fn reach(&self) -> usize {
-        self.reach
-    }
-
-    /// Largest adherent displacement \[m\].
-    pub(super) fn peak(&self) -> f64 {
-        self.peak
-    }
-
-    /// Number of lattice points in the vehicle's frame.
-    pub(super) fn lattice_len(&self) -> usize {
-        self.phases.len() * self.phases[0].adherent.len()
-    }
-
-    /// Lattice point in the vehicle's frame at which `node` stands.
-    pub(super) fn lattice_index(&self, position: i64, node: usize) -> usize {
-        (self.behind as i64 - position) as usize + node * self.phases.len()
+    /// Lattice point in the vehicle's frame at which node 0 stands.
+    pub(super) fn first_point(&self, snapshot: &Snapshot<'_>) -> usize {
+        (self.behind as i64 - snapshot.position) as usize
     }
 
     /// The ground at rest, the vehicle having left.
-    pub(super) fn still(&self, nodes: usize) -> Snapshot<'_> {
-        let position = self.positions[self.positions.len() - 1];
+    pub(super) fn still(&self) -> Snapshot<'_> {
         Snapshot {
             adherent: &self.still,
             adhesion: &self.still,
-            ..self.snapshot(position, nodes)
+            ..self.snapshot(self.positions[self.positions.len() - 1])
         }
     }
 
-    pub(super) fn snapshot(&self, position: i64, nodes: usize) -> Snapshot<'_> {
+    /// The vehicle at lattice position `position`.
+    pub(super) fn snapshot(&self, position: i64) -> Snapshot<'_> {
         let m = self.phases.len() as i64;
         // Index of node −1.
         let index = self.behind as i64 - m - position;
         let (phase, first) = (index.rem_euclid(m) as usize, index.div_euclid(m) as usize);
-        let range = first..first + nodes + 2;
+        let range = first..first + self.mesh.nodes() + 2;
         Snapshot {
             adherent: &self.phases[phase].adherent[range.clone()],
             adhesion: &self.phases[phase].adhesion[range],

@@ -74,22 +74,18 @@ fn largest_bend(shape: &[f64], stride: usize) -> f64 {
 fn outermost_bends(shape: &[f64], origin: usize, stride: usize, allowed: f64) -> [i64; 2] {
     let sharp = |at: &usize| bend(shape, *at, stride) > allowed;
     let ahead = (origin..shape.len()).rev().find(sharp);
-    let behind = (0..origin).find(sharp);
-    [
-        ahead.map_or(0, |at| (at - origin) as i64),
-        behind.map_or(0, |at| (origin - at) as i64),
-    ]
+    [ahead, (0..origin).find(sharp)].map(|at| distance(at, origin))
 }
 
 /// How far ahead of the vehicle and behind it the shape turns for the last time, in lattice units.
 fn outermost_turns(shape: &[f64], origin: usize) -> [i64; 2] {
     let noise = TURN * shape.iter().fold(0.0_f64, |most, d| most.max(d.abs()));
     let ahead = first_turn((origin..shape.len()).rev(), shape, noise);
-    let behind = first_turn(0..origin, shape, noise);
-    [
-        ahead.map_or(0, |at| (at - origin) as i64),
-        behind.map_or(0, |at| (origin - at) as i64),
-    ]
+    [ahead, first_turn(0..origin, shape, noise)].map(|at| distance(at, origin))
+}
+
+fn distance(at: Option<usize>, origin: usize) -> i64 {
+    at.map_or(0, |at| at.abs_diff(origin) as i64)
 }
 
 /// Where the shape first comes back by more than `noise`, as one walks along `path`.

@@ -1,121 +1,150 @@
 //! The windows of a step: where the cable moves, and how that zone grows, travels and shrinks.
 
-use super::chain::Stretch;
-use super::passage::Snapshot;
-use super::sweeper::Sweeper;
+use crate::step::Stretch;
 
-/// Share of the friction limit by which friction and equilibrium may be off outside the windows while the vehicle passes.
-/// Measured against whole-cable solves this moves the force by less than 1e-4 of q L (in 1400 random scenes, but for one cable
-/// held by nothing: 5e-4).
-pub(crate) const NEGLIGIBLE: f64 = 1e-3;
-/// A window's edge is quiet when the force its last move put on the next node is below this share of [`NEGLIGIBLE`].
-const QUIET: f64 = 0.25;
+/// Most nodes that a disturbed window grows by at once on each side.
+const MAX_GROWTH: usize = 256;
 
 /// A window to solve in this step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Window {
-    pub(super) stretch: Stretch,
+    pub stretch: Stretch,
     /// Whether it travels with the vehicle.
-    pub(super) travels: bool,
+    pub travels: bool,
 }
 
-impl Sweeper {
-    /// The travelling window of this step: the last one, extended to every node near the vehicle that must slip.
-    pub(super) fn disturbed(
-        &self,
-        snapshot: &Snapshot<'_>,
-        reach: usize,
-        travelling: Option<Stretch>,
-    ) -> Option<Stretch> {
-        let node = snapshot.node;
+/// Where windows may lie, and how far beyond a disturbance they reach.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Room {
+    /// The unknown nodes.
+    pub free: Stretch,
+    /// Nodes over which a stuck cable's response fades to a hundredth.
+    pub margin: usize,
+}
+
+impl Room {
+    /// On a cable whose sheath has the given `screening` (λ/h)².
+    pub fn new(free: Stretch, screening: f64) -> Self {
+        Self {
+            free,
+            margin: fading_nodes(screening).min(MAX_GROWTH),
+        }
+    }
+
+    /// `stretch` with `nodes` more on either side, as far as there are any.
+    pub fn widened(self, stretch: Stretch, nodes: usize) -> Stretch {
+        Stretch {
+            lo: stretch.lo.saturating_sub(nodes).max(self.free.lo),
+            hi: (stretch.hi + nodes).min(self.free.hi),
+        }
+    }
+
+    /// Whether a window reaches so near to an end that the end feels it.
+    pub fn near_an_end(self, stretch: Stretch) -> bool {
+        stretch.lo <= self.free.lo + self.margin || stretch.hi + self.margin >= self.free.hi
+    }
+
+    /// The part of the cable that may slip under a vehicle over `node` whose adhesion matters over `reach` nodes.
+    pub fn under(self, node: i64, reach: usize) -> Stretch {
         let clamp = |node: i64| node.clamp(self.free.lo as i64, self.free.hi as i64) as usize;
-        let (from, to) = (clamp(node - reach as i64), clamp(node + reach as i64));
-        let limit = self.chain.limit * (1.0 + NEGLIGIBLE);
-        let slips = |i: &usize| (self.g[*i] + snapshot.adhesion[i + 1]).abs() > limit;
-        let inside = travelling.unwrap_or(Stretch { lo: to + 1, hi: to });
-        let first = (from..inside.lo.min(to + 1)).find(slips);
-        let last = (inside
-            .hi
-            .max(from)
-            .saturating_add(usize::from(travelling.is_some()))..=to)
-            .rev()
-            .find(slips);
-        let widened = |stretch: Stretch| Stretch {
-            lo: first.map_or(stretch.lo, |i| i.saturating_sub(self.margin).max(self.free.lo)),
-            hi: last.map_or(stretch.hi, |i| (i + self.margin).min(self.free.hi)),
-        };
-        match (travelling, first, last) {
-            (Some(stretch), _, _) => Some(widened(stretch)),
-            (None, Some(first), last) => Some(widened(Stretch {
-                lo: first,
-                hi: last.unwrap_or(first),
-            })),
-            (None, None, _) => None,
+        Stretch {
+            lo: clamp(node - reach as i64),
+            hi: clamp(node + reach as i64),
         }
     }
+}
 
-    /// Lists this step's windows, from left to right; those that touch become one. The travelling window is at least as
-    /// wide as it was in the last pass, which spares it growing again.
-    pub(super) fn collect_windows(&mut self, travelling: Option<Stretch>, remembered: Option<Stretch>) {
-        self.windows.clear();
-        let travelling = match (travelling, remembered) {
-            (Some(a), Some(b)) if a.lo <= b.hi && b.lo <= a.hi => Some(Stretch {
-                lo: a.lo.min(b.lo),
-                hi: a.hi.max(b.hi),
-            }),
-            (travelling, _) => travelling,
-        };
-        self.windows.extend(travelling.map(|stretch| Window {
-            stretch,
-            travels: true,
-        }));
-        self.windows.extend(
-            self.supports
-                .iter()
-                .filter(|support| support.due)
-                .map(|support| Window {
-                    stretch: support.stretch,
-                    travels: false,
-                }),
-        );
-        self.windows.sort_by_key(|window| window.stretch.lo);
-        let mut merged = 0;
-        for index in 1..self.windows.len() {
-            let next = self.windows[index];
-            let window = &mut self.windows[merged];
-            if next.stretch.lo <= window.stretch.hi + 2 {
-                window.stretch.hi = window.stretch.hi.max(next.stretch.hi);
-                window.travels |= next.travels;
-            } else {
-                merged += 1;
-                self.windows[merged] = next;
-            }
-        }
-        self.windows.truncate(merged + 1);
-    }
+/// The travelling window: the last one, extended to every node `near` the vehicle that `slips`.
+pub(super) fn travelling(
+    room: Room,
+    near: Stretch,
+    last: Option<Stretch>,
+    slips: impl Fn(&usize) -> bool,
+) -> Option<Stretch> {
+    let Some(last) = last else {
+        let first = near.nodes().find(&slips)?;
+        let hi = near.nodes().rev().find(&slips).unwrap_or(first);
+        return Some(room.widened(Stretch { lo: first, hi }, room.margin));
+    };
+    let before = (near.lo..last.lo.min(near.hi + 1)).find(&slips);
+    let after = (last.hi.max(near.lo) + 1..=near.hi).rev().find(&slips);
+    let slipping = Stretch {
+        lo: before.unwrap_or(last.lo),
+        hi: after.unwrap_or(last.hi),
+    };
+    let widened = room.widened(slipping, room.margin);
+    Some(Stretch {
+        lo: before.map_or(last.lo, |_| widened.lo),
+        hi: after.map_or(last.hi, |_| widened.hi),
+    })
+}
 
-    /// The part of a solved window that still moves; `None` if nothing does.
-    pub(super) fn shrink(&self, solved: Stretch) -> Option<Stretch> {
-        let Stretch { mut lo, mut hi } = solved;
-        let quiet = |edge: usize, inner: usize| {
-            let moved = (self.trial.r[inner] - self.r[inner]).abs();
-            self.chain.stiffness * moved <= QUIET * NEGLIGIBLE * self.chain.limit * self.chain.tributary[edge]
-        };
-        while lo < hi && quiet(lo, lo + 1) {
-            lo += 1;
+/// Lists a step's windows in `windows`, from left to right; those that touch become one. The travelling window is at least as
+/// wide as it was in the last pass, which spares it growing again.
+pub(super) fn collect(
+    windows: &mut Vec<Window>,
+    travelling: Option<Stretch>,
+    remembered: Option<Stretch>,
+    at_supports: impl Iterator<Item = Stretch>,
+) {
+    windows.clear();
+    let travelling = match (travelling, remembered) {
+        (Some(a), Some(b)) if a.lo <= b.hi && b.lo <= a.hi => Some(Stretch {
+            lo: a.lo.min(b.lo),
+            hi: a.hi.max(b.hi),
+        }),
+        (travelling, _) => travelling,
+    };
+    let window = |travels| move |stretch| Window { stretch, travels };
+    windows.extend(travelling.map(window(true)));
+    windows.extend(at_supports.map(window(false)));
+    windows.sort_by_key(|window| window.stretch.lo);
+    windows.dedup_by(|next, window| {
+        let touches = next.stretch.lo <= window.stretch.hi + 2;
+        if touches {
+            window.stretch.hi = window.stretch.hi.max(next.stretch.hi);
+            window.travels |= next.travels;
         }
-        while hi > lo && quiet(hi, hi - 1) {
-            hi -= 1;
-        }
-        (lo < hi).then_some(Stretch { lo, hi })
-    }
+        touches
+    });
+}
 
-    /// Whether this step may have changed the force on an end.
-    pub(super) fn ends_touched(&self) -> bool {
-        self.supports.iter().any(|support| support.due)
-            || self.windows.iter().any(|window| {
-                window.stretch.lo <= self.free.lo + self.margin
-                    || window.stretch.hi + self.margin >= self.free.hi
-            })
+/// The window grown by `growth` nodes beyond each edge whose outer neighbour is `disturbed`, and the growth to try next.
+pub(super) fn grow(
+    room: Room,
+    stretch: Stretch,
+    growth: usize,
+    disturbed: impl Fn(usize) -> bool,
+) -> (Stretch, usize) {
+    let widened = room.widened(stretch, growth);
+    let left = stretch.lo > room.free.lo && disturbed(stretch.lo - 1);
+    let right = stretch.hi < room.free.hi && disturbed(stretch.hi + 1);
+    let grown = Stretch {
+        lo: if left { widened.lo } else { stretch.lo },
+        hi: if right { widened.hi } else { stretch.hi },
+    };
+    (grown, (2 * growth).min(MAX_GROWTH))
+}
+
+/// The part of a solved window that still moves; `None` if nothing does. `quiet` is asked of an edge and the node inside it.
+pub(super) fn shrink(solved: Stretch, quiet: impl Fn(usize, usize) -> bool) -> Option<Stretch> {
+    let Stretch { mut lo, mut hi } = solved;
+    while lo < hi && quiet(lo, lo + 1) {
+        lo += 1;
     }
+    while hi > lo && quiet(hi, hi - 1) {
+        hi -= 1;
+    }
+    (lo < hi).then_some(Stretch { lo, hi })
+}
+
+/// Nodes over which the response of a stuck chain fades to a hundredth; `screening` is (λ/h)².
+fn fading_nodes(screening: f64) -> usize {
+    if screening <= 0.0 {
+        return 2;
+    }
+    // Decay ratio of the difference equation (1 + 2 s) r_i = s (r_{i−1} + r_{i+1}).
+    let half = 0.5 / screening;
+    let ratio = 1.0 + half - (half * (half + 2.0)).sqrt();
+    ((100.0_f64.ln() / -ratio.ln()).ceil() as usize).max(2)
 }

@@ -1,17 +1,4 @@
 //! The energy of one pass, and what it must satisfy.
-//!
-//! The duct does work on the cable through friction; what comes in goes into the cable's elastic and kinetic energy, into
-//! the elastic shear of the contact, and into heat:
-//!
-//! Σ w f ΔD = Δ(½ uᵀK u) + Δ(½ vᵀM v) + Δ(½ γ Σ w f²) + Σ w f Δp,
-//!
-//! with p the slip beyond the elastic shear (all slip for the sigmoid, which stores nothing). Two laws of physics make two
-//! checks that know nothing of any step limit:
-//!
-//! - the *first law*: both sides agree, up to what the scheme itself adds or takes;
-//! - the *second law*: at every node and step the heat is positive. A step too long for the friction makes nodes swing
-//!   from +q to −q and back, finite for ever, and friction then returns as much work as it takes: the share of heat that is
-//!   negative goes to one half, where a sound pass has less than a millionth.
 
 use std::fmt;
 
@@ -28,7 +15,21 @@ const MAX_UNBALANCED: f64 = 0.01;
 const NEGLIGIBLE: f64 = 0.05;
 
 /// Energies of one pass \[J\]: changes from its start to its end, before the cable is brought to rest.
+///
+/// The duct does work on the cable through friction; what comes in goes into the cable's elastic and kinetic energy, into
+/// the elastic shear of the contact, and into heat:
+///
+/// Σ w f ΔD = Δ(½ uᵀK u) + Δ(½ vᵀM v) + Δ(½ γ Σ w f²) + Σ w f Δp,
+///
+/// with p the slip beyond the elastic shear (all slip for the sigmoid, which stores nothing). Two laws of physics make two
+/// checks that know nothing of any step limit:
+///
+/// - the *first law*: both sides agree, up to what the scheme itself adds or takes;
+/// - the *second law*: at every node and step the heat is positive. A step too long for the friction makes nodes swing
+///   from +q to −q and back, finite for ever, and friction then returns as much work as it takes: the share of heat that is
+///   negative goes to one half, where a sound pass has less than a millionth.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
 pub struct EnergyBalance {
     /// Work of the duct on the cable through friction.
     pub duct_work: f64,

@@ -1,36 +1,4 @@
 //! What the sigmoid law loses at rest.
-//!
-//! f = q tanh(b Δs/2) with Δs the slip within Δt is, for slow slip, a dashpot: f = η ṡ with the drag
-//!
-//! η = q b Δt/2 = q/v_b \[N·s/m²\],  v_b = 2/(b Δt) the reference speed.
-//!
-//! A cable at rest in a still duct therefore creeps back, η u̇ = EA u″: a diffusion that forgets every stored force. Its
-//! slowest mode, of wave number z/L, decays with
-//!
-//! τ = η L²/(z² EA),
-//!
-//! where z = atan(s₀/z) + atan(s₁/z) and s = S L/EA are the ends' stiffnesses: z = π/2 for one end fixed and one free, π
-//! for both fixed (H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids, 1959, §3.9). With both ends free that mode
-//! is a rigid motion without force, and the next one, z = π, counts.
-//!
-//! A pass lasts T: the time in which the vehicle is followed, and the two steps from rest and to it (`transient::rest`), in
-//! which the law knows no other time than Δt.
-//!
-//! Forces locked into a short stretch fade sooner: in the time T of a pass they spread by ℓ = √(EA T/η). Just after a pass
-//! the gain stands within a few depths of the ends and of the vehicle's trace, so that this length beside the duct's natural
-//! length decides, long before e^(−T/τ) is felt: measured on the 30 m scene, 67 % of the force of two passes is
-//! missing at ℓ = 6 m, 21 % at 1.9 m, 3 % at 0.6 m and 0.3 % at 0.2 m.
-//!
-//! The time step counts only in the product b Δt. Force after two passes on that scene with b = 1e8 1/m, implicit, where
-//! Coulomb's law gives 139 N:
-//!
-//! | Δt, ms | 18 | 9 | 4.5 | 2.25 |
-//! |---|---|---|---|---|
-//! | force, N | 122 | 110 | 94 | 73 |
-//!
-//! Both v_b and τ contain Δt: the law is one of the time step as much as of the cable. A short Δt leaks fast and
-//! lets the reference speed grow past the duct's own velocity, so that friction never reaches its limit; a long Δt does not
-//! resolve the passing. Clamps along the cable are left out of z: they only shorten the part that leaks.
 
 use std::f64::consts::PI;
 use std::fmt;
@@ -44,8 +12,41 @@ const VISCOUS: f64 = 0.1;
 /// Spreading length beside the duct's natural length from which the gain of a pass fades.
 const SPREAD: f64 = 0.5;
 
-/// The sigmoid's dashpot at one time step: a warning to show, when it [matters](SigmoidLeak::matters).
+/// What the sigmoid law loses at rest: a warning to show, when it [matters](SigmoidLeak::matters).
+///
+/// f = q tanh(b Δs/2) with Δs the slip within Δt is, for slow slip, a dashpot: f = η ṡ with the drag
+///
+/// η = q b Δt/2 = q/v_b \[N·s/m²\],  v_b = 2/(b Δt) the reference speed.
+///
+/// A cable at rest in a still duct therefore creeps back, η u̇ = EA u″: a diffusion that forgets every stored force. Its
+/// slowest mode, of wave number z/L, decays with
+///
+/// τ = η L²/(z² EA),
+///
+/// where z = atan(s₀/z) + atan(s₁/z) and s = S L/EA are the ends' stiffnesses: z = π/2 for one end fixed and one free, π
+/// for both fixed (H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids, 1959, §3.9). With both ends free that mode
+/// is a rigid motion without force, and the next one, z = π, counts.
+///
+/// A pass lasts T: the time in which the vehicle is followed, and the two steps from rest and to it in
+/// which the law knows no other time than Δt.
+///
+/// Forces locked into a short stretch fade sooner: in the time T of a pass they spread by ℓ = √(EA T/η). Just after a pass
+/// the gain stands within a few depths of the ends and of the vehicle's trace, so that this length beside the duct's natural
+/// length decides, long before e^(−T/τ) is felt: measured on the 30 m scene, 67 % of the force of two passes is
+/// missing at ℓ = 6 m, 21 % at 1.9 m, 3 % at 0.6 m and 0.3 % at 0.2 m.
+///
+/// The time step counts only in the product b Δt. Force after two passes on that scene with b = 1e8 1/m, implicit, where
+/// Coulomb's law gives 139 N:
+///
+/// | Δt, ms | 18 | 9 | 4.5 | 2.25 |
+/// |---|---|---|---|---|
+/// | force, N | 122 | 110 | 94 | 73 |
+///
+/// Both v_b and τ contain Δt: the answer depends on the time step as much as on the cable. A short Δt leaks fast and
+/// lets the reference speed grow past the duct's own velocity, so that friction never reaches its limit; a long Δt does not
+/// resolve the passing. Clamps along the cable are left out of z: they only shorten the part that leaks.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct SigmoidLeak {
     /// v_b = 2/(b Δt) \[m/s\]: slip below this speed is viscous.
     pub reference_speed: f64,
@@ -86,7 +87,7 @@ impl SigmoidLeak {
         })
     }
 
-    /// Whether the answer is one of the time step: more than 1 % of the stored force is lost in a pass, locked forces
+    /// Whether the answer depends on the time step: more than 1 % of the stored force is lost in a pass, locked forces
     /// spread over half the duct's natural length, or friction stays viscous (v_b above a tenth of the duct's velocity).
     pub fn matters(&self) -> bool {
         // Written so that NaN matters.

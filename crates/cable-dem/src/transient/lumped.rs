@@ -6,12 +6,8 @@
 
 use crate::ends::{Balance, EndReader};
 use crate::error::checked;
-use crate::held::HeldNode;
-use crate::quasi_static::Support;
-use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
-
-/// Share of the friction limit up to which rounding may blur equilibrium.
-const MAX_ROUNDING: f64 = 1e-3;
+use crate::step::{HeldNode, Support};
+use crate::{CableError, DuctedCable, EndForces, Mesh};
 
 /// Masses, springs and supports of one cable on one mesh.
 #[derive(Debug, Clone)]
@@ -36,17 +32,15 @@ impl Lumped {
         checked("mass_per_metre", mass_per_metre, "finite and positive", |v| {
             v > 0.0
         })?;
-        mesh.check_length(&cable)?;
-        let supports = Support::of(&cable, &mesh);
-        let held = |node: usize| supports.iter().any(|s| s.node == node && s.stiffness.is_none());
+        mesh.check_length(cable.length())?;
+        let springs = Support::of(&cable, &mesh)
+            .into_iter()
+            .filter_map(|support| Some((support.node, support.stiffness.filter(|s| *s > 0.0)?)));
         Ok(Self {
             mass_per_metre,
             stiffness: cable.axial_stiffness() / mesh.spacing(),
-            fixed: [held(0), held(mesh.elements())],
-            springs: supports
-                .iter()
-                .filter_map(|support| Some((support.node, support.stiffness.filter(|s| *s > 0.0)?)))
-                .collect(),
+            fixed: [cable.upstream(), cable.downstream()].map(|end| end.stiffness().is_none()),
+            springs: springs.collect(),
             held: HeldNode::new(&cable, &mesh),
             ends: EndReader::new(&cable, &mesh),
             cable,
@@ -59,7 +53,12 @@ impl Lumped {
         self.mass_per_metre * self.mesh.tributary_length(i)
     }
 
-    /// Half the elastic energy's bilinear form, ½ aᵀ(K + S) b \[J\].
+    /// Whether `node` is a fixed end.
+    pub fn holds(&self, node: usize) -> bool {
+        (self.fixed[0] && node == 0) || (self.fixed[1] && node == self.mesh.elements())
+    }
+
+    /// ½ uᵀ(K + S) u \[J\].
     pub fn elastic_energy(&self, u: &[f64]) -> f64 {
         let stretched: f64 = u.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
         let supported: f64 = self.springs.iter().map(|&(node, s)| s * u[node] * u[node]).sum();
@@ -68,17 +67,26 @@ impl Lumped {
 
     /// ½ Σ m v² \[J\].
     pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
-        let squares = self.weighted(v.len(), |i| v[i] * v[i]);
-        0.5 * self.mass_per_metre * squares
+        0.5 * self.mass_per_metre * self.weighted(|i| v[i] * v[i])
     }
 
     /// ½ γ Σ w f² \[J\]: energy in the contact's shear; 0 for Coulomb's law and for laws without memory.
     pub fn stored_energy(&self, f: &[f64]) -> f64 {
-        let friction = self.cable.friction();
-        if friction.limit() == 0.0 || !friction.law().has_memory() {
+        let compliance = self.elastic_compliance();
+        if compliance.is_infinite() {
             return 0.0;
         }
-        0.5 * friction.compliance() * self.weighted(f.len(), |i| f[i] * f[i])
+        0.5 * compliance * self.weighted(|i| f[i] * f[i])
+    }
+
+    /// γ \[m²/N\] of a contact that shears elastically: 0 for Coulomb's law and for laws without memory.
+    pub fn elastic_compliance(&self) -> f64 {
+        let friction = self.cable.friction();
+        if friction.law().has_memory() {
+            friction.compliance()
+        } else {
+            0.0
+        }
     }
 
     /// q·D·L \[J\]: work of friction at its limit over a displacement `peak` of the duct.
@@ -86,35 +94,15 @@ impl Lumped {
         self.cable.friction().limit() * self.cable.length() * peak
     }
 
-    /// Σ w_i value(i).
-    pub fn weighted(&self, nodes: usize, value: impl Fn(usize) -> f64) -> f64 {
-        let sum: f64 = (0..nodes).map(&value).sum();
-        self.mesh.spacing() * (sum - 0.5 * (value(0) + value(nodes - 1)))
+    /// Σ w_i value(i) over all nodes.
+    pub fn weighted(&self, value: impl Fn(usize) -> f64) -> f64 {
+        let last = self.mesh.elements();
+        let sum: f64 = (0..=last).map(&value).sum();
+        self.mesh.spacing() * (sum - 0.5 * (value(0) + value(last)))
     }
 
     /// Force on each end \[N\], compression positive, from displacement and friction of a cable that may be moving.
     pub fn end_forces(&self, u: &[f64], f: &[f64]) -> EndForces {
         self.ends.read(Balance::Moving, |i| u[i], |i| f[i])
-    }
-
-    /// Refuses a state whose elastic forces rounding would blur when displacements reach `largest` \[m\].
-    pub fn check(&self, state: &CableState, peak: f64) -> Result<(), CableError> {
-        state.check(&self.mesh)?;
-        let largest = state.displacement().iter().fold(peak, |l, u| l.max(u.abs()));
-        let share = self.rounding(largest) / self.cable.friction().limit();
-        if share <= MAX_ROUNDING {
-            Ok(())
-        } else {
-            Err(CableError::Precision {
-                share,
-                axial_stiffness: self.cable.axial_stiffness(),
-                spacing: self.mesh.spacing(),
-            })
-        }
-    }
-
-    /// Rounding error of a node's elastic force per metre \[N/m\].
-    pub fn rounding(&self, largest: f64) -> f64 {
-        4.0 * f64::EPSILON * self.stiffness / self.mesh.spacing() * largest
     }
 }

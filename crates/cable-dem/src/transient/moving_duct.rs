@@ -1,12 +1,4 @@
 //! The motion of the duct in time: a fixed shape that travels along the cable.
-//!
-//! At time t the duct at node i stands at D_i(t) = D(i h − x_v(t)), x_v the vehicle's position. The shape is tabulated on a
-//! lattice that divides the node spacing h into M parts, and read by cubic Hermite interpolation: all nodes then lie at
-//! the same fraction θ between two lattice points, and those M apart stand side by side in memory, so that one step
-//! reads four contiguous rows with the same four weights.
-//!
-//! Slopes are fourth-order differences of the values: the interpolation error is s⁴/384 · max|D⁗| plus slopes' errors of
-//! the same order, s the lattice step: below 1e-7 of the peak for s = 20 mm in a duct 1.2 m deep.
 
 use ground_field::{Direction, DuctMotion};
 
@@ -22,13 +14,17 @@ const MAX_POINTS: f64 = 4e7;
 /// A duct whose displacement travels along it with a vehicle, tabulated for one mesh.
 ///
 /// Depends on the mesh and the vehicle, not on the cable's state: made once, used for every pass.
+///
+/// At time t the duct at node i stands at D_i(t) = D(i h − x_v(t)), x_v the vehicle's position. The shape is tabulated on a
+/// lattice that divides the node spacing h into M parts, and read by cubic Hermite interpolation: all nodes then lie at
+/// the same fraction θ between two lattice points, and those M apart stand side by side in memory, so that one step
+/// reads four contiguous rows with the same four weights. Slopes are fourth-order differences of the values: the error is
+/// s⁴/384 · max|D⁗| and more of that order, s the lattice step: below 1e-7 of the peak for s = 20 mm in a duct 1.2 m deep.
 #[derive(Debug, Clone)]
 pub struct MovingDuct {
     direction: Direction,
     speed: f64,
     mesh: Mesh,
-    /// Length of the duct \[m\].
-    length: f64,
     approach: f64,
     /// Rows by phase: the lattice points p, p + M, p + 2M, …
     rows: Vec<Row>,
@@ -54,15 +50,13 @@ pub(crate) struct Instant<'a> {
 }
 
 impl MovingDuct {
-    /// The duct of `cable` with nodes as in `mesh`, under a vehicle whose duct motion is `motion`.
+    /// The duct of `cable` with nodes as in `mesh`, under a vehicle whose duct motion is `motion`; see [`crate::Dynamic::passage`].
     ///
-    /// The vehicle's origin is followed from `approach` \[m\] before the duct to `approach` past it; before and after that the
-    /// ground is at rest, as in [`crate::Passage`].
+    /// The vehicle is followed as in [`crate::Passage::new`].
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m, the motion is finite and the
-    /// table has at most 4e7 points; [`CableError::OutOfReach`] and [`CableError::CoarseMesh`] as for [`crate::Passage::new`].
+    /// As for [`crate::Passage::new`], and [`CableError::InvalidParameter`] for a table of more than 4e7 points.
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,
@@ -99,7 +93,7 @@ impl MovingDuct {
     ) -> Result<Self, CableError> {
         let (direction, approach) = (course.direction, course.approach);
         checked("speed", speed, "finite and positive", |v| v > 0.0)?;
-        mesh.check_length(cable)?;
+        mesh.check_length(cable.length())?;
         let h = mesh.spacing();
         let phases = (h / LATTICE_STEP).ceil().max(1.0);
         let step = h / phases;
@@ -114,15 +108,12 @@ impl MovingDuct {
         let origin = before * h;
 
         // Along x, whichever way the vehicle drives; two points more on both sides, for the slopes.
-        let first = -(before as i64 * phases as i64) - 2;
-        let count = (phases * per_row + 4) as i64;
-        let values = match direction {
-            Direction::Forward => course.tabulate(first..first + count, step)?,
-            Direction::Reverse => {
-                let ahead = course.tabulate(1 - first - count..1 - first, step)?;
-                ahead.into_iter().rev().map(|d| -d).collect()
-            }
-        };
+        let sign = direction.sign();
+        let points = (0..phases * per_row + 4).map(|j| sign * (step * (j as f64 - 2.0) - origin));
+        let mut values = course.tabulate(points)?;
+        for value in &mut values {
+            *value *= sign;
+        }
         let peak = values.iter().fold(0.0_f64, |peak, d| peak.max(d.abs()));
         let slope = |j: usize| (8.0 * (values[j + 3] - values[j + 1]) - (values[j + 4] - values[j])) / 12.0;
         let steepest = (0..phases * per_row).fold(0.0_f64, |most, j| most.max(slope(j).abs())) / step;
@@ -139,7 +130,6 @@ impl MovingDuct {
             direction,
             speed,
             mesh: *mesh,
-            length,
             approach,
             rows,
             origin,
@@ -161,7 +151,7 @@ impl MovingDuct {
 
     /// Duration of one pass \[s\]: over the duct and both approaches.
     pub fn duration(&self) -> f64 {
-        (self.length + 2.0 * self.approach) / self.speed
+        (self.mesh.length() + 2.0 * self.approach) / self.speed
     }
 
     /// Largest displacement of the duct \[m\].
@@ -202,7 +192,7 @@ impl MovingDuct {
     pub(crate) fn vehicle_position(&self, t: f64) -> f64 {
         match self.direction {
             Direction::Forward => self.speed * t - self.approach,
-            Direction::Reverse => self.length + self.approach - self.speed * t,
+            Direction::Reverse => self.mesh.length() + self.approach - self.speed * t,
         }
     }
 

@@ -12,74 +12,45 @@
 //! within the step. So long a step as the return of the duct's whole tail may then rub at the limit: what the law had left when
 //! the vehicle was gone is [`crate::TransientOutcome::force_before_rest`].
 
-use super::sigmoid::SigmoidSolver;
-use super::step::{StepSolver, tolerance};
-use super::{Lumped, MovingDuct};
+use super::implicit::Implicit;
+use super::lumped::Lumped;
+use super::moving_duct::MovingDuct;
+use crate::step::largest;
 use crate::{CableError, CableState, Statistics};
 
 /// Takes the cable from rest to the start of a pass, and from its end to rest; see the module's text.
 #[derive(Debug, Clone)]
 pub(crate) struct Settler {
-    solver: Solver,
+    solver: Implicit,
     /// How far each node's duct moves \[m\].
     increment: Vec<f64>,
     friction: Vec<f64>,
 }
 
-#[derive(Debug, Clone)]
-enum Solver {
-    Memory(Box<StepSolver>),
-    Sigmoid(Box<SigmoidSolver>),
+/// Which way the ground moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Ground {
+    /// From rest to the vehicle's first position.
+    Arrives,
+    /// From the vehicle's last position back to rest.
+    Leaves,
 }
 
 impl Settler {
     pub fn new(lumped: &Lumped) -> Self {
-        let solver = if lumped.cable.friction().law().has_memory() {
-            Solver::Memory(Box::new(StepSolver::new(lumped, 0.0)))
-        } else {
-            Solver::Sigmoid(Box::new(SigmoidSolver::new(lumped, 0.0)))
-        };
         Self {
-            solver,
+            solver: Implicit::new(lumped, 0.0),
             increment: vec![0.0; lumped.mesh.nodes()],
             friction: vec![0.0; lumped.mesh.nodes()],
         }
     }
 
-    /// The ground moves from rest to the vehicle's first position. Heat of the slip \[J\].
-    pub fn arrive(
+    /// One step of the cable after the ground. Returns the heat of the slip \[J\].
+    pub fn follow(
         &mut self,
+        ground: Ground,
         lumped: &Lumped,
         duct: &MovingDuct,
-        state: &mut CableState,
-        statistics: &mut Statistics,
-    ) -> Result<f64, CableError> {
-        duct.displacement(0.0, &mut self.increment);
-        self.follow(lumped, duct, 0.0, state, statistics)
-    }
-
-    /// The ground moves from the vehicle's last position back to rest. Heat of the slip \[J\].
-    pub fn leave(
-        &mut self,
-        lumped: &Lumped,
-        duct: &MovingDuct,
-        state: &mut CableState,
-        statistics: &mut Statistics,
-    ) -> Result<f64, CableError> {
-        let end = duct.duration();
-        duct.displacement(end, &mut self.increment);
-        for increment in &mut self.increment {
-            *increment = -*increment;
-        }
-        self.follow(lumped, duct, end, state, statistics)
-    }
-
-    /// One step by the increments of the duct; `time` \[s\] is only reported on failure, as the vehicle's position.
-    fn follow(
-        &mut self,
-        lumped: &Lumped,
-        duct: &MovingDuct,
-        time: f64,
         state: &mut CableState,
         statistics: &mut Statistics,
     ) -> Result<f64, CableError> {
@@ -88,39 +59,31 @@ impl Settler {
             increment,
             friction,
         } = self;
-        let largest = state.displacement.iter().fold(duct.peak(), |l, u| l.max(u.abs()));
-        let tolerance = tolerance(lumped, largest);
-        friction.copy_from_slice(&state.friction);
-        let solved = match solver {
-            Solver::Memory(solver) => {
-                solver.load_elastic(lumped, &state.displacement);
-                solver
-                    .solve(lumped, tolerance, increment, friction, statistics)
-                    .map(|()| solver.increments())
-            }
-            Solver::Sigmoid(solver) => {
-                solver.start();
-                solver.inner.load_elastic(lumped, &state.displacement);
-                solver.solve(lumped, tolerance, increment, friction, statistics)
-            }
+        let (time, sign) = match ground {
+            Ground::Arrives => (0.0, 1.0),
+            Ground::Leaves => (duct.duration(), -1.0),
         };
-        let moved = solved.map_err(|violation| CableError::NoConvergence {
+        duct.displacement(time, increment);
+        for increment in increment.iter_mut() {
+            *increment *= sign;
+        }
+        friction.copy_from_slice(&state.friction);
+        solver.start(largest(&state.displacement, duct.peak()));
+        solver.load_elastic(lumped, &state.displacement);
+        let moved = solver.solve(lumped, increment, friction);
+        let moved = moved.map_err(|violation| CableError::NoConvergence {
             vehicle_position: duct.vehicle_position(time),
             violation,
         })?;
-        let law = lumped.cable.friction();
-        let compliance = if law.law().has_memory() {
-            law.compliance()
-        } else {
-            0.0
-        };
-        let heat = lumped.weighted(moved.len(), |i| {
+        let compliance = lumped.elastic_compliance();
+        let heat = lumped.weighted(|i| {
             friction[i] * (increment[i] - moved[i] - compliance * (friction[i] - state.friction[i]))
         });
         for (u, r) in state.displacement.iter_mut().zip(moved) {
             *u += r;
         }
         state.friction.copy_from_slice(friction);
+        *statistics += solver.statistics();
         Ok(heat)
     }
 }

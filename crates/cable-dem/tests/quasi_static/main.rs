@@ -10,6 +10,7 @@ mod end_clamps;
 mod friction_symmetry;
 mod full_newton;
 mod reference;
+mod refusals;
 mod robustness;
 mod scenes;
 mod slow_turn;

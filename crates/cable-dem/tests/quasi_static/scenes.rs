@@ -4,7 +4,7 @@ use boussinesq::HalfSpace;
 use cable_dem::{
     CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic,
 };
-use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
+use ground_field::{Direction, DuctMotion};
 
 /// Distance beyond the duct's ends from which vehicles come \[m\].
 pub const APPROACH: f64 = 15.0;
@@ -22,10 +22,8 @@ pub fn reference_motion() -> DuctMotion {
 
 /// [`reference_motion`] of a truck at `speed` \[m/s\].
 pub fn reference_motion_at_speed(speed: f64) -> DuctMotion {
-    let ground = HalfSpace::new(Soil::new(800e6, 0.4).expect("a valid soil"));
-    let truck = Vehicle::point("truck", 196_133.0, speed).expect("a valid vehicle");
-    let line = DuctLine::new(1.2, 0.0).expect("a valid line");
-    DuctMotion::new(&ground, &truck, line, 400.0, 1e-10).expect("a smooth field")
+    let ground = HalfSpace::new(testkit::soil(800e6, 0.4));
+    testkit::truck(&ground, speed).expect("a smooth field")
 }
 
 /// The passage of `motion` on whatever mesh, also one too coarse to say anything of the duct.
@@ -89,12 +87,8 @@ impl Run {
 
     /// One pass; `observe` sees the vehicle's position \[m\] and the cable at each of them.
     pub fn watch(&mut self, passage: &Passage, mut observe: impl FnMut(f64, &CableState)) -> PassOutcome {
-        let mesh = *self.solver.mesh();
         let watched = self.solver.pass_observed(passage, &mut self.state, |view| {
-            let displacement = (0..mesh.nodes()).map(|node| view.displacement(node)).collect();
-            let friction = (0..mesh.nodes()).map(|node| view.friction(node)).collect();
-            let cable = CableState::from_parts(&mesh, displacement, friction).expect("a finite state");
-            observe(view.vehicle_position(), &cable);
+            observe(view.vehicle_position(), &view.state());
         });
         watched.expect("an equilibrium")
     }

@@ -101,8 +101,9 @@ fn without_inertia(problem: &Problem, traffic: &[usize]) -> Result<(Vec<f64>, f6
         } = &drives[drive];
         let passage = Passage::from_shape(cable, mesh, *direction, &**shape, *approach)?;
         solver.pass_observed(&passage, &mut state, |view| {
-            let forces = (0..mesh.elements()).map(|element| view.element_force(element).abs());
-            largest = forces.fold(largest, f64::max);
+            let state = view.state();
+            let forces = state.element_forces(cable).expect("the cable's length");
+            largest = forces.fold(largest, |largest, force| largest.max(force.abs()));
         })?;
     }
     Ok((forces(problem, &state), largest))

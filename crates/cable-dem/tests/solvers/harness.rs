@@ -7,7 +7,7 @@ use cable_dem::{
     CableError, CableState, DuctedCable, Dynamic, EndForces, EnergyBalance, Explicit, ExplicitOptions,
     FrictionLaw, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic,
 };
-use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
+use ground_field::Direction;
 
 pub type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -31,9 +31,7 @@ pub fn sheathed(limit: f64) -> FrictionLaw {
 
 /// The duct 1.2 m below a load of 20 tf on ground of 800 MPa, ν = 0.4, at 40 km/h.
 pub fn truck() -> Result<Drive, Box<dyn std::error::Error>> {
-    let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
-    let vehicle = Vehicle::point("truck", 196_133.0, SPEED)?;
-    let motion = DuctMotion::new(&ground, &vehicle, DuctLine::new(1.2, 0.0)?, 100.0, 1e-10)?;
+    let motion = testkit::truck(&HalfSpace::new(testkit::soil(800e6, 0.4)), SPEED)?;
     Ok(Drive::new(SPEED, APPROACH, move |xi| motion.longitudinal(xi)))
 }
 
@@ -180,12 +178,10 @@ impl Run {
     pub fn pass(&mut self, drive: usize) -> Result<Pass, CableError> {
         let transient = match &mut self.solver {
             Solver::QuasiStatic(solver, passages) => {
-                let (cable, mesh) = (solver.cable().clone(), *solver.mesh());
+                let cable = solver.cable().clone();
                 let mut last = self.state.clone();
                 let outcome = solver.pass_observed(&passages[drive], &mut self.state, |view| {
-                    let displacement = (0..mesh.nodes()).map(|i| view.displacement(i)).collect();
-                    let friction = (0..mesh.nodes()).map(|i| view.friction(i)).collect();
-                    last = CableState::from_parts(&mesh, displacement, friction).expect("a finite state");
+                    last = view.state();
                 })?;
                 return Ok(Pass {
                     outcome,

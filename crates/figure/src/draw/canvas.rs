@@ -101,11 +101,8 @@ impl Canvas {
 
     /// A line through points.
     pub fn line(&mut self, points: &[Point], stroke: Stroke) {
-        self.shape(
-            "polyline",
-            points,
-            &format!("fill=\"none\" {}", stroke.attributes()),
-        );
+        let style = format!("fill=\"none\" {}", stroke.attributes());
+        self.shape("polyline", points, &style);
     }
 
     /// A filled polygon; `opacity` in \[0, 1\].

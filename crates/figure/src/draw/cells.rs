@@ -24,7 +24,7 @@ pub struct Bar<'a> {
 }
 
 impl<'a> Bar<'a> {
-    /// The bar with about so many `ticks`; classes have none.
+    /// The bar with about this many `ticks`; classes have none.
     pub fn new(cells: &'a Cells, ticks: usize) -> Result<Option<Self>, FigureError> {
         let Cells::Values(axis, cells) = cells else {
             return Ok(None);

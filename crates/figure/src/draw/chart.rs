@@ -18,10 +18,8 @@ const INDENT: f64 = 24.0;
 const LEFT: f64 = 90.0;
 
 pub fn draw(chart: &Chart, canvas: &mut Canvas, outer: Rect) -> Result<(), FigureError> {
-    let series = chart.series.iter().enumerate();
-    let shown: Vec<Shown> = series
-        .map(|(k, series)| Shown::new(series, k, chart.cells.is_some()))
-        .collect();
+    let shown = |(k, series)| Shown::new(series, k, chart.cells.is_some());
+    let shown: Vec<Shown> = chart.series.iter().enumerate().map(shown).collect();
     let classes = match &chart.cells {
         Some(Cells::Classes(classes, _)) => classes.as_slice(),
         _ => &[],
@@ -30,7 +28,7 @@ pub fn draw(chart: &Chart, canvas: &mut Canvas, outer: Rect) -> Result<(), Figur
     let legend = Legend::new(classes, &shown, outer.width() - 2.0 * INDENT)?;
     let inner = Rect {
         top: outer.top + heading.height(),
-        bottom: outer.bottom - legend.height(),
+        bottom: outer.bottom - legend.height,
         ..outer
     };
     let up = ticks(inner.height() - BELOW, 50.0);

@@ -19,7 +19,7 @@ const SMALLEST: f64 = 50.0;
 /// Axes and ticks.
 pub const AXIS: Stroke = Stroke::solid(INK, 1.2);
 
-/// Points beyond so many frames are taken to stand there, so that lengths stay finite.
+/// Points farther out than this many frames are drawn there, so that lengths stay finite.
 const FAR: f64 = 1e9;
 
 /// The scales of both axes, and the plot's place.
@@ -81,7 +81,7 @@ impl Frame {
             canvas.text(label, (x - 2.0 * TICK, y), "end");
         }
         let centre = plot.centre();
-        canvas.text(x_label, (centre.0, outer.bottom - 0.5 * TEXT), "middle");
+        canvas.text(x_label, (centre.0, outer.bottom - 0.75 * TEXT), "middle");
         canvas.upward(y_label, (outer.left + GAP + 0.5 * TEXT, centre.1));
         Ok(frame)
     }
@@ -122,11 +122,8 @@ impl Frame {
 fn labels_fit(scale: &Scale, length: f64, size: impl Fn(&str) -> f64) -> Result<(), FigureError> {
     for pair in scale.ticks.windows(2) {
         let room = (scale.share(pair[1].value) - scale.share(pair[0].value)) * length;
-        check_room(
-            &pair[1].label,
-            0.5 * (size(&pair[0].label) + size(&pair[1].label)),
-            room,
-        )?;
+        let needed = 0.5 * (size(&pair[0].label) + size(&pair[1].label));
+        check_room(&pair[1].label, needed, room)?;
     }
     Ok(())
 }

@@ -36,11 +36,8 @@ impl Heading {
 
     /// Height of its lines \[px\], nothing for an empty title.
     pub fn height(&self) -> f64 {
-        if self.lines.is_empty() {
-            0.0
-        } else {
-            LINE * self.lines.len() as f64 + PADDING
-        }
+        let height = LINE * self.lines.len() as f64 + PADDING;
+        if self.lines.is_empty() { 0.0 } else { height }
     }
 
     pub fn draw(&self, canvas: &mut Canvas, (left, top): Point) {

@@ -23,7 +23,8 @@ enum Sample<'a> {
 pub struct Legend<'a> {
     /// Sample, name, and place from the legend's left and top \[px\].
     entries: Vec<(Sample<'a>, &'a String, Point)>,
-    height: f64,
+    /// Height of all rows \[px\].
+    pub height: f64,
 }
 
 impl<'a> Legend<'a> {
@@ -33,13 +34,8 @@ impl<'a> Legend<'a> {
     ///
     /// [`FigureError::NoRoom`] for a name wider than that.
     pub fn new(classes: &'a [String], series: &'a [Shown<'a>], width: f64) -> Result<Self, FigureError> {
-        let classes = classes
-            .iter()
-            .enumerate()
-            .map(|(k, name)| (Sample::Class(k), name));
-        let series = series
-            .iter()
-            .map(|shown| (Sample::Series(shown), &shown.series.name));
+        let classes = (0..).map(Sample::Class).zip(classes);
+        let series = series.iter().map(|s| (Sample::Series(s), &s.series.name));
         let named = classes.chain(series).filter(|(_, name)| !name.is_empty());
         let (mut x, mut row) = (0.0, 0.0);
         let mut entries = Vec::new();
@@ -52,17 +48,9 @@ impl<'a> Legend<'a> {
             entries.push((sample, name, (x, PADDING + ROW * (row + 0.5))));
             x += needed + BETWEEN;
         }
-        let height = if entries.is_empty() {
-            0.0
-        } else {
-            ROW * (row + 1.0) + 2.0 * PADDING
-        };
+        let height = ROW * (row + 1.0) + 2.0 * PADDING;
+        let height = if entries.is_empty() { 0.0 } else { height };
         Ok(Self { entries, height })
-    }
-
-    /// Height of all rows \[px\].
-    pub fn height(&self) -> f64 {
-        self.height
     }
 
     pub fn draw(&self, canvas: &mut Canvas, (left, top): Point) {

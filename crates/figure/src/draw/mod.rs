@@ -55,13 +55,9 @@ impl Panels {
         let mut canvas = Canvas::new(&titles.join("; "), (whole, top + height * rows as f64));
         heading.draw(&mut canvas, (0.0, 0.0));
         for (k, chart) in self.charts.iter().enumerate() {
-            let (left, above) = ((k % columns) as f64 * width, top + (k / columns) as f64 * height);
-            let outer = Rect {
-                left,
-                top: above,
-                right: left + width,
-                bottom: above + height,
-            };
+            let (column, row) = ((k % columns) as f64, (k / columns) as f64);
+            let centre = ((column + 0.5) * width, top + (row + 0.5) * height);
+            let outer = Rect::around(centre, 0.5 * width, 0.5 * height);
             chart::draw(chart, &mut canvas, outer)?;
         }
         Ok(canvas.finish())

@@ -5,7 +5,7 @@ use super::frame::Frame;
 use super::series::clip;
 use super::text::{TEXT, check_room, text_width};
 use crate::error::FigureError;
-use crate::palette::{Colour, GREY, INK, PALETTE};
+use crate::palette::{Colour, INK};
 use crate::series::{Along, Kind, Reference, Series};
 
 /// Room between a text and the borders of the plot \[px\].
@@ -35,23 +35,16 @@ fn place(frame: &Frame, reference: &Reference) -> Option<Rect> {
     (inside.left <= inside.right && inside.top <= inside.bottom).then_some(inside)
 }
 
-fn colour(reference: &Reference) -> Colour {
-    reference.colour.map_or(GREY, |k| PALETTE[k % PALETTE.len()])
-}
-
 /// Draws the line or band.
 pub fn draw(canvas: &mut Canvas, frame: &Frame, reference: &Reference) {
     let Some(rect) = place(frame, reference) else {
         return;
     };
-    let colour = colour(reference);
+    let colour = reference.colour;
     if reference.is_line() {
-        let dashed = Stroke {
-            colour,
-            width: 1.3,
-            dash: &[6.0, 4.0],
-        };
-        canvas.line(&[(rect.left, rect.top), (rect.right, rect.bottom)], dashed);
+        let (width, dash) = (1.3, &[6.0, 4.0]);
+        let ends = [(rect.left, rect.top), (rect.right, rect.bottom)];
+        canvas.line(&ends, Stroke { colour, width, dash });
     } else {
         canvas.rectangle(rect, colour, 0.15);
     }
@@ -81,21 +74,15 @@ pub fn draw_label(
             [high, bottom, low, above].map(|y| (rect.centre().0, y))
         }
     };
-    let hidden = |place: &Point| {
+    let hidden = |place: &Point| -> usize {
         let ground = Rect::around(moved_inside(plot, *place, half), half, 0.75 * TEXT);
-        series
-            .iter()
-            .map(|series| hidden_by(frame, ground, series))
-            .sum::<usize>()
+        series.iter().map(|series| hidden_by(frame, ground, series)).sum()
     };
     // The first of the best.
     let best = places.into_iter().min_by_key(hidden).unwrap_or(places[0]);
     // A light colour does for a band, not for a text.
-    let colour = if reference.is_line() {
-        colour(reference)
-    } else {
-        INK
-    };
+    let line = reference.is_line();
+    let colour = if line { reference.colour } else { INK };
     draw_text(canvas, plot, &reference.label, best, colour)
 }
 

@@ -44,53 +44,37 @@ impl<'a> Shown<'a> {
     /// Draws the series, cut off at the frame.
     pub fn draw(&self, canvas: &mut Canvas, frame: &Frame) {
         let plot = frame.plot;
-        let points: Vec<Point> = self.series.points.iter().map(|point| frame.at(*point)).collect();
-        if self.series.kind != Kind::Points {
-            let parts = inside(&points, plot);
-            if self.series.kind == Kind::Area {
-                // On a logarithmic axis zero lies infinitely far down.
-                let zero = frame.y(0.0).clamp(plot.top, plot.bottom);
-                for part in &parts {
-                    let ends = [(part[part.len() - 1].0, zero), (part[0].0, zero)];
-                    canvas.area(&[part, &ends[..]].concat(), self.line.colour, SHADE);
-                }
-            }
-            for part in &parts {
-                if self.halo {
-                    canvas.line(part, Stroke::solid(WHITE, 2.5 * LINE_WIDTH));
-                }
-                canvas.line(part, self.line);
-            }
-        }
-        if self.has_markers() {
-            for point in points.into_iter().filter(|point| plot.holds(*point)) {
-                mark::marker(canvas, self.marker, point, self.line.colour);
-            }
-        }
+        let mut points: Vec<Point> = self.series.points.iter().map(|point| frame.at(*point)).collect();
+        let parts = inside(&points, plot);
+        // On a logarithmic axis zero lies infinitely far down.
+        let zero = frame.y(0.0).clamp(plot.top, plot.bottom);
+        points.retain(|point| plot.holds(*point));
+        self.draw_parts(canvas, &parts, zero, &points);
     }
 
     /// What the legend shows of it, `width` \[px\] wide from `(x, y)` on.
     pub fn draw_sample(&self, canvas: &mut Canvas, (x, y): Point, width: f64) {
-        let right = x + width;
-        if self.series.kind == Kind::Area {
-            let ground = Rect {
-                left: x,
-                right,
-                top: y,
-                bottom: y + 8.0,
-            };
-            canvas.rectangle(ground, self.line.colour, SHADE);
-        }
-        if self.series.kind != Kind::Points {
-            canvas.line(&[(x, y), (right, y)], self.line);
-        }
-        if self.has_markers() {
-            mark::marker(canvas, self.marker, (0.5 * (x + right), y), self.line.colour);
-        }
+        let line = vec![(x, y), (x + width, y)];
+        self.draw_parts(canvas, &[line], y + 8.0, &[(x + 0.5 * width, y)]);
     }
 
-    fn has_markers(&self) -> bool {
-        matches!(self.series.kind, Kind::Points | Kind::LinePoints)
+    /// Draws what the kind of series has: areas between parts of the line and `zero` \[px\], these parts, markers at the points.
+    fn draw_parts(&self, canvas: &mut Canvas, parts: &[Vec<Point>], zero: f64, points: &[Point]) {
+        let (kind, colour) = (self.series.kind, self.line.colour);
+        for part in parts.iter().filter(|_| kind == Kind::Area) {
+            let ends = [(part[part.len() - 1].0, zero), (part[0].0, zero)];
+            canvas.area(&[part, &ends[..]].concat(), colour, SHADE);
+        }
+        for part in parts.iter().filter(|_| kind != Kind::Points) {
+            if self.halo {
+                canvas.line(part, Stroke::solid(WHITE, 2.5 * LINE_WIDTH));
+            }
+            canvas.line(part, self.line);
+        }
+        let has_markers = matches!(kind, Kind::Points | Kind::LinePoints);
+        for point in points.iter().filter(|_| has_markers) {
+            mark::marker(canvas, self.marker, *point, colour);
+        }
     }
 }
 

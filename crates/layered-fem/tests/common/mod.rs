@@ -26,12 +26,12 @@ pub type Table = BTreeMap<String, BTreeMap<u64, Vec<Point>>>;
 
 /// Soil from `MPa`.
 pub fn soil(young_modulus: f64, poisson_ratio: f64) -> Soil {
-    Soil::new(young_modulus * 1e6, poisson_ratio).unwrap()
+    testkit::soil(young_modulus * 1e6, poisson_ratio)
 }
 
 /// Uniform layer from metres and `MPa`.
 pub fn layer(thickness: f64, young_modulus: f64, poisson_ratio: f64) -> SoilLayer {
-    SoilLayer::uniform(thickness, soil(young_modulus, poisson_ratio)).unwrap()
+    testkit::layer(thickness, soil(young_modulus, poisson_ratio))
 }
 
 /// Layer with linear modulus from metres and `MPa`.
@@ -96,7 +96,7 @@ fn disc(radius: f64, pressure: f64) -> SurfaceLoad {
 /// The systems of the shared tables.
 pub fn shared_case(name: &str) -> Option<Case> {
     let road = 2.77471435141713;
-    let point = SurfaceLoad::point(196_133.0).unwrap();
+    let point = SurfaceLoad::point(testkit::TRUCK).unwrap();
     let (profile, load) = match name {
         "hs1" => (on_soil(vec![], 100.0, 0.35), disc(0.15, 0.7)),
         "hs2" => (on_soil(vec![], 40.0, 0.5), disc(0.15, 0.7)),

@@ -1,12 +1,10 @@
 //! The explicit solver: against the others, its step limits, and the watch on its energy.
 
-mod common;
-
+use crate::common::{EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, relative, truck};
 use approx::assert_relative_eq;
 use cable_dem::{
     CableError, CableState, DuctedCable, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh, MovingDuct,
 };
-use common::{EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, relative, truck};
 use ground_field::Direction;
 
 #[test]

@@ -1,12 +1,10 @@
 //! Whatever the numbers: an answer or an error, never a panic. And the rule for meshes, with its errors.
 
-mod common;
-
+use crate::common::{APPROACH, EA, LIMIT, Outcome, STIFF_SHEATH, truck};
 use cable_dem::{
     CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, MovingDuct, Order, Passage,
     QuasiStatic, Restraint, Traffic, inertia_ratio,
 };
-use common::{APPROACH, EA, LIMIT, Outcome, STIFF_SHEATH, truck};
 use ground_field::Direction;
 use proptest::prelude::*;
 

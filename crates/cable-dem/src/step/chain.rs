@@ -1,6 +1,6 @@
 //! One implicit step on a stretch of the chain: the problem, and the check that an answer solves it.
 //!
-//! Unknown are the displacements r (in the adherent frame, see [`super::passage`]) of the nodes of one stretch. With K
+//! Unknown are the displacements r (in the adherent frame, see `quasi_static::passage`) of the nodes of one stretch. With K
 //! the chain's stiffness, s the supports' and p their loads, the step minimises the strictly convex energy
 //!
 //! ½ rᵀ(K + s) r − pᵀr + Σ w_i Φ_i(r_i),
@@ -8,6 +8,9 @@
 //! where −Φ′ = g = clamp((anchor − r)/γ, lower, upper) is the friction. Each node is in one of three [`Contact`] states,
 //! and once these are known r follows from a linear system. An answer is right exactly when every stuck node's friction
 //! lies within its bounds and every slipping node has slipped the way its friction points.
+
+use super::support::Support;
+use crate::{DuctedCable, Mesh};
 
 /// State of the contact between one node and the duct.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,6 +38,12 @@ pub(crate) struct Chain {
     pub compliance: f64,
     /// Friction limit q \[N/m\].
     pub limit: f64,
+    /// The unknown nodes: all but fixed ends.
+    pub free: Stretch,
+    /// Whether the diagonal holds a mass at every node.
+    pub has_inertia: bool,
+    /// Rounding error of a node's force per metre \[N/m\], for each metre of displacement.
+    pub rounding: f64,
 }
 
 /// A stretch lo..=hi of unknown nodes between neighbours that are held.
@@ -53,6 +62,8 @@ pub(crate) struct Load<'a> {
     pub support: &'a [f64],
     /// r + γ g before the step: where the duct holds the sheath \[m\].
     pub anchor: &'a [f64],
+    /// Friction before the step \[N/m\]; the answer does not depend on it but for the anchor.
+    pub friction: &'a [f64],
 }
 
 /// A trial answer, over all nodes; outside the stretch being solved `r` holds the neighbours' values.
@@ -66,16 +77,66 @@ pub(crate) struct Trial {
     pub contact: Vec<Contact>,
 }
 
-/// How exactly a step's answer must hold.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Tolerance {
-    /// On friction and equilibrium \[N/m\].
-    pub friction: f64,
-    /// On slip \[m\].
-    pub slip: f64,
+impl Stretch {
+    pub fn nodes(self) -> std::ops::RangeInclusive<usize> {
+        self.lo..=self.hi
+    }
+
+    pub fn len(self) -> usize {
+        self.hi + 1 - self.lo
+    }
+}
+
+impl Trial {
+    /// At rest and stuck.
+    pub fn new(nodes: usize) -> Self {
+        Self {
+            r: vec![0.0; nodes],
+            g: vec![0.0; nodes],
+            contact: vec![Contact::Stuck; nodes],
+        }
+    }
 }
 
 impl Chain {
+    /// `cable` on `mesh`, with a mass term of `inertia` \[N/m²\] per metre on the diagonal; 0 without inertia.
+    pub fn new(cable: &DuctedCable, mesh: &Mesh, inertia: f64) -> Self {
+        let last = mesh.elements();
+        let stiffness = cable.axial_stiffness() / mesh.spacing();
+        let compliance = cable.friction().compliance();
+        let tributary: Vec<f64> = (0..=last).map(|i| mesh.tributary_length(i)).collect();
+        let mut diagonal: Vec<f64> = tributary.iter().map(|w| 2.0 + inertia * w / stiffness).collect();
+        diagonal[0] -= 1.0;
+        diagonal[last] -= 1.0;
+        let mut free = Stretch { lo: 0, hi: last };
+        let mut stiffest = 0.0_f64;
+        for Support {
+            node,
+            stiffness: spring,
+        } in Support::of(cable, mesh)
+        {
+            match spring {
+                Some(spring) => {
+                    diagonal[node] += spring / stiffness;
+                    stiffest = stiffest.max(rounding(spring, tributary[node]));
+                }
+                None if node == 0 => free.lo = 1,
+                None => free.hi = last - 1,
+            }
+        }
+        Self {
+            softness: tributary.iter().map(|w| compliance * stiffness / w).collect(),
+            rounding: rounding(stiffness, mesh.spacing()) + stiffest,
+            stiffness,
+            diagonal,
+            tributary,
+            compliance,
+            limit: cable.friction().limit(),
+            has_inertia: inertia > 0.0,
+            free,
+        }
+    }
+
     /// Gives the contact another shear compliance \[m²/N\].
     pub fn soften(&mut self, compliance: f64) {
         self.compliance = compliance;
@@ -99,4 +160,10 @@ impl Chain {
         let right = r.get(i + 1).copied().unwrap_or(0.0);
         (self.stiffness * (self.diagonal[i] * r[i] - left - right) - support[i]) / self.tributary[i]
     }
+}
+
+/// Rounding error of a force per metre of node \[N/m\] for each metre of displacement, where springs of `stiffness` \[N/m\] act on a node
+/// of length `tributary` \[m\].
+pub(super) fn rounding(stiffness: f64, tributary: f64) -> f64 {
+    4.0 * f64::EPSILON * stiffness / tributary
 }

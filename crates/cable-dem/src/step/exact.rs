@@ -97,7 +97,7 @@ mod tests {
     //! hold give one and the same displacement, and both ways of solving a step must find it.
 
     use super::super::active_set::{Elimination, Outcome};
-    use super::super::chain::{Tolerance, Trial};
+    use super::super::tolerance::Tolerance;
     use super::*;
     use proptest::prelude::*;
 
@@ -132,6 +132,9 @@ mod tests {
                 tributary,
                 compliance: self.compliance,
                 limit: 1.0,
+                free: self.stretch(),
+                has_inertia: false,
+                rounding: 0.0,
             }
         }
 
@@ -296,6 +299,7 @@ mod tests {
             adhesion: &adhesion,
             support: &support,
             anchor: &anchor,
+            friction: &[],
         };
         let mut trial = smooth.trial(&smooth.guess);
         let touched = contacts(&smooth.chain(), &load, smooth.stretch(), &mut trial);
@@ -337,7 +341,7 @@ mod tests {
                 step.column(|node| node.3),
                 step.column(|node| node.0),
             );
-            let load = Load { adhesion: &adhesion, support: &support, anchor: &anchor };
+            let load = Load { adhesion: &adhesion, support: &support, anchor: &anchor, friction: &[] };
             let stretch = step.stretch();
             let answers = step.answers(&chain);
             if step.is_held() {

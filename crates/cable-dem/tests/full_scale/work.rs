@@ -3,14 +3,12 @@
 //!
 //! Every bound is what the method must need on the scene, with a margin of a tenth to a quarter, and the reason beside it.
 
-mod common;
-
 use std::cell::Cell;
 
+use crate::common::{APPROACH, EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, truck};
 use cable_dem::{
     DuctedCable, End, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh, MovingDuct, Passage, Statistics,
 };
-use common::{APPROACH, EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, truck};
 use ground_field::Direction;
 
 const SIGMOID: FrictionLaw = FrictionLaw::Sigmoid { shape_factor: 1e8 };

@@ -1,9 +1,7 @@
 //! Hostile parameters: a right answer or a typed error, and nothing in between.
 
-mod common;
-
+use crate::common::{EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, relative, truck};
 use cable_dem::{CableError, End, ExplicitOptions, FrictionLaw, PassOutcome};
-use common::{EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, relative, truck};
 
 /// Force and peak, or what went wrong.
 type Answer = Result<(f64, f64), CableError>;

@@ -6,7 +6,7 @@ use cable_dem::{
     CableError, CableState, DuctedCable, Dynamic, End, Explicit, ExplicitOptions, Friction, FrictionLaw,
     Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic, TransientOutcome,
 };
-use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
+use ground_field::{Direction, DuctMotion};
 
 pub type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -25,15 +25,8 @@ pub const STIFF_SHEATH: FrictionLaw = FrictionLaw::ElasticPlastic {
 
 /// The duct 1.2 m below a load of 20 tf at `speed` \[km/h\].
 pub fn truck(speed: f64) -> Result<DuctMotion, Box<dyn std::error::Error>> {
-    let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
-    let truck = Vehicle::point("truck", 196_133.0, speed / 3.6)?;
-    Ok(DuctMotion::new(
-        &ground,
-        &truck,
-        DuctLine::new(1.2, 0.0)?,
-        400.0,
-        1e-10,
-    )?)
+    let ground = HalfSpace::new(testkit::soil(800e6, 0.4));
+    Ok(testkit::truck(&ground, speed / 3.6)?)
 }
 
 /// A cable, its mesh, and one vehicle.
@@ -92,9 +85,7 @@ impl Scene {
         let mut last = state.clone();
         for _ in 0..passes {
             solver.pass_observed(&self.passage, &mut state, |view| {
-                let displacement = (0..self.mesh.nodes()).map(|i| view.displacement(i)).collect();
-                let friction = (0..self.mesh.nodes()).map(|i| view.friction(i)).collect();
-                last = CableState::from_parts(&self.mesh, displacement, friction).expect("a finite state");
+                last = view.state();
             })?;
         }
         Ok(last.end_forces(&self.cable)?.downstream)

@@ -5,7 +5,8 @@
 //! contact states that the previous vehicle positions predict it needs one or two linear solves; it may cycle, and then
 //! [`super::exact`] takes over.
 
-use super::chain::{Chain, Contact, Load, Stretch, Tolerance, Trial};
+use super::chain::{Chain, Contact, Load, Stretch, Trial};
+use super::tolerance::Tolerance;
 
 /// Linear solves after which the iteration counts as cycling.
 const MAX_SWEEPS: usize = 24;
@@ -59,7 +60,7 @@ impl Elimination {
     ///
     /// A stuck row reads r + γ g = anchor, a slipping one k⁻¹ times equilibrium with g at its bound. Both are diagonally
     /// dominant, so that elimination needs no pivoting.
-    pub fn solve(&mut self, chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) -> bool {
+    fn solve(&mut self, chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) -> bool {
         let Stretch { lo, hi } = stretch;
         let (r, contact) = (&mut trial.r, &trial.contact);
         let per_stiffness = 1.0 / chain.stiffness;
@@ -107,7 +108,7 @@ impl Elimination {
 }
 
 /// Sets g from the solved r and corrects contact states that do not hold.
-pub(crate) fn correct(
+fn correct(
     chain: &Chain,
     load: &Load<'_>,
     stretch: Stretch,

@@ -1,0 +1,17 @@
+//! The tests of the crate in one program: each costs its link.
+
+#[path = "answers_and_errors.rs"]
+mod answers_and_errors;
+mod common;
+#[path = "difficult.rs"]
+mod difficult;
+#[path = "laws.rs"]
+mod laws;
+#[path = "nasty_values.rs"]
+mod nasty_values;
+#[path = "odemark_error.rs"]
+mod odemark_error;
+#[path = "published_failures.rs"]
+mod published_failures;
+#[path = "reference.rs"]
+mod reference;

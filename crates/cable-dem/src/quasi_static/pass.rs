@@ -1,0 +1,247 @@
+//! One pass, forward: the cable in the vehicle's adherent frame, step by step.
+
+use std::collections::HashMap;
+
+use super::memory::PassMemory;
+use super::passage::{Passage, Snapshot};
+use super::supports::Supports;
+use super::window::{self, Room, Window};
+use crate::ends::{Balance, EndReader};
+use crate::outcome::Recorder;
+use crate::step::{Chain, Contact, Load, NEGLIGIBLE, Prediction, StepSolver, Stretch, largest};
+use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
+
+/// A window's edge is quiet when the force its last move put on the next node is below this share of [`NEGLIGIBLE`].
+const QUIET: f64 = 0.25;
+
+/// Drives vehicles forward over one cable; allocated once.
+#[derive(Debug, Clone)]
+pub(super) struct ForwardSolver {
+    pub step: StepSolver,
+    ends: EndReader,
+    supports: Supports,
+    room: Room,
+    /// State in the adherent frame: r \[m\] and g \[N/m\].
+    r: Vec<f64>,
+    g: Vec<f64>,
+    anchor: Vec<f64>,
+    windows: Vec<Window>,
+    prediction: Prediction,
+    /// The last pass of each passage.
+    memories: HashMap<u64, PassMemory>,
+    /// What the current pass gathers.
+    recorder: Recorder,
+    lattice_step: f64,
+}
+
+impl ForwardSolver {
+    pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
+        let nodes = mesh.nodes();
+        let chain = Chain::new(cable, mesh, 0.0);
+        let screening = chain.compliance * chain.stiffness / mesh.spacing();
+        let room = Room::new(chain.free, screening);
+        Self {
+            supports: Supports::new(cable, mesh, &chain, room, screening),
+            ends: EndReader::new(cable, mesh),
+            room,
+            step: StepSolver::new(chain),
+            r: vec![0.0; nodes],
+            g: vec![0.0; nodes],
+            anchor: vec![0.0; nodes],
+            windows: Vec::new(),
+            prediction: Prediction::default(),
+            memories: HashMap::new(),
+            recorder: Recorder::new(EndForces::default()),
+            lattice_step: mesh.lattice_step(),
+        }
+    }
+
+    /// Drives the vehicle over the cable in `state`, which is changed only on success; `observe` sees r, g and the vehicle at every
+    /// step.
+    pub fn pass(
+        &mut self,
+        passage: &Passage,
+        state: &mut CableState,
+        cable: &DuctedCable,
+        mut observe: impl FnMut(&[f64], &[f64], Snapshot<'_>),
+    ) -> Result<Recorder, CableError> {
+        self.r.copy_from_slice(&state.displacement);
+        self.g.copy_from_slice(&state.friction);
+        self.step.start(largest(&self.r, passage.peak));
+        self.step.trial.r.copy_from_slice(&self.r);
+        self.supports.rest();
+        let (points, phases) = passage.lattice();
+        self.prediction.fit(points, phases);
+        self.recorder = Recorder::new(state.ends(cable));
+        let last_pass = self.memories.remove(&passage.id).unwrap_or_default();
+        let mut this_pass = PassMemory::default();
+
+        let mut travelling = None;
+        for (step, &position) in passage.positions.iter().enumerate() {
+            let snapshot = passage.snapshot(position);
+            if step == 0 {
+                self.step_whole(&snapshot, passage)?;
+            } else {
+                let remembered = last_pass.recall(step - 1);
+                travelling = self.step_windows(&snapshot, passage, travelling, remembered)?;
+                this_pass.push(travelling, &self.step.trial.contact);
+            }
+            observe(&self.r, &self.g, snapshot);
+        }
+        self.memories.insert(passage.id, this_pass);
+
+        // The ground comes to rest. What the windows left out of account is settled by the same step.
+        self.step_whole(&passage.still(), passage)?;
+        state.displacement.copy_from_slice(&self.r);
+        state.friction.copy_from_slice(&self.g);
+        self.recorder.statistics += self.step.statistics;
+        Ok(self.recorder)
+    }
+
+    /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
+    fn step_whole(&mut self, snapshot: &Snapshot<'_>, passage: &Passage) -> Result<(), CableError> {
+        self.update_supports(snapshot, true);
+        self.anchor(self.room.free);
+        self.solve(self.room.free, snapshot, passage)?;
+        self.record_ends(snapshot);
+        Ok(())
+    }
+
+    /// One step of the vehicle: solves the windows where the cable moves. Returns the travelling window, shrunk to what still moves.
+    fn step_windows(
+        &mut self,
+        snapshot: &Snapshot<'_>,
+        passage: &Passage,
+        travelling: Option<Stretch>,
+        remembered: Option<(Stretch, &[Contact])>,
+    ) -> Result<Option<Stretch>, CableError> {
+        self.update_supports(snapshot, false);
+        let limit = self.step.chain.limit * (1.0 + NEGLIGIBLE);
+        let near = self.room.under(snapshot.node, passage.reach);
+        let travelling = window::travelling(self.room, near, travelling, |&i| {
+            (self.g[i] + snapshot.adhesion[i + 1]).abs() > limit
+        });
+        let mut windows = std::mem::take(&mut self.windows);
+        let known = remembered.map(|(window, _)| window);
+        window::collect(&mut windows, travelling, known, self.supports.due());
+        let mut moving = None;
+        for window in &windows {
+            self.anchor(window.stretch);
+            if window.travels {
+                self.predict(window.stretch, passage.first_point(snapshot), remembered);
+            }
+            let (solved, still_moving) = self.solve(window.stretch, snapshot, passage)?;
+            if window.travels {
+                moving = still_moving;
+            }
+            let widest = &mut self.recorder.statistics.widest_window;
+            *widest = solved.len().max(*widest);
+        }
+        let touched = windows.iter().any(|window| self.room.near_an_end(window.stretch));
+        if touched || self.supports.due().next().is_some() {
+            self.record_ends(snapshot);
+        }
+        self.windows = windows;
+        Ok(moving)
+    }
+
+    fn update_supports(&mut self, snapshot: &Snapshot<'_>, all: bool) {
+        self.recorder.statistics.steps += 1;
+        let StepSolver { chain, trial, .. } = &mut self.step;
+        let state = (&mut *self.r, &mut *self.g);
+        self.recorder.dissipated += self.supports.update(snapshot, all, chain, state, trial);
+    }
+
+    /// Anchors of the nodes in `stretch`; their contact states stay those last solved.
+    fn anchor(&mut self, stretch: Stretch) {
+        for i in stretch.nodes() {
+            self.anchor[i] = self.r[i] + self.step.chain.compliance * self.g[i];
+        }
+    }
+
+    /// Guesses the contact states of the travelling window: those of the last pass at this vehicle position, in the first pass those
+    /// that a node had where this one now stands relative to the vehicle.
+    fn predict(&mut self, window: Stretch, first: usize, remembered: Option<(Stretch, &[Contact])>) {
+        let contacts = &mut self.step.trial.contact;
+        match remembered {
+            Some((known, states)) if window.lo <= known.lo && known.hi <= window.hi => {
+                contacts[known.nodes()].copy_from_slice(states);
+            }
+            _ => self.prediction.read(first, window, contacts),
+        }
+    }
+
+    /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returns what was solved, and the part of
+    /// it that still moves.
+    fn solve(
+        &mut self,
+        mut stretch: Stretch,
+        snapshot: &Snapshot<'_>,
+        passage: &Passage,
+    ) -> Result<(Stretch, Option<Stretch>), CableError> {
+        let mut growth = self.room.margin;
+        loop {
+            self.recorder.statistics.windows += 1;
+            let load = Load {
+                adhesion: &snapshot.adhesion[1..=self.r.len()],
+                support: &self.supports.load,
+                anchor: &self.anchor,
+                friction: &self.g,
+            };
+            let solved = self.step.solve(&load, stretch);
+            solved.map_err(|violation| CableError::NoConvergence {
+                vehicle_position: self.lattice_step * snapshot.position as f64,
+                violation,
+            })?;
+            let (grown, next) = window::grow(self.room, stretch, growth, |i| self.edge_disturbed(i));
+            if grown == stretch {
+                break;
+            }
+            if grown.lo < stretch.lo {
+                self.anchor(Stretch {
+                    lo: grown.lo,
+                    hi: stretch.lo - 1,
+                });
+            }
+            if grown.hi > stretch.hi {
+                self.anchor(Stretch {
+                    lo: stretch.hi + 1,
+                    hi: grown.hi,
+                });
+            }
+            (stretch, growth) = (grown, next);
+        }
+        let StepSolver { chain, trial, .. } = &self.step;
+        let moving = window::shrink(stretch, |edge, inner| {
+            let moved = (trial.r[inner] - self.r[inner]).abs();
+            chain.stiffness * moved <= QUIET * NEGLIGIBLE * chain.limit * chain.tributary[edge]
+        });
+        for i in stretch.nodes() {
+            if trial.contact[i] != Contact::Stuck {
+                let slip = self.anchor[i] - trial.r[i] - chain.compliance * trial.g[i];
+                self.recorder.dissipated += chain.tributary[i] * chain.limit * slip.abs();
+            }
+        }
+        self.r[stretch.nodes()].copy_from_slice(&trial.r[stretch.nodes()]);
+        self.g[stretch.nodes()].copy_from_slice(&trial.g[stretch.nodes()]);
+        self.prediction
+            .write(passage.first_point(snapshot), stretch, &trial.contact);
+        Ok((stretch, moving))
+    }
+
+    /// Whether the trial leaves the held node beside the window out of balance.
+    fn edge_disturbed(&self, node: usize) -> bool {
+        let chain = &self.step.chain;
+        let balancing = chain.balancing_friction(&self.step.trial.r, &self.supports.load, node);
+        (balancing - self.g[node]).abs() > NEGLIGIBLE * chain.limit
+    }
+
+    /// Records the force on each end with the vehicle at the snapshot's position.
+    fn record_ends(&mut self, snapshot: &Snapshot<'_>) {
+        self.recorder.record(self.ends.read(
+            Balance::AtRest,
+            |node| self.r[node] + snapshot.adherent[node + 1],
+            |node| self.g[node] + snapshot.adhesion[node + 1],
+        ));
+    }
+}

@@ -1,0 +1,151 @@
+//! Ends and clamps while the vehicle passes: their loads, and when the cable around them is to be solved again.
+
+use super::passage::Snapshot;
+use super::window::Room;
+use crate::step::{Chain, HeldNode, NEGLIGIBLE, Stretch, Support, Trial};
+use crate::{DuctedCable, Mesh};
+
+/// What a support feels of the vehicle in the adherent frame.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+struct Forcing {
+    /// Force of the adherent motion on a cable that is cut at an end \[N\]; zero elsewhere.
+    cut: f64,
+    /// Adherent displacement \[m\], against which the ground holds the node.
+    adherent: f64,
+    /// Adhesion \[N/m\], which a held node's friction has beside its own.
+    adhesion: f64,
+}
+
+/// A support, the window around it, and the forcing for which it was last solved.
+#[derive(Debug, Clone)]
+struct Held {
+    support: Support,
+    stretch: Stretch,
+    solved: Forcing,
+    /// Whether the forcing has changed since.
+    due: bool,
+    /// Forcing up to which a fixed node's own friction has followed.
+    followed: Forcing,
+    /// Force on the cable per displacement of the duct \[N/m\].
+    grip: f64,
+}
+
+/// All supports of a cable.
+#[derive(Debug, Clone)]
+pub(super) struct Supports {
+    all: Vec<Held>,
+    /// Friction law of fixed nodes.
+    law: HeldNode,
+    /// Loads in the adherent frame \[N\] by node.
+    pub load: Vec<f64>,
+    /// Change of a support's force \[N\] from which it is solved again: as much as a window's edge may be off.
+    threshold: f64,
+    last: usize,
+}
+
+impl Supports {
+    /// Those of `cable` on `mesh`, whose sheath has the `screening` (λ/h)².
+    pub fn new(cable: &DuctedCable, mesh: &Mesh, chain: &Chain, room: Room, screening: f64) -> Self {
+        // Over one screening length, and at least one element, a held node drags the cable along; where the sheath is
+        // stiffer than that, what holds the node works against the sheath.
+        let held_stiffness = chain.stiffness / screening.sqrt().max(1.0);
+        let sheath_stiffness = chain.stiffness / screening.max(screening.sqrt());
+        let held = |support: Support| Held {
+            stretch: room.widened(
+                Stretch {
+                    lo: support.node,
+                    hi: support.node,
+                },
+                room.margin,
+            ),
+            solved: Forcing::default(),
+            due: false,
+            followed: Forcing::default(),
+            grip: support
+                .stiffness
+                .map_or(held_stiffness, |s| 1.0 / (1.0 / s + 1.0 / sheath_stiffness)),
+            support,
+        };
+        Self {
+            all: Support::of(cable, mesh).into_iter().map(held).collect(),
+            law: HeldNode::new(cable, mesh),
+            load: vec![0.0; mesh.nodes()],
+            threshold: NEGLIGIBLE * chain.limit * mesh.spacing(),
+            last: mesh.elements(),
+        }
+    }
+
+    /// The ground at rest, where the adherent frame is that of the ground.
+    pub fn rest(&mut self) {
+        self.load.fill(0.0);
+        for held in &mut self.all {
+            held.solved = Forcing::default();
+            held.followed = Forcing::default();
+        }
+    }
+
+    /// The windows around supports that are to be solved again.
+    pub fn due(&self) -> impl Iterator<Item = Stretch> {
+        self.all.iter().filter(|held| held.due).map(|held| held.stretch)
+    }
+
+    /// Brings the loads up to date where the vehicle's effect on them has changed, or everywhere if `all`, and moves fixed nodes, whose
+    /// friction is `g`, in both the state `r` and the `trial`. Returns the heat of the slip there \[J\].
+    pub fn update(
+        &mut self,
+        snapshot: &Snapshot<'_>,
+        all: bool,
+        chain: &Chain,
+        (r, g): (&mut [f64], &mut [f64]),
+        trial: &mut Trial,
+    ) -> f64 {
+        let mut heat = 0.0;
+        for held in &mut self.all {
+            let node = held.support.node;
+            let forcing = forcing(snapshot, node, chain.stiffness, self.last);
+            let change = (forcing.cut - held.solved.cut).abs()
+                + held.grip * (forcing.adherent - held.solved.adherent).abs();
+            held.due = all || change > self.threshold;
+            if held.support.stiffness.is_none() {
+                // Its friction turns at slips far smaller than those that matter to its neighbours. D = a + γ A.
+                let (followed, gamma) = (held.followed, chain.compliance);
+                let slip =
+                    forcing.adherent - followed.adherent + gamma * (forcing.adhesion - followed.adhesion);
+                let before = g[node] + followed.adhesion;
+                let after = self.law.after_slip(before, slip);
+                heat += chain.tributary[node] * after * (slip - gamma * (after - before));
+                g[node] = after - forcing.adhesion;
+                held.followed = forcing;
+            }
+            if held.due {
+                match held.support.stiffness {
+                    None => {
+                        r[node] = -forcing.adherent;
+                        trial.r[node] = -forcing.adherent;
+                    }
+                    Some(spring) => self.load[node] = forcing.cut - spring * forcing.adherent,
+                }
+                held.solved = forcing;
+            }
+        }
+        heat
+    }
+}
+
+/// Forcing of a support at `node`; `stiffness` is the chain's k = EA/h, `last` the last node.
+///
+/// Beyond an end the adherent motion would go on; cutting the chain there leaves ±(k/2)(a_{+1} − a_{−1}), the force of
+/// the missing half.
+fn forcing(snapshot: &Snapshot<'_>, node: usize, stiffness: f64, last: usize) -> Forcing {
+    let index = node + 1;
+    let strain = 0.5 * stiffness * (snapshot.adherent[index + 1] - snapshot.adherent[index - 1]);
+    Forcing {
+        cut: match node {
+            0 => strain,
+            node if node == last => -strain,
+            _ => 0.0,
+        },
+        adherent: snapshot.adherent[index],
+        adhesion: snapshot.adhesion[index],
+    }
+}

@@ -1,0 +1,65 @@
+//! A pass with inertia, from rest to rest.
+
+use super::energy::EnergyBalance;
+use super::leak::SigmoidLeak;
+use super::lumped::Lumped;
+use super::moving_duct::MovingDuct;
+use super::outcome::TransientOutcome;
+use super::rest::{Ground, Settler};
+use crate::outcome::Recorder;
+use crate::step::check_precision;
+use crate::{CableError, CableState};
+
+/// Takes `state` through a pass of `duct` with steps of `time_step` \[s\]; when it fails, `state` is as it was. `run` moves the cable on
+/// from the vehicle's first position to its last.
+pub(crate) fn pass(
+    lumped: &Lumped,
+    settler: &mut Settler,
+    duct: &MovingDuct,
+    time_step: f64,
+    state: &mut CableState,
+    run: impl FnOnce(&mut CableState, &mut Recorder) -> Result<EnergyBalance, CableError>,
+) -> Result<TransientOutcome, CableError> {
+    state.check(&lumped.mesh)?;
+    duct.check(&lumped.mesh)?;
+    let forces = |state: &CableState| lumped.end_forces(&state.displacement, &state.friction);
+    let mut recorder = Recorder::new(forces(state));
+    if lumped.cable.friction().limit() == 0.0 {
+        // Nothing drags the cable.
+        let force = forces(state);
+        return Ok(TransientOutcome {
+            pass: recorder.outcome(&lumped.cable, state, force),
+            time_step,
+            energy: EnergyBalance::default(),
+            force_before_rest: force,
+            leak: None,
+        });
+    }
+    check_precision(&lumped.cable, &lumped.mesh, &state.displacement, duct.peak())?;
+    let mut moving = state.clone();
+    let arrival_heat = settler.follow(
+        Ground::Arrives,
+        lumped,
+        duct,
+        &mut moving,
+        &mut recorder.statistics,
+    )?;
+    let energy = run(&mut moving, &mut recorder)?;
+    let force_before_rest = forces(&moving);
+    let departure_heat = settler.follow(
+        Ground::Leaves,
+        lumped,
+        duct,
+        &mut moving,
+        &mut recorder.statistics,
+    )?;
+    recorder.dissipated = arrival_heat + energy.dissipated + departure_heat;
+    *state = moving;
+    Ok(TransientOutcome {
+        pass: recorder.outcome(&lumped.cable, state, forces(state)),
+        time_step,
+        energy,
+        force_before_rest,
+        leak: SigmoidLeak::new(&lumped.cable, time_step, duct),
+    })
+}

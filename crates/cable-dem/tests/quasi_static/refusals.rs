@@ -1,0 +1,142 @@
+//! What is refused: numbers that are none, parts of another mesh or cable, arguments out of range; and what a failed pass leaves.
+
+use cable_dem::{
+    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Order, Passage, QuasiStatic,
+    Restraint, Traffic,
+};
+use ground_field::Direction;
+
+use super::scenes::{APPROACH, LIMITS, Run, coulomb, elastic_plastic, reference_cable, reference_motion};
+
+#[test]
+fn a_motion_that_is_not_a_number_is_refused() {
+    let mesh = Mesh::new(6.0, 0.2, 0.1).expect("a valid mesh");
+    for friction in [coulomb(27.2), elastic_plastic(1e7, 27.2)] {
+        let cable = reference_cable(6.0, friction);
+        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            // At a single point only, with little motion elsewhere.
+            let shape = |xi: f64| {
+                if (xi - 1.0).abs() < 0.05 {
+                    bad
+                } else {
+                    1e-12 * (-xi * xi).exp()
+                }
+            };
+            let refused = Passage::from_shape(&cable, &mesh, Direction::Forward, shape, APPROACH);
+            assert!(
+                matches!(refused, Err(CableError::InvalidParameter { .. })),
+                "{bad}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_failed_pass_leaves_the_state_and_the_solver_as_they_were() {
+    let motion = reference_motion();
+    let cable = reference_cable(12.0, coulomb(LIMITS[0]));
+    let mesh = Mesh::new(12.0, 0.2, 0.1).expect("a valid mesh");
+    let passage = Passage::new(&cable, &mesh, &motion, APPROACH).expect("a valid passage");
+    let far = Passage::from_shape(
+        &cable,
+        &mesh,
+        Direction::Forward,
+        |xi| 1e6 * (-xi * xi).exp(),
+        APPROACH,
+    )
+    .expect("a valid passage");
+    let mut run = Run::new(cable, mesh);
+    run.passes(2, &passage);
+    let mut undisturbed = run.clone();
+    let before = run.state.clone();
+    let error = run.try_pass(&far).expect_err("rounding swamps friction");
+    assert!(matches!(error, CableError::Precision { .. }), "{error}");
+    assert_eq!(run.state, before);
+    assert_eq!(run.pass(&passage), undisturbed.pass(&passage));
+    assert_eq!(run.state, undisturbed.state);
+}
+
+#[test]
+fn what_belongs_to_another_mesh_or_cable_is_refused() {
+    let motion = reference_motion();
+    let cable = reference_cable(12.0, coulomb(LIMITS[0]));
+    let mesh = Mesh::new(12.0, 0.2, 0.1).expect("a valid mesh");
+    let passage = Passage::new(&cable, &mesh, &motion, APPROACH).expect("a valid passage");
+    let mut run = Run::new(cable.clone(), mesh);
+
+    let coarse = Mesh::new(12.0, 0.4, 0.1).expect("a valid mesh");
+    let mut other = CableState::at_rest(&coarse);
+    let error = run
+        .solver
+        .pass(&passage, &mut other)
+        .expect_err("another mesh's state");
+    assert_eq!(
+        error,
+        CableError::StateMismatch {
+            found: 31,
+            expected: 61
+        }
+    );
+    assert_eq!(other, CableState::at_rest(&coarse));
+
+    assert!(QuasiStatic::new(cable.clone(), Mesh::new(13.0, 0.2, 0.1).expect("a valid mesh")).is_err());
+
+    let longer = Mesh::new(24.0, 0.2, 0.1).expect("a valid mesh");
+    let finer = Mesh::new(12.0, 0.1, 0.1).expect("a valid mesh");
+    let stiffer = reference_cable(12.0, elastic_plastic(1e5, LIMITS[0]));
+    for wrong in [
+        Passage::new(&cable, &coarse, &motion, APPROACH),
+        Passage::new(&cable, &finer, &motion, APPROACH),
+        Passage::new(
+            &reference_cable(24.0, coulomb(LIMITS[0])),
+            &longer,
+            &motion,
+            APPROACH,
+        ),
+        Passage::new(&stiffer, &mesh, &motion, APPROACH),
+    ] {
+        let before = run.state.clone();
+        let refused = run.try_pass(&wrong.expect("a valid passage"));
+        assert!(refused.is_err());
+        assert_eq!(run.state, before);
+    }
+}
+
+#[test]
+fn arguments_out_of_range_are_refused() {
+    let bad = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0];
+    let friction = coulomb(1.0);
+    let clamp = |position, stiffness| vec![Restraint { position, stiffness }];
+    let cable = DuctedCable::new(10.0, 1e6, friction).expect("a valid cable");
+    let mesh = Mesh::new(10.0, 1.0, 0.5).expect("a valid mesh");
+    let flat = |approach| Passage::from_shape(&cable, &mesh, Direction::Forward, |_| 0.0, approach);
+    for value in bad.into_iter().chain([0.0]) {
+        assert!(DuctedCable::new(value, 1e6, friction).is_err());
+        assert!(DuctedCable::new(10.0, value, friction).is_err());
+        let shaped = FrictionLaw::ElasticPlastic { shape_factor: value };
+        assert!(Friction::new(shaped, 1.0).is_err());
+        assert!(Friction::new(FrictionLaw::Sigmoid { shape_factor: value }, 1.0).is_err());
+        assert!(Mesh::new(value, 1.0, 1.0).is_err());
+        assert!(Mesh::new(10.0, value, 1.0).is_err());
+        assert!(Mesh::new(10.0, 1.0, value).is_err());
+        assert!(flat(value).is_err());
+        assert!(Traffic::new(&[1.0, value], Order::Interleaved).is_err());
+    }
+    for value in bad {
+        assert!(Friction::new(FrictionLaw::Coulomb, value).is_err());
+        assert!(cable.clone().with_ends(End::Spring(value), End::Free).is_err());
+        assert!(cable.clone().with_ends(End::Free, End::Spring(value)).is_err());
+        assert!(cable.clone().with_restraints(clamp(value, 1.0)).is_err());
+        assert!(cable.clone().with_restraints(clamp(1.0, value)).is_err());
+    }
+    assert!(cable.clone().with_restraints(clamp(10.1, 1.0)).is_err());
+    assert!(Mesh::new(10.0, 6.0, 1.0).is_err(), "fewer than two elements");
+    assert!(Mesh::new(10.0, 1e-7, 1.0).is_err(), "too many nodes");
+    assert!(flat(1e6).is_err());
+    let sigmoid = Friction::new(FrictionLaw::Sigmoid { shape_factor: 1e7 }, 1.0).expect("valid friction");
+    let refused = QuasiStatic::new(DuctedCable::new(10.0, 1e6, sigmoid).expect("a valid cable"), mesh);
+    assert!(matches!(
+        refused,
+        Err(CableError::UnsupportedLaw { law: "sigmoid", .. })
+    ));
+}

@@ -1,0 +1,164 @@
+//! The points of a sweep: every combination of the values of its keys.
+
+use super::axis::{Axis, AxisValues};
+use super::error::SweepError;
+use super::row::checksum;
+use crate::scene::{SceneError, WrongKind};
+use crate::{Scene, SceneFile};
+
+/// Most points of a sweep.
+const MOST_POINTS: usize = 10_000_000;
+
+/// How drawn keys are sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Samples {
+    /// Samples at every point of the grid; 0 where nothing is drawn.
+    pub count: usize,
+    /// Another seed gives other samples.
+    pub seed: u64,
+}
+
+/// A scene and the values of its varied keys.
+#[derive(Debug, Clone)]
+pub struct Sweep {
+    file: SceneFile,
+    pub(super) axes: Vec<Axis>,
+    pub(super) samples: Samples,
+    count: usize,
+}
+
+impl Sweep {
+    /// The grid over `axes` of the scene in `file`.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError::Unfit`] where there is nothing to vary, a key stands twice or has no value, samples are asked without a distribution or the
+    /// other way round, or there are more than ten million points; [`SweepError::Scene`] where a scene has no such
+    /// key.
+    pub fn new(file: SceneFile, axes: Vec<Axis>, samples: Samples) -> Result<Self, SweepError> {
+        let unfit = |found: String, allowed| Err(SweepError::Unfit { found, allowed });
+        if axes.is_empty() {
+            return unfit("no varied key".into(), "at least one");
+        }
+        for (index, axis) in axes.iter().enumerate() {
+            if axes[..index].iter().any(|other| other.key == axis.key) {
+                return unfit(format!("`{}` varied twice", axis.key), "every key once");
+            }
+        }
+        if let Some(axis) = axes.iter().find(|axis| axis.count() == 0) {
+            return unfit(format!("`{}` without values", axis.key), "one value or more");
+        }
+        let drawn = axes
+            .iter()
+            .any(|axis| matches!(axis.values, AxisValues::Drawn(_)));
+        match (drawn, samples.count) {
+            (true, 0) => {
+                return unfit(
+                    "a distribution and no samples".into(),
+                    "a number of samples with it",
+                );
+            }
+            (false, 1..) => return unfit("samples and no distribution".into(), "a distribution with them"),
+            _ => {}
+        }
+        let count = axes
+            .iter()
+            .map(Axis::count)
+            .chain([samples.count.max(1)])
+            .try_fold(1_usize, usize::checked_mul)
+            .filter(|&count| count <= MOST_POINTS);
+        let Some(count) = count else {
+            return unfit("too many points".into(), "at most ten million");
+        };
+        let sweep = Self {
+            file,
+            axes,
+            samples,
+            count,
+        };
+        // An unknown key fails everywhere; what fails at some points only is recorded there.
+        match sweep.scene(0) {
+            Err(SceneError::Wrong(wrong))
+                if matches!(wrong.kind, WrongKind::UnknownKey { .. } | WrongKind::Override) =>
+            {
+                Err(SceneError::Wrong(wrong).into())
+            }
+            _ => Ok(sweep),
+        }
+    }
+
+    /// How many points there are, samples included.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The varied keys.
+    pub fn axes(&self) -> &[Axis] {
+        &self.axes
+    }
+
+    /// The value of each varied key at a point.
+    pub fn values(&self, index: usize) -> Vec<String> {
+        let samples = self.samples.count.max(1);
+        let (mut group, sample) = (index / samples, index % samples);
+        let mut values: Vec<String> = self
+            .axes
+            .iter()
+            .rev()
+            .map(|axis| match &axis.values {
+                AxisValues::List(list) => {
+                    let value = list[group % list.len()].clone();
+                    group /= list.len();
+                    value
+                }
+                AxisValues::Drawn(distribution) => {
+                    distribution
+                        .quantile(share(self.samples.seed, &axis.key, sample))
+                        .1
+                }
+            })
+            .collect();
+        values.reverse();
+        values
+    }
+
+    /// The scene of a point.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] where its values are not valid.
+    pub fn scene(&self, index: usize) -> Result<Scene, SceneError> {
+        self.file_at(index)?.scene()
+    }
+
+    /// The scene file of a point.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] where there is nothing at a varied key.
+    pub fn file_at(&self, index: usize) -> Result<SceneFile, SceneError> {
+        let overrides: Vec<String> = self
+            .axes
+            .iter()
+            .zip(self.values(index))
+            .map(|(axis, value)| format!("{}={value}", axis.key))
+            .collect();
+        self.file.with(&overrides)
+    }
+
+    /// What distinguishes this sweep from another: program, scene, keys and values.
+    pub(super) fn name(&self) -> u64 {
+        let version = env!("CARGO_PKG_VERSION");
+        let scene = self.file.values();
+        let text = format!("{version}\0{scene}\0{:?}\0{:?}", self.axes, self.samples);
+        checksum(text.as_bytes())
+    }
+}
+
+/// A number in (0, 1), evenly distributed: that of one sample of one key.
+fn share(seed: u64, key: &str, sample: usize) -> f64 {
+    /// Half the distance between two numbers of the generator: keeps 0 out.
+    const HALF: f64 = 1.0 / (1_u64 << 54) as f64;
+    let stream = fastrand::Rng::with_seed(seed ^ checksum(key.as_bytes())).u64(..);
+    fastrand::Rng::with_seed(stream.wrapping_add(sample as u64)).f64() + HALF
+}

@@ -1,0 +1,63 @@
+//! Numbers with units, as they are varied.
+
+use crate::scene::Dimension;
+pub(super) use crate::scene::leading_number as number;
+
+/// The SI value of a number with or without a unit; `None` for any other text.
+pub fn si(text: &str) -> Option<f64> {
+    let text = text.trim().trim_matches(['"', '\'']);
+    // No unit belongs to two dimensions.
+    let value = Dimension::ALL
+        .iter()
+        .find_map(|dimension| dimension.parse_argument(text).ok())?;
+    value.is_finite().then_some(value)
+}
+
+/// The SI unit of a number with a unit.
+#[cfg(feature = "plot")]
+pub fn si_unit(text: &str) -> Option<&'static str> {
+    let text = text.trim().trim_matches(['"', '\'']);
+    Dimension::ALL
+        .iter()
+        .find(|dimension| dimension.parse(text).is_ok())?
+        .units()
+        .next()
+}
+
+/// Numbers and the one unit that all of them have, or all but none.
+pub fn numbers<const N: usize>(texts: &[&str]) -> Option<([f64; N], String)> {
+    let texts: [&str; N] = texts.try_into().ok()?;
+    let mut unit = "";
+    let mut values = [0.0; N];
+    for (value, text) in values.iter_mut().zip(texts) {
+        let (number, written) = number(text)?;
+        if !unit.is_empty() && !written.is_empty() && unit != written {
+            return None;
+        }
+        unit = if written.is_empty() { unit } else { written };
+        *value = number;
+    }
+    Some((values, unit.to_owned()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_goes_on_like_a_number_is_no_number() {
+        assert_eq!(number("1.2.3"), None);
+        assert_eq!(number("1 2"), None);
+        assert_eq!(number("1.2m"), Some((1.2, "m")));
+    }
+
+    #[test]
+    fn values_with_units_become_si() {
+        assert_eq!(si("2 m"), Some(2.0));
+        assert_eq!(si("\"3 MN/m\""), Some(3e6));
+        assert_eq!(si("0.25"), Some(0.25));
+        for text in ["t-25", "fixed", "{ spring = 3 }", "nan", ""] {
+            assert_eq!(si(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! What crosses the crates of the workspace: the paper's numbers, ground models against each other, the command line and its files.
+//!
+//! One program, since each one that is linked costs as much time as its tests. Programs of their own are what other pages name or
+//! what takes minutes.
+
+#[path = "answers/main.rs"]
+mod answers;
+#[path = "calibrate_command.rs"]
+mod calibrate_command;
+#[path = "calibration.rs"]
+mod calibration;
+#[path = "cli.rs"]
+mod cli;
+#[path = "design.rs"]
+mod design;
+#[path = "files/main.rs"]
+mod files;
+#[path = "fuzz/main.rs"]
+mod fuzz;
+#[path = "ground_models/main.rs"]
+mod ground_models;
+#[path = "house.rs"]
+mod house;
+#[path = "methods.rs"]
+mod methods;
+#[path = "occurrence.rs"]
+mod occurrence;
+#[path = "paper/main.rs"]
+mod paper;
+#[path = "planner/main.rs"]
+mod planner;
+#[path = "readings.rs"]
+mod readings;
+#[path = "report.rs"]
+mod report;
+#[path = "scene/main.rs"]
+mod scene;
+#[path = "sweep.rs"]
+mod sweep;
+#[path = "../crates/figure/tests/xml/mod.rs"]
+mod xml;
