@@ -9,8 +9,9 @@ use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 use statrs::statistics::{Data, Distribution, OrderStatistics};
 
+use crate::estimate::Interval;
 use crate::evaluator::feasible;
-use crate::fit::{Fit, Interval};
+use crate::fit::Fit;
 use crate::point::Point;
 use crate::{Calibration, CalibrationError, Parameter, Prior};
 

@@ -5,8 +5,7 @@ use std::fmt;
 use nalgebra::DVector;
 
 use crate::evaluator::Evaluator;
-use crate::solution::Route;
-use crate::{CalibrationError, Fit, Model, Options, Parameter};
+use crate::{CalibrationError, Model, Options, Parameter};
 
 /// Scanned points for each parameter and one more: 24 for two, of which the emulator learns as well.
 const SCAN: usize = 8;
@@ -152,28 +151,6 @@ impl<'a> Calibration<'a> {
             .fold(f64::MIN_POSITIVE, |most, (value, unit)| {
                 most.max(share * value.abs() / unit)
             })
-    }
-
-    /// Fits, running the model wherever the search asks for it.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError`] where there are too few observations, the model has no answer anywhere, the fit does not converge or needs
-    /// more model runs than allowed.
-    pub fn fit(&self) -> Result<Fit, CalibrationError> {
-        self.check_count()?;
-        let units = self.units();
-        let options = &self.options;
-        let evaluator = self.evaluator(&units, options.max_evaluations);
-        let start = options.start.as_ref().map(|start| self.free(start));
-        let route = Route {
-            scan: self.scan(),
-            start,
-            profiles: options.profiles,
-            scan_others: 0,
-        };
-        let solution = self.solve(&evaluator, &route)?;
-        Ok(self.answer(&evaluator, solution))
     }
 
     /// The model against the observations, for at most `limit` runs.
