@@ -78,7 +78,7 @@ impl Readings {
         })
     }
 
-    /// Makes sure that there are at least `needed` readings for so many parameters.
+    /// Makes sure that there are at least `needed` readings for this number of parameters.
     ///
     /// # Errors
     ///

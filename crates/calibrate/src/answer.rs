@@ -8,7 +8,7 @@ use crate::search::ROUGH;
 use crate::solution::Solution;
 use crate::{Calibration, Warning};
 
-/// Correlation from which two parameters count as hardly told apart.
+/// Correlation from which two parameters count as hardly distinguishable.
 const CORRELATED: f64 = 0.99;
 /// Weight below which an observation counts as an outlier: Tukey's at three of its sigmas, Huber's at four.
 const OUTLIER: f64 = 0.35;

@@ -9,12 +9,13 @@ use rayon::prelude::*;
 use statrs::distribution::{ContinuousCDF, Normal};
 use statrs::statistics::{Data, Distribution, OrderStatistics};
 
+use crate::estimate::Interval;
 use crate::evaluator::feasible;
-use crate::fit::{Fit, Interval};
+use crate::fit::Fit;
 use crate::point::Point;
 use crate::{Calibration, CalibrationError, Parameter, Prior};
 
-/// Share of replicates that may fail.
+/// Share of replicates that may fail: more of them would no longer show the spread.
 const MOST_FAILED: f64 = 0.1;
 
 /// How to draw replicates: each takes the fit's own residuals, drawn with replacement.
@@ -26,8 +27,9 @@ pub struct BootstrapOptions {
     pub seed: u64,
 }
 
-/// Replicated estimates.
+/// Replicated estimates, of [`Calibration::bootstrap`].
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Bootstrap {
     /// Values of the parameters in each replicate that could be fitted.
     pub samples: Vec<Vec<f64>>,
@@ -43,6 +45,19 @@ pub struct Bootstrap {
 
 impl Calibration<'_> {
     /// Refits to replicates of the data around `fit`.
+    ///
+    /// ```
+    /// use calibrate::{BootstrapOptions, Calibration, ModelError, Parameter, Scale};
+    ///
+    /// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(vec![p[0]; 5]) };
+    /// let level = Parameter::new("level", 0.0, 100.0, Scale::Linear)?;
+    /// let calibration = Calibration::new(&model, vec![level], vec![40.0, 41.0, 38.5, 40.5, 39.0])?;
+    /// let fit = calibration.fit()?;
+    /// let options = BootstrapOptions { replicates: 200, seed: 1 };
+    /// let spread = calibration.bootstrap(&fit, &options)?;
+    /// assert!((spread.standard_errors[0] / 0.46 - 1.0).abs() < 0.3);
+    /// # Ok::<(), calibrate::CalibrationError>(())
+    /// ```
     ///
     /// # Errors
     ///

@@ -1,17 +1,30 @@
 //! A calibration: model, parameters, observations and options.
 
+use std::fmt;
+
 use nalgebra::DVector;
 
 use crate::evaluator::Evaluator;
-use crate::solution::Route;
-use crate::{CalibrationError, Fit, Model, Options, Parameter};
+use crate::{CalibrationError, Model, Options, Parameter};
 
-/// Scanned points for each parameter and one more.
+/// Scanned points for each parameter and one more: 24 for two, of which the emulator learns as well.
 const SCAN: usize = 8;
 /// Least noise of the model itself, as a share of its largest prediction: rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// A model to be fitted to observations.
+///
+/// ```
+/// use calibrate::{Calibration, ModelError, Parameter, Scale};
+///
+/// // A line through the origin, measured at 1, 2, 3 and 4 with a standard deviation of 0.1.
+/// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok([1.0, 2.0, 3.0, 4.0].map(|x| p[0] * x).to_vec()) };
+/// let slope = Parameter::new("slope", 0.0, 10.0, Scale::Linear)?;
+/// let calibration = Calibration::new(&model, vec![slope], vec![2.1, 3.9, 6.05, 7.95])?.with_sigmas(vec![0.1; 4])?;
+/// let fit = calibration.fit()?;
+/// assert!((fit.estimates[0].value - 2.0).abs() < 0.02);
+/// # Ok::<(), calibrate::CalibrationError>(())
+/// ```
 #[derive(Clone)]
 pub struct Calibration<'a> {
     model: &'a dyn Model,
@@ -19,6 +32,17 @@ pub struct Calibration<'a> {
     pub(crate) observations: Vec<f64>,
     sigmas: Option<Vec<f64>>,
     pub(crate) options: Options,
+}
+
+impl fmt::Debug for Calibration<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Calibration")
+            .field("parameters", &self.parameters)
+            .field("observations", &self.observations)
+            .field("sigmas", &self.sigmas)
+            .field("options", &self.options)
+            .finish_non_exhaustive()
+    }
 }
 
 impl<'a> Calibration<'a> {
@@ -129,29 +153,7 @@ impl<'a> Calibration<'a> {
             })
     }
 
-    /// Fits, running the model wherever the search asks for it.
-    ///
-    /// # Errors
-    ///
-    /// [`CalibrationError`] where there are too few observations, the model has no answer anywhere, the fit does not converge or needs
-    /// more model runs than allowed.
-    pub fn fit(&self) -> Result<Fit, CalibrationError> {
-        self.check_count()?;
-        let units = self.units();
-        let options = &self.options;
-        let evaluator = self.evaluator(&units, options.max_evaluations);
-        let start = options.start.as_ref().map(|start| self.free(start));
-        let route = Route {
-            scan: self.scan(),
-            start,
-            profiles: options.profiles,
-            scan_others: 0,
-        };
-        let solution = self.solve(&evaluator, &route)?;
-        Ok(self.answer(&evaluator, solution))
-    }
-
-    /// The model against the observations, for so many runs.
+    /// The model against the observations, for at most `limit` runs.
     pub(crate) fn evaluator<'e>(&'e self, units: &'e [f64], limit: usize) -> Evaluator<'e> {
         Evaluator::new(
             self.model,

@@ -80,7 +80,7 @@ impl Deviance {
         (sum / self.data as f64).max(LEAST_CURVATURE)
     }
 
-    /// κ from residuals with so many degrees of freedom, whose noise is at least `least` in units of σ.
+    /// κ from residuals with these degrees of freedom, whose noise is at least `least` in units of σ.
     pub fn normalised(self, residuals: &DVector<f64>, degrees_of_freedom: f64, least: f64) -> Self {
         let sum: f64 = residuals
             .iter()

@@ -17,7 +17,7 @@ use crate::{Model, ModelError, Parameter};
 
 /// Length of correlation, as a share of a parameter's range.
 const LENGTH: f64 = 0.5;
-/// Distance of places that are one, as a share of the range: a thousandth of any standard error worth the name.
+/// Distance of places that are one, as a share of the range: far below any standard error.
 const SAME: f64 = 1e-9;
 /// Nugget, in the variance of the predictions: runs closer than a few ten-thousandths of the ranges are averaged, because ripple is most of
 /// what tells them apart. A larger one, such as the ripple itself measures, would take what a model really does at short range for noise.
@@ -55,7 +55,7 @@ impl Emulator {
         }
     }
 
-    /// Whether it stands in for a model of these parameters with so many observations.
+    /// Whether it emulates a model of these parameters with this number of observations.
     pub(crate) fn is_of(&self, parameters: &[Parameter], observations: usize) -> bool {
         let same = |(a, b): (&Parameter, &Parameter)| {
             (a.lower(), a.upper(), a.scale()) == (b.lower(), b.upper(), b.scale())
@@ -243,7 +243,7 @@ mod tests {
             .collect()
     }
 
-    /// It returns what it was told, and in between what a smooth function does; a constant everywhere.
+    /// It returns what it has learned, and in between what a smooth function does; a constant everywhere.
     #[test]
     fn a_smooth_function_is_followed() {
         let function = |a: f64, b: f64| (2.0 * a).sin() * (1.0 + b * b);

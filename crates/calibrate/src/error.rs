@@ -54,7 +54,7 @@ pub enum CalibrationError {
         /// Number of observations.
         observations: usize,
     },
-    /// The observations cannot determine so many parameters.
+    /// The observations cannot determine the parameters.
     #[error(
         "{observations} observations cannot determine {parameters} parameters; needed: {needed} (one more than parameters without prior \
          knowledge if the noise is to be estimated as well)"

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use crate::CalibrationError;
 
-/// What an observer is told after each iteration.
+/// What an observer is given after each iteration.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Progress {

@@ -12,6 +12,7 @@ pub(crate) const FARTHEST: f64 = 7.0;
 
 /// In what a parameter is fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Scale {
     /// Its value.
     Linear,
@@ -29,6 +30,15 @@ pub struct Prior {
 }
 
 /// A parameter to be fitted.
+///
+/// ```
+/// use calibrate::{Parameter, Prior, Scale};
+///
+/// // Between 1e5 and 1e9, and about 2e6 by what is known of it: a factor of e^0.5 either way.
+/// let steepness = Parameter::new("steepness", 1e5, 1e9, Scale::Logarithmic)?.with_prior(Prior { value: 2e6, sigma: 0.5 })?;
+/// assert_eq!(steepness.name(), "steepness");
+/// # Ok::<(), calibrate::CalibrationError>(())
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parameter {
     name: String,

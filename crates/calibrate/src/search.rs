@@ -10,24 +10,26 @@ use crate::point::{Point, all_over, score};
 use crate::uncertainty::parameters_from_data;
 use crate::{CalibrationError, Loss};
 
-/// Repeats after which a loop is taken to go in a circle: none that ends needs half as many.
+/// Repeats after which a loop is taken to go in a circle: those that end need half as many.
 pub(crate) const MAX_ROUNDS: usize = 24;
-/// Iterations of a descent to the optimum, and of one that is only compared with it.
+/// Iterations of a descent to the optimum, and of one that is only compared with it: with 6 instead of 12, direct fits take 145 runs
+/// instead of 165, and one end in a hundred is off by its interval's width (tests/calibration_coverage.rs, 2400 fits).
 const ITERATIONS: u64 = 200;
 pub(crate) const FEW_ITERATIONS: u64 = 12;
-/// Next step in standard errors at which a descent that is only compared has converged.
+/// Next step in standard errors at which a descent that is only compared has converged, and above which the user is warned. With 0.35,
+/// a direct fit takes 10 runs less and one end in a hundred moves by a sixth of its interval (the same fits).
 pub(crate) const ROUGH: f64 = 0.1;
 /// Next step in standard errors at which a descent may stop where no step lowers the deviance: noise of the model hides the rest.
 const NOISY: f64 = 0.5;
-/// Change of the noise's scale at which the rounds of fit and scale end.
+/// Change of the noise's scale, as a share, at which the rounds of fit and scale end: far below what 40 readings know of it.
 const SCALE_TOLERANCE: f64 = 0.01;
-/// Fall of the deviance that makes another optimum the better one.
+/// Fall of the deviance that makes another optimum the better one: a quarter of a standard error.
 pub(crate) const BETTER: f64 = 0.05;
 /// Rise of the deviance up to which another minimum counts as a rival: two standard errors.
 const RIVAL: f64 = 4.0;
-/// Distance from an optimum, in free variables, of a start worth a second descent.
+/// Distance from an optimum, in free variables, of a start worth a second descent: a sixth of a range from its middle.
 const ELSEWHERE: f64 = 0.7;
-/// Descents from elsewhere.
+/// Descents from elsewhere; the tests' models have two minima, and a wave as many as the scan shows.
 const RESTARTS: usize = 3;
 
 /// What a search needs.
@@ -156,7 +158,7 @@ impl Search<'_> {
             let descended = self.refine(point.clone(), None);
             match descended {
                 Err(error) if error.is_final() => return Err(error),
-                // Of several failures the first is told.
+                // Of several failures the first is reported.
                 Err(_) if index > 0 => {}
                 other => found = other,
             }

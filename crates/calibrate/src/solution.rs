@@ -4,8 +4,8 @@ use nalgebra::DVector;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use crate::descent::Optimum;
+use crate::estimate::{Estimate, Interval};
 use crate::evaluator::Evaluator;
-use crate::fit::{Estimate, Interval};
 use crate::interval::{Profile, Witness};
 use crate::parameter::FARTHEST;
 use crate::point::Point;

@@ -10,7 +10,8 @@ use crate::search::{BETTER, FEW_ITERATIONS, ROUGH, Search};
 use crate::step::LONGEST_STEP;
 use crate::uncertainty::Covariance;
 
-/// Best places of a scan from which the others are fitted at a station.
+/// Best places of a scan from which the others are fitted at a station. With none, one end of μ_d in a hundred is off by a tenth of its
+/// interval and the worst by 0.4; 4 change nothing more (tests/calibration_coverage.rs).
 const STARTS: usize = 2;
 
 /// Why a profile was not finished.

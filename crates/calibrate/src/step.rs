@@ -13,11 +13,11 @@ use crate::point::Point;
 /// Least and largest λ. In a narrow valley λ must fall far: with 0.01 at least, one of the closed forms of the tests takes 1080 runs
 /// instead of 170. Beyond the largest no step lowers the deviance.
 const DAMPING: (f64, f64) = (1e-9, 1e4);
-/// λ after a failure at least: less of it would only repeat the step.
+/// λ after a failure at least: less of it would only repeat the step, and with 0.01 a fit of the tests takes 123 runs instead of 108.
 const FELT: f64 = 0.03;
-/// Factor by which λ falls and rises.
+/// Factor by which λ falls and rises; J. J. Moré and K. Madsen name 2 to 10.
 const FACTOR: f64 = 8.0;
-/// Shares of the predicted gain: below the first λ rises, above the second it falls.
+/// Shares of the predicted gain: below the first λ rises, above the second it falls; usual values are 0.25 and 0.75.
 const GAINS: (f64, f64) = (0.1, 0.5);
 /// Added to the diagonal of H: as much as knowing a free variable to ±4, so that one of which the data know nothing, whose slopes are
 /// noise, stays about where it is. Beside the information in data that determine a parameter it is nothing.

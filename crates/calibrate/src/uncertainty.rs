@@ -1,7 +1,7 @@
 //! Covariance of the free variables from the Jacobian at the optimum.
 //!
 //! The inverse covariance is half the second derivative of the deviance, Jᵀ diag(c) J. Directions of which neither data nor
-//! priors know anything have no covariance: parameters along them are told apart from the others, not given a large number.
+//! priors know anything have no covariance: parameters along them are marked as unknown, not given a large number.
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};

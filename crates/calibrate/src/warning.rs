@@ -29,7 +29,7 @@ pub enum Warning {
         /// Its best value.
         value: f64,
     },
-    /// Two parameters are hardly told apart.
+    /// Two parameters are hardly distinguishable.
     Correlated {
         /// One.
         first: String,
@@ -87,7 +87,7 @@ impl fmt::Display for Warning {
                 correlation,
             } => write!(
                 f,
-                "{first} and {second} are hardly told apart: their correlation is {correlation:.4}"
+                "{first} and {second} are hardly distinguishable: their correlation is {correlation:.4}"
             ),
             Self::Outliers { indices } => {
                 write!(f, "{} observations look like outliers, index", indices.len())?;

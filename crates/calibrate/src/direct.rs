@@ -1,0 +1,28 @@
+//! A fit that runs the model itself.
+
+use crate::solution::Route;
+use crate::{Calibration, CalibrationError, Fit};
+
+impl Calibration<'_> {
+    /// Fits, running the model wherever the search asks for it.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError`] where there are too few observations, the model has no answer anywhere, the fit does not converge or needs
+    /// more model runs than allowed.
+    pub fn fit(&self) -> Result<Fit, CalibrationError> {
+        self.check_count()?;
+        let units = self.units();
+        let options = &self.options;
+        let evaluator = self.evaluator(&units, options.max_evaluations);
+        let start = options.start.as_ref().map(|start| self.free(start));
+        let route = Route {
+            scan: self.scan(),
+            start,
+            profiles: options.profiles,
+            scan_others: 0,
+        };
+        let solution = self.solve(&evaluator, &route)?;
+        Ok(self.answer(&evaluator, solution))
+    }
+}

@@ -1,0 +1,40 @@
+//! What is known of a parameter after a fit.
+
+/// An interval; an end is `None` where the data do not close it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Interval {
+    /// Lower end.
+    pub lower: Option<f64>,
+    /// Upper end.
+    pub upper: Option<f64>,
+}
+
+impl Interval {
+    /// Whether both ends are closed.
+    pub fn is_closed(&self) -> bool {
+        self.lower.is_some() && self.upper.is_some()
+    }
+
+    /// Whether `value` lies in it.
+    pub fn contains(&self, value: f64) -> bool {
+        self.lower.is_none_or(|lower| lower <= value) && self.upper.is_none_or(|upper| value <= upper)
+    }
+}
+
+/// A fitted parameter, in its own unit.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Estimate {
+    /// The parameter's name.
+    pub name: String,
+    /// Best value.
+    pub value: f64,
+    /// Standard error by the curvature at the optimum; `None` where the data say nothing about the parameter there.
+    pub standard_error: Option<f64>,
+    /// Interval at the level of confidence asked.
+    pub interval: Interval,
+    /// Whether the data close the interval on both sides. If not, `value` is one of many that fit.
+    pub identifiable: bool,
+    /// Values and rise of the deviance at them, in squared standard errors, where a profile was computed; ascending.
+    pub profile: Vec<(f64, f64)>,
+}
