@@ -1,7 +1,7 @@
 //! Presets: named sets of values for a scene, each value with its source.
 //!
-//! `preset = "t-25"` in a section of a scene stands for the values listed here; what the section gives beside it counts
-//! instead of the preset's. The data are TOML files beside this one. A value without a document behind it is marked
+//! `preset = "t-25"` in a section of a scene stands for the values listed here; keys given next to it
+//! override them. The data are TOML files beside this one. A value without a document behind it is marked
 //! ([`Source::assumed`]): use it to get going, and replace it by what you measured.
 //!
 //! ```
@@ -34,6 +34,7 @@ pub enum PresetKind {
 
 /// A named set of values.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct Preset {
     /// The part of a scene that it fills.
     pub kind: PresetKind,
@@ -49,6 +50,7 @@ pub struct Preset {
 
 /// Where a value is from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct Source {
     /// The key, with those around it.
     pub key: String,

@@ -7,6 +7,7 @@ use super::words::words;
 
 /// A cable in a duct under traffic, in SI.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Scene {
     /// Title; the file's name where the file gives none.
     pub title: String,
@@ -50,6 +51,7 @@ pub struct Duct {
 
 /// The ground and how to model it.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Ground {
     /// Which model of the ground to use.
     pub model: GroundModel,
@@ -90,6 +92,7 @@ pub enum PeakScaling {
 
 /// The cable.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Cable {
     /// Weight per length \[N/m\], positive.
     pub weight: f64,
@@ -108,6 +111,7 @@ impl Cable {
 
 /// Friction between cable and duct.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Friction {
     /// How friction follows slip.
     pub law: FrictionLaw,
@@ -135,6 +139,7 @@ pub struct TrafficVehicle {
 
 /// How many vehicles drive, in which order.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Traffic {
     /// Number of passes, all vehicles together, at least 1.
     pub passes: u64,

@@ -48,7 +48,6 @@ pub struct RadialProfile {
     edges: Vec<f64>,
     cells: Vec<Cell>,
     tail: Tail,
-    peak: Displacement,
     samples: usize,
 }
 
@@ -121,7 +120,6 @@ impl RadialProfile {
         let mut edges: Vec<f64> = found.iter().map(|(start, _, _)| *start).collect();
         edges.push(end);
         let cells: Vec<Cell> = found.into_iter().map(|(_, _, cell)| cell).collect();
-        let (peak, samples) = (sampler.peak, sampler.samples);
         let mut profile = Self {
             edges,
             cells,
@@ -130,10 +128,9 @@ impl RadialProfile {
                 radial: None,
                 vertical: None,
             },
-            peak,
-            samples,
+            samples: sampler.samples,
         };
-        profile.tail = profile.outward(end, accuracy);
+        profile.tail = profile.outward(end, sampler.peak * (10.0 * accuracy));
         Ok(profile)
     }
 
@@ -145,11 +142,6 @@ impl RadialProfile {
             radial: point.ratio * radius,
             vertical: point.vertical,
         }
-    }
-
-    /// Largest |u_r| and |u_z| among the sampled radii.
-    pub fn sampled_peak(&self) -> Displacement {
-        self.peak
     }
 
     /// How many radii the ground model was asked for.
@@ -180,11 +172,11 @@ impl RadialProfile {
         }
     }
 
-    /// The powers with which both components leave the sampled range.
-    fn outward(&self, end: f64, accuracy: f64) -> Tail {
-        let power = |inner: f64, outer: f64, peak: f64| {
+    /// The powers with which both components leave the sampled range; values below `least` have none.
+    fn outward(&self, end: f64, least: Displacement) -> Tail {
+        let power = |inner: f64, outer: f64, least: f64| {
             // A value at the level of the interpolation error has no power of its own.
-            if outer.abs() <= 10.0 * accuracy * peak || inner * outer <= 0.0 {
+            if outer.abs() <= least || inner * outer <= 0.0 {
                 return None;
             }
             let power = (inner / outer).ln() / (1.0 / 0.8_f64).ln();
@@ -196,8 +188,8 @@ impl RadialProfile {
         );
         Tail {
             radius: end,
-            radial: power(inner.radial, outer.radial, self.peak.radial),
-            vertical: power(inner.vertical, outer.vertical, self.peak.vertical),
+            radial: power(inner.radial, outer.radial, least.radial),
+            vertical: power(inner.vertical, outer.vertical, least.vertical),
         }
     }
 }

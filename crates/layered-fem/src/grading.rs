@@ -45,6 +45,8 @@ pub(crate) struct Lines {
     pub(crate) block_rows: usize,
     /// Length c over which the spacing is even \[m\].
     pub(crate) scale: f64,
+    /// Parts into which the intervals of the first mesh are cut.
+    pub(crate) parts: usize,
 }
 
 /// Depth \[m\] of the block around the load: within the top layer, and where its modulus has not changed much.
@@ -169,6 +171,7 @@ impl Lines {
             block_columns,
             block_rows,
             scale,
+            parts,
         })
     }
 }

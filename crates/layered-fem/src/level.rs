@@ -99,6 +99,11 @@ impl Level {
         })
     }
 
+    /// Parts into which the intervals of the first mesh are cut.
+    pub(crate) fn parts(&self) -> usize {
+        self.lines.parts
+    }
+
     /// Unknowns of the factored system.
     pub(crate) fn unknowns(&self) -> usize {
         self.system.unknowns()

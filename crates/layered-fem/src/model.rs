@@ -82,6 +82,8 @@ const MOST_ANSWERS: usize = 512;
 pub struct LayeredFem {
     profile: SoilProfile,
     options: FemOptions,
+    /// Spacing of the first mesh.
+    alpha: f64,
     meshes: Mutex<Meshes>,
     /// Accepted answers by the bits of contact radius and depth.
     answers: Mutex<HashMap<(u64, u64), Arc<Answer>>>,
@@ -89,18 +91,9 @@ pub struct LayeredFem {
 
 #[derive(Debug)]
 struct Meshes {
-    /// Spacing of the first mesh.
-    alpha: f64,
-    coarse: Step,
-    fine: Step,
+    coarse: Level,
+    fine: Level,
     factorisations: usize,
-}
-
-#[derive(Debug)]
-struct Step {
-    /// Parts into which the first mesh's intervals are cut.
-    parts: usize,
-    level: Level,
 }
 
 #[derive(Debug)]
@@ -133,16 +126,15 @@ impl LayeredFem {
         while alpha < most && Lines::new(profile, alpha, RATIO, options.max_unknowns()).is_err() {
             alpha *= 1.2;
         }
-        let make = |parts| Step::new(profile, options, alpha, parts).map_err(in_model);
         let meshes = Meshes {
-            alpha,
-            coarse: make(1)?,
-            fine: make(RATIO)?,
+            coarse: level(profile, options, alpha, 1)?,
+            fine: level(profile, options, alpha, RATIO)?,
             factorisations: 2,
         };
         Ok(Self {
             profile: profile.clone(),
             options,
+            alpha,
             meshes: Mutex::new(meshes),
             answers: Mutex::default(),
         })
@@ -171,7 +163,7 @@ impl LayeredFem {
     /// Work done and memory held so far.
     pub fn statistics(&self) -> FemStatistics {
         let meshes = self.meshes();
-        let (coarse, fine) = (&meshes.coarse.level, &meshes.fine.level);
+        let (coarse, fine) = (&meshes.coarse, &meshes.fine);
         FemStatistics {
             unknowns: fine.unknowns(),
             factor_entries: fine.factor_entries(),
@@ -199,13 +191,9 @@ impl LayeredFem {
         let gain = if at_edge { LEAST_GAIN_AT_EDGE } else { LEAST_GAIN };
         let mut meshes = self.meshes();
         loop {
-            let coarse = meshes
-                .coarse
-                .level
-                .line(contact_radius, depth)
-                .map_err(in_model)?;
-            let fine = meshes.fine.level.line(contact_radius, depth).map_err(in_model)?;
-            let estimate = compare(&coarse, &fine, meshes.fine.level.columns(), gain);
+            let coarse = meshes.coarse.line(contact_radius, depth).map_err(in_model)?;
+            let fine = meshes.fine.line(contact_radius, depth).map_err(in_model)?;
+            let estimate = compare(&coarse, &fine, meshes.fine.columns(), gain);
             if estimate.largest() <= self.options.accuracy() {
                 let answer = Arc::new(Answer { line: fine, estimate });
                 let mut answers = self.answers();
@@ -222,11 +210,10 @@ impl LayeredFem {
     /// Puts a finer mesh in place of the coarse one, or says that the accuracy is out of reach.
     fn refine(&self, meshes: &mut Meshes, estimate: ErrorEstimate, depth: f64) -> Result<(), GroundError> {
         let excess = estimate.largest() / self.options.accuracy();
-        let next = RATIO * meshes.fine.parts;
+        let next = RATIO * meshes.fine.parts();
         // What the accuracy needs at least, should the error fall as fast as it can.
-        let wanted = meshes.fine.parts as f64 * excess.powf(1.0 / BEST_ORDER);
-        let fits =
-            |parts| Lines::new(&self.profile, meshes.alpha, parts, self.options.max_unknowns()).is_ok();
+        let wanted = meshes.fine.parts() as f64 * excess.powf(1.0 / BEST_ORDER);
+        let fits = |parts| Lines::new(&self.profile, self.alpha, parts, self.options.max_unknowns()).is_ok();
         if excess.is_nan() || !fits(next) || !fits(wanted as usize) {
             return Err(GroundError::Accuracy {
                 model: MODEL,
@@ -236,7 +223,7 @@ impl LayeredFem {
                 depth,
             });
         }
-        let finer = Step::new(&self.profile, self.options, meshes.alpha, next).map_err(in_model)?;
+        let finer = level(&self.profile, self.options, self.alpha, next)?;
         meshes.coarse = std::mem::replace(&mut meshes.fine, finer);
         meshes.factorisations += 1;
         Ok(())
@@ -246,8 +233,7 @@ impl LayeredFem {
 impl GroundField for LayeredFem {
     fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
         check_place(radius, depth)?;
-        let answer = self.answer(load.contact_radius(), depth)?;
-        evaluate(&answer.line, load, radius, depth)
+        Ok(self.displacements(load, &[radius], depth)?[0])
     }
 
     fn displacements(
@@ -265,14 +251,11 @@ impl GroundField for LayeredFem {
     }
 }
 
-impl Step {
-    fn new(profile: &SoilProfile, options: FemOptions, alpha: f64, parts: usize) -> Result<Self, FemError> {
-        let lines = Lines::new(profile, alpha, parts, options.max_unknowns())?;
-        Ok(Self {
-            parts,
-            level: Level::new(profile, options.rounding(), lines)?,
-        })
-    }
+/// The mesh with every interval of the first cut into `parts`, factored.
+fn level(profile: &SoilProfile, options: FemOptions, alpha: f64, parts: usize) -> Result<Level, GroundError> {
+    let lines = Lines::new(profile, alpha, parts, options.max_unknowns());
+    let level = lines.and_then(|lines| Level::new(profile, options.rounding(), lines));
+    level.map_err(in_model)
 }
 
 /// Estimated error of `fine` from its difference to `coarse`, whose error is at least `gain` times as large.
