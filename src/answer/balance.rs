@@ -6,16 +6,12 @@
 
 use cable_dem::{CableState, DuctedCable};
 
-use super::record::{PassRecord, RestraintRecord, Saturation};
+use super::record::{PassRecord, RestraintRecord};
 use crate::Error;
-use crate::scene::{End, Scene};
+use crate::scene::Scene;
 
 /// Share of what friction can carry by which rounding and interpolation may exceed it.
-const MARGIN: f64 = 0.01;
-/// A force already reached may exceed the saturation by this share of it, which is no more than an extrapolation's error.
-const NEARLY: f64 = 0.02;
-/// Share of the saturation whose pass is told.
-const LEVEL: f64 = 0.95;
+pub const MARGIN: f64 = 0.01;
 /// Rounding of the force in an element, as a share of the largest.
 const ROUNDING: f64 = 1e-9;
 
@@ -56,48 +52,4 @@ pub fn of_records(
         }
     }
     Ok(())
-}
-
-/// The saturation that `records` bear out: at least what they already reach, if that is nearly it, and no more than friction
-/// can carry to an end whose other end is free.
-pub fn of_saturation(
-    scene: &Scene,
-    records: &[PassRecord],
-    mut saturation: Saturation,
-) -> Option<Saturation> {
-    let free = scene.ends.upstream == End::Free || scene.ends.downstream == End::Free;
-    let limit = scene.friction_limit() * scene.duct.length;
-    if free && scene.restraints.is_empty() && saturation.force_n.abs() > (1.0 + MARGIN) * limit {
-        return None;
-    }
-    let held = scene.ends.upstream != End::Free || scene.ends.downstream != End::Free;
-    let force = |record: &PassRecord| {
-        if held {
-            larger(record.upstream_force_n, record.downstream_force_n)
-        } else {
-            record.max_compression_n
-        }
-    };
-    let largest = records.iter().map(force).fold(0.0, larger);
-    if largest.abs() > saturation.force_n.abs() {
-        if largest.abs() > (1.0 + NEARLY) * saturation.force_n.abs() {
-            // The force falls from there: it does not level off.
-            return None;
-        }
-        saturation.force_n = largest;
-    }
-    let share = LEVEL * saturation.force_n;
-    let reached = records.iter().find(|record| force(record) / share >= 1.0);
-    match (reached, records.last()) {
-        (Some(record), _) => saturation.passes_to_95_percent = record.pass,
-        // What is said to have been reached has to be among the records.
-        (None, Some(last)) if saturation.passes_to_95_percent <= last.pass => return None,
-        _ => {}
-    }
-    Some(saturation)
-}
-
-/// The larger in size of two forces.
-fn larger(a: f64, b: f64) -> f64 {
-    if b.abs() > a.abs() { b } else { a }
 }

@@ -1,9 +1,9 @@
 //! How wrong the forces and the movements of a run are.
 //!
-//! The passes are computed on meshes each twice as fine as the one before. Their differences tell the error of the last:
+//! The passes are computed on meshes each twice as fine as the one before. Their differences give the error of the last:
 //! a scheme of second order leaves a third of the last difference and a twelfth of the one before. Friction that turns
-//! at a node or between two makes the sequence uneven, and two meshes may agree by chance; so more than that is counted: the
-//! largest of a share of each difference seen so far, and never less than what is typical of so many nodes a depth.
+//! at a node or between two makes the sequence uneven, and two meshes may agree by chance. So more is counted: the largest of
+//! a share of each difference seen so far, and never less than what is typical of the level.
 //!
 //! A force is compared with itself, or with a tenth of the largest one of the run where it is less than that, or with what
 //! friction holds on a centimetre of cable; a movement of an end with the largest of the run, or with a tenth of the
@@ -14,20 +14,20 @@ use cable_dem::PassOutcome;
 use crate::Error;
 use crate::shown::percent;
 
-/// Shares of the differences between meshes that count as error: of the last one, the one before, and so on. Fitted to 200 random
-/// scenes, so that the error is above them in one or two of a hundred.
-const SHARES: [f64; 4] = [1.5, 0.35, 0.12, 0.04];
-/// The same from so many passes on, all of which can hardly agree by chance.
-const OF_MANY: [f64; 4] = [1.5, 0.2, 0.06, 0.02];
+/// What counts of the differences between meshes as error: of the last one, the one before, and so on. Fitted to 200 random
+/// scenes (`tests/planner/honest.rs`), so that the true error is larger in one or two of a hundred.
+const WEIGHTS: [f64; 4] = [1.5, 0.35, 0.12, 0.04];
+/// The same from 40 passes on, where chance agreement is unlikely.
+const WEIGHTS_OF_MANY: [f64; 4] = [1.5, 0.2, 0.06, 0.02];
 const MANY: usize = 40;
-/// Of the only one.
-const ALONE: f64 = 2.0;
+/// Weight of the only difference.
+const WEIGHT_ALONE: f64 = 2.0;
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;
 /// Forces below this share of the largest one count as nothing when errors are compared, and movements of an end below this
 /// share of the duct's largest.
 const SMALL: f64 = 0.1;
-/// So does what friction holds on so much cable \[m\].
+/// So does what friction holds on this length of cable \[m\].
 const SHORT: f64 = 0.01;
 /// A larger error than this, or the tolerance if that is larger still, is no answer.
 const DOUBTFUL: f64 = 0.1;
@@ -96,13 +96,13 @@ impl Scale {
 pub struct ErrorParts {
     /// Node spacing and vehicle step.
     pub mesh: Shares,
-    /// What the ground model leaves out, as it comes through.
+    /// Accuracy of D_l as a share of its peak, counted in full as error of the force.
     pub ground: Shares,
     /// Inertia, where it is left out.
     pub inertia: f64,
     /// Road beyond where vehicles are followed.
     pub road: Shares,
-    /// Whether a finer run was made to measure mesh and ground.
+    /// Whether a finer run was made to measure the mesh's part.
     pub measured: bool,
 }
 
@@ -140,10 +140,10 @@ pub fn of_mesh(levels: &[&[PassOutcome]], typical: f64, scale: Scale) -> Shares 
         .collect();
     let least = Shares::both(typical);
     if let [only] = differences[..] {
-        return only.times(ALONE).max(least);
+        return only.times(WEIGHT_ALONE).max(least);
     }
     let passes = levels.last().map_or(0, |finest| finest.len());
-    let shares = if passes < MANY { SHARES } else { OF_MANY };
+    let shares = if passes < MANY { WEIGHTS } else { WEIGHTS_OF_MANY };
     shares
         .iter()
         .zip(&differences)

@@ -2,6 +2,8 @@
 
 /// The first passes are all listed, then each this much later than the one before.
 const GROWTH: f64 = 1.03;
+/// Where every pass is simulated, all are listed up to this number.
+const ALL_LISTED: u64 = 10_000;
 /// Leading digits of round numbers, which a reader looks for.
 pub const ROUND: [u64; 3] = [1, 2, 5];
 
@@ -14,9 +16,18 @@ pub fn listed(count: u64) -> Vec<u64> {
         next = (next + 1).max((GROWTH * next as f64) as u64);
     }
     passes.push(count);
-    let round = (0..19).flat_map(|power| ROUND.map(|leading| leading * 10_u64.pow(power.min(18))));
+    let round = (0..19).flat_map(|power| ROUND.map(|leading| leading * 10_u64.pow(power)));
     passes.extend(round.filter(|&pass| pass < count));
     passes.sort_unstable();
     passes.dedup();
     passes
+}
+
+/// The passes that are listed where all `count` are simulated.
+pub fn simulated(count: u64) -> Vec<u64> {
+    if count <= ALL_LISTED {
+        (1..=count).collect()
+    } else {
+        listed(count)
+    }
 }

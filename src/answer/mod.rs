@@ -6,10 +6,10 @@ mod listed;
 mod record;
 mod saturation;
 #[cfg(any(feature = "cli", feature = "plot"))]
-mod selected;
+mod table_rows;
 
-pub use listed::listed;
+pub use listed::{listed, simulated};
 pub use record::*;
-pub use saturation::{force_series, saturation};
+pub use saturation::{LEVEL, borne_out, force_series, larger, saturation};
 #[cfg(any(feature = "cli", feature = "plot"))]
-pub use selected::selected;
+pub use table_rows::table_rows;

@@ -165,7 +165,7 @@ pub struct ErrorEstimate {
     pub relative: f64,
     /// How that was found.
     pub method: String,
-    /// What it is the sum of.
+    /// Its parts: `relative` is the sum of these without `law` and `movement`.
     pub parts: ErrorShares,
 }
 

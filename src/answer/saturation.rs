@@ -1,13 +1,14 @@
 //! Where the force levels off.
 //!
 //! The force at a third, two thirds and all of the passes gives two gains; of vehicles that alternate, the largest in size
-//! counts. Where the second is much smaller than the first, the gains shrink geometrically and what is still to come is their remaining sum (Aitken's Δ²; A. C. Aitken,
-//! Proc. R. Soc. Edinburgh 46 (1926) 289). Early on the force grows like √n, the gains' ratio is above 0.7 and nothing
-//! can be said yet.
+//! counts. Where the second is much smaller than the first, the gains shrink geometrically, and what is still to come is their
+//! remaining sum (Aitken's Δ²; A. C. Aitken, Proc. R. Soc. Edinburgh 46 (1926) 289). Early on the force grows like √n: the
+//! gains' ratio is above 0.7 and nothing can be said yet.
 
 use cable_dem::PassOutcome;
 
-use super::record::Saturation;
+use super::balance;
+use super::record::{PassRecord, Saturation};
 use crate::Scene;
 use crate::scene::End;
 
@@ -17,6 +18,10 @@ const LARGEST_RATIO: f64 = 0.5;
 const LARGEST_REMAINDER: f64 = 0.03;
 /// Fewest passes from which anything can be said.
 const FEWEST_PASSES: usize = 12;
+/// Share of the saturated force whose pass is stated.
+pub const LEVEL: f64 = 0.95;
+/// A force already reached may exceed the saturation by this share of it, which is no more than an extrapolation's error.
+const NEARLY: f64 = 0.02;
 
 /// Saturation of the force series `forces` \[N\], one entry a pass; `scale` \[N\] is a force that counts as large here.
 pub fn saturation(forces: &[f64], scale: f64) -> Option<Saturation> {
@@ -28,13 +33,7 @@ pub fn saturation(forces: &[f64], scale: f64) -> Option<Saturation> {
     let width = (count / 12).max(1);
     let largest = |end: usize| {
         let window = forces[end - width..end].iter().copied();
-        window.fold(0.0, |largest: f64, force| {
-            if force.abs() > largest.abs() {
-                force
-            } else {
-                largest
-            }
-        })
+        window.fold(0.0, larger)
     };
     let (first, second, third) = (largest(count / 3), largest(2 * count / 3), largest(count));
     let (early, late) = (second - first, third - second);
@@ -54,7 +53,7 @@ pub fn saturation(forces: &[f64], scale: f64) -> Option<Saturation> {
     if remainder.abs() > LARGEST_REMAINDER * force.abs() {
         return None;
     }
-    let reached = forces.iter().position(|f| f / force >= 0.95)?;
+    let reached = forces.iter().position(|f| f / force >= LEVEL)?;
     Some(Saturation {
         force_n: force,
         passes_to_95_percent: reached as u64 + 1,
@@ -98,6 +97,46 @@ pub fn force_series(scene: &Scene, outcomes: &[PassOutcome]) -> (Vec<f64>, f64) 
             }
         }
     }
+}
+
+/// The saturation that `records` bear out: at least what they already reach, if that is nearly it, and no more than friction
+/// can carry to an end whose other end is free.
+pub fn borne_out(scene: &Scene, records: &[PassRecord], mut saturation: Saturation) -> Option<Saturation> {
+    let free = scene.ends.upstream == End::Free || scene.ends.downstream == End::Free;
+    let limit = scene.friction_limit() * scene.duct.length;
+    if free && scene.restraints.is_empty() && saturation.force_n.abs() > (1.0 + balance::MARGIN) * limit {
+        return None;
+    }
+    let held = scene.ends.upstream != End::Free || scene.ends.downstream != End::Free;
+    let force = |record: &PassRecord| {
+        if held {
+            larger(record.upstream_force_n, record.downstream_force_n)
+        } else {
+            record.max_compression_n
+        }
+    };
+    let largest = records.iter().map(force).fold(0.0, larger);
+    if largest.abs() > saturation.force_n.abs() {
+        if largest.abs() > (1.0 + NEARLY) * saturation.force_n.abs() {
+            // The force falls from there: it does not level off.
+            return None;
+        }
+        saturation.force_n = largest;
+    }
+    let share = LEVEL * saturation.force_n;
+    let reached = records.iter().find(|record| force(record) / share >= 1.0);
+    match (reached, records.last()) {
+        (Some(record), _) => saturation.passes_to_95_percent = record.pass,
+        // What is said to have been reached has to be among the records.
+        (None, Some(last)) if saturation.passes_to_95_percent <= last.pass => return None,
+        _ => {}
+    }
+    Some(saturation)
+}
+
+/// The larger in size of two forces.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b.abs() > a.abs() { b } else { a }
 }
 
 #[cfg(test)]

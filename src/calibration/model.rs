@@ -42,7 +42,7 @@ impl SeriesModel {
         let mut scene = series.scene.clone();
         let end = CellEnd::of(&scene)?;
         scene.traffic.passes = series.readings.last_pass();
-        let method = plan(&scene)?.method.method;
+        let method = plan(&scene)?.choice.method;
         let motions = Ground::new(&scene, None, road::reach(&scene))?.motions;
         Ok(Self {
             scene,

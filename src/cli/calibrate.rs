@@ -27,11 +27,11 @@ pub struct Arguments {
     /// Readings: CSV with the columns pass,force_n[,sigma_n], forces after the pass at the held end (the downstream one if both are)
     #[arg(long, value_name = "FILE")]
     data: PathBuf,
-    /// What to fit: dynamic_coefficient, shape_factor, ground_stiffness (how many times stiffer than in the scene); by default the
-    /// first two, with the law coulomb the first
+    /// What to fit: dynamic_coefficient, shape_factor, ground_stiffness (how many times stiffer than in the scene). Default:
+    /// dynamic_coefficient,shape_factor (only the first with Coulomb's law)
     #[arg(long, value_delimiter = ',', value_name = "NAMES")]
     fit: Vec<Quantity>,
-    /// Measured deflection of the duct under the first vehicle, "115 um": prior knowledge of ground_stiffness, which is fitted too
+    /// Measured deflection under the first vehicle, "115 um"; also fits ground_stiffness
     #[arg(long, value_name = "LENGTH", requires = "deflection_sigma", value_parser = positive_length)]
     deflection: Option<f64>,
     /// Standard deviation of the measured deflection, "15 um"

@@ -25,10 +25,10 @@ Examples:
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
-    /// Largest force on an end
+    /// Largest force allowed on either end
     #[arg(long, value_name = "FORCE", value_parser = force)]
     limit_force: f64,
-    /// Largest displacement of an end
+    /// Largest movement allowed of either end
     #[arg(long, value_name = "LENGTH", value_parser = length)]
     limit_movement: Option<f64>,
     /// Where the spring is: upstream, downstream (at these ends), or a position for a clamp

@@ -51,7 +51,7 @@ enum Command {
     Run(run::Arguments),
     /// Show the motion of the duct under the first vehicle
     Profile(profile::Arguments),
-    /// Show which models would be used and why, with estimated error and time, the rejected ones too
+    /// Show the chosen ground model, method and mesh, the alternatives, and why
     Plan(plan::Arguments),
     /// Fit friction and ground to what a load cell measured
     Calibrate(Box<calibrate::Arguments>),

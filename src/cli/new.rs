@@ -44,10 +44,10 @@ pub struct Arguments {
     /// Dynamic friction coefficient
     #[arg(long, value_name = "NUMBER")]
     friction: Option<String>,
-    /// What holds the end where vehicles come in: free, fixed or a spring's stiffness
+    /// End at x = 0: free, fixed or a spring's stiffness
     #[arg(long, value_name = "END")]
     upstream: Option<String>,
-    /// What holds the other end
+    /// End at x = length: free, fixed or a spring's stiffness
     #[arg(long, value_name = "END")]
     downstream: Option<String>,
     /// Preset of the vehicle

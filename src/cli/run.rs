@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::shared::{Input, OutputArguments, SceneArguments};
 use super::terminal;
-use crate::answer::selected;
+use crate::answer::table_rows;
 use crate::output::Kind;
 use crate::shown::{percent, rounded};
 use crate::{Run, RunOptions};
@@ -66,7 +66,7 @@ fn print(run: &Run) -> Result<(), Failure> {
         "{:>9} {:>11} {:>11} {:>11} {:>11} {:>12}",
         "pass", "upstream", "downstream", "upstream", "downstream", "in cable, N"
     )?;
-    for record in selected(&run.passes) {
+    for record in table_rows(&run.passes) {
         writeln!(
             out,
             "{:>9} {:>11} {:>11} {:>11} {:>11} {:>12}",

@@ -26,7 +26,7 @@ pub struct SceneArguments {
 pub struct OutputArguments {
     #[command(flatten)]
     json: Json,
-    /// Write a table to this file; - is standard output, where nothing else is printed then
+    /// Write a table to this file; with - only the table is printed
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
     #[command(flatten)]
@@ -43,7 +43,8 @@ pub struct Json {
 /// Whether files that are not this command's own are replaced.
 #[derive(Debug, clap::Args)]
 pub struct Force {
-    /// Replace a file even if it is of another kind than what is written; a file that the command reads is never replaced
+    /// Overwrite the file whatever it contains. Without it, only an older output of the same command is overwritten (by `new`, no file).
+    /// Input files never are
     #[arg(long)]
     pub force: bool,
 }

@@ -29,9 +29,19 @@ Examples:
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
-    /// A key and its values, A:B:STEP or V1,V2,… or normal(MEAN, SD), lognormal(MEDIAN, SIGMA of the logarithm), uniform(LOW, HIGH); may
-    /// be repeated, for every combination
-    #[arg(long, value_name = "KEY=VALUES", required = true, allow_hyphen_values = true)]
+    /// A key and its values; may be repeated, for every combination:
+    /// KEY=A:B:STEP
+    /// KEY=V1,V2,…
+    /// KEY=normal(MEAN, SD)
+    /// KEY=lognormal(MEDIAN, SIGMA), SIGMA of the logarithm
+    /// KEY=uniform(LOW, HIGH)
+    #[arg(
+        long,
+        verbatim_doc_comment,
+        value_name = "KEY=VALUES",
+        required = true,
+        allow_hyphen_values = true
+    )]
     vary: Vec<String>,
     /// Table to write, FILE.csv or FILE.parquet
     #[arg(long, value_name = "FILE")]

@@ -10,6 +10,7 @@ const FARTHEST_DISTANCES: f64 = 100.0;
 const FARTHEST_THICKNESSES: f64 = 10.0;
 /// But no farther than this \[m\].
 const FARTHEST: f64 = 3000.0;
+
 /// How far the road is looked at \[m\], measured from a vehicle's origin.
 pub fn farthest(scene: &Scene) -> f64 {
     let wheels = || scene.vehicles.iter().flat_map(|traffic| traffic.vehicle.wheels());
@@ -33,7 +34,7 @@ pub fn reach(scene: &Scene) -> f64 {
     scene.duct.length + scene.solver.approach.unwrap_or(0.0).max(farthest(scene))
 }
 
-/// How far beyond the duct's ends vehicles are followed \[m\]: as the scene says, or to the outermost turn of D_l.
+/// How far beyond the duct's ends vehicles are followed \[m\]: as the scene says, or as far as they have to be.
 pub fn approach(scene: &Scene, motions: &[DuctMotion]) -> Result<f64, CableError> {
     match scene.solver.approach {
         Some(approach) => Ok(approach),

@@ -1,8 +1,8 @@
 //! Meshes of a scene, from coarse to fine.
 //!
-//! The natural length is the duct's depth. Level 0 has three nodes a depth and two steps of the vehicle a node spacing, each
-//! level after it twice as many of both. Every tolerance climbs the same levels and stops at its own, so that a looser
-//! one never costs more, and the levels passed on the way tell the error of the last.
+//! The natural length is the duct's depth. Level 0 has three nodes per depth and two steps of the vehicle per node spacing; each
+//! further level halves both. Every tolerance takes the same levels and stops at its own, so that a looser one never costs
+//! more, and the coarser levels give the error of the last.
 
 use cable_dem::{CableError, Mesh};
 
@@ -22,7 +22,7 @@ const TYPICAL: [f64; 7] = [5e-2, 3e-2, 6e-3, 1.5e-3, 4e-4, 1e-4, 2e-5];
 const FINEST: usize = TYPICAL.len() - 1;
 /// The level that a mesh named by the scene counts as: two coarser ones tell its error.
 const NAMED: usize = 2;
-/// Length of cable that one step of the vehicle moves \[depths of the duct\], solves and all; it is within a factor of three.
+/// Length of cable solved per vehicle step, averaged over repeated solves \[depths\]; right within a factor of three.
 const MOVED: f64 = 8.0;
 
 /// The meshes that a scene may be computed on.
@@ -147,7 +147,7 @@ impl Levels {
     }
 
     /// Nodes of the whole cable times steps of the vehicle in `passes` passes on `level`.
-    pub fn lattice(&self, level: usize, passes: u64) -> f64 {
+    pub fn whole_cable_updates(&self, level: usize, passes: u64) -> f64 {
         self.updates(level, passes, self.length)
     }
 

@@ -1,8 +1,8 @@
 //! How the passes of a scene are computed.
 //!
 //! The pass law costs the same for ten passes as for ten million; the quasi-static cable moves only near the vehicle; the
-//! solvers with inertia move all of it. Inertia changes the force by at most (v/c)²; the law is as good as its guards and
-//! the comparison with simulated passes say.
+//! solvers with inertia move all of it. Inertia changes the force by at most (v/c)²; the pass law's error is measured on the
+//! first passes. Explicit steps are taken only where the scene names them.
 
 use cable_dem::inertia_ratio;
 use pass_law::{Concern, Resolution, concerns_before};
@@ -11,6 +11,7 @@ use super::mesh::Levels;
 use crate::Error;
 use crate::cable;
 use crate::scene::{Scene, SolverMethod};
+use crate::shown::time;
 
 /// Measured time a node's update takes \[s\] on one core of about 3 GHz: without inertia, with it, and explicit.
 const QUASI_STATIC_SECONDS: f64 = 1.6e-8;
@@ -27,9 +28,9 @@ pub const LAW_ERROR: f64 = 0.01;
 const WORTHWHILE: f64 = 20.0;
 /// Where simulating every pass takes longer than this on the level for 1 % \[s\], the law takes over whatever the tolerance.
 const LONGEST_SECONDS: f64 = 60.0;
-/// The level for 1 %, and the one for tolerances that the law can keep.
-const FINE: usize = 2;
-const COARSE: usize = 1;
+/// The level that keeps 1 %, and the one on which the law's time is compared.
+const LEVEL_OF_ONE_PERCENT: usize = 2;
+const LEVEL_OF_THE_LAW: usize = 1;
 /// Share of the tolerance that leaving inertia out may cost.
 const INERTIA_SHARE: f64 = 0.5;
 /// Most passes that are simulated.
@@ -62,7 +63,7 @@ impl PassMethod {
     }
 
     /// The solver of the passes that are simulated.
-    pub fn solver(self) -> CableMethod {
+    pub fn cable_method(self) -> CableMethod {
         match self {
             Self::EveryPass(method) => method,
             Self::Law => CableMethod::QuasiStatic,
@@ -70,7 +71,7 @@ impl PassMethod {
     }
 
     fn has_inertia(self) -> bool {
-        self.solver() != CableMethod::QuasiStatic
+        self.cable_method() != CableMethod::QuasiStatic
     }
 }
 
@@ -101,11 +102,24 @@ pub struct MethodChoice {
 /// The method the scene names, or the cheapest that keeps its tolerance.
 pub fn choose(scene: &Scene, levels: &Levels) -> Result<MethodChoice, Error> {
     let estimates = Estimates::new(scene, levels)?;
-    let auto = scene.solver.method == SolverMethod::Auto;
-    let (method, reason) = if auto {
-        automatic(scene, &estimates)
-    } else {
-        (named(scene, &estimates)?, "the scene asks for it".to_owned())
+    let key = "solver.method";
+    let method = match scene.solver.method {
+        SolverMethod::Auto => None,
+        SolverMethod::PassLaw => match &estimates.refusal {
+            Some(refusal) => return Err(unfit(key, "pass-law", refusal)),
+            None => Some(PassMethod::Law),
+        },
+        SolverMethod::QuasiStatic if !scene.friction.law.has_memory() => {
+            return Err(unfit(key, "quasi-static", NO_REST));
+        }
+        SolverMethod::QuasiStatic => Some(PassMethod::EveryPass(CableMethod::QuasiStatic)),
+        SolverMethod::Dynamic => Some(PassMethod::EveryPass(CableMethod::Dynamic)),
+        SolverMethod::Explicit => Some(PassMethod::EveryPass(CableMethod::Explicit)),
+    };
+    let auto = method.is_none();
+    let (method, reason) = match method {
+        Some(named) => (named, "the scene asks for it".to_owned()),
+        None => automatic(scene, &estimates),
     };
     let count = scene.traffic.passes;
     if method != PassMethod::Law && count > MOST_PASSES && scene.friction_limit() > 0.0 {
@@ -145,22 +159,6 @@ fn unfit(key: &'static str, found: &'static str, reason: impl Into<String>) -> E
     }
 }
 
-fn named(scene: &Scene, estimates: &Estimates) -> Result<PassMethod, Error> {
-    let key = "solver.method";
-    match scene.solver.method {
-        SolverMethod::PassLaw => match &estimates.refusal {
-            Some(refusal) => Err(unfit(key, "pass-law", refusal)),
-            None => Ok(PassMethod::Law),
-        },
-        SolverMethod::Dynamic => Ok(PassMethod::EveryPass(CableMethod::Dynamic)),
-        SolverMethod::Explicit => Ok(PassMethod::EveryPass(CableMethod::Explicit)),
-        SolverMethod::Auto | SolverMethod::QuasiStatic if scene.friction.law.has_memory() => {
-            Ok(PassMethod::EveryPass(CableMethod::QuasiStatic))
-        }
-        SolverMethod::Auto | SolverMethod::QuasiStatic => Err(unfit(key, "quasi-static", NO_REST)),
-    }
-}
-
 const NO_REST: &str = "the sigmoid law has no state of rest: its friction depends on the time step";
 
 fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
@@ -175,7 +173,10 @@ fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
     let passes = scene.traffic.passes;
     if estimates.refusal.is_none() && scene.restraints.is_empty() {
         if estimates.fine > LONGEST_SECONDS {
-            let reason = format!("simulating all {passes} passes would take minutes");
+            let reason = format!(
+                "simulating all {passes} passes would take {}",
+                time(estimates.fine)
+            );
             return (PassMethod::Law, reason);
         }
         if LAW_ERROR <= tolerance && estimates.coarse > WORTHWHILE * LAW_SECONDS {
@@ -197,7 +198,7 @@ pub struct Estimates {
     pub inertia: f64,
     /// Why the pass law must not be used.
     refusal: Option<String>,
-    /// Time of the quasi-static passes on the levels [`COARSE`] and [`FINE`] and on the one to begin with \[s\].
+    /// Time of the quasi-static passes on the levels [`LEVEL_OF_THE_LAW`] and [`LEVEL_OF_ONE_PERCENT`] and on the one to begin with \[s\].
     coarse: f64,
     fine: f64,
     first: f64,
@@ -216,15 +217,15 @@ impl Estimates {
         let concerns = concerns_before(&cable, Resolution::new(scene.duct.depth)?);
         let passes = scene.traffic.passes;
         let seconds = |level| QUASI_STATIC_SECONDS * levels.node_updates(level, passes);
-        let lattice = levels.lattice(levels.first(), passes);
+        let lattice = levels.whole_cable_updates(levels.first(), passes);
         Ok(Self {
             inertia,
             refusal: concerns
                 .iter()
                 .find(|concern| concern.is_fatal())
                 .map(Concern::to_string),
-            coarse: seconds(COARSE),
-            fine: seconds(FINE),
+            coarse: seconds(LEVEL_OF_THE_LAW),
+            fine: seconds(LEVEL_OF_ONE_PERCENT),
             first: seconds(levels.first()),
             dynamic: DYNAMIC_SECONDS * lattice,
             explicit: EXPLICIT_SECONDS * EXPLICIT_STEPS * lattice,
@@ -253,7 +254,7 @@ impl Estimates {
     /// Error of `method` beside that of its mesh, as a share of the force; `None` where it does not apply.
     pub fn error(&self, scene: &Scene, method: PassMethod) -> Option<f64> {
         match method {
-            PassMethod::Law => Some(LAW_ERROR),
+            PassMethod::Law => Some(LAW_ERROR + self.inertia),
             PassMethod::EveryPass(CableMethod::QuasiStatic) => {
                 scene.friction.law.has_memory().then_some(self.inertia)
             }
@@ -264,26 +265,25 @@ impl Estimates {
     /// Why `method` was not taken.
     pub fn against(&self, scene: &Scene, method: PassMethod) -> String {
         let tolerance = scene.solver.tolerance;
+        let named = scene.solver.method != SolverMethod::Auto;
+        let has_rest = scene.friction.law.has_memory();
         match (method, &self.refusal) {
             (PassMethod::Law, Some(refusal)) => refusal.clone(),
+            (PassMethod::EveryPass(CableMethod::QuasiStatic), _) if !has_rest => NO_REST.into(),
+            _ if named => "the scene names another method".into(),
+            (method, _) if !method.has_inertia() && self.inertia_matters(tolerance) => {
+                self.inertia_in_words()
+            }
             (PassMethod::Law, None) if LAW_ERROR > tolerance => "less accurate than the tolerance".into(),
             (PassMethod::Law, None) if !scene.restraints.is_empty() => {
                 "it has no layers around clamps".into()
             }
             (PassMethod::Law, None) => "simulating every pass costs little more and is more accurate".into(),
             (PassMethod::EveryPass(CableMethod::QuasiStatic), _) => {
-                if !scene.friction.law.has_memory() {
-                    NO_REST.into()
-                } else if self.inertia_matters(tolerance) {
-                    self.inertia_in_words()
-                } else {
-                    "simulating every pass would take too long".into()
-                }
+                "simulating every pass would take too long".into()
             }
             (PassMethod::EveryPass(CableMethod::Dynamic), _) => "more than the tolerance needs".into(),
-            (PassMethod::EveryPass(CableMethod::Explicit), _) => {
-                "as accurate as dynamic, with far shorter steps".into()
-            }
+            (PassMethod::EveryPass(CableMethod::Explicit), _) => "only where the scene names it".into(),
         }
     }
 }

@@ -22,7 +22,7 @@ pub use report::{Candidate, Part, PlanReport};
 pub struct Plan<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) ground: Ground,
-    pub(crate) method: MethodChoice,
+    pub(crate) choice: MethodChoice,
     pub(crate) levels: Levels,
     pub(crate) warnings: Vec<String>,
 }
@@ -45,10 +45,11 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Pl
     scene.validate()?;
     let ground = Ground::new(scene, own, road::reach(scene))?;
     let levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
+    // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first())?;
     Ok(Plan {
         scene,
-        method: method::choose(scene, &levels)?,
+        choice: method::choose(scene, &levels)?,
         warnings: warnings::warnings(scene),
         ground,
         levels,

@@ -82,7 +82,7 @@ impl Plan<'_> {
     pub(crate) fn reasons(&self) -> Vec<String> {
         vec![
             format!("ground {}: {}", self.ground.name, self.ground.reason),
-            format!("cable {}: {}", self.method.method.name(), self.method.reason),
+            format!("cable {}: {}", self.choice.method.name(), self.choice.reason),
         ]
     }
 
@@ -91,18 +91,18 @@ impl Plan<'_> {
         let Self {
             scene,
             ground,
-            method,
+            choice,
             levels,
             ..
         } = self;
         let first = levels.first();
-        let law = method.method == PassMethod::Law;
+        let law = choice.method == PassMethod::Law;
         let mesh_error = if law {
             Some(0.0)
         } else {
             levels.expected_error(first)
         };
-        let method_error = method.estimates.error(scene, method.method).unwrap_or(0.0);
+        let method_error = choice.estimates.error(scene, choice.method).unwrap_or(0.0);
         let spacing = levels.spacing(first);
         let mut candidates = self.grounds();
         candidates.extend(self.methods());
@@ -112,12 +112,12 @@ impl Plan<'_> {
         PlanReport {
             title: scene.title.clone(),
             ground: ground.name.into(),
-            cable: method.method.name().into(),
+            cable: choice.method.name().into(),
             node_spacing_m: spacing.0,
             vehicle_step_m: spacing.1,
             reasons: self.reasons(),
             estimated_error: mesh_error.map(|error| error + method_error + ground.accuracy),
-            estimated_seconds: method.estimates.seconds(method.method),
+            estimated_seconds: choice.estimates.seconds(choice.method),
             occurrence: Occurrence::new(scene, &ground.motions),
             candidates,
             warnings: self.warnings.clone(),
@@ -148,7 +148,7 @@ impl Plan<'_> {
     }
 
     fn methods(&self) -> Vec<Candidate> {
-        let estimates = &self.method.estimates;
+        let estimates = &self.choice.estimates;
         let all = [
             PassMethod::Law,
             PassMethod::EveryPass(CableMethod::QuasiStatic),
@@ -156,7 +156,7 @@ impl Plan<'_> {
             PassMethod::EveryPass(CableMethod::Explicit),
         ];
         let candidate = |method: PassMethod| {
-            let chosen = method == self.method.method;
+            let chosen = method == self.choice.method;
             Candidate {
                 part: Part::Cable,
                 name: method.name().into(),
@@ -164,7 +164,7 @@ impl Plan<'_> {
                 estimated_error: estimates.error(self.scene, method),
                 estimated_seconds: Some(estimates.seconds(method)),
                 reason: if chosen {
-                    self.method.reason.clone()
+                    self.choice.reason.clone()
                 } else {
                     estimates.against(self.scene, method)
                 },

@@ -33,7 +33,7 @@ fn fast(scene: &Scene) -> Option<String> {
     (mach > FAST).then(|| {
         format!(
             "a vehicle drives at {mach:.2} of the speed of shear waves in the softest soil ({wave:.0} m/s at {SOIL_DENSITY} kg/m³): \
-             the ground is computed without its inertia, which matters above {FAST}"
+             the ground is computed without its inertia, which matters above {FAST} of that speed"
         )
     })
 }

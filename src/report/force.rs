@@ -6,7 +6,7 @@ use super::figure::{MILLI, figure, passes_axis, series};
 use super::html::{Html, Table};
 use super::quantity::{count, length};
 use crate::PassRecord;
-use crate::answer::selected;
+use crate::answer::table_rows;
 use crate::figure::{Axis, Chart, Reference, Series};
 use crate::scene::End;
 use crate::shown::rounded;
@@ -146,7 +146,7 @@ fn passes(passes: &[PassRecord]) -> Table {
     let names = columns.iter().map(|(name, ..)| *name);
     Table {
         head: std::iter::once("pass").chain(names).collect(),
-        rows: selected(passes).into_iter().map(row).collect(),
+        rows: table_rows(passes).into_iter().map(row).collect(),
         texts: 0,
     }
 }

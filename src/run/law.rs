@@ -8,30 +8,31 @@ use pass_law::{Evolution, PassLaw, Resolution};
 
 use super::passes::simulate;
 use crate::answer::{
-    ErrorEstimate, ErrorShares, ForceProfile, PassRecord, RestraintRecord, Saturation, Stage, listed,
+    ErrorEstimate, ErrorShares, ForceProfile, LEVEL, PassRecord, RestraintRecord, Saturation, Stage, larger,
+    listed,
 };
 use crate::cable::cable;
 use crate::ground::road::approach;
-use crate::plan::{CableMethod, LAW_ERROR as ERROR, Levels};
+use crate::plan::{CableMethod, LAW_ERROR, Levels, Plan};
 use crate::scene::{End, Scene};
 use crate::shown::percent;
 use crate::{Cost, Error, Progress};
 
 /// Nodes per depth of the duct in the law's cells at a tolerance of 1 % or less, and above.
-const FINE: f64 = 12.0;
-const COARSE: f64 = 6.0;
-/// The law's error on a scene is measured on its first passes, simulated. Nodes eliminated in these, about: a fifth of a second; and
-/// their smallest and largest number.
+const NODES_FINE: f64 = 12.0;
+const NODES_COARSE: f64 = 6.0;
+/// The law's error is measured on the first passes, simulated: as many as this number of node updates (0.2 s) allows, from 12 to 200.
 const CHECK_NODE_UPDATES: f64 = 1.2e7;
 const CHECKED_PASSES: (u64, u64) = (12, 200);
-/// A check that takes so many times as long is not made.
+/// A check that takes this many times as long is not made.
 const MOST_CHECKS: f64 = 10.0;
 /// Level of the mesh for it: twelve nodes a depth.
 const CHECK_LEVEL: usize = 2;
 /// Forces below this share of the last one count as nothing when errors are compared.
 const SMALL_FORCE: f64 = 0.1;
-/// The law resolves the passes from this one on; those before it are simulated.
+/// First pass that the law resolves; the simulation gives the passes before it.
 const FIRST_GOOD: u64 = 10;
+
 /// Answer of the law.
 pub struct LawRun {
     pub node_spacing: f64,
@@ -46,11 +47,11 @@ pub struct LawRun {
     pub warnings: Vec<String>,
 }
 
-/// Runs all passes of `scene` by the law, and looks at the cable after the passes `stages`.
-pub fn run(scene: &Scene, motions: &[DuctMotion], stages: &[u64]) -> Result<LawRun, Error> {
+/// Runs all passes of `plan` by the law, and looks at the cable after the passes `stages`.
+pub fn run(plan: &Plan<'_>, stages: &[u64]) -> Result<LawRun, Error> {
     thread::scope(|scope| {
-        let check = scope.spawn(|| first_passes(scene, motions));
-        evolve(scene, motions, stages, || {
+        let check = scope.spawn(|| first_passes(plan.scene, &plan.ground.motions));
+        evolve(plan, stages, || {
             // A panic of the other thread goes on in this one.
             check
                 .join()
@@ -88,17 +89,18 @@ fn first_passes(scene: &Scene, motions: &[DuctMotion]) -> Result<Option<Vec<Pass
 
 /// The law, held against the first passes that `checked` brings.
 fn evolve(
-    scene: &Scene,
-    motions: &[DuctMotion],
+    plan: &Plan<'_>,
     stages: &[u64],
     checked: impl FnOnce() -> Result<Option<Vec<PassRecord>>, Error>,
 ) -> Result<LawRun, Error> {
+    let scene = plan.scene;
+    let motions = &plan.ground.motions;
     let cable = cable(scene)?;
     let traffic = traffic(scene, motions);
     let nodes = if scene.solver.tolerance <= 0.01 {
-        FINE
+        NODES_FINE
     } else {
-        COARSE
+        NODES_COARSE
     };
     let passes = listed(scene.traffic.passes);
     let at = |nodes: f64| -> Result<(PassLaw, Evolution, Resolution), Error> {
@@ -138,10 +140,18 @@ fn evolve(
             measured = Some((difference(&checked, &by_law), last));
         }
     } else {
-        warnings.push("the first ten passes are rough by the pass law".into());
+        warnings.push("the first nine passes are rough by the pass law".into());
     }
-    let law_error = measured.map_or(ERROR, |(error, _)| error.max(ERROR));
-    let relative = 0.5 * share + law_error;
+    let law_error = measured.map_or(LAW_ERROR, |(error, _)| error.max(LAW_ERROR));
+    let parts = ErrorShares {
+        mesh: 0.5 * share,
+        ground: plan.ground.accuracy,
+        inertia: plan.choice.inertia,
+        passes: law_error,
+        law: law_error,
+        ..ErrorShares::default()
+    };
+    let relative = parts.mesh + parts.ground + parts.inertia + parts.passes;
     if relative > scene.solver.tolerance {
         let (error, tolerance) = (percent(relative), percent(scene.solver.tolerance));
         warnings.push(format!(
@@ -157,19 +167,20 @@ fn evolve(
         stages: self::stages(&cable, &law, scene, stages)?,
         error: ErrorEstimate {
             relative,
-            method: match measured {
-                Some((_, last)) => format!(
-                    "half the difference to cells half as fine, and that of the law to a simulation of the passes {FIRST_GOOD} to \
-                     {last}, at least 1 %"
-                ),
-                None => "half the difference to cells half as fine, and 1 % for the law itself beyond the tenth pass".into(),
-            },
-            parts: ErrorShares {
-                mesh: 0.5 * share,
-                passes: law_error,
-                law: law_error,
-                ..ErrorShares::default()
-            },
+            method: format!(
+                "mesh {}: half the change on cells twice as coarse; ground {}, inertia {}; pass law {}: {}",
+                percent(parts.mesh),
+                percent(parts.ground),
+                percent(parts.inertia),
+                percent(law_error),
+                match measured {
+                    Some((_, last)) => format!(
+                        "its difference from the simulated passes {FIRST_GOOD} to {last}, counted as at least 1 %"
+                    ),
+                    None => "from the tenth pass on, where it was not measured on this scene".into(),
+                }
+            ),
+            parts,
         },
         cost: Cost::of_law(evolution.statistics),
         passes: records,
@@ -252,12 +263,8 @@ fn saturation(scene: &Scene, law: &PassLaw) -> Option<Saturation> {
     let at = |end: End, force: f64| if end == End::Free { 0.0 } else { force };
     let upstream = at(scene.ends.upstream, saturation.upstream_force);
     let downstream = at(scene.ends.downstream, saturation.downstream_force);
-    let force_n = if upstream.abs() > downstream.abs() {
-        upstream
-    } else {
-        downstream
-    };
-    let passes = saturation.passes_to(0.95)?;
+    let force_n = larger(downstream, upstream);
+    let passes = saturation.passes_to(LEVEL)?;
     (force_n != 0.0 && passes.is_finite()).then(|| Saturation {
         force_n,
         passes_to_95_percent: passes.ceil() as u64,

@@ -1,6 +1,6 @@
 //! Carrying a plan out: the passes on meshes or by the pass law, and the answer.
 
-mod answer;
+mod assemble;
 pub mod law;
 pub mod passes;
 mod refine;
@@ -10,7 +10,7 @@ use ground_field::GroundField;
 
 use crate::plan::{PassMethod, Plan, plan, plan_on};
 use crate::{Error, Progress, Run, Scene, finite};
-use answer::Answer;
+use assemble::RunBuilder;
 use refine::Refinement;
 
 /// How to run.
@@ -65,21 +65,21 @@ pub fn run_plan(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error>
 }
 
 fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
-    let mut answer = Answer::new(plan);
+    let mut answer = RunBuilder::new(plan);
     if plan.scene.friction_limit() == 0.0 {
         return answer.without_friction(options.stages);
     }
-    if plan.method.method == PassMethod::Law {
-        let law = law::run(plan.scene, &plan.ground.motions, options.stages);
+    if plan.choice.method == PassMethod::Law {
+        let law = law::run(plan, options.stages);
         match law.and_then(|law| answer.trusted(law)) {
             Ok(law) => return Ok(answer.by_law(law)),
-            Err(error) if !plan.method.may_simulate => return Err(error),
+            Err(error) if !plan.choice.may_simulate => return Err(error),
             Err(error) => answer.gives_up_the_law(&error),
         }
     }
     let refinement = Refinement {
         plan,
-        method: plan.method.method.solver(),
+        method: plan.choice.method.cable_method(),
         progress: options.progress,
         stages: options.stages,
     };

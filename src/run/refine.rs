@@ -9,7 +9,7 @@ use super::passes::{Passes, simulate};
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use crate::ground::road;
 use crate::plan::{CableMethod, Levels, Plan};
-use crate::shown::percent;
+use crate::shown::{exact_percent, percent};
 use crate::{Error, Progress, Scene};
 
 /// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
@@ -45,7 +45,7 @@ impl Refinement<'_> {
         let Plan {
             scene,
             ground,
-            method,
+            choice,
             levels,
             ..
         } = self.plan;
@@ -54,9 +54,9 @@ impl Refinement<'_> {
         let mut error = ErrorParts {
             mesh: Shares::default(),
             ground: Shares::both(ground.accuracy),
-            inertia: method.inertia,
+            inertia: choice.inertia,
             road: Shares::default(),
-            measured: verify,
+            measured: false,
         };
         let mut level = levels.first();
         let (finest, mut passes) = both(|| self.simulate(level, true), || self.coarser(level))?;
@@ -193,7 +193,7 @@ impl Refinement<'_> {
         let why = if levels.named() {
             "as the scene asks".to_owned()
         } else {
-            format!("for the requested {}", percent(scene.solver.tolerance))
+            format!("for the requested {}", exact_percent(scene.solver.tolerance))
         };
         format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
     }

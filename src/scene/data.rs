@@ -45,7 +45,7 @@ pub struct Duct {
     pub length: f64,
     /// Depth of the cable below the road surface \[m\], positive.
     pub depth: f64,
-    /// Horizontal distance from the duct's axis to the wheel path's \[m\].
+    /// Horizontal distance from the vehicle's axis to the duct's axis \[m\].
     pub lateral_offset: f64,
 }
 

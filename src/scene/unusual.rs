@@ -18,7 +18,7 @@ const CONTRAST: f64 = 100.0;
 const PAVEMENT: f64 = 0.5;
 /// Friction coefficients of cables in ducts are below 1.
 const ROUGHEST: f64 = 1.5;
-/// Beyond this number of depths beside the wheel path a duct hardly moves.
+/// Where it is farther than this number of depths from the vehicle's axis to the duct's axis, a duct hardly moves.
 const FARTHEST: f64 = 10.0;
 
 /// A warning for every value that is unusual.

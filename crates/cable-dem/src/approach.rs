@@ -20,8 +20,8 @@ const NEAREST: f64 = 6.0;
 ///
 /// Between two passes the ground is at rest, and what the duct does while a vehicle is farther out than its approach is taken in one
 /// step. That is exact where D_l does not turn out there: friction does not depend on speed, and a node whose duct moves one way only
-/// ends up the same whether it does so at once or little by little. The outermost turn lies ten depths out on a half-space with
-/// ν = 0.4, 2/(1 − 2ν) depths in general. Over rock D_l turns again and again, each time by far less: turns by less than 1e-5 of the
+/// ends up the same whether it does so at once or little by little. On a half-space the outermost turn lies about 12 depths out at
+/// ν = 0.4, and of the order 2/(1 − 2ν) depths in general. Over rock D_l turns again and again, each time by far less: turns by less than 1e-5 of the
 /// peak do not count. To follow a vehicle farther than this changes nothing and costs little.
 ///
 /// Turns are looked for inward from `farthest` \[m\] from the vehicles' origins, beyond which D_l counts as nothing. A hundred depths
@@ -39,7 +39,7 @@ const NEAREST: f64 = 6.0;
 /// let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
 /// let truck = Vehicle::point("truck", 196_133.0, 11.1)?;
 /// let motion = DuctMotion::new(&ground, &truck, DuctLine::new(1.2, 0.0)?, 150.0, 1e-8)?;
-/// // Half as far again as ten depths, and a little more.
+/// // Half as far again as the outermost turn, about twelve depths out.
 /// let approach = approach(&[motion], 1.2, 120.0)?;
 /// assert!((18.0..24.0).contains(&approach), "{approach}");
 /// # Ok::<(), Box<dyn std::error::Error>>(())

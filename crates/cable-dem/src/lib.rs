@@ -12,7 +12,7 @@
 //! inertia, [`Explicit`] integrates masses, springs and friction by central differences as Kashiro et al. do; both also
 //! take the `sigmoid` law, which has no state of rest.
 //!
-//! A pass begins and ends with the ground at rest: what the duct keeps of it is what the cable keeps, locked friction.
+//! Before and after a pass the ground is at rest; what remains is the friction locked between cable and duct.
 //!
 //! SI units throughout; forces in the cable are positive in compression.
 //!
@@ -20,7 +20,7 @@
 //! use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
 //! use ground_field::Direction;
 //!
-//! // A bump of 15 µm that draws the duct away from the vehicle on both sides, as ground does under a wheel.
+//! // A bump of 15 µm that pushes the duct away from the vehicle on both sides, as ground does under a wheel.
 //! let shape = |xi: f64| 40e-6 * xi / (1.0 + xi * xi).powf(1.5);
 //!
 //! let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;

@@ -3,7 +3,7 @@
 //! [`LayeredFem`] is the model: bonded elastic layers, a Young's modulus that varies linearly with depth within a layer, a half-space or
 //! rock below. Its equations, error estimate and limits stand there.
 
-mod dissection;
+mod cholesky;
 mod element;
 mod error;
 mod front;

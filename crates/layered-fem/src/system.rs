@@ -5,7 +5,7 @@
 //! It is applied twice, and if the second is still more than is allowed the solution is an error.
 
 use crate::FemError;
-use crate::dissection::{FIXED, Factor, dofs};
+use crate::cholesky::{FIXED, Factor, dofs};
 use crate::element::{DOFS, ElementMatrix, stiffness};
 use crate::material::Elasticity;
 use crate::mesh::Mesh;

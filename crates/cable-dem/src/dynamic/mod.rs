@@ -33,7 +33,7 @@ use history::History;
 /// use cable_dem::{DuctedCable, Dynamic, End, Friction, FrictionLaw, Mesh, MovingDuct};
 /// use ground_field::Direction;
 ///
-/// // A bump that draws the duct away from the vehicle on both sides, at 11.1 m/s.
+/// // A bump that pushes the duct away from the vehicle on both sides, at 11.1 m/s.
 /// let shape = |xi: f64| 40e-6 * xi / (1.0 + xi * xi).powf(1.5);
 /// let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * 108.8)?;
 /// let cable = DuctedCable::new(10.0, 8.01e6, friction)?.with_ends(End::Free, End::Fixed)?;

@@ -18,6 +18,11 @@ use crate::step::check_precision;
 use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
 use pass::ForwardSolver;
 
+/// Share of the friction limit by which friction and equilibrium may be off outside the windows while a vehicle passes.
+/// Against solves of the whole cable this moves the force by less than 1e-4 of q L (in 1400 random scenes, but for one cable
+/// held by nothing: 5e-4).
+const UNBALANCED_SHARE: f64 = 1e-3;
+
 /// Quasi-static solver for one cable on one mesh: inertia left out, every step an equilibrium.
 ///
 /// The vehicle advances in steps. Each solves, for the displacements u and the friction f after it,
@@ -32,6 +37,9 @@ use pass::ForwardSolver;
 /// Before the vehicle comes and after it has left the ground is at rest. The first step takes the duct from there to the vehicle's
 /// first position, the last one from its last position back: steps of the whole cable, so that the state a pass leaves is in
 /// equilibrium and within the friction bounds everywhere.
+///
+/// The solver remembers the windows and contact states of earlier passes. One that does not, such as one that goes on from a saved
+/// state, may answer differently by up to 1e-4 of the largest force.
 ///
 /// ```
 /// use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, QuasiStatic};
@@ -79,7 +87,7 @@ impl QuasiStatic {
         }
         mesh.check_length(cable.length())?;
         Ok(Self {
-            forward: ForwardSolver::new(&cable, &mesh),
+            forward: ForwardSolver::new(cable.clone(), &mesh),
             reverse: None,
             cable,
             mesh,
@@ -153,24 +161,20 @@ impl QuasiStatic {
         }
         check_precision(&self.cable, &self.mesh, state.displacement(), passage.peak)?;
         let mirrored = passage.direction() == Direction::Reverse;
-        let mirror = mirrored.then(|| self.cable.mirrored());
-        let (cable, solver) = match &mirror {
-            Some(cable) => {
-                let without_iteration = self.forward.step.without_iteration;
-                let solver = self
-                    .reverse
-                    .get_or_insert_with(|| ForwardSolver::new(cable, &self.mesh));
-                solver.step.without_iteration = without_iteration;
-                (cable, solver)
-            }
-            None => (&self.cable, &mut self.forward),
+        let without_iteration = self.forward.step.without_iteration;
+        let solver = if mirrored {
+            self.reverse
+                .get_or_insert_with(|| ForwardSolver::new(self.cable.mirrored(), &self.mesh))
+        } else {
+            &mut self.forward
         };
+        solver.step.without_iteration = without_iteration;
         let mut after = state.clone();
         if mirrored {
             after.mirror();
         }
         let (mesh, limit) = (&self.mesh, self.cable.friction().limit());
-        let mut recorder = solver.pass(passage, &mut after, cable, |r, g, snapshot| {
+        let mut recorder = solver.pass(passage, &mut after, |r, g, snapshot| {
             observe(StepView {
                 mesh,
                 limit,

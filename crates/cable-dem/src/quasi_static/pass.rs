@@ -2,22 +2,24 @@
 
 use std::collections::HashMap;
 
+use super::UNBALANCED_SHARE;
 use super::memory::PassMemory;
 use super::passage::{Passage, Snapshot};
 use super::supports::Supports;
 use super::window::{self, Room, Window};
 use crate::ends::{Balance, EndReader};
 use crate::outcome::Recorder;
-use crate::step::{Chain, Contact, Load, NEGLIGIBLE, Prediction, StepSolver, Stretch, largest};
+use crate::step::{Chain, Contact, Load, Prediction, StepSolver, Stretch, largest};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
-/// A window's edge is quiet when the force its last move put on the next node is below this share of [`NEGLIGIBLE`].
+/// A window's edge is quiet when the force its last move put on the next node is below this share of [`UNBALANCED_SHARE`].
 const QUIET: f64 = 0.25;
 
 /// Drives vehicles forward over one cable; allocated once.
 #[derive(Debug, Clone)]
 pub(super) struct ForwardSolver {
     pub step: StepSolver,
+    cable: DuctedCable,
     ends: EndReader,
     supports: Supports,
     room: Room,
@@ -27,7 +29,8 @@ pub(super) struct ForwardSolver {
     anchor: Vec<f64>,
     windows: Vec<Window>,
     prediction: Prediction,
-    /// The last pass of each passage.
+    /// The last pass of each passage: its windows and contact states. They and `prediction` outlive a pass, so that an answer
+    /// depends on earlier passes, by up to 1e-4 of the largest force.
     memories: HashMap<u64, PassMemory>,
     /// What the current pass gathers.
     recorder: Recorder,
@@ -35,15 +38,16 @@ pub(super) struct ForwardSolver {
 }
 
 impl ForwardSolver {
-    pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
+    pub fn new(cable: DuctedCable, mesh: &Mesh) -> Self {
         let nodes = mesh.nodes();
-        let chain = Chain::new(cable, mesh, 0.0);
+        let chain = Chain::new(&cable, mesh, 0.0);
         let screening = chain.compliance * chain.stiffness / mesh.spacing();
         let room = Room::new(chain.free, screening);
         Self {
-            supports: Supports::new(cable, mesh, &chain, room, screening),
-            ends: EndReader::new(cable, mesh),
+            supports: Supports::new(&cable, mesh, &chain, room, screening),
+            ends: EndReader::new(&cable, mesh),
             room,
+            cable,
             step: StepSolver::new(chain),
             r: vec![0.0; nodes],
             g: vec![0.0; nodes],
@@ -62,7 +66,6 @@ impl ForwardSolver {
         &mut self,
         passage: &Passage,
         state: &mut CableState,
-        cable: &DuctedCable,
         mut observe: impl FnMut(&[f64], &[f64], Snapshot<'_>),
     ) -> Result<Recorder, CableError> {
         self.r.copy_from_slice(&state.displacement);
@@ -72,7 +75,7 @@ impl ForwardSolver {
         self.supports.rest();
         let (points, phases) = passage.lattice();
         self.prediction.fit(points, phases);
-        self.recorder = Recorder::new(state.ends(cable));
+        self.recorder = Recorder::new(state.ends(&self.cable));
         let last_pass = self.memories.remove(&passage.id).unwrap_or_default();
         let mut this_pass = PassMemory::default();
 
@@ -116,10 +119,10 @@ impl ForwardSolver {
         remembered: Option<(Stretch, &[Contact])>,
     ) -> Result<Option<Stretch>, CableError> {
         self.update_supports(snapshot, false);
-        let limit = self.step.chain.limit * (1.0 + NEGLIGIBLE);
+        let limit = self.step.chain.limit * (1.0 + UNBALANCED_SHARE);
         let near = self.room.under(snapshot.node, passage.reach);
         let travelling = window::travelling(self.room, near, travelling, |&i| {
-            (self.g[i] + snapshot.adhesion[i + 1]).abs() > limit
+            (self.g[i] + snapshot.adhesion[i]).abs() > limit
         });
         let mut windows = std::mem::take(&mut self.windows);
         let known = remembered.map(|(window, _)| window);
@@ -183,7 +186,7 @@ impl ForwardSolver {
         loop {
             self.recorder.statistics.windows += 1;
             let load = Load {
-                adhesion: &snapshot.adhesion[1..=self.r.len()],
+                adhesion: snapshot.adhesion,
                 support: &self.supports.load,
                 anchor: &self.anchor,
                 friction: &self.g,
@@ -214,7 +217,7 @@ impl ForwardSolver {
         let StepSolver { chain, trial, .. } = &self.step;
         let moving = window::shrink(stretch, |edge, inner| {
             let moved = (trial.r[inner] - self.r[inner]).abs();
-            chain.stiffness * moved <= QUIET * NEGLIGIBLE * chain.limit * chain.tributary[edge]
+            chain.stiffness * moved <= QUIET * UNBALANCED_SHARE * chain.limit * chain.tributary[edge]
         });
         for i in stretch.nodes() {
             if trial.contact[i] != Contact::Stuck {
@@ -233,15 +236,15 @@ impl ForwardSolver {
     fn edge_disturbed(&self, node: usize) -> bool {
         let chain = &self.step.chain;
         let balancing = chain.balancing_friction(&self.step.trial.r, &self.supports.load, node);
-        (balancing - self.g[node]).abs() > NEGLIGIBLE * chain.limit
+        (balancing - self.g[node]).abs() > UNBALANCED_SHARE * chain.limit
     }
 
     /// Records the force on each end with the vehicle at the snapshot's position.
     fn record_ends(&mut self, snapshot: &Snapshot<'_>) {
         self.recorder.record(self.ends.read(
             Balance::AtRest,
-            |node| self.r[node] + snapshot.adherent[node + 1],
-            |node| self.g[node] + snapshot.adhesion[node + 1],
+            |node| self.r[node] + snapshot.adherent_at(node),
+            |node| self.g[node] + snapshot.adhesion[node],
         ));
     }
 }

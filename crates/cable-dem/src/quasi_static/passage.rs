@@ -4,9 +4,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use ground_field::{Direction, DuctMotion};
 
+use super::UNBALANCED_SHARE;
 use super::schedule::schedule;
 use crate::course::{Course, as_driven};
-use crate::step::NEGLIGIBLE;
 use crate::{CableError, DuctedCable, Friction, Mesh};
 
 static NEXT_ID: AtomicU64 = AtomicU64::new(0);
@@ -36,7 +36,8 @@ pub struct Passage {
     axial_stiffness: f64,
     friction: Friction,
     direction: Direction,
-    /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s.
+    /// One lattice a phase: node i with the vehicle at lattice position s stands at ξ-index i·m − s, with m = phases
+    /// per node spacing.
     phases: Vec<Phase>,
     /// Lattice indices before the vehicle's origin.
     behind: usize,
@@ -56,12 +57,14 @@ struct Phase {
     adhesion: Vec<f64>,
 }
 
-/// The passage at one vehicle position: node i reads index i + 1, so that both ends have a neighbour outside.
+/// The passage at one vehicle position.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Snapshot<'a> {
-    pub adherent: &'a [f64],
+    /// Adherent displacement \[m\], that of node i at index i + 1, so that both ends have a neighbour outside.
+    adherent: &'a [f64],
+    /// Adhesion \[N/m\] of every node.
     pub adhesion: &'a [f64],
-    /// Node nearest to the vehicle; outside the duct, negative or beyond the last.
+    /// Last node at or before the vehicle; outside the duct, negative or beyond the last.
     pub node: i64,
     /// Vehicle position on the lattice.
     pub position: i64,
@@ -78,7 +81,7 @@ impl Passage {
     ///
     /// [`CableError::InvalidParameter`] unless `approach` is positive and at most 1e5 m, [`CableError::OutOfReach`] where the motion
     /// is not known as far as the duct's length and the approach together, [`CableError::CoarseMesh`] for a mesh that leaves out
-    /// more than 65 % of the duct's peak: coarser than some one and a half nodes per depth.
+    /// more than 65 % of the duct's peak: about 1.5 nodes per depth or fewer.
     pub fn new(
         cable: &DuctedCable,
         mesh: &Mesh,
@@ -113,7 +116,7 @@ impl Passage {
         course: &Course<impl Fn(f64) -> f64>,
     ) -> Result<Self, CableError> {
         let step = mesh.lattice_step();
-        let limit = NEGLIGIBLE * cable.friction().limit();
+        let limit = UNBALANCED_SHARE * cable.friction().limit();
         let m = mesh.phases() as i64;
         let (end, stride) = (mesh.elements() as i64 * m, mesh.stride() as i64);
         let approach = (course.approach / mesh.vehicle_step()).ceil() as i64 * stride;
@@ -194,7 +197,7 @@ impl Passage {
     pub(super) fn still(&self) -> Snapshot<'_> {
         Snapshot {
             adherent: &self.still,
-            adhesion: &self.still,
+            adhesion: &self.still[..self.mesh.nodes()],
             ..self.snapshot(self.positions[self.positions.len() - 1])
         }
     }
@@ -205,13 +208,25 @@ impl Passage {
         // Index of node −1.
         let index = self.behind as i64 - m - position;
         let (phase, first) = (index.rem_euclid(m) as usize, index.div_euclid(m) as usize);
-        let range = first..first + self.mesh.nodes() + 2;
+        let beyond = first + self.mesh.nodes() + 2;
         Snapshot {
-            adherent: &self.phases[phase].adherent[range.clone()],
-            adhesion: &self.phases[phase].adhesion[range],
+            adherent: &self.phases[phase].adherent[first..beyond],
+            adhesion: &self.phases[phase].adhesion[first + 1..beyond - 1],
             node: position.div_euclid(m),
             position,
         }
+    }
+}
+
+impl Snapshot<'_> {
+    /// Adherent displacement \[m\] of `node`.
+    pub fn adherent_at(&self, node: usize) -> f64 {
+        self.adherent[node + 1]
+    }
+
+    /// By how much more the neighbour after `node` is displaced than the one before \[m\].
+    pub fn stretch_around(&self, node: usize) -> f64 {
+        self.adherent[node + 2] - self.adherent[node]
     }
 }
 

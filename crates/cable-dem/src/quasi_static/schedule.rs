@@ -4,19 +4,18 @@
 //! neither may the duct turn, nor may the parts of the duct change the order in which they lead, which decides where a stiff cable
 //! goes. Where that happens far away it happens to the whole duct at once and is felt by the whole cable. So the vehicle keeps its
 //! step beyond the duct too until the shape has turned for the last time, and half as far again: tails that are a sum of two
-//! powers, −a/ξᵐ + b/ξⁿ, have their steepest slope within 1.5 of the distance of their turn. A wheel on a half-space draws the
-//! duct toward itself up to some twelve depths away, and its steepest slope beyond is at seventeen.
+//! powers, −a/ξᵐ + b/ξⁿ, have their steepest slope within 1.5 of the distance of their turn. A wheel on a
+//! half-space (ν = 0.4) pushes the duct away within six depths and pulls it in beyond; the pull is largest at twelve, and changes
+//! fastest after that at eighteen.
 //!
-//! Farther out strides of twice, four times, … the step are taken where they leave out no more of the path's bend,
-//!
-//! max |D(ξ) − ½ (D(ξ − s) + D(ξ + s))|
-//!
-//! for a stride s, than a step does where the bend is sharpest: from there a vehicle is followed to 300 m in some thirty steps.
+//! Farther out the step doubles wherever the straight chord it replaces misses the path by no more than one step does at the
+//! sharpest bend; for a stride s the miss is |D(ξ) − ½ (D(ξ − s) + D(ξ + s))|. From there a vehicle is followed to 300 m in some
+//! thirty steps.
 
 use crate::approach::SETTLED;
 
 /// Ratio of a stride to its distance from the duct at most.
-const LONGEST: f64 = 0.5;
+const LARGEST_STRIDE_SHARE: f64 = 0.5;
 /// Share of the largest displacement by which the duct has to come back for a turn to count. Less is the noise of a table.
 const TURN: f64 = 1e-4;
 
@@ -30,7 +29,7 @@ pub(super) fn schedule(shape: &[f64], origin: usize, end: i64, approach: i64, st
     let mut longer = 2 * stride;
     while longer <= approach {
         let outermost = outermost_bends(shape, origin, longer as usize, allowed);
-        let least = (longer as f64 / LONGEST) as i64;
+        let least = (longer as f64 / LARGEST_STRIDE_SHARE) as i64;
         limits.push((
             longer,
             [0, 1].map(|side| outermost[side].max(settled[side]).max(least)),

@@ -1,8 +1,9 @@
 //! Ends and clamps while the vehicle passes: their loads, and when the cable around them is to be solved again.
 
+use super::UNBALANCED_SHARE;
 use super::passage::Snapshot;
 use super::window::Room;
-use crate::step::{Chain, HeldNode, NEGLIGIBLE, Stretch, Support, Trial};
+use crate::step::{Chain, FixedEndFriction, Stretch, Support, Trial};
 use crate::{DuctedCable, Mesh};
 
 /// What a support feels of the vehicle in the adherent frame.
@@ -18,7 +19,7 @@ struct Forcing {
 
 /// A support, the window around it, and the forcing for which it was last solved.
 #[derive(Debug, Clone)]
-struct Held {
+struct WatchedSupport {
     support: Support,
     stretch: Stretch,
     solved: Forcing,
@@ -33,9 +34,9 @@ struct Held {
 /// All supports of a cable.
 #[derive(Debug, Clone)]
 pub(super) struct Supports {
-    all: Vec<Held>,
+    all: Vec<WatchedSupport>,
     /// Friction law of fixed nodes.
-    law: HeldNode,
+    law: FixedEndFriction,
     /// Loads in the adherent frame \[N\] by node.
     pub load: Vec<f64>,
     /// Change of a support's force \[N\] from which it is solved again: as much as a window's edge may be off.
@@ -50,7 +51,7 @@ impl Supports {
         // stiffer than that, what holds the node works against the sheath.
         let held_stiffness = chain.stiffness / screening.sqrt().max(1.0);
         let sheath_stiffness = chain.stiffness / screening.max(screening.sqrt());
-        let held = |support: Support| Held {
+        let watched = |support: Support| WatchedSupport {
             stretch: room.widened(
                 Stretch {
                     lo: support.node,
@@ -67,10 +68,10 @@ impl Supports {
             support,
         };
         Self {
-            all: Support::of(cable, mesh).into_iter().map(held).collect(),
-            law: HeldNode::new(cable, mesh),
+            all: Support::of(cable, mesh).into_iter().map(watched).collect(),
+            law: FixedEndFriction::new(cable, mesh),
             load: vec![0.0; mesh.nodes()],
-            threshold: NEGLIGIBLE * chain.limit * mesh.spacing(),
+            threshold: UNBALANCED_SHARE * chain.limit * mesh.spacing(),
             last: mesh.elements(),
         }
     }
@@ -78,15 +79,18 @@ impl Supports {
     /// The ground at rest, where the adherent frame is that of the ground.
     pub fn rest(&mut self) {
         self.load.fill(0.0);
-        for held in &mut self.all {
-            held.solved = Forcing::default();
-            held.followed = Forcing::default();
+        for watched in &mut self.all {
+            watched.solved = Forcing::default();
+            watched.followed = Forcing::default();
         }
     }
 
     /// The windows around supports that are to be solved again.
     pub fn due(&self) -> impl Iterator<Item = Stretch> {
-        self.all.iter().filter(|held| held.due).map(|held| held.stretch)
+        self.all
+            .iter()
+            .filter(|watched| watched.due)
+            .map(|watched| watched.stretch)
     }
 
     /// Brings the loads up to date where the vehicle's effect on them has changed, or everywhere if `all`, and moves fixed nodes, whose
@@ -100,32 +104,32 @@ impl Supports {
         trial: &mut Trial,
     ) -> f64 {
         let mut heat = 0.0;
-        for held in &mut self.all {
-            let node = held.support.node;
+        for watched in &mut self.all {
+            let node = watched.support.node;
             let forcing = forcing(snapshot, node, chain.stiffness, self.last);
-            let change = (forcing.cut - held.solved.cut).abs()
-                + held.grip * (forcing.adherent - held.solved.adherent).abs();
-            held.due = all || change > self.threshold;
-            if held.support.stiffness.is_none() {
+            let change = (forcing.cut - watched.solved.cut).abs()
+                + watched.grip * (forcing.adherent - watched.solved.adherent).abs();
+            watched.due = all || change > self.threshold;
+            if watched.support.stiffness.is_none() {
                 // Its friction turns at slips far smaller than those that matter to its neighbours. D = a + γ A.
-                let (followed, gamma) = (held.followed, chain.compliance);
+                let (followed, gamma) = (watched.followed, chain.compliance);
                 let slip =
                     forcing.adherent - followed.adherent + gamma * (forcing.adhesion - followed.adhesion);
                 let before = g[node] + followed.adhesion;
                 let after = self.law.after_slip(before, slip);
                 heat += chain.tributary[node] * after * (slip - gamma * (after - before));
                 g[node] = after - forcing.adhesion;
-                held.followed = forcing;
+                watched.followed = forcing;
             }
-            if held.due {
-                match held.support.stiffness {
+            if watched.due {
+                match watched.support.stiffness {
                     None => {
                         r[node] = -forcing.adherent;
                         trial.r[node] = -forcing.adherent;
                     }
                     Some(spring) => self.load[node] = forcing.cut - spring * forcing.adherent,
                 }
-                held.solved = forcing;
+                watched.solved = forcing;
             }
         }
         heat
@@ -137,15 +141,14 @@ impl Supports {
 /// Beyond an end the adherent motion would go on; cutting the chain there leaves ±(k/2)(a_{+1} − a_{−1}), the force of
 /// the missing half.
 fn forcing(snapshot: &Snapshot<'_>, node: usize, stiffness: f64, last: usize) -> Forcing {
-    let index = node + 1;
-    let strain = 0.5 * stiffness * (snapshot.adherent[index + 1] - snapshot.adherent[index - 1]);
+    let strain = 0.5 * stiffness * snapshot.stretch_around(node);
     Forcing {
         cut: match node {
             0 => strain,
             node if node == last => -strain,
             _ => 0.0,
         },
-        adherent: snapshot.adherent[index],
-        adhesion: snapshot.adhesion[index],
+        adherent: snapshot.adherent_at(node),
+        adhesion: snapshot.adhesion[node],
     }
 }

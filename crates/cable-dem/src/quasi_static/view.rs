@@ -45,8 +45,8 @@ impl StepView<'_> {
     pub fn state(&self) -> CableState {
         let mut state = CableState::at_rest(self.mesh);
         for node in 0..self.mesh.nodes() {
-            state.displacement[node] = self.r[node] + self.snapshot.adherent[node + 1];
-            state.friction[node] = self.g[node] + self.snapshot.adhesion[node + 1];
+            state.displacement[node] = self.r[node] + self.snapshot.adherent_at(node);
+            state.friction[node] = self.g[node] + self.snapshot.adhesion[node];
         }
         if self.mirrored {
             state.mirror();

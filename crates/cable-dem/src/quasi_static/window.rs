@@ -18,7 +18,7 @@ pub(super) struct Window {
 pub(super) struct Room {
     /// The unknown nodes.
     pub free: Stretch,
-    /// Nodes over which a stuck cable's response fades to a hundredth.
+    /// Nodes over which a stuck cable's response fades to a hundredth, at most [`MAX_GROWTH`].
     pub margin: usize,
 }
 

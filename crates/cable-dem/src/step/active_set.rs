@@ -11,10 +11,11 @@ use super::tolerance::Tolerance;
 /// Linear solves after which the iteration counts as cycling.
 const MAX_SWEEPS: usize = 24;
 
-/// Working storage of the elimination, over all nodes.
+/// The iteration, with its working storage over all nodes.
 #[derive(Debug, Clone)]
-pub(crate) struct Elimination {
-    upper: Vec<f64>,
+pub(crate) struct ActiveSet {
+    /// What elimination leaves above the diagonal: r_i = value + factor · r_{i+1}.
+    factor: Vec<f64>,
 }
 
 /// How an iteration ended.
@@ -26,10 +27,10 @@ pub(crate) enum Outcome {
     Violated(f64),
 }
 
-impl Elimination {
+impl ActiveSet {
     pub fn new(nodes: usize) -> Self {
         Self {
-            upper: vec![0.0; nodes],
+            factor: vec![0.0; nodes],
         }
     }
 
@@ -66,7 +67,7 @@ impl Elimination {
         let per_stiffness = 1.0 / chain.stiffness;
         let last = r.len() - 1;
         // A held neighbour enters as a known value, a missing one not at all.
-        let mut upper = 0.0;
+        let mut factor = 0.0;
         let mut before = if lo > 0 { r[lo - 1] } else { 0.0 };
         let after = if hi < last { r[hi + 1] } else { 0.0 };
         for i in lo..=hi {
@@ -87,20 +88,20 @@ impl Elimination {
                 ),
             };
             let held = if i == hi { off * after } else { 0.0 };
-            let pivot = diagonal - off * upper;
+            let pivot = diagonal - off * factor;
             // Rows add up to the supports' share alone: without any, and all slipping, nothing holds the stretch.
             if pivot <= 1e-14 * diagonal {
                 return false;
             }
             let inverse = 1.0 / pivot;
-            upper = off * inverse;
+            factor = off * inverse;
             before = (right + off * before + held) * inverse;
-            self.upper[i] = upper;
+            self.factor[i] = factor;
             r[i] = before;
         }
         let mut next = r[hi];
         for i in (lo..hi).rev() {
-            next = r[i] + self.upper[i] * next;
+            next = r[i] + self.factor[i] * next;
             r[i] = next;
         }
         true

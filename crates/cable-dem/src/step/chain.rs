@@ -1,4 +1,4 @@
-//! One implicit step on a stretch of the chain: the problem, and the check that an answer solves it.
+//! One implicit step on a stretch of the chain: the problem.
 //!
 //! Unknown are the displacements r (in the adherent frame, see `quasi_static::passage`) of the nodes of one stretch. With K
 //! the chain's stiffness, s the supports' and p their loads, the step minimises the strictly convex energy

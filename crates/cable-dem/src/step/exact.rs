@@ -15,13 +15,13 @@
 use std::cmp::Ordering;
 
 use super::chain::{Chain, Contact, Load, Stretch, Trial};
-use super::graph::{Friction, Graph};
+use super::graph::{Graph, NodeFriction};
 
 /// Sets the trial's contact states on `stretch` to those of the step's one answer. Returns how many corners it touched.
 ///
 /// With nothing but friction to hold the chain and all of it slipping, the displacement nearest to the anchor is taken. There a
 /// node is about to stick; it counts as stuck, so that the chain has a place, and balance puts its friction at the limit.
-pub(crate) fn contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) -> usize {
+pub(crate) fn set_contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) -> usize {
     let Stretch { lo, hi } = stretch;
     let (r, contact) = (&trial.r, &mut trial.contact);
     let k = chain.stiffness;
@@ -55,7 +55,7 @@ pub(crate) fn contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: 
             graph.remove_spring();
             u = graph.displacement_before_spring(u);
         }
-        let Friction {
+        let NodeFriction {
             forward, backward, ..
         } = friction(chain, load, i);
         let slip = (forward - u).max(u - backward).max(0.0);
@@ -80,10 +80,10 @@ pub(crate) fn contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: 
 }
 
 /// Friction of node i: +w q above, −w q below the displacements beyond which it slips, both shifted by the adhesion.
-fn friction(chain: &Chain, load: &Load<'_>, i: usize) -> Friction {
+fn friction(chain: &Chain, load: &Load<'_>, i: usize) -> NodeFriction {
     let bound = |contact| chain.bound(contact, load.adhesion[i]);
     let at = |contact| load.anchor[i] - chain.compliance * bound(contact);
-    Friction {
+    NodeFriction {
         forward: at(Contact::Forward),
         backward: at(Contact::Backward),
         upper: chain.tributary[i] * bound(Contact::Forward),
@@ -96,7 +96,7 @@ mod tests {
     //! Every one of the 3ⁿ combinations of contact states, solved densely and checked against the contact law: those that
     //! hold give one and the same displacement, and both ways of solving a step must find it.
 
-    use super::super::active_set::{Elimination, Outcome};
+    use super::super::active_set::{ActiveSet, Outcome};
     use super::super::tolerance::Tolerance;
     use super::*;
     use proptest::prelude::*;
@@ -302,7 +302,7 @@ mod tests {
             friction: &[],
         };
         let mut trial = smooth.trial(&smooth.guess);
-        let touched = contacts(&smooth.chain(), &load, smooth.stretch(), &mut trial);
+        let touched = set_contacts(&smooth.chain(), &load, smooth.stretch(), &mut trial);
         let slipping = trial.contact.iter().filter(|c| **c != Contact::Stuck).count();
         assert!(slipping > nodes / 10, "{slipping} of {nodes} nodes slip");
         touched as f64 / nodes as f64
@@ -354,10 +354,10 @@ mod tests {
                 step.holds(&chain, r, 1e-7) && (!step.is_held() || near(r, &answers[0]))
             };
 
-            let mut elimination = Elimination::new(step.nodes.len());
+            let mut active_set = ActiveSet::new(step.nodes.len());
             let mut trial = step.trial(&step.guess);
-            contacts(&chain, &load, stretch, &mut trial);
-            let (outcome, _) = elimination.iterate(&chain, &load, stretch, TOLERANCE, &mut trial);
+            set_contacts(&chain, &load, stretch, &mut trial);
+            let (outcome, _) = active_set.iterate(&chain, &load, stretch, TOLERANCE, &mut trial);
             if step.is_held() {
                 prop_assert_eq!(outcome, Outcome::Solved);
             }
@@ -367,7 +367,7 @@ mod tests {
 
             // From any guess the iteration finds the answer or says that it did not.
             let mut trial = step.trial(&step.guess);
-            if elimination.iterate(&chain, &load, stretch, TOLERANCE, &mut trial).0 == Outcome::Solved {
+            if active_set.iterate(&chain, &load, stretch, TOLERANCE, &mut trial).0 == Outcome::Solved {
                 prop_assert!(right(&trial.r), "iteration: {:?}, {answers:?}", trial.r);
             }
         }

@@ -32,7 +32,7 @@ struct Stack {
 
 /// Friction of one node: +`upper` below the displacement `forward`, `lower` above `backward`, linear between them.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Friction {
+pub(super) struct NodeFriction {
     pub forward: f64,
     pub backward: f64,
     pub upper: f64,
@@ -46,7 +46,7 @@ struct Inserted {
     passed: isize,
     /// Corners on the slope between both limits.
     sloped: usize,
-    friction: Friction,
+    friction: NodeFriction,
 }
 
 /// The graph; beyond its corners it goes on with one slope on either side.
@@ -98,7 +98,10 @@ impl Graph {
 
     /// Takes the last spring off again.
     pub fn remove_spring(&mut self) {
-        self.outer = self.outers.pop().unwrap_or(self.outer);
+        self.outer = self
+            .outers
+            .pop()
+            .expect("a spring is removed once for each one added");
         for stack in [&mut self.below, &mut self.above] {
             stack.map.springs -= 1.0;
             stack.map.u -= stack.map.p / self.stiffness;
@@ -131,12 +134,15 @@ impl Graph {
         if let Some(Some([below, above])) = self.supported.pop() {
             (self.below, self.above) = (below, above);
         }
-        self.outer = self.outers.pop().unwrap_or(self.outer);
+        self.outer = self
+            .outers
+            .pop()
+            .expect("a support is removed once for each one added");
     }
 
-    /// Takes a node's friction from the graph: two corners more.
-    pub fn add_friction(&mut self, friction: Friction) {
-        let Friction {
+    /// Subtracts a node's friction: two more corners.
+    pub fn add_friction(&mut self, friction: NodeFriction) {
+        let NodeFriction {
             forward,
             backward,
             upper,

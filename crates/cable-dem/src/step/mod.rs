@@ -7,16 +7,16 @@
 mod active_set;
 mod chain;
 mod exact;
+mod fixed_end_friction;
 mod graph;
-mod held;
 mod prediction;
 mod solver;
 mod support;
 mod tolerance;
 
 pub(crate) use chain::{Chain, Contact, Load, Stretch, Trial};
-pub(crate) use held::HeldNode;
+pub(crate) use fixed_end_friction::FixedEndFriction;
 pub(crate) use prediction::Prediction;
 pub(crate) use solver::StepSolver;
 pub(crate) use support::Support;
-pub(crate) use tolerance::{NEGLIGIBLE, check_precision, largest};
+pub(crate) use tolerance::{check_precision, largest};

@@ -1,10 +1,10 @@
 //! Solving a step: iterate; where that cycles, take the exact step.
 //!
-//! The exact step's work grows with the nodes, tens of linear solves in all, but with a mass at every node by their square. There the
+//! The exact step costs tens of linear solves. With a mass at every node its work grows with the square of the nodes; there the
 //! contact states are first led from those of a softer sheath to those of the real one: under Coulomb's law with inertia the work is
 //! 1.3 to 2.3 times as much without that, measured on three cables over six passes.
 
-use super::active_set::{Elimination, Outcome};
+use super::active_set::{ActiveSet, Outcome};
 use super::chain::{Chain, Contact, Load, Stretch, Trial};
 use super::exact;
 use super::tolerance::Tolerance;
@@ -24,7 +24,7 @@ pub(crate) struct StepSolver {
     /// Whether the exact step is taken at once.
     pub without_iteration: bool,
     tolerance: Tolerance,
-    elimination: Elimination,
+    active_set: ActiveSet,
     soft_anchor: Vec<f64>,
 }
 
@@ -36,13 +36,13 @@ impl StepSolver {
             statistics: Statistics::default(),
             without_iteration: false,
             tolerance: Tolerance::new(&chain, 0.0),
-            elimination: Elimination::new(nodes),
+            active_set: ActiveSet::new(nodes),
             soft_anchor: vec![0.0; nodes],
             chain,
         }
     }
 
-    /// Forgets earlier passes: a pass depends on the state it starts from, to the last digit. Displacements will reach `largest` \[m\].
+    /// Forgets the last pass's contact states. Displacements will reach `largest` \[m\].
     pub fn start(&mut self, largest: f64) {
         self.trial.contact.fill(Contact::Stuck);
         self.statistics = Statistics::default();
@@ -67,7 +67,7 @@ impl StepSolver {
                 }
             }
         }
-        self.statistics.corners += exact::contacts(&self.chain, load, stretch, &mut self.trial);
+        self.statistics.corners += exact::set_contacts(&self.chain, load, stretch, &mut self.trial);
         self.statistics.exact_steps += 1;
         match self.iterate(load, stretch) {
             Outcome::Solved => Ok(()),
@@ -79,7 +79,7 @@ impl StepSolver {
     fn iterate(&mut self, load: &Load<'_>, stretch: Stretch) -> Outcome {
         let (chain, trial) = (&self.chain, &mut self.trial);
         let (outcome, sweeps) = self
-            .elimination
+            .active_set
             .iterate(chain, load, stretch, self.tolerance, trial);
         self.statistics.sweeps += sweeps;
         self.statistics.node_updates += sweeps * stretch.len();

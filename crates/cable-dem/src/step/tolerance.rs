@@ -3,10 +3,6 @@
 use super::chain::{Chain, rounding};
 use crate::{CableError, DuctedCable, Mesh};
 
-/// Share of the friction limit by which friction and equilibrium may be off outside the windows while a vehicle passes.
-/// Against solves of the whole cable this moves the force by less than 1e-4 of q L (in 1400 random scenes, but for one cable
-/// held by nothing: 5e-4).
-pub(crate) const NEGLIGIBLE: f64 = 1e-3;
 /// Share of the friction limit up to which rounding may blur equilibrium.
 const MAX_ROUNDING: f64 = 1e-3;
 /// Accuracy of friction and equilibrium inside a step, as a share of the friction limit.

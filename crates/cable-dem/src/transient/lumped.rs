@@ -6,7 +6,7 @@
 
 use crate::ends::{Balance, EndReader};
 use crate::error::checked;
-use crate::step::{HeldNode, Support};
+use crate::step::{FixedEndFriction, Support};
 use crate::{CableError, DuctedCable, EndForces, Mesh};
 
 /// Masses, springs and supports of one cable on one mesh.
@@ -23,7 +23,7 @@ pub(crate) struct Lumped {
     /// Whether the first and the last node are held.
     pub fixed: [bool; 2],
     /// Friction of the held ones.
-    pub held: HeldNode,
+    pub held: FixedEndFriction,
     ends: EndReader,
 }
 
@@ -41,7 +41,7 @@ impl Lumped {
             stiffness: cable.axial_stiffness() / mesh.spacing(),
             fixed: [cable.upstream(), cable.downstream()].map(|end| end.stiffness().is_none()),
             springs: springs.collect(),
-            held: HeldNode::new(&cable, &mesh),
+            held: FixedEndFriction::new(&cable, &mesh),
             ends: EndReader::new(&cable, &mesh),
             cable,
             mesh,

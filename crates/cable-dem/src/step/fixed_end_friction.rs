@@ -25,13 +25,13 @@ use crate::{DuctedCable, Friction, FrictionLaw, Mesh};
 
 /// The friction law of a fixed end's node.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct HeldNode {
+pub(crate) struct FixedEndFriction {
     friction: Friction,
     /// q h²/EA \[m\]: slip after which the whole half element has turned over.
     turning_slip: f64,
 }
 
-impl HeldNode {
+impl FixedEndFriction {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let friction = cable.friction();
         let h = mesh.spacing();
@@ -62,9 +62,9 @@ mod tests {
     use crate::CableError;
 
     /// q = 1, h²/EA = 1.
-    fn node() -> Result<HeldNode, CableError> {
+    fn node() -> Result<FixedEndFriction, CableError> {
         let cable = DuctedCable::new(10.0, 1.0, Friction::new(FrictionLaw::Coulomb, 1.0)?)?;
-        Ok(HeldNode::new(&cable, &Mesh::new(10.0, 1.0, 1.0)?))
+        Ok(FixedEndFriction::new(&cable, &Mesh::new(10.0, 1.0, 1.0)?))
     }
 
     #[test]

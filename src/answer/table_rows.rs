@@ -5,7 +5,7 @@ use super::record::PassRecord;
 use crate::shown::ROWS;
 
 /// Few enough of `passes` for a short table: all, or round numbers and the last.
-pub fn selected(passes: &[PassRecord]) -> Vec<&PassRecord> {
+pub fn table_rows(passes: &[PassRecord]) -> Vec<&PassRecord> {
     if passes.len() <= ROWS {
         return passes.iter().collect();
     }

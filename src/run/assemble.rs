@@ -1,4 +1,4 @@
-//! The answer of a run, by whatever way it was found.
+//! Puts the answer of a run together, by whatever way it was found.
 
 use cable_dem::PassOutcome;
 
@@ -7,29 +7,27 @@ use super::passes::{Passes, force_profile, simulate};
 use super::refine::Solved;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
-    Stage, balance, error_estimate, force_series, listed, saturation,
+    Stage, balance, borne_out, error_estimate, force_series, listed, saturation, simulated,
 };
 use crate::plan::Plan;
 use crate::{Error, Progress};
 
-/// A law that loses more than this share of the stored force in one pass gives no answer.
+/// A friction law that loses more than this share of the stored force in one pass gives no answer.
 const LARGEST_LEAK: f64 = 0.9;
-/// Passes up to which every one is listed.
-const ALL_LISTED: u64 = 10_000;
 
 /// What every answer holds, however it was found.
-pub struct Answer<'a> {
+pub struct RunBuilder<'a> {
     plan: &'a Plan<'a>,
     summary: PlanSummary,
     pub warnings: Vec<String>,
 }
 
-impl<'a> Answer<'a> {
+impl<'a> RunBuilder<'a> {
     pub fn new(plan: &'a Plan<'a>) -> Self {
         Self {
             summary: PlanSummary {
                 ground: plan.ground.name.into(),
-                cable: plan.method.method.name().into(),
+                cable: plan.choice.method.name().into(),
                 node_spacing_m: 0.0,
                 vehicle_step_m: 0.0,
                 reasons: plan.reasons(),
@@ -44,7 +42,7 @@ impl<'a> Answer<'a> {
         let tolerance = self.plan.scene.solver.tolerance;
         let relative = law.error.relative;
         error_estimate::judge(relative, tolerance)?;
-        if self.plan.method.may_simulate && relative > tolerance {
+        if self.plan.choice.may_simulate && relative > tolerance {
             return Err(Error::Inaccurate {
                 reached: relative,
                 asked: tolerance,
@@ -56,7 +54,7 @@ impl<'a> Answer<'a> {
 
     /// Every pass is simulated after all.
     pub fn gives_up_the_law(&mut self, error: &Error) {
-        self.summary.cable = self.plan.method.method.solver().name().into();
+        self.summary.cable = self.plan.choice.method.cable_method().name().into();
         self.summary.reasons.push(format!(
             "the pass law gave no answer here ({error}): every pass was simulated after all"
         ));
@@ -78,7 +76,7 @@ impl<'a> Answer<'a> {
             title: self.plan.scene.title.clone(),
             duct_motion: self.duct_motion(),
             plan: self.summary,
-            saturation: saturation.and_then(|s| balance::of_saturation(self.plan.scene, &law.passes, s)),
+            saturation: saturation.and_then(|s| borne_out(self.plan.scene, &law.passes, s)),
             passes: law.passes,
             force_profile: law.force_profile,
             restraints: law.restraints,
@@ -115,7 +113,7 @@ impl<'a> Answer<'a> {
             duct_motion: self.duct_motion(),
             plan: self.summary,
             saturation: saturation(&series, scale)
-                .and_then(|saturation| balance::of_saturation(self.plan.scene, &passes, saturation)),
+                .and_then(|saturation| borne_out(self.plan.scene, &passes, saturation)),
             passes,
             force_profile: force_profile(&solved.passes.cable, &solved.passes.state)?,
             restraints: restraints(&solved.passes)?,
@@ -141,12 +139,12 @@ impl<'a> Answer<'a> {
     /// Without friction every pass leaves the cable as the first one did: where it was laid.
     pub fn without_friction(mut self, stages: &[u64]) -> Result<Run, Error> {
         let Plan {
-            method,
+            choice,
             levels,
             ground,
             ..
         } = self.plan;
-        let method = method.method.solver();
+        let method = choice.method.cable_method();
         let mesh = levels.mesh(levels.first())?;
         let mut scene = self.plan.scene.clone();
         scene.traffic.passes = 1;
@@ -203,14 +201,8 @@ fn restraints(passes: &Passes) -> Result<Vec<RestraintRecord>, Error> {
         .collect())
 }
 
-/// All passes, or those that a list of very many shows.
+/// The passes that are listed.
 fn records(outcomes: &[PassOutcome]) -> Vec<PassRecord> {
-    let count = outcomes.len() as u64;
-    let passes = if count <= ALL_LISTED {
-        (1..=count).collect()
-    } else {
-        listed(count)
-    };
     let record = |pass: u64| PassRecord::new(pass, &outcomes[pass as usize - 1]);
-    passes.into_iter().map(record).collect()
+    simulated(outcomes.len() as u64).into_iter().map(record).collect()
 }
