@@ -1222,6 +1222,8 @@ fn a_computation_that_fails_has_status_1() {
         "--set",
         "solver.node_spacing=1 mm",
         "--set",
+        "duct.length=3 m",
+        "--set",
         "traffic.passes=1",
     ];
     assert_fails(&too_stiff, 1, &["error: ", "stiff"]);

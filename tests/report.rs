@@ -433,6 +433,8 @@ fn bad_input_has_status_2_and_a_failure_leaves_the_older_page() {
         "--set",
         "solver.node_spacing=1 mm",
         "--set",
+        "duct.length=3 m",
+        "--set",
         "traffic.passes=1",
     ];
     assert_refused(&[&too_stiff[..], &output].concat(), 1, &["stiff"]);
