@@ -18,11 +18,6 @@ use crate::step::check_precision;
 use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
 use pass::ForwardSolver;
 
-/// Share of the friction limit by which friction and equilibrium may be off outside the windows while a vehicle passes.
-/// Against solves of the whole cable this moves the force by less than 1e-4 of q L (in 1400 random scenes, but for one cable
-/// held by nothing: 5e-4).
-const UNBALANCED_SHARE: f64 = 1e-3;
-
 /// Quasi-static solver for one cable on one mesh: inertia left out, every step an equilibrium.
 ///
 /// The vehicle advances in steps. Each solves, for the displacements u and the friction f after it,

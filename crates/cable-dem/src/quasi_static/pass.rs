@@ -2,8 +2,8 @@
 
 use std::collections::HashMap;
 
-use super::UNBALANCED_SHARE;
 use super::memory::PassMemory;
+use super::passage::UNBALANCED_SHARE;
 use super::passage::{Passage, Snapshot};
 use super::supports::Supports;
 use super::window::{self, Room, Window};

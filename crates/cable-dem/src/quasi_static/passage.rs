@@ -4,10 +4,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use ground_field::{Direction, DuctMotion};
 
-use super::UNBALANCED_SHARE;
 use super::schedule::schedule;
 use crate::course::{Course, as_driven};
 use crate::{CableError, DuctedCable, Friction, Mesh};
+
+/// Share of the friction limit by which friction and equilibrium may be off outside the windows while a vehicle passes.
+/// Against solves of the whole cable this moves the force by less than 1e-4 of q L (in 1400 random scenes, but for one cable
+/// held by nothing: 5e-4).
+pub const UNBALANCED_SHARE: f64 = 1e-3;
 
 static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 

@@ -1,7 +1,7 @@
 //! Ends and clamps while the vehicle passes: their loads, and when the cable around them is to be solved again.
 
-use super::UNBALANCED_SHARE;
 use super::passage::Snapshot;
+use super::passage::UNBALANCED_SHARE;
 use super::window::Room;
 use crate::step::{Chain, FixedEndFriction, Stretch, Support, Trial};
 use crate::{DuctedCable, Mesh};
