@@ -1,11 +1,9 @@
 //! Numbers and tables for a reader, as the terminal and the report show them.
 
 /// Rows of a table that is read at a glance.
-#[cfg(any(feature = "cli", feature = "plot"))]
 pub const ROWS: usize = 16;
 
 /// `value` with this number of decimals, and no minus before zeros.
-#[cfg(any(feature = "cli", feature = "plot"))]
 pub fn rounded(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -29,7 +27,6 @@ pub fn exact_percent(share: f64) -> String {
 }
 
 /// A time in words of its size.
-#[cfg(any(feature = "cli", feature = "plot"))]
 pub fn time(seconds: f64) -> String {
     match seconds {
         s if s < 1e-3 => "< 1 ms".into(),
