@@ -87,10 +87,18 @@ fn stop_half_way(folder: &Folder, (name, number): (&str, i32)) -> Option<()> {
         .stderr(Stdio::null())
         .spawn()
         .expect("a process");
+    // A shell that waits with its signal: to start one takes longer than to write the table.
+    let mut shell = folder
+        .command("sh", &["-c", &format!("read _; kill -{name} {}", child.id())])
+        .stdin(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("a shell");
     let is_half = || folder.names().iter().any(|name| name.ends_with(".partial"));
     // Before there is a journal it is but the probe of the place.
     while !(journal.exists() && is_half()) && child.try_wait().expect("a state").is_none() {}
-    send(folder, &child, name);
+    drop(shell.stdin.take());
+    shell.wait().expect("it ends");
     let status = child.wait().expect("it ends");
     status.signal().map(|signal| assert_eq!(signal, number))
 }
