@@ -58,7 +58,9 @@ pub fn difference(motions: &[DuctMotion], exact: &[DuctMotion], depth: f64) -> f
     let (count, depths) = COMPARED;
     let mut largest = 0.0_f64;
     for (motion, exact) in motions.iter().zip(exact) {
-        let half = exact.half_length() + depths * depth;
+        let wanted = exact.half_length() + depths * depth;
+        // Beyond its reach a motion has no accuracy.
+        let half = wanted.min(motion.reach()).min(exact.reach());
         for k in 0..count {
             let xi = half * (2.0 * k as f64 / (count - 1) as f64 - 1.0);
             let off = (motion.longitudinal(xi) - exact.longitudinal(xi)).abs();

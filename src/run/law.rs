@@ -188,7 +188,7 @@ fn evolve(
     })
 }
 
-/// The records after `passes`, ascending, with so many nodes per depth in the law's cells.
+/// The records after `passes`, ascending, with `nodes_per_depth` in the law's cells.
 #[cfg(feature = "calibrate")]
 pub fn records(
     scene: &Scene,
