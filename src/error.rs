@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 
 use cable_dem::CableError;
+use cycle_jump::JumpError;
 #[cfg(feature = "calibrate")]
 use calibrate::CalibrationError;
 use ground_field::GroundError;
-use pass_law::LawError;
 
 #[cfg(feature = "calibrate")]
 use crate::readings::DataError;
@@ -27,11 +27,11 @@ pub enum Error {
     /// The cable could not be computed.
     #[error(transparent)]
     Cable(#[from] CableError),
-    /// The pass law could not be computed.
+    /// Jumps over passes do not get on.
     #[error(
-        "the pass law gives no answer; simulating every pass may (solver.method = \"quasi-static\", at most 1 000 000 passes)"
+        "too many passes would have to be simulated; solver.method = \"quasi-static\" simulates every one, at most 1 000 000"
     )]
-    Law(#[from] LawError),
+    Jumps(#[source] JumpError),
     /// The readings of a load cell are wrong.
     #[cfg(feature = "calibrate")]
     #[error(transparent)]
@@ -108,6 +108,15 @@ pub enum Error {
         /// The error, whose message is part of this one's.
         error: Box<Error>,
     },
+}
+
+impl From<JumpError> for Error {
+    fn from(error: JumpError) -> Self {
+        match error {
+            JumpError::Cable(error) => Self::Cable(error),
+            stuck => Self::Jumps(stuck),
+        }
+    }
 }
 
 /// The error's message with those of its causes. Some errors repeat their cause: it is not added again.

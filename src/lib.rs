@@ -44,7 +44,7 @@
 //! ```
 //!
 //! The parts are crates of their own, handed on here so that their versions fit: [`ground_field`] (the contract), [`boussinesq`] (closed
-//! forms), [`burmister`] (layers by Hankel transform), `layered_fem` (layers by finite elements), [`cable_dem`] (the cable), [`pass_law`]
+//! forms), [`burmister`] (layers by Hankel transform), `layered_fem` (layers by finite elements), [`cable_dem`] (the cable), [`cycle_jump`]
 //! (many passes), `fitting` (the crate `calibrate`: parameters from measurements), `figure` (the crate `plain-figure`: charts as SVG).
 //!
 //! # Features
@@ -90,7 +90,7 @@ pub use ::calibrate as fitting;
 pub use layered_fem;
 #[cfg(feature = "plot")]
 pub use plain_figure as figure;
-pub use {boussinesq, burmister, cable_dem, ground_field, pass_law};
+pub use {boussinesq, burmister, cable_dem, cycle_jump, ground_field};
 
 pub use answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, FrictionProfile, PassRecord,

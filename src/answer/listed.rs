@@ -4,6 +4,9 @@
 const GROWTH: f64 = 1.03;
 /// Where every pass is simulated, all are listed up to this number.
 const ALL_LISTED: u64 = 10_000;
+/// How far it is followed where forces lead: this number of passes, and this many times those of the traffic.
+const FAR: u64 = 1_000_000_000;
+const TIMES: u64 = 100;
 /// Leading digits of round numbers, which a reader looks for.
 pub const ROUND: [u64; 3] = [1, 2, 5];
 
@@ -21,6 +24,12 @@ pub fn listed(count: u64) -> Vec<u64> {
     passes.sort_unstable();
     passes.dedup();
     passes
+}
+
+/// Passes beyond `count`, evenly growing, until nothing that creeps at all still does.
+pub fn beyond(count: u64) -> Vec<u64> {
+    let far = FAR.max(count.saturating_mul(TIMES));
+    listed(far).into_iter().filter(|&pass| pass > count).collect()
 }
 
 /// The passes that are listed where all `count` are simulated.

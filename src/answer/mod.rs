@@ -8,8 +8,8 @@ mod saturation;
 #[cfg(any(feature = "cli", feature = "plot"))]
 mod table_rows;
 
-pub use listed::{listed, simulated};
+pub use listed::{beyond, listed, simulated};
 pub use record::*;
-pub use saturation::{LEVEL, borne_out, force_series, larger, saturation};
+pub use saturation::{larger, saturation};
 #[cfg(any(feature = "cli", feature = "plot"))]
 pub use table_rows::table_rows;

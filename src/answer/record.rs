@@ -1,7 +1,7 @@
 //! What a run answers. The names of the fields are those of the JSON document, units included.
 
-use cable_dem::{PassOutcome, SlipLengths, Statistics};
-use pass_law::EvolutionStatistics;
+use cable_dem::{SlipLengths, Statistics};
+use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
 /// Answer of a run.
@@ -17,6 +17,11 @@ pub struct Run {
     pub passes: Vec<PassRecord>,
     /// Where the force levels off, if it does.
     pub saturation: Option<Saturation>,
+    /// Forces on the ends over a period of the traffic, where they level off.
+    pub range: Option<ForceRange>,
+    /// How far forces scatter where vehicles come in random order and not every pass is simulated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub random: Option<RandomSpread>,
     /// Force along the cable after the last pass.
     pub force_profile: ForceProfile,
     /// What each clamp carries after the last pass.
@@ -79,8 +84,11 @@ pub struct PassRecord {
     pub upstream_displacement_m: f64,
     /// Displacement of the cable at the downstream end \[m\].
     pub downstream_displacement_m: f64,
-    /// Work that slip between cable and duct has turned into heat in this pass \[J\]; not from the pass law.
+    /// Work that slip between cable and duct has turned into heat in this pass \[J\].
     pub dissipated_energy_j: Option<f64>,
+    /// Whether the pass was not simulated but lies within a jump between simulated ones.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub interpolated: bool,
 }
 
 /// Force along the cable after the last pass.
@@ -99,7 +107,7 @@ pub struct Stage {
     pub pass: u64,
     /// Force along the cable after it.
     pub force_profile: ForceProfile,
-    /// Friction on the cable during it; not from solvers with inertia, nor from the pass law.
+    /// Friction on the cable during it; not from solvers with inertia.
     pub friction: Option<FrictionProfile>,
 }
 
@@ -141,20 +149,63 @@ pub struct SlipRecord {
 /// Where the force levels off.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Saturation {
-    /// The force in the end \[N\].
+    /// The force that is largest in size of those that an end shows after any pass of a period, once nothing changes any more \[N\]; inside
+    /// the cable where no end is held.
     pub force_n: f64,
     /// Passes to 95 % of it.
     pub passes_to_95_percent: u64,
+    /// The same of the downstream end alone \[N\].
+    pub downstream_force_n: f64,
+    /// The same of the upstream end alone \[N\].
+    pub upstream_force_n: f64,
 }
 
-/// Work of the cable solver for the passes as listed; of the pass law, that of its evolution in the pass number.
+/// Forces on the ends over a period of the traffic once nothing changes any more.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ForceRange {
+    /// Least force on the downstream end \[N\].
+    pub downstream_min_n: f64,
+    /// Largest force on the downstream end \[N\].
+    pub downstream_max_n: f64,
+    /// Least force on the upstream end \[N\].
+    pub upstream_min_n: f64,
+    /// Largest force on the upstream end \[N\].
+    pub upstream_max_n: f64,
+}
+
+/// How far forces scatter around their mean where vehicles come in random order.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RandomSpread {
+    /// Of the downstream end.
+    pub downstream: Quantiles,
+    /// Of the upstream end.
+    pub upstream: Quantiles,
+}
+
+/// Forces after passes in random order.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Quantiles {
+    /// One in twenty is below this \[N\].
+    pub q05_n: f64,
+    /// The median \[N\].
+    pub q50_n: f64,
+    /// One in twenty is above this \[N\].
+    pub q95_n: f64,
+    /// The largest in size of those that were simulated \[N\].
+    pub max_n: f64,
+}
+
+/// Work of the cable solver, on all meshes together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cost {
-    /// Vehicle positions, steps of time, or of the pass number.
+    /// Passes simulated on the mesh of the answer.
+    #[serde(default)]
+    pub simulated_passes: u64,
+    /// Vehicle positions, or steps of time.
     pub steps: u64,
     /// Linear solves.
     pub sweeps: u64,
-    /// Nodes eliminated in these, or advanced in time; not counted by the pass law.
+    /// Nodes eliminated in these, or advanced in time.
     pub node_updates: u64,
 }
 
@@ -198,16 +249,9 @@ impl From<SlipLengths> for SlipRecord {
 }
 
 impl Cost {
-    pub(crate) fn of_law(statistics: EvolutionStatistics) -> Self {
+    pub(crate) fn new(simulated_passes: u64, statistics: &Statistics) -> Self {
         Self {
-            steps: (statistics.steps + statistics.rejected) as u64,
-            sweeps: statistics.newton_iterations as u64,
-            node_updates: 0,
-        }
-    }
-
-    pub(crate) fn new(statistics: &Statistics) -> Self {
-        Self {
+            simulated_passes,
             steps: statistics.steps as u64,
             sweeps: statistics.sweeps as u64,
             node_updates: statistics.node_updates as u64,
@@ -216,9 +260,10 @@ impl Cost {
 }
 
 impl PassRecord {
-    pub(crate) fn new(pass: u64, outcome: &PassOutcome) -> Self {
+    pub(crate) fn new(record: &Record) -> Self {
+        let Record { pass, outcome, interpolated } = record;
         Self {
-            pass,
+            pass: *pass,
             downstream_force_n: outcome.force.downstream,
             downstream_peak_n: outcome.peak.downstream,
             upstream_force_n: outcome.force.upstream,
@@ -227,6 +272,7 @@ impl PassRecord {
             upstream_displacement_m: outcome.upstream_displacement,
             downstream_displacement_m: outcome.downstream_displacement,
             dissipated_energy_j: Some(outcome.dissipated),
+            interpolated: *interpolated,
         }
     }
 }

@@ -1,14 +1,16 @@
 //! Where the force levels off.
 //!
-//! The force at a third, two thirds and all of the passes gives two gains; of vehicles that alternate, the largest in size
-//! counts. Where the second is much smaller than the first, the gains shrink geometrically, and what is still to come is their
-//! remaining sum (Aitken's Δ²; A. C. Aitken, Proc. R. Soc. Edinburgh 46 (1926) 289). Early on the force grows like √n: the
-//! gains' ratio is above 0.7 and nothing can be said yet.
+//! With jumps the cable is followed until nothing changes from period to period any more. Where every pass is simulated, the
+//! force at a third, two thirds and all of the passes gives two gains; of vehicles that alternate, the largest in size counts. Where the
+//! second is much smaller than the first, the gains shrink geometrically, and what is still to come is their remaining sum
+//! (Aitken's Δ²; A. C. Aitken, Proc. R. Soc. Edinburgh 46 (1926) 289). Early on the force grows like √n: the gains' ratio is
+//! above 0.7 and nothing can be said yet.
 
 use cable_dem::PassOutcome;
+use cycle_jump::{Beyond, Record};
 
 use super::balance;
-use super::record::{PassRecord, Saturation};
+use super::record::{ForceRange, Saturation};
 use crate::Scene;
 use crate::scene::End;
 
@@ -22,25 +24,91 @@ const FEWEST_PASSES: usize = 12;
 pub const LEVEL: f64 = 0.95;
 /// A force already reached may exceed the saturation by this share of it, which is no more than an extrapolation's error.
 const NEARLY: f64 = 0.02;
+/// A force below this share of the largest in any pass is none.
+const NOTHING: f64 = 1e-3;
 
-/// Saturation of the force series `forces` \[N\], one entry a pass; `scale` \[N\] is a force that counts as large here.
-pub fn saturation(forces: &[f64], scale: f64) -> Option<Saturation> {
+/// Least and largest value of a force over a period \[N\].
+type Range = (f64, f64);
+
+/// Where the forces of a run level off: over `records`, all passes or listed ones, and `beyond` them.
+pub fn saturation(
+    scene: &Scene,
+    records: &[Record],
+    beyond: Option<&Beyond>,
+) -> Option<(Saturation, ForceRange)> {
+    let none = (scene.ends.upstream, scene.ends.downstream) == (End::Free, End::Free);
+    let scale = records.iter().map(|record| peak(&record.outcome)).fold(0.0, f64::max);
+    let level = |force: fn(&PassOutcome) -> f64| match beyond {
+        Some(beyond) => range(beyond.period.iter().map(force)),
+        None => extrapolate(&records.iter().map(|record| force(&record.outcome)).collect::<Vec<_>>(), scale),
+    };
+    let at = |end: End, force| if end == End::Free { Some((0.0, 0.0)) } else { level(force) };
+    let upstream = at(scene.ends.upstream, |o| o.force.upstream)?;
+    let downstream = at(scene.ends.downstream, |o| o.force.downstream)?;
+    let inside = if none { level(|o| o.max_compression)? } else { (0.0, 0.0) };
+    let [upstream_force_n, downstream_force_n, inside] = [upstream, downstream, inside].map(|(least, most)| larger(least, most));
+    let mut force_n = [downstream_force_n, upstream_force_n, inside].into_iter().fold(0.0, larger);
+
+    // At least what is reached, if that is nearly it, and no more than friction can carry to an end whose other end is free.
+    let free = scene.ends.upstream == End::Free || scene.ends.downstream == End::Free;
+    let limit = scene.friction_limit() * scene.duct.length;
+    let impossible = free && scene.restraints.is_empty() && force_n.abs() > (1.0 + balance::MARGIN) * limit;
+    let shown = |record: &Record| {
+        let PassOutcome { force, max_compression, .. } = record.outcome;
+        if none { max_compression } else { larger(force.upstream, force.downstream) }
+    };
+    let reached = records.iter().map(shown).fold(0.0, larger);
+    // From much more than it the force falls: it does not level off.
+    let falls = reached.abs() > (1.0 + NEARLY) * force_n.abs();
+    if force_n.abs() < NOTHING * scale || impossible || falls {
+        return None;
+    }
+    force_n = larger(force_n, reached);
+    let later = beyond.map_or(&[][..], |beyond| &beyond.records);
+    let first = records.iter().chain(later).find(|record| shown(record) / (LEVEL * force_n) >= 1.0)?;
+    let saturation = Saturation {
+        force_n,
+        passes_to_95_percent: first.pass,
+        downstream_force_n,
+        upstream_force_n,
+    };
+    let range = ForceRange {
+        downstream_min_n: downstream.0,
+        downstream_max_n: downstream.1,
+        upstream_min_n: upstream.0,
+        upstream_max_n: upstream.1,
+    };
+    Some((saturation, range))
+}
+
+/// Largest force on an end in a pass, in size.
+fn peak(outcome: &PassOutcome) -> f64 {
+    let PassOutcome { peak, lowest, max_compression, .. } = outcome;
+    [peak.upstream, peak.downstream, lowest.upstream, lowest.downstream, *max_compression]
+        .into_iter()
+        .fold(0.0, |largest, force| largest.max(force.abs()))
+}
+
+fn range(values: impl Iterator<Item = f64>) -> Option<Range> {
+    values.fold(None, |range: Option<Range>, value| {
+        let (least, most) = range.unwrap_or((value, value));
+        Some((least.min(value), most.max(value)))
+    })
+}
+
+/// Range over the last passes of `forces` \[N\], one entry a pass, with what is still to come; `scale` \[N\] is a force that counts
+/// as large here.
+fn extrapolate(forces: &[f64], scale: f64) -> Option<Range> {
     let count = forces.len();
     if count < FEWEST_PASSES {
         return None;
     }
     // The largest of a few passes: of vehicles that alternate, each leaves another force.
     let width = (count / 12).max(1);
-    let largest = |end: usize| {
-        let window = forces[end - width..end].iter().copied();
-        window.fold(0.0, larger)
-    };
+    let largest = |end: usize| forces[end - width..end].iter().copied().fold(0.0, larger);
     let (first, second, third) = (largest(count / 3), largest(2 * count / 3), largest(count));
     let (early, late) = (second - first, third - second);
-    if third.abs() < 1e-3 * scale {
-        return None;
-    }
-    let remainder = if late.abs() <= 1e-4 * third.abs() {
+    let remainder = if third.abs() < NOTHING * scale || late.abs() <= 1e-4 * third.abs() {
         0.0
     } else {
         let ratio = late / early;
@@ -49,89 +117,10 @@ pub fn saturation(forces: &[f64], scale: f64) -> Option<Saturation> {
         }
         late * ratio / (1.0 - ratio)
     };
-    let force = third + remainder;
-    if remainder.abs() > LARGEST_REMAINDER * force.abs() {
+    if remainder.abs() > LARGEST_REMAINDER * (third + remainder).abs() {
         return None;
     }
-    let reached = forces.iter().position(|f| f / force >= LEVEL)?;
-    Some(Saturation {
-        force_n: force,
-        passes_to_95_percent: reached as u64 + 1,
-    })
-}
-
-/// The force that a load cell would show: at the end that is held, the larger one of two, and inside the cable where none
-/// is; and its largest value while vehicles pass.
-pub fn force_series(scene: &Scene, outcomes: &[PassOutcome]) -> (Vec<f64>, f64) {
-    let pick = |force: fn(&PassOutcome) -> f64, peak: fn(&PassOutcome) -> f64| {
-        let scale = outcomes
-            .iter()
-            .map(peak)
-            .fold(0.0, |largest: f64, p| largest.max(p.abs()));
-        (outcomes.iter().map(force).collect::<Vec<_>>(), scale)
-    };
-    let upstream = || {
-        pick(
-            |o| o.force.upstream,
-            |o| o.peak.upstream.abs().max(o.lowest.upstream.abs()),
-        )
-    };
-    let downstream = || {
-        pick(
-            |o| o.force.downstream,
-            |o| o.peak.downstream.abs().max(o.lowest.downstream.abs()),
-        )
-    };
-    match (scene.ends.upstream, scene.ends.downstream) {
-        (End::Free, End::Free) => pick(|o| o.max_compression, |o| o.max_compression),
-        (_, End::Free) => upstream(),
-        (End::Free, _) => downstream(),
-        _ => {
-            let last = outcomes
-                .last()
-                .map_or((0.0, 0.0), |o| (o.force.upstream, o.force.downstream));
-            if last.0.abs() > last.1.abs() {
-                upstream()
-            } else {
-                downstream()
-            }
-        }
-    }
-}
-
-/// The saturation that `records` bear out: at least what they already reach, if that is nearly it, and no more than friction
-/// can carry to an end whose other end is free.
-pub fn borne_out(scene: &Scene, records: &[PassRecord], mut saturation: Saturation) -> Option<Saturation> {
-    let free = scene.ends.upstream == End::Free || scene.ends.downstream == End::Free;
-    let limit = scene.friction_limit() * scene.duct.length;
-    if free && scene.restraints.is_empty() && saturation.force_n.abs() > (1.0 + balance::MARGIN) * limit {
-        return None;
-    }
-    let held = scene.ends.upstream != End::Free || scene.ends.downstream != End::Free;
-    let force = |record: &PassRecord| {
-        if held {
-            larger(record.upstream_force_n, record.downstream_force_n)
-        } else {
-            record.max_compression_n
-        }
-    };
-    let largest = records.iter().map(force).fold(0.0, larger);
-    if largest.abs() > saturation.force_n.abs() {
-        if largest.abs() > (1.0 + NEARLY) * saturation.force_n.abs() {
-            // The force falls from there: it does not level off.
-            return None;
-        }
-        saturation.force_n = largest;
-    }
-    let share = LEVEL * saturation.force_n;
-    let reached = records.iter().find(|record| force(record) / share >= 1.0);
-    match (reached, records.last()) {
-        (Some(record), _) => saturation.passes_to_95_percent = record.pass,
-        // What is said to have been reached has to be among the records.
-        (None, Some(last)) if saturation.passes_to_95_percent <= last.pass => return None,
-        _ => {}
-    }
-    Some(saturation)
+    range(forces[count - width..].iter().map(|force| force + remainder))
 }
 
 /// The larger in size of two forces.
@@ -146,23 +135,22 @@ mod tests {
     #[test]
     fn a_geometric_approach_is_extrapolated_to_its_limit() {
         let forces: Vec<f64> = (1..=60).map(|n| 500.0 * (1.0 - 0.93_f64.powi(n))).collect();
-        let found = saturation(&forces, 500.0).expect("it levels off");
-        assert!((found.force_n / 500.0 - 1.0).abs() < 0.01, "{found:?}");
-        // 1 − 0.93ⁿ ≥ 0.95 from n = ln 0.05 / ln 0.93 = 41.3 on.
-        assert!((40..=43).contains(&found.passes_to_95_percent), "{found:?}");
+        let (_, most) = extrapolate(&forces, 500.0).expect("it levels off");
+        assert!((most / 500.0 - 1.0).abs() < 0.01, "{most}");
     }
 
     #[test]
     fn growth_with_the_root_of_the_passes_does_not_level_off() {
         let forces: Vec<f64> = (1..=2000).map(|n| f64::from(n).sqrt()).collect();
-        assert_eq!(saturation(&forces, 1.0), None);
-        assert_eq!(saturation(&forces[..5], 1.0), None);
+        assert_eq!(extrapolate(&forces, 1.0), None);
+        assert_eq!(extrapolate(&forces[..5], 1.0), None);
     }
 
     #[test]
     fn tension_levels_off_like_compression_and_nothing_like_nothing() {
         let forces: Vec<f64> = (1..=60).map(|n| -500.0 * (1.0 - 0.9_f64.powi(n))).collect();
-        assert!((saturation(&forces, 500.0).expect("it levels off").force_n + 500.0).abs() < 5.0);
-        assert_eq!(saturation(&[0.0; 60], 500.0), None);
+        let (least, _) = extrapolate(&forces, 500.0).expect("it levels off");
+        assert!((least + 500.0).abs() < 5.0);
+        assert_eq!(extrapolate(&[0.0; 60], 500.0), Some((0.0, 0.0)));
     }
 }

@@ -56,7 +56,6 @@ fn model_error(found: &Final) -> ModelErrorEstimate {
 
 fn warnings(problem: &Problem<'_>, fit: &Fit, error: &ModelErrorEstimate) -> Vec<String> {
     let mut warnings: Vec<String> = fit.warnings.iter().map(ToString::to_string).collect();
-    warnings.extend(problem.models.iter().filter_map(SeriesModel::concern));
     for (estimate, error) in fit.estimates.iter().zip(&error.standard_errors) {
         if *error > MESH_SHIFT {
             warnings.push(format!(
@@ -92,7 +91,7 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
     let meshes = problem.models.iter().map(mesh).collect::<Result<Vec<_>, _>>()?;
     let fit = &found.fit;
     Ok(FitMethod {
-        cable: problem.models[0].method.name().into(),
+        cable: problem.models[0].method().name().into(),
         load_cell: problem.models.iter().map(|model| model.end.name()).collect(),
         node_spacing_m: meshes.iter().map(cable_dem::Mesh::spacing).collect(),
         vehicle_step_m: meshes.iter().map(cable_dem::Mesh::vehicle_step).collect(),

@@ -7,6 +7,7 @@ use std::borrow::Cow;
 
 use cable_dem::Mesh;
 use calibrate::{Model, ModelError};
+use cycle_jump::Guide;
 use ground_field::DuctMotion;
 use rayon::prelude::*;
 
@@ -15,23 +16,28 @@ use super::options::Series;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
 use crate::ground::{Ground, road};
-use crate::plan::{PassMethod, plan};
-use crate::run::law;
-use crate::run::passes::simulate;
+use crate::plan::{CableMethod, PassMethod, Period, plan};
+use crate::run::passes::{Jumping, Task};
 use crate::{Error, Progress, Reading, Scene};
 
 /// Nodes per depth of the duct on the coarsest mesh; every further level has twice as many.
 const COARSEST: f64 = 6.0;
 /// Steps of the vehicle per node spacing.
 const STEPS_PER_SPACING: f64 = 2.0;
-/// Passes below which the pass law is rough.
-const LAW_FROM: u64 = 10;
+/// Most passes that are all simulated. Of more, the same few are in every run of a fit, with the same jumps between them: where
+/// jumps were chosen anew, forces would not be smooth in the parameters.
+const EVERY_PASS: u64 = 1000;
+/// Error of such a jump, and the length of the first one beside the periods before it.
+const JUMP: f64 = 1e-3;
+const FIRST_JUMP: f64 = 0.25;
 
 /// One series, ready to be predicted.
 pub struct SeriesModel {
     scene: Scene,
     motions: Vec<DuctMotion>,
-    pub method: PassMethod,
+    method: CableMethod,
+    /// The traffic's period and the jumps over it, where not every pass is simulated.
+    jumps: Option<(Period, Vec<u64>)>,
     pub end: CellEnd,
     /// Passes of the readings, in their order.
     passes: Vec<u64>,
@@ -42,20 +48,34 @@ impl SeriesModel {
         let mut scene = series.scene.clone();
         let end = CellEnd::of(&scene)?;
         scene.traffic.passes = series.readings.last_pass();
-        let method = plan(&scene)?.choice.method;
+        let (method, period) = {
+            let plan = plan(&scene)?;
+            (plan.choice.method.cable_method(), plan.period)
+        };
         let motions = Ground::new(&scene, None, road::reach(&scene))?.motions;
-        Ok(Self {
+        let passes = series.readings.readings().iter().map(|reading: &Reading| reading.pass);
+        let mut model = Self {
+            passes: passes.collect(),
+            jumps: None,
             scene,
             motions,
             method,
             end,
-            passes: series
-                .readings
-                .readings()
-                .iter()
-                .map(|reading: &Reading| reading.pass)
-                .collect(),
-        })
+        };
+        if model.scene.traffic.passes > EVERY_PASS && model.scene.friction.law.has_memory() {
+            let task = model.task(&model.scene, &model.motions, 0)?;
+            let passes = task.with_jumps(&jumping(&period, Guide::Free), &[])?;
+            model.jumps = Some((period, passes.schedule));
+        }
+        Ok(model)
+    }
+
+    /// How the passes are computed.
+    pub fn method(&self) -> PassMethod {
+        match &self.jumps {
+            Some(_) => PassMethod::Jumps(self.method),
+            None => PassMethod::EveryPass(self.method),
+        }
     }
 
     /// Largest vertical displacement of the duct under the first vehicle \[m\].
@@ -63,23 +83,9 @@ impl SeriesModel {
         self.motions[0].peak_vertical()
     }
 
-    /// What an early reading means to the pass law.
-    pub fn concern(&self) -> Option<String> {
-        let early = self.passes.iter().filter(|&&pass| pass < LAW_FROM).count();
-        (self.method == PassMethod::Law && early > 0).then(|| {
-            format!(
-                "{early} readings before pass {LAW_FROM}, where the pass law is rough, are fitted with it"
-            )
-        })
-    }
-
     /// Whether the scene says how fine to be.
     pub fn is_meshed(&self) -> bool {
         self.scene.solver.node_spacing.is_some() || self.scene.solver.vehicle_step.is_some()
-    }
-
-    fn nodes_per_depth(level: u32) -> f64 {
-        COARSEST * f64::from(1 << level)
     }
 
     /// The mesh of a level. One that the scene names is the first, and every further one halves it.
@@ -105,37 +111,45 @@ impl SeriesModel {
             let softer = |motion: &DuctMotion| motion.clone().scaled(1.0 / stiffness);
             self.motions.iter().map(softer).collect::<Result<_, _>>()?
         };
-        match self.method {
-            PassMethod::EveryPass(method) => {
-                let passes = simulate(
-                    scene,
-                    method,
-                    &motions,
-                    self.mesh(level)?,
-                    &[],
-                    Progress::default(),
-                )?;
-                let force = |&pass: &u64| {
-                    let force = passes.outcomes[pass as usize - 1].force;
-                    match self.end {
-                        CellEnd::Upstream => force.upstream,
-                        CellEnd::Downstream => force.downstream,
-                    }
-                };
-                Ok(self.passes.iter().map(force).collect())
-            }
-            PassMethod::Law => {
-                let mut wanted = self.passes.clone();
-                wanted.sort_unstable();
-                wanted.dedup();
-                let records = law::records(scene, &motions, Self::nodes_per_depth(level), &wanted)?;
-                let force = |pass: &u64| {
-                    self.end
-                        .force(&records[wanted.partition_point(|other| other < pass)])
-                };
-                Ok(self.passes.iter().map(force).collect())
-            }
+        let mut wanted = self.passes.clone();
+        wanted.sort_unstable();
+        wanted.dedup();
+        let task = self.task(scene, &motions, level)?;
+        let records = match &self.jumps {
+            Some((period, schedule)) => task.with_jumps(&jumping(period, Guide::Obey(schedule)), &wanted)?,
+            None => task.every_pass()?,
         }
+        .records;
+        let force = |pass: &u64| {
+            let place = records.partition_point(|record| record.pass < *pass);
+            let force = records[place].outcome.force;
+            match self.end {
+                CellEnd::Upstream => force.upstream,
+                CellEnd::Downstream => force.downstream,
+            }
+        };
+        Ok(self.passes.iter().map(force).collect())
+    }
+
+    fn task<'a>(&self, scene: &'a Scene, motions: &'a [DuctMotion], level: u32) -> Result<Task<'a>, Error> {
+        Ok(Task {
+            scene,
+            method: self.method,
+            motions,
+            mesh: self.mesh(level)?,
+            stages: &[],
+            progress: Progress::default(),
+        })
+    }
+}
+
+fn jumping<'a>(period: &'a Period, guide: Guide<'a>) -> Jumping<'a> {
+    Jumping {
+        period,
+        tolerance: JUMP,
+        first_jump: FIRST_JUMP,
+        guide,
+        beyond: false,
     }
 }
 

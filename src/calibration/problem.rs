@@ -7,7 +7,6 @@ use super::options::{CalibrateOptions, Series};
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
 use crate::Error;
-use crate::plan::PassMethod;
 use crate::readings::Readings;
 
 /// Finest level of meshes that is fitted: 24 nodes per depth, corrected by 48.
@@ -15,8 +14,6 @@ pub const LAST_LEVEL: u32 = 2;
 /// Ripple of the forces as parameters change on a fixed mesh, as a share of them: as a node more slips, their slope jumps.
 /// Measured on the full-scale scenes; from the coarsest level up.
 const RIPPLE: [f64; 3] = [3e-4, 1e-4, 3e-5];
-/// The same of the pass law, whose steps adapt.
-const LAW_RIPPLE: f64 = 1e-4;
 
 /// Scenes, readings and unknowns.
 pub struct Problem<'a> {
@@ -73,11 +70,7 @@ impl Problem<'_> {
         options.start = Some(start.unwrap_or_else(|| self.scene_values()));
         options.tolerance = effort.tolerance;
         options.max_evaluations = effort.runs.max(1);
-        options.relative_noise = if self.models.iter().any(|series| series.method == PassMethod::Law) {
-            LAW_RIPPLE
-        } else {
-            RIPPLE[model.level.min(LAST_LEVEL) as usize]
-        };
+        options.relative_noise = RIPPLE[model.level.min(LAST_LEVEL) as usize];
         options.profiles = effort.profiles;
         Ok(calibration.with_options(options)?)
     }

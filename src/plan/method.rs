@@ -1,13 +1,13 @@
 //! How the passes of a scene are computed.
 //!
-//! The pass law costs the same for ten passes as for ten million; the quasi-static cable moves only near the vehicle; the
-//! solvers with inertia move all of it. Inertia changes the force by at most (v/c)²; the pass law's error is measured on the
-//! first passes. Explicit steps are taken only where the scene names them.
+//! The quasi-static cable moves only near the vehicle; the solvers with inertia move all of it, and inertia changes the force
+//! by at most (v/c)². Long traffic is simulated in part: its passes change the cable ever more slowly, and jumps between
+//! simulated ones follow that (crate `cycle-jump`). Explicit steps are taken only where the scene names them.
 
 use cable_dem::inertia_ratio;
-use pass_law::{Concern, Resolution, concerns_before};
 
 use super::mesh::Levels;
+use super::period::Period;
 use crate::Error;
 use crate::cable;
 use crate::scene::{Scene, SolverMethod};
@@ -19,21 +19,16 @@ const DYNAMIC_SECONDS: f64 = 6e-8;
 const EXPLICIT_SECONDS: f64 = 1e-9;
 /// Speed of waves in the cable beside the vehicle's time step, for the explicit solver's share of the work.
 const EXPLICIT_STEPS: f64 = 40.0;
-/// Measured time of the pass law, whatever the number of passes \[s\].
-const LAW_SECONDS: f64 = 0.2;
-/// Error of the law itself beyond the tenth pass on the ducts it is made for, measured against the simulation of every
-/// pass. What it is on a scene is measured on the scene's first passes.
-pub const LAW_ERROR: f64 = 0.01;
-/// The law takes over where it is as accurate as asked and simulating every pass would take this many times its own time.
-const WORTHWHILE: f64 = 20.0;
-/// Where simulating every pass takes longer than this on the level for 1 % \[s\], the law takes over whatever the tolerance.
+/// Periods that are simulated at the start, and then for every factor e of periods.
+const FIRST_PERIODS: f64 = 20.0;
+const PERIODS_PER_E: f64 = 8.0;
+/// Jumps are taken where they spare this share of the passes.
+const SPARED: f64 = 0.3;
+/// Where every pass is simulated although jumps are possible, it takes no longer than this \[s\].
 const LONGEST_SECONDS: f64 = 60.0;
-/// The level that keeps 1 %, and the one on which the law's time is compared.
-const LEVEL_OF_ONE_PERCENT: usize = 2;
-const LEVEL_OF_THE_LAW: usize = 1;
 /// Share of the tolerance that leaving inertia out may cost.
 const INERTIA_SHARE: f64 = 0.5;
-/// Most passes that are simulated.
+/// Most passes that are simulated one by one.
 const MOST_PASSES: u64 = 1_000_000;
 
 /// How all passes are computed.
@@ -41,8 +36,8 @@ const MOST_PASSES: u64 = 1_000_000;
 pub enum PassMethod {
     /// Every pass is simulated.
     EveryPass(CableMethod),
-    /// By the pass law.
-    Law,
+    /// Few are, with jumps between them.
+    Jumps(CableMethod),
 }
 
 /// Solver of the cable.
@@ -58,15 +53,14 @@ impl PassMethod {
     pub fn name(self) -> &'static str {
         match self {
             Self::EveryPass(method) => method.name(),
-            Self::Law => "pass-law",
+            Self::Jumps(_) => "pass-law",
         }
     }
 
     /// The solver of the passes that are simulated.
     pub fn cable_method(self) -> CableMethod {
         match self {
-            Self::EveryPass(method) => method,
-            Self::Law => CableMethod::QuasiStatic,
+            Self::EveryPass(method) | Self::Jumps(method) => method,
         }
     }
 
@@ -93,50 +87,42 @@ pub struct MethodChoice {
     pub reason: String,
     /// By what share of the force leaving inertia out is off at most, where it is left out.
     pub inertia: f64,
-    /// Whether every pass may be simulated where the law proves too rough.
+    /// Whether every pass may be simulated where jumps do not get on.
     pub may_simulate: bool,
     /// What every method would cost.
     pub estimates: Estimates,
 }
 
 /// The method the scene names, or the cheapest that keeps its tolerance.
-pub fn choose(scene: &Scene, levels: &Levels) -> Result<MethodChoice, Error> {
-    let estimates = Estimates::new(scene, levels)?;
-    let key = "solver.method";
-    let method = match scene.solver.method {
-        SolverMethod::Auto => None,
-        SolverMethod::PassLaw => match &estimates.refusal {
-            Some(refusal) => return Err(unfit(key, "pass-law", refusal)),
-            None => Some(PassMethod::Law),
-        },
-        SolverMethod::QuasiStatic if !scene.friction.law.has_memory() => {
-            return Err(unfit(key, "quasi-static", NO_REST));
-        }
-        SolverMethod::QuasiStatic => Some(PassMethod::EveryPass(CableMethod::QuasiStatic)),
-        SolverMethod::Dynamic => Some(PassMethod::EveryPass(CableMethod::Dynamic)),
-        SolverMethod::Explicit => Some(PassMethod::EveryPass(CableMethod::Explicit)),
-    };
-    let auto = method.is_none();
-    let (method, reason) = match method {
-        Some(named) => (named, "the scene asks for it".to_owned()),
-        None => automatic(scene, &estimates),
-    };
+pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodChoice, Error> {
+    let estimates = Estimates::new(scene, levels, period)?;
+    let has_rest = scene.friction.law.has_memory();
     let count = scene.traffic.passes;
-    if method != PassMethod::Law && count > MOST_PASSES && scene.friction_limit() > 0.0 {
-        return Err(unfit(
-            "traffic.passes",
-            "more than a million passes",
-            match (&estimates.refusal, auto) {
-                (Some(refusal), _) => {
-                    format!("at most 1 000 000 are simulated, and the pass law does not apply: {refusal}")
-                }
-                (None, true) => "at most 1 000 000 are simulated".to_owned(),
-                (None, false) => format!(
-                    "at most 1 000 000 are simulated by solver.method = \"{}\"; \"pass-law\" computes any number",
-                    method.name()
-                ),
-            },
-        ));
+    let every = |method| PassMethod::EveryPass(method);
+    let (method, reason) = match scene.solver.method {
+        SolverMethod::Auto => automatic(scene, &estimates),
+        SolverMethod::PassLaw if !has_rest => return Err(no_rest("pass-law")),
+        SolverMethod::QuasiStatic if !has_rest => return Err(no_rest("quasi-static")),
+        named => {
+            let method = match named {
+                SolverMethod::PassLaw => PassMethod::Jumps(CableMethod::QuasiStatic),
+                SolverMethod::Dynamic => estimates.affordable(CableMethod::Dynamic, has_rest),
+                SolverMethod::Explicit => estimates.affordable(CableMethod::Explicit, has_rest),
+                _ => every(CableMethod::QuasiStatic),
+            };
+            (method, "the scene asks for it".to_owned())
+        }
+    };
+    if matches!(method, PassMethod::EveryPass(_)) && count > MOST_PASSES && scene.friction_limit() > 0.0 {
+        let reason = if has_rest {
+            format!(
+                "at most 1 000 000 are simulated by solver.method = \"{}\"; \"pass-law\" computes any number",
+                method.name()
+            )
+        } else {
+            format!("at most 1 000 000 are simulated, and jumps over passes need a state of rest: {NO_REST}")
+        };
+        return Err(unfit("traffic.passes", "more than a million passes", reason));
     }
     Ok(MethodChoice {
         inertia: if method.has_inertia() {
@@ -144,7 +130,7 @@ pub fn choose(scene: &Scene, levels: &Levels) -> Result<MethodChoice, Error> {
         } else {
             estimates.inertia
         },
-        may_simulate: auto && estimates.fine <= LONGEST_SECONDS,
+        may_simulate: count <= MOST_PASSES && estimates.every_pass(method.cable_method()) <= LONGEST_SECONDS,
         method,
         reason,
         estimates,
@@ -159,6 +145,10 @@ fn unfit(key: &'static str, found: &'static str, reason: impl Into<String>) -> E
     }
 }
 
+fn no_rest(found: &'static str) -> Error {
+    unfit("solver.method", found, NO_REST)
+}
+
 const NO_REST: &str = "the sigmoid law has no state of rest: its friction depends on the time step";
 
 fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
@@ -166,29 +156,18 @@ fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
     if !scene.friction.law.has_memory() {
         return (PassMethod::EveryPass(CableMethod::Dynamic), NO_REST.into());
     }
-    if estimates.inertia_matters(tolerance) {
-        let reason = format!("{}: too much for the tolerance", estimates.inertia_in_words());
-        return (PassMethod::EveryPass(CableMethod::Dynamic), reason);
+    let inertia = estimates.inertia_in_words();
+    let (method, reason) = if estimates.inertia_matters(tolerance) {
+        (CableMethod::Dynamic, format!("{inertia}: too much for the tolerance"))
+    } else {
+        (CableMethod::QuasiStatic, inertia)
+    };
+    if !estimates.jumps_pay() {
+        return (PassMethod::EveryPass(method), reason);
     }
-    let passes = scene.traffic.passes;
-    if estimates.refusal.is_none() && scene.restraints.is_empty() {
-        if estimates.fine > LONGEST_SECONDS {
-            let reason = format!(
-                "simulating all {passes} passes would take {}",
-                time(estimates.fine)
-            );
-            return (PassMethod::Law, reason);
-        }
-        if LAW_ERROR <= tolerance && estimates.coarse > WORTHWHILE * LAW_SECONDS {
-            let times = estimates.coarse / LAW_SECONDS;
-            let reason = format!(
-                "within the tolerance; simulating all {passes} passes would take {times:.0} times as long"
-            );
-            return (PassMethod::Law, reason);
-        }
-    }
-    let reason = estimates.inertia_in_words();
-    (PassMethod::EveryPass(CableMethod::QuasiStatic), reason)
+    let (simulated, passes) = (estimates.simulated, scene.traffic.passes);
+    let jumps = format!("about {simulated:.0} of {passes} passes are simulated, with jumps between them; {reason}");
+    (PassMethod::Jumps(method), jumps)
 }
 
 /// What the choice rests on.
@@ -196,37 +175,33 @@ fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
 pub struct Estimates {
     /// (v/c)² of the fastest vehicle.
     pub inertia: f64,
-    /// Why the pass law must not be used.
-    refusal: Option<String>,
-    /// Time of the quasi-static passes on the levels [`LEVEL_OF_THE_LAW`] and [`LEVEL_OF_ONE_PERCENT`] and on the one to begin with \[s\].
-    coarse: f64,
-    fine: f64,
-    first: f64,
+    /// Passes that jumps leave to be simulated.
+    pub simulated: f64,
+    passes: f64,
+    /// Time of one pass by each method, on the level to begin with \[s\].
+    quasi_static: f64,
     dynamic: f64,
     explicit: f64,
 }
 
 impl Estimates {
-    fn new(scene: &Scene, levels: &Levels) -> Result<Self, Error> {
+    fn new(scene: &Scene, levels: &Levels, period: &Period) -> Result<Self, Error> {
         let cable = cable::cable(scene)?;
         let mass = cable::mass(scene);
         let mut inertia = 0.0_f64;
         for traffic in &scene.vehicles {
             inertia = inertia.max(inertia_ratio(&cable, mass, traffic.vehicle.speed())?);
         }
-        let concerns = concerns_before(&cable, Resolution::new(scene.duct.depth)?);
-        let passes = scene.traffic.passes;
-        let seconds = |level| QUASI_STATIC_SECONDS * levels.node_updates(level, passes);
-        let lattice = levels.whole_cable_updates(levels.first(), passes);
+        let first = levels.first();
+        let lattice = levels.whole_cable_updates(first, 1);
+        let passes = scene.traffic.passes as f64;
+        let length = period.len() as f64;
+        let periods = (passes / length).max(1.0);
         Ok(Self {
             inertia,
-            refusal: concerns
-                .iter()
-                .find(|concern| concern.is_fatal())
-                .map(Concern::to_string),
-            coarse: seconds(LEVEL_OF_THE_LAW),
-            fine: seconds(LEVEL_OF_ONE_PERCENT),
-            first: seconds(levels.first()),
+            simulated: length * (FIRST_PERIODS + PERIODS_PER_E * periods.ln()),
+            passes,
+            quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(first, 1),
             dynamic: DYNAMIC_SECONDS * lattice,
             explicit: EXPLICIT_SECONDS * EXPLICIT_STEPS * lattice,
         })
@@ -241,49 +216,69 @@ impl Estimates {
         format!("inertia changes the force by at most {percent:.2} %, (v/c)²")
     }
 
-    /// Time of a run by `method` \[s\].
-    pub fn seconds(&self, method: PassMethod) -> f64 {
-        match method {
-            PassMethod::Law => LAW_SECONDS,
-            PassMethod::EveryPass(CableMethod::QuasiStatic) => self.first,
-            PassMethod::EveryPass(CableMethod::Dynamic) => self.dynamic,
-            PassMethod::EveryPass(CableMethod::Explicit) => self.explicit,
+    fn jumps_pay(&self) -> bool {
+        self.simulated < (1.0 - SPARED) * self.passes
+    }
+
+    /// Every pass by `method`, or jumps where that would take long.
+    fn affordable(&self, method: CableMethod, has_rest: bool) -> PassMethod {
+        if has_rest && self.jumps_pay() && self.every_pass(method) > LONGEST_SECONDS {
+            PassMethod::Jumps(method)
+        } else {
+            PassMethod::EveryPass(method)
         }
     }
 
-    /// Error of `method` beside that of its mesh, as a share of the force; `None` where it does not apply.
-    pub fn error(&self, scene: &Scene, method: PassMethod) -> Option<f64> {
+    fn one_pass(&self, method: CableMethod) -> f64 {
         match method {
-            PassMethod::Law => Some(LAW_ERROR + self.inertia),
-            PassMethod::EveryPass(CableMethod::QuasiStatic) => {
-                scene.friction.law.has_memory().then_some(self.inertia)
-            }
-            PassMethod::EveryPass(_) => Some(0.0),
+            CableMethod::QuasiStatic => self.quasi_static,
+            CableMethod::Dynamic => self.dynamic,
+            CableMethod::Explicit => self.explicit,
+        }
+    }
+
+    fn every_pass(&self, method: CableMethod) -> f64 {
+        self.passes * self.one_pass(method)
+    }
+
+    /// Time of a run by `method` \[s\].
+    pub fn seconds(&self, method: PassMethod) -> f64 {
+        match method {
+            PassMethod::EveryPass(method) => self.every_pass(method),
+            PassMethod::Jumps(method) => self.simulated.min(self.passes) * self.one_pass(method),
+        }
+    }
+
+    /// Error of `method` beside those of its mesh and its jumps, as a share of the force; `None` where it does not apply.
+    pub fn error(&self, scene: &Scene, method: PassMethod) -> Option<f64> {
+        let has_rest = scene.friction.law.has_memory();
+        match method {
+            _ if !has_rest && !method.has_inertia() => None,
+            _ if method.has_inertia() => Some(0.0),
+            _ => Some(self.inertia),
         }
     }
 
     /// Why `method` was not taken.
     pub fn against(&self, scene: &Scene, method: PassMethod) -> String {
-        let tolerance = scene.solver.tolerance;
         let named = scene.solver.method != SolverMethod::Auto;
         let has_rest = scene.friction.law.has_memory();
-        match (method, &self.refusal) {
-            (PassMethod::Law, Some(refusal)) => refusal.clone(),
-            (PassMethod::EveryPass(CableMethod::QuasiStatic), _) if !has_rest => NO_REST.into(),
+        match method {
+            _ if !has_rest && !method.has_inertia() => NO_REST.into(),
             _ if named => "the scene names another method".into(),
-            (method, _) if !method.has_inertia() && self.inertia_matters(tolerance) => {
+            PassMethod::EveryPass(CableMethod::Explicit) => "only where the scene names it".into(),
+            method if !method.has_inertia() && self.inertia_matters(scene.solver.tolerance) => {
                 self.inertia_in_words()
             }
-            (PassMethod::Law, None) if LAW_ERROR > tolerance => "less accurate than the tolerance".into(),
-            (PassMethod::Law, None) if !scene.restraints.is_empty() => {
-                "it has no layers around clamps".into()
+            PassMethod::Jumps(_) => format!(
+                "jumps would leave about {:.0} of {} passes to be simulated",
+                self.simulated.min(self.passes),
+                self.passes
+            ),
+            PassMethod::EveryPass(CableMethod::QuasiStatic) => {
+                format!("simulating every pass would take {}", time(self.every_pass(CableMethod::QuasiStatic)))
             }
-            (PassMethod::Law, None) => "simulating every pass costs little more and is more accurate".into(),
-            (PassMethod::EveryPass(CableMethod::QuasiStatic), _) => {
-                "simulating every pass would take too long".into()
-            }
-            (PassMethod::EveryPass(CableMethod::Dynamic), _) => "more than the tolerance needs".into(),
-            (PassMethod::EveryPass(CableMethod::Explicit), _) => "only where the scene names it".into(),
+            PassMethod::EveryPass(CableMethod::Dynamic) => "more than the tolerance needs".into(),
         }
     }
 }

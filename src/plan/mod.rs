@@ -6,6 +6,7 @@
 mod mesh;
 mod method;
 pub mod occurrence;
+mod period;
 mod report;
 mod warnings;
 
@@ -14,7 +15,8 @@ use ground_field::GroundField;
 use crate::ground::{Ground, road};
 use crate::{Error, Scene};
 pub use mesh::Levels;
-pub use method::{CableMethod, LAW_ERROR, MethodChoice, PassMethod};
+pub use method::{CableMethod, MethodChoice, PassMethod};
+pub use period::Period;
 pub use report::{Candidate, Part, PlanReport};
 
 /// How a scene will be computed.
@@ -22,6 +24,7 @@ pub use report::{Candidate, Part, PlanReport};
 pub struct Plan<'a> {
     pub(crate) scene: &'a Scene,
     pub(crate) ground: Ground,
+    pub(crate) period: Period,
     pub(crate) choice: MethodChoice,
     pub(crate) levels: Levels,
     pub(crate) warnings: Vec<String>,
@@ -47,10 +50,12 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Pl
     let levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first())?;
+    let period = Period::new(scene)?;
     Ok(Plan {
         scene,
-        choice: method::choose(scene, &levels)?,
+        choice: method::choose(scene, &levels, &period)?,
         warnings: warnings::warnings(scene),
+        period,
         ground,
         levels,
     })

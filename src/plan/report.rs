@@ -96,19 +96,12 @@ impl Plan<'_> {
             ..
         } = self;
         let first = levels.first();
-        let law = choice.method == PassMethod::Law;
-        let mesh_error = if law {
-            Some(0.0)
-        } else {
-            levels.expected_error(first)
-        };
+        let mesh_error = levels.expected_error(first);
         let method_error = choice.estimates.error(scene, choice.method).unwrap_or(0.0);
         let spacing = levels.spacing(first);
         let mut candidates = self.grounds();
         candidates.extend(self.methods());
-        if !law {
-            candidates.extend(self.meshes());
-        }
+        candidates.extend(self.meshes());
         PlanReport {
             title: scene.title.clone(),
             ground: ground.name.into(),
@@ -150,7 +143,7 @@ impl Plan<'_> {
     fn methods(&self) -> Vec<Candidate> {
         let estimates = &self.choice.estimates;
         let all = [
-            PassMethod::Law,
+            PassMethod::Jumps(self.choice.method.cable_method()),
             PassMethod::EveryPass(CableMethod::QuasiStatic),
             PassMethod::EveryPass(CableMethod::Dynamic),
             PassMethod::EveryPass(CableMethod::Explicit),

@@ -1,13 +1,10 @@
 //! Puts the answer of a run together, by whatever way it was found.
 
-use cable_dem::PassOutcome;
-
-use super::law::LawRun;
-use super::passes::{Passes, force_profile, simulate};
+use super::passes::{Passes, Task, force_profile};
 use super::refine::Solved;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
-    Stage, balance, borne_out, error_estimate, force_series, listed, saturation, simulated,
+    Stage, balance, listed, saturation, simulated,
 };
 use crate::plan::Plan;
 use crate::{Error, Progress};
@@ -37,27 +34,12 @@ impl<'a> RunBuilder<'a> {
         }
     }
 
-    /// The law's answer, if it can be true and is as accurate as it has to be.
-    pub fn trusted(&self, law: LawRun) -> Result<LawRun, Error> {
-        let tolerance = self.plan.scene.solver.tolerance;
-        let relative = law.error.relative;
-        error_estimate::judge(relative, tolerance)?;
-        if self.plan.choice.may_simulate && relative > tolerance {
-            return Err(Error::Inaccurate {
-                reached: relative,
-                asked: tolerance,
-            });
-        }
-        balance::of_records(self.plan.scene, &law.passes, &law.restraints)?;
-        Ok(law)
-    }
-
     /// Every pass is simulated after all.
-    pub fn gives_up_the_law(&mut self, error: &Error) {
+    pub fn gives_up_jumps(&mut self, error: &Error) {
         self.summary.cable = self.plan.choice.method.cable_method().name().into();
-        self.summary.reasons.push(format!(
-            "the pass law gave no answer here ({error}): every pass was simulated after all"
-        ));
+        self.summary
+            .reasons
+            .push(format!("jumps gave no answer here ({error}): every pass was simulated after all"));
     }
 
     fn duct_motion(&self) -> DuctMotionSummary {
@@ -65,26 +47,6 @@ impl<'a> RunBuilder<'a> {
         DuctMotionSummary {
             peak_longitudinal_m: first.peak_longitudinal(),
             peak_vertical_m: first.peak_vertical(),
-        }
-    }
-
-    pub fn by_law(mut self, law: LawRun) -> Run {
-        (self.summary.node_spacing_m, self.summary.vehicle_step_m) = (law.node_spacing, law.vehicle_step);
-        self.warnings.extend(law.warnings);
-        let saturation = law.saturation;
-        Run {
-            title: self.plan.scene.title.clone(),
-            duct_motion: self.duct_motion(),
-            plan: self.summary,
-            saturation: saturation.and_then(|s| borne_out(self.plan.scene, &law.passes, s)),
-            passes: law.passes,
-            force_profile: law.force_profile,
-            restraints: law.restraints,
-            stages: law.stages,
-            slip_lengths: None,
-            error_estimate: law.error,
-            cost: law.cost,
-            warnings: self.warnings,
         }
     }
 
@@ -104,19 +66,28 @@ impl<'a> RunBuilder<'a> {
             (solved.mesh.spacing(), solved.mesh.vehicle_step());
         summary.reasons.extend(solved.reasons.iter().cloned());
         summary.reasons.extend(solved.passes.step_limits.clone());
-        let outcomes = &solved.passes.outcomes;
-        let (series, scale) = force_series(self.plan.scene, outcomes);
-        let passes = records(outcomes);
+        let passes = records(self.plan, &solved.passes);
+        let restraints = restraints(&solved.passes)?;
+        balance::of_records(self.plan.scene, &passes, &restraints)?;
+        if let Some(first) = passes.iter().find(|record| record.interpolated) {
+            summary.reasons.push(format!(
+                "{} of {} passes were simulated; between them the answer follows jumps, from pass {} on",
+                solved.passes.simulated, self.plan.scene.traffic.passes, first.pass
+            ));
+        }
         let total = solved.error.total();
+        let levels_off = saturation(self.plan.scene, &solved.passes.records, solved.passes.beyond.as_ref());
+        let (saturation, range) = levels_off.unzip();
         Ok(Run {
             title: self.plan.scene.title.clone(),
             duct_motion: self.duct_motion(),
             plan: self.summary,
-            saturation: saturation(&series, scale)
-                .and_then(|saturation| borne_out(self.plan.scene, &passes, saturation)),
+            saturation,
+            range,
+            random: solved.random,
             passes,
             force_profile: force_profile(&solved.passes.cable, &solved.passes.state)?,
-            restraints: restraints(&solved.passes)?,
+            restraints,
             slip_lengths: solved.passes.slip,
             stages: solved.passes.stages.clone(),
             error_estimate: ErrorEstimate {
@@ -127,11 +98,12 @@ impl<'a> RunBuilder<'a> {
                     ground: solved.error.ground.force,
                     inertia: solved.error.inertia,
                     road: solved.error.road.force,
+                    passes: solved.error.passes.force,
+                    law: solved.error.passes.force,
                     movement: total.movement,
-                    ..ErrorShares::default()
                 },
             },
-            cost: Cost::new(&solved.statistics),
+            cost: Cost::new(solved.passes.simulated, &solved.statistics),
             warnings: self.warnings,
         })
     }
@@ -148,7 +120,15 @@ impl<'a> RunBuilder<'a> {
         let mesh = levels.mesh(levels.first())?;
         let mut scene = self.plan.scene.clone();
         scene.traffic.passes = 1;
-        let first = simulate(&scene, method, &ground.motions, mesh, &[], Progress::default())?;
+        let task = Task {
+            scene: &scene,
+            method,
+            motions: &ground.motions,
+            mesh,
+            stages: &[],
+            progress: Progress::default(),
+        };
+        let first = task.every_pass()?;
         let profile = force_profile(&first.cable, &first.state)?;
         let count = self.plan.scene.traffic.passes;
         let summary = &mut self.summary;
@@ -164,9 +144,14 @@ impl<'a> RunBuilder<'a> {
             plan: self.summary,
             passes: listed(count)
                 .into_iter()
-                .map(|pass| PassRecord::new(pass, &first.outcomes[0]))
+                .map(|pass| PassRecord {
+                    pass,
+                    ..PassRecord::new(&first.records[0])
+                })
                 .collect(),
             saturation: None,
+            range: None,
+            random: None,
             restraints: restraints(&first)?,
             slip_lengths: None,
             stages: stages
@@ -182,7 +167,7 @@ impl<'a> RunBuilder<'a> {
                 method: "exact: without friction the cable stays where it was laid".into(),
                 parts: ErrorShares::default(),
             },
-            cost: Cost::new(&first.statistics),
+            cost: Cost::new(1, &first.statistics),
             warnings: self.warnings,
         })
     }
@@ -202,7 +187,8 @@ fn restraints(passes: &Passes) -> Result<Vec<RestraintRecord>, Error> {
 }
 
 /// The passes that are listed.
-fn records(outcomes: &[PassOutcome]) -> Vec<PassRecord> {
-    let record = |pass: u64| PassRecord::new(pass, &outcomes[pass as usize - 1]);
-    simulated(outcomes.len() as u64).into_iter().map(record).collect()
+fn records(plan: &Plan<'_>, passes: &Passes) -> Vec<PassRecord> {
+    let listed = simulated(plan.scene.traffic.passes);
+    let known = passes.records.iter().filter(|record| listed.binary_search(&record.pass).is_ok());
+    known.map(PassRecord::new).collect()
 }

@@ -1,8 +1,9 @@
-//! Carrying a plan out: the passes on meshes or by the pass law, and the answer.
+//! Carrying a plan out: the passes on ever finer meshes, and the answer.
 
 mod assemble;
-pub mod law;
+mod listing;
 pub mod passes;
+mod random;
 mod refine;
 mod solver;
 
@@ -69,20 +70,24 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
     if plan.scene.friction_limit() == 0.0 {
         return answer.without_friction(options.stages);
     }
-    if plan.choice.method == PassMethod::Law {
-        let law = law::run(plan, options.stages);
-        match law.and_then(|law| answer.trusted(law)) {
-            Ok(law) => return Ok(answer.by_law(law)),
-            Err(error) if !plan.choice.may_simulate => return Err(error),
-            Err(error) => answer.gives_up_the_law(&error),
-        }
-    }
-    let refinement = Refinement {
-        plan,
-        method: plan.choice.method.cable_method(),
-        progress: options.progress,
-        stages: options.stages,
+    let solve = |method, warnings: &mut Vec<String>| {
+        let refinement = Refinement {
+            plan,
+            method,
+            progress: options.progress,
+            stages: options.stages,
+        };
+        refinement.solve(options.verify, warnings)
     };
-    let solved = refinement.solve(options.verify, &mut answer.warnings)?;
+    let solved = match solve(plan.choice.method, &mut answer.warnings) {
+        Err(error @ (Error::Jumps(_) | Error::Inaccurate { .. }))
+            if plan.choice.may_simulate && matches!(plan.choice.method, PassMethod::Jumps(_)) =>
+        {
+            answer.gives_up_jumps(&error);
+            let every_pass = PassMethod::EveryPass(plan.choice.method.cable_method());
+            solve(every_pass, &mut answer.warnings)?
+        }
+        solved => solved?,
+    };
     answer.by_simulation(&solved)
 }

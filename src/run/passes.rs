@@ -1,18 +1,55 @@
-//! All passes of a scene on one mesh.
+//! All passes of a scene on one mesh: every one simulated, or few with jumps between them.
 
 use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statistics, Traffic};
+use cycle_jump::{Beyond, Guide, Jumps, Next, Record, Request, evolve};
 use ground_field::DuctMotion;
 
+use super::listing::Listing;
 use super::solver::PassSolver;
-use crate::answer::{ForceProfile, SlipRecord, Stage, balance};
+use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
 use crate::cable::cable;
-use crate::plan::CableMethod;
+use crate::plan::{CableMethod, Period};
 use crate::scene::Scene;
 use crate::{Error, Progress};
 
-/// Every pass's outcome, how the cable is left, and what they cost together.
+/// Passes after which a run with jumps gives up, for each pass of its period.
+const MOST_PERIODS: u64 = 500;
+/// A force and a movement below which all is nothing: what friction holds on this length \[m\], and this share of the duct's motion.
+const SHORT: f64 = 0.01;
+const STILL: f64 = 0.1;
+/// Periods simulated at the start.
+const FIRST_PERIODS: u64 = 8;
+
+/// The passes of a scene on one mesh.
+#[derive(Clone, Copy)]
+pub struct Task<'a> {
+    pub scene: &'a Scene,
+    pub method: CableMethod,
+    pub motions: &'a [DuctMotion],
+    pub mesh: Mesh,
+    /// Passes at which the cable is looked at.
+    pub stages: &'a [u64],
+    pub progress: Progress<'a>,
+}
+
+/// How jumps are taken.
+#[derive(Debug, Clone, Copy)]
+pub struct Jumping<'a> {
+    pub period: &'a Period,
+    /// Error of a jump.
+    pub tolerance: f64,
+    /// Length of the first jump beside the periods before it.
+    pub first_jump: f64,
+    pub guide: Guide<'a>,
+    /// Whether it is followed where the forces lead.
+    pub beyond: bool,
+}
+
+/// What the passes did, how the cable is left, and what they cost together.
+#[derive(Clone)]
 pub struct Passes {
-    pub outcomes: Vec<PassOutcome>,
+    /// What the passes did: all, or of very long traffic those that are listed.
+    pub records: Vec<Record>,
     pub cable: DuctedCable,
     pub state: CableState,
     /// With the vehicle over the duct's middle in the last pass, where the solver can be looked at.
@@ -24,6 +61,12 @@ pub struct Passes {
     /// The explicit solver's time step and what limits it.
     pub step_limits: Option<String>,
     pub statistics: Statistics,
+    /// Passes simulated.
+    pub simulated: u64,
+    /// The jumps that were taken; empty where every pass was simulated.
+    pub schedule: Vec<u64>,
+    /// Where jumps lead.
+    pub beyond: Option<Beyond>,
 }
 
 /// Force along the cable as it is left in `state`.
@@ -37,56 +80,149 @@ pub fn force_profile(cable: &DuctedCable, state: &CableState) -> Result<ForcePro
     })
 }
 
-/// Lets the scene's traffic pass over its cable meshed by `mesh`, and looks at the cable at the passes `stages`; `progress` is
-/// called after each pass.
-pub fn simulate(
-    scene: &Scene,
-    method: CableMethod,
-    motions: &[DuctMotion],
-    mesh: Mesh,
-    stages: &[u64],
-    progress: Progress<'_>,
-) -> Result<Passes, Error> {
-    let mut solver = PassSolver::new(scene, method, motions, mesh)?;
-    let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
-    let traffic = Traffic::new(&shares, scene.traffic.order.clone())?;
-    let mut state = solver.at_rest();
-    let mut statistics = Statistics::default();
-    let mut outcomes = Vec::new();
-    let count = usize::try_from(scene.traffic.passes).unwrap_or(usize::MAX);
-    let cable = cable(scene)?;
-    let mut slip = None;
-    let mut seen_stages = Vec::new();
-    for (index, vehicle) in traffic.take(count).enumerate() {
-        let pass = index as u64 + 1;
-        let wanted = stages.contains(&pass);
-        let outcome = if wanted || index + 1 == count {
-            let (outcome, friction) = solver.pass_and_look(vehicle, &mut state, 0.5 * scene.duct.length)?;
-            slip = friction.as_ref().map(|friction| friction.slip_lengths);
-            if wanted {
-                seen_stages.push(Stage {
+impl Task<'_> {
+    /// Simulates every pass.
+    pub fn every_pass(&self) -> Result<Passes, Error> {
+        let mut simulation = Simulation::new(self)?;
+        let shares: Vec<f64> = self.scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
+        let traffic = Traffic::new(&shares, self.scene.traffic.order.clone())?;
+        let count = self.scene.traffic.passes;
+        let mut state = simulation.solver.at_rest();
+        let mut records = Vec::new();
+        for (vehicle, pass) in traffic.zip(1..=count) {
+            let outcome = simulation.pass(vehicle, Some(pass), &mut state)?;
+            records.push(Record {
+                pass,
+                outcome,
+                interpolated: false,
+            });
+        }
+        Ok(simulation.passes(records, state, count))
+    }
+
+    /// Simulates few passes, with jumps between them; the passes `listed` and the stages are recorded.
+    pub fn with_jumps(&self, jumping: &Jumping<'_>, listed: &[u64]) -> Result<Passes, Error> {
+        let Self { scene, mesh, .. } = self;
+        let mut simulation = Simulation::new(self)?;
+        simulation.jumps = true;
+        let motion = self.motions.iter().map(DuctMotion::peak_longitudinal);
+        let motion = motion.fold(0.0, f64::max);
+        let jumps = Jumps {
+            tolerance: jumping.tolerance,
+            first_periods: FIRST_PERIODS,
+            first_jump: jumping.first_jump,
+            depth: scene.duct.depth,
+            motion,
+            least: (SHORT * scene.friction_limit(), STILL * motion),
+            most_passes: MOST_PERIODS * jumping.period.len() as u64,
+        };
+        let count = scene.traffic.passes;
+        let mut listed = listed.to_vec();
+        listed.extend(self.stages.iter().filter(|stage| (1..=count).contains(*stage)));
+        listed.sort_unstable();
+        listed.dedup();
+        let listing = Listing::new(scene, jumping.period, &listed)?;
+        let wanted = listing.wanted();
+        let beyond = if jumping.beyond { beyond(count) } else { Vec::new() };
+        let request = Request {
+            passes: count,
+            period: jumping.period.len(),
+            wanted: &wanted,
+            looked_at: self.stages,
+            beyond: &beyond,
+            guide: jumping.guide,
+        };
+        let cable = simulation.cable.clone();
+        let evolution = evolve(&cable, mesh, &jumps, &request, |Next { phase, number }, state| {
+            let vehicle = listing.vehicle(jumping.period, phase, number);
+            simulation.pass(vehicle, number, state)
+        })?;
+        let records = listing.records(&evolution.records);
+        let mut passes = simulation.passes(records, evolution.state, evolution.simulated);
+        passes.schedule = evolution.schedule;
+        passes.beyond = evolution.beyond;
+        Ok(passes)
+    }
+}
+
+/// Passes under way.
+pub struct Simulation<'a> {
+    task: &'a Task<'a>,
+    solver: PassSolver,
+    cable: DuctedCable,
+    slip: Option<SlipRecord>,
+    stages: Vec<Stage>,
+    statistics: Statistics,
+    /// Whether passes come in leaps.
+    jumps: bool,
+}
+
+impl<'a> Simulation<'a> {
+    pub fn new(task: &'a Task<'a>) -> Result<Self, Error> {
+        Ok(Self {
+            solver: PassSolver::new(task.scene, task.method, task.motions, task.mesh)?,
+            cable: cable(task.scene)?,
+            task,
+            slip: None,
+            stages: Vec::new(),
+            statistics: Statistics::default(),
+            jumps: false,
+        })
+    }
+
+    /// Lets `vehicle` pass: the pass `number`, if it has one. The last is looked at, and those that were asked for.
+    pub fn pass(
+        &mut self,
+        vehicle: usize,
+        number: Option<u64>,
+        state: &mut CableState,
+    ) -> Result<PassOutcome, Error> {
+        let Task { scene, stages, progress, .. } = self.task;
+        let count = scene.traffic.passes;
+        let stage = number.filter(|pass| stages.contains(pass));
+        let outcome = if stage.is_some() || number == Some(count) {
+            let (outcome, friction) = self.solver.pass_and_look(vehicle, state, 0.5 * scene.duct.length)?;
+            if number == Some(count) {
+                self.slip = friction.as_ref().map(|friction| friction.slip_lengths);
+            }
+            if let Some(pass) = stage {
+                self.stages.push(Stage {
                     pass,
-                    force_profile: force_profile(&cable, &state)?,
+                    force_profile: force_profile(&self.cable, state)?,
                     friction,
                 });
             }
             outcome
         } else {
-            solver.pass(vehicle, &mut state)?
+            self.solver.pass(vehicle, state)?
         };
-        balance::of_state(&cable, &state, pass)?;
-        statistics += outcome.statistics;
-        outcomes.push(outcome);
-        progress.report(pass as f64 / count as f64)?;
+        balance::of_state(&self.cable, state, number.unwrap_or(0))?;
+        self.statistics += outcome.statistics;
+        if let Some(pass) = number.filter(|&pass| pass <= count) {
+            progress.report(self.share(pass))?;
+        }
+        Ok(outcome)
     }
-    Ok(Passes {
-        outcomes,
-        cable,
-        state,
-        slip,
-        stages: seen_stages,
-        leaks: solver.leaks(),
-        step_limits: solver.step_limits(),
-        statistics,
-    })
+
+    /// The share of the work done with `pass`.
+    fn share(&self, pass: u64) -> f64 {
+        let (pass, count) = (pass as f64, self.task.scene.traffic.passes as f64);
+        if self.jumps { pass.ln_1p() / count.ln_1p() } else { pass / count }
+    }
+
+    fn passes(self, records: Vec<Record>, state: CableState, simulated: u64) -> Passes {
+        Passes {
+            records,
+            state,
+            slip: self.slip,
+            stages: self.stages,
+            leaks: self.solver.leaks(),
+            step_limits: self.solver.step_limits(),
+            cable: self.cable,
+            statistics: self.statistics,
+            simulated,
+            schedule: Vec::new(),
+            beyond: None,
+        }
+    }
 }

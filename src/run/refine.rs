@@ -2,13 +2,18 @@
 
 use std::thread;
 
-use cable_dem::{CableError, Mesh, PassOutcome, Statistics};
+use cable_dem::{CableError, Mesh, Statistics};
+use cycle_jump::{Guide, Record};
 use ground_field::DuctMotion;
 
-use super::passes::{Passes, simulate};
-use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
+use super::passes::{Jumping, Passes, Task};
+use super::random;
+use crate::answer::{RandomSpread, simulated};
+use crate::answer::error_estimate::{
+    self, ErrorParts, Scale, Shares, difference, measured, of_mesh, of_passes,
+};
 use crate::ground::road;
-use crate::plan::{CableMethod, Levels, Plan};
+use crate::plan::{Levels, PassMethod, Period, Plan};
 use crate::shown::{exact_percent, percent};
 use crate::{Error, Progress, Scene};
 
@@ -18,11 +23,18 @@ const MAX_NODE_UPDATES: usize = 2_000_000_000;
 const REFINEMENT_COST: usize = 4;
 /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
 const SHARP: usize = 3;
+/// Error of a single jump to begin with, and length of the first jump beside the periods before it; what both are
+/// multiplied by until jumps are good enough, and how often at most.
+const JUMP: (f64, f64) = (0.5, 0.5);
+const FINER_JUMP: (f64, f64) = (0.25, 0.5);
+const FINEST_JUMPS: usize = 4;
+/// Share of the tolerance that jumps may take.
+const JUMPS_SHARE: f64 = 0.25;
 
 /// A plan's passes, on whatever level.
 pub struct Refinement<'a> {
     pub plan: &'a Plan<'a>,
-    pub method: CableMethod,
+    pub method: PassMethod,
     pub progress: Progress<'a>,
     /// Passes at which the cable is looked at.
     pub stages: &'a [u64],
@@ -37,6 +49,18 @@ pub struct Solved {
     pub reasons: Vec<String>,
     /// Work on all meshes together.
     pub statistics: Statistics,
+    pub random: Option<RandomSpread>,
+}
+
+/// Jumps that are good enough, as they were found on one level.
+struct FoundJumps {
+    level: usize,
+    passes: Passes,
+    tolerance: f64,
+    first_jump: f64,
+    error: Shares,
+    /// Work of the other runs on the way.
+    statistics: Statistics,
 }
 
 impl Refinement<'_> {
@@ -51,20 +75,36 @@ impl Refinement<'_> {
         } = self.plan;
         let tolerance = scene.solver.tolerance;
         let scale = self.scale();
+        let mut level = levels.first();
+        let jumps = match self.method {
+            PassMethod::Jumps(_) => Some(self.find_jumps(level)?),
+            PassMethod::EveryPass(_) => None,
+        };
         let mut error = ErrorParts {
             mesh: Shares::default(),
             ground: Shares::both(ground.accuracy),
             inertia: choice.inertia,
             road: Shares::default(),
+            passes: jumps.as_ref().map_or(Shares::default(), |jumps| jumps.error),
             measured: false,
         };
-        let mut level = levels.first();
-        let (finest, mut passes) = both(|| self.simulate(level, true), || self.coarser(level))?;
+        let (mut statistics, found) = jumps.map_or(Default::default(), |jumps| (jumps.statistics, Some(jumps)));
+        let way = found.as_ref().map(|found| Jumping {
+            period: &self.plan.period,
+            tolerance: found.tolerance,
+            first_jump: found.first_jump,
+            guide: Guide::Follow(&found.passes.schedule),
+            beyond: false,
+        });
+        let way = way.as_ref();
+        let known = found.as_ref().map(|found| (found.level, &found.passes));
+        let (finest, coarser) = both(|| self.simulate(level, way, true), || self.coarser(level, way, known))?;
+        let mut passes = coarser;
         passes.push(finest);
         loop {
             if passes.len() > 1 {
-                let outcomes: Vec<&[PassOutcome]> = passes.iter().map(|p| &p.outcomes[..]).collect();
-                error.mesh = of_mesh(&outcomes, Levels::typical_error(level), scale);
+                let records: Vec<&[Record]> = passes.iter().map(|p| &p.records[..]).collect();
+                error.mesh = of_mesh(&records, Levels::typical_error(level), scale);
             }
             let last = &passes[passes.len() - 1];
             // A corner of an exact step is about as much work as a node.
@@ -73,7 +113,7 @@ impl Refinement<'_> {
             // One mesh alone does not show its error.
             let known = passes.len() > 1 || levels.named();
             // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
-            let still = last.outcomes.iter().all(|outcome| outcome.dissipated == 0.0);
+            let still = last.records.iter().all(|record| record.outcome.dissipated == 0.0);
             let seen = !still || level >= SHARP;
             let total = error.total();
             let within = total.force.max(total.movement) <= tolerance;
@@ -81,9 +121,8 @@ impl Refinement<'_> {
                 break;
             }
             level += 1;
-            passes.push(self.simulate(level, true)?);
+            passes.push(self.simulate(level, way, true)?);
         }
-        let mut statistics = Statistics::default();
         for passes in &passes {
             statistics += passes.statistics;
         }
@@ -92,21 +131,90 @@ impl Refinement<'_> {
         let doubtful = levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
         let mesh = levels.mesh(level)?;
         let finest = passes.pop().expect("the first level was computed");
-        error.road = self.road_error(&finest, mesh, &mut statistics)?;
+        error.road = self.road_error(&finest, mesh, way, &mut statistics)?;
         if verify || alone || doubtful {
-            let finer = self.simulate(level + 1, true)?;
+            let finer = self.simulate(level + 1, way, true)?;
             statistics += finer.statistics;
-            error.mesh = measured(&finest.outcomes, &finer.outcomes, scale);
+            error.mesh = measured(&finest.records, &finer.records, scale);
             error.measured = true;
         }
         self.judge(&error, warnings)?;
+        let random = match way {
+            Some(_) => random::spread(&self.task(scene, mesh), &finest.state)?,
+            None => None,
+        };
         Ok(Solved {
             reasons: vec![self.mesh_reason(&mesh)],
             mesh,
             passes: finest,
             error,
             statistics,
+            random,
         })
+    }
+
+    /// Jumps whose error is a small share of the tolerance, found on the level below `level`, where they cost a fourth.
+    fn find_jumps(&self, level: usize) -> Result<FoundJumps, Error> {
+        let tolerance = self.plan.scene.solver.tolerance;
+        let enough = |error: Shares| error.force.max(error.movement) <= JUMPS_SHARE * tolerance;
+        let below = level.checked_sub(1).filter(|&below| self.plan.levels.mesh(below).is_ok());
+        let mut level = below.unwrap_or(level);
+        let mut taken = Jumping {
+            period: &self.plan.period,
+            tolerance: JUMP.0 * tolerance,
+            first_jump: JUMP.1,
+            guide: Guide::Free,
+            beyond: false,
+        };
+        let mut coarse = match self.simulate(level, Some(&taken), false) {
+            Err(Error::Cable(CableError::CoarseMesh { .. })) if below.is_some() => {
+                level += 1;
+                self.simulate(level, Some(&taken), false)?
+            }
+            coarse => coarse?,
+        };
+        let mut statistics = coarse.statistics;
+        for finer in 1.. {
+            taken.tolerance *= FINER_JUMP.0;
+            taken.first_jump *= FINER_JUMP.1;
+            let fine = self.simulate(level, Some(&taken), false)?;
+            let mut error = of_passes(&coarse.records, &fine.records, self.scale());
+            if enough(error) || finer == FINEST_JUMPS {
+                error = error + self.mix_error(level, &taken, &fine, &mut statistics)?;
+                return Ok(FoundJumps {
+                    level,
+                    passes: fine,
+                    tolerance: taken.tolerance,
+                    first_jump: taken.first_jump,
+                    error,
+                    statistics,
+                });
+            }
+            statistics += fine.statistics;
+            coarse = fine;
+        }
+        unreachable!("the loop returns")
+    }
+
+    /// What a mix that stands in for the traffic's own changes: its share of what a mix on the other side changes.
+    fn mix_error(
+        &self,
+        level: usize,
+        taken: &Jumping<'_>,
+        passes: &Passes,
+        statistics: &mut Statistics,
+    ) -> Result<Shares, Error> {
+        let Some((vehicles, share)) = &self.plan.period.other else {
+            return Ok(Shares::default());
+        };
+        let period = Period {
+            vehicles: vehicles.clone(),
+            ..self.plan.period.clone()
+        };
+        let other = Jumping { period: &period, ..*taken };
+        let other = self.simulate(level, Some(&other), false)?;
+        *statistics += other.statistics;
+        Ok(difference(&passes.records, &other.records, self.scale()).times(*share))
     }
 
     /// What counts as nothing in this scene.
@@ -117,7 +225,13 @@ impl Refinement<'_> {
 
     /// What an approach that the scene names leaves out: the passes once more on the same mesh, with the vehicles followed far
     /// enough. Where it is far enough already, nothing.
-    fn road_error(&self, passes: &Passes, mesh: Mesh, statistics: &mut Statistics) -> Result<Shares, Error> {
+    fn road_error(
+        &self,
+        passes: &Passes,
+        mesh: Mesh,
+        way: Option<&Jumping<'_>>,
+        statistics: &mut Statistics,
+    ) -> Result<Shares, Error> {
         let motions = &self.plan.ground.motions;
         let Some(approach) = self.plan.scene.solver.approach else {
             return Ok(Shares::default());
@@ -127,41 +241,48 @@ impl Refinement<'_> {
         }
         let mut scene: Scene = self.plan.scene.clone();
         scene.solver.approach = None;
-        let farther = simulate(&scene, self.method, motions, mesh, &[], Progress::default())?;
+        let farther = carry_out(&self.task(&scene, mesh), way)?;
         *statistics += farther.statistics;
-        Ok(difference(&passes.outcomes, &farther.outcomes, self.scale()))
+        Ok(difference(&passes.records, &farther.records, self.scale()))
     }
 
     /// The passes on all levels below `level` that the duct is long enough for, and that are fine enough for its motion.
-    fn coarser(&self, level: usize) -> Result<Vec<Passes>, Error> {
+    fn coarser(
+        &self,
+        level: usize,
+        way: Option<&Jumping<'_>>,
+        known: Option<(usize, &Passes)>,
+    ) -> Result<Vec<Passes>, Error> {
         (0..level)
             .filter(|&coarser| self.plan.levels.mesh(coarser).is_ok())
-            .map(|coarser| self.simulate(coarser, false))
+            .map(|coarser| match known {
+                Some((level, passes)) if level == coarser => Ok(passes.clone()),
+                _ => self.simulate(coarser, way, false),
+            })
             .filter(|passes| !matches!(passes, Err(Error::Cable(CableError::CoarseMesh { .. }))))
             .collect()
     }
 
-    /// All passes on `level`; `shown` ones report their progress and their stages.
-    fn simulate(&self, level: usize, shown: bool) -> Result<Passes, Error> {
-        let Plan {
+    /// All passes of `scene` on `mesh`, unseen.
+    fn task<'b>(&'b self, scene: &'b Scene, mesh: Mesh) -> Task<'b> {
+        Task {
             scene,
-            ground,
-            levels,
-            ..
-        } = self.plan;
-        let (stages, progress) = if shown {
-            (self.stages, self.progress)
-        } else {
-            Default::default()
-        };
-        simulate(
-            scene,
-            self.method,
-            &ground.motions,
-            levels.mesh(level)?,
-            stages,
-            progress,
-        )
+            method: self.method.cable_method(),
+            motions: &self.plan.ground.motions,
+            mesh,
+            stages: &[],
+            progress: Progress::default(),
+        }
+    }
+
+    /// All passes on `level`; `shown` ones report their progress, their stages and where they lead.
+    fn simulate(&self, level: usize, way: Option<&Jumping<'_>>, shown: bool) -> Result<Passes, Error> {
+        let mut task = self.task(self.plan.scene, self.plan.levels.mesh(level)?);
+        if shown {
+            (task.stages, task.progress) = (self.stages, self.progress);
+        }
+        let way = way.map(|way| Jumping { beyond: shown, ..*way });
+        carry_out(&task, way.as_ref())
     }
 
     /// Refuses an answer that is none, and warns of one that is not as good as asked.
@@ -196,6 +317,13 @@ impl Refinement<'_> {
             format!("for the requested {}", exact_percent(scene.solver.tolerance))
         };
         format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
+    }
+}
+
+fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
+    match way {
+        Some(way) => task.with_jumps(way, &simulated(task.scene.traffic.passes)),
+        None => task.every_pass(),
     }
 }
 

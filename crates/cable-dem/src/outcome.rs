@@ -1,6 +1,6 @@
 //! What a pass reports: forces, peaks, movements, and what it cost.
 
-use crate::{CableState, DuctedCable, EndForces};
+use crate::{CableError, CableState, DuctedCable, EndForces};
 
 /// What one pass did.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -24,6 +24,18 @@ pub struct PassOutcome {
     pub dissipated: f64,
     /// What the pass cost.
     pub statistics: Statistics,
+}
+
+impl PassOutcome {
+    /// What a cable at rest shows: forces and movements of `state`, no peaks beyond them, no heat, no work.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless the cable is as long as the state's mesh.
+    pub fn at_rest(cable: &DuctedCable, state: &CableState) -> Result<Self, CableError> {
+        let force = state.end_forces(cable)?;
+        Ok(Recorder::new(force).outcome(cable, state, force))
+    }
 }
 
 /// Counts of work that do not depend on the machine.

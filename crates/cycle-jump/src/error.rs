@@ -1,0 +1,24 @@
+//! What can go wrong in jumps.
+
+use cable_dem::CableError;
+
+/// Error of a run with jumps.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum JumpError {
+    /// The cable could not be computed.
+    #[error(transparent)]
+    Cable(#[from] CableError),
+    /// The jumps do not get on.
+    #[error(
+        "after {periods} of {wanted} periods of the traffic {simulated} passes are simulated, and jumps are no longer than at the start"
+    )]
+    Stuck {
+        /// Periods done.
+        periods: u64,
+        /// Periods asked.
+        wanted: u64,
+        /// Passes simulated.
+        simulated: u64,
+    },
+}

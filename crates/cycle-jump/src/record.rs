@@ -1,0 +1,75 @@
+//! The cable after listed passes: simulated ones, and those within a jump.
+
+use cable_dem::{CableError, CableState, Mesh, PassOutcome, RestingCable};
+
+use crate::flow::Flow;
+use crate::period::Phase;
+
+/// The cable after one pass.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Record {
+    /// Number of the pass, from 1.
+    pub pass: u64,
+    /// What it did.
+    pub outcome: PassOutcome,
+    /// Whether it lies within a jump.
+    pub interpolated: bool,
+}
+
+/// A jump that was taken, from one measured period to another.
+pub struct Jumped<'a> {
+    pub mesh: &'a Mesh,
+    /// Periods before it, and its length with the two measured periods at its end.
+    pub begin: u64,
+    pub length: u64,
+    /// Displacements at both ends.
+    pub from: &'a CableState,
+    pub to: &'a CableState,
+    /// The period before it and the one at its end.
+    pub before: &'a [Phase],
+    pub after: &'a [Phase],
+    pub flow: Flow<'a>,
+}
+
+impl Jumped<'_> {
+    /// The cable at rest after `pass`.
+    pub fn state(&self, cable: &mut RestingCable, pass: u64) -> Result<CableState, CableError> {
+        let period = self.before.len() as u64;
+        let into = pass as f64 / period as f64 - self.begin as f64;
+        let share = into / self.length as f64;
+        let phase = ((pass - 1) % period) as usize;
+        let advance = self.flow.after(cable, into);
+        let between = |before: f64, after: f64| (1.0 - share) * before + share * after;
+        let (before, after) = (&self.before[phase], &self.after[phase]);
+        let mut displacement = Vec::with_capacity(advance.len());
+        let mut friction = Vec::with_capacity(advance.len());
+        for (i, y) in advance.iter().enumerate() {
+            let (from, to) = (self.from.displacement()[i], self.to.displacement()[i]);
+            // What the flow misses at its end grows from nothing.
+            let missed = to - from - self.flow.end()[i];
+            let shape = between(before.shape[i], after.shape[i]);
+            displacement.push(from + y + share * share * missed + shape);
+            friction.push(between(before.friction[i], after.friction[i]));
+        }
+        let mut state = CableState::from_parts(self.mesh, displacement, friction)?;
+        cable.settle(&mut state)?;
+        Ok(state)
+    }
+
+    /// What `pass` did.
+    pub fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
+        let state = self.state(cable, pass)?;
+        let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?;
+        let period = self.before.len() as u64;
+        let phase = ((pass - 1) % period) as usize;
+        let share = (pass as f64 / period as f64 - self.begin as f64) / self.length as f64;
+        let (before, after) = (&self.before[phase].outcome, &self.after[phase].outcome);
+        let between = |of: fn(&PassOutcome) -> f64| (1.0 - share) * of(before) + share * of(after);
+        outcome.peak.upstream += between(|o| o.peak.upstream - o.force.upstream);
+        outcome.peak.downstream += between(|o| o.peak.downstream - o.force.downstream);
+        outcome.lowest.upstream += between(|o| o.lowest.upstream - o.force.upstream);
+        outcome.lowest.downstream += between(|o| o.lowest.downstream - o.force.downstream);
+        outcome.dissipated = between(|o| o.dissipated);
+        Ok(outcome)
+    }
+}

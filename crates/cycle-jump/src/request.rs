@@ -1,0 +1,69 @@
+//! What is asked of a run with jumps.
+
+/// How jumps are taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Jumps {
+    /// Error that a jump may have where it is checked, as a share of the largest force or movement so far. Forces on the way differ
+    /// from simulated ones by about as much at most, most of it early.
+    pub tolerance: f64,
+    /// Periods simulated at the start, at least four; eight are enough for any cable seen so far.
+    pub first_periods: u64,
+    /// Length of the first jump as a share of these. Runs that are to show each other's error begin differently: 0.5 and 0.25.
+    pub first_jump: f64,
+    /// Depth of the duct \[m\], over which the slope is averaged.
+    pub depth: f64,
+    /// max |D_l| of all vehicles \[m\].
+    pub motion: f64,
+    /// Force \[N\] and movement \[m\] below which all is nothing.
+    pub least: (f64, f64),
+    /// Passes after which the run gives up.
+    pub most_passes: u64,
+}
+
+/// Traffic and what is wanted to know of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Request<'a> {
+    /// Vehicles in all.
+    pub passes: u64,
+    /// Vehicles after which the traffic repeats.
+    pub period: usize,
+    /// Passes to be recorded, ascending.
+    pub wanted: &'a [u64],
+    /// Those of them that are simulated also where they lie within a jump, from the state that is interpolated before them.
+    pub looked_at: &'a [u64],
+    /// Passes beyond the last one to be recorded, ascending: where the forces lead.
+    pub beyond: &'a [u64],
+    /// Jumps of another run to be taken again.
+    pub guide: Guide<'a>,
+}
+
+/// Jumps of another run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Guide<'a> {
+    /// None.
+    #[default]
+    Free,
+    /// These as long as their errors allow it, so that runs on two meshes differ by their meshes alone.
+    Follow(&'a [u64]),
+    /// Exactly these, so that an answer is smooth in its parameters.
+    Obey(&'a [u64]),
+}
+
+impl Guide<'_> {
+    /// The length at `place`, where the guide has one.
+    pub(crate) fn length(self, place: usize) -> Option<u64> {
+        match self {
+            Self::Free => None,
+            Self::Follow(lengths) | Self::Obey(lengths) => lengths.get(place).copied(),
+        }
+    }
+}
+
+/// A pass that is to be simulated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Next {
+    /// Its place in the period.
+    pub phase: usize,
+    /// Its number, from 1; `None` for one that only measures.
+    pub number: Option<u64>,
+}

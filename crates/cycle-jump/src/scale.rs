@@ -1,0 +1,34 @@
+//! What counts as large in a run: forces and movements are compared with the largest so far.
+
+use cable_dem::{CableState, PassOutcome, RestingCable};
+
+use crate::period::largest;
+
+/// A force \[N\] and a movement \[m\] that errors are shares of.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Scale {
+    /// \[N\]
+    pub force: f64,
+    /// \[m\]
+    pub movement: f64,
+}
+
+impl Scale {
+    /// Takes account of what the cable in `state` shows.
+    pub fn see(&mut self, cable: &RestingCable, state: &CableState) -> Result<(), cable_dem::CableError> {
+        let seen = PassOutcome::at_rest(cable.cable(), state)?;
+        self.force = [seen.max_compression, seen.max_tension, seen.force.upstream, seen.force.downstream]
+            .into_iter()
+            .fold(self.force, |most, force| most.max(force.abs()));
+        self.movement = self.movement.max(largest(state.displacement()));
+        Ok(())
+    }
+
+    /// What `change` \[m\] of the displacements changes, as shares of the scale.
+    pub fn shares(&self, cable: &RestingCable, change: &[f64]) -> Scale {
+        Scale {
+            force: cable.largest_force(change) / self.force,
+            movement: largest(change) / self.movement,
+        }
+    }
+}

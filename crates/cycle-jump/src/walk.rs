@@ -1,0 +1,386 @@
+//! The walk along the passes: simulated periods at the start, then jumps, each held to two simulated periods.
+
+use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable};
+
+use crate::JumpError;
+use crate::flow::Flow;
+use crate::period::{Period, difference, largest};
+use crate::record::{Jumped, Record};
+use crate::request::{Guide, Jumps, Next, Request};
+use crate::scale::Scale;
+use crate::slope::{Change, Slope};
+
+/// Substeps of a jump, and of the look ahead over all that is left.
+const SUBSTEPS: i32 = 8;
+const SUBSTEPS_AHEAD: i32 = 40;
+/// Length of the slope's sliding mean \[depths\].
+const WIDTH: f64 = 2.5;
+/// A jump shorter than this is not worth its check: a period is simulated.
+const SHORTEST: u64 = 4;
+/// Growth of the next jump's length after a simulated period.
+const GROWTH_BETWEEN: f64 = 1.3;
+/// Least and largest growth from one jump to the next; share of the length that the error would allow.
+const GROWTH: (f64, f64) = (0.2, 3.0);
+const CAUTION: f64 = 0.85;
+/// Error of a jump beside the tolerance above which it is taken back.
+const REJECTED: f64 = 2.0;
+/// Change of all forces still to come, beside the tolerance, below which all that is left is one jump.
+const STEADY: f64 = 0.1;
+/// Advance of a period as a share of the duct's motion below which the cable rests for good.
+const AT_REST: f64 = 1e-8;
+/// Simulated periods at the end of a jump: its check, and one that heals what the correction left rough.
+const CHECKED: u64 = 2;
+/// Periods simulated at most to see where the forces lead.
+const MOST_BEYOND: u64 = 200;
+
+/// The cable over all passes.
+#[derive(Debug, Clone)]
+pub struct Evolution {
+    /// The passes that were wanted.
+    pub records: Vec<Record>,
+    /// The cable after the last pass.
+    pub state: CableState,
+    /// Passes simulated.
+    pub simulated: u64,
+    /// Lengths of the jumps \[periods\] in their order, 0 for a simulated period between.
+    pub schedule: Vec<u64>,
+    /// Where it leads; `None` where nothing beyond the last pass was wanted, or it does not become steady.
+    pub beyond: Option<Beyond>,
+}
+
+/// Where the forces lead.
+#[derive(Debug, Clone)]
+pub struct Beyond {
+    /// The passes that were wanted.
+    pub records: Vec<Record>,
+    /// What each pass of a period does once the forces no longer change from period to period.
+    pub period: Vec<PassOutcome>,
+    /// The cable then.
+    pub state: CableState,
+}
+
+/// A run under way.
+struct Walk<'a, P> {
+    jumps: &'a Jumps,
+    request: &'a Request<'a>,
+    mesh: &'a Mesh,
+    cable: RestingCable,
+    pass: P,
+    state: CableState,
+    /// Periods done.
+    done: u64,
+    scale: Scale,
+    simulated: u64,
+    records: Vec<Record>,
+    schedule: Vec<u64>,
+}
+
+/// What is known after a simulated period: it, the slope, the length of the next jump \[periods\], and the number of periods
+/// before which the rest is not tried in one jump.
+struct Knowledge {
+    period: Period,
+    slope: Slope,
+    length: f64,
+    not_before: u64,
+}
+
+/// Lets vehicles drive over `cable` on `mesh`, as laid: few of them simulated, each by a call of `pass`.
+///
+/// # Errors
+///
+/// Those of `pass`; [`JumpError`] where jumps do not get on, or the cable finds no rest.
+pub fn evolve<E: From<JumpError>>(
+    cable: &DuctedCable,
+    mesh: &Mesh,
+    jumps: &Jumps,
+    request: &Request<'_>,
+    pass: impl FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
+) -> Result<Evolution, E> {
+    let walk = Walk {
+        jumps,
+        request,
+        mesh,
+        cable: RestingCable::new(cable, mesh).map_err(wrap)?,
+        pass,
+        state: CableState::at_rest(mesh),
+        done: 0,
+        scale: Scale {
+            force: jumps.least.0,
+            movement: jumps.least.1,
+        },
+        simulated: 0,
+        records: Vec::with_capacity(request.wanted.len()),
+        schedule: Vec::new(),
+    };
+    walk.run()
+}
+
+fn wrap<E: From<JumpError>>(error: CableError) -> E {
+    JumpError::from(error).into()
+}
+
+impl<E, P> Walk<'_, P>
+where
+    E: From<JumpError>,
+    P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
+{
+    fn run(mut self) -> Result<Evolution, E> {
+        let Request { passes, period, .. } = *self.request;
+        let all = passes / period as u64;
+        let mut known = self.start(all)?;
+        if let Some(known) = &mut known {
+            if !self.until(all, known, self.jumps.most_passes)? {
+                let (periods, simulated) = (self.done, self.simulated);
+                return Err(JumpError::Stuck { periods, wanted: all, simulated }.into());
+            }
+        }
+        let whole = self.state.clone();
+        let rest = all * period as u64 + 1..=passes;
+        for (phase, number) in rest.enumerate() {
+            let number = Some(number);
+            self.simulate(Next { phase, number })?;
+        }
+        let mut evolution = Evolution {
+            records: std::mem::take(&mut self.records),
+            state: std::mem::replace(&mut self.state, whole),
+            simulated: self.simulated,
+            schedule: self.schedule.clone(),
+            beyond: None,
+        };
+        if let (Some(mut known), Some(&last)) = (known, self.request.beyond.last()) {
+            let most = self.simulated + MOST_BEYOND * period as u64;
+            if self.until(last / period as u64, &mut known, most)? {
+                evolution.beyond = Some(Beyond {
+                    records: self.records.split_off(self.records.partition_point(|record| record.pass <= passes)),
+                    period: known.period.phases.iter().map(|phase| phase.outcome).collect(),
+                    state: self.state,
+                });
+            }
+            evolution.simulated = self.simulated;
+        }
+        Ok(evolution)
+    }
+
+    /// Simulates the first periods, of `all`; what they say, where more are left.
+    fn start(&mut self, all: u64) -> Result<Option<Knowledge>, E> {
+        let first = self.jumps.first_periods.max(4);
+        let mut half = None;
+        let mut last = None;
+        while self.done < first.min(all) {
+            let period = self.next_period()?;
+            if self.done == first / 2 {
+                half = Some(period.clone());
+            }
+            last = Some(period);
+        }
+        let (Some(half), Some(period), true) = (half, last, self.done == first) else {
+            return Ok(None);
+        };
+        let width = (WIDTH * self.jumps.depth / self.mesh.spacing()) as usize;
+        let rate = difference(&period.rate, &half.rate);
+        let friction = period.friction_from(&half.middle, &self.cable);
+        let change = Change {
+            rate: &rate,
+            friction: &friction,
+            predicted: None,
+        };
+        Ok(Some(Knowledge {
+            slope: Slope::new(change, width, self.cable.cable().friction().limit()),
+            period,
+            length: (self.jumps.first_jump * first as f64).max(1.0),
+            not_before: 0,
+        }))
+    }
+
+    /// Goes on until `all` periods are done; false where it does not get on within `most` simulated passes.
+    fn until(&mut self, all: u64, known: &mut Knowledge, most: u64) -> Result<bool, E> {
+        while self.done < all {
+            if self.simulated > most {
+                return Ok(false);
+            }
+            let left = all - self.done;
+            let rate = self.rate(known);
+            let resting = largest(&known.period.rate) < AT_REST * self.jumps.motion;
+            let guided = self.request.guide.length(self.schedule.len());
+            let whole = guided.is_none() && left > CHECKED && (resting || self.is_steady(known, &rate, left));
+            if whole {
+                known.length = (left - CHECKED) as f64;
+                known.not_before = 2 * self.done;
+            }
+            let length = guided.unwrap_or(known.length as u64).min(left.saturating_sub(CHECKED));
+            if length < SHORTEST && !whole {
+                let next = self.next_period()?;
+                self.learn(known, &next, None);
+                known.period = next;
+                known.length = (GROWTH_BETWEEN * known.length).max(2.0);
+                self.schedule.push(0);
+            } else if !self.jump(known, &rate, length)? && whole {
+                known.length = known.length.min((self.done as f64).max(SHORTEST as f64));
+            }
+        }
+        Ok(true)
+    }
+
+    /// Whether forces will change no more than a small part of the tolerance in the periods `left`.
+    fn is_steady(&mut self, known: &Knowledge, rate: &[f64], left: u64) -> bool {
+        if self.done < known.not_before {
+            return false;
+        }
+        let ahead = Flow::new(&mut self.cable, rate, known.slope.values(), left as f64, SUBSTEPS_AHEAD);
+        self.scale.shares(&self.cable, ahead.end()).force < STEADY * self.jumps.tolerance
+    }
+
+    /// Advance per period in the cable's state, from that of the last period.
+    fn rate(&self, known: &Knowledge) -> Vec<f64> {
+        // −K (u − ū)/w, with u after and ū in the middle of the period.
+        let mut rate = known.period.friction_from(self.state.displacement(), &self.cable);
+        for ((f, v), g) in rate.iter_mut().zip(&known.period.rate).zip(known.slope.values()) {
+            *f = v + g * *f;
+        }
+        rate
+    }
+
+    fn learn(&self, known: &mut Knowledge, next: &Period, predicted: Option<&[f64]>) {
+        let rate = difference(&next.rate, &known.period.rate);
+        let friction = next.friction_from(&known.period.middle, &self.cable);
+        known.slope.learn(Change {
+            rate: &rate,
+            friction: &friction,
+            predicted,
+        });
+    }
+
+    /// Jumps over `length` periods, simulates two more and chooses the next length; false where the error is so large that the jump
+    /// is taken back.
+    fn jump(&mut self, known: &mut Knowledge, rate: &[f64], length: u64) -> Result<bool, E> {
+        let Jumps { tolerance, motion, .. } = *self.jumps;
+        let (from, slope) = (self.state.clone(), known.slope.values().to_vec());
+        if largest(&known.period.rate) >= AT_REST * motion {
+            let flow = Flow::new(&mut self.cable, rate, &slope, length as f64, SUBSTEPS);
+            self.advance(flow.end())?;
+        }
+        let checked = self.period(None)?;
+        // What the slope says of the advance here, and the displacement that it missed: its error grew from nothing.
+        let mut predicted = checked.friction_from(&known.period.middle, &self.cable);
+        for (f, g) in predicted.iter_mut().zip(&slope) {
+            *f *= -g;
+        }
+        let half = 0.5 * (length + 1) as f64;
+        let mut missed = difference(&checked.rate, &known.period.rate);
+        for (missed, predicted) in missed.iter_mut().zip(&predicted) {
+            *missed = half * (*missed - predicted);
+        }
+        self.cable.diffuse(|i| half * slope[i], &mut missed);
+        self.cable.diffuse(|i| slope[i], &mut missed);
+        let shares = self.scale.shares(&self.cable, &missed);
+        let error = shares.force.max(shares.movement);
+        let factor = (CAUTION * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt()).clamp(GROWTH.0, GROWTH.1);
+        self.learn(known, &checked, Some(&predicted));
+        let obeys = matches!(self.request.guide, Guide::Obey(_));
+        if error > REJECTED * tolerance && length > CHECKED && !obeys {
+            self.state = from;
+            known.length = factor * length as f64;
+            return Ok(false);
+        }
+        self.advance(&missed)?;
+        let begin = self.done;
+        self.done += length + 1;
+        let recorded = self.records.len();
+        let next = self.next_period()?;
+        // What lies within the jump is recorded before the period at its end.
+        let simulated = self.records.split_off(recorded);
+        let to = self.state.clone();
+        let length = length + CHECKED;
+        let jumped = Jumped {
+            mesh: self.mesh,
+            begin,
+            length,
+            from: &from,
+            to: &to,
+            before: &known.period.phases,
+            after: &next.phases,
+            flow: Flow::new(&mut self.cable, rate, &slope, length as f64, SUBSTEPS),
+        };
+        self.record(&jumped)?;
+        self.records.extend(simulated);
+        known.period = next;
+        known.length = factor * length as f64;
+        self.schedule.push(length - CHECKED);
+        Ok(true)
+    }
+
+    /// Records the passes within a jump.
+    fn record(&mut self, jumped: &Jumped<'_>) -> Result<(), E> {
+        let Request { period, wanted, looked_at, beyond, .. } = *self.request;
+        let first = jumped.begin * period as u64;
+        let last = (self.done - 1) * period as u64;
+        let inside = |pass: &&u64| (first + 1..=last).contains(*pass);
+        for &pass in wanted.iter().chain(beyond).filter(inside) {
+            let outcome = if looked_at.contains(&pass) {
+                let before = if pass - 1 == first {
+                    jumped.from.clone()
+                } else {
+                    jumped.state(&mut self.cable, pass - 1).map_err(wrap)?
+                };
+                let now = std::mem::replace(&mut self.state, before);
+                let phase = ((pass - 1) % period as u64) as usize;
+                let outcome = (self.pass)(Next { phase, number: Some(pass) }, &mut self.state)?;
+                self.simulated += 1;
+                self.state = now;
+                outcome
+            } else {
+                jumped.outcome(&mut self.cable, pass).map_err(wrap)?
+            };
+            self.records.push(Record {
+                pass,
+                outcome,
+                interpolated: true,
+            });
+        }
+        Ok(())
+    }
+
+    /// Moves the cable by `advance` \[m\] and lets it come to rest.
+    fn advance(&mut self, advance: &[f64]) -> Result<(), E> {
+        let now = self.state.displacement().iter().zip(advance);
+        let friction = self.state.friction().to_vec();
+        let moved = CableState::from_parts(self.mesh, now.map(|(u, y)| u + y).collect(), friction);
+        self.state = moved.map_err(wrap)?;
+        self.cable.settle(&mut self.state).map_err(wrap)
+    }
+
+    /// Simulates the next period.
+    fn next_period(&mut self) -> Result<Period, E> {
+        let period = self.period(Some(self.done * self.request.period as u64))?;
+        self.done += 1;
+        Ok(period)
+    }
+
+    /// Simulates one period, whose passes follow the pass `after` where they have numbers.
+    fn period(&mut self, after: Option<u64>) -> Result<Period, E> {
+        let start = self.state.displacement().to_vec();
+        let mut passes = Vec::with_capacity(self.request.period);
+        for phase in 0..self.request.period {
+            let number = after.map(|after| after + 1 + phase as u64);
+            let outcome = self.simulate(Next { phase, number })?;
+            passes.push((self.state.clone(), outcome));
+        }
+        self.scale.see(&self.cable, &self.state).map_err(wrap)?;
+        Ok(Period::new(&start, passes))
+    }
+
+    fn simulate(&mut self, next: Next) -> Result<PassOutcome, E> {
+        let outcome = (self.pass)(next, &mut self.state)?;
+        self.simulated += 1;
+        let Request { wanted, beyond, .. } = self.request;
+        let is_wanted = |pass: &u64| wanted.binary_search(pass).is_ok() || beyond.binary_search(pass).is_ok();
+        if let Some(pass) = next.number.filter(is_wanted) {
+            self.records.push(Record {
+                pass,
+                outcome,
+                interpolated: false,
+            });
+        }
+        Ok(outcome)
+    }
+}

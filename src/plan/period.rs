@@ -1,0 +1,116 @@
+//! The vehicles after which traffic repeats itself.
+//!
+//! Shares such as 2:1 have a period of their own: 3 vehicles. Others get the nearest mix of at most twelve, and a second one
+//! on the other side of theirs shows what that changes.
+
+use cable_dem::{Order, Traffic};
+
+use crate::Error;
+use crate::scene::Scene;
+
+/// Most vehicles in a period that is chosen here.
+const LONGEST: usize = 12;
+/// Periods that are simulated at the start: a sequence that is shorter than the traffic by this factor is its own period.
+const FIRST_PERIODS: u64 = 8;
+/// Longest sequence that is its own period: a run simulates some fifty periods.
+const LONGEST_SEQUENCE: usize = 200;
+/// Rounding of shares.
+const SAME: f64 = 1e-9;
+
+/// A period of traffic.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Period {
+    /// Its vehicles, by their place in the scene.
+    pub vehicles: Vec<usize>,
+    /// Where they only stand in for the traffic's own mix: another mix, and how far the own one lies from the first on the way to it.
+    pub other: Option<(Vec<usize>, f64)>,
+    /// Whether the traffic is in another order than that of its period: at random, or a long sequence.
+    pub reordered: bool,
+}
+
+impl Period {
+    /// The period of the scene's traffic.
+    pub fn new(scene: &Scene) -> Result<Self, Error> {
+        let traffic = &scene.traffic;
+        let exact = |vehicles| Self {
+            vehicles,
+            other: None,
+            reordered: false,
+        };
+        let shares: Vec<f64> = match &traffic.order {
+            Order::Sequence(sequence) => {
+                let fits = FIRST_PERIODS * sequence.len() as u64 <= traffic.passes;
+                if sequence.len() <= LONGEST || fits && sequence.len() <= LONGEST_SEQUENCE {
+                    return Ok(exact(sequence.clone()));
+                }
+                let count = |vehicle| sequence.iter().filter(|&&one| one == vehicle).count();
+                (0..scene.vehicles.len()).map(|vehicle| count(vehicle) as f64).collect()
+            }
+            _ => scene.vehicles.iter().map(|vehicle| vehicle.share).collect(),
+        };
+        let total: f64 = shares.iter().sum();
+        let shares: Vec<f64> = shares.iter().map(|share| share / total).collect();
+        let mut mixes: Vec<Mix> = (1..=LONGEST).map(|length| Mix::nearest(&shares, length)).collect();
+        // The shortest of the nearest.
+        mixes.sort_by(|a, b| (a.distance / SAME).round().total_cmp(&(b.distance / SAME).round()));
+        let first = &mixes[0];
+        let other = (first.distance > SAME).then(|| first.opposite(&shares, &mixes)).flatten();
+        Ok(Self {
+            vehicles: first.interleaved()?,
+            other: match other {
+                Some((other, share)) => Some((other.interleaved()?, share)),
+                None => None,
+            },
+            reordered: traffic.order != Order::Interleaved,
+        })
+    }
+
+    /// Number of its passes.
+    pub fn len(&self) -> usize {
+        self.vehicles.len()
+    }
+}
+
+/// Whole numbers of vehicles.
+struct Mix {
+    counts: Vec<usize>,
+    /// Its shares less the wanted ones.
+    off: Vec<f64>,
+    /// Largest of them.
+    distance: f64,
+}
+
+impl Mix {
+    /// The nearest mix of `length` vehicles: those with the largest remainders are rounded up.
+    fn nearest(shares: &[f64], length: usize) -> Self {
+        let wanted: Vec<f64> = shares.iter().map(|share| share * length as f64).collect();
+        let mut counts: Vec<usize> = wanted.iter().map(|wanted| (wanted + SAME) as usize).collect();
+        let mut order: Vec<usize> = (0..shares.len()).collect();
+        order.sort_by(|&a, &b| (wanted[b] - counts[b] as f64).total_cmp(&(wanted[a] - counts[a] as f64)));
+        for &vehicle in order.iter().take(length - counts.iter().sum::<usize>()) {
+            counts[vehicle] += 1;
+        }
+        let off: Vec<f64> = counts.iter().zip(shares).map(|(&count, share)| count as f64 / length as f64 - share).collect();
+        Self {
+            distance: off.iter().fold(0.0, |most, off| most.max(off.abs())),
+            counts,
+            off,
+        }
+    }
+
+    /// The mix on the other side of the wanted shares that is nearest to them, and the share of the way to it at which they lie.
+    fn opposite<'a>(&self, shares: &[f64], mixes: &'a [Mix]) -> Option<(&'a Mix, f64)> {
+        debug_assert_eq!(shares.len(), self.off.len());
+        let along = |mix: &Mix| -> f64 { self.off.iter().zip(&mix.off).map(|(a, b)| a * b).sum() };
+        let other = mixes.iter().filter(|mix| along(mix) < 0.0).min_by(|a, b| a.distance.total_cmp(&b.distance))?;
+        Some((other, self.distance / (self.distance + other.distance)))
+    }
+
+    /// Its vehicles, as evenly as possible.
+    fn interleaved(&self) -> Result<Vec<usize>, Error> {
+        let present: Vec<usize> = (0..self.counts.len()).filter(|&vehicle| self.counts[vehicle] > 0).collect();
+        let counts: Vec<f64> = present.iter().map(|&vehicle| self.counts[vehicle] as f64).collect();
+        let traffic = Traffic::new(&counts, Order::Interleaved)?;
+        Ok(traffic.take(self.counts.iter().sum()).map(|index| present[index]).collect())
+    }
+}

@@ -1,0 +1,143 @@
+//! Which passes of a period's traffic stand for the listed passes of the scene's.
+//!
+//! Where the period is the traffic's own they are the same. Where it only stands in for the traffic, a pass is shown by one
+//! nearby that follows the same vehicles as far back as possible; and at random by the mean over a period.
+
+use std::ops::RangeInclusive;
+
+use cable_dem::{Order, PassOutcome, Traffic};
+use cycle_jump::Record;
+
+use crate::Error;
+use crate::plan::Period;
+use crate::scene::Scene;
+
+/// Periods at the start in which the scene's own vehicles drive.
+const OWN_PERIODS: u64 = 7;
+
+/// Listed passes, each with those whose mean is shown for it.
+pub struct Listing {
+    rows: Vec<(u64, RangeInclusive<u64>)>,
+    /// The first vehicles of the scene's own traffic.
+    own: Vec<usize>,
+}
+
+impl Listing {
+    pub fn new(scene: &Scene, period: &Period, listed: &[u64]) -> Result<Self, Error> {
+        let length = period.len() as u64;
+        let count = scene.traffic.passes;
+        let stands_in = period.other.is_some() || period.reordered;
+        if !stands_in {
+            return Ok(Self {
+                rows: listed.iter().map(|&pass| (pass, pass..=pass)).collect(),
+                own: Vec::new(),
+            });
+        }
+        if matches!(scene.traffic.order, Order::Random { .. }) {
+            let window = |pass: u64| {
+                let reach = (length / 2).min(pass - 1).min(count - pass);
+                pass - reach..=pass + reach
+            };
+            return Ok(Self {
+                rows: listed.iter().map(|&pass| (pass, window(pass))).collect(),
+                own: Vec::new(),
+            });
+        }
+        let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
+        let traffic = Traffic::new(&shares, scene.traffic.order.clone())?;
+        let last = listed.last().copied().unwrap_or(0);
+        let own_passes = (OWN_PERIODS * length).min(count);
+        // Vehicles of the last period before each listed pass, the newest last.
+        let mut recent = Vec::new();
+        let mut own = Vec::new();
+        let mut rows = Vec::with_capacity(listed.len());
+        let mut next = listed.iter().copied().peekable();
+        for (vehicle, pass) in traffic.zip(1..=last.min(LONGEST_ORDER)) {
+            if pass <= own_passes {
+                own.push(vehicle);
+            }
+            recent.push(vehicle);
+            if recent.len() > period.len() {
+                recent.remove(0);
+            }
+            if next.next_if_eq(&pass).is_some() {
+                let shown = if pass <= own_passes { pass } else { alike(period, &recent, pass, count) };
+                rows.push((pass, shown..=shown));
+            }
+        }
+        rows.extend(next.map(|pass| (pass, pass..=pass)));
+        Ok(Self { rows, own })
+    }
+
+    /// The vehicle of the pass `number`, whose place in the period is `phase`.
+    pub fn vehicle(&self, period: &Period, phase: usize, number: Option<u64>) -> usize {
+        let own = number.and_then(|pass| self.own.get(pass as usize - 1));
+        own.copied().unwrap_or(period.vehicles[phase])
+    }
+
+    /// The passes that have to be known, ascending.
+    pub fn wanted(&self) -> Vec<u64> {
+        let mut wanted: Vec<u64> = self.rows.iter().flat_map(|(_, shown)| shown.clone()).collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        wanted
+    }
+
+    /// The listed passes, from all that were wanted.
+    pub fn records(&self, known: &[Record]) -> Vec<Record> {
+        let of = |pass: u64| known.binary_search_by_key(&pass, |record| record.pass).map(|place| known[place]);
+        let row = |(pass, shown): &(u64, RangeInclusive<u64>)| {
+            let shown: Vec<Record> = shown.clone().filter_map(|pass| of(pass).ok()).collect();
+            let first = shown.first()?;
+            Some(Record {
+                pass: *pass,
+                outcome: mean(&shown),
+                interpolated: first.interpolated || shown.len() > 1 || first.pass != *pass,
+            })
+        };
+        self.rows.iter().filter_map(row).collect()
+    }
+}
+
+/// Passes of a traffic whose vehicles are followed one by one.
+const LONGEST_ORDER: u64 = 100_000_000;
+
+/// The pass near `pass` that follows the vehicles `recent` as far back as possible in the period's traffic.
+fn alike(period: &Period, recent: &[usize], pass: u64, count: u64) -> u64 {
+    let length = period.len();
+    let back = |phase: usize| {
+        let same = |steps: &usize| period.vehicles[(phase + length - steps % length) % length] == recent[recent.len() - 1 - steps];
+        (0..recent.len()).take_while(same).count()
+    };
+    let own = ((pass - 1) % length as u64) as usize;
+    // The nearest of those that are equally alike: forward and backward by turns.
+    let away = (0..length as i64).map(|k| if k % 2 == 0 { k / 2 } else { -(k + 1) / 2 });
+    let place = |away: i64| (own as i64 + away).rem_euclid(length as i64) as usize;
+    let best = away
+        .filter(|away| (1..=count as i64).contains(&(pass as i64 + away)))
+        .max_by_key(|&away| (back(place(away)), -away.abs()));
+    (pass as i64 + best.unwrap_or(0)) as u64
+}
+
+/// Mean of what passes did.
+fn mean(records: &[Record]) -> PassOutcome {
+    let mut mean = records[0].outcome;
+    if let [_] = records {
+        return mean;
+    }
+    let of = |value: fn(&PassOutcome) -> f64| {
+        records.iter().map(|record| value(&record.outcome)).sum::<f64>() / records.len() as f64
+    };
+    mean.force.upstream = of(|o| o.force.upstream);
+    mean.force.downstream = of(|o| o.force.downstream);
+    mean.peak.upstream = of(|o| o.peak.upstream);
+    mean.peak.downstream = of(|o| o.peak.downstream);
+    mean.lowest.upstream = of(|o| o.lowest.upstream);
+    mean.lowest.downstream = of(|o| o.lowest.downstream);
+    mean.max_compression = of(|o| o.max_compression);
+    mean.max_tension = of(|o| o.max_tension);
+    mean.upstream_displacement = of(|o| o.upstream_displacement);
+    mean.downstream_displacement = of(|o| o.downstream_displacement);
+    mean.dissipated = of(|o| o.dissipated);
+    mean
+}

@@ -1,0 +1,53 @@
+//! Traffic in random order: how far its forces scatter around their mean.
+//!
+//! Many passes later the cable lies as the mean of the traffic has left it, and only the last few tens of vehicles scatter around
+//! that. So a few short random runs from there show the spread.
+
+use cable_dem::{CableState, Order, Traffic};
+
+use super::passes::{Simulation, Task};
+use crate::Error;
+use crate::answer::{Quantiles, RandomSpread};
+
+/// Random runs, their passes, and how many of these forget the order before.
+const RUNS: u64 = 8;
+const PASSES: usize = 90;
+const FORGOTTEN: usize = 30;
+
+/// The spread of the forces around the cable in `state`.
+pub fn spread(task: &Task<'_>, state: &CableState) -> Result<Option<RandomSpread>, Error> {
+    let Order::Random { seed } = task.scene.traffic.order else {
+        return Ok(None);
+    };
+    let shares: Vec<f64> = task.scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
+    let mut simulation = Simulation::new(task)?;
+    let (mut downstream, mut upstream) = (Vec::new(), Vec::new());
+    for run in 0..RUNS {
+        let mut state = state.clone();
+        let order = Order::Random {
+            seed: seed.wrapping_add(run),
+        };
+        for (number, vehicle) in Traffic::new(&shares, order)?.take(PASSES).enumerate() {
+            let force = simulation.pass(vehicle, None, &mut state)?.force;
+            if number >= FORGOTTEN {
+                downstream.push(force.downstream);
+                upstream.push(force.upstream);
+            }
+        }
+    }
+    Ok(Some(RandomSpread {
+        downstream: quantiles(downstream),
+        upstream: quantiles(upstream),
+    }))
+}
+
+fn quantiles(mut forces: Vec<f64>) -> Quantiles {
+    forces.sort_by(f64::total_cmp);
+    let at = |share: f64| forces[(share * (forces.len() - 1) as f64).round() as usize];
+    Quantiles {
+        q05_n: at(0.05),
+        q50_n: at(0.5),
+        q95_n: at(0.95),
+        max_n: forces.iter().copied().fold(0.0, crate::answer::larger),
+    }
+}
