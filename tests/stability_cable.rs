@@ -9,9 +9,9 @@ mod explicit;
 #[path = "../examples/stability/implicit.rs"]
 #[allow(dead_code, reason = "the example draws what the test only counts")]
 mod implicit;
-#[path = "../examples/stability/pass_law.rs"]
+#[path = "../examples/stability/long_term.rs"]
 #[allow(dead_code, reason = "the example draws what the test only counts")]
-mod pass_law;
+mod long_term;
 
 use cable_map::{Grid, Outcome};
 
@@ -53,7 +53,12 @@ fn the_quasi_static_solver_is_right_where_plain_newton_cycles() -> Tested {
 }
 
 #[test]
-fn the_pass_law_is_right_or_says_that_it_is_not() -> Tested {
-    assert_guarded("pass law", &pass_law::maps(3, 5)?);
+fn jumps_over_passes_are_right_or_say_that_they_are_not() -> Tested {
+    for (name, mix) in long_term::MIXES {
+        let grids = long_term::maps(mix, 3, 4)?;
+        assert_guarded(name, &grids);
+        let [_, guarded] = grids;
+        assert_eq!(guarded.count(Outcome::Right), guarded.cells.len(), "{name}: {}", guarded.csv(name));
+    }
     Ok(())
 }

@@ -2,8 +2,8 @@
 //!
 //! The full-scale experiment's upper cable in its duct of 30 m, and the same in 300 m, on the ground's closed form. The error is the
 //! largest difference of the force at the load cell over the last half of 10, 100 and 1000 passes, as a share of it. Methods and
-//! knobs: quasi-static, exact step, dynamic and explicit on one mesh of so many nodes a depth of the duct, the pass law with so many
-//! nodes in its cells, and the paper's own chain, explicit with the sigmoid law and its b.
+//! knobs: quasi-static, exact step, dynamic and explicit on one mesh of so many nodes a depth of the duct, quasi-static with jumps over
+//! passes, and the paper's own chain, explicit with the sigmoid law and its b.
 //!
 //! *Truth.* Quasi-static on a mesh at least three times as fine as any point that shares its method; how far it may be off is drawn
 //! and stands in the table. No chart is drawn unless it agrees with the figures of an independent program that solves the whole cable
@@ -15,14 +15,15 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use boussinesq::HalfSpace;
+use cable_dem::{Mesh, QuasiStatic};
 use creepage::Scene;
 use creepage::figure::{Axis, Chart, Panels, Reference, Series};
 use creepage::scene::FrictionLaw;
+use cycle_jump::{Guide, JumpError, Jumps, Next, Request, evolve};
 use ground_field::DuctMotion;
-use pass_law::{PassLaw, Resolution};
 use rayon::prelude::*;
 
-use crate::passes::{APPROACH_KEY, Solver, cable, error, motion, own_error, simulate, truth};
+use crate::passes::{APPROACH, APPROACH_KEY, Solver, cable, error, motion, own_error, simulate, truth};
 use crate::stopwatch::timed;
 
 /// Accuracy of the duct's motion, as a share of its peak.
@@ -38,7 +39,9 @@ const COULOMB: [(f64, usize); 2] = [(48.0, 100), (48.0, 10)];
 const COARSER: f64 = 3.0;
 /// Nodes a depth.
 const DENSITIES: [f64; 7] = [2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 24.0];
-const LAW_DENSITIES: [f64; 4] = [3.0, 6.0, 12.0, 24.0];
+const JUMP_DENSITIES: [f64; 4] = [3.0, 6.0, 12.0, 24.0];
+/// Error of a jump.
+const JUMP: f64 = 1.25e-3;
 /// b of the sigmoid \[1/m\], and nodes a depth.
 const SHAPE_FACTORS: [f64; 6] = [1e7, 1e8, 1e9, 1e10, 1e11, 1e12];
 const SIGMOID_DENSITY: f64 = 6.0;
@@ -87,7 +90,7 @@ impl Case {
     fn answer(&self, method: Method, knob: f64, passes: usize) -> Result<Option<Found>, Failure> {
         let mut scene = self.scene.clone();
         let (solver, density) = match method {
-            Method::PassLaw => return self.law(knob, passes).map(Some),
+            Method::Jumps => return self.jumps(knob, passes).map(Some),
             Method::Solver(solver) => (solver, knob),
             Method::Sigmoid => {
                 scene.friction.law = FrictionLaw::Sigmoid { shape_factor: knob };
@@ -97,21 +100,43 @@ impl Case {
         let found = simulate(&scene, &self.motion, solver, density, passes, BUDGET)?;
         Ok(found.map(|answer| Found {
             forces: last_half(&answer.forces).to_vec(),
-            node_updates: Some(answer.node_updates),
+            node_updates: answer.node_updates,
         }))
     }
 
-    fn law(&self, density: f64, passes: usize) -> Result<Found, Failure> {
-        let resolution = Resolution::new(self.scene.duct.depth)?.with_nodes_per_depth(density)?;
-        let law = PassLaw::new(&cable(&self.scene)?, &[(self.motion.clone(), 1.0)], resolution)?;
-        if let Some(concern) = law.concerns().into_iter().find(|concern| concern.is_fatal()) {
-            return Err(concern.to_string().into());
-        }
+    fn jumps(&self, density: f64, passes: usize) -> Result<Found, Failure> {
+        let (cable, depth) = (cable(&self.scene)?, self.scene.duct.depth);
+        let mesh = Mesh::for_depth(cable.length(), depth, density)?;
+        let mut solver = QuasiStatic::new(cable.clone(), mesh)?;
+        let passage = solver.passage(&self.motion, APPROACH)?;
+        let motion = self.motion.peak_longitudinal();
+        let jumps = Jumps {
+            tolerance: JUMP,
+            first_periods: 8,
+            first_jump: 0.25,
+            depth,
+            motion,
+            least: (0.01 * cable.friction().limit(), 0.1 * motion),
+            most_passes: passes as u64,
+        };
         let wanted: Vec<u64> = (half(passes)..=passes).map(|pass| pass as u64).collect();
-        let run = law.run(&wanted)?;
+        let request = Request {
+            passes: passes as u64,
+            period: 1,
+            wanted: &wanted,
+            looked_at: &[],
+            beyond: &[],
+            guide: Guide::Free,
+        };
+        let mut node_updates = 0;
+        let evolution = evolve(&cable, &mesh, &jumps, &request, |_: Next, state| {
+            let outcome = solver.pass(&passage, state)?;
+            node_updates += outcome.statistics.node_updates;
+            Ok::<_, JumpError>(outcome)
+        })?;
         Ok(Found {
-            forces: run.records.iter().map(|record| record.downstream_force).collect(),
-            node_updates: None,
+            forces: evolution.records.iter().map(|record| record.outcome.force.downstream).collect(),
+            node_updates,
         })
     }
 }
@@ -119,8 +144,7 @@ impl Case {
 /// Forces after the last half of the passes.
 struct Found {
     forces: Vec<f64>,
-    /// The pass law does not count them.
-    node_updates: Option<usize>,
+    node_updates: usize,
 }
 
 /// The first pass that counts.
@@ -135,7 +159,7 @@ fn last_half(forces: &[f64]) -> &[f64] {
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Method {
     Solver(Solver),
-    PassLaw,
+    Jumps,
     Sigmoid,
 }
 
@@ -145,7 +169,7 @@ const METHODS: [(&str, Method, &[f64]); 6] = [
     ("exact step", Method::Solver(Solver::ExactStep), &DENSITIES),
     ("dynamic", Method::Solver(Solver::Dynamic), &DENSITIES),
     ("explicit", Method::Solver(Solver::Explicit), &DENSITIES),
-    ("pass law", Method::PassLaw, &LAW_DENSITIES),
+    ("quasi-static with jumps", Method::Jumps, &JUMP_DENSITIES),
     ("explicit, sigmoid over b", Method::Sigmoid, &SHAPE_FACTORS),
 ];
 
@@ -155,7 +179,7 @@ struct Point {
     method: usize,
     error: f64,
     seconds: f64,
-    node_updates: Option<usize>,
+    node_updates: usize,
 }
 
 /// One panel: a duct, a number of passes, and what is right there.
@@ -213,9 +237,7 @@ impl Panel<'_> {
                 };
                 let right = right.ok_or_else(|| format!("{name}, {passes} passes: no truth"))?;
                 let error = error(&found.forces, last_half(right));
-                let count = found
-                    .node_updates
-                    .map_or_else(String::new, |count| count.to_string());
+                let count = found.node_updates;
                 writeln!(table, "{row},{error:.3e},{seconds:.3e},{count},answered")?;
                 points.push(Point {
                     panel,
@@ -295,7 +317,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
             &uncertainties,
             "Force at the load cell: error against work, by method",
             ("nodes solved for or advanced", (1e4, 3e9)),
-            |point| point.node_updates.map(|count| count as f64),
+            |point| Some(point.node_updates as f64),
         )?,
     )?;
     Ok(())

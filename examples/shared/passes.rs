@@ -15,7 +15,7 @@ use ground_field::{DuctLine, DuctMotion, GroundField};
 /// Standard acceleration of gravity \[m/s²\].
 const GRAVITY: f64 = 9.80665;
 /// How far beyond the duct's ends vehicles come from \[m\]: the scenes of the charts say so themselves, see [`APPROACH_KEY`].
-const APPROACH: f64 = 15.0;
+pub const APPROACH: f64 = 15.0;
 /// The same as an override of a scene.
 pub const APPROACH_KEY: &str = "solver.approach=15 m";
 /// Look of what is right, in every figure.

@@ -16,7 +16,7 @@ mod calibration;
 mod explicit;
 mod fem;
 mod implicit;
-mod pass_law;
+mod long_term;
 
 use std::error::Error;
 use std::path::Path;
@@ -29,7 +29,7 @@ const MAPS: &[Entry] = &[
     ("implicit", implicit::run),
     ("fem", fem::run),
     ("burmister", burmister::run),
-    ("pass-law", pass_law::run),
+    ("long-term", long_term::run),
     ("calibration", calibration::run),
 ];
 

@@ -26,7 +26,7 @@ const WEIGHT_ALONE: f64 = 2.0;
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;
 /// Weight of the difference between two runs with jumps.
-const WEIGHT_OF_JUMPS: f64 = 2.0;
+const WEIGHT_OF_JUMPS: f64 = 1.0;
 /// Forces below this share of the largest one count as nothing when errors are compared, and movements of an end below this
 /// share of the duct's largest.
 const SMALL: f64 = 0.1;

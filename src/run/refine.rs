@@ -25,11 +25,14 @@ const REFINEMENT_COST: usize = 4;
 const SHARP: usize = 3;
 /// Error of a single jump to begin with, and length of the first jump beside the periods before it; what both are
 /// multiplied by until jumps are good enough, and how often at most.
-const JUMP: (f64, f64) = (0.5, 0.5);
+const JUMP: (f64, f64) = (1.0, 0.5);
 const FINER_JUMP: (f64, f64) = (0.25, 0.5);
 const FINEST_JUMPS: usize = 4;
 /// Share of the tolerance that jumps may take.
-const JUMPS_SHARE: f64 = 0.25;
+const JUMPS_SHARE: f64 = 0.3;
+
+/// A duct of so many depths is short.
+const SHORT_DUCT: f64 = 20.0;
 
 /// A plan's passes, on whatever level.
 pub struct Refinement<'a> {
@@ -153,11 +156,15 @@ impl Refinement<'_> {
         })
     }
 
-    /// Jumps whose error is a small share of the tolerance, found on the level below `level`, where they cost a fourth.
+    /// Jumps whose error is a small share of the tolerance, found on the level below `level`, where they cost a fourth. A short duct
+    /// costs little, and the few nodes that a coarser mesh gives it behave differently.
     fn find_jumps(&self, level: usize) -> Result<FoundJumps, Error> {
         let tolerance = self.plan.scene.solver.tolerance;
         let enough = |error: Shares| error.force.max(error.movement) <= JUMPS_SHARE * tolerance;
-        let below = level.checked_sub(1).filter(|&below| self.plan.levels.mesh(below).is_ok());
+        let Scene { duct, .. } = self.plan.scene;
+        let below = level
+            .checked_sub(1)
+            .filter(|&below| duct.length > SHORT_DUCT * duct.depth && self.plan.levels.mesh(below).is_ok());
         let mut level = below.unwrap_or(level);
         let mut taken = Jumping {
             period: &self.plan.period,
@@ -179,6 +186,7 @@ impl Refinement<'_> {
             taken.first_jump *= FINER_JUMP.1;
             let fine = self.simulate(level, Some(&taken), false)?;
             let mut error = of_passes(&coarse.records, &fine.records, self.scale());
+            if std::env::var("JUMP_LOG").is_ok() { let d: Vec<(u64,f64)> = coarse.records.iter().zip(&fine.records).map(|(a,b)| (a.pass, difference(&[*a],&[*b],self.scale()).force)).collect(); let w = d.iter().fold((0,0.0),|m,x| if x.1>m.1 {*x} else {m}); eprintln!("FOUND tol {} {error:?} sim {} worst {w:?}", taken.tolerance, fine.simulated); }
             if enough(error) || finer == FINEST_JUMPS {
                 error = error + self.mix_error(level, &taken, &fine, &mut statistics)?;
                 return Ok(FoundJumps {

@@ -69,7 +69,7 @@ pub fn looked_at(scene: &Scene, stages: &[u64]) -> Option<Run> {
                     error,
                     Error::Inaccurate { .. }
                         | Error::Unbalanced { .. }
-                        | Error::Law(_)
+                        | Error::Jumps(_)
                         | Error::TooManyNodes { .. }
                         | Error::Unfit { .. }
                 ),

@@ -22,8 +22,9 @@ const GROWTH_BETWEEN: f64 = 1.3;
 /// Least and largest growth from one jump to the next; share of the length that the error would allow.
 const GROWTH: (f64, f64) = (0.2, 3.0);
 const CAUTION: f64 = 0.85;
-/// Error of a jump beside the tolerance above which it is taken back.
+/// Error of a jump beside the tolerance above which it is taken back, and of one that another run took on another mesh.
 const REJECTED: f64 = 2.0;
+const REJECTED_AS_GUIDED: f64 = 4.0;
 /// Change of all forces still to come, beside the tolerance, below which all that is left is one jump.
 const STEADY: f64 = 0.1;
 /// Advance of a period as a share of the duct's motion below which the cable rests for good.
@@ -66,6 +67,7 @@ struct Walk<'a, P> {
     mesh: &'a Mesh,
     cable: RestingCable,
     pass: P,
+    guide: Guide<'a>,
     state: CableState,
     /// Periods done.
     done: u64,
@@ -102,6 +104,7 @@ pub fn evolve<E: From<JumpError>>(
         mesh,
         cable: RestingCable::new(cable, mesh).map_err(wrap)?,
         pass,
+        guide: request.guide,
         state: CableState::at_rest(mesh),
         done: 0,
         scale: Scale {
@@ -201,7 +204,7 @@ where
             let left = all - self.done;
             let rate = self.rate(known);
             let resting = largest(&known.period.rate) < AT_REST * self.jumps.motion;
-            let guided = self.request.guide.length(self.schedule.len());
+            let guided = self.guide.length(self.schedule.len());
             let whole = guided.is_none() && left > CHECKED && (resting || self.is_steady(known, &rate, left));
             if whole {
                 known.length = (left - CHECKED) as f64;
@@ -275,10 +278,19 @@ where
         let shares = self.scale.shares(&self.cable, &missed);
         let error = shares.force.max(shares.movement);
         let factor = (CAUTION * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt()).clamp(GROWTH.0, GROWTH.1);
+        if std::env::var("JUMP_LOG").is_ok() {
+            eprintln!("n {} p {} m {length} err {error:.2e} tol {tolerance:.1e} ({:.1e} {:.1e}) v {:.1e} g {:.1e}..{:.1e} F {:.1e} u {:.1e} sim {}", self.done, self.request.period, shares.force, shares.movement, largest(&known.period.rate), slope.iter().fold(f64::INFINITY, |a, &b| a.min(b)), slope.iter().fold(0.0_f64, |a, &b| a.max(b)), self.scale.force, self.scale.movement, self.simulated);
+        }
         self.learn(known, &checked, Some(&predicted));
-        let obeys = matches!(self.request.guide, Guide::Obey(_));
-        if error > REJECTED * tolerance && length > CHECKED && !obeys {
+        let allowed = match self.guide {
+            Guide::Free => REJECTED * tolerance,
+            Guide::Follow(_) => REJECTED_AS_GUIDED * tolerance,
+            Guide::Obey(_) => f64::INFINITY,
+        };
+        if error > allowed && length > CHECKED {
             self.state = from;
+            // From here on the other run is no guide.
+            self.guide = Guide::Free;
             known.length = factor * length as f64;
             return Ok(false);
         }

@@ -1,0 +1,167 @@
+//! Map 5: jumps over passes, over the duct's length in depths, the friction number EA·D/(q z²) and the mix of the traffic.
+//!
+//! The friction number compares the largest longitudinal displacement D of the duct with the displacement q z²/EA that
+//! friction can impose on the cable over a depth z: small, the cable follows its duct; large, it is dragged through. Right is
+//! the simulation of every pass, on the same mesh. The worst of the forces on the held end after [`PASSES`] counts, as a share of the
+//! larger of the right one and a tenth of the largest. Without guards, jumps of fixed lengths are taken whatever their error.
+
+use std::error::Error;
+use std::path::Path;
+
+use boussinesq::HalfSpace;
+use cable_dem::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic};
+use creepage::figure::{Axis, Panels};
+use cycle_jump::{Guide, JumpError, Jumps, Next, Request, evolve};
+use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
+
+use crate::cable_map::{Cell, DEPTH, EA, Grid, LIMIT, Outcome, cable, decades, judge, silent};
+
+/// Passes after which forces are compared.
+const PASSES: [u64; 5] = [20, 60, 120, 240, 600];
+const APPROACH: f64 = 48.0;
+/// Nodes a depth.
+const NODES: f64 = 6.0;
+/// Error of a jump.
+const TOLERANCE: f64 = 5e-3;
+/// Lengths of jumps that nothing holds to simulated passes.
+const BLIND: [u64; 2] = [60, 500];
+/// Traffic: vehicles forward and backward, in their order.
+pub const MIXES: [(&str, &[usize]); 3] = [
+    ("one way", &[0]),
+    ("one to one", &[0, 1]),
+    ("two to one", &[0, 1, 0]),
+];
+
+/// A duct with vehicles of both directions.
+struct Case {
+    cable: DuctedCable,
+    mesh: Mesh,
+    passages: [Passage; 2],
+    mix: &'static [usize],
+}
+
+impl Case {
+    fn new(lengths: f64, number: f64, mix: &'static [usize]) -> Result<Self, Box<dyn Error + Send + Sync>> {
+        let sheath = FrictionLaw::ElasticPlastic {
+            shape_factor: 2e8 / LIMIT,
+        };
+        let cable = cable(lengths * DEPTH, sheath)?;
+        let mesh = Mesh::for_depth(cable.length(), DEPTH, NODES)?;
+        let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
+        let passage = |direction| -> Result<Passage, Box<dyn Error + Send + Sync>> {
+            let point = Vehicle::point("truck", 196_133.0, 10.0)?;
+            let truck = Vehicle::new("truck", point.wheels().to_vec(), 10.0, direction)?;
+            let motion = DuctMotion::new(&ground, &truck, DuctLine::new(DEPTH, 0.0)?, 500.0, 1e-8)?;
+            let factor = number * LIMIT * DEPTH * DEPTH / EA / motion.peak_longitudinal();
+            Ok(Passage::new(&cable, &mesh, &motion.scaled(factor)?, APPROACH)?)
+        };
+        let passages = [passage(Direction::Forward)?, passage(Direction::Reverse)?];
+        Ok(Self { cable, mesh, passages, mix })
+    }
+
+    fn pass(&self, solver: &mut QuasiStatic, phase: usize, state: &mut CableState) -> Result<PassOutcome, CableError> {
+        solver.pass(&self.passages[self.mix[phase]], state)
+    }
+
+    fn simulated(&self) -> Result<Vec<f64>, CableError> {
+        let mut solver = QuasiStatic::new(self.cable.clone(), self.mesh)?;
+        let mut state = solver.at_rest();
+        let mut forces = Vec::new();
+        for pass in 1..=PASSES[PASSES.len() - 1] {
+            let phase = (pass - 1) as usize % self.mix.len();
+            let force = self.pass(&mut solver, phase, &mut state)?.force.downstream;
+            if PASSES.contains(&pass) {
+                forces.push(force);
+            }
+        }
+        Ok(forces)
+    }
+
+    fn jumped(&self, number: f64, guide: Guide<'_>) -> Result<Vec<f64>, JumpError> {
+        let mut solver = QuasiStatic::new(self.cable.clone(), self.mesh)?;
+        let motion = number * LIMIT * DEPTH * DEPTH / EA;
+        let jumps = Jumps {
+            tolerance: TOLERANCE,
+            first_periods: 8,
+            first_jump: 0.25,
+            depth: DEPTH,
+            motion,
+            least: (0.01 * LIMIT, 0.1 * motion),
+            most_passes: 1000,
+        };
+        let request = Request {
+            passes: PASSES[PASSES.len() - 1],
+            period: self.mix.len(),
+            wanted: &PASSES,
+            looked_at: &[],
+            beyond: &[],
+            guide,
+        };
+        let evolution = evolve(&self.cable, &self.mesh, &jumps, &request, |Next { phase, .. }, state| {
+            self.pass(&mut solver, phase, state).map_err(JumpError::from)
+        })?;
+        Ok(evolution.records.iter().map(|record| record.outcome.force.downstream).collect())
+    }
+}
+
+/// Without guards, and with them.
+fn outcomes(lengths: f64, number: f64, mix: &'static [usize]) -> Result<[Cell; 2], Box<dyn Error + Send + Sync>> {
+    let case = Case::new(lengths, number, mix)?;
+    let right = case.simulated()?;
+    let last = right[right.len() - 1];
+    let largest = right.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+    let judged = |answer: Result<Vec<f64>, JumpError>| match answer {
+        Err(JumpError::Stuck { .. }) => silent(Outcome::Refused, last),
+        Err(_) => silent(Outcome::Failed, last),
+        Ok(forces) => {
+            let scale = |right: f64| right.abs().max(0.1 * largest).max(0.01 * LIMIT);
+            let error = |(found, right): &(f64, f64)| (found - right).abs() / scale(*right);
+            let pairs = forces.into_iter().zip(right.iter().copied());
+            pairs
+                .max_by(|a, b| error(a).total_cmp(&error(b)))
+                .map_or_else(|| silent(Outcome::Failed, last), |(found, right)| judge(found, right, scale(right), false))
+        }
+    };
+    Ok([Guide::Obey(&BLIND), Guide::Free].map(|guide| judged(case.jumped(number, guide))))
+}
+
+/// The maps of a mix without and with guards, of `lengths` × `numbers` cells.
+///
+/// # Errors
+///
+/// None for these scenes.
+pub fn maps(mix: &'static [usize], lengths: usize, numbers: usize) -> Result<[Grid; 2], Box<dyn Error>> {
+    Grid::fill_pair(
+        &decades(0.5, 2.0, lengths),
+        &decades(-1.5, 1.5, numbers),
+        |length, number| outcomes(length, number, mix),
+    )
+    .map_err(|error| error as Box<dyn Error>)
+}
+
+/// Draws the map.
+///
+/// # Errors
+///
+/// As for writing files and for [`creepage::figure::Chart`].
+pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
+    let mut figure = Panels::new("Jumps over passes: force after 20 to 600 passes, against the simulation of every pass")
+        .columns(2)
+        .panel_size(700.0, 480.0);
+    let mut table = String::from("map,length_in_depths,friction_number,outcome,force_n,right_force_n\n");
+    for (mix, vehicles) in MIXES {
+        for (grid, guards) in maps(vehicles, 11, 11)?.into_iter().zip(["fixed jumps, unchecked", "guards on"]) {
+            let name = format!("{mix}, {guards}");
+            println!("{name}: {}", grid.summary());
+            figure = figure.with(grid.map(
+                &name,
+                Axis::logarithmic("length of the duct, depths").cells(grid.x.clone()),
+                Axis::logarithmic("friction number EA·D/(q z²)").cells(grid.y.clone()),
+            ));
+            table += &grid.csv(&name);
+        }
+    }
+    std::fs::write(out.join("stability-long-term.csv"), table)?;
+    std::fs::write(out.join("stability-long-term.svg"), figure.to_svg()?)?;
+    Ok(())
+}
