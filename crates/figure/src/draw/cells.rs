@@ -1,12 +1,10 @@
 //! Coloured cells, and the bar that shows the colours of values.
 
-use super::canvas::{Canvas, Rect, Stroke};
+use super::canvas::{Canvas, Rect, Stroke, TEXT, check_room, text_width};
 use super::frame::{AXIS, Frame, TICK, widest_label};
 use super::mark;
-use super::text::{TEXT, check_room, text_width};
 use crate::axis::Axis;
-use crate::cells::Cells;
-use crate::chart::Chart;
+use crate::chart::{Cells, Chart};
 use crate::error::FigureError;
 use crate::palette::{INK, continuous};
 use crate::scale::{Scale, Tick};

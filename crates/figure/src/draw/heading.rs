@@ -1,7 +1,6 @@
 //! A title over one or more lines.
 
-use super::canvas::{Canvas, Point};
-use super::text::{check_room, text_width};
+use super::canvas::{Canvas, Point, check_room, text_width};
 use crate::error::FigureError;
 
 const SIZE: f64 = 16.0;

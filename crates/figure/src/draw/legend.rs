@@ -1,9 +1,8 @@
 //! The legend: rows of names below the plot.
 
-use super::canvas::{Canvas, Point, Rect};
+use super::canvas::{Canvas, Point, Rect, TEXT, check_room, text_width};
 use super::mark;
 use super::series::Shown;
-use super::text::{TEXT, check_room, text_width};
 use crate::error::FigureError;
 
 const ROW: f64 = 23.0;
