@@ -36,7 +36,6 @@ mod numbers;
 mod parquet;
 mod row;
 mod run;
-mod sink;
 mod table;
 
 pub use axis::{Axis, AxisValues};
