@@ -30,41 +30,17 @@ pub enum DataError {
         /// Why.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// The header lacks a column or names one twice.
-    #[error(
-        "{file}:{line}: {problem} column {column}; allowed: a header `pass,force_n` or `pass,force_n,sigma_n`"
-    )]
-    Column {
+    /// A line does not hold what it should: a column, a number, a sigma where others have one.
+    #[error("{file}:{line}: {found}; allowed: {allowed}")]
+    Line {
         /// The file.
         file: String,
         /// The line.
         line: u64,
-        /// What is wrong with it: there is none, or a second.
-        problem: &'static str,
-        /// The column.
-        column: &'static str,
-    },
-    /// A cell does not hold what it should.
-    #[error("{file}:{line}: {column}: found \"{found}\"; allowed: {allowed}")]
-    Cell {
-        /// The file.
-        file: String,
-        /// The line.
-        line: u64,
-        /// The column.
-        column: &'static str,
         /// What was found.
         found: String,
         /// What is allowed.
         allowed: &'static str,
-    },
-    /// Some readings have a sigma and some have none.
-    #[error("{file}:{line}: sigma_n is blank, but given for other readings; allowed: all or none")]
-    SomeSigmas {
-        /// The file.
-        file: String,
-        /// The first line without one.
-        line: u64,
     },
     /// There is nothing in the file.
     #[error("{file}: no readings; allowed: a table with the columns pass,force_n[,sigma_n]")]

@@ -7,9 +7,10 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{SceneError, Wrong, WrongKind};
-use super::location::{Location, shortened};
+use super::location::Location;
 use super::syntax::{Fault, fault};
 use crate::presets::Preset;
+use crate::shown::shortened;
 
 /// Where something was written: which source, which bytes of it.
 #[derive(Debug, Clone, PartialEq, Eq)]

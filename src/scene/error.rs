@@ -5,8 +5,9 @@ use std::string::FromUtf8Error;
 
 use ground_field::GroundError;
 
-use super::location::{Location, shortened};
+use super::location::Location;
 use super::units::Dimension;
+use crate::shown::shortened;
 
 /// What is wrong with a scene. The message ends with the faulty line, marked.
 #[derive(Debug, thiserror::Error)]

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::ops::Range;
 
+use crate::shown::shortened;
+
 /// Longest piece of a line that is shown \[characters\].
 const LONGEST_EXCERPT: usize = 120;
 /// Longest name of a file, or text of an override, that is shown \[characters\].
@@ -105,14 +107,6 @@ impl fmt::Display for Location {
         // An override stands here as it was written.
         f.write_str(&shortened(&self.file, LONGEST_NAME))?;
         self.line.map_or(Ok(()), |line| write!(f, ", line {line}"))
-    }
-}
-
-/// The beginning of the text, and how long it is where that is not all.
-pub(super) fn shortened(text: &str, longest: usize) -> String {
-    match text.char_indices().nth(longest) {
-        None => text.to_owned(),
-        Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
     }
 }
 
