@@ -2,7 +2,6 @@
 
 use super::data::{Cable, Duct, End, Ends, Friction, FrictionLaw, Restraint};
 use super::error::SceneError;
-use super::keys;
 use super::range::{
     AXIAL_STIFFNESS, CLAMP, COEFFICIENT, DEPTH, DUCT_LENGTH, LATERAL_OFFSET, LOAD_FACTOR, POSITION,
     SHAPE_FACTOR, SPRING, WEIGHT, positions,
@@ -11,7 +10,7 @@ use super::table::Table;
 use super::value::Value;
 
 pub fn duct(root: &Table) -> Result<Duct, SceneError> {
-    let table = root.table("duct", keys::DUCT)?;
+    let table = root.table("duct")?;
     Ok(Duct {
         length: table.quantity("length", DUCT_LENGTH)?,
         depth: table.quantity("depth", DEPTH)?,
@@ -22,12 +21,12 @@ pub fn duct(root: &Table) -> Result<Duct, SceneError> {
 }
 
 pub fn cable(root: &Table) -> Result<Cable, SceneError> {
-    let table = root.table("cable", keys::CABLE)?;
+    let table = root.table("cable")?;
     Ok(Cable {
         weight: table.quantity("weight", WEIGHT)?,
         axial_stiffness: table.quantity("axial_stiffness", AXIAL_STIFFNESS)?,
         normal_load_factor: table
-            .optional_number("normal_load_factor", LOAD_FACTOR)?
+            .optional_quantity("normal_load_factor", LOAD_FACTOR)?
             .unwrap_or(1.0),
     })
 }
@@ -36,10 +35,10 @@ pub fn friction(root: &Table) -> Result<Friction, SceneError> {
     const COULOMB: &str = "coulomb";
     const ELASTIC_PLASTIC: &str = "elastic-plastic";
     const SIGMOID: &str = "sigmoid";
-    let table = root.table("friction", keys::FRICTION)?;
+    let table = root.table("friction")?;
     let words = [COULOMB, ELASTIC_PLASTIC, SIGMOID].map(|word| (word, word));
     let law = table.word("law", &words, ELASTIC_PLASTIC)?;
-    let dynamic_coefficient = table.number("dynamic_coefficient", COEFFICIENT)?;
+    let dynamic_coefficient = table.quantity("dynamic_coefficient", COEFFICIENT)?;
     let law = if law == COULOMB {
         let allowed = "no `shape_factor` with the law \"coulomb\"";
         table.refuse("shape_factor", "law", allowed)?;
@@ -59,7 +58,7 @@ pub fn friction(root: &Table) -> Result<Friction, SceneError> {
 }
 
 pub fn ends(root: &Table) -> Result<Ends, SceneError> {
-    let table = root.table("ends", keys::ENDS)?;
+    let table = root.table("ends")?;
     Ok(Ends {
         upstream: end(&table, "upstream")?,
         downstream: end(&table, "downstream")?,
@@ -70,7 +69,7 @@ fn end(table: &Table, key: &str) -> Result<End, SceneError> {
     const ALLOWED: &str = "\"free\", \"fixed\" or { spring = \"3 MN/m\" }";
     let value = table.required(key, ALLOWED)?;
     if value.is_table() {
-        let table = Table::new(value, keys::SPRING)?;
+        let table = Table::new(value)?;
         table.quantity("spring", SPRING).map(End::Spring)
     } else {
         value.word_of(&[("free", End::Free), ("fixed", End::Fixed)], ALLOWED)
@@ -86,7 +85,7 @@ pub fn restraints(root: &Table, duct: &Duct) -> Result<Vec<Restraint>, SceneErro
 }
 
 fn restraint(item: Value, duct: &Duct) -> Result<Restraint, SceneError> {
-    let table = Table::new(item, keys::RESTRAINT)?;
+    let table = Table::new(item)?;
     let position = table.required("position", &POSITION.allowed())?;
     Ok(Restraint {
         position: position.quantity_within(POSITION, positions(duct.length))?,

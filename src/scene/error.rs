@@ -6,7 +6,7 @@ use std::string::FromUtf8Error;
 use ground_field::GroundError;
 
 use super::location::Location;
-use super::units::Dimension;
+use super::quantity::QuantityError;
 use crate::shown::shortened;
 
 /// What is wrong with a scene. The message ends with the faulty line, marked.
@@ -77,19 +77,10 @@ pub enum WrongKind {
     MissingKey,
     /// An override is not `KEY=VALUE`, or there is nothing at its key.
     Override,
-    /// The value is of the wrong type, such as a text in place of a list.
-    WrongType,
-    /// A number in quotes has no unit.
-    MissingUnit,
-    /// The unit is not known.
-    UnknownUnit {
-        /// The unit as written.
-        unit: String,
-        /// The nearest unit that is allowed.
-        suggestion: Option<&'static str>,
-    },
-    /// The unit is one of another dimension.
-    WrongDimension(Dimension),
+    /// The value is of the wrong type, such as a text in place of a list, or contradicts another one.
+    Value,
+    /// The unit is missing, not known, or one of another dimension.
+    Quantity(QuantityError),
     /// The value is outside its range, or not a finite number.
     OutOfRange,
     /// The word is not one of the allowed ones.
@@ -97,8 +88,6 @@ pub enum WrongKind {
         /// The nearest of them.
         suggestion: Option<String>,
     },
-    /// The value contradicts another one.
-    Inconsistent,
     /// The ground or a vehicle cannot be built from these values.
     Rejected(GroundError),
 }
@@ -118,14 +107,13 @@ impl fmt::Display for Wrong {
             WrongKind::Rejected(error) => write!(f, "`{key}`: {error}")?,
             kind => {
                 let (before, after) = match kind {
-                    WrongKind::MissingUnit => ("missing unit: ".into(), String::new()),
-                    WrongKind::UnknownUnit { unit, suggestion } => (
-                        format!("unknown unit `{}`: ", cut(unit)),
-                        did_you_mean(*suggestion),
-                    ),
-                    WrongKind::WrongDimension(dimension) => {
+                    WrongKind::Quantity(QuantityError::UnknownUnit { unit, nearest }) => {
+                        (format!("unknown unit `{}`: ", cut(unit)), did_you_mean(*nearest))
+                    }
+                    WrongKind::Quantity(QuantityError::WrongDimension { dimension, .. }) => {
                         ("wrong dimension: ".into(), format!(", {}", dimension.noun()))
                     }
+                    WrongKind::Quantity(_) => ("missing unit: ".into(), String::new()),
                     WrongKind::OutOfRange => ("out of range: ".into(), String::new()),
                     WrongKind::UnknownWord { suggestion } => {
                         (String::new(), did_you_mean(suggestion.as_deref()))

@@ -4,7 +4,6 @@ use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
 use super::data::{Order, PeakScaling, Traffic, TrafficVehicle};
 use super::error::SceneError;
-use super::keys;
 use super::range::{CONTACT_RADIUS, LOAD, PASSES, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y, allowed_whole};
 use super::table::Table;
 use super::value::Value;
@@ -21,7 +20,7 @@ pub fn traffic(
     let items = root.required("vehicles", allowed)?.some_items(allowed)?;
     let mut vehicles: Vec<TrafficVehicle> = Vec::with_capacity(items.len());
     for (index, item) in items.into_iter().enumerate() {
-        let table = Table::new(item, keys::VEHICLE)?;
+        let table = Table::new(item)?;
         let name = name(&table, index, &vehicles)?;
         let vehicle = vehicle(&table, name)?;
         if vehicle.weight() == 0.0
@@ -35,10 +34,10 @@ pub fn traffic(
                 |load| load.inconsistent(found, &allowed),
             ));
         }
-        let share = table.optional_number("share", SHARE)?.unwrap_or(1.0);
+        let share = table.optional_quantity("share", SHARE)?.unwrap_or(1.0);
         vehicles.push(TrafficVehicle { vehicle, share });
     }
-    let table = root.table("traffic", keys::TRAFFIC)?;
+    let table = root.table("traffic")?;
     let passes = table
         .required("passes", &allowed_whole(&PASSES))?
         .integer(PASSES)?;
@@ -110,7 +109,7 @@ fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {
 }
 
 fn wheel(item: Value) -> Result<Wheel, SceneError> {
-    let table = Table::new(item, keys::WHEEL)?;
+    let table = Table::new(item)?;
     let or_zero = |key, quantity| {
         table
             .optional_quantity(key, quantity)

@@ -36,6 +36,7 @@ mod numbers;
 mod parquet;
 mod row;
 mod run;
+mod sink;
 mod table;
 
 pub use axis::{Axis, AxisValues};

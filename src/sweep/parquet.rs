@@ -10,7 +10,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
 
-use super::table::{Cell, Column, Kind, Sink};
+use super::sink::{Cell, Column, Kind, Sink};
 use crate::output::Draft;
 
 /// Rows that are kept in memory before they are written.

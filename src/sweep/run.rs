@@ -16,7 +16,8 @@ use super::grid::Sweep;
 use super::journal::Journal;
 use super::numbers::si;
 use super::row::{Answer, PointError, Row};
-use super::table::{Cell, Column, Format, Kind};
+use super::sink::{Cell, Column, Kind};
+use super::table::Format;
 use crate::output::{Files, Output};
 use crate::{Error, Progress, Run, Scene, finite};
 

@@ -5,35 +5,8 @@ use std::path::Path;
 
 use super::error::SweepError;
 use super::numbers::si;
+use super::sink::{Cell, Column, Sink};
 use crate::output::{self, Draft};
-
-/// A column and what it holds.
-pub struct Column {
-    pub name: String,
-    pub kind: Kind,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kind {
-    Number,
-    Count,
-    Text,
-}
-
-/// One value of a row, in a column of its kind.
-pub enum Cell {
-    Absent,
-    Number(f64),
-    Count(u64),
-    Text(String),
-}
-
-/// Takes the rows of a table one after the other.
-pub trait Sink {
-    fn row(&mut self, cells: Vec<Cell>) -> io::Result<()>;
-    /// Everything that was written, on its way to its place.
-    fn finish(self: Box<Self>) -> io::Result<Draft>;
-}
 
 /// Kind of the table file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,0 +1,33 @@
+//! What takes the rows of a table.
+
+use std::io;
+
+use crate::output::Draft;
+
+/// A column and what it holds.
+pub struct Column {
+    pub name: String,
+    pub kind: Kind,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    Number,
+    Count,
+    Text,
+}
+
+/// One value of a row, in a column of its kind.
+pub enum Cell {
+    Absent,
+    Number(f64),
+    Count(u64),
+    Text(String),
+}
+
+/// Takes the rows of a table one after the other.
+pub trait Sink {
+    fn row(&mut self, cells: Vec<Cell>) -> io::Result<()>;
+    /// Everything that was written, on its way to its place.
+    fn finish(self: Box<Self>) -> io::Result<Draft>;
+}
