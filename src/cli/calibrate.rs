@@ -1,7 +1,6 @@
 //! `creepage calibrate`: parameters from readings.
 
 use std::io::Write;
-
 use std::path::PathBuf;
 
 use super::failure::Failure;
@@ -16,7 +15,6 @@ use crate::readings::Readings;
 use crate::scene::{Dimension, FrictionLaw};
 use crate::shown::{ROWS, percent};
 
-/// Arguments of `creepage calibrate`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage calibrate my-duct.toml --data forces.csv
@@ -175,15 +173,12 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         "residuals: {:.2} N rms{explained}, {:.1} degrees of freedom",
         answer.residual_rms_n, answer.degrees_of_freedom
     )?;
+    let shifts = answer.model_error.standard_errors.iter();
     writeln!(
         out,
         "error of the mesh: {} of the force, at most {:.2} standard errors of a parameter",
         percent(answer.model_error.relative),
-        answer
-            .model_error
-            .standard_errors
-            .iter()
-            .fold(0.0_f64, |most, &error| most.max(error))
+        shifts.fold(0.0_f64, |most, &error| most.max(error))
     )?;
     writeln!(
         out,

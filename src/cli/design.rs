@@ -10,7 +10,6 @@ use crate::design::{Design, DesignError, DesignOptions, Limits, Place, TradeOff,
 use crate::scene::Dimension;
 use crate::shown::percent;
 
-/// Arguments of `creepage design`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "The answer is found by runs of the scene; the force is the largest on either end, during and after the passes, the movement \
@@ -26,10 +25,10 @@ pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
     /// Largest force allowed on either end
-    #[arg(long, value_name = "FORCE", value_parser = force)]
+    #[arg(long, value_name = "FORCE", value_parser = |text: &str| Dimension::Force.parse_argument(text))]
     limit_force: f64,
     /// Largest movement allowed of either end
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| Dimension::Length.parse_argument(text))]
     limit_movement: Option<f64>,
     /// Where the spring is: upstream, downstream (at these ends), or a position for a clamp
     #[arg(long, value_name = "PLACE", default_value = "downstream", value_parser = place)]
@@ -44,23 +43,12 @@ pub struct Arguments {
     json: Json,
 }
 
-fn force(text: &str) -> Result<f64, String> {
-    Dimension::Force
-        .parse_argument(text)
-        .map_err(|error| error.to_string())
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    Dimension::Length
-        .parse_argument(text)
-        .map_err(|error| error.to_string())
-}
-
 fn place(text: &str) -> Result<Place, String> {
     match text {
         "upstream" => Ok(Place::Upstream),
         "downstream" => Ok(Place::Downstream),
-        _ => length(text)
+        _ => Dimension::Length
+            .parse_argument(text)
             .map(Place::Clamp)
             .map_err(|_| "allowed: upstream, downstream or a position such as \"20 m\"".to_owned()),
     }

@@ -33,8 +33,6 @@ pub enum Failure {
     File(#[from] OutputError),
     #[error("standard output: cannot be written")]
     Output(#[from] io::Error),
-    #[error("standard output: cannot be written")]
-    Json(#[from] serde_json::Error),
 }
 
 impl From<crate::SceneError> for Failure {

@@ -10,7 +10,6 @@ use crate::Scene;
 use crate::output::{Kind, OutputError};
 use crate::template::{Template, TemplateGround};
 
-/// Arguments of `creepage new`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "At a terminal, missing values are asked for interactively; otherwise defaults are used.

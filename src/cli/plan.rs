@@ -9,7 +9,6 @@ use crate::occurrence::Occurrence;
 use crate::shown::{percent, time};
 use crate::{Part, PlanReport};
 
-/// Arguments of `creepage plan`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage plan my-duct.toml

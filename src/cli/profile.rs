@@ -10,7 +10,6 @@ use super::terminal;
 use crate::Profile;
 use crate::output::Kind;
 
-/// Arguments of `creepage profile`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage profile my-duct.toml

@@ -11,7 +11,6 @@ use crate::output::Kind;
 use crate::shown::{percent, rounded};
 use crate::{Run, RunOptions};
 
-/// Arguments of `creepage run`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage run my-duct.toml

@@ -27,39 +27,35 @@ const SECTIONS: [Section; 7] = [
 impl Report {
     /// The page.
     pub fn to_html(&self) -> String {
-        page(self)
+        let mut html = Html::default();
+        html.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>");
+        html.raw("<meta charset=\"utf-8\"/>");
+        html.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>");
+        // Nothing is ever loaded, whatever a text on the page may say.
+        html.raw("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\"/>");
+        html.raw("<meta name=\"color-scheme\" content=\"light dark\"/>");
+        // This identifies our own pages.
+        let version = env!("CARGO_PKG_VERSION");
+        html.raw(&format!(
+            "<meta name=\"generator\" content=\"creepage {version}\"/>"
+        ));
+        let title = escaped(&self.scene.title);
+        html.raw(&format!("<title>{title}: cable creepage</title>"));
+        html.raw(&format!(
+            "<style>\n{STYLE}@media screen and (prefers-color-scheme: dark) {{\n{}}}\n</style>",
+            dark_style()
+        ));
+        html.raw("</head>\n<body>\n<main>");
+        headline(&mut html, self);
+        for (title, write) in SECTIONS {
+            html.raw("<section>");
+            html.element("h2", title);
+            write(&mut html, self);
+            html.raw("</section>");
+        }
+        html.raw("</main>\n</body>\n</html>");
+        html.finish()
     }
-}
-
-fn page(report: &Report) -> String {
-    let mut html = Html::default();
-    html.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>");
-    html.raw("<meta charset=\"utf-8\"/>");
-    html.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>");
-    // Nothing is ever loaded, whatever a text on the page may say.
-    html.raw("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\"/>");
-    html.raw("<meta name=\"color-scheme\" content=\"light dark\"/>");
-    // This identifies our own pages.
-    let version = env!("CARGO_PKG_VERSION");
-    html.raw(&format!(
-        "<meta name=\"generator\" content=\"creepage {version}\"/>"
-    ));
-    let title = escaped(&report.scene.title);
-    html.raw(&format!("<title>{title}: cable creepage</title>"));
-    html.raw(&format!(
-        "<style>\n{STYLE}@media screen and (prefers-color-scheme: dark) {{\n{}}}\n</style>",
-        dark_style()
-    ));
-    html.raw("</head>\n<body>\n<main>");
-    headline(&mut html, report);
-    for (title, write) in SECTIONS {
-        html.raw("<section>");
-        html.element("h2", title);
-        write(&mut html, report);
-        html.raw("</section>");
-    }
-    html.raw("</main>\n</body>\n</html>");
-    html.finish()
 }
 
 fn warnings(html: &mut Html, report: &Report) {
@@ -71,11 +67,11 @@ fn warnings(html: &mut Html, report: &Report) {
 
 fn scene(html: &mut Html, report: &Report) {
     html.list(&words::scene(&report.scene));
-    html.table(&words::ground(&report.scene));
+    words::ground(html, &report.scene);
     if let Some(scaling) = words::scaling(&report.scene) {
         html.paragraph(&scaling);
     }
-    html.table(&words::vehicles(&report.scene));
+    words::vehicles(html, &report.scene);
 }
 
 fn limits(html: &mut Html, _: &Report) {
