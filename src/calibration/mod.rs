@@ -33,7 +33,7 @@ pub use options::{CalibrateOptions, Deflection, Series};
 pub use result::{
     BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
 };
-pub use unknown::{Quantity, Unknown, UnknownQuantity};
+pub use unknown::{Quantity, Unknown};
 
 use crate::readings::Readings;
 use crate::{Error, Scene};

@@ -27,7 +27,7 @@ pub struct Arguments {
     data: PathBuf,
     /// What to fit: dynamic_coefficient, shape_factor, ground_stiffness (how many times stiffer than in the scene). Default:
     /// dynamic_coefficient,shape_factor (only the first with Coulomb's law)
-    #[arg(long, value_delimiter = ',', value_name = "NAMES")]
+    #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = |text: &str| text.trim().parse::<Quantity>())]
     fit: Vec<Quantity>,
     /// Measured deflection under the first vehicle, "115 um"; also fits ground_stiffness
     #[arg(long, value_name = "LENGTH", requires = "deflection_sigma", value_parser = positive_length)]

@@ -15,17 +15,13 @@ pub enum OutputError {
         /// Why.
         source: io::Error,
     },
-    /// The command reads this file.
-    #[error("{file}: found a file which is read by this command; allowed: another file")]
-    IsRead {
+    /// The command reads this file, or writes it already.
+    #[error("{file}: found a file which {how}; allowed: another file")]
+    Taken {
         /// The file.
         file: String,
-    },
-    /// The command writes this file already.
-    #[error("{file}: found a file which this command writes twice; allowed: another file")]
-    IsWritten {
-        /// The file.
-        file: String,
+        /// What the command does with it.
+        how: &'static str,
     },
     /// There is something that this command did not write.
     #[error(

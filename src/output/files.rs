@@ -33,12 +33,14 @@ impl Files {
             _ => Identity::of(path),
         };
         if let Some(identity) = identity {
-            let file = || path.display().to_string();
-            if self.read.iter().any(|read| read.is(&identity)) {
-                return Err(OutputError::IsRead { file: file() });
+            let (known, file) = (|other: &Identity| other.is(&identity), path.display().to_string());
+            if self.read.iter().any(known) {
+                let how = "is read by this command";
+                return Err(OutputError::Taken { file, how });
             }
-            if self.written.iter().any(|written| written.is(&identity)) {
-                return Err(OutputError::IsWritten { file: file() });
+            if self.written.iter().any(known) {
+                let how = "this command writes twice";
+                return Err(OutputError::Taken { file, how });
             }
             self.written.push(identity);
         }

@@ -80,4 +80,6 @@ pub use slips::UnitSlip;
 pub use units::Dimension;
 pub(crate) use unusual::unusual;
 pub use words::UnknownWord;
+#[cfg(feature = "calibrate")]
+pub(crate) use words::words;
 pub(crate) use write::quoted;

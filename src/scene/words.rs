@@ -1,4 +1,4 @@
-//! Values that stand as words in a scene file.
+//! Values that stand as words in a scene file or on the command line.
 
 /// A text that is not one of the allowed words.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -15,7 +15,7 @@ pub struct UnknownWord {
 macro_rules! words {
     ($type:ident: $($variant:ident $word:literal),+) => {
         impl $type {
-            /// Every value with its word in scene files.
+            /// Every value with its word.
             pub const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$variant)),+];
         }
 
@@ -41,4 +41,4 @@ macro_rules! words {
     };
 }
 
-pub(super) use words;
+pub(crate) use words;

@@ -10,7 +10,7 @@ use std::thread;
 use serde::{Deserialize, Serialize};
 
 use super::axis::AxisValues;
-use super::bands::{Band, Gatherer};
+use super::bands::Band;
 use super::error::SweepError;
 use super::grid::Sweep;
 use super::journal::Journal;
@@ -192,7 +192,7 @@ impl Sweep {
             first_error: None,
             bands: Vec::new(),
         };
-        let mut gatherer = Gatherer::default();
+        let mut samples = Vec::new();
         let failed = |source| SweepError::File {
             file: output.path().display().to_string(),
             source,
@@ -209,9 +209,10 @@ impl Sweep {
             }
             let values = self.values(row.index);
             if self.samples.count > 0 {
-                gatherer.add(row);
-                if (row.index + 1).is_multiple_of(self.samples.count) {
-                    summary.bands.push(gatherer.band(self.listed(&values)));
+                samples.push(row);
+                if samples.len() == self.samples.count {
+                    summary.bands.push(Band::of(self.listed(&values), &samples));
+                    samples.clear();
                 }
             }
             table.row(self.cells(values, &columns, row)).map_err(failed)?;
