@@ -11,7 +11,6 @@ use super::result::{
 use super::unknown::Unknown;
 use crate::Error;
 
-/// The answer that a fit gives to a problem.
 pub fn answer(problem: &Problem<'_>, found: &Final) -> Result<Calibrated, Error> {
     let fit = &found.fit;
     let model_error = model_error(found);

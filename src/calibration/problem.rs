@@ -19,7 +19,6 @@ const RIPPLE: [f64; 3] = [3e-4, 1e-4, 3e-5];
 /// The same of the pass law, whose steps adapt.
 const LAW_RIPPLE: f64 = 1e-4;
 
-/// Scenes, readings and unknowns.
 pub struct Problem<'a> {
     pub series: &'a [Series<'a>],
     pub models: &'a [SeriesModel],
@@ -28,7 +27,6 @@ pub struct Problem<'a> {
     pub watch: &'a Watch<'a>,
 }
 
-/// How well to fit.
 pub struct Effort {
     pub profiles: Profiles,
     /// Distance to the minimum, in standard errors, at which the fit is good enough.

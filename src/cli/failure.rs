@@ -7,7 +7,6 @@ use std::process::ExitCode;
 use super::terminal;
 use crate::output::OutputError;
 
-/// Something that keeps a command from finishing.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     #[error(transparent)]

@@ -32,7 +32,6 @@ fn finite(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A row of the table.
 #[derive(Serialize)]
 struct Row {
     position_m: f64,

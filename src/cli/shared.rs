@@ -114,7 +114,6 @@ impl Json {
     }
 }
 
-/// Where an answer and its table go.
 pub struct Destination {
     json: Json,
     table: Table,

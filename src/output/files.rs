@@ -87,7 +87,6 @@ impl Identity {
         })
     }
 
-    /// Whether both are one file.
     fn is(&self, other: &Self) -> bool {
         #[cfg(unix)]
         if self.number.is_some() && self.number == other.number {

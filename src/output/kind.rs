@@ -1,6 +1,5 @@
 //! What a file is, by how it begins.
 
-/// What this program writes to a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     not(all(feature = "cli", feature = "plot")),

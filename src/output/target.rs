@@ -12,7 +12,6 @@ use super::temporary::Temporary;
 /// Bytes at the beginning of a file that show its kind.
 const HEAD: u64 = 1 << 16;
 
-/// A file that is going to be written.
 #[derive(Debug, Clone)]
 pub struct Output {
     /// As the user calls it.
@@ -71,7 +70,6 @@ impl Output {
         matches!(self.place, Place::StandardOutput)
     }
 
-    /// Begins to write.
     pub fn begin(&self) -> Result<Draft, OutputError> {
         let begin = || -> io::Result<(Box<dyn Write + Send>, Option<Temporary>)> {
             Ok(match &self.place {
@@ -100,7 +98,6 @@ impl Output {
         draft.finish()
     }
 
-    /// The error of writing.
     pub fn failed(&self, source: io::Error) -> OutputError {
         match self.place {
             Place::StandardOutput => OutputError::StandardOutput(source),

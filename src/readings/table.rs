@@ -69,7 +69,6 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<(Vec<Reading>, usize), DataError
     Ok((readings, skipped))
 }
 
-/// Where the columns stand.
 #[derive(Debug, Clone, Copy)]
 struct Columns {
     pass: usize,

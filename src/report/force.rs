@@ -86,7 +86,6 @@ fn over_passes(report: &Report) -> Chart {
     chart.with(Series::points("measured", points).look(1).marker(0))
 }
 
-/// Force along the cable after some passes.
 fn along(report: &Report) -> Chart {
     let axes = (Axis::linear("place along the duct, m"), Axis::linear("force, N"));
     let chart = Chart::new("Force along the cable", axes.0, axes.1);
@@ -103,7 +102,6 @@ fn along(report: &Report) -> Chart {
     })
 }
 
-/// Movement of both ends against passes.
 fn movement(report: &Report) -> Chart {
     let passes = &report.run.passes;
     let last = passes.last().map_or(1, |record| record.pass);

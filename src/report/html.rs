@@ -11,12 +11,10 @@ impl Html {
         self.0.push('\n');
     }
 
-    /// `<tag>text</tag>`.
     pub fn element(&mut self, tag: &str, text: &str) {
         self.raw(&format!("<{tag}>{}</{tag}>", escaped(text)));
     }
 
-    /// A paragraph.
     pub fn paragraph(&mut self, text: &str) {
         self.element("p", text);
     }
@@ -62,7 +60,6 @@ impl Html {
         self.raw("</div>");
     }
 
-    /// A drawing with words below it.
     pub fn figure(&mut self, svg: &str, caption: &str) {
         self.raw("<figure>");
         self.raw(svg);
@@ -70,7 +67,6 @@ impl Html {
         self.raw("</figure>");
     }
 
-    /// What was made.
     pub fn finish(self) -> String {
         self.0
     }

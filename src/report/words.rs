@@ -65,7 +65,6 @@ fn friction(scene: &Scene) -> String {
     )
 }
 
-/// What holds an end.
 fn end(end: End) -> String {
     match end {
         End::Free => "free".into(),

@@ -20,7 +20,6 @@ pub struct Place {
     pub span: Range<usize>,
 }
 
-/// A value and its place.
 #[derive(Clone)]
 pub struct Node {
     pub place: Place,
@@ -83,7 +82,6 @@ struct Source {
     rank: Rank,
 }
 
-/// A scene file with its overrides.
 #[derive(Debug, Clone)]
 pub struct Document {
     sources: Vec<Source>,

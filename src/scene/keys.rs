@@ -44,7 +44,6 @@ pub fn of(path: &str) -> &'static str {
     found.map_or("", |(_, keys)| keys)
 }
 
-/// Whether `key` is one of `keys`.
 pub fn holds(keys: &str, key: &str) -> bool {
     keys.split(", ").any(|known| known == key)
 }

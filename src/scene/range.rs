@@ -133,7 +133,6 @@ pub fn positions(length: f64) -> Follows {
 }
 
 impl Range {
-    /// Whether a number lies within.
     pub fn contains(self, value: f64) -> bool {
         (self.least..=self.most).contains(&value)
     }

@@ -8,7 +8,6 @@ use toml::de::{DeTable, DeValue};
 use super::location::line_start;
 use super::openings::openings;
 
-/// What is wrong, and where.
 pub struct Fault {
     pub span: Range<usize>,
     pub message: String,

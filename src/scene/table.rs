@@ -13,7 +13,6 @@ use super::keys::{self, joined};
 use super::range::Quantity;
 use super::value::Value;
 
-/// A table of the document.
 pub struct Table<'d> {
     value: Value<'d>,
     entries: &'d [Entry],
@@ -52,13 +51,11 @@ impl<'d> Table<'d> {
         })
     }
 
-    /// The required table at `key`.
     pub fn table(&self, key: &str) -> Result<Table<'d>, SceneError> {
         let allowed = format!("a section [{key}] with the keys {}", keys::of(key));
         Table::new(self.required(key, &allowed)?)
     }
 
-    /// The required quantity at `key`.
     pub fn quantity(&self, key: &str, quantity: Quantity) -> Result<f64, SceneError> {
         self.required(key, &quantity.allowed())?.quantity(quantity)
     }

@@ -11,7 +11,6 @@ use super::range::{Follows, Quantity, allowed_whole};
 use super::syntax::with_point;
 use super::units::Dimension;
 
-/// A value of the document.
 #[derive(Clone)]
 pub struct Value<'d> {
     pub document: &'d Document,
@@ -21,7 +20,6 @@ pub struct Value<'d> {
 }
 
 impl<'d> Value<'d> {
-    /// The whole document.
     pub fn root(document: &'d Document) -> Self {
         Self {
             document,
@@ -43,7 +41,6 @@ impl<'d> Value<'d> {
         matches!(self.node.content, Content::Table(_))
     }
 
-    /// The items of a list.
     pub fn items(&self, allowed: &str) -> Result<Vec<Value<'d>>, SceneError> {
         let Content::Array(items) = &self.node.content else {
             return Err(self.wrong_type(allowed));

@@ -19,7 +19,6 @@ const FORCED_EVERY: Duration = Duration::from_secs(1);
 /// No header is longer than this \[bytes\].
 const LONGEST_HEADER: u64 = 256;
 
-/// The journal of a sweep.
 pub struct Journal {
     path: PathBuf,
     file: File,
@@ -109,12 +108,10 @@ impl Journal {
         self.file.set_len(end).map_err(failed)
     }
 
-    /// How many points are done.
     pub fn done(&self) -> usize {
         self.done
     }
 
-    /// Which points are done.
     pub fn finished(&self) -> Vec<bool> {
         self.rows.iter().map(Option::is_some).collect()
     }

@@ -16,7 +16,6 @@ use crate::output::Draft;
 /// Rows that are kept in memory before they are written.
 const GROUP: usize = 8192;
 
-/// Writes a Parquet file.
 pub struct Parquet {
     writer: SerializedFileWriter<Draft>,
     kinds: Vec<Kind>,

@@ -25,7 +25,6 @@ pub enum Cell {
     Text(String),
 }
 
-/// Takes the rows of a table one after the other.
 pub trait Sink {
     fn row(&mut self, cells: Vec<Cell>) -> io::Result<()>;
     /// Everything that was written, on its way to its place.

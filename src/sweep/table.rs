@@ -46,7 +46,6 @@ impl Format {
         }
     }
 
-    /// Begins a table.
     pub fn sink(self, file: Draft, columns: &[Column]) -> io::Result<Box<dyn Sink>> {
         Ok(match self {
             Self::Csv => {

@@ -57,7 +57,6 @@ impl Rect {
     }
 }
 
-/// How a line is drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct Stroke {
     pub colour: Colour,
@@ -83,7 +82,6 @@ impl Stroke {
     }
 }
 
-/// An SVG in the making.
 #[derive(Debug)]
 pub struct Canvas(String);
 
@@ -99,12 +97,10 @@ impl Canvas {
         ))
     }
 
-    /// The whole SVG.
     pub fn finish(self) -> String {
         self.0 + "</svg>\n"
     }
 
-    /// A line through points.
     pub fn line(&mut self, points: &[Point], stroke: Stroke) {
         let style = format!("fill=\"none\" {}", stroke.attributes());
         self.shape("polyline", points, &style);
@@ -116,13 +112,11 @@ impl Canvas {
         self.shape("polygon", points, &style);
     }
 
-    /// A filled polygon with an outline.
     pub fn outlined(&mut self, points: &[Point], colour: Colour, stroke: Stroke) {
         let style = format!("fill=\"#{colour:06X}\" {}", stroke.attributes());
         self.shape("polygon", points, &style);
     }
 
-    /// A filled rectangle.
     pub fn rectangle(&mut self, rect: Rect, colour: Colour, opacity: f64) {
         self.area(&rect.corners(), colour, opacity);
     }

@@ -34,7 +34,6 @@ fn place(frame: &Frame, reference: &Reference) -> Option<Rect> {
     (inside.left <= inside.right && inside.top <= inside.bottom).then_some(inside)
 }
 
-/// Draws the line or band.
 pub fn draw(canvas: &mut Canvas, frame: &Frame, reference: &Reference) {
     let Some(rect) = place(frame, reference) else {
         return;
