@@ -77,11 +77,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let sweep = Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?;
     warn_of_slips(&sweep.file_at(0)?);
-    let options = SweepOptions {
-        threads: arguments.threads.map(usize::from),
-        force: arguments.force.force,
-        ..SweepOptions::default()
-    };
     let mut files = arguments.force.files([&*arguments.scene.scene]);
     files.output(&arguments.out, crate::sweep::kind_of(&arguments.out)?)?;
     #[cfg(feature = "plot")]
@@ -93,14 +88,17 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         None => None,
     };
     #[cfg(feature = "plot")]
-    let each = map.as_ref().map(|(_, map)| |row: &Row| map.add(row));
-    #[cfg(feature = "plot")]
-    let options = SweepOptions {
-        each: each.as_ref().map(|each| each as &dyn Fn(&Row)),
-        ..options
-    };
+    let add = |row: &Row| map.iter().for_each(|(_, map)| map.add(row));
     let summary = with_bar(POINTS, sweep.count(), |progress| {
-        sweep.run(&arguments.out, &SweepOptions { progress, ..options })
+        let options = SweepOptions {
+            threads: arguments.threads.map(usize::from),
+            force: arguments.force.force,
+            progress,
+            #[cfg(feature = "plot")]
+            each: Some(&add),
+            ..SweepOptions::default()
+        };
+        sweep.run(&arguments.out, &options)
     })?;
     if let Some(error) = &summary.first_error {
         let SweepSummary { failed, points, .. } = summary;

@@ -35,12 +35,10 @@ impl Files {
         if let Some(identity) = identity {
             let (known, file) = (|other: &Identity| other.is(&identity), path.display().to_string());
             if self.read.iter().any(known) {
-                let how = "is read by this command";
-                return Err(OutputError::Taken { file, how });
+                return Err(OutputError::Taken(file, "is read by this command"));
             }
             if self.written.iter().any(known) {
-                let how = "this command writes twice";
-                return Err(OutputError::Taken { file, how });
+                return Err(OutputError::Taken(file, "this command writes twice"));
             }
             self.written.push(identity);
         }

@@ -101,10 +101,7 @@ impl Output {
     pub fn failed(&self, source: io::Error) -> OutputError {
         match self.place {
             Place::StandardOutput => OutputError::StandardOutput(source),
-            _ => OutputError::Failed {
-                file: self.name.display().to_string(),
-                source,
-            },
+            _ => OutputError::Failed(self.name.display().to_string(), source),
         }
     }
 }

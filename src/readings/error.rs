@@ -4,14 +4,9 @@
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DataError {
-    /// The file cannot be read.
-    #[error("{file}: cannot be read")]
-    Unreadable {
-        /// The file.
-        file: String,
-        /// Why.
-        source: std::io::Error,
-    },
+    /// The file of this name cannot be read, and why.
+    #[error("{0}: cannot be read")]
+    Unreadable(String, #[source] std::io::Error),
     /// The file is far larger than any readings.
     #[error("{file}: found more than {allowed} bytes; allowed: a table of at most {allowed} bytes")]
     TooLarge {
@@ -42,12 +37,9 @@ pub enum DataError {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// There is nothing in the file.
-    #[error("{file}: no readings; allowed: a table with the columns pass,force_n[,sigma_n]")]
-    Empty {
-        /// The file.
-        file: String,
-    },
+    /// There is nothing in the file of this name.
+    #[error("{0}: no readings; allowed: a table with the columns pass,force_n[,sigma_n]")]
+    Empty(String),
     /// Fewer readings than parameters.
     #[error(
         "{file}: {readings} readings, the last on line {line}; needed for {parameters} parameters: {needed}"

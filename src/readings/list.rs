@@ -40,7 +40,7 @@ impl Readings {
         // One byte more tells a file that is too large, without all of it.
         match File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes)) {
             Ok(_) => Self::from_csv(&file, &bytes),
-            Err(source) => Err(DataError::Unreadable { file, source }),
+            Err(source) => Err(DataError::Unreadable(file, source)),
         }
     }
 
@@ -59,7 +59,7 @@ impl Readings {
         let (list, skipped) = table::read(file, bytes)?;
         let file = file.to_owned();
         if list.is_empty() {
-            return Err(DataError::Empty { file });
+            return Err(DataError::Empty(file));
         }
         let bare = list.iter().find(|reading| reading.sigma.is_none());
         match bare.filter(|_| list.iter().any(|reading| reading.sigma.is_some())) {

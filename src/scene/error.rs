@@ -13,28 +13,15 @@ use crate::shown::shortened;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// The file cannot be read.
-    #[error("{file}: cannot be read")]
-    Unreadable {
-        /// The file.
-        file: String,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// The file is far larger than any scene.
-    #[error("{file}: found more than {allowed} bytes; allowed: a scene file of at most {allowed} bytes")]
-    TooLarge {
-        /// The file.
-        file: String,
-        /// Largest size allowed \[bytes\].
-        allowed: u64,
-    },
-    /// The file is not UTF-8 text.
-    #[error("{location}: found text that is not UTF-8; allowed: UTF-8, with or without byte order mark{}", .location.excerpt())]
-    NotUtf8 {
-        /// Where.
-        location: Location,
-    },
+    /// The file of this name cannot be read, and why.
+    #[error("{0}: cannot be read")]
+    Unreadable(String, #[source] std::io::Error),
+    /// The file of this name is far larger than any scene; the largest size allowed \[bytes\].
+    #[error("{0}: found more than {1} bytes; allowed: a scene file of at most {1} bytes")]
+    TooLarge(String, u64),
+    /// The file is not UTF-8 text here.
+    #[error("{0}: found text that is not UTF-8; allowed: UTF-8, with or without byte order mark{excerpt}", excerpt = .0.excerpt())]
+    NotUtf8(Location),
     /// The file is not TOML.
     #[error("{location}: not valid TOML: {}{}", bounded(.message), .location.excerpt())]
     Syntax {
@@ -153,9 +140,7 @@ impl SceneError {
     pub(super) fn not_utf8(file: &str, error: &FromUtf8Error) -> Self {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(error.as_bytes());
-        Self::NotUtf8 {
-            location: Location::new(file, &text, valid..valid, true),
-        }
+        Self::NotUtf8(Location::new(file, &text, valid..valid, true))
     }
 
     /// The error for a value of a scene that a program made or changed.
@@ -184,8 +169,8 @@ impl SceneError {
     /// Where the scene is wrong; `None` if its file cannot be read at all, or the scene is not that of a file.
     pub fn location(&self) -> Option<&Location> {
         match self {
-            Self::Unreadable { .. } | Self::TooLarge { .. } => None,
-            Self::NotUtf8 { location } | Self::Syntax { location, .. } => Some(location),
+            Self::Unreadable(..) | Self::TooLarge(..) => None,
+            Self::NotUtf8(location) | Self::Syntax { location, .. } => Some(location),
             Self::Wrong(wrong) => wrong.location.as_ref(),
         }
     }

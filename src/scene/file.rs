@@ -46,19 +46,14 @@ impl SceneFile {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let file = path.display().to_string();
-        let unreadable = |source| SceneError::Unreadable {
-            file: file.clone(),
-            source,
-        };
         let mut bytes = Vec::new();
-        File::open(path)
-            .and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
-            .map_err(unreadable)?;
-        if bytes.len() as u64 > LARGEST_FILE {
-            return Err(SceneError::TooLarge {
-                file,
-                allowed: LARGEST_FILE,
-            });
+        let read = File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
+        match read {
+            Err(source) => return Err(SceneError::Unreadable(file, source)),
+            Ok(length) if length as u64 > LARGEST_FILE => {
+                return Err(SceneError::TooLarge(file, LARGEST_FILE));
+            }
+            Ok(_) => {}
         }
         let text = String::from_utf8(bytes).map_err(|e| SceneError::not_utf8(&file, &e))?;
         Self::from_toml(&file, &text)

@@ -75,7 +75,7 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
         .map(layer)
         .collect::<Result<Vec<_>, _>>()?;
     let Some(last) = layers.pop() else {
-        return Err(table.inconsistent("an empty list", allowed));
+        return Err(table.value.inconsistent("an empty list", allowed));
     };
     let mut upper = Vec::with_capacity(layers.len() + 1);
     for layer in &layers {

@@ -14,7 +14,7 @@ use super::range::Quantity;
 use super::value::Value;
 
 pub struct Table<'d> {
-    value: Value<'d>,
+    pub value: Value<'d>,
     entries: &'d [Entry],
 }
 
@@ -107,10 +107,5 @@ impl<'d> Table<'d> {
     /// The error for what `ground-field` does not accept.
     pub fn rejected(&self, error: GroundError) -> SceneError {
         self.value.wrong(WrongKind::Rejected(error), "", "")
-    }
-
-    /// The error for a table whose keys contradict each other or another one.
-    pub fn inconsistent(&self, found: impl Into<String>, allowed: impl Into<String>) -> SceneError {
-        self.value.inconsistent(found, allowed)
     }
 }

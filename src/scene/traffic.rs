@@ -30,7 +30,7 @@ pub fn traffic(
             let load = table.alternatives("load", "wheels")?.into_iter().flatten().next();
             let found = "a vehicle without load";
             return Err(load.map_or_else(
-                || table.inconsistent(found, &allowed),
+                || table.value.inconsistent(found, &allowed),
                 |load| load.inconsistent(found, &allowed),
             ));
         }
@@ -76,7 +76,9 @@ fn name(table: &Table, index: usize, others: &[TrafficVehicle]) -> Result<String
     }
     let name = format!("vehicle {}", index + 1);
     if taken(&name) {
-        return Err(table.inconsistent(format!("no name, where \"{name}\" is taken"), allowed));
+        return Err(table
+            .value
+            .inconsistent(format!("no name, where \"{name}\" is taken"), allowed));
     }
     Ok(name)
 }
@@ -97,7 +99,7 @@ fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {
             .map(wheel)
             .collect::<Result<_, _>>()?,
         [None, None] => {
-            return Err(table.inconsistent(
+            return Err(table.value.inconsistent(
                 "neither `load` nor `wheels`",
                 "one of the two: load = \"20 tf\" or wheels = [ { load = \"50 kN\" } ]",
             ));

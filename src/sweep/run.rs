@@ -108,10 +108,7 @@ impl Sweep {
     fn compute(&self, journal: &mut Journal, options: &SweepOptions<'_>) -> Result<(), SweepError> {
         let threads = options.threads.unwrap_or(0);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let pool = pool.map_err(|error| SweepError::File {
-            file: "threads".into(),
-            source: std::io::Error::other(error),
-        })?;
+        let pool = pool.map_err(|error| SweepError::File("threads".into(), std::io::Error::other(error)))?;
         let finished = journal.finished();
         let report = |done: usize| {
             let reported = options.progress.report(done as f64 / self.count() as f64);
@@ -193,10 +190,7 @@ impl Sweep {
             bands: Vec::new(),
         };
         let mut samples = Vec::new();
-        let failed = |source| SweepError::File {
-            file: output.path().display().to_string(),
-            source,
-        };
+        let failed = |source| SweepError::File(output.path().display().to_string(), source);
         // It comes into its place when it is whole.
         let mut table = format.sink(output.begin()?, &columns).map_err(failed)?;
         for row in journal.rows() {

@@ -3,7 +3,6 @@
 mod canvas;
 mod cells;
 mod frame;
-mod heading;
 mod legend;
 mod mark;
 mod reference;
@@ -16,8 +15,7 @@ use crate::panels::Panels;
 use canvas::{Canvas, Rect};
 use cells::Bar;
 use frame::{BELOW, Frame, ticks};
-use heading::Heading;
-use legend::Legend;
+use legend::{Heading, Legend};
 use series::Shown;
 
 /// Legends begin this far from the figure's left edge \[px\].
