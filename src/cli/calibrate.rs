@@ -97,10 +97,9 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     let mut out = terminal::out();
     let titles: Vec<String> = answer.titles.iter().map(|title| terminal::line(title)).collect();
     writeln!(out, "{}, law {}", titles.join("; "), law.name())?;
-    writeln!(out)?;
     writeln!(
         out,
-        "{:<22} {:>13} {:>15}  {:<30} identifiable",
+        "\n{:<22} {:>13} {:>15}  {:<30} identifiable",
         "parameter", "value", "standard error", "95 % interval"
     )?;
     for parameter in &answer.parameters {
@@ -118,10 +117,9 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         )?;
     }
     if let Some(bootstrap) = &answer.bootstrap {
-        writeln!(out)?;
         writeln!(
             out,
-            "bootstrap: {} replicates, seed {}, {} failed",
+            "\nbootstrap: {} replicates, seed {}, {} failed",
             bootstrap.replicates, bootstrap.seed, bootstrap.failed
         )?;
         for (k, parameter) in answer.parameters.iter().enumerate() {
@@ -143,10 +141,9 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
             }
         }
     }
-    writeln!(out)?;
     writeln!(
         out,
-        "{:>9} {:>13} {:>11} {:>13}",
+        "\n{:>9} {:>13} {:>11} {:>13}",
         "pass", "measured, N", "fitted, N", "residual, N"
     )?;
     let stride = answer.fit.len().div_ceil(ROWS);

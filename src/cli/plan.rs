@@ -56,8 +56,11 @@ fn print(plan: &PlanReport) -> Result<(), Failure> {
         if candidates.is_empty() {
             continue;
         }
-        writeln!(out)?;
-        writeln!(out, "{part:<14} {:>10} {:>10}  why, or why not", "error", "time")?;
+        writeln!(
+            out,
+            "\n{part:<14} {:>10} {:>10}  why, or why not",
+            "error", "time"
+        )?;
         for candidate in candidates {
             writeln!(
                 out,

@@ -189,10 +189,7 @@ impl Search<'_> {
             // Beyond the ends of the curve a stiffness means as little as none, or as much as a fixed end.
             return Ok(safe);
         }
-        let failed = |source: argmin::core::Error| DesignError::Search {
-            what: limit.0,
-            source: source.to_string().into(),
-        };
+        let failed = |error: argmin::core::Error| DesignError::Search(limit.0, error.to_string().into());
         let solver = BrentRoot::new(low.ln(), high.ln(), ACCURACY);
         Executor::new(Excess(self, limit), solver)
             .configure(|state| state.param(low.ln()).max_iters(MOST_STEPS))

@@ -138,7 +138,7 @@ impl<'d> Value<'d> {
     fn not_a_quantity(&self, error: QuantityError, allowed: String) -> SceneError {
         let kind = match error {
             QuantityError::NotANumber => return self.wrong_type(allowed),
-            QuantityError::Comma { with_point } => {
+            QuantityError::Comma(with_point) => {
                 return self.wrong_type(format!("a decimal point, \"{with_point}\": {allowed}"));
             }
             error => WrongKind::Quantity(error),
