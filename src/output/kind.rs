@@ -6,19 +6,12 @@
     allow(dead_code, reason = "without all features not every kind is written")
 )]
 pub enum Kind {
-    /// Table of a run.
     Passes,
-    /// Table of a profile.
     Motion,
-    /// Table of a calibration.
     Fit,
-    /// Table of a sweep.
     Sweep,
-    /// Table of a sweep, as Apache Parquet.
     Parquet,
-    /// SVG.
     Figure,
-    /// Page of a report.
     Page,
     /// A new scene: never replaced but by force, for it is its author's work.
     Scene,

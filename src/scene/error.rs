@@ -85,31 +85,28 @@ impl fmt::Display for Wrong {
         if let Some(location) = &self.location {
             write!(f, "{location}: ")?;
         }
-        match &self.kind {
+        let message = |problem: &str, meant: &str| {
+            format!("`{key}`: {problem}found {found}{meant}; allowed: {allowed}")
+        };
+        f.write_str(&match &self.kind {
             WrongKind::UnknownKey { suggestion } => {
                 let meant = did_you_mean(suggestion.as_deref());
-                write!(f, "found unknown key `{key}`{meant}; allowed: {allowed}")?;
+                format!("found unknown key `{key}`{meant}; allowed: {allowed}")
             }
-            WrongKind::MissingKey => write!(f, "key `{key}` is missing; allowed: {allowed}")?,
-            WrongKind::Rejected(error) => write!(f, "`{key}`: {error}")?,
-            kind => {
-                let (before, after) = match kind {
-                    WrongKind::Quantity(QuantityError::UnknownUnit { unit, nearest }) => {
-                        (format!("unknown unit `{}`: ", cut(unit)), did_you_mean(*nearest))
-                    }
-                    WrongKind::Quantity(QuantityError::WrongDimension { dimension, .. }) => {
-                        ("wrong dimension: ".into(), format!(", {}", dimension.noun()))
-                    }
-                    WrongKind::Quantity(_) => ("missing unit: ".into(), String::new()),
-                    WrongKind::OutOfRange => ("out of range: ".into(), String::new()),
-                    WrongKind::UnknownWord { suggestion } => {
-                        (String::new(), did_you_mean(suggestion.as_deref()))
-                    }
-                    _ => (String::new(), String::new()),
-                };
-                write!(f, "`{key}`: {before}found {found}{after}; allowed: {allowed}")?;
+            WrongKind::MissingKey => format!("key `{key}` is missing; allowed: {allowed}"),
+            WrongKind::Rejected(error) => format!("`{key}`: {error}"),
+            WrongKind::Quantity(QuantityError::UnknownUnit { unit, nearest }) => message(
+                &format!("unknown unit `{}`: ", cut(unit)),
+                &did_you_mean(*nearest),
+            ),
+            WrongKind::Quantity(QuantityError::WrongDimension { dimension, .. }) => {
+                message("wrong dimension: ", &format!(", {}", dimension.noun()))
             }
-        }
+            WrongKind::Quantity(_) => message("missing unit: ", ""),
+            WrongKind::OutOfRange => message("out of range: ", ""),
+            WrongKind::UnknownWord { suggestion } => message("", &did_you_mean(suggestion.as_deref())),
+            WrongKind::Override | WrongKind::Value => message("", ""),
+        })?;
         let excerpt = self.location.as_ref().map(Location::excerpt);
         f.write_str(&excerpt.unwrap_or_default())
     }

@@ -62,12 +62,13 @@ mod traffic;
 mod units;
 mod unusual;
 mod value;
-mod words;
 mod write;
 
+#[cfg(feature = "calibrate")]
+pub(crate) use data::words;
 pub use data::{
     Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Order, PeakScaling, Restraint, Scene,
-    Solver, SolverMethod, Traffic, TrafficVehicle,
+    Solver, SolverMethod, Traffic, TrafficVehicle, UnknownWord,
 };
 pub use error::{SceneError, Wrong, WrongKind};
 pub use file::SceneFile;
@@ -78,7 +79,4 @@ pub(crate) use quantity::leading_number;
 pub use slips::UnitSlip;
 pub use units::Dimension;
 pub(crate) use unusual::unusual;
-pub use words::UnknownWord;
-#[cfg(feature = "calibrate")]
-pub(crate) use words::words;
 pub(crate) use write::quoted;

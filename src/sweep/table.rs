@@ -11,9 +11,7 @@ use crate::output::{self, Draft};
 /// Kind of the table file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Comma-separated text.
     Csv,
-    /// Apache Parquet.
     #[cfg(feature = "parquet")]
     Parquet,
 }
