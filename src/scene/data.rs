@@ -44,6 +44,7 @@ macro_rules! words {
     };
 }
 
+#[cfg(feature = "calibrate")]
 pub(crate) use words;
 
 /// A cable in a duct under traffic, in SI.
