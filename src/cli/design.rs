@@ -6,7 +6,7 @@ use super::failure::Failure;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::shared::{Input, Json, SceneArguments};
 use super::terminal;
-use crate::design::{Design, DesignError, DesignOptions, Limits, Place, TradeOff, design, passes};
+use crate::design::{Design, DesignError, DesignOptions, Limits, Place, design, passes};
 use crate::scene::Dimension;
 use crate::shown::percent;
 
@@ -109,30 +109,22 @@ fn print(design: &Design) -> Result<(), Failure> {
         )?;
     }
     writeln!(out)?;
-    let (
-        Some(TradeOff {
-            stiffness_n_per_m,
-            force_n,
-            movement_m,
-            error_estimate,
-            ..
-        }),
-        Some((from, to)),
-    ) = (&design.answer, design.range_n_per_m)
-    else {
+    let (Some(answer), Some((from, to))) = (&design.answer, design.range_n_per_m) else {
         writeln!(out, "no stiffness stays within the limits")?;
         return Ok(());
     };
+    let taken = stiffness(design.place, answer.stiffness_n_per_m);
+    let taken = match design.place {
+        _ if taken.parse::<f64>().is_err() => taken,
+        Place::Clamp(_) => format!("a clamp of {taken} N/m"),
+        _ => format!("a spring of {taken} N/m"),
+    };
     writeln!(
         out,
-        "answer: {}; force {force_n:.1} N, movement {:.4} mm, estimated error {}",
-        match (stiffness(design.place, *stiffness_n_per_m), design.place) {
-            (text, _) if text.parse::<f64>().is_err() => text,
-            (text, Place::Clamp(_)) => format!("a clamp of {text} N/m"),
-            (text, _) => format!("a spring of {text} N/m"),
-        },
-        1e3 * movement_m,
-        percent(*error_estimate)
+        "answer: {taken}; force {:.1} N, movement {:.4} mm, estimated error {}",
+        answer.force_n,
+        1e3 * answer.movement_m,
+        percent(answer.error_estimate)
     )?;
     let softest = stiffness(design.place, Some(from));
     match to {
