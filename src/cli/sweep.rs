@@ -10,7 +10,7 @@ use super::terminal;
 use crate::SceneFile;
 #[cfg(feature = "plot")]
 use crate::output::Kind;
-use crate::sweep::{Axis, Band, Samples, Sweep, SweepOptions, SweepSummary};
+use crate::sweep::{Axis, Band, Format, Samples, Sweep, SweepOptions, SweepSummary};
 #[cfg(feature = "plot")]
 use crate::sweep::{MapValue, Row, SweepMap};
 
@@ -78,7 +78,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let sweep = Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?;
     warn_of_slips(&sweep.file_at(0)?);
     let mut files = arguments.force.files([&*arguments.scene.scene]);
-    files.output(&arguments.out, crate::sweep::kind_of(&arguments.out)?)?;
+    files.output(&arguments.out, Format::of(&arguments.out)?.kind())?;
     #[cfg(feature = "plot")]
     let map = match &arguments.map {
         Some(file) => {

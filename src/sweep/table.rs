@@ -57,12 +57,6 @@ impl Format {
     }
 }
 
-/// What the name of an output asks for.
-#[cfg(feature = "cli")]
-pub fn kind_of(output: &Path) -> Result<output::Kind, SweepError> {
-    Ok(Format::of(output)?.kind())
-}
-
 impl Sink for csv::Writer<Draft> {
     fn row(&mut self, cells: Vec<Cell>) -> io::Result<()> {
         let text = |cell| match cell {
