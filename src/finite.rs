@@ -3,7 +3,7 @@
 //! JSON has no word for infinity, and serialises it as the `null` that stands for a missing value; a table would hold the text `inf`.
 //! So a serializer that writes nothing goes through the answer before.
 
-use std::fmt::{self, Display};
+use std::fmt::Display;
 
 use serde::ser::{self, Serialize, Serializer};
 
@@ -15,14 +15,13 @@ use crate::Error;
 ///
 /// [`Error::NotFinite`] with the first such number and where it stands.
 pub fn check<T: Serialize + ?Sized>(answer: &T) -> Result<(), Error> {
-    answer.serialize(Finite).map_err(|found| Error::NotFinite {
-        field: found.field,
-        value: found.value,
-    })
+    let found = answer.serialize(Finite::default());
+    found.map_err(|NotFinite { field, value }| Error::NotFinite { field, value })
 }
 
 /// A number that is not finite, and the fields around it.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error("{field} is {value}")]
 struct NotFinite {
     field: String,
     value: f64,
@@ -30,23 +29,11 @@ struct NotFinite {
 
 impl NotFinite {
     fn within(mut self, name: &str) -> Self {
-        let dot = if self.field.is_empty() || self.field.starts_with('[') {
-            ""
-        } else {
-            "."
-        };
-        self.field = format!("{name}{dot}{}", self.field);
+        let joined = self.field.is_empty() || self.field.starts_with('[');
+        self.field = format!("{name}{}{}", if joined { "" } else { "." }, self.field);
         self
     }
 }
-
-impl Display for NotFinite {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} is {}", self.field, self.value)
-    }
-}
-
-impl std::error::Error for NotFinite {}
 
 impl ser::Error for NotFinite {
     fn custom<T: Display>(message: T) -> Self {
@@ -59,21 +46,21 @@ impl ser::Error for NotFinite {
 
 type Checked = Result<(), NotFinite>;
 
-/// Looks at numbers and passes everything else.
-struct Finite;
-
-/// Looks at the items of a list, which it counts, or of a map.
+/// Looks at numbers, goes through the parts of lists, maps and structures, and passes everything else.
 #[derive(Default)]
-struct Items {
+struct Finite {
+    /// How many parts without a name it has gone through.
     count: usize,
 }
 
-impl Items {
-    fn item<T: Serialize + ?Sized>(&mut self, item: &T) -> Checked {
+impl Finite {
+    fn part<T: Serialize + ?Sized>(&mut self, name: Option<&str>, part: &T) -> Checked {
         let index = self.count;
-        self.count += 1;
-        item.serialize(Finite)
-            .map_err(|found| found.within(&format!("[{index}]")))
+        self.count += usize::from(name.is_none());
+        part.serialize(Self::default()).map_err(|found| match name {
+            Some(name) => found.within(name),
+            None => found.within(&format!("[{index}]")),
+        })
     }
 }
 
@@ -89,13 +76,13 @@ macro_rules! answers {
 impl Serializer for Finite {
     type Ok = ();
     type Error = NotFinite;
-    type SerializeSeq = Items;
-    type SerializeTuple = Items;
-    type SerializeTupleStruct = Items;
-    type SerializeTupleVariant = Items;
-    type SerializeMap = Items;
-    type SerializeStruct = Items;
-    type SerializeStructVariant = Items;
+    type SerializeSeq = Self;
+    type SerializeTuple = Self;
+    type SerializeTupleStruct = Self;
+    type SerializeTupleVariant = Self;
+    type SerializeMap = Self;
+    type SerializeStruct = Self;
+    type SerializeStructVariant = Self;
 
     answers!(
         (), ();
@@ -105,7 +92,7 @@ impl Serializer for Finite {
         serialize_unit_struct(&'static str), serialize_unit_variant(&'static str, u32, &'static str)
     );
     answers!(
-        Items::default(), Items;
+        Self::default(), Self;
         serialize_seq(Option<usize>), serialize_tuple(usize), serialize_map(Option<usize>),
         serialize_tuple_struct(&'static str, usize), serialize_struct(&'static str, usize),
         serialize_tuple_variant(&'static str, u32, &'static str, usize),
@@ -133,37 +120,25 @@ impl Serializer for Finite {
     }
 
     fn serialize_newtype_variant<T: Serialize + ?Sized>(
-        self,
+        mut self,
         _: &'static str,
         _: u32,
         variant: &'static str,
         value: &T,
     ) -> Checked {
-        value.serialize(self).map_err(|found| found.within(variant))
+        self.part(Some(variant), value)
     }
 }
 
-/// Lists of every kind are gone through in the same way, and so are fields of every kind.
+/// All that has parts is gone through in the same way; the parts of some have names.
 macro_rules! goes_through {
-    (items: $($list:ident $method:ident),*; fields: $($fields:ident),*) => {
-        $(impl ser::$list for Items {
+    ($($kind:ident $method:ident $(($name:ident))?),*) => {
+        $(impl ser::$kind for Finite {
             type Ok = ();
             type Error = NotFinite;
 
-            fn $method<T: Serialize + ?Sized>(&mut self, item: &T) -> Checked {
-                self.item(item)
-            }
-
-            fn end(self) -> Checked {
-                Ok(())
-            }
-        })*
-        $(impl ser::$fields for Items {
-            type Ok = ();
-            type Error = NotFinite;
-
-            fn serialize_field<T: Serialize + ?Sized>(&mut self, name: &'static str, value: &T) -> Checked {
-                value.serialize(Finite).map_err(|found| found.within(name))
+            fn $method<T: Serialize + ?Sized>(&mut self, $($name: &'static str,)? part: &T) -> Checked {
+                self.part([$($name)?].first().copied(), part)
             }
 
             fn end(self) -> Checked {
@@ -174,12 +149,12 @@ macro_rules! goes_through {
 }
 
 goes_through!(
-    items: SerializeSeq serialize_element, SerializeTuple serialize_element, SerializeTupleStruct serialize_field,
-        SerializeTupleVariant serialize_field;
-    fields: SerializeStruct, SerializeStructVariant
+    SerializeSeq serialize_element, SerializeTuple serialize_element, SerializeTupleStruct serialize_field,
+    SerializeTupleVariant serialize_field, SerializeStruct serialize_field (name),
+    SerializeStructVariant serialize_field (name)
 );
 
-impl ser::SerializeMap for Items {
+impl ser::SerializeMap for Finite {
     type Ok = ();
     type Error = NotFinite;
 
@@ -188,7 +163,7 @@ impl ser::SerializeMap for Items {
     }
 
     fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Checked {
-        self.item(value)
+        self.part(None, value)
     }
 
     fn end(self) -> Checked {

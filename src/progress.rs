@@ -57,10 +57,8 @@ impl<'a> Progress<'a> {
     ///
     /// [`Error::Stopped`] where the callback stops the computation.
     pub fn report(self, share: f64) -> Result<(), Error> {
-        match self
-            .callback
-            .map(|callback| callback(self.start + self.size * share))
-        {
+        let share = self.start + self.size * share;
+        match self.callback.map(|callback| callback(share)) {
             Some(ControlFlow::Break(())) => Err(Error::Stopped),
             _ => Ok(()),
         }
@@ -69,10 +67,7 @@ impl<'a> Progress<'a> {
 
 impl fmt::Debug for Progress<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(if self.callback.is_some() {
-            "Progress(..)"
-        } else {
-            "Progress(none)"
-        })
+        let callback = if self.callback.is_some() { ".." } else { "none" };
+        write!(f, "Progress({callback})")
     }
 }

@@ -1,4 +1,4 @@
-//! Numbers and tables for a reader, as the terminal and the report show them.
+//! Numbers, texts and tables for a reader, as the terminal and the report show them.
 
 /// Rows of a table that is read at a glance.
 pub const ROWS: usize = 16;
@@ -24,6 +24,14 @@ pub fn percent(share: f64) -> String {
 /// A given share as the percentage that was meant, without the binary digits of the product.
 pub fn exact_percent(share: f64) -> String {
     format!("{} %", (1e12 * (100.0 * share)).round() / 1e12)
+}
+
+/// The beginning of the text, and how long it is where that is not all.
+pub fn shortened(text: &str, longest: usize) -> String {
+    match text.char_indices().nth(longest) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
+    }
 }
 
 /// A time in words of its size.

@@ -11,7 +11,6 @@ use super::result::{
 use super::unknown::Unknown;
 use crate::Error;
 
-/// The answer that a fit gives to a problem.
 pub fn answer(problem: &Problem<'_>, found: &Final) -> Result<Calibrated, Error> {
     let fit = &found.fit;
     let model_error = model_error(found);
@@ -33,10 +32,7 @@ pub fn answer(problem: &Problem<'_>, found: &Final) -> Result<Calibrated, Error>
         method: method(problem, found)?,
         model_error,
         fit: readings(problem, fit),
-        bootstrap: found
-            .bootstrap
-            .as_ref()
-            .map(|(bootstrap, options)| summary(bootstrap, options)),
+        bootstrap: found.bootstrap.as_ref().map(summary),
     })
 }
 
@@ -131,15 +127,14 @@ fn readings(problem: &Problem<'_>, fit: &Fit) -> Vec<FittedReading> {
         .collect()
 }
 
-fn summary(bootstrap: &Bootstrap, options: &BootstrapOptions) -> BootstrapSummary {
+fn summary((bootstrap, options): &(Bootstrap, BootstrapOptions)) -> BootstrapSummary {
+    let intervals = bootstrap.intervals.iter();
     BootstrapSummary {
         replicates: bootstrap.samples.len(),
         failed: bootstrap.failed,
         seed: options.seed,
         standard_errors: bootstrap.standard_errors.clone(),
-        interval_95: bootstrap
-            .intervals
-            .iter()
+        interval_95: intervals
             .map(|interval| [interval.lower, interval.upper])
             .collect(),
         evaluations: bootstrap.evaluations,

@@ -25,7 +25,6 @@ impl CellEnd {
         }
     }
 
-    /// Its name.
     pub fn name(self) -> &'static str {
         match self {
             Self::Upstream => "upstream",

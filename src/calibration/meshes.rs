@@ -12,7 +12,6 @@ pub const MESH_SHIFT: f64 = 0.8;
 const PILOT_TOLERANCE: f64 = 0.3;
 const TOLERANCE: f64 = 0.03;
 
-/// The final fit.
 pub struct Final {
     pub fit: Fit,
     pub mesh: MeshChoice,

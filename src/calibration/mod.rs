@@ -21,7 +21,6 @@ mod model;
 mod options;
 mod problem;
 mod result;
-mod selection;
 mod unknown;
 mod watch;
 
@@ -34,7 +33,7 @@ pub use options::{CalibrateOptions, Deflection, Series};
 pub use result::{
     BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
 };
-pub use unknown::{Quantity, Unknown, UnknownQuantity};
+pub use unknown::{Quantity, Unknown};
 
 use crate::readings::Readings;
 use crate::{Error, Scene};
@@ -62,7 +61,7 @@ pub fn calibrate(
 ///
 /// As for [`calibrate()`].
 pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
-    let unknowns = selection::unknowns(series, options)?;
+    let unknowns = problem::unknowns(series, options)?;
     let models = series
         .iter()
         .map(SeriesModel::new)

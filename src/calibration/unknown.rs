@@ -1,11 +1,10 @@
 //! What can be fitted, and between which bounds.
 
 use std::fmt;
-use std::str::FromStr;
 
 use calibrate::{CalibrationError, Parameter, Prior, Scale};
 
-use crate::scene::{FrictionLaw, Scene};
+use crate::scene::{FrictionLaw, Scene, words};
 
 /// A quantity that can be fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -20,19 +19,9 @@ pub enum Quantity {
     GroundStiffness,
 }
 
+words!(Quantity: DynamicCoefficient "dynamic_coefficient", ShapeFactor "shape_factor", GroundStiffness "ground_stiffness");
+
 impl Quantity {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::DynamicCoefficient, Self::ShapeFactor, Self::GroundStiffness];
-
-    /// Its name, as on the command line and in JSON.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::DynamicCoefficient => "dynamic_coefficient",
-            Self::ShapeFactor => "shape_factor",
-            Self::GroundStiffness => "ground_stiffness",
-        }
-    }
-
     /// Its unit; 1 for a number.
     pub fn unit(self) -> &'static str {
         match self {
@@ -69,26 +58,6 @@ impl Quantity {
             ) => *shape_factor = value,
             _ => {}
         }
-    }
-}
-
-/// No such quantity.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("found \"{found}\"; allowed: dynamic_coefficient, shape_factor, ground_stiffness")]
-pub struct UnknownQuantity {
-    /// What was found.
-    pub found: String,
-}
-
-impl FromStr for Quantity {
-    type Err = UnknownQuantity;
-
-    fn from_str(text: &str) -> Result<Self, UnknownQuantity> {
-        let found = text.trim();
-        Self::ALL
-            .into_iter()
-            .find(|quantity| quantity.name() == found)
-            .ok_or_else(|| UnknownQuantity { found: found.into() })
     }
 }
 
@@ -137,8 +106,8 @@ impl Unknown {
 impl fmt::Display for Unknown {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.series {
-            None => write!(f, "{}", self.quantity.name()),
-            Some(series) => write!(f, "{}_{}", self.quantity.name(), series + 1),
+            None => write!(f, "{}", self.quantity),
+            Some(series) => write!(f, "{}_{}", self.quantity, series + 1),
         }
     }
 }

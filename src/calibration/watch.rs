@@ -36,7 +36,6 @@ impl<'a> Watch<'a> {
         reported
     }
 
-    /// Whether the caller has stopped the calibration.
     pub fn is_stopped(&self) -> bool {
         self.stopped.load(Ordering::Relaxed)
     }

@@ -1,7 +1,6 @@
 //! `creepage calibrate`: parameters from readings.
 
 use std::io::Write;
-
 use std::path::PathBuf;
 
 use super::failure::Failure;
@@ -16,7 +15,6 @@ use crate::readings::Readings;
 use crate::scene::{Dimension, FrictionLaw};
 use crate::shown::{ROWS, percent};
 
-/// Arguments of `creepage calibrate`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage calibrate my-duct.toml --data forces.csv
@@ -29,7 +27,7 @@ pub struct Arguments {
     data: PathBuf,
     /// What to fit: dynamic_coefficient, shape_factor, ground_stiffness (how many times stiffer than in the scene). Default:
     /// dynamic_coefficient,shape_factor (only the first with Coulomb's law)
-    #[arg(long, value_delimiter = ',', value_name = "NAMES")]
+    #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = |text: &str| text.trim().parse::<Quantity>())]
     fit: Vec<Quantity>,
     /// Measured deflection under the first vehicle, "115 um"; also fits ground_stiffness
     #[arg(long, value_name = "LENGTH", requires = "deflection_sigma", value_parser = positive_length)]
@@ -99,10 +97,9 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     let mut out = terminal::out();
     let titles: Vec<String> = answer.titles.iter().map(|title| terminal::line(title)).collect();
     writeln!(out, "{}, law {}", titles.join("; "), law.name())?;
-    writeln!(out)?;
     writeln!(
         out,
-        "{:<22} {:>13} {:>15}  {:<30} identifiable",
+        "\n{:<22} {:>13} {:>15}  {:<30} identifiable",
         "parameter", "value", "standard error", "95 % interval"
     )?;
     for parameter in &answer.parameters {
@@ -120,10 +117,9 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         )?;
     }
     if let Some(bootstrap) = &answer.bootstrap {
-        writeln!(out)?;
         writeln!(
             out,
-            "bootstrap: {} replicates, seed {}, {} failed",
+            "\nbootstrap: {} replicates, seed {}, {} failed",
             bootstrap.replicates, bootstrap.seed, bootstrap.failed
         )?;
         for (k, parameter) in answer.parameters.iter().enumerate() {
@@ -145,10 +141,9 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
             }
         }
     }
-    writeln!(out)?;
     writeln!(
         out,
-        "{:>9} {:>13} {:>11} {:>13}",
+        "\n{:>9} {:>13} {:>11} {:>13}",
         "pass", "measured, N", "fitted, N", "residual, N"
     )?;
     let stride = answer.fit.len().div_ceil(ROWS);
@@ -175,15 +170,12 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         "residuals: {:.2} N rms{explained}, {:.1} degrees of freedom",
         answer.residual_rms_n, answer.degrees_of_freedom
     )?;
+    let shifts = answer.model_error.standard_errors.iter();
     writeln!(
         out,
         "error of the mesh: {} of the force, at most {:.2} standard errors of a parameter",
         percent(answer.model_error.relative),
-        answer
-            .model_error
-            .standard_errors
-            .iter()
-            .fold(0.0_f64, |most, &error| most.max(error))
+        shifts.fold(0.0_f64, |most, &error| most.max(error))
     )?;
     writeln!(
         out,

@@ -6,7 +6,6 @@ use super::failure::Failure;
 use super::shared::{Input, SceneArguments};
 use super::terminal;
 
-/// Arguments of `creepage check`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage check my-duct.toml

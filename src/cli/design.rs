@@ -6,11 +6,10 @@ use super::failure::Failure;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::shared::{Input, Json, SceneArguments};
 use super::terminal;
-use crate::design::{Design, DesignError, DesignOptions, Limits, Place, TradeOff, design, passes};
+use crate::design::{Design, DesignError, DesignOptions, Limits, Place, design, passes};
 use crate::scene::Dimension;
 use crate::shown::percent;
 
-/// Arguments of `creepage design`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "The answer is found by runs of the scene; the force is the largest on either end, during and after the passes, the movement \
@@ -26,10 +25,10 @@ pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
     /// Largest force allowed on either end
-    #[arg(long, value_name = "FORCE", value_parser = force)]
+    #[arg(long, value_name = "FORCE", value_parser = |text: &str| Dimension::Force.parse_argument(text))]
     limit_force: f64,
     /// Largest movement allowed of either end
-    #[arg(long, value_name = "LENGTH", value_parser = length)]
+    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| Dimension::Length.parse_argument(text))]
     limit_movement: Option<f64>,
     /// Where the spring is: upstream, downstream (at these ends), or a position for a clamp
     #[arg(long, value_name = "PLACE", default_value = "downstream", value_parser = place)]
@@ -44,23 +43,12 @@ pub struct Arguments {
     json: Json,
 }
 
-fn force(text: &str) -> Result<f64, String> {
-    Dimension::Force
-        .parse_argument(text)
-        .map_err(|error| error.to_string())
-}
-
-fn length(text: &str) -> Result<f64, String> {
-    Dimension::Length
-        .parse_argument(text)
-        .map_err(|error| error.to_string())
-}
-
 fn place(text: &str) -> Result<Place, String> {
     match text {
         "upstream" => Ok(Place::Upstream),
         "downstream" => Ok(Place::Downstream),
-        _ => length(text)
+        _ => Dimension::Length
+            .parse_argument(text)
             .map(Place::Clamp)
             .map_err(|_| "allowed: upstream, downstream or a position such as \"20 m\"".to_owned()),
     }
@@ -121,30 +109,22 @@ fn print(design: &Design) -> Result<(), Failure> {
         )?;
     }
     writeln!(out)?;
-    let (
-        Some(TradeOff {
-            stiffness_n_per_m,
-            force_n,
-            movement_m,
-            error_estimate,
-            ..
-        }),
-        Some((from, to)),
-    ) = (&design.answer, design.range_n_per_m)
-    else {
+    let (Some(answer), Some((from, to))) = (&design.answer, design.range_n_per_m) else {
         writeln!(out, "no stiffness stays within the limits")?;
         return Ok(());
     };
+    let taken = stiffness(design.place, answer.stiffness_n_per_m);
+    let taken = match design.place {
+        _ if taken.parse::<f64>().is_err() => taken,
+        Place::Clamp(_) => format!("a clamp of {taken} N/m"),
+        _ => format!("a spring of {taken} N/m"),
+    };
     writeln!(
         out,
-        "answer: {}; force {force_n:.1} N, movement {:.4} mm, estimated error {}",
-        match (stiffness(design.place, *stiffness_n_per_m), design.place) {
-            (text, _) if text.parse::<f64>().is_err() => text,
-            (text, Place::Clamp(_)) => format!("a clamp of {text} N/m"),
-            (text, _) => format!("a spring of {text} N/m"),
-        },
-        1e3 * movement_m,
-        percent(*error_estimate)
+        "answer: {taken}; force {:.1} N, movement {:.4} mm, estimated error {}",
+        answer.force_n,
+        1e3 * answer.movement_m,
+        percent(answer.error_estimate)
     )?;
     let softest = stiffness(design.place, Some(from));
     match to {

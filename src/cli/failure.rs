@@ -7,7 +7,6 @@ use std::process::ExitCode;
 use super::terminal;
 use crate::output::OutputError;
 
-/// Something that keeps a command from finishing.
 #[derive(Debug, thiserror::Error)]
 pub enum Failure {
     #[error(transparent)]
@@ -33,8 +32,6 @@ pub enum Failure {
     File(#[from] OutputError),
     #[error("standard output: cannot be written")]
     Output(#[from] io::Error),
-    #[error("standard output: cannot be written")]
-    Json(#[from] serde_json::Error),
 }
 
 impl From<crate::SceneError> for Failure {

@@ -10,7 +10,6 @@ use crate::Scene;
 use crate::output::{Kind, OutputError};
 use crate::template::{Template, TemplateGround};
 
-/// Arguments of `creepage new`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "At a terminal, missing values are asked for interactively; otherwise defaults are used.
@@ -75,15 +74,34 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         .output(&arguments.file, Kind::Scene)
         .map_err(existing)?;
     let mut template = Template::default();
-    let ask = io::stdin().is_terminal() && io::stderr().is_terminal();
-    for question in questions(arguments) {
-        match question.given {
-            Some(given) => (question.set)(&mut template, given),
-            None if ask => answer(&question, &name, &mut template)?,
-            None => {}
+    let at_terminal = io::stdin().is_terminal() && io::stderr().is_terminal();
+    let mut ask = |question: &str, given: Option<&String>, answer: Answer| match given {
+        None if at_terminal => ask_for(question, answer, &name, &mut template),
+        None => Ok(()),
+        Some(given) => {
+            given.clone_into(answer(&mut template));
+            Ok(())
         }
+    };
+    macro_rules! ask {
+        ($words:literal, $field:ident) => {
+            ask($words, arguments.$field.as_ref(), |t| &mut t.$field)?
+        };
     }
-    // A typed answer is a modulus if it begins with a digit; a flag says which it is.
+    let ground = arguments.modulus.as_ref().or(arguments.pavement.as_ref());
+    let words = "modulus of the ground, or a pavement's preset";
+    ask!("title", title);
+    ask!("length of the duct", length);
+    ask!("depth of the cable below the road", depth);
+    ask(words, ground, |t| t.ground.text_mut())?;
+    ask!("cable (preset)", cable);
+    ask!("friction coefficient", friction);
+    ask!("upstream end: free, fixed or a stiffness", upstream);
+    ask!("downstream end: free, fixed or a stiffness", downstream);
+    ask!("vehicle (preset)", vehicle);
+    ask!("its speed", speed);
+    ask!("passes", passes);
+    // A flag says which it is.
     if let Some(modulus) = &arguments.modulus {
         template.ground = TemplateGround::Modulus(modulus.clone());
     } else if let Some(pavement) = &arguments.pavement {
@@ -101,62 +119,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// How an answer goes into the template, and what is there now.
-type Set = fn(&mut Template, &str);
-type Now = fn(&Template) -> &str;
-
-struct Question<'a> {
-    words: &'static str,
-    given: Option<&'a String>,
-    now: Now,
-    set: Set,
-}
-
-macro_rules! question {
-    ($words:expr, $given:ident, $field:ident) => {
-        Question {
-            words: $words,
-            given: $given.$field.as_ref(),
-            now: |template| &template.$field,
-            set: |template, text| text.clone_into(&mut template.$field),
-        }
-    };
-}
-
-fn questions(given: &Arguments) -> [Question<'_>; 11] {
-    [
-        question!("title", given, title),
-        question!("length of the duct", given, length),
-        question!("depth of the cable below the road", given, depth),
-        Question {
-            words: "modulus of the ground, or a pavement's preset",
-            given: given.modulus.as_ref().or(given.pavement.as_ref()),
-            now: |template| match &template.ground {
-                TemplateGround::Modulus(text) | TemplateGround::Pavement(text) => text,
-            },
-            set: |template, text| {
-                template.ground = if text.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
-                    TemplateGround::Modulus(text.to_owned())
-                } else {
-                    TemplateGround::Pavement(text.to_owned())
-                };
-            },
-        },
-        question!("cable (preset)", given, cable),
-        question!("friction coefficient", given, friction),
-        question!("upstream end: free, fixed or a stiffness", given, upstream),
-        question!("downstream end: free, fixed or a stiffness", given, downstream),
-        question!("vehicle (preset)", given, vehicle),
-        question!("its speed", given, speed),
-        question!("passes", given, passes),
-    ]
-}
+/// The place of an answer in the template.
+type Answer = fn(&mut Template) -> &mut String;
 
 /// Asks until the answer makes a scene; nothing keeps what is shown in brackets.
-fn answer(question: &Question, name: &str, template: &mut Template) -> Result<(), Failure> {
+fn ask_for(question: &str, answer: Answer, name: &str, template: &mut Template) -> Result<(), Failure> {
     loop {
         let mut err = terminal::err();
-        write!(err, "{} [{}]: ", question.words, (question.now)(template))?;
+        write!(err, "{question} [{}]: ", answer(template))?;
         err.flush()?;
         let mut line = String::new();
         let end = io::stdin().lock().read_line(&mut line)? == 0;
@@ -165,7 +135,14 @@ fn answer(question: &Question, name: &str, template: &mut Template) -> Result<()
             return Ok(());
         }
         let mut changed = template.clone();
-        (question.set)(&mut changed, text);
+        text.clone_into(answer(&mut changed));
+        let ground = std::mem::take(changed.ground.text_mut());
+        // A typed modulus begins with a digit.
+        changed.ground = if ground.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
+            TemplateGround::Modulus(ground)
+        } else {
+            TemplateGround::Pavement(ground)
+        };
         match changed.to_toml(name) {
             Ok(_) => {
                 *template = changed;

@@ -9,7 +9,6 @@ use crate::occurrence::Occurrence;
 use crate::shown::{percent, time};
 use crate::{Part, PlanReport};
 
-/// Arguments of `creepage plan`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage plan my-duct.toml
@@ -57,8 +56,11 @@ fn print(plan: &PlanReport) -> Result<(), Failure> {
         if candidates.is_empty() {
             continue;
         }
-        writeln!(out)?;
-        writeln!(out, "{part:<14} {:>10} {:>10}  why, or why not", "error", "time")?;
+        writeln!(
+            out,
+            "\n{part:<14} {:>10} {:>10}  why, or why not",
+            "error", "time"
+        )?;
         for candidate in candidates {
             writeln!(
                 out,

@@ -7,7 +7,6 @@ use super::shared::Json;
 use super::terminal;
 use crate::presets::{Preset, PresetKind, all};
 
-/// Arguments of `creepage presets`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage presets

@@ -10,7 +10,6 @@ use super::terminal;
 use crate::Profile;
 use crate::output::Kind;
 
-/// Arguments of `creepage profile`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage profile my-duct.toml
@@ -33,7 +32,6 @@ fn finite(text: &str) -> Result<f64, String> {
     }
 }
 
-/// A row of the table.
 #[derive(Serialize)]
 struct Row {
     position_m: f64,

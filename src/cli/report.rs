@@ -10,7 +10,6 @@ use crate::output::Kind;
 use crate::readings::Readings;
 use crate::report::{Report, ReportOptions};
 
-/// Arguments of `creepage report`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "The page holds scene, numbers, figures and ways to hold the cable; it needs no network and nothing beside it.

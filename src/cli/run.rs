@@ -11,7 +11,6 @@ use crate::output::Kind;
 use crate::shown::{percent, rounded};
 use crate::{Run, RunOptions};
 
-/// Arguments of `creepage run`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage run my-duct.toml
@@ -55,10 +54,9 @@ fn print(run: &Run) -> Result<(), Failure> {
         1e6 * run.duct_motion.peak_longitudinal_m,
         1e6 * run.duct_motion.peak_vertical_m
     )?;
-    writeln!(out)?;
     writeln!(
         out,
-        "{:>9} {:>23} {:>23} {:>12}",
+        "\n{:>9} {:>23} {:>23} {:>12}",
         "", "force after pass, N", "end moved, mm", "largest"
     )?;
     writeln!(

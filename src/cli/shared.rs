@@ -109,12 +109,11 @@ impl Json {
             return print();
         }
         // Through a string, so that a document is written whole or not at all.
-        let text = serde_json::to_string_pretty(answer)?;
+        let text = serde_json::to_string_pretty(answer).map_err(std::io::Error::from)?;
         Ok(writeln!(std::io::stdout().lock(), "{text}")?)
     }
 }
 
-/// Where an answer and its table go.
 pub struct Destination {
     json: Json,
     table: Table,
@@ -133,20 +132,17 @@ impl OutputArguments {
         kind: Kind,
         read: impl IntoIterator<Item = &'p Path>,
     ) -> Result<Destination, Failure> {
-        let (table, file) = match self.csv.as_deref() {
-            None => (Table::None, None),
-            Some(file) if file == Path::new(STDOUT) => (Table::StandardOutput, Some(file)),
-            Some(file) => (
-                Table::File(self.force.files(read).output(file, kind)?),
-                Some(file),
-            ),
+        let table = match &self.csv {
+            None => Table::None,
+            Some(file) if file == Path::new(STDOUT) => Table::StandardOutput,
+            Some(file) => Table::File(self.force.files(read).output(file, kind)?),
         };
         let on_stdout = match &table {
             Table::None => false,
             Table::StandardOutput => true,
             Table::File(file) => file.is_standard_output(),
         };
-        match file {
+        match &self.csv {
             Some(file) if self.json.json && on_stdout => Err(Failure::Usage {
                 argument: "--csv",
                 found: format!("`{}`, standard output, where --json prints", file.display()),

@@ -10,11 +10,10 @@ use super::terminal;
 use crate::SceneFile;
 #[cfg(feature = "plot")]
 use crate::output::Kind;
-use crate::sweep::{Axis, Band, Quantiles, Samples, Sweep, SweepOptions, SweepSummary};
+use crate::sweep::{Axis, Band, Format, Samples, Sweep, SweepOptions, SweepSummary};
 #[cfg(feature = "plot")]
 use crate::sweep::{MapValue, Row, SweepMap};
 
-/// Arguments of `creepage sweep`.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Rerun the same command to resume an interrupted sweep. A point that fails is a row with its error. Numbers in the table are SI. In CSV an apostrophe \
@@ -62,70 +61,44 @@ pub struct Arguments {
     /// Quantity shown by the map's colour
     #[cfg(feature = "plot")]
     #[arg(long, value_name = "VALUE", default_value = "force", requires = "map")]
-    map_of: MapOf,
+    map_of: MapValue,
     #[command(flatten)]
     json: Json,
     #[command(flatten)]
     force: Force,
 }
 
-/// The quantity shown by a map's colour.
-#[cfg(feature = "plot")]
-#[derive(Debug, Clone, Copy, clap::ValueEnum)]
-pub enum MapOf {
-    /// The larger force on an end
-    Force,
-    /// The larger movement of an end
-    Movement,
-}
-
-#[cfg(feature = "plot")]
-impl From<MapOf> for MapValue {
-    fn from(of: MapOf) -> Self {
-        match of {
-            MapOf::Force => Self::Force,
-            MapOf::Movement => Self::Movement,
-        }
-    }
-}
-
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let file = SceneFile::read(&arguments.scene.scene)?.with(&arguments.scene.set)?;
-    let axes = arguments
-        .vary
-        .iter()
-        .map(|text| Axis::parse(text))
-        .collect::<Result<Vec<_>, _>>()?;
+    let axes = arguments.vary.iter().map(|text| Axis::parse(text));
     let samples = Samples {
         count: arguments.samples.unwrap_or(0),
         seed: arguments.seed,
     };
-    let sweep = Sweep::new(file, axes, samples)?;
+    let sweep = Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?;
     warn_of_slips(&sweep.file_at(0)?);
-    let options = SweepOptions {
-        threads: arguments.threads.map(usize::from),
-        force: arguments.force.force,
-        ..SweepOptions::default()
-    };
     let mut files = arguments.force.files([&*arguments.scene.scene]);
-    files.output(&arguments.out, crate::sweep::kind_of(&arguments.out)?)?;
+    files.output(&arguments.out, Format::of(&arguments.out)?.kind())?;
     #[cfg(feature = "plot")]
     let map = match &arguments.map {
         Some(file) => {
-            let map = SweepMap::new(&sweep, arguments.map_of.into())?;
+            let map = SweepMap::new(&sweep, arguments.map_of)?;
             Some((files.output(file, Kind::Figure)?, map))
         }
         None => None,
     };
     #[cfg(feature = "plot")]
-    let each = map.as_ref().map(|(_, map)| |row: &Row| map.add(row));
-    #[cfg(feature = "plot")]
-    let options = SweepOptions {
-        each: each.as_ref().map(|each| each as &dyn Fn(&Row)),
-        ..options
-    };
+    let add = |row: &Row| map.iter().for_each(|(_, map)| map.add(row));
     let summary = with_bar(POINTS, sweep.count(), |progress| {
-        sweep.run(&arguments.out, &SweepOptions { progress, ..options })
+        let options = SweepOptions {
+            threads: arguments.threads.map(usize::from),
+            force: arguments.force.force,
+            progress,
+            #[cfg(feature = "plot")]
+            each: Some(&add),
+            ..SweepOptions::default()
+        };
+        sweep.run(&arguments.out, &options)
     })?;
     if let Some(error) = &summary.first_error {
         let SweepSummary { failed, points, .. } = summary;
@@ -176,19 +149,11 @@ fn bands(out: &mut impl Write, band: &Band) -> Result<(), Failure> {
     ];
     for (name, quantiles) in forces {
         if let Some(q) = quantiles {
-            let Quantiles {
-                mean,
-                standard_deviation,
-                p05,
-                p25,
-                p50,
-                p75,
-                p95,
-            } = q;
-            writeln!(
-                out,
-                "{name:<12} {mean:>10.1} {standard_deviation:>10.1} {p05:>10.1} {p25:>10.1} {p50:>10.1} {p75:>10.1} {p95:>10.1}"
-            )?;
+            write!(out, "{name:<12}")?;
+            for force in [q.mean, q.standard_deviation, q.p05, q.p25, q.p50, q.p75, q.p95] {
+                write!(out, " {force:>10.1}")?;
+            }
+            writeln!(out)?;
         }
     }
     if band.failed > 0 {

@@ -8,6 +8,7 @@ use std::fmt::Display;
 use std::io::{self, StderrLock, StdoutLock, Write};
 
 use crate::error::with_causes;
+use crate::shown::shortened;
 
 /// What stands for a character that is not shown.
 const REPLACEMENT: &str = "\u{fffd}";
@@ -18,12 +19,10 @@ const KEPT_END: usize = 700;
 /// Longest text of the user's within a line \[characters\].
 const LONGEST_TEXT: usize = 200;
 
-/// Standard output, for answers in words.
 pub fn out() -> Shown<StdoutLock<'static>> {
     Shown(io::stdout().lock())
 }
 
-/// Standard error.
 pub fn err() -> Shown<StderrLock<'static>> {
     Shown(io::stderr().lock())
 }
@@ -33,7 +32,6 @@ pub fn warn(warning: impl Display) {
     let _ = writeln!(err(), "warning: {}", cut(&warning.to_string()));
 }
 
-/// Prints warnings on standard error.
 pub fn warn_all(warnings: &[String]) {
     warnings.iter().for_each(warn);
 }
@@ -46,7 +44,7 @@ pub fn fail(error: &dyn Error) {
 /// A text of the user's as one line of bounded length.
 pub fn line(text: &str) -> String {
     let line = text.replace(['\n', '\r'], REPLACEMENT);
-    shortened(&line, LONGEST_TEXT, 0)
+    shortened(&line, LONGEST_TEXT)
 }
 
 /// A sentence of this program's, which may repeat a text of the user's, as one line of bounded length.
@@ -54,21 +52,20 @@ pub fn sentence(text: &str) -> String {
     cut(&text.replace(['\n', '\r'], REPLACEMENT))
 }
 
-/// A message of bounded length.
+/// A message of bounded length: its beginning and its end.
 pub fn cut(message: &str) -> String {
-    shortened(message, LONGEST_MESSAGE, KEPT_END)
-}
-
-/// At most `longest` characters of the text, `kept_end` of them from its end.
-fn shortened(text: &str, longest: usize, kept_end: usize) -> String {
-    let count = text.chars().count();
-    if count <= longest {
-        return text.to_owned();
+    let count = message.chars().count();
+    let end = message.char_indices().nth(count.saturating_sub(KEPT_END));
+    match end {
+        Some((end, _)) if count > LONGEST_MESSAGE => {
+            format!(
+                "{} …{}",
+                shortened(message, LONGEST_MESSAGE - KEPT_END),
+                &message[end..]
+            )
+        }
+        _ => message.to_owned(),
     }
-    let at = |n: usize| text.char_indices().nth(n).map_or(text.len(), |(at, _)| at);
-    let (start, end) = (&text[..at(longest - kept_end)], &text[at(count - kept_end)..]);
-    let space = if end.is_empty() { "" } else { " …" };
-    format!("{start}… ({count} characters){space}{end}")
 }
 
 /// Whether a terminal may take the character for an order.

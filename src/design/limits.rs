@@ -79,14 +79,9 @@ pub enum DesignError {
         /// How often.
         crossings: usize,
     },
-    /// The stiffness at a limit was not found.
-    #[error("the stiffness at the limit of {what} was not found")]
-    Search {
-        /// Force or movement.
-        what: &'static str,
-        /// Why.
-        source: Box<dyn std::error::Error + Send + Sync>,
-    },
+    /// The stiffness at the limit of force or movement was not found, and why.
+    #[error("the stiffness at the limit of {0} was not found")]
+    Search(&'static str, #[source] Box<dyn std::error::Error + Send + Sync>),
 }
 
 impl DesignError {
@@ -94,8 +89,7 @@ impl DesignError {
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::Analysis(error) => error.is_bad_input(),
-            Self::Invalid { .. } => true,
-            _ => false,
+            error => matches!(error, Self::Invalid { .. }),
         }
     }
 }

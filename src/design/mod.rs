@@ -15,14 +15,12 @@
 //! A limit that is crossed more than once as the stiffness grows is an error, since there is no single range then. Heat, which presses
 //! on the ends too, is left out.
 
-mod answer;
 mod compare;
 mod limits;
 mod search;
 mod trade_off;
 
-pub use answer::Design;
 pub use compare::{Measure, compare};
 pub use limits::{DesignError, DesignOptions, Limits, Place, passes};
 pub use search::design;
-pub use trade_off::TradeOff;
+pub use trade_off::{Design, TradeOff};

@@ -7,9 +7,8 @@ use argmin::core::{CostFunction, Executor};
 use argmin::solver::brent::BrentRoot;
 use rayon::prelude::*;
 
-use super::answer::Design;
 use super::limits::{DesignError, DesignOptions, Place};
-use super::trade_off::{Share, TradeOff, shares};
+use super::trade_off::{Design, Limit, TradeOff, limited};
 use crate::{Error, Progress, RunOptions, Scene};
 
 /// The curve goes from this part of the cable's own stiffness EA/L to its inverse, in half decades.
@@ -54,13 +53,13 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         _ => Some(f64::INFINITY),
     };
     let stiffnesses: Vec<f64> = [0.0].into_iter().chain(grid).chain(last).collect();
-    let shares = shares(options.limits);
+    let limits = limited(options.limits);
     let search = Search {
         scene: &scene,
         options,
         points: Mutex::new(Vec::new()),
         runs: AtomicUsize::new(0),
-        expected_runs: stiffnesses.len() + USUAL_STEPS * shares.len() + 1,
+        expected_runs: stiffnesses.len() + USUAL_STEPS * limits.len() + 1,
     };
     let curve = stiffnesses
         .par_iter()
@@ -68,8 +67,8 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         .collect::<Result<Vec<_>, _>>()?;
 
     let mut range = Some((0.0, f64::INFINITY));
-    for share in shares {
-        let kept = search.kept(&stiffnesses, &curve, &share)?;
+    for limit in &limits {
+        let kept = search.kept(&stiffnesses, &curve, limit)?;
         range = range
             .zip(kept)
             .map(|((a, b), (c, d))| (f64::max(a, c), f64::min(b, d)));
@@ -78,7 +77,9 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     let answer = range
         .map(|range| search.run(choice(options.place, range)))
         .transpose()?;
-    let points = search.points.into_inner().unwrap_or_default();
+    let mut points = search.points.into_inner().unwrap_or_default();
+    let key = |point: &TradeOff| point.stiffness_n_per_m.unwrap_or(f64::INFINITY);
+    points.sort_by(|a, b| key(a).total_cmp(&key(b)));
     Ok(Design {
         title: scene.title.clone(),
         place: options.place,
@@ -87,7 +88,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         range_n_per_m: range.map(|(from, to)| (from, to.is_finite().then_some(to))),
         // Between two stiffnesses that keep a limit every other does; the run has the last word.
         answer: answer.filter(|answer| answer.within_limits),
-        curve: sorted(points),
+        curve: points,
     })
 }
 
@@ -99,20 +100,14 @@ pub(super) fn on_one_mesh(scene: &Scene, place: Place, progress: Progress<'_>) -
         progress: progress.part(0.0, 0.0),
         ..RunOptions::default()
     };
-    let reference = match place {
-        Place::Clamp(_) => crate::run_with(scene, &options)?,
-        _ => crate::run_with(&place.held(scene, f64::INFINITY), &options)?,
+    let plan = match place {
+        Place::Clamp(_) => crate::run_with(scene, &options)?.plan,
+        _ => crate::run_with(&place.held(scene, f64::INFINITY), &options)?.plan,
     };
     let mut scene = scene.clone();
-    if reference.plan.cable != PASS_LAW {
-        scene
-            .solver
-            .node_spacing
-            .get_or_insert(reference.plan.node_spacing_m);
-        scene
-            .solver
-            .vehicle_step
-            .get_or_insert(reference.plan.vehicle_step_m);
+    if plan.cable != PASS_LAW {
+        scene.solver.node_spacing.get_or_insert(plan.node_spacing_m);
+        scene.solver.vehicle_step.get_or_insert(plan.vehicle_step_m);
     }
     Ok(scene)
 }
@@ -126,12 +121,6 @@ fn choice(place: Place, (from, to): (f64, f64)) -> f64 {
         _ if to.is_infinite() || from == 0.0 => to,
         _ => (from * to).sqrt(),
     }
-}
-
-fn sorted(mut points: Vec<TradeOff>) -> Vec<TradeOff> {
-    let key = |point: &TradeOff| point.stiffness_n_per_m.unwrap_or(f64::INFINITY);
-    points.sort_by(|a, b| key(a).total_cmp(&key(b)));
-    points
 }
 
 struct Search<'a> {
@@ -157,13 +146,9 @@ impl Search<'_> {
         if let Some(done) = self.points().iter().find(|point| same(point.stiffness_n_per_m)) {
             return Ok(done.clone());
         }
-        let scene = self.options.place.held(self.scene, stiffness);
-        let point = TradeOff::of(
-            &crate::run(&scene)?,
-            self.options.place,
-            stated,
-            self.options.limits,
-        );
+        let DesignOptions { place, limits, .. } = *self.options;
+        let run = crate::run(&place.held(self.scene, stiffness))?;
+        let point = TradeOff::of(&run, place, stated, limits);
         self.points().push(point.clone());
         let runs = self.runs.fetch_add(1, Ordering::Relaxed) + 1;
         let share = runs as f64 / self.expected_runs as f64;
@@ -176,14 +161,14 @@ impl Search<'_> {
         &self,
         stiffnesses: &[f64],
         curve: &[TradeOff],
-        (what, share): &Share,
+        limit: &Limit,
     ) -> Result<Option<(f64, f64)>, DesignError> {
-        let kept: Vec<bool> = curve.iter().map(|point| share(point) <= 1.0).collect();
+        let kept: Vec<bool> = curve.iter().map(|point| limit.share(point) <= 1.0).collect();
         let crossings: Vec<usize> = (1..kept.len()).filter(|&i| kept[i] != kept[i - 1]).collect();
         match crossings[..] {
             [] => Ok(kept[0].then_some((0.0, f64::INFINITY))),
             [at] => {
-                let edge = self.edge(stiffnesses[at - 1], stiffnesses[at], kept[at], (what, share))?;
+                let edge = self.edge(stiffnesses[at - 1], stiffnesses[at], kept[at], limit)?;
                 Ok(Some(if kept[at] {
                     (edge, f64::INFINITY)
                 } else {
@@ -191,63 +176,44 @@ impl Search<'_> {
                 }))
             }
             _ => Err(DesignError::NotMonotone {
-                what,
+                what: limit.0,
                 crossings: crossings.len(),
             }),
         }
     }
 
     /// The last stiffness within the limit, where it is crossed between two.
-    fn edge(
-        &self,
-        low: f64,
-        high: f64,
-        kept_above: bool,
-        (what, share): (&'static str, &(dyn Fn(&TradeOff) -> f64 + Sync)),
-    ) -> Result<f64, DesignError> {
+    fn edge(&self, low: f64, high: f64, kept_above: bool, limit: &Limit) -> Result<f64, DesignError> {
         let safe = if kept_above { high } else { low };
         if low == 0.0 || high.is_infinite() {
             // Beyond the ends of the curve a stiffness means as little as none, or as much as a fixed end.
             return Ok(safe);
         }
-        let failed = |source: argmin::core::Error| DesignError::Search {
-            what,
-            source: source.to_string().into(),
-        };
+        let failed = |error: argmin::core::Error| DesignError::Search(limit.0, error.to_string().into());
         let solver = BrentRoot::new(low.ln(), high.ln(), ACCURACY);
-        Executor::new(Excess { search: self, share }, solver)
+        Executor::new(Excess(self, limit), solver)
             .configure(|state| state.param(low.ln()).max_iters(MOST_STEPS))
             .run()
             .map_err(failed)?;
         // Brent's last bracket holds a run on either side of the limit: the one that keeps it is the edge.
         let points = self.points();
-        let edge = points
-            .iter()
-            .filter(|point| share(point) <= 1.0)
+        let kept = points.iter().filter(|point| limit.share(point) <= 1.0);
+        let stiffnesses = kept
             .filter_map(|point| point.stiffness_n_per_m)
-            .filter(|stiffness| (low..=high).contains(stiffness))
-            .fold(safe, |edge, stiffness| {
-                if kept_above {
-                    edge.min(stiffness)
-                } else {
-                    edge.max(stiffness)
-                }
-            });
-        Ok(edge)
+            .filter(|stiffness| (low..=high).contains(stiffness));
+        let nearer = if kept_above { f64::min } else { f64::max };
+        Ok(stiffnesses.fold(safe, nearer))
     }
 }
 
 /// By how much a limit is exceeded, over the logarithm of the stiffness.
-struct Excess<'a, 'b> {
-    search: &'a Search<'b>,
-    share: &'a (dyn Fn(&TradeOff) -> f64 + Sync),
-}
+struct Excess<'a, 'b>(&'a Search<'b>, &'a Limit);
 
 impl CostFunction for Excess<'_, '_> {
     type Param = f64;
     type Output = f64;
 
     fn cost(&self, logarithm: &f64) -> Result<f64, argmin::core::Error> {
-        Ok((self.share)(&self.search.run(logarithm.exp())?) - 1.0)
+        Ok(self.1.share(&self.0.run(logarithm.exp())?) - 1.0)
     }
 }

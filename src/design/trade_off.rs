@@ -1,4 +1,4 @@
-//! A point of the curve of force against movement.
+//! What a design answers: force against movement.
 
 use serde::{Deserialize, Serialize};
 
@@ -23,17 +23,37 @@ pub struct TradeOff {
     pub within_limits: bool,
 }
 
+/// What holds the cable best.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Design {
+    /// The scene's title.
+    pub title: String,
+    /// What was varied.
+    pub place: Place,
+    /// Number of passes.
+    pub passes: u64,
+    /// The limits.
+    pub limits: Limits,
+    /// The stiffnesses within both limits \[N/m\], from and to; no upper one where a fixed end is within them too. `None` where no
+    /// stiffness is.
+    pub range_n_per_m: Option<(f64, Option<f64>)>,
+    /// What to take: within the range, with margins to both limits. `None` where no stiffness stays within them.
+    pub answer: Option<TradeOff>,
+    /// Everything that was computed, by growing stiffness, from a free end or no clamp on.
+    pub curve: Vec<TradeOff>,
+}
+
 impl TradeOff {
     /// What `run` gives for a spring of this stiffness at `place`.
     pub(super) fn of(run: &Run, place: Place, stiffness_n_per_m: Option<f64>, limits: Limits) -> Self {
         let largest = |values: &[fn(&PassRecord) -> f64]| {
-            let all = run
-                .passes
-                .iter()
-                .flat_map(|pass| values.iter().map(move |value| value(pass)));
+            let passes = run.passes.iter();
+            let all = passes.flat_map(|pass| values.iter().map(move |value| value(pass)));
             all.fold(0.0, |largest: f64, value| largest.max(value.abs()))
         };
         let clamped = matches!(place, Place::Clamp(_)) && stiffness_n_per_m != Some(0.0);
+        let clamp = run.restraints.last().filter(|_| clamped);
         let mut point = Self {
             stiffness_n_per_m,
             force_n: largest(&[
@@ -46,26 +66,29 @@ impl TradeOff {
                 |pass| pass.upstream_displacement_m,
                 |pass| pass.downstream_displacement_m,
             ]),
-            clamp_force_n: run
-                .restraints
-                .last()
-                .filter(|_| clamped)
-                .map(|clamp| clamp.force_n),
+            clamp_force_n: clamp.map(|clamp| clamp.force_n),
             error_estimate: run.error_estimate.relative,
             within_limits: true,
         };
-        point.within_limits = shares(limits).iter().all(|(_, share)| share(&point) <= 1.0);
+        point.within_limits = limited(limits).iter().all(|limit| limit.share(&point) <= 1.0);
         point
     }
 }
 
-/// A limited quantity: its name, and what of a point it is beside its limit, at most 1 within the limit.
-pub(super) type Share = (&'static str, Box<dyn Fn(&TradeOff) -> f64 + Sync>);
+/// A limited quantity of a point: its name, what it is there, and the most that is allowed.
+pub(super) struct Limit(pub &'static str, fn(&TradeOff) -> f64, f64);
 
-pub(super) fn shares(limits: Limits) -> Vec<Share> {
-    let mut shares: Vec<Share> = vec![("force", Box::new(move |point| point.force_n / limits.force_n))];
-    if let Some(limit) = limits.movement_m {
-        shares.push(("movement", Box::new(move |point| point.movement_m / limit)));
+impl Limit {
+    /// What of a point it is beside its limit, at most 1 within the limit.
+    pub fn share(&self, point: &TradeOff) -> f64 {
+        self.1(point) / self.2
     }
-    shares
+}
+
+pub(super) fn limited(limits: Limits) -> Vec<Limit> {
+    let force = Limit("force", |point| point.force_n, limits.force_n);
+    let movement = |limit| Limit("movement", |point| point.movement_m, limit);
+    std::iter::once(force)
+        .chain(limits.movement_m.map(movement))
+        .collect()
 }

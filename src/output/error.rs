@@ -7,26 +7,12 @@ use std::path::Path;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum OutputError {
-    /// The place cannot be written; found before anything is computed.
-    #[error("{file}: cannot be written")]
-    Unwritable {
-        /// The file.
-        file: String,
-        /// Why.
-        source: io::Error,
-    },
-    /// The command reads this file.
-    #[error("{file}: found a file which is read by this command; allowed: another file")]
-    IsRead {
-        /// The file.
-        file: String,
-    },
-    /// The command writes this file already.
-    #[error("{file}: found a file which this command writes twice; allowed: another file")]
-    IsWritten {
-        /// The file.
-        file: String,
-    },
+    /// The file of this name cannot be written, and why; found before anything is computed.
+    #[error("{0}: cannot be written")]
+    Unwritable(String, #[source] io::Error),
+    /// The command reads the file of this name, or writes it already, in words.
+    #[error("{0}: found a file which {1}; allowed: another file")]
+    Taken(String, &'static str),
     /// There is something that this command did not write.
     #[error(
         "{file}: found {found}, which would be lost; allowed: a new name, {kind} to replace, or --force to insist"
@@ -39,14 +25,9 @@ pub enum OutputError {
         /// What would be replaced.
         kind: String,
     },
-    /// Writing broke off.
-    #[error("{file}: cannot be written")]
-    Failed {
-        /// The file.
-        file: String,
-        /// Why.
-        source: io::Error,
-    },
+    /// Writing the file of this name broke off, and why.
+    #[error("{0}: cannot be written")]
+    Failed(String, #[source] io::Error),
     /// Writing to standard output broke off.
     #[error("standard output: cannot be written")]
     StandardOutput(#[source] io::Error),
@@ -54,14 +35,11 @@ pub enum OutputError {
 
 impl OutputError {
     pub(crate) fn unwritable(file: &Path, source: io::Error) -> Self {
-        Self::Unwritable {
-            file: file.display().to_string(),
-            source,
-        }
+        Self::Unwritable(file.display().to_string(), source)
     }
 
     /// Whether the input is at fault, not the disk.
     pub fn is_bad_input(&self) -> bool {
-        !matches!(self, Self::Failed { .. } | Self::StandardOutput(_))
+        !matches!(self, Self::Failed(..) | Self::StandardOutput(_))
     }
 }

@@ -1,14 +1,13 @@
-//! The files that one command reads and writes.
+//! The files that one command reads and writes, and whether two names mean one of them.
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 use super::error::OutputError;
-use super::identity::Identity;
 use super::kind::Kind;
 use super::place::Place;
 use super::target::Output;
 
-/// The files that one command reads and writes.
 pub struct Files {
     read: Vec<Identity>,
     written: Vec<Identity>,
@@ -34,12 +33,12 @@ impl Files {
             _ => Identity::of(path),
         };
         if let Some(identity) = identity {
-            let file = || path.display().to_string();
-            if self.read.iter().any(|read| read.is(&identity)) {
-                return Err(OutputError::IsRead { file: file() });
+            let (known, file) = (|other: &Identity| other.is(&identity), path.display().to_string());
+            if self.read.iter().any(known) {
+                return Err(OutputError::Taken(file, "is read by this command"));
             }
-            if self.written.iter().any(|written| written.is(&identity)) {
-                return Err(OutputError::IsWritten { file: file() });
+            if self.written.iter().any(known) {
+                return Err(OutputError::Taken(file, "this command writes twice"));
             }
             self.written.push(identity);
         }
@@ -51,5 +50,46 @@ impl Files {
         };
         output.check()?;
         Ok(output)
+    }
+}
+
+/// What makes a file this one, whatever it is called.
+#[derive(Debug, Clone)]
+struct Identity {
+    /// Its name past all links.
+    path: PathBuf,
+    /// Device and number of the file, which hard links share.
+    #[cfg(unix)]
+    number: Option<(u64, u64)>,
+}
+
+impl Identity {
+    /// The identity of a file, one that is not there yet included; `None` for what is no file of a disk.
+    fn of(path: &Path) -> Option<Self> {
+        let found = fs::metadata(path).ok();
+        if found.as_ref().is_some_and(|found| !found.is_file()) {
+            return None;
+        }
+        let canonical = path.canonicalize().or_else(|_| {
+            let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let folder = folder.unwrap_or(Path::new(".")).canonicalize()?;
+            Ok::<_, std::io::Error>(folder.join(path.file_name().unwrap_or_default()))
+        });
+        Some(Self {
+            path: canonical.ok()?,
+            #[cfg(unix)]
+            number: found.map(|found| {
+                use std::os::unix::fs::MetadataExt;
+                (found.dev(), found.ino())
+            }),
+        })
+    }
+
+    fn is(&self, other: &Self) -> bool {
+        #[cfg(unix)]
+        if self.number.is_some() && self.number == other.number {
+            return true;
+        }
+        self.path == other.path
     }
 }

@@ -1,25 +1,17 @@
 //! What a file is, by how it begins.
 
-/// What this program writes to a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(
     not(all(feature = "cli", feature = "plot")),
     allow(dead_code, reason = "without all features not every kind is written")
 )]
 pub enum Kind {
-    /// Table of a run.
     Passes,
-    /// Table of a profile.
     Motion,
-    /// Table of a calibration.
     Fit,
-    /// Table of a sweep.
     Sweep,
-    /// Table of a sweep, as Apache Parquet.
     Parquet,
-    /// SVG.
     Figure,
-    /// Page of a report.
     Page,
     /// A new scene: never replaced but by force, for it is its author's work.
     Scene,
@@ -58,30 +50,13 @@ impl Kind {
     }
 
     /// Columns that every table of this kind has.
-    fn columns(self) -> &'static [&'static str] {
+    fn columns(self) -> &'static str {
         match self {
-            Self::Passes => &[
-                "pass",
-                "downstream_force_n",
-                "downstream_peak_n",
-                "upstream_force_n",
-                "upstream_peak_n",
-            ],
-            Self::Motion => &[
-                "position_m",
-                "longitudinal_m",
-                "vertical_m",
-                "longitudinal_velocity_m_per_s",
-            ],
-            Self::Fit => &["pass", "force_n", "fitted_n", "residual_n"],
-            Self::Sweep => &[
-                "downstream_force_n",
-                "upstream_force_n",
-                "error_estimate",
-                "status",
-                "error",
-            ],
-            _ => &[],
+            Self::Passes => "pass downstream_force_n downstream_peak_n upstream_force_n upstream_peak_n",
+            Self::Motion => "position_m longitudinal_m vertical_m longitudinal_velocity_m_per_s",
+            Self::Fit => "pass force_n fitted_n residual_n",
+            Self::Sweep => "downstream_force_n upstream_force_n error_estimate status error",
+            _ => "",
         }
     }
 
@@ -98,7 +73,7 @@ impl Kind {
                 let line = head.split(|&byte| byte == b'\n').next().unwrap_or_default();
                 let line = String::from_utf8_lossy(line);
                 let found: Vec<&str> = line.trim_end().split(',').collect();
-                self.columns().iter().all(|column| found.contains(column))
+                self.columns().split(' ').all(|column| found.contains(&column))
             }
         }
     }
@@ -128,14 +103,10 @@ fn something_else(head: &[u8]) -> &'static str {
     if text.contains('\0') {
         return "binary data";
     }
-    let mut lines = text
-        .lines()
-        .map(str::trim)
-        .filter(|line| !line.is_empty() && !line.starts_with('#'));
-    if lines
-        .clone()
-        .any(|line| line.starts_with("[duct]") || line.starts_with("[[vehicles]]"))
-    {
+    let lines = text.lines().map(str::trim);
+    let mut lines = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let is_of_a_scene = |line: &str| line.starts_with("[duct]") || line.starts_with("[[vehicles]]");
+    if lines.clone().any(is_of_a_scene) {
         return "a scene";
     }
     if lines.next().is_some_and(|line| line.contains([',', ';', '\t'])) {

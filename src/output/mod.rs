@@ -11,19 +11,16 @@
 //! Limits: another name of the replaced file (a hard link) keeps the old content. Nothing guards against someone who puts a file of
 //! another kind there between the last look and the rename.
 
-mod draft;
 mod error;
 mod files;
-mod identity;
 mod kind;
 mod place;
 mod target;
 mod temporary;
 
-pub(crate) use draft::Draft;
 pub use error::OutputError;
 pub(crate) use files::Files;
 pub(crate) use kind::Kind;
-pub(crate) use target::Output;
+pub(crate) use target::{Draft, Output};
 #[cfg(feature = "cli")]
 pub(crate) use temporary::remove_all;

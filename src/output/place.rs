@@ -9,7 +9,6 @@ const MOST_LINKS: usize = 40;
 /// Number of the descriptor of standard output.
 const STANDARD_OUTPUT: u32 = 1;
 
-/// What is written to.
 #[derive(Debug, Clone)]
 pub enum Place {
     /// A file past all links, or the name of a new one.

@@ -1,7 +1,7 @@
-//! One file that is going to be written.
+//! One file that is going to be written, and its content on its way there.
 
 use std::fs::{File, OpenOptions};
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, BufWriter, ErrorKind, IntoInnerError, Read, Write};
 use std::path::{Path, PathBuf};
 
 use super::error::OutputError;
@@ -12,7 +12,6 @@ use super::temporary::Temporary;
 /// Bytes at the beginning of a file that show its kind.
 const HEAD: u64 = 1 << 16;
 
-/// A file that is going to be written.
 #[derive(Debug, Clone)]
 pub struct Output {
     /// As the user calls it.
@@ -71,14 +70,75 @@ impl Output {
         matches!(self.place, Place::StandardOutput)
     }
 
-    /// The error of writing.
+    pub fn begin(&self) -> Result<Draft, OutputError> {
+        let begin = || -> io::Result<(Box<dyn Write + Send>, Option<Temporary>)> {
+            Ok(match &self.place {
+                Place::StandardOutput => (Box::new(io::stdout()), None),
+                // What another program handed over goes on where it is.
+                Place::Special(path) => (Box::new(OpenOptions::new().append(true).open(path)?), None),
+                Place::File(path) => {
+                    let temporary = Temporary::beside(path)?;
+                    (Box::new(temporary.writer()?), Some(temporary))
+                }
+            })
+        };
+        let (out, temporary) = begin().map_err(|source| self.failed(source))?;
+        Ok(Draft {
+            output: self.clone(),
+            writer: BufWriter::new(out),
+            temporary,
+        })
+    }
+
+    /// Writes all of it: what `fill` writes stands there if it succeeds, and else what stood there before.
+    #[cfg(feature = "cli")]
+    pub fn write(&self, fill: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
+        let mut draft = self.begin()?;
+        fill(&mut draft).map_err(|source| self.failed(source))?;
+        draft.finish()
+    }
+
     pub fn failed(&self, source: io::Error) -> OutputError {
         match self.place {
             Place::StandardOutput => OutputError::StandardOutput(source),
-            _ => OutputError::Failed {
-                file: self.name.display().to_string(),
-                source,
-            },
+            _ => OutputError::Failed(self.name.display().to_string(), source),
         }
+    }
+}
+
+/// A file that is being written. Dropped before it is finished, it leaves nothing behind.
+pub struct Draft {
+    output: Output,
+    writer: BufWriter<Box<dyn Write + Send>>,
+    /// What is being written, but for what is written where it is.
+    temporary: Option<Temporary>,
+}
+
+impl Draft {
+    /// Puts the content in its place.
+    pub fn finish(self) -> Result<(), OutputError> {
+        let Self {
+            output,
+            writer,
+            temporary,
+        } = self;
+        let out = writer.into_inner().map_err(IntoInnerError::into_error);
+        let mut written = out.and_then(|mut out| out.flush());
+        if let (Ok(()), Some(temporary), Place::File(path)) = (&written, temporary, &output.place) {
+            // Hours may have gone by: what has come into its place meanwhile is kept too.
+            output.check_kind(path)?;
+            written = temporary.replace(path);
+        }
+        written.map_err(|source| output.failed(source))
+    }
+}
+
+impl Write for Draft {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.writer.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.writer.flush()
     }
 }

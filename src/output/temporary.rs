@@ -1,7 +1,7 @@
 //! A file under a name that nobody can guess, until it takes its place.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -60,6 +60,11 @@ impl Temporary {
         Ok(Self { file, listed })
     }
 
+    /// What writes to it.
+    pub fn writer(&self) -> io::Result<File> {
+        self.file.as_file().try_clone()
+    }
+
     /// Takes the place of `target`, with all its content on the disk.
     pub fn replace(self, target: &Path) -> io::Result<()> {
         self.file.as_file().sync_all()?;
@@ -74,16 +79,6 @@ impl Temporary {
             let _ = folder.sync_all();
         }
         Ok(())
-    }
-}
-
-impl Write for Temporary {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.as_file_mut().write(bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.file.as_file_mut().flush()
     }
 }
 

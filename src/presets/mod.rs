@@ -15,8 +15,7 @@
 use std::sync::LazyLock;
 
 use serde::Serialize;
-use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::DeTable;
 
 /// What a preset describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
@@ -66,8 +65,6 @@ const FILES: [(PresetKind, &str); 4] = [
     (PresetKind::Friction, include_str!("frictions.toml")),
     (PresetKind::Pavement, include_str!("pavements.toml")),
 ];
-const COMMON: [(&str, bool); 2] = [("sources", false), ("assumed", true)];
-
 /// All presets, by kind.
 pub fn all() -> &'static [Preset] {
     static ALL: LazyLock<Vec<Preset>> =
@@ -82,67 +79,47 @@ pub fn of(kind: PresetKind) -> impl Iterator<Item = &'static Preset> {
 
 /// The presets of a data file. The files are built in, and tests read them: there is nothing to report here.
 fn read(kind: PresetKind, text: &str) -> Vec<Preset> {
-    let Ok(file) = DeTable::parse(text) else {
-        return Vec::new();
-    };
-    let file = file.get_ref();
-    let mut presets: Vec<(usize, Preset)> = file
-        .iter()
-        .filter(|(name, _)| COMMON.iter().all(|(common, _)| name.get_ref() != common))
-        .filter_map(|(name, value)| {
-            let table = table(value)?;
-            let own = COMMON.iter().any(|(key, _)| table.contains_key(*key));
-            let preset = Preset {
-                kind,
-                name: name.get_ref().clone().into_owned(),
-                summary: table.get("summary")?.get_ref().as_str()?.to_owned(),
-                toml: written(text, table.get("values")?)?,
-                sources: sources(if own { table } else { file }),
-            };
-            Some((name.span().start, preset))
+    let file = DeTable::parse_recoverable(text).0;
+    let presets = file
+        .get_ref()
+        .get("presets")
+        .and_then(|list| list.get_ref().as_array());
+    let preset = |table: &DeTable| {
+        let own = sources(table);
+        Some(Preset {
+            kind,
+            name: text_at(table, "name")?.to_owned(),
+            summary: text_at(table, "summary")?.to_owned(),
+            toml: text_at(table, "values")?.to_owned(),
+            sources: if own.is_empty() {
+                sources(file.get_ref())
+            } else {
+                own
+            },
         })
-        .collect();
-    presets.sort_by_key(|(start, _)| *start);
-    presets.into_iter().map(|(_, preset)| preset).collect()
-}
-
-fn table<'t, 'i>(value: &'t Spanned<DeValue<'i>>) -> Option<&'t DeTable<'i>> {
-    match value.get_ref() {
-        DeValue::Table(table) => Some(table),
-        _ => None,
-    }
-}
-
-/// A table's pairs in the order of the file.
-fn pairs<'t, 'i>(value: &'t Spanned<DeValue<'i>>) -> Vec<(&'t str, &'t Spanned<DeValue<'i>>)> {
-    let mut pairs: Vec<_> = table(value)
+    };
+    let tables = presets
         .into_iter()
         .flatten()
-        .map(|(key, value)| (key.get_ref().as_ref(), value))
-        .collect();
-    pairs.sort_by_key(|(_, value)| value.span().start);
-    pairs
+        .filter_map(|item| item.get_ref().as_table());
+    tables.filter_map(preset).collect()
 }
 
-/// The values as they stand in the file.
-fn written(text: &str, values: &Spanned<DeValue>) -> Option<String> {
-    pairs(values)
-        .into_iter()
-        .map(|(key, value)| Some(format!("{key} = {}\n", text.get(value.span())?)))
-        .collect()
+fn text_at<'t>(table: &'t DeTable, key: &str) -> Option<&'t str> {
+    table.get(key)?.get_ref().as_str()
 }
 
+/// The sources in lines of `KEY: SOURCE`.
 fn sources(table: &DeTable) -> Vec<Source> {
-    COMMON
-        .iter()
-        .filter_map(|(key, assumed)| Some((table.get(*key)?, *assumed)))
-        .flat_map(|(value, assumed)| pairs(value).into_iter().map(move |pair| (pair, assumed)))
-        .filter_map(|((key, value), assumed)| {
-            Some(Source {
-                key: key.to_owned(),
-                source: value.get_ref().as_str()?.to_owned(),
-                assumed,
-            })
-        })
-        .collect()
+    let lists = [("sources", false), ("assumed", true)].into_iter();
+    let pairs = lists.flat_map(|(list, assumed)| {
+        let lines = text_at(table, list).unwrap_or_default().lines();
+        lines.filter_map(move |line| Some((line.split_once(": ")?, assumed)))
+    });
+    let source = |((key, source), assumed): ((&str, &str), bool)| Source {
+        key: key.to_owned(),
+        source: source.to_owned(),
+        assumed,
+    };
+    pairs.map(source).collect()
 }

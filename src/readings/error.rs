@@ -4,14 +4,9 @@
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum DataError {
-    /// The file cannot be read.
-    #[error("{file}: cannot be read")]
-    Unreadable {
-        /// The file.
-        file: String,
-        /// Why.
-        source: std::io::Error,
-    },
+    /// The file of this name cannot be read, and why.
+    #[error("{0}: cannot be read")]
+    Unreadable(String, #[source] std::io::Error),
     /// The file is far larger than any readings.
     #[error("{file}: found more than {allowed} bytes; allowed: a table of at most {allowed} bytes")]
     TooLarge {
@@ -30,48 +25,21 @@ pub enum DataError {
         /// Why.
         source: Box<dyn std::error::Error + Send + Sync>,
     },
-    /// The header lacks a column or names one twice.
-    #[error(
-        "{file}:{line}: {problem} column {column}; allowed: a header `pass,force_n` or `pass,force_n,sigma_n`"
-    )]
-    Column {
+    /// A line does not hold what it should: a column, a number, a sigma where others have one.
+    #[error("{file}:{line}: {found}; allowed: {allowed}")]
+    Line {
         /// The file.
         file: String,
         /// The line.
         line: u64,
-        /// What is wrong with it: there is none, or a second.
-        problem: &'static str,
-        /// The column.
-        column: &'static str,
-    },
-    /// A cell does not hold what it should.
-    #[error("{file}:{line}: {column}: found \"{found}\"; allowed: {allowed}")]
-    Cell {
-        /// The file.
-        file: String,
-        /// The line.
-        line: u64,
-        /// The column.
-        column: &'static str,
         /// What was found.
         found: String,
         /// What is allowed.
         allowed: &'static str,
     },
-    /// Some readings have a sigma and some have none.
-    #[error("{file}:{line}: sigma_n is blank, but given for other readings; allowed: all or none")]
-    SomeSigmas {
-        /// The file.
-        file: String,
-        /// The first line without one.
-        line: u64,
-    },
-    /// There is nothing in the file.
-    #[error("{file}: no readings; allowed: a table with the columns pass,force_n[,sigma_n]")]
-    Empty {
-        /// The file.
-        file: String,
-    },
+    /// There is nothing in the file of this name.
+    #[error("{0}: no readings; allowed: a table with the columns pass,force_n[,sigma_n]")]
+    Empty(String),
     /// Fewer readings than parameters.
     #[error(
         "{file}: {readings} readings, the last on line {line}; needed for {parameters} parameters: {needed}"

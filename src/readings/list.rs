@@ -5,8 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use super::error::DataError;
-use super::reading::Reading;
-use super::table;
+use super::table::{self, Reading};
 
 /// A file larger than this \[bytes\] holds no readings: it is a million of them many times over.
 const LARGEST_FILE: u64 = 64 << 20;
@@ -41,7 +40,7 @@ impl Readings {
         // One byte more tells a file that is too large, without all of it.
         match File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes)) {
             Ok(_) => Self::from_csv(&file, &bytes),
-            Err(source) => Err(DataError::Unreadable { file, source }),
+            Err(source) => Err(DataError::Unreadable(file, source)),
         }
     }
 
@@ -57,25 +56,21 @@ impl Readings {
                 allowed: LARGEST_FILE,
             });
         }
-        let (readings, skipped) = table::read(file, bytes)?;
-        if readings.is_empty() {
-            return Err(DataError::Empty {
-                file: file.to_owned(),
-            });
+        let (list, skipped) = table::read(file, bytes)?;
+        let file = file.to_owned();
+        if list.is_empty() {
+            return Err(DataError::Empty(file));
         }
-        if readings.iter().any(|reading| reading.sigma.is_some())
-            && let Some(bare) = readings.iter().find(|reading| reading.sigma.is_none())
-        {
-            return Err(DataError::SomeSigmas {
-                file: file.to_owned(),
+        let bare = list.iter().find(|reading| reading.sigma.is_none());
+        match bare.filter(|_| list.iter().any(|reading| reading.sigma.is_some())) {
+            Some(bare) => Err(DataError::Line {
+                file,
                 line: bare.line,
-            });
+                found: "sigma_n is blank, but given for other readings".into(),
+                allowed: "all or none",
+            }),
+            None => Ok(Self { file, list, skipped }),
         }
-        Ok(Self {
-            file: file.to_owned(),
-            list: readings,
-            skipped,
-        })
     }
 
     /// Makes sure that there are at least `needed` readings for this number of parameters.

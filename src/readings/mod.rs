@@ -6,9 +6,8 @@
 
 mod error;
 mod list;
-mod reading;
 mod table;
 
 pub use error::DataError;
 pub use list::Readings;
-pub use reading::Reading;
+pub use table::Reading;

@@ -3,13 +3,26 @@
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::error::DataError;
-use super::reading::Reading;
+use crate::shown::shortened;
 
 const PASS: &str = "pass";
 const FORCE: &str = "force_n";
 const SIGMA: &str = "sigma_n";
 /// Longest text of a cell that a message repeats \[characters\].
 const LONGEST_CELL: usize = 80;
+
+/// A reading of the load cell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reading {
+    /// Number of the pass after which it was taken, from 1.
+    pub pass: u64,
+    /// Force \[N\], compression positive.
+    pub force: f64,
+    /// Its standard deviation \[N\], where the file gives it.
+    pub sigma: Option<f64>,
+    /// Line of the file, from 1.
+    pub line: u64,
+}
 
 /// The readings of `file`, which holds these bytes, and the number of rows without a force.
 pub fn read(file: &str, bytes: &[u8]) -> Result<(Vec<Reading>, usize), DataError> {
@@ -56,7 +69,6 @@ pub fn read(file: &str, bytes: &[u8]) -> Result<(Vec<Reading>, usize), DataError
     Ok((readings, skipped))
 }
 
-/// Where the columns stand.
 #[derive(Debug, Clone, Copy)]
 struct Columns {
     pass: usize,
@@ -81,15 +93,19 @@ impl Row<'_> {
             };
             return Ok((columns, false));
         }
-        let find = |column: &'static str| {
+        let wrong = |problem, column| {
+            let allowed = "a header `pass,force_n` or `pass,force_n,sigma_n`";
+            self.wrong(format!("{problem} column {column}"), allowed)
+        };
+        let find = |column| {
             let mut places = (0..self.record.len()).filter(|&i| self.record[i].eq_ignore_ascii_case(column));
             let place = places.next();
             if places.next().is_some() {
-                return Err(self.column("a second", column));
+                return Err(wrong("a second", column));
             }
             Ok(place)
         };
-        let missing = |column| self.column("no", column);
+        let missing = |column| wrong("no", column);
         let columns = Columns {
             pass: find(PASS)?.ok_or_else(|| missing(PASS))?,
             force: find(FORCE)?.ok_or_else(|| missing(FORCE))?,
@@ -98,27 +114,22 @@ impl Row<'_> {
         Ok((columns, true))
     }
 
-    fn column(&self, problem: &'static str, column: &'static str) -> DataError {
-        DataError::Column {
-            file: self.file.to_owned(),
-            line: self.line,
-            problem,
-            column,
-        }
-    }
-
     fn cell(&self, place: usize) -> &str {
         self.record.get(place).unwrap_or("")
     }
 
-    fn wrong(&self, column: &'static str, found: &str, allowed: &'static str) -> DataError {
-        DataError::Cell {
+    fn wrong(&self, found: String, allowed: &'static str) -> DataError {
+        DataError::Line {
             file: self.file.to_owned(),
             line: self.line,
-            column,
-            found: cut(found),
+            found,
             allowed,
         }
+    }
+
+    fn wrong_cell(&self, column: &str, found: &str, allowed: &'static str) -> DataError {
+        let found = shortened(found, LONGEST_CELL);
+        self.wrong(format!("{column}: found \"{found}\""), allowed)
     }
 
     /// The reading, `None` where the force is blank.
@@ -127,19 +138,20 @@ impl Row<'_> {
         if found.is_empty() {
             return Ok(None);
         }
-        let force = finite(found).ok_or_else(|| self.wrong(FORCE, found, "a finite number of newtons"))?;
+        let force =
+            finite(found).ok_or_else(|| self.wrong_cell(FORCE, found, "a finite number of newtons"))?;
         let found = self.cell(columns.pass);
         // "12.0" is what a spreadsheet makes of 12.
         let pass = finite(found)
             .filter(|pass| pass.fract() == 0.0 && (1.0..=1e15).contains(pass))
-            .ok_or_else(|| self.wrong(PASS, found, "a whole number from 1"))?;
+            .ok_or_else(|| self.wrong_cell(PASS, found, "a whole number from 1"))?;
         let found = columns.sigma.map_or("", |place| self.cell(place));
         let sigma = if found.is_empty() {
             None
         } else {
             let allowed = "a finite, positive number of newtons";
             let sigma = finite(found).filter(|sigma| *sigma > 0.0);
-            Some(sigma.ok_or_else(|| self.wrong(SIGMA, found, allowed))?)
+            Some(sigma.ok_or_else(|| self.wrong_cell(SIGMA, found, allowed))?)
         };
         Ok(Some(Reading {
             pass: pass as u64,
@@ -147,14 +159,6 @@ impl Row<'_> {
             sigma,
             line: self.line,
         }))
-    }
-}
-
-/// The text, as far as a message repeats it.
-fn cut(text: &str) -> String {
-    match text.char_indices().nth(LONGEST_CELL) {
-        None => text.to_owned(),
-        Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
     }
 }
 

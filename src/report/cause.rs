@@ -85,7 +85,6 @@ fn motion(report: &Report) -> [Chart; 2] {
     ]
 }
 
-/// Velocity of a point of the duct along its axis.
 fn velocity(report: &Report) -> Chart {
     let velocity = &report.motion.longitudinal_velocity_m_per_s;
     let [forward, backward] = ways(report).map(|way| MICRO * way);
@@ -110,7 +109,6 @@ fn ways(report: &Report) -> [f64; 2] {
     })
 }
 
-/// Friction on the cable near the vehicle.
 fn friction(report: &Report) -> impl Iterator<Item = Chart> {
     let limit = report.scene.friction_limit();
     let half = reach(&report.scene);

@@ -29,7 +29,6 @@ pub fn figure(html: &mut Html, charts: impl IntoIterator<Item = Chart>, caption:
     }
 }
 
-/// The axis of the passes.
 pub fn passes_axis(last: u64) -> Axis {
     let axis = if last > MANY {
         Axis::logarithmic

@@ -3,7 +3,7 @@
 use super::agreement::Agreement;
 use super::content::Report;
 use super::figure::{MILLI, figure, passes_axis, series};
-use super::html::{Html, Table};
+use super::html::Html;
 use super::quantity::{count, length};
 use crate::PassRecord;
 use crate::answer::table_rows;
@@ -23,7 +23,7 @@ pub fn force(html: &mut Html, report: &Report) {
     figure(html, [along(report)], caption);
     let caption = "Displacement of the cable’s ends, positive toward growing x, downstream.";
     figure(html, [movement(report)], caption);
-    html.table(&passes(&report.run.passes));
+    passes(html, &report.run.passes);
     html.raw("</div>");
     for clamp in &report.run.restraints {
         let (place, force) = (length(clamp.position_m), rounded(clamp.force_n, 1));
@@ -86,7 +86,6 @@ fn over_passes(report: &Report) -> Chart {
     chart.with(Series::points("measured", points).look(1).marker(0))
 }
 
-/// Force along the cable after some passes.
 fn along(report: &Report) -> Chart {
     let axes = (Axis::linear("place along the duct, m"), Axis::linear("force, N"));
     let chart = Chart::new("Force along the cable", axes.0, axes.1);
@@ -103,7 +102,6 @@ fn along(report: &Report) -> Chart {
     })
 }
 
-/// Movement of both ends against passes.
 fn movement(report: &Report) -> Chart {
     let passes = &report.run.passes;
     let last = passes.last().map_or(1, |record| record.pass);
@@ -116,7 +114,7 @@ fn movement(report: &Report) -> Chart {
 }
 
 /// Some passes, as the terminal shows them; without what stays zero, as the force on a free end.
-fn passes(passes: &[PassRecord]) -> Table {
+fn passes(html: &mut Html, passes: &[PassRecord]) {
     type Column = (&'static str, fn(&PassRecord) -> f64, usize);
     // Soft hyphens: a phone is narrow.
     let mut columns: Vec<Column> = vec![
@@ -144,9 +142,6 @@ fn passes(passes: &[PassRecord]) -> Table {
         std::iter::once(count(record.pass)).chain(values).collect()
     };
     let names = columns.iter().map(|(name, ..)| *name);
-    Table {
-        head: std::iter::once("pass").chain(names).collect(),
-        rows: table_rows(passes).into_iter().map(row).collect(),
-        texts: 0,
-    }
+    let head: Vec<&str> = std::iter::once("pass").chain(names).collect();
+    html.table(0, &head, table_rows(passes).into_iter().map(row));
 }

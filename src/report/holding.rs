@@ -2,7 +2,7 @@
 
 use super::content::Report;
 use super::figure::{MILLI, figure};
-use super::html::{Html, Table};
+use super::html::Html;
 use super::measures::Way;
 use crate::design::{Place, TradeOff};
 use crate::figure::{Axis, Chart, Series};
@@ -49,11 +49,8 @@ pub fn holding(html: &mut Html, report: &Report) {
         };
         std::iter::once(way.name()).chain(numbers).collect()
     });
-    html.table(&Table {
-        head: vec!["held by", "force, N", "movement, mm", "on clamp, N", "error"],
-        rows: rows.collect(),
-        texts: 1,
-    });
+    let head = ["held by", "force, N", "movement, mm", "on clamp, N", "error"];
+    html.table(1, &head, rows);
     html.list(&failures(&comparison.ways));
 }
 

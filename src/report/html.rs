@@ -4,14 +4,6 @@
 #[derive(Default)]
 pub struct Html(String);
 
-/// A table: columns of text, then columns of numbers.
-pub struct Table {
-    pub head: Vec<&'static str>,
-    pub rows: Vec<Vec<String>>,
-    /// The number of columns of text, which stand on the left.
-    pub texts: usize,
-}
-
 impl Html {
     /// Markup or a drawing as it is.
     pub fn raw(&mut self, markup: &str) {
@@ -19,12 +11,10 @@ impl Html {
         self.0.push('\n');
     }
 
-    /// `<tag>text</tag>`.
     pub fn element(&mut self, tag: &str, text: &str) {
         self.raw(&format!("<{tag}>{}</{tag}>", escaped(text)));
     }
 
-    /// A paragraph.
     pub fn paragraph(&mut self, text: &str) {
         self.element("p", text);
     }
@@ -41,22 +31,18 @@ impl Html {
         self.raw("</ul>");
     }
 
-    /// A table as wide as its content.
-    pub fn table(&mut self, table: &Table) {
+    /// A table as wide as its content, with `texts` columns of text before those of numbers.
+    pub fn table(&mut self, texts: usize, head: &[&str], rows: impl IntoIterator<Item = Vec<String>>) {
         let cell = |tag: &str, column: usize, text: &str| {
-            let class = if column >= table.texts {
-                " class=\"number\""
-            } else {
-                ""
-            };
+            let class = if column >= texts { " class=\"number\"" } else { "" };
             format!("<{tag}{class}>{}</{tag}>", escaped(text))
         };
-        let head = table.head.iter().enumerate();
+        let head = head.iter().enumerate();
         let head: String = head.map(|(k, text)| cell("th", k, text)).collect();
         self.raw("<table>");
         self.raw(&format!("<thead><tr>{head}</tr></thead>"));
         self.raw("<tbody>");
-        for row in &table.rows {
+        for row in rows {
             let row = row.iter().enumerate();
             let cells: String = row.map(|(k, text)| cell("td", k, text)).collect();
             self.raw(&format!("<tr>{cells}</tr>"));
@@ -74,7 +60,6 @@ impl Html {
         self.raw("</div>");
     }
 
-    /// A drawing with words below it.
     pub fn figure(&mut self, svg: &str, caption: &str) {
         self.raw("<figure>");
         self.raw(svg);
@@ -82,7 +67,6 @@ impl Html {
         self.raw("</figure>");
     }
 
-    /// What was made.
     pub fn finish(self) -> String {
         self.0
     }
@@ -112,11 +96,7 @@ mod tests {
         let mut html = Html::default();
         html.paragraph(nasty);
         html.list(std::slice::from_ref(&text));
-        html.table(&Table {
-            head: vec![nasty],
-            rows: vec![vec![text]],
-            texts: 0,
-        });
+        html.table(0, &[nasty], [vec![text]]);
         html.headline(nasty, nasty, nasty);
         html.figure("<svg/>", nasty);
         let page = html.finish();

@@ -24,7 +24,6 @@ pub struct Comparison {
     pub failure: Option<String>,
 }
 
-/// One way to hold the cable.
 #[derive(Debug)]
 pub struct Way {
     pub measure: Measure,

@@ -25,7 +25,6 @@ mod content;
 mod figure;
 mod force;
 mod friction;
-mod headline;
 mod holding;
 mod html;
 mod measures;

@@ -2,13 +2,17 @@
 
 use super::cause::cause;
 use super::content::Report;
+use super::figure::{MICRO, MILLI};
 use super::force::force;
-use super::headline::headline;
 use super::holding::holding;
 use super::html::{Html, escaped};
+use super::measures::pressed_end;
 use super::plan::plan;
+use super::quantity::count;
 use super::words;
+use crate::design::Place;
 use crate::figure::dark_style;
+use crate::shown::{percent, rounded};
 
 const STYLE: &str = include_str!("style.css");
 
@@ -27,39 +31,82 @@ const SECTIONS: [Section; 7] = [
 impl Report {
     /// The page.
     pub fn to_html(&self) -> String {
-        page(self)
+        let mut html = Html::default();
+        html.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>");
+        html.raw("<meta charset=\"utf-8\"/>");
+        html.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>");
+        // Nothing is ever loaded, whatever a text on the page may say.
+        html.raw("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\"/>");
+        html.raw("<meta name=\"color-scheme\" content=\"light dark\"/>");
+        // This identifies our own pages.
+        let version = env!("CARGO_PKG_VERSION");
+        html.raw(&format!(
+            "<meta name=\"generator\" content=\"creepage {version}\"/>"
+        ));
+        let title = escaped(&self.scene.title);
+        html.raw(&format!("<title>{title}: cable creepage</title>"));
+        html.raw(&format!(
+            "<style>\n{STYLE}@media screen and (prefers-color-scheme: dark) {{\n{}}}\n</style>",
+            dark_style()
+        ));
+        html.raw("</head>\n<body>\n<main>");
+        headline(&mut html, self);
+        for (title, write) in SECTIONS {
+            html.raw("<section>");
+            html.element("h2", title);
+            write(&mut html, self);
+            html.raw("</section>");
+        }
+        html.raw("</main>\n</body>\n</html>");
+        html.finish()
     }
 }
 
-fn page(report: &Report) -> String {
-    let mut html = Html::default();
-    html.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>");
-    html.raw("<meta charset=\"utf-8\"/>");
-    html.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>");
-    // Nothing is ever loaded, whatever a text on the page may say.
-    html.raw("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\"/>");
-    html.raw("<meta name=\"color-scheme\" content=\"light dark\"/>");
-    // This identifies our own pages.
+/// Title and the most important numbers.
+fn headline(html: &mut Html, report: &Report) {
+    let run = &report.run;
+    html.element("h1", &report.scene.title);
     let version = env!("CARGO_PKG_VERSION");
-    html.raw(&format!(
-        "<meta name=\"generator\" content=\"creepage {version}\"/>"
+    html.paragraph(&format!(
+        "Creepage of the cable in its duct under traffic, computed by creepage {version}."
     ));
-    let title = escaped(&report.scene.title);
-    html.raw(&format!("<title>{title}: cable creepage</title>"));
-    html.raw(&format!(
-        "<style>\n{STYLE}@media screen and (prefers-color-scheme: dark) {{\n{}}}\n</style>",
-        dark_style()
-    ));
-    html.raw("</head>\n<body>\n<main>");
-    headline(&mut html, report);
-    for (title, write) in SECTIONS {
-        html.raw("<section>");
-        html.element("h2", title);
-        write(&mut html, report);
-        html.raw("</section>");
+    let Some(last) = run.passes.last() else { return };
+    let passes = count(last.pass);
+    let (force, place) = match pressed_end(&report.scene, last) {
+        None => (last.max_compression_n, "largest compression in the cable"),
+        Some(Place::Upstream) => (last.upstream_force_n, "on the upstream end"),
+        Some(_) => (last.downstream_force_n, "on the downstream end"),
+    };
+    let newtons = |force| format!("{} N", rounded(force, 1));
+    // What a force does, where that is not what one expects.
+    let place = |force| format!("{place}{}", if force < 0.0 { ", tension" } else { "" });
+    html.raw("<dl class=\"headlines\">");
+    if let Some(saturation) = &run.saturation {
+        let force = saturation.force_n;
+        html.headline("Saturated force", &newtons(force), &place(force));
+        let reached = count(saturation.passes_to_95_percent);
+        html.headline("Passes to 95 % of it", &reached, &format!("of {passes} computed"));
+    } else {
+        let note = format!("{}, not levelled off after {passes} passes", place(force));
+        html.headline("Force after the last pass", &newtons(force), &note);
     }
-    html.raw("</main>\n</body>\n</html>");
-    html.finish()
+    let (upstream, downstream) = (last.upstream_displacement_m, last.downstream_displacement_m);
+    let (end, moved) = if upstream.abs() > downstream.abs() {
+        ("upstream", upstream)
+    } else {
+        ("downstream", downstream)
+    };
+    let moved = format!("{} mm", rounded(MILLI * moved, 3));
+    let note = format!("{end} end, after {passes} passes");
+    html.headline("Movement of an end", &moved, &note);
+    let motion = &run.duct_motion;
+    let along = format!("{:.2} µm", MICRO * motion.peak_longitudinal_m);
+    let down = format!("along its axis; {:.1} µm down", MICRO * motion.peak_vertical_m);
+    html.headline("Peak motion of the duct", &along, &down);
+    let error = percent(run.error_estimate.relative);
+    let note = "of the forces, from the computation alone";
+    html.headline("Estimated error", &error, note);
+    html.raw("</dl>");
 }
 
 fn warnings(html: &mut Html, report: &Report) {
@@ -71,11 +118,11 @@ fn warnings(html: &mut Html, report: &Report) {
 
 fn scene(html: &mut Html, report: &Report) {
     html.list(&words::scene(&report.scene));
-    html.table(&words::ground(&report.scene));
+    words::ground(html, &report.scene);
     if let Some(scaling) = words::scaling(&report.scene) {
         html.paragraph(&scaling);
     }
-    html.table(&words::vehicles(&report.scene));
+    words::vehicles(html, &report.scene);
 }
 
 fn limits(html: &mut Html, _: &Report) {

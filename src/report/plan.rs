@@ -1,7 +1,7 @@
 //! How the answer was computed, and how wrong it may be.
 
 use super::content::Report;
-use super::html::{Html, Table};
+use super::html::Html;
 use crate::shown::{percent, time};
 
 pub fn plan(html: &mut Html, report: &Report) {
@@ -24,11 +24,7 @@ pub fn plan(html: &mut Html, report: &Report) {
             candidate.reason.clone(),
         ]
     });
-    html.table(&Table {
-        head: vec!["model", "error, time", "why, or why not"],
-        rows: rows.collect(),
-        texts: 3,
-    });
+    html.table(3, &["model", "error, time", "why, or why not"], rows);
     html.element("h3", "Error of the forces");
     let error = &run.error_estimate;
     html.paragraph(&format!(
@@ -38,16 +34,13 @@ pub fn plan(html: &mut Html, report: &Report) {
     ));
     let parts = error.parts;
     let row = |name: &str, part: f64| vec![name.to_owned(), percent(part)];
-    html.table(&Table {
-        head: vec!["part", "error"],
-        rows: vec![
-            row("node spacing and vehicle step", parts.mesh),
-            row("ground model", parts.ground),
-            row("inertia of the cable", parts.inertia),
-            row("road beyond where vehicles are followed", parts.road),
-            row("passes that were not simulated", parts.passes),
-            row("movement of the ends, all parts together", parts.movement),
-        ],
-        texts: 1,
-    });
+    let rows = [
+        row("node spacing and vehicle step", parts.mesh),
+        row("ground model", parts.ground),
+        row("inertia of the cable", parts.inertia),
+        row("road beyond where vehicles are followed", parts.road),
+        row("passes that were not simulated", parts.passes),
+        row("movement of the ends, all parts together", parts.movement),
+    ];
+    html.table(1, &["part", "error"], rows);
 }

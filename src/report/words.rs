@@ -2,7 +2,7 @@
 
 use ground_field::{Base, Direction, Modulus, Vehicle};
 
-use super::html::Table;
+use super::html::Html;
 use super::quantity::{count, length, quantity, significant};
 use crate::Scene;
 use crate::scene::{End, FrictionLaw, Order, PeakScaling};
@@ -65,7 +65,6 @@ fn friction(scene: &Scene) -> String {
     )
 }
 
-/// What holds an end.
 fn end(end: End) -> String {
     match end {
         End::Free => "free".into(),
@@ -90,7 +89,7 @@ fn traffic(scene: &Scene) -> String {
 }
 
 /// The layers of the ground from the surface down.
-pub fn ground(scene: &Scene) -> Table {
+pub fn ground(html: &mut Html, scene: &Scene) {
     let profile = &scene.ground.profile;
     let row = |depth: String, modulus: String, ratio: f64| vec![depth, modulus, significant(ratio)];
     let mut rows = Vec::new();
@@ -114,11 +113,11 @@ pub fn ground(scene: &Scene) -> Table {
         }
         Base::Rigid => vec![below, "rock that does not move".into(), "–".into()],
     });
-    Table {
-        head: vec!["ground at depth", "Young’s modulus", "Poisson’s ratio"],
+    html.table(
+        1,
+        &["ground at depth", "Young’s modulus", "Poisson’s ratio"],
         rows,
-        texts: 1,
-    }
+    );
 }
 
 /// How the ground was scaled to a measurement, if it was.
@@ -136,7 +135,7 @@ pub fn scaling(scene: &Scene) -> Option<String> {
 }
 
 /// The vehicles, and where they drive.
-pub fn vehicles(scene: &Scene) -> Table {
+pub fn vehicles(html: &mut Html, scene: &Scene) {
     let rows = scene.vehicles.iter().map(|traffic| {
         let vehicle = &traffic.vehicle;
         let speed = significant(KILOMETRES_PER_HOUR * vehicle.speed());
@@ -151,11 +150,7 @@ pub fn vehicles(scene: &Scene) -> Table {
             format!("{} %", significant(100.0 * traffic.share)),
         ]
     });
-    Table {
-        head: vec!["vehicle", "drives", "load", "share"],
-        rows: rows.collect(),
-        texts: 3,
-    }
+    html.table(3, &["vehicle", "drives", "load", "share"], rows);
 }
 
 /// Where the middle between a vehicle's outer wheels lies.

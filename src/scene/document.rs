@@ -7,9 +7,10 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::error::{SceneError, Wrong, WrongKind};
-use super::location::{Location, shortened};
+use super::location::Location;
 use super::syntax::{Fault, fault};
 use crate::presets::Preset;
+use crate::shown::shortened;
 
 /// Where something was written: which source, which bytes of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,7 +20,6 @@ pub struct Place {
     pub span: Range<usize>,
 }
 
-/// A value and its place.
 #[derive(Clone)]
 pub struct Node {
     pub place: Place,
@@ -82,7 +82,6 @@ struct Source {
     rank: Rank,
 }
 
-/// A scene file with its overrides.
 #[derive(Debug, Clone)]
 pub struct Document {
     sources: Vec<Source>,

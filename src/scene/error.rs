@@ -5,35 +5,23 @@ use std::string::FromUtf8Error;
 
 use ground_field::GroundError;
 
-use super::location::{Location, shortened};
-use super::units::Dimension;
+use super::location::Location;
+use super::quantity::QuantityError;
+use crate::shown::shortened;
 
 /// What is wrong with a scene. The message ends with the faulty line, marked.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// The file cannot be read.
-    #[error("{file}: cannot be read")]
-    Unreadable {
-        /// The file.
-        file: String,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// The file is far larger than any scene.
-    #[error("{file}: found more than {allowed} bytes; allowed: a scene file of at most {allowed} bytes")]
-    TooLarge {
-        /// The file.
-        file: String,
-        /// Largest size allowed \[bytes\].
-        allowed: u64,
-    },
-    /// The file is not UTF-8 text.
-    #[error("{location}: found text that is not UTF-8; allowed: UTF-8, with or without byte order mark{}", .location.excerpt())]
-    NotUtf8 {
-        /// Where.
-        location: Location,
-    },
+    /// The file of this name cannot be read, and why.
+    #[error("{0}: cannot be read")]
+    Unreadable(String, #[source] std::io::Error),
+    /// The file of this name is far larger than any scene; the largest size allowed \[bytes\].
+    #[error("{0}: found more than {1} bytes; allowed: a scene file of at most {1} bytes")]
+    TooLarge(String, u64),
+    /// The file is not UTF-8 text here.
+    #[error("{0}: found text that is not UTF-8; allowed: UTF-8, with or without byte order mark{excerpt}", excerpt = .0.excerpt())]
+    NotUtf8(Location),
     /// The file is not TOML.
     #[error("{location}: not valid TOML: {}{}", bounded(.message), .location.excerpt())]
     Syntax {
@@ -76,19 +64,10 @@ pub enum WrongKind {
     MissingKey,
     /// An override is not `KEY=VALUE`, or there is nothing at its key.
     Override,
-    /// The value is of the wrong type, such as a text in place of a list.
-    WrongType,
-    /// A number in quotes has no unit.
-    MissingUnit,
-    /// The unit is not known.
-    UnknownUnit {
-        /// The unit as written.
-        unit: String,
-        /// The nearest unit that is allowed.
-        suggestion: Option<&'static str>,
-    },
-    /// The unit is one of another dimension.
-    WrongDimension(Dimension),
+    /// The value is of the wrong type, such as a text in place of a list, or contradicts another one.
+    Value,
+    /// The unit is missing, not known, or one of another dimension.
+    Quantity(QuantityError),
     /// The value is outside its range, or not a finite number.
     OutOfRange,
     /// The word is not one of the allowed ones.
@@ -96,8 +75,6 @@ pub enum WrongKind {
         /// The nearest of them.
         suggestion: Option<String>,
     },
-    /// The value contradicts another one.
-    Inconsistent,
     /// The ground or a vehicle cannot be built from these values.
     Rejected(GroundError),
 }
@@ -108,32 +85,28 @@ impl fmt::Display for Wrong {
         if let Some(location) = &self.location {
             write!(f, "{location}: ")?;
         }
-        match &self.kind {
+        let message = |problem: &str, meant: &str| {
+            format!("`{key}`: {problem}found {found}{meant}; allowed: {allowed}")
+        };
+        f.write_str(&match &self.kind {
             WrongKind::UnknownKey { suggestion } => {
                 let meant = did_you_mean(suggestion.as_deref());
-                write!(f, "found unknown key `{key}`{meant}; allowed: {allowed}")?;
+                format!("found unknown key `{key}`{meant}; allowed: {allowed}")
             }
-            WrongKind::MissingKey => write!(f, "key `{key}` is missing; allowed: {allowed}")?,
-            WrongKind::Rejected(error) => write!(f, "`{key}`: {error}")?,
-            kind => {
-                let (before, after) = match kind {
-                    WrongKind::MissingUnit => ("missing unit: ".into(), String::new()),
-                    WrongKind::UnknownUnit { unit, suggestion } => (
-                        format!("unknown unit `{}`: ", cut(unit)),
-                        did_you_mean(*suggestion),
-                    ),
-                    WrongKind::WrongDimension(dimension) => {
-                        ("wrong dimension: ".into(), format!(", {}", dimension.noun()))
-                    }
-                    WrongKind::OutOfRange => ("out of range: ".into(), String::new()),
-                    WrongKind::UnknownWord { suggestion } => {
-                        (String::new(), did_you_mean(suggestion.as_deref()))
-                    }
-                    _ => (String::new(), String::new()),
-                };
-                write!(f, "`{key}`: {before}found {found}{after}; allowed: {allowed}")?;
+            WrongKind::MissingKey => format!("key `{key}` is missing; allowed: {allowed}"),
+            WrongKind::Rejected(error) => format!("`{key}`: {error}"),
+            WrongKind::Quantity(QuantityError::UnknownUnit { unit, nearest }) => message(
+                &format!("unknown unit `{}`: ", cut(unit)),
+                &did_you_mean(*nearest),
+            ),
+            WrongKind::Quantity(QuantityError::WrongDimension { dimension, .. }) => {
+                message("wrong dimension: ", &format!(", {}", dimension.noun()))
             }
-        }
+            WrongKind::Quantity(_) => message("missing unit: ", ""),
+            WrongKind::OutOfRange => message("out of range: ", ""),
+            WrongKind::UnknownWord { suggestion } => message("", &did_you_mean(suggestion.as_deref())),
+            WrongKind::Override | WrongKind::Value => message("", ""),
+        })?;
         let excerpt = self.location.as_ref().map(Location::excerpt);
         f.write_str(&excerpt.unwrap_or_default())
     }
@@ -164,9 +137,7 @@ impl SceneError {
     pub(super) fn not_utf8(file: &str, error: &FromUtf8Error) -> Self {
         let valid = error.utf8_error().valid_up_to();
         let text = String::from_utf8_lossy(error.as_bytes());
-        Self::NotUtf8 {
-            location: Location::new(file, &text, valid..valid, true),
-        }
+        Self::NotUtf8(Location::new(file, &text, valid..valid, true))
     }
 
     /// The error for a value of a scene that a program made or changed.
@@ -195,8 +166,8 @@ impl SceneError {
     /// Where the scene is wrong; `None` if its file cannot be read at all, or the scene is not that of a file.
     pub fn location(&self) -> Option<&Location> {
         match self {
-            Self::Unreadable { .. } | Self::TooLarge { .. } => None,
-            Self::NotUtf8 { location } | Self::Syntax { location, .. } => Some(location),
+            Self::Unreadable(..) | Self::TooLarge(..) => None,
+            Self::NotUtf8(location) | Self::Syntax { location, .. } => Some(location),
             Self::Wrong(wrong) => wrong.location.as_ref(),
         }
     }

@@ -4,15 +4,18 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use super::data::Scene;
+use super::data::{Order, Scene};
 use super::document::{Content, Document, Node};
 use super::error::SceneError;
 use super::location::Location;
+use super::range::shown;
 use super::slips::{self, UnitSlip};
 use super::{overrides, preset, read};
 
 /// A scene file larger than this \[bytes\] is not a scene file.
 const LARGEST_FILE: u64 = 16 << 20;
+/// How far a share may be from what it has to be.
+const ROUNDING: f64 = 1e-9;
 
 /// The text of a scene and what was set on top of it.
 ///
@@ -43,19 +46,14 @@ impl SceneFile {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, SceneError> {
         let path = path.as_ref();
         let file = path.display().to_string();
-        let unreadable = |source| SceneError::Unreadable {
-            file: file.clone(),
-            source,
-        };
         let mut bytes = Vec::new();
-        File::open(path)
-            .and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes))
-            .map_err(unreadable)?;
-        if bytes.len() as u64 > LARGEST_FILE {
-            return Err(SceneError::TooLarge {
-                file,
-                allowed: LARGEST_FILE,
-            });
+        let read = File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
+        match read {
+            Err(source) => return Err(SceneError::Unreadable(file, source)),
+            Ok(length) if length as u64 > LARGEST_FILE => {
+                return Err(SceneError::TooLarge(file, LARGEST_FILE));
+            }
+            Ok(_) => {}
         }
         let text = String::from_utf8(bytes).map_err(|e| SceneError::not_utf8(&file, &e))?;
         Self::from_toml(&file, &text)
@@ -141,6 +139,46 @@ impl Scene {
     /// As for [`Scene::from_file`].
     pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
         SceneFile::from_toml(name, text)?.scene()
+    }
+
+    /// Checks everything that reading a scene file checks. What computes with a scene does so first.
+    ///
+    /// ```
+    /// use creepage::Scene;
+    ///
+    /// let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml")?;
+    /// scene.validate()?;
+    /// scene.duct.depth = -1.0;
+    /// let error = scene.validate().unwrap_err().to_string();
+    /// assert!(error.starts_with("`duct.depth`: out of range: found \"-1.0 m\"; allowed: a length greater than 0, from 1 cm to 1 km"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Wrong`] with the first key whose value is out of its range or contradicts another one.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        if let Order::Sequence(sequence) = &self.traffic.order {
+            let count = self.vehicles.len();
+            if let Some(index) = sequence.iter().find(|&&index| index >= count) {
+                let allowed = format!("a vehicle's index, less than {count}");
+                return Err(SceneError::value("traffic.sequence", index.to_string(), allowed));
+            }
+        }
+        // A scene is valid if a file can hold it.
+        let read = SceneFile::from_toml("scene", &self.to_toml()).and_then(|file| file.scene());
+        let read = read.map_err(SceneError::without_location)?;
+        for (index, (one, other)) in self.vehicles.iter().zip(&read.vehicles).enumerate() {
+            if (one.share - other.share).abs() > ROUNDING {
+                let allowed = format!(
+                    "{}, with which all shares sum to 1 and suit a sequence",
+                    shown(other.share)
+                );
+                let key = format!("vehicles.{index}.share");
+                return Err(SceneError::value(key, shown(one.share), allowed));
+            }
+        }
+        Ok(())
     }
 }
 

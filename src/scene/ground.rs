@@ -5,7 +5,6 @@ use ground_field::{Base, Modulus, Soil, SoilLayer, SoilProfile};
 
 use super::data::{Ground, GroundModel, PeakScaling};
 use super::error::SceneError;
-use super::keys;
 use super::range::{
     LONGITUDINAL_PEAK, MODULUS, MODULUS_AT_AN_END, POISSON, RIGID_BASE_DEPTH, THICKNESS, THICKNESSES,
     VERTICAL_PEAK, shown,
@@ -14,7 +13,7 @@ use super::table::Table;
 use super::value::Value;
 
 pub fn ground(root: &Table) -> Result<Ground, SceneError> {
-    let table = root.table("ground", keys::GROUND)?;
+    let table = root.table("ground")?;
     let model = table.word("model", GroundModel::WORDS, GroundModel::Auto)?;
     let scaling = scaling(&table)?;
     let profile = profile(&table)?;
@@ -76,7 +75,7 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
         .map(layer)
         .collect::<Result<Vec<_>, _>>()?;
     let Some(last) = layers.pop() else {
-        return Err(table.inconsistent("an empty list", allowed));
+        return Err(table.value.inconsistent("an empty list", allowed));
     };
     let mut upper = Vec::with_capacity(layers.len() + 1);
     for layer in &layers {
@@ -110,11 +109,11 @@ fn profile(table: &Table) -> Result<SoilProfile, SceneError> {
 }
 
 fn layer(value: Value) -> Result<Layer, SceneError> {
-    let table = Table::new(value, keys::LAYER)?;
+    let table = Table::new(value)?;
     Ok(Layer {
         thickness: table.optional_quantity("thickness", THICKNESS)?,
         modulus: modulus(&table)?,
-        poisson_ratio: table.number("poisson_ratio", POISSON)?,
+        poisson_ratio: table.quantity("poisson_ratio", POISSON)?,
         table,
     })
 }
@@ -122,7 +121,7 @@ fn layer(value: Value) -> Result<Layer, SceneError> {
 fn modulus(table: &Table) -> Result<Modulus, SceneError> {
     match table.optional("young_modulus").filter(Value::is_table) {
         Some(value) => {
-            let graded = Table::new(value, keys::GRADED)?;
+            let graded = Table::new(value)?;
             Ok(Modulus::Linear {
                 top: graded.quantity("top", MODULUS_AT_AN_END)?,
                 bottom: graded.quantity("bottom", MODULUS_AT_AN_END)?,

@@ -3,6 +3,8 @@
 use std::fmt;
 use std::ops::Range;
 
+use crate::shown::shortened;
+
 /// Longest piece of a line that is shown \[characters\].
 const LONGEST_EXCERPT: usize = 120;
 /// Longest name of a file, or text of an override, that is shown \[characters\].
@@ -25,20 +27,10 @@ pub struct Location {
 impl Location {
     /// The place of the bytes `span` in `text`. Every span is fine: what lies outside the text is cut off.
     pub(super) fn new(file: &str, text: &str, span: Range<usize>, numbered: bool) -> Self {
-        let bytes = text.as_bytes();
-        let start = span.start.min(bytes.len());
-        let line_start = bytes[..start]
-            .iter()
-            .rposition(|&b| b == b'\n')
-            .map_or(0, |i| i + 1);
-        let line_end = bytes[start..]
-            .iter()
-            .position(|&b| b == b'\n')
-            .map_or(bytes.len(), |i| start + i);
-        let line = text
-            .get(line_start..line_end)
-            .unwrap_or_default()
-            .trim_end_matches('\r');
+        let start = span.start.min(text.len());
+        let line_start = line_start(text, start);
+        let line = text[line_start..].lines().next().unwrap_or_default();
+        let line = line.trim_end_matches('\r');
         let mut start = (start - line_start).min(line.len());
         while !line.is_char_boundary(start) {
             start -= 1;
@@ -49,7 +41,7 @@ impl Location {
             .end
             .saturating_sub(line_start)
             .clamp(start + first, line.len());
-        let number = 1 + text.get(..line_start).unwrap_or_default().matches('\n').count();
+        let number = 1 + text[..line_start].matches('\n').count();
         Self {
             file: file.to_owned(),
             line: numbered.then_some(number),
@@ -65,12 +57,8 @@ impl Location {
         }
         let mut shown = String::new();
         let mut marks = String::new();
-        let before = self
-            .text
-            .get(..self.marked.start)
-            .unwrap_or_default()
-            .chars()
-            .count();
+        let before = self.text.get(..self.marked.start).unwrap_or_default();
+        let before = before.chars().count();
         // Of a very long line the part around the mark is shown.
         let skipped = if before < LONGEST_EXCERPT * 3 / 4 {
             0
@@ -100,19 +88,17 @@ impl Location {
     }
 }
 
+/// Where the line begins that holds the byte at `at`.
+pub(super) fn line_start(text: &str, at: usize) -> usize {
+    let bytes = &text.as_bytes()[..at.min(text.len())];
+    bytes.iter().rposition(|&b| b == b'\n').map_or(0, |end| end + 1)
+}
+
 impl fmt::Display for Location {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         // An override stands here as it was written.
         f.write_str(&shortened(&self.file, LONGEST_NAME))?;
         self.line.map_or(Ok(()), |line| write!(f, ", line {line}"))
-    }
-}
-
-/// The beginning of the text, and how long it is where that is not all.
-pub(super) fn shortened(text: &str, longest: usize) -> String {
-    match text.char_indices().nth(longest) {
-        None => text.to_owned(),
-        Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
     }
 }
 

@@ -41,7 +41,6 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod cable;
 mod data;
 mod document;
 mod error;
@@ -57,20 +56,19 @@ mod quantity;
 mod range;
 mod read;
 mod slips;
-mod solver;
 mod syntax;
 mod table;
 mod traffic;
 mod units;
 mod unusual;
-mod validate;
 mod value;
-mod words;
 mod write;
 
+#[cfg(feature = "calibrate")]
+pub(crate) use data::words;
 pub use data::{
     Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Order, PeakScaling, Restraint, Scene,
-    Solver, SolverMethod, Traffic, TrafficVehicle,
+    Solver, SolverMethod, Traffic, TrafficVehicle, UnknownWord,
 };
 pub use error::{SceneError, Wrong, WrongKind};
 pub use file::SceneFile;
@@ -81,5 +79,4 @@ pub(crate) use quantity::leading_number;
 pub use slips::UnitSlip;
 pub use units::Dimension;
 pub(crate) use unusual::unusual;
-pub use words::UnknownWord;
 pub(crate) use write::quoted;

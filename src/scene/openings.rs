@@ -8,7 +8,6 @@ use std::ops::Range;
 /// No key of a scene is deeper, list and table brackets included.
 const DEEPEST: usize = 16;
 
-/// What a scan found.
 #[derive(Debug, Default, PartialEq)]
 pub struct Openings {
     /// The quotes or the bracket that are not closed.

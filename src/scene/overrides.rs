@@ -29,14 +29,11 @@ pub fn apply(document: &mut Document, text: &str) -> Result<(), SceneError> {
     }
     let value = value(written, source, text.len() - written.len());
     descend(&mut document.root, &segments, value, &key_place)
-        .map_err(|Missing { found, allowed }| wrong(document, key_place, key, found, &allowed))
+        .map_err(|(found, allowed)| wrong(document, key_place, key, found, &allowed))
 }
 
-/// There is nothing at the key.
-struct Missing {
-    found: String,
-    allowed: String,
-}
+/// There is nothing at the key: what was found, and what is allowed.
+type Missing = (String, String);
 
 /// The value as TOML, or as a text where it is not TOML; `None` where it is empty.
 fn value(written: &str, source: usize, offset: usize) -> Option<Node> {
@@ -79,14 +76,12 @@ fn descend(
         let count = items.len();
         let index = segment.parse().ok().filter(|&index: &usize| index < count);
         let Some(index) = index else {
-            return Err(Missing {
-                found: format!("`{segment}`"),
-                allowed: match count {
-                    0 => "nothing: the list is empty".to_owned(),
-                    1 => "the index 0, for the only item of the list".to_owned(),
-                    _ => format!("an index from 0 to {} of the list", count - 1),
-                },
-            });
+            let allowed = match count {
+                0 => "nothing: the list is empty".to_owned(),
+                1 => "the index 0, for the only item of the list".to_owned(),
+                _ => format!("an index from 0 to {} of the list", count - 1),
+            };
+            return Err((format!("`{segment}`"), allowed));
         };
         if rest.is_empty() && value.is_none() {
             items.remove(index);
@@ -112,10 +107,8 @@ fn descend(
         }
         (Some(index), _) => index,
         (None, None) => {
-            return Err(Missing {
-                found: "an empty value, which removes the key".to_owned(),
-                allowed: "a value, or a key that the scene holds".to_owned(),
-            });
+            let found = "an empty value, which removes the key".to_owned();
+            return Err((found, "a value, or a key that the scene holds".to_owned()));
         }
         (None, Some(_)) => {
             entries.push(Entry {

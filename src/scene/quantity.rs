@@ -14,12 +14,9 @@ pub enum QuantityError {
     /// The text does not begin with a number.
     #[error("not a number with a unit")]
     NotANumber,
-    /// The number is written with commas.
-    #[error("decimals are written with a point: {with_point}")]
-    Comma {
-        /// The text with a point for the comma.
-        with_point: String,
-    },
+    /// The number is written with commas; here it is with a point.
+    #[error("decimals are written with a point: {0}")]
+    Comma(String),
     /// There is a number but no unit.
     #[error("the unit is missing")]
     MissingUnit,
@@ -59,10 +56,8 @@ impl Dimension {
     /// assert!(Dimension::Force.parse("20 m").is_err());
     /// ```
     pub fn parse(self, text: &str) -> Result<f64, QuantityError> {
-        let (number, rest) = split(text.trim()).ok_or_else(|| match with_point(text.trim()) {
-            Some(with_point) => QuantityError::Comma { with_point },
-            None => QuantityError::NotANumber,
-        })?;
+        let (number, rest) = split(text.trim())
+            .ok_or_else(|| with_point(text.trim()).map_or(QuantityError::NotANumber, QuantityError::Comma))?;
         let written = rest.trim();
         if written.is_empty() {
             return Err(QuantityError::MissingUnit);
@@ -135,13 +130,8 @@ fn split(text: &str) -> Option<(Number<'_>, &str)> {
             .get(sign..end)
             .is_some_and(|found| found.eq_ignore_ascii_case(word));
         if found && !text[end..].starts_with(|c: char| c.is_alphanumeric()) {
-            return Some((
-                Number {
-                    digits: &text[..end],
-                    exponent: 0,
-                },
-                &text[end..],
-            ));
+            let (digits, rest) = text.split_at(end);
+            return Some((Number { digits, exponent: 0 }, rest));
         }
     }
     let whole = digits_from(sign);
@@ -162,12 +152,10 @@ fn split(text: &str) -> Option<(Number<'_>, &str)> {
         if count > 0 {
             let written = &text[end + 1..end + 1 + sign + count];
             // An exponent too large for its type is far beyond any number: its sign decides.
-            let extreme = if written.starts_with('-') {
-                i32::MIN
-            } else {
-                i32::MAX
-            };
-            exponent = written.parse().unwrap_or(extreme);
+            let negative = written.starts_with('-');
+            exponent = written
+                .parse()
+                .unwrap_or(if negative { i32::MIN } else { i32::MAX });
             end += 1 + sign + count;
         }
     }
@@ -258,7 +246,7 @@ mod tests {
             assert_eq!(length(text), QuantityError::NotANumber, "{text}");
         }
         let with_point = "1.2 m".to_owned();
-        assert_eq!(length("1,2 m"), QuantityError::Comma { with_point });
+        assert_eq!(length("1,2 m"), QuantityError::Comma(with_point));
         for text in ["1.2", "1e3", "-4 ", "inf"] {
             assert_eq!(length(text), QuantityError::MissingUnit, "{text}");
         }

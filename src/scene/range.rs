@@ -13,10 +13,10 @@ pub struct Range {
     words: &'static str,
 }
 
-/// A quantity of a scene: its dimension, its range, and how one is written.
+/// A quantity of a scene: its range, its dimension if it is not a plain number, and how one is written.
 #[derive(Clone, Copy)]
 pub struct Quantity {
-    pub dimension: Dimension,
+    pub dimension: Option<Dimension>,
     pub range: Range,
     example: &'static str,
 }
@@ -31,9 +31,17 @@ const fn length(range: Range, example: &'static str) -> Quantity {
 
 const fn quantity(dimension: Dimension, range: Range, example: &'static str) -> Quantity {
     Quantity {
-        dimension,
+        dimension: Some(dimension),
         range,
         example,
+    }
+}
+
+const fn number(least: f64, most: f64, words: &'static str) -> Quantity {
+    Quantity {
+        dimension: None,
+        range: range(least, most, words),
+        example: "",
     }
 }
 
@@ -90,10 +98,10 @@ pub const SPEED: Quantity = quantity(Dimension::Speed, SPEEDS, "\"40 km/h\"");
 pub const TIME_STEP: Quantity = quantity(Dimension::Time, POSITIVE, "\"0.1 ms\"");
 pub const TOLERANCE: Quantity = quantity(Dimension::Ratio, TOLERANCES, "0.01 or \"1 %\"");
 
-pub const POISSON: Range = range(0.0, 0.5, "from 0 to 0.5");
-pub const COEFFICIENT: Range = range(0.0, 10.0, "from 0 to 10");
-pub const LOAD_FACTOR: Range = range(1e-6, 1e6, "greater than 0, from 1e-6 to 1e6");
-pub const SHARE: Range = range(1e-12, 1e12, "greater than 0, from 1e-12 to 1e12");
+pub const POISSON: Quantity = number(0.0, 0.5, "from 0 to 0.5");
+pub const COEFFICIENT: Quantity = number(0.0, 10.0, "from 0 to 10");
+pub const LOAD_FACTOR: Quantity = number(1e-6, 1e6, "greater than 0, from 1e-6 to 1e6");
+pub const SHARE: Quantity = number(1e-12, 1e12, "greater than 0, from 1e-12 to 1e12");
 
 /// Numbers of passes that can be computed, by the pass law at the latest.
 pub const PASSES: RangeInclusive<u64> = 1..=1_000_000_000_000;
@@ -125,28 +133,21 @@ pub fn positions(length: f64) -> Follows {
 }
 
 impl Range {
-    /// Whether a number lies within.
     pub fn contains(self, value: f64) -> bool {
         (self.least..=self.most).contains(&value)
-    }
-
-    /// What is allowed where a dimensionless number belongs.
-    pub fn allowed(self) -> String {
-        format!("a number {}, without quotes or unit", self.words)
     }
 }
 
 impl Quantity {
     /// What is allowed where this quantity belongs.
     pub fn allowed(self) -> String {
-        let units: Vec<&str> = self.dimension.units().collect();
-        format!(
-            "{} {}, such as {} (units: {})",
-            self.dimension.noun(),
-            self.range.words,
-            self.example,
-            units.join(", ")
-        )
+        let (words, example) = (self.range.words, self.example);
+        let Some(dimension) = self.dimension else {
+            return format!("a number {words}, without quotes or unit");
+        };
+        let units: Vec<&str> = dimension.units().collect();
+        let (noun, units) = (dimension.noun(), units.join(", "));
+        format!("{noun} {words}, such as {example} (units: {units})")
     }
 }
 

@@ -1,31 +1,36 @@
-//! A document as a scene.
+//! A document as a scene; here all sections but those of the ground and of traffic.
 
 use std::path::Path;
 
-use super::data::Scene;
+use super::data::{Cable, Duct, End, Ends, Friction, FrictionLaw, Restraint, Scene, Solver, SolverMethod};
 use super::document::Document;
 use super::error::SceneError;
+use super::range::{
+    APPROACH, AXIAL_STIFFNESS, CLAMP, COEFFICIENT, DEPTH, DUCT_LENGTH, Follows, LATERAL_OFFSET, LOAD_FACTOR,
+    POSITION, SHAPE_FACTOR, SPRING, STEP, TIME_STEP, TOLERANCE, WEIGHT, node_spacings, positions,
+    vehicle_steps,
+};
 use super::table::Table;
 use super::value::Value;
-use super::{cable, ground, keys, solver, traffic};
+use super::{ground, traffic};
 
 /// The scene in the file `name`.
 pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
-    let root = Table::new(Value::root(document), keys::SCENE)?;
+    let root = Table::new(Value::root(document))?;
     let title = match root.optional("title") {
         Some(value) => value.text("a text in quotes")?,
         None => Path::new(name)
             .file_stem()
             .map_or_else(String::new, |stem| stem.to_string_lossy().into_owned()),
     };
-    let duct = cable::duct(&root)?;
+    let duct = duct(&root)?;
     let ground = ground::ground(&root)?;
-    let cable = cable::cable(&root)?;
-    let friction = cable::friction(&root)?;
-    let ends = cable::ends(&root)?;
-    let restraints = cable::restraints(&root, &duct)?;
+    let cable = cable(&root)?;
+    let friction = friction(&root)?;
+    let ends = ends(&root)?;
+    let restraints = restraints(&root, &duct)?;
     let (vehicles, traffic) = traffic::traffic(&root, ground.scaling)?;
-    let solver = solver::solver(&root, &duct)?;
+    let solver = solver(&root, &duct)?;
     Ok(Scene {
         title,
         duct,
@@ -38,4 +43,115 @@ pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
         traffic,
         solver,
     })
+}
+
+fn duct(root: &Table) -> Result<Duct, SceneError> {
+    let table = root.table("duct")?;
+    Ok(Duct {
+        length: table.quantity("length", DUCT_LENGTH)?,
+        depth: table.quantity("depth", DEPTH)?,
+        lateral_offset: table
+            .optional_quantity("lateral_offset", LATERAL_OFFSET)?
+            .unwrap_or(0.0),
+    })
+}
+
+fn cable(root: &Table) -> Result<Cable, SceneError> {
+    let table = root.table("cable")?;
+    Ok(Cable {
+        weight: table.quantity("weight", WEIGHT)?,
+        axial_stiffness: table.quantity("axial_stiffness", AXIAL_STIFFNESS)?,
+        normal_load_factor: table
+            .optional_quantity("normal_load_factor", LOAD_FACTOR)?
+            .unwrap_or(1.0),
+    })
+}
+
+fn friction(root: &Table) -> Result<Friction, SceneError> {
+    const COULOMB: &str = "coulomb";
+    const ELASTIC_PLASTIC: &str = "elastic-plastic";
+    const SIGMOID: &str = "sigmoid";
+    let table = root.table("friction")?;
+    let words = [COULOMB, ELASTIC_PLASTIC, SIGMOID].map(|word| (word, word));
+    let law = table.word("law", &words, ELASTIC_PLASTIC)?;
+    let dynamic_coefficient = table.quantity("dynamic_coefficient", COEFFICIENT)?;
+    let law = if law == COULOMB {
+        let allowed = "no `shape_factor` with the law \"coulomb\"";
+        table.refuse("shape_factor", "law", allowed)?;
+        FrictionLaw::Coulomb
+    } else {
+        let shape_factor = table.quantity("shape_factor", SHAPE_FACTOR)?;
+        if law == SIGMOID {
+            FrictionLaw::Sigmoid { shape_factor }
+        } else {
+            FrictionLaw::ElasticPlastic { shape_factor }
+        }
+    };
+    Ok(Friction {
+        law,
+        dynamic_coefficient,
+    })
+}
+
+fn ends(root: &Table) -> Result<Ends, SceneError> {
+    let table = root.table("ends")?;
+    Ok(Ends {
+        upstream: end(&table, "upstream")?,
+        downstream: end(&table, "downstream")?,
+    })
+}
+
+fn end(table: &Table, key: &str) -> Result<End, SceneError> {
+    const ALLOWED: &str = "\"free\", \"fixed\" or { spring = \"3 MN/m\" }";
+    let value = table.required(key, ALLOWED)?;
+    if value.is_table() {
+        let table = Table::new(value)?;
+        table.quantity("spring", SPRING).map(End::Spring)
+    } else {
+        value.word_of(&[("free", End::Free), ("fixed", End::Fixed)], ALLOWED)
+    }
+}
+
+fn restraints(root: &Table, duct: &Duct) -> Result<Vec<Restraint>, SceneError> {
+    let Some(list) = root.optional("restraints") else {
+        return Ok(Vec::new());
+    };
+    let items = list.items("a list of [[restraints]]")?;
+    items.into_iter().map(|item| restraint(item, duct)).collect()
+}
+
+fn restraint(item: Value, duct: &Duct) -> Result<Restraint, SceneError> {
+    let table = Table::new(item)?;
+    let position = table.required("position", &POSITION.allowed())?;
+    Ok(Restraint {
+        position: position.quantity_within(POSITION, positions(duct.length))?,
+        stiffness: table.quantity("stiffness", CLAMP)?,
+    })
+}
+
+fn solver(root: &Table, duct: &Duct) -> Result<Solver, SceneError> {
+    let mut solver = Solver::default();
+    let Some(section) = root.optional("solver") else {
+        return Ok(solver);
+    };
+    let table = Table::new(section)?;
+    // A length that must suit the duct.
+    let length = |key, range: Follows| {
+        let value = table.optional(key);
+        value.map(|value| value.quantity_within(STEP, range)).transpose()
+    };
+    solver.method = table.word("method", SolverMethod::WORDS, SolverMethod::Auto)?;
+    if let Some(tolerance) = table.optional_quantity("tolerance", TOLERANCE)? {
+        solver.tolerance = tolerance;
+    }
+    solver.node_spacing = length("node_spacing", node_spacings(duct.length))?;
+    solver.vehicle_step = length("vehicle_step", vehicle_steps(duct.length))?;
+    solver.time_step = table.optional_quantity("time_step", TIME_STEP)?;
+    if !solver.method.has_time_steps() {
+        let allowed = "`time_step` only with the method \"auto\", \"dynamic\" or \"explicit\"";
+        table.refuse("time_step", "method", allowed)?;
+        solver.time_step = None;
+    }
+    solver.approach = table.optional_quantity("approach", APPROACH)?;
+    Ok(solver)
 }

@@ -30,13 +30,11 @@ pub struct UnitSlip {
 
 impl fmt::Display for UnitSlip {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self {
-            location,
-            key,
-            found,
-            meaning,
-        } = self;
-        write!(f, "{location}: `{key}`: {found} without a unit is {meaning}")
+        write!(
+            f,
+            "{}: `{}`: {} without a unit is {}",
+            self.location, self.key, self.found, self.meaning
+        )
     }
 }
 
@@ -53,10 +51,8 @@ pub fn unit_slips(document: &Document) -> Vec<UnitSlip> {
                 format!("{value} N, less than 1 kN: did you mean \"{found} tf\" or \"{found} kN\"?")
             }
             "speed" if *value > FAST => {
-                format!(
-                    "{value} m/s, {:.0} km/h: did you mean \"{found} km/h\"?",
-                    3.6 * value
-                )
+                let fast = 3.6 * value;
+                format!("{value} m/s, {fast:.0} km/h: did you mean \"{found} km/h\"?")
             }
             _ => return,
         };

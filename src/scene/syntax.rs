@@ -5,9 +5,9 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::location::line_start;
 use super::openings::openings;
 
-/// What is wrong, and where.
 pub struct Fault {
     pub span: Range<usize>,
     pub message: String,
@@ -46,12 +46,6 @@ pub fn fault(text: &str, error: &toml::de::Error) -> Fault {
         message = format!("{message}; {hint}");
     }
     Fault { span, message }
-}
-
-/// Where the line begins that holds the byte at `at`.
-fn line_start(text: &str, at: usize) -> usize {
-    let bytes = &text.as_bytes()[..at.min(text.len())];
-    bytes.iter().rposition(|&b| b == b'\n').map_or(0, |end| end + 1)
 }
 
 /// The line on which the key at `second` stands for the first time.

@@ -9,31 +9,30 @@ use ground_field::GroundError;
 
 use super::document::{Content, Entry};
 use super::error::{SceneError, WrongKind};
-use super::keys::{OTHER_NAMES, SECTIONS, joined};
-use super::nearest::nearest;
-use super::range::{Quantity, Range};
+use super::keys::{self, joined};
+use super::range::Quantity;
 use super::value::Value;
 
-/// A table of the document.
 pub struct Table<'d> {
-    value: Value<'d>,
+    pub value: Value<'d>,
     entries: &'d [Entry],
 }
 
 impl<'d> Table<'d> {
-    /// Opens a table that may hold only the keys `known`.
-    pub fn new(value: Value<'d>, known: &[&'static str]) -> Result<Self, SceneError> {
+    /// Opens a table, which may hold only its keys.
+    pub fn new(value: Value<'d>) -> Result<Self, SceneError> {
+        let known = keys::of(&value.path);
         let Content::Table(entries) = &value.node.content else {
-            let allowed = format!("a table with the keys {}", known.join(", "));
-            return Err(value.wrong(WrongKind::WrongType, value.written(), allowed));
+            let allowed = format!("a table with the keys {known}");
+            return Err(value.wrong(WrongKind::Value, value.written(), allowed));
         };
-        if let Some(entry) = entries.iter().find(|entry| !known.contains(&entry.key.as_str())) {
+        if let Some(entry) = entries.iter().find(|entry| !keys::holds(known, &entry.key)) {
             let kind = WrongKind::UnknownKey {
-                suggestion: suggestion(&entry.key, known),
+                suggestion: keys::suggestion(&entry.key, known),
             };
             let key = joined(&value.path, &entry.key);
             let document = value.document;
-            return Err(document.wrong(kind, &entry.key_place, &key, "", known.join(", ")));
+            return Err(document.wrong(kind, &entry.key_place, &key, "", known));
         }
         Ok(Self { value, entries })
     }
@@ -47,23 +46,16 @@ impl<'d> Table<'d> {
         self.optional(key).ok_or_else(|| {
             // The section that lacks it is shown.
             let Value { document, path, node } = &self.value;
-            document.wrong(
-                WrongKind::MissingKey,
-                &node.place,
-                &joined(path, key),
-                "",
-                allowed,
-            )
+            let key = joined(path, key);
+            document.wrong(WrongKind::MissingKey, &node.place, &key, "", allowed)
         })
     }
 
-    /// The required table at `key`.
-    pub fn table(&self, key: &str, known: &[&'static str]) -> Result<Table<'d>, SceneError> {
-        let allowed = format!("a section [{key}] with the keys {}", known.join(", "));
-        Table::new(self.required(key, &allowed)?, known)
+    pub fn table(&self, key: &str) -> Result<Table<'d>, SceneError> {
+        let allowed = format!("a section [{key}] with the keys {}", keys::of(key));
+        Table::new(self.required(key, &allowed)?)
     }
 
-    /// The required quantity at `key`.
     pub fn quantity(&self, key: &str, quantity: Quantity) -> Result<f64, SceneError> {
         self.required(key, &quantity.allowed())?.quantity(quantity)
     }
@@ -71,15 +63,6 @@ impl<'d> Table<'d> {
     pub fn optional_quantity(&self, key: &str, quantity: Quantity) -> Result<Option<f64>, SceneError> {
         let value = self.optional(key);
         value.map(|value| value.quantity(quantity)).transpose()
-    }
-
-    /// The required dimensionless number at `key`.
-    pub fn number(&self, key: &str, range: Range) -> Result<f64, SceneError> {
-        self.required(key, &range.allowed())?.number(range)
-    }
-
-    pub fn optional_number(&self, key: &str, range: Range) -> Result<Option<f64>, SceneError> {
-        self.optional(key).map(|value| value.number(range)).transpose()
     }
 
     /// One of the `words` at `key`, or `default`.
@@ -125,25 +108,4 @@ impl<'d> Table<'d> {
     pub fn rejected(&self, error: GroundError) -> SceneError {
         self.value.wrong(WrongKind::Rejected(error), "", "")
     }
-
-    /// The error for a table whose keys contradict each other or another one.
-    pub fn inconsistent(&self, found: impl Into<String>, allowed: impl Into<String>) -> SceneError {
-        self.value.inconsistent(found, allowed)
-    }
-}
-
-/// The known key that was probably meant: a near miss, another name for it, or a key of another section.
-fn suggestion(key: &str, known: &[&'static str]) -> Option<String> {
-    let other_name = || {
-        let (_, name) = OTHER_NAMES.iter().find(|(other, _)| *other == key)?;
-        known.contains(name).then_some(*name)
-    };
-    let elsewhere = || {
-        let (section, _) = SECTIONS.iter().find(|(_, keys)| keys.contains(&key))?;
-        Some(format!("{section}.{key}"))
-    };
-    nearest(key, known.iter().copied())
-        .or_else(other_name)
-        .map(str::to_owned)
-        .or_else(elsewhere)
 }

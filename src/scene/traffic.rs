@@ -4,7 +4,6 @@ use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
 use super::data::{Order, PeakScaling, Traffic, TrafficVehicle};
 use super::error::SceneError;
-use super::keys;
 use super::range::{CONTACT_RADIUS, LOAD, PASSES, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y, allowed_whole};
 use super::table::Table;
 use super::value::Value;
@@ -21,7 +20,7 @@ pub fn traffic(
     let items = root.required("vehicles", allowed)?.some_items(allowed)?;
     let mut vehicles: Vec<TrafficVehicle> = Vec::with_capacity(items.len());
     for (index, item) in items.into_iter().enumerate() {
-        let table = Table::new(item, keys::VEHICLE)?;
+        let table = Table::new(item)?;
         let name = name(&table, index, &vehicles)?;
         let vehicle = vehicle(&table, name)?;
         if vehicle.weight() == 0.0
@@ -31,14 +30,14 @@ pub fn traffic(
             let load = table.alternatives("load", "wheels")?.into_iter().flatten().next();
             let found = "a vehicle without load";
             return Err(load.map_or_else(
-                || table.inconsistent(found, &allowed),
+                || table.value.inconsistent(found, &allowed),
                 |load| load.inconsistent(found, &allowed),
             ));
         }
-        let share = table.optional_number("share", SHARE)?.unwrap_or(1.0);
+        let share = table.optional_quantity("share", SHARE)?.unwrap_or(1.0);
         vehicles.push(TrafficVehicle { vehicle, share });
     }
-    let table = root.table("traffic", keys::TRAFFIC)?;
+    let table = root.table("traffic")?;
     let passes = table
         .required("passes", &allowed_whole(&PASSES))?
         .integer(PASSES)?;
@@ -77,7 +76,9 @@ fn name(table: &Table, index: usize, others: &[TrafficVehicle]) -> Result<String
     }
     let name = format!("vehicle {}", index + 1);
     if taken(&name) {
-        return Err(table.inconsistent(format!("no name, where \"{name}\" is taken"), allowed));
+        return Err(table
+            .value
+            .inconsistent(format!("no name, where \"{name}\" is taken"), allowed));
     }
     Ok(name)
 }
@@ -98,7 +99,7 @@ fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {
             .map(wheel)
             .collect::<Result<_, _>>()?,
         [None, None] => {
-            return Err(table.inconsistent(
+            return Err(table.value.inconsistent(
                 "neither `load` nor `wheels`",
                 "one of the two: load = \"20 tf\" or wheels = [ { load = \"50 kN\" } ]",
             ));
@@ -110,7 +111,7 @@ fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {
 }
 
 fn wheel(item: Value) -> Result<Wheel, SceneError> {
-    let table = Table::new(item, keys::WHEEL)?;
+    let table = Table::new(item)?;
     let or_zero = |key, quantity| {
         table
             .optional_quantity(key, quantity)

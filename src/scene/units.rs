@@ -152,11 +152,9 @@ pub fn normalised(unit: &str) -> String {
             c => c,
         })
         .collect();
-    match plain.as_str() {
-        "/m" | "m-1" => "1/m".to_owned(),
-        "/cm" | "cm-1" => "1/cm".to_owned(),
-        "/mm" | "mm-1" => "1/mm".to_owned(),
-        "/um" | "um-1" => "1/um".to_owned(),
+    let inverse = plain.strip_prefix('/').or(plain.strip_suffix("-1"));
+    match inverse {
+        Some(length @ ("m" | "cm" | "mm" | "um")) => format!("1/{length}"),
         _ => plain,
     }
 }

@@ -72,11 +72,8 @@ fn moduli(profile: &SoilProfile) -> Vec<String> {
         let (least, most) = (top.min(bottom), top.max(bottom));
         let key = format!("`ground.layers.{index}.young_modulus`");
         if least < SOFTEST {
-            let meant = if least <= MEGAPASCALS {
-                format!("; a bare number is in Pa: did you mean \"{least} MPa\"?")
-            } else {
-                String::new()
-            };
+            let meant = format!("; a bare number is in Pa: did you mean \"{least} MPa\"?");
+            let meant = if least <= MEGAPASCALS { meant.as_str() } else { "" };
             warnings.push(format!("{key} is {} MPa, softer than peat{meant}", least / 1e6));
         }
         if most > STIFFEST {

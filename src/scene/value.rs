@@ -7,11 +7,10 @@ use super::error::{SceneError, WrongKind};
 use super::keys::joined;
 use super::nearest::nearest;
 use super::quantity::QuantityError;
-use super::range::{Follows, Quantity, Range, allowed_whole};
+use super::range::{Follows, Quantity, allowed_whole};
 use super::syntax::with_point;
 use super::units::Dimension;
 
-/// A value of the document.
 #[derive(Clone)]
 pub struct Value<'d> {
     pub document: &'d Document,
@@ -21,7 +20,6 @@ pub struct Value<'d> {
 }
 
 impl<'d> Value<'d> {
-    /// The whole document.
     pub fn root(document: &'d Document) -> Self {
         Self {
             document,
@@ -43,7 +41,6 @@ impl<'d> Value<'d> {
         matches!(self.node.content, Content::Table(_))
     }
 
-    /// The items of a list.
     pub fn items(&self, allowed: &str) -> Result<Vec<Value<'d>>, SceneError> {
         let Content::Array(items) = &self.node.content else {
             return Err(self.wrong_type(allowed));
@@ -64,13 +61,18 @@ impl<'d> Value<'d> {
     }
 
     pub fn quantity(&self, quantity: Quantity) -> Result<f64, SceneError> {
-        let value = match &self.node.content {
-            Content::Number { value, .. } => *value,
-            Content::Text(text) => quantity
-                .dimension
-                .parse(text)
-                .map_err(|error| self.not_a_quantity(error, quantity.allowed()))?,
-            _ => return Err(self.wrong_type(quantity.allowed())),
+        let allowed = quantity.allowed();
+        let value = match (&self.node.content, quantity.dimension) {
+            (Content::Number { value, .. }, _) => *value,
+            (Content::Text(text), Some(dimension)) => match dimension.parse(text) {
+                Ok(value) => value,
+                Err(error) => return Err(self.not_a_quantity(error, allowed)),
+            },
+            (Content::Text(text), None) => {
+                let meant = bare(text).map_or_else(String::new, |number| format!("{number}: "));
+                return Err(self.wrong_type(meant + &allowed));
+            }
+            _ => return Err(self.wrong_type(allowed)),
         };
         if quantity.range.contains(value) {
             return Ok(value);
@@ -79,7 +81,7 @@ impl<'d> Value<'d> {
             Content::Number { value, .. } => bare_in(value, quantity),
             _ => String::new(),
         };
-        Err(self.out_of_range(quantity.allowed() + &meant))
+        Err(self.out_of_range(allowed + &meant))
     }
 
     /// A quantity whose range follows from the rest of the scene.
@@ -89,19 +91,6 @@ impl<'d> Value<'d> {
             Ok(value)
         } else {
             Err(self.out_of_range(allowed))
-        }
-    }
-
-    /// A dimensionless number.
-    pub fn number(&self, range: Range) -> Result<f64, SceneError> {
-        match &self.node.content {
-            Content::Number { value, .. } if range.contains(*value) => Ok(*value),
-            Content::Number { .. } => Err(self.out_of_range(range.allowed())),
-            Content::Text(text) => Err(self.wrong_type(match bare(text) {
-                Some(number) => format!("{number}: {}", range.allowed()),
-                None => range.allowed(),
-            })),
-            _ => Err(self.wrong_type(range.allowed())),
         }
     }
 
@@ -149,15 +138,10 @@ impl<'d> Value<'d> {
     fn not_a_quantity(&self, error: QuantityError, allowed: String) -> SceneError {
         let kind = match error {
             QuantityError::NotANumber => return self.wrong_type(allowed),
-            QuantityError::Comma { with_point } => {
+            QuantityError::Comma(with_point) => {
                 return self.wrong_type(format!("a decimal point, \"{with_point}\": {allowed}"));
             }
-            QuantityError::MissingUnit => WrongKind::MissingUnit,
-            QuantityError::UnknownUnit { unit, nearest } => WrongKind::UnknownUnit {
-                unit,
-                suggestion: nearest,
-            },
-            QuantityError::WrongDimension { dimension, .. } => WrongKind::WrongDimension(dimension),
+            error => WrongKind::Quantity(error),
         };
         self.wrong(kind, self.written(), allowed)
     }
@@ -170,7 +154,7 @@ impl<'d> Value<'d> {
             Content::Array(_) => "the list ",
             Content::Table(_) => "the table ",
         };
-        self.wrong(WrongKind::WrongType, format!("{kind}{}", self.written()), allowed)
+        self.wrong(WrongKind::Value, format!("{kind}{}", self.written()), allowed)
     }
 
     pub fn out_of_range(&self, allowed: impl Into<String>) -> SceneError {
@@ -179,7 +163,7 @@ impl<'d> Value<'d> {
 
     /// The error for a value that contradicts another one, or for a table whose keys do.
     pub fn inconsistent(&self, found: impl Into<String>, allowed: impl Into<String>) -> SceneError {
-        self.wrong(WrongKind::Inconsistent, found, allowed)
+        self.wrong(WrongKind::Value, found, allowed)
     }
 
     pub fn wrong(&self, kind: WrongKind, found: impl Into<String>, allowed: impl Into<String>) -> SceneError {
@@ -192,10 +176,9 @@ impl<'d> Value<'d> {
 
 /// What a bare number out of its range was probably meant in.
 fn bare_in(value: f64, quantity: Quantity) -> String {
-    let dimension = quantity.dimension;
-    let unit = match dimension {
-        Dimension::Length => "mm",
-        Dimension::Pressure => "MPa",
+    let (dimension, unit) = match quantity.dimension {
+        Some(dimension @ Dimension::Length) => (dimension, "mm"),
+        Some(dimension @ Dimension::Pressure) => (dimension, "MPa"),
         _ => return String::new(),
     };
     let meant = format!("{value} {unit}");

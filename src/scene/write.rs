@@ -59,7 +59,6 @@ impl Scene {
     }
 }
 
-/// The TOML text so far.
 #[derive(Default)]
 struct Text(String);
 

@@ -58,7 +58,7 @@ impl Axis {
         } else if let Some(range) = range(written) {
             AxisValues::List(range.map_err(|allowed| error(written, allowed))?)
         } else {
-            AxisValues::List(list(written).map_err(|Unclear { found, allowed }| error(&found, &allowed))?)
+            AxisValues::List(list(written).map_err(|(found, allowed)| error(&found, &allowed))?)
         };
         Ok(Self {
             key: key.to_owned(),
@@ -96,24 +96,17 @@ fn split(text: &str) -> Vec<&str> {
     parts
 }
 
-/// What is wrong with a list.
-struct Unclear {
-    found: String,
-    allowed: String,
-}
-
-/// The values of V1,V2,…
-fn list(text: &str) -> Result<Vec<String>, Unclear> {
-    let unclear = |found: String, allowed: String| Err(Unclear { found, allowed });
+/// The values of V1,V2,…; the error is what was found and what is allowed.
+fn list(text: &str) -> Result<Vec<String>, (String, String)> {
     let list: Vec<&str> = split(text).into_iter().map(str::trim).collect();
     if list.iter().any(|value| value.is_empty()) {
-        return unclear("an empty value".into(), "values between commas".into());
+        return Err(("an empty value".into(), "values between commas".into()));
     }
     if list.len() as f64 > MOST_VALUES {
-        return unclear(
+        return Err((
             format!("{} values", list.len()),
             "at most a million values".into(),
-        );
+        ));
     }
     if let ([first, second], Some(one)) = (&list[..], decimal_comma(text)) {
         let unit = number(second).map_or("", |(_, unit)| unit);
@@ -122,22 +115,19 @@ fn list(text: &str) -> Result<Vec<String>, Unclear> {
         } else {
             format!("{first}{unit},{second}")
         };
-        return unclear(
+        return Err((
             format!("{first} and {second}, or {one}?"),
             format!("`{two}` for two values, `{one}` for one"),
-        );
+        ));
     }
-    let units = || {
-        list.iter()
-            .filter_map(|value| number(value))
-            .map(|(_, unit)| unit)
-    };
+    let numbers = || list.iter().filter_map(|value| number(value));
+    let units = || numbers().map(|(_, unit)| unit);
     if units().any(str::is_empty) && !units().all(str::is_empty) {
         let last = units().next_back().unwrap_or_default();
-        return unclear(
+        return Err((
             "values with a unit and without one".into(),
             format!("the unit at every value, such as {}{last}", list[0]),
-        );
+        ));
     }
     Ok(list.into_iter().map(str::to_owned).collect())
 }

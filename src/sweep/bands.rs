@@ -43,35 +43,19 @@ pub struct Quantiles {
     pub p95: f64,
 }
 
-/// Gathers the samples of one point of the grid.
-#[derive(Default)]
-pub struct Gatherer {
-    answers: Vec<Answer>,
-    failed: usize,
-}
-
-impl Gatherer {
-    pub fn add(&mut self, row: &Row) {
-        match row.outcome {
-            Ok(answer) => self.answers.push(answer),
-            Err(_) => self.failed += 1,
-        }
-    }
-
-    /// The band of what was gathered, and forgets it.
-    pub fn band(&mut self, at: Vec<(String, String)>) -> Band {
-        let quantiles = |force: fn(&Answer) -> f64| quantiles(self.answers.iter().map(force).collect());
-        let band = Band {
+impl Band {
+    /// What the samples at `at` say.
+    pub(super) fn of(at: Vec<(String, String)>, samples: &[&Row]) -> Self {
+        let answers: Vec<&Answer> = samples.iter().flat_map(|row| &row.outcome).collect();
+        let quantiles = |force: fn(&Answer) -> f64| quantiles(answers.iter().copied().map(force).collect());
+        Self {
             at,
-            samples: self.answers.len(),
-            failed: self.failed,
+            samples: answers.len(),
+            failed: samples.len() - answers.len(),
             downstream_force_n: quantiles(|answer| answer.downstream_force_n),
             upstream_force_n: quantiles(|answer| answer.upstream_force_n),
             max_compression_n: quantiles(|answer| answer.max_compression_n),
-        };
-        self.answers.clear();
-        self.failed = 0;
-        band
+        }
     }
 }
 

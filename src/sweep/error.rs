@@ -28,36 +28,21 @@ pub enum SweepError {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// What stands at the journal's place beside the output is not the journal of this sweep.
-    #[error(
-        "{journal}: found {found}; allowed: the journal of this sweep, or none: remove it or name another output"
-    )]
-    OtherJournal {
-        /// The journal.
-        journal: String,
-        /// What was found.
-        found: &'static str,
-    },
+    /// What stands at the journal's place beside the output is not the journal of this sweep: the journal, and what it is.
+    #[error("{0}: found {1}; allowed: the journal of this sweep, or none: remove it or name another output")]
+    OtherJournal(String, &'static str),
     /// The [`Progress`](crate::Progress) callback stopped the sweep. What is done is kept for the next run.
     #[error("stopped before it was done; the same sweep resumes where it was")]
     Stopped,
-    /// Another process writes the same output.
-    #[error("{journal}: another sweep is writing it")]
-    Busy {
-        /// The journal.
-        journal: String,
-    },
+    /// Another process writes the same output, with this journal.
+    #[error("{0}: another sweep is writing it")]
+    Busy(String),
     /// The output cannot be written, or would replace what must not be lost.
     #[error(transparent)]
     Output(#[from] OutputError),
-    /// A file cannot be written or read back.
-    #[error("{file}: cannot be written or read")]
-    File {
-        /// The file.
-        file: String,
-        /// Why.
-        source: std::io::Error,
-    },
+    /// The file of this name cannot be written or read back, and why.
+    #[error("{0}: cannot be written or read")]
+    File(String, #[source] std::io::Error),
 }
 
 impl SweepError {
@@ -65,7 +50,7 @@ impl SweepError {
     pub fn is_bad_input(&self) -> bool {
         match self {
             Self::Output(error) => error.is_bad_input(),
-            Self::File { .. } | Self::Busy { .. } | Self::Stopped => false,
+            Self::File(..) | Self::Busy(_) | Self::Stopped => false,
             _ => true,
         }
     }

@@ -51,15 +51,12 @@ impl Sweep {
         let drawn = axes
             .iter()
             .any(|axis| matches!(axis.values, AxisValues::Drawn(_)));
-        match (drawn, samples.count) {
-            (true, 0) => {
-                return unfit(
-                    "a distribution and no samples".into(),
-                    "a number of samples with it",
-                );
-            }
-            (false, 1..) => return unfit("samples and no distribution".into(), "a distribution with them"),
-            _ => {}
+        if drawn && samples.count == 0 {
+            let found = "a distribution and no samples".into();
+            return unfit(found, "a number of samples with it");
+        }
+        if !drawn && samples.count > 0 {
+            return unfit("samples and no distribution".into(), "a distribution with them");
         }
         let count = axes
             .iter()
@@ -112,9 +109,8 @@ impl Sweep {
                     value
                 }
                 AxisValues::Drawn(distribution) => {
-                    distribution
-                        .quantile(share(self.samples.seed, &axis.key, sample))
-                        .1
+                    let share = share(self.samples.seed, &axis.key, sample);
+                    distribution.quantile(share).1
                 }
             })
             .collect();

@@ -19,7 +19,6 @@ const FORCED_EVERY: Duration = Duration::from_secs(1);
 /// No header is longer than this \[bytes\].
 const LONGEST_HEADER: u64 = 256;
 
-/// The journal of a sweep.
 pub struct Journal {
     path: PathBuf,
     file: File,
@@ -33,10 +32,8 @@ impl Journal {
     /// Opens the journal of the sweep `name` with `count` points, or begins it.
     pub fn open(path: PathBuf, name: u64, count: usize) -> Result<Self, SweepError> {
         let failed = |source| failed(&path, source);
-        let other = || SweepError::OtherJournal {
-            journal: path.display().to_string(),
-            found: "a link or something that is no file",
-        };
+        let name_of = || path.display().to_string();
+        let other = || SweepError::OtherJournal(name_of(), "a link or something that is no file");
         if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
             return Err(other());
         }
@@ -53,9 +50,7 @@ impl Journal {
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => {
-                return Err(SweepError::Busy {
-                    journal: path.display().to_string(),
-                });
+                return Err(SweepError::Busy(name_of()));
             }
             Err(TryLockError::Error(source)) => return Err(failed(source)),
         }
@@ -81,14 +76,12 @@ impl Journal {
         if line != header.as_bytes() {
             // One that was cut off inside its first line has nothing to lose.
             if !header.as_bytes().starts_with(&line) {
-                return Err(SweepError::OtherJournal {
-                    journal: self.path.display().to_string(),
-                    found: if line.starts_with(MAGIC.as_bytes()) {
-                        "the journal of another sweep"
-                    } else {
-                        "something else"
-                    },
-                });
+                let found = if line.starts_with(MAGIC.as_bytes()) {
+                    "the journal of another sweep"
+                } else {
+                    "something else"
+                };
+                return Err(SweepError::OtherJournal(self.path.display().to_string(), found));
             }
             self.file.set_len(0).map_err(failed)?;
             return self.file.write_all(header.as_bytes()).map_err(failed);
@@ -109,12 +102,10 @@ impl Journal {
         self.file.set_len(end).map_err(failed)
     }
 
-    /// How many points are done.
     pub fn done(&self) -> usize {
         self.done
     }
 
-    /// Which points are done.
     pub fn finished(&self) -> Vec<bool> {
         self.rows.iter().map(Option::is_some).collect()
     }
@@ -166,8 +157,5 @@ fn stands_at(_: &File, path: &Path) -> bool {
 }
 
 fn failed(path: &Path, source: std::io::Error) -> SweepError {
-    SweepError::File {
-        file: path.display().to_string(),
-        source,
-    }
+    SweepError::File(path.display().to_string(), source)
 }

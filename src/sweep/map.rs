@@ -14,11 +14,14 @@ const MOST_CELLS: usize = 500;
 
 /// The quantity shown by a map's colour.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[non_exhaustive]
 pub enum MapValue {
     /// The larger force on an end after the last pass \[N\].
+    #[cfg_attr(feature = "cli", value(help = "The larger force on an end"))]
     Force,
     /// The larger displacement of an end after the last pass \[mm\].
+    #[cfg_attr(feature = "cli", value(help = "The larger movement of an end"))]
     Movement,
 }
 

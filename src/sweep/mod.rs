@@ -49,4 +49,4 @@ pub use map::{MapValue, SweepMap};
 pub use row::{Answer, PointError, Row};
 pub use run::{Evaluate, SweepOptions, SweepSummary};
 #[cfg(feature = "cli")]
-pub(crate) use table::kind_of;
+pub(crate) use table::Format;

@@ -16,18 +16,11 @@ use crate::output::Draft;
 /// Rows that are kept in memory before they are written.
 const GROUP: usize = 8192;
 
-/// Writes a Parquet file.
 pub struct Parquet {
     writer: SerializedFileWriter<Draft>,
-    columns: Vec<Values>,
-    rows: usize,
-}
-
-/// Values of one column that wait to be written.
-enum Values {
-    Numbers(Vec<Option<f64>>),
-    Counts(Vec<Option<i64>>),
-    Texts(Vec<Option<ByteArray>>),
+    kinds: Vec<Kind>,
+    /// Rows that wait to be written.
+    rows: Vec<Vec<Cell>>,
 }
 
 impl Parquet {
@@ -37,57 +30,39 @@ impl Parquet {
             .map(field)
             .collect::<Result<_, _>>()
             .map_err(other)?;
-        let schema = Type::group_type_builder("sweep")
-            .with_fields(fields)
-            .build()
-            .map_err(other)?;
+        let schema = Type::group_type_builder("sweep").with_fields(fields).build();
+        let schema = Arc::new(schema.map_err(other)?);
         let properties = Arc::new(WriterProperties::builder().build());
         Ok(Self {
-            writer: SerializedFileWriter::new(file, Arc::new(schema), properties).map_err(other)?,
-            columns: columns
-                .iter()
-                .map(|column| match column.kind {
-                    Kind::Number => Values::Numbers(Vec::new()),
-                    Kind::Count => Values::Counts(Vec::new()),
-                    Kind::Text => Values::Texts(Vec::new()),
-                })
-                .collect(),
-            rows: 0,
+            writer: SerializedFileWriter::new(file, schema, properties).map_err(other)?,
+            kinds: columns.iter().map(|column| column.kind).collect(),
+            rows: Vec::new(),
         })
     }
 
     fn flush(&mut self) -> Result<(), ParquetError> {
-        if self.rows == 0 {
+        if self.rows.is_empty() {
             return Ok(());
         }
         let mut group = self.writer.next_row_group()?;
-        for column in &mut self.columns {
-            match column {
-                Values::Numbers(values) => next::<DoubleType>(&mut group, values)?,
-                Values::Counts(values) => next::<Int64Type>(&mut group, values)?,
-                Values::Texts(values) => next::<ByteArrayType>(&mut group, values)?,
+        for (index, kind) in self.kinds.iter().enumerate() {
+            let cells = self.rows.iter().map(|row| &row[index]);
+            match kind {
+                Kind::Number => next::<DoubleType>(&mut group, cells.map(number).collect())?,
+                Kind::Count => next::<Int64Type>(&mut group, cells.map(count).collect())?,
+                Kind::Text => next::<ByteArrayType>(&mut group, cells.map(text).collect())?,
             }
         }
         group.close()?;
-        self.rows = 0;
+        self.rows.clear();
         Ok(())
     }
 }
 
 impl Sink for Parquet {
-    fn row(&mut self, cells: &[Cell]) -> io::Result<()> {
-        for (column, cell) in self.columns.iter_mut().zip(cells) {
-            match (column, cell) {
-                (Values::Numbers(values), Cell::Number(value)) => values.push(*value),
-                (Values::Counts(values), Cell::Count(value)) => {
-                    values.push(value.and_then(|value| i64::try_from(value).ok()));
-                }
-                (Values::Texts(values), Cell::Text(value)) => values.push(value.map(ByteArray::from)),
-                _ => return Err(io::Error::other("a value in a column of another kind")),
-            }
-        }
-        self.rows += 1;
-        if self.rows == GROUP {
+    fn row(&mut self, cells: Vec<Cell>) -> io::Result<()> {
+        self.rows.push(cells);
+        if self.rows.len() == GROUP {
             self.flush().map_err(other)?;
         }
         Ok(())
@@ -96,6 +71,30 @@ impl Sink for Parquet {
     fn finish(mut self: Box<Self>) -> io::Result<Draft> {
         self.flush().map_err(other)?;
         self.writer.into_inner().map_err(other)
+    }
+}
+
+fn number(cell: &Cell) -> Option<f64> {
+    if let Cell::Number(value) = cell {
+        Some(*value)
+    } else {
+        None
+    }
+}
+
+fn count(cell: &Cell) -> Option<i64> {
+    if let Cell::Count(value) = cell {
+        i64::try_from(*value).ok()
+    } else {
+        None
+    }
+}
+
+fn text(cell: &Cell) -> Option<ByteArray> {
+    if let Cell::Text(value) = cell {
+        Some(value.as_str().into())
+    } else {
+        None
     }
 }
 
@@ -113,16 +112,16 @@ fn field(column: &Column) -> Result<Arc<Type>, ParquetError> {
         .map(Arc::new)
 }
 
-/// Writes the waiting values of the group's next column.
+/// Writes the values of the group's next column.
 fn next<T: DataType>(
     group: &mut SerializedRowGroupWriter<'_, Draft>,
-    values: &mut Vec<Option<T::T>>,
+    values: Vec<Option<T::T>>,
 ) -> Result<(), ParquetError> {
     let Some(mut column) = group.next_column()? else {
         return Ok(());
     };
     let levels: Vec<i16> = values.iter().map(|value| i16::from(value.is_some())).collect();
-    let present: Vec<T::T> = values.drain(..).flatten().collect();
+    let present: Vec<T::T> = values.into_iter().flatten().collect();
     column.typed::<T>().write_batch(&present, Some(&levels), None)?;
     column.close()
 }

@@ -1,7 +1,5 @@
 //! The answer of one point, and how it stands in the journal.
 
-use std::fmt;
-
 use serde::{Deserialize, Serialize};
 
 use crate::error::with_causes;
@@ -30,7 +28,8 @@ pub struct Answer {
 }
 
 /// Why a point has no answer. The message is one line, as it stands in the table.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
+#[error("{}", self.message())]
 #[non_exhaustive]
 pub enum PointError {
     /// The scene of this point is wrong.
@@ -74,14 +73,6 @@ impl PointError {
         }
     }
 }
-
-impl fmt::Display for PointError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.message())
-    }
-}
-
-impl std::error::Error for PointError {}
 
 impl From<Error> for PointError {
     /// Keeps the first line of the message: what follows shows the place in the file again.

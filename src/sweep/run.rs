@@ -10,14 +10,14 @@ use std::thread;
 use serde::{Deserialize, Serialize};
 
 use super::axis::AxisValues;
-use super::bands::{Band, Gatherer};
+use super::bands::Band;
 use super::error::SweepError;
 use super::grid::Sweep;
 use super::journal::Journal;
 use super::numbers::si;
 use super::row::{Answer, PointError, Row};
 use super::sink::{Cell, Column, Kind};
-use super::table::{self, Format};
+use super::table::Format;
 use crate::output::{Files, Output};
 use crate::{Error, Progress, Run, Scene, finite};
 
@@ -27,7 +27,7 @@ const WAITING: usize = 64;
 /// Computes a point.
 pub type Evaluate<'a> = dyn Fn(&Scene) -> Result<Run, Error> + Sync + 'a;
 
-/// Columns of an answer, in the order of [`cells`].
+/// Columns of an answer, by the names of its fields.
 const COLUMNS: [(&str, Kind); 8] = [
     ("downstream_force_n", Kind::Number),
     ("upstream_force_n", Kind::Number),
@@ -38,20 +38,6 @@ const COLUMNS: [(&str, Kind); 8] = [
     ("downstream_displacement_m", Kind::Number),
     ("error_estimate", Kind::Number),
 ];
-
-fn cells(answer: Option<&Answer>) -> [Cell<'static>; 8] {
-    let number = |value: fn(&Answer) -> f64| Cell::Number(answer.map(value));
-    [
-        number(|answer| answer.downstream_force_n),
-        number(|answer| answer.upstream_force_n),
-        number(|answer| answer.max_compression_n),
-        Cell::Number(answer.and_then(|answer| answer.saturation_force_n)),
-        Cell::Count(answer.and_then(|answer| answer.passes_to_95_percent)),
-        number(|answer| answer.upstream_displacement_m),
-        number(|answer| answer.downstream_displacement_m),
-        number(|answer| answer.error_estimate),
-    ]
-}
 
 /// How to sweep.
 #[derive(Default, Clone, Copy)]
@@ -108,7 +94,9 @@ impl Sweep {
     pub fn run(&self, output: &Path, options: &SweepOptions<'_>) -> Result<SweepSummary, SweepError> {
         let format = Format::of(output)?;
         let output = Files::reading([], options.force).output(output, format.kind())?;
-        let mut journal = Journal::open(table::beside(output.path(), "journal"), self.name(), self.count())?;
+        let mut beside = output.path().as_os_str().to_owned();
+        beside.push(".journal");
+        let mut journal = Journal::open(beside.into(), self.name(), self.count())?;
         let resumed = journal.done();
         self.compute(&mut journal, options)?;
         journal.force()?;
@@ -120,10 +108,7 @@ impl Sweep {
     fn compute(&self, journal: &mut Journal, options: &SweepOptions<'_>) -> Result<(), SweepError> {
         let threads = options.threads.unwrap_or(0);
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        let pool = pool.map_err(|error| SweepError::File {
-            file: "threads".into(),
-            source: std::io::Error::other(error),
-        })?;
+        let pool = pool.map_err(|error| SweepError::File("threads".into(), std::io::Error::other(error)))?;
         let finished = journal.finished();
         let report = |done: usize| {
             let reported = options.progress.report(done as f64 / self.count() as f64);
@@ -204,31 +189,29 @@ impl Sweep {
             first_error: None,
             bands: Vec::new(),
         };
-        let mut gatherer = Gatherer::default();
-        let failed = |source| SweepError::File {
-            file: output.path().display().to_string(),
-            source,
-        };
-        table::write(output, format, &columns, |sink| {
-            for row in journal.rows() {
-                if let Some(each) = each {
-                    each(row);
-                }
-                if let Err(error) = &row.outcome {
-                    summary.failed += 1;
-                    summary.first_error.get_or_insert_with(|| error.to_string());
-                }
-                let values = self.values(row.index);
-                if self.samples.count > 0 {
-                    gatherer.add(row);
-                    if (row.index + 1).is_multiple_of(self.samples.count) {
-                        summary.bands.push(gatherer.band(self.listed(&values)));
-                    }
-                }
-                sink.row(&self.cells(&values, &columns, row)).map_err(failed)?;
+        let mut samples = Vec::new();
+        let failed = |source| SweepError::File(output.path().display().to_string(), source);
+        // It comes into its place when it is whole.
+        let mut table = format.sink(output.begin()?, &columns).map_err(failed)?;
+        for row in journal.rows() {
+            if let Some(each) = each {
+                each(row);
             }
-            Ok(())
-        })?;
+            if let Err(error) = &row.outcome {
+                summary.failed += 1;
+                summary.first_error.get_or_insert_with(|| error.to_string());
+            }
+            let values = self.values(row.index);
+            if self.samples.count > 0 {
+                samples.push(row);
+                if samples.len() == self.samples.count {
+                    summary.bands.push(Band::of(self.listed(&values), &samples));
+                    samples.clear();
+                }
+            }
+            table.row(self.cells(values, &columns, row)).map_err(failed)?;
+        }
+        table.finish().map_err(failed)?.finish()?;
         Ok(summary)
     }
 
@@ -241,20 +224,25 @@ impl Sweep {
             .collect()
     }
 
-    fn cells<'r>(&self, values: &'r [String], columns: &[Column], row: &'r Row) -> Vec<Cell<'r>> {
+    fn cells(&self, values: Vec<String>, columns: &[Column], row: &Row) -> Vec<Cell> {
         let varied = values
-            .iter()
+            .into_iter()
             .zip(columns)
             .map(|(value, column)| match column.kind {
-                Kind::Text => Cell::Text(Some(value)),
-                _ => Cell::Number(si(value)),
+                Kind::Text => Cell::Text(value),
+                _ => si(&value).map_or(Cell::Absent, Cell::Number),
             });
         let samples = self.samples.count;
-        let sample = (samples > 0).then(|| Cell::Count(Some((row.index % samples) as u64)));
-        let answer = cells(row.outcome.as_ref().ok());
-        let status = if row.outcome.is_ok() { "ok" } else { "error" };
-        let error = row.outcome.as_ref().err().map(PointError::message);
-        let end = [Cell::Text(Some(status)), Cell::Text(error)];
+        let sample = (samples > 0).then(|| Cell::Count((row.index % samples) as u64));
+        let fields = serde_json::json!(row.outcome.as_ref().ok());
+        let answer = COLUMNS.map(|(name, kind)| match kind {
+            Kind::Count => fields[name].as_u64().map_or(Cell::Absent, Cell::Count),
+            _ => fields[name].as_f64().map_or(Cell::Absent, Cell::Number),
+        });
+        let end = match &row.outcome {
+            Ok(_) => [Cell::Text("ok".into()), Cell::Absent],
+            Err(error) => ["error", error.message()].map(|text| Cell::Text(text.into())),
+        };
         varied.chain(sample).chain(answer).chain(end).collect()
     }
 }

@@ -10,7 +10,6 @@ pub struct Column {
     pub kind: Kind,
 }
 
-/// What a column holds; a value may be absent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     Number,
@@ -18,16 +17,16 @@ pub enum Kind {
     Text,
 }
 
-/// One value of a row.
-pub enum Cell<'a> {
-    Number(Option<f64>),
-    Count(Option<u64>),
-    Text(Option<&'a str>),
+/// One value of a row, in a column of its kind.
+pub enum Cell {
+    Absent,
+    Number(f64),
+    Count(u64),
+    Text(String),
 }
 
-/// Takes rows one after the other.
 pub trait Sink {
-    fn row(&mut self, cells: &[Cell]) -> io::Result<()>;
+    fn row(&mut self, cells: Vec<Cell>) -> io::Result<()>;
     /// Everything that was written, on its way to its place.
     fn finish(self: Box<Self>) -> io::Result<Draft>;
 }

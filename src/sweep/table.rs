@@ -1,19 +1,17 @@
 //! The finished table, as CSV or Parquet.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::error::SweepError;
 use super::numbers::si;
 use super::sink::{Cell, Column, Sink};
-use crate::output::{Draft, Kind, Output};
+use crate::output::{self, Draft};
 
 /// Kind of the table file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
-    /// Comma-separated text.
     Csv,
-    /// Apache Parquet.
     #[cfg(feature = "parquet")]
     Parquet,
 }
@@ -38,80 +36,41 @@ impl Format {
     }
 
     /// What a file of this format is.
-    pub fn kind(self) -> Kind {
+    pub fn kind(self) -> output::Kind {
         match self {
-            Self::Csv => Kind::Sweep,
+            Self::Csv => output::Kind::Sweep,
             #[cfg(feature = "parquet")]
-            Self::Parquet => Kind::Parquet,
+            Self::Parquet => output::Kind::Parquet,
         }
     }
 
-    fn sink(self, file: Draft, columns: &[Column]) -> io::Result<Box<dyn Sink>> {
+    pub fn sink(self, file: Draft, columns: &[Column]) -> io::Result<Box<dyn Sink>> {
         Ok(match self {
-            Self::Csv => Box::new(Csv::new(file, columns)?),
+            Self::Csv => {
+                let mut writer = csv::Writer::from_writer(file);
+                writer.write_record(columns.iter().map(|column| &column.name))?;
+                Box::new(writer)
+            }
             #[cfg(feature = "parquet")]
             Self::Parquet => Box::new(super::parquet::Parquet::new(file, columns)?),
         })
     }
 }
 
-/// What the name of an output asks for.
-#[cfg(feature = "cli")]
-pub fn kind_of(output: &Path) -> Result<Kind, SweepError> {
-    Ok(Format::of(output)?.kind())
-}
-
-/// Writes a table, which comes into its place when it is whole.
-pub fn write(
-    output: &Output,
-    format: Format,
-    columns: &[Column],
-    rows: impl FnOnce(&mut dyn Sink) -> Result<(), SweepError>,
-) -> Result<(), SweepError> {
-    let failed = |source| SweepError::File {
-        file: output.path().display().to_string(),
-        source,
-    };
-    let mut sink = format.sink(output.begin()?, columns).map_err(failed)?;
-    rows(&mut *sink)?;
-    Ok(sink.finish().map_err(failed)?.finish()?)
-}
-
-/// The file's name with one more ending.
-pub fn beside(output: &Path, ending: &str) -> PathBuf {
-    let mut name = output.as_os_str().to_owned();
-    name.push(".");
-    name.push(ending);
-    name.into()
-}
-
-struct Csv {
-    writer: csv::Writer<Draft>,
-}
-
-impl Csv {
-    fn new(file: Draft, columns: &[Column]) -> io::Result<Self> {
-        let mut writer = csv::Writer::from_writer(file);
-        writer.write_record(columns.iter().map(|column| &column.name))?;
-        Ok(Self { writer })
-    }
-}
-
-impl Sink for Csv {
-    fn row(&mut self, cells: &[Cell]) -> io::Result<()> {
-        let text = |cell: &Cell| match cell {
-            Cell::Number(Some(value)) => value.to_string(),
-            Cell::Count(Some(value)) => value.to_string(),
-            Cell::Text(Some(value)) => harmless(value),
-            _ => String::new(),
+impl Sink for csv::Writer<Draft> {
+    fn row(&mut self, cells: Vec<Cell>) -> io::Result<()> {
+        let text = |cell| match cell {
+            Cell::Absent => String::new(),
+            Cell::Number(value) => value.to_string(),
+            Cell::Count(value) => value.to_string(),
+            Cell::Text(value) => harmless(&value),
         };
-        Ok(self.writer.write_record(cells.iter().map(text))?)
+        Ok(self.write_record(cells.into_iter().map(text))?)
     }
 
     fn finish(self: Box<Self>) -> io::Result<Draft> {
-        self.writer
-            .into_inner()
-            .map_err(|error| io::Error::other(error.to_string()))
+        let draft = self.into_inner();
+        draft.map_err(|error| io::Error::other(error.to_string()))
     }
 }
 

@@ -5,6 +5,7 @@ use crate::scale::{Scale, is_sound, round_range};
 
 /// One axis of a [`Chart`](crate::Chart).
 #[derive(Debug, Clone, PartialEq)]
+#[must_use]
 pub struct Axis {
     pub(crate) label: String,
     pub(crate) logarithmic: bool,
@@ -19,7 +20,6 @@ pub struct Axis {
 
 impl Axis {
     /// A linear axis; `label` carries the unit, as in "force, N".
-    #[must_use]
     pub fn linear(label: impl Into<String>) -> Self {
         Self {
             label: label.into(),
@@ -32,7 +32,6 @@ impl Axis {
     }
 
     /// A logarithmic axis.
-    #[must_use]
     pub fn logarithmic(label: impl Into<String>) -> Self {
         Self {
             logarithmic: true,
@@ -41,7 +40,6 @@ impl Axis {
     }
 
     /// An axis of cells with names; their centres are 0, 1, 2, …
-    #[must_use]
     pub fn names<Name: Into<String>>(
         label: impl Into<String>,
         names: impl IntoIterator<Item = Name>,
@@ -55,21 +53,18 @@ impl Axis {
     }
 
     /// Spans `from` to `to`, whatever the data; what lies beyond is cut off.
-    #[must_use]
     pub fn range(mut self, from: f64, to: f64) -> Self {
         self.range = Some((from, to));
         self
     }
 
     /// Spans cells around ascending centres. Their borders lie half-way between the centres, or between their logarithms.
-    #[must_use]
     pub fn cells(mut self, centres: impl IntoIterator<Item = f64>) -> Self {
         self.centres = centres.into_iter().collect();
         self
     }
 
     /// Labels ticks with SI prefixes of `unit`: "1 µm", "10 ms".
-    #[must_use]
     pub fn prefixes(mut self, unit: impl Into<String>) -> Self {
         self.unit = Some(unit.into());
         self

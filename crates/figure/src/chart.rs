@@ -1,7 +1,6 @@
 //! A chart: series and cells over two axes.
 
 use crate::axis::Axis;
-use crate::cells::Cells;
 use crate::error::FigureError;
 use crate::series::{Along, Kind, Reference, Series};
 
@@ -23,6 +22,7 @@ use crate::series::{Along, Kind, Reference, Series};
 /// # Ok::<(), plain_figure::FigureError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[must_use]
 pub struct Chart {
     pub(crate) title: String,
     pub(crate) x: Axis,
@@ -35,7 +35,6 @@ pub struct Chart {
 
 impl Chart {
     /// An empty chart. The title may be empty too.
-    #[must_use]
     pub fn new(title: impl Into<String>, x: Axis, y: Axis) -> Self {
         Self {
             title: title.into(),
@@ -51,7 +50,6 @@ impl Chart {
     /// A map of cells coloured by class, over axes of [cells](Axis::cells) or [names](Axis::names). `cells` names the class of each
     /// cell by its index in `classes`, row by row from the lowest, each row along x. Classes look, in turn: blue, vermilion with a
     /// cross, yellow with a stroke, black, purple with a dot, green with a ring.
-    #[must_use]
     pub fn of_classes<Name: Into<String>>(
         title: impl Into<String>,
         x: Axis,
@@ -69,7 +67,6 @@ impl Chart {
 
     /// A map of cells coloured by value on the scale `value`, which is drawn as a bar on the right; `None` leaves a cell white. Axes
     /// and order of cells as for [`Chart::of_classes`].
-    #[must_use]
     pub fn of_values(
         title: impl Into<String>,
         x: Axis,
@@ -85,21 +82,18 @@ impl Chart {
     }
 
     /// Adds a series; the later is drawn above the earlier, and all above the cells.
-    #[must_use]
     pub fn with(mut self, series: Series) -> Self {
         self.series.push(series);
         self
     }
 
     /// Adds a reference line or band, drawn below the series.
-    #[must_use]
     pub fn refer(mut self, reference: Reference) -> Self {
         self.references.push(reference);
         self
     }
 
     /// Adds a text centred at (x, y), moved just far enough to stay in the plot.
-    #[must_use]
     pub fn note(mut self, x: f64, y: f64, text: impl Into<String>) -> Self {
         self.notes.push(((x, y), text.into()));
         self
@@ -146,5 +140,47 @@ impl Chart {
             }
         });
         series.chain(references)
+    }
+}
+
+/// A class or a value for each cell, row by row from the lowest, each row along x.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Cells {
+    /// Names of the classes, and the index of each cell's.
+    Classes(Vec<String>, Vec<usize>),
+    /// Values on the scale of the axis; a cell without value stays white.
+    Values(Axis, Vec<Option<f64>>),
+}
+
+impl Cells {
+    /// Whether they fill the grid of the chart named `chart`, with classes and values that exist.
+    pub fn check(&self, chart: &str, columns: usize, rows: usize) -> Result<(), FigureError> {
+        let (found, with_data) = match self {
+            Self::Classes(_, cells) => (cells.len(), cells.len()),
+            Self::Values(_, cells) => (cells.len(), cells.iter().flatten().count()),
+        };
+        if with_data == 0 {
+            return Err(FigureError::empty("chart", chart));
+        }
+        if found != columns * rows {
+            return Err(FigureError::CellCount {
+                chart: chart.to_owned(),
+                found,
+                columns,
+                rows,
+            });
+        }
+        match self {
+            Self::Values(axis, cells) => axis.check(&axis.label, cells.iter().flatten().copied()),
+            Self::Classes(classes, cells) => match cells.iter().position(|class| *class >= classes.len()) {
+                None => Ok(()),
+                Some(index) => Err(FigureError::UnknownClass {
+                    chart: chart.to_owned(),
+                    index,
+                    class: cells[index],
+                    classes: classes.len(),
+                }),
+            },
+        }
     }
 }

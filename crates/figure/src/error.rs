@@ -4,12 +4,9 @@
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FigureError {
-    /// There is nothing to draw.
-    #[error("{what} has no data")]
-    Empty {
-        /// The chart, series or axis, by its title, name or label.
-        what: String,
-    },
+    /// There is nothing to draw in this chart, series or axis.
+    #[error("{0} has no data")]
+    Empty(String),
     /// A number is NaN or infinite.
     #[error("{what}: {value} at index {index} is not a finite number")]
     NotFinite {
@@ -86,8 +83,6 @@ pub enum FigureError {
 
 impl FigureError {
     pub(crate) fn empty(kind: &str, name: &str) -> Self {
-        Self::Empty {
-            what: format!("{kind} \"{name}\""),
-        }
+        Self::Empty(format!("{kind} \"{name}\""))
     }
 }

@@ -1,7 +1,6 @@
 #![doc = include_str!("../README.md")]
 
 mod axis;
-mod cells;
 mod chart;
 mod draw;
 mod error;

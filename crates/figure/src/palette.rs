@@ -6,7 +6,6 @@
 /// Red, green and blue, a byte each.
 pub(crate) type Colour = u32;
 
-/// Colours of series.
 pub(crate) const PALETTE: [Colour; 7] = [0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0xE69F00, 0x56B4E9, BLACK];
 
 /// Lengths of strokes and gaps \[px\], in turn; solid without any.

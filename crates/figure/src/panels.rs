@@ -16,6 +16,7 @@ use crate::chart::Chart;
 /// # Ok::<(), plain_figure::FigureError>(())
 /// ```
 #[derive(Debug, Clone, PartialEq)]
+#[must_use]
 pub struct Panels {
     pub(crate) title: String,
     pub(crate) columns: usize,
@@ -25,7 +26,6 @@ pub struct Panels {
 
 impl Panels {
     /// No charts yet, to be stacked in one column of 800 by 400 px each. The title may be empty.
-    #[must_use]
     pub fn new(title: impl Into<String>) -> Self {
         Self {
             title: title.into(),
@@ -36,21 +36,18 @@ impl Panels {
     }
 
     /// Charts a row; at least one.
-    #[must_use]
     pub fn columns(mut self, columns: usize) -> Self {
         self.columns = columns.max(1);
         self
     }
 
     /// Width and height of each chart \[px\], 200 to 5000.
-    #[must_use]
     pub fn panel_size(mut self, width: f64, height: f64) -> Self {
         self.size = (width.clamp(200.0, 5000.0), height.clamp(200.0, 5000.0));
         self
     }
 
     /// Adds a chart: row by row, from the left.
-    #[must_use]
     pub fn with(mut self, chart: Chart) -> Self {
         self.charts.push(chart);
         self

@@ -1,6 +1,5 @@
 //! Numbers to places along an axis, and the ticks that stand there.
 
-/// A labelled tick.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Tick {
     pub value: f64,

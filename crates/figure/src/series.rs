@@ -15,6 +15,7 @@ pub(crate) enum Kind {
 ///
 /// Colour, dash and marker follow from the index of the series in its chart, unless [`look`](Series::look) and the like set them.
 #[derive(Debug, Clone, PartialEq)]
+#[must_use]
 pub struct Series {
     pub(crate) name: String,
     pub(crate) kind: Kind,
@@ -37,66 +38,56 @@ impl Series {
     }
 
     /// A line through the points. With an empty name it has no entry in the legend.
-    #[must_use]
     pub fn line(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self::new(name, Kind::Line, points)
     }
 
     /// A marker at each point.
-    #[must_use]
     pub fn points(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self::new(name, Kind::Points, points)
     }
 
     /// A line with a marker at each point.
-    #[must_use]
     pub fn line_points(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self::new(name, Kind::LinePoints, points)
     }
 
     /// A line with the area down to zero (on a logarithmic axis: to its start) filled.
-    #[must_use]
     pub fn area(name: impl Into<String>, points: impl IntoIterator<Item = (f64, f64)>) -> Self {
         Self::new(name, Kind::Area, points)
     }
 
     /// Colour, dash and marker of the `index`-th series, from 0.
-    #[must_use]
     pub fn look(mut self, index: usize) -> Self {
         self.dash = Some(index);
         self.colour(index).marker(index)
     }
 
     /// Colour of the `index`-th series, from 0.
-    #[must_use]
     pub fn colour(mut self, index: usize) -> Self {
         self.colour = Some(index);
         self
     }
 
     /// Marker of the `index`-th series, from 0.
-    #[must_use]
     pub fn marker(mut self, index: usize) -> Self {
         self.marker = Some(index);
         self
     }
 
     /// A line without gaps.
-    #[must_use]
     pub fn solid(mut self) -> Self {
         self.dash = Some(0);
         self
     }
 
     /// A dashed line.
-    #[must_use]
     pub fn dashed(mut self) -> Self {
         self.dash = Some(1);
         self
     }
 
     /// A dotted line.
-    #[must_use]
     pub fn dotted(mut self) -> Self {
         self.dash = Some(2);
         self
@@ -114,6 +105,7 @@ pub(crate) enum Along {
 
 /// A line or band across the whole plot, with a label.
 #[derive(Debug, Clone, PartialEq)]
+#[must_use]
 pub struct Reference {
     pub(crate) along: Along,
     pub(crate) from: f64,
@@ -134,19 +126,16 @@ impl Reference {
     }
 
     /// A horizontal line at `y`.
-    #[must_use]
     pub fn horizontal(y: f64, label: impl Into<String>) -> Self {
         Self::new(Along::Horizontal, y, y, label)
     }
 
     /// A vertical line at `x`.
-    #[must_use]
     pub fn vertical(x: f64, label: impl Into<String>) -> Self {
         Self::new(Along::Vertical, x, x, label)
     }
 
     /// A band between two values of x.
-    #[must_use]
     pub fn vertical_band(from: f64, to: f64, label: impl Into<String>) -> Self {
         Self::new(Along::Vertical, from.min(to), to.max(from), label)
     }
@@ -156,7 +145,6 @@ impl Reference {
     }
 
     /// Colour of the `index`-th series, from 0; grey otherwise.
-    #[must_use]
     pub fn colour(mut self, index: usize) -> Self {
         self.colour = PALETTE[index % PALETTE.len()];
         self

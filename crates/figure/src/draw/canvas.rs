@@ -2,8 +2,13 @@
 
 use std::fmt::Write;
 
-use super::text::{TEXT, text_width};
+use crate::error::FigureError;
 use crate::palette::{Colour, INK, WHITE};
+
+/// Size of letters \[px\].
+pub const TEXT: f64 = 14.0;
+/// Width of a letter as a share of the font's size, rather too much.
+const LETTER: f64 = 0.6;
 
 /// A point \[px\], y downward.
 pub type Point = (f64, f64);
@@ -52,7 +57,6 @@ impl Rect {
     }
 }
 
-/// How a line is drawn.
 #[derive(Debug, Clone, Copy)]
 pub struct Stroke {
     pub colour: Colour,
@@ -78,7 +82,6 @@ impl Stroke {
     }
 }
 
-/// An SVG in the making.
 #[derive(Debug)]
 pub struct Canvas(String);
 
@@ -94,12 +97,10 @@ impl Canvas {
         ))
     }
 
-    /// The whole SVG.
     pub fn finish(self) -> String {
         self.0 + "</svg>\n"
     }
 
-    /// A line through points.
     pub fn line(&mut self, points: &[Point], stroke: Stroke) {
         let style = format!("fill=\"none\" {}", stroke.attributes());
         self.shape("polyline", points, &style);
@@ -111,13 +112,11 @@ impl Canvas {
         self.shape("polygon", points, &style);
     }
 
-    /// A filled polygon with an outline.
     pub fn outlined(&mut self, points: &[Point], colour: Colour, stroke: Stroke) {
         let style = format!("fill=\"#{colour:06X}\" {}", stroke.attributes());
         self.shape("polygon", points, &style);
     }
 
-    /// A filled rectangle.
     pub fn rectangle(&mut self, rect: Rect, colour: Colour, opacity: f64) {
         self.area(&rect.corners(), colour, opacity);
     }
@@ -174,6 +173,29 @@ fn escaped(text: &str) -> String {
         .replace('&', "&amp;")
         .replace('<', "&lt;")
         .replace('>', "&gt;")
+}
+
+/// Width of a text \[px\], an estimate on the safe side: an SVG is laid out by the program that shows it.
+pub fn text_width(text: &str, size: f64) -> f64 {
+    let letter = |letter| if is_wide(letter) { 1.0 } else { LETTER };
+    size * text.chars().map(letter).sum::<f64>()
+}
+
+/// Letters as wide as high: CJK and full-width forms.
+fn is_wide(letter: char) -> bool {
+    matches!(letter, '\u{2e80}'..='\u{9fff}' | '\u{ac00}'..='\u{d7a3}' | '\u{f900}'..='\u{faff}' | '\u{ff00}'..='\u{ff60}')
+}
+
+/// An error where `text` needs more than its room \[px\].
+pub fn check_room(text: &str, needed: f64, room: f64) -> Result<(), FigureError> {
+    if needed <= room {
+        return Ok(());
+    }
+    Err(FigureError::NoRoom {
+        text: text.to_owned(),
+        needed,
+        room,
+    })
 }
 
 #[cfg(test)]

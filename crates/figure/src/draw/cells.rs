@@ -1,12 +1,10 @@
 //! Coloured cells, and the bar that shows the colours of values.
 
-use super::canvas::{Canvas, Rect, Stroke};
+use super::canvas::{Canvas, Rect, Stroke, TEXT, check_room, text_width};
 use super::frame::{AXIS, Frame, TICK, widest_label};
 use super::mark;
-use super::text::{TEXT, check_room, text_width};
 use crate::axis::Axis;
-use crate::cells::Cells;
-use crate::chart::Chart;
+use crate::chart::{Cells, Chart};
 use crate::error::FigureError;
 use crate::palette::{INK, continuous};
 use crate::scale::{Scale, Tick};
@@ -14,7 +12,6 @@ use crate::scale::{Scale, Tick};
 /// Distance of the bar from the plot, and its width \[px\].
 const GAP: f64 = 18.0;
 const WIDTH: f64 = 20.0;
-/// Steps of colour.
 const STEPS: u32 = 128;
 
 /// The scale of values and their colours.
@@ -38,7 +35,6 @@ impl<'a> Bar<'a> {
         GAP + WIDTH + 2.0 * TICK + widest_label(&self.scale) + 1.6 * TEXT
     }
 
-    /// Draws the bar right of the plot.
     pub fn draw(&self, canvas: &mut Canvas, plot: Rect) -> Result<(), FigureError> {
         let label = &self.axis.label;
         check_room(label, text_width(label, TEXT), plot.height() + 2.0 * TEXT)?;

@@ -1,7 +1,6 @@
 //! The plot's frame: axes with ticks and labels, and where a point lies in it.
 
-use super::canvas::{Canvas, Point, Rect, Stroke};
-use super::text::{TEXT, check_room, text_width};
+use super::canvas::{Canvas, Point, Rect, Stroke, TEXT, check_room, text_width};
 use crate::error::FigureError;
 use crate::palette::{FINE_GRID, GRID, INK};
 use crate::scale::{Scale, Tick};

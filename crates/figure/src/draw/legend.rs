@@ -1,9 +1,8 @@
-//! The legend: rows of names below the plot.
+//! Words around a plot: its title, over one or more lines, and the legend, rows of names below.
 
-use super::canvas::{Canvas, Point, Rect};
+use super::canvas::{Canvas, Point, Rect, TEXT, check_room, text_width};
 use super::mark;
 use super::series::Shown;
-use super::text::{TEXT, check_room, text_width};
 use crate::error::FigureError;
 
 const ROW: f64 = 23.0;
@@ -11,6 +10,10 @@ const SAMPLE: f64 = 38.0;
 const GAP: f64 = 7.0;
 const BETWEEN: f64 = 20.0;
 const PADDING: f64 = 8.0;
+
+const TITLE: f64 = 16.0;
+const TITLE_LINE: f64 = 22.0;
+const TITLE_PADDING: f64 = 10.0;
 
 /// What an entry shows beside its name.
 enum Sample<'a> {
@@ -64,6 +67,46 @@ impl<'a> Legend<'a> {
                 }
             }
             canvas.text(name, (x + SAMPLE + GAP, y), "start");
+        }
+    }
+}
+
+/// A title broken into lines that fit.
+pub struct Heading {
+    lines: Vec<String>,
+    width: f64,
+}
+
+impl Heading {
+    /// # Errors
+    ///
+    /// [`FigureError::NoRoom`] for a word wider than `width` \[px\].
+    pub fn new(text: &str, width: f64) -> Result<Self, FigureError> {
+        let room = width - 2.0 * TITLE_PADDING;
+        let mut lines: Vec<String> = Vec::new();
+        for word in text.split_whitespace() {
+            check_room(word, text_width(word, TITLE), room)?;
+            match lines.last_mut() {
+                Some(line) if text_width(&format!("{line} {word}"), TITLE) <= room => {
+                    line.push(' ');
+                    line.push_str(word);
+                }
+                _ => lines.push(word.into()),
+            }
+        }
+        Ok(Self { lines, width })
+    }
+
+    /// Height of its lines \[px\], nothing for an empty title.
+    pub fn height(&self) -> f64 {
+        let height = TITLE_LINE * self.lines.len() as f64 + TITLE_PADDING;
+        if self.lines.is_empty() { 0.0 } else { height }
+    }
+
+    pub fn draw(&self, canvas: &mut Canvas, (left, top): Point) {
+        for (k, line) in self.lines.iter().enumerate() {
+            let y = top + TITLE_PADDING + TITLE_LINE * (k as f64 + 0.5);
+            canvas.bold(line, (left + 0.5 * self.width, y), TITLE);
         }
     }
 }

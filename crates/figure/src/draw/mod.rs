@@ -2,20 +2,26 @@
 
 mod canvas;
 mod cells;
-mod chart;
 mod frame;
-mod heading;
 mod legend;
 mod mark;
 mod reference;
 mod series;
-mod text;
 
-use crate::chart::Chart;
+use crate::chart::{Cells, Chart};
 use crate::error::FigureError;
+use crate::palette::INK;
 use crate::panels::Panels;
 use canvas::{Canvas, Rect};
-use heading::Heading;
+use cells::Bar;
+use frame::{BELOW, Frame, ticks};
+use legend::{Heading, Legend};
+use series::Shown;
+
+/// Legends begin this far from the figure's left edge \[px\].
+const INDENT: f64 = 24.0;
+/// What the y axis takes of the width, about \[px\].
+const LEFT: f64 = 90.0;
 
 impl Chart {
     /// The chart as an SVG of 800 by 500 px.
@@ -58,8 +64,59 @@ impl Panels {
             let (column, row) = ((k % columns) as f64, (k / columns) as f64);
             let centre = ((column + 0.5) * width, top + (row + 0.5) * height);
             let outer = Rect::around(centre, 0.5 * width, 0.5 * height);
-            chart::draw(chart, &mut canvas, outer)?;
+            draw(chart, &mut canvas, outer)?;
         }
         Ok(canvas.finish())
     }
+}
+
+/// Draws a chart in its part of the figure.
+fn draw(chart: &Chart, canvas: &mut Canvas, outer: Rect) -> Result<(), FigureError> {
+    let shown = |(k, series)| Shown::new(series, k, chart.cells.is_some());
+    let shown: Vec<Shown> = chart.series.iter().enumerate().map(shown).collect();
+    let classes = match &chart.cells {
+        Some(Cells::Classes(classes, _)) => classes.as_slice(),
+        _ => &[],
+    };
+    let heading = Heading::new(&chart.title, outer.width())?;
+    let legend = Legend::new(classes, &shown, outer.width() - 2.0 * INDENT)?;
+    let inner = Rect {
+        top: outer.top + heading.height(),
+        bottom: outer.bottom - legend.height,
+        ..outer
+    };
+    let up = ticks(inner.height() - BELOW, 50.0);
+    let bar = match &chart.cells {
+        Some(cells) => Bar::new(cells, up)?,
+        None => None,
+    };
+    let right = bar.as_ref().map_or(0.0, Bar::width);
+    let across = ticks(inner.width() - right - LEFT, 90.0);
+    let scales = (
+        chart.x.scale(chart.contents().flat_map(|(_, x, _)| x), across)?,
+        chart.y.scale(chart.contents().flat_map(|(.., y)| y), up)?,
+    );
+    heading.draw(canvas, (outer.left, outer.top));
+    let labels = (chart.x.label.as_str(), chart.y.label.as_str());
+    let frame = Frame::draw(canvas, inner, scales, labels, chart.cells.is_none(), right)?;
+    if let Some(cells) = &chart.cells {
+        cells::draw(canvas, &frame, chart, cells, bar.as_ref());
+    }
+    for reference in &chart.references {
+        reference::draw(canvas, &frame, reference);
+    }
+    for shown in &shown {
+        shown.draw(canvas, &frame);
+    }
+    for reference in &chart.references {
+        reference::draw_label(canvas, &frame, reference, &chart.series)?;
+    }
+    for (at, text) in &chart.notes {
+        reference::draw_text(canvas, frame.plot, text, frame.at(*at), INK)?;
+    }
+    if let Some(bar) = bar {
+        bar.draw(canvas, frame.plot)?;
+    }
+    legend.draw(canvas, (outer.left + INDENT, inner.bottom));
+    Ok(())
 }

@@ -1,9 +1,8 @@
 //! Reference lines and bands, and texts in the plot.
 
-use super::canvas::{Canvas, Point, Rect, Stroke};
+use super::canvas::{Canvas, Point, Rect, Stroke, TEXT, check_room, text_width};
 use super::frame::Frame;
 use super::series::clip;
-use super::text::{TEXT, check_room, text_width};
 use crate::error::FigureError;
 use crate::palette::{Colour, INK};
 use crate::series::{Along, Kind, Reference, Series};
@@ -35,7 +34,6 @@ fn place(frame: &Frame, reference: &Reference) -> Option<Rect> {
     (inside.left <= inside.right && inside.top <= inside.bottom).then_some(inside)
 }
 
-/// Draws the line or band.
 pub fn draw(canvas: &mut Canvas, frame: &Frame, reference: &Reference) {
     let Some(rect) = place(frame, reference) else {
         return;
