@@ -3,7 +3,7 @@
 use crate::evaluator::Evaluator;
 use crate::fit::Fit;
 use crate::interval::EXCLUSION;
-use crate::parameter::FARTHEST;
+use crate::parameter::{FARTHEST, physical};
 use crate::search::ROUGH;
 use crate::solution::Solution;
 use crate::{Calibration, Warning};
@@ -20,10 +20,10 @@ impl Calibration<'_> {
     pub(crate) fn answer(&self, evaluator: &Evaluator<'_>, solution: Solution) -> Fit {
         let deviance = solution.optimum.deviance;
         let standardised = &solution.optimum.point.residuals;
-        let observed = self.observations();
+        let observed = &self.observations;
         let residuals: Vec<f64> = standardised
             .iter()
-            .zip(evaluator.sigmas)
+            .zip(&self.sigmas)
             .map(|(r, sigma)| -r * sigma)
             .collect();
         let square: f64 = residuals.iter().map(|r| r * r).sum();
@@ -32,11 +32,11 @@ impl Calibration<'_> {
         let weights: Vec<f64> = standardised
             .iter()
             .take(observed.len())
-            .map(|r| self.options().loss.weight(r / deviance.spread))
+            .map(|r| self.options.loss.weight(r / deviance.spread))
             .collect();
         let curvatures = deviance.curvatures(standardised);
         let degrees_of_freedom = self.freedom(&solution.optimum);
-        let parameters = 0..self.parameters().len();
+        let parameters = 0..self.parameters.len();
         Fit {
             warnings: self.warnings(&solution, &weights, degrees_of_freedom),
             correlation: parameters
@@ -63,7 +63,7 @@ impl Calibration<'_> {
             iterations: solution.optimum.iterations,
             curvatures: curvatures
                 .iter()
-                .zip(evaluator.sigmas)
+                .zip(&self.sigmas)
                 .map(|(curvature, sigma)| curvature / sigma)
                 .collect(),
             estimates: solution.estimates,
@@ -122,12 +122,7 @@ impl Calibration<'_> {
         };
         let closed = solution.estimates.iter().all(|estimate| estimate.identifiable);
         (closed && !(0..rival.free.len()).all(own)).then(|| Warning::Ambiguous {
-            values: self
-                .parameters()
-                .iter()
-                .zip(rival.free.iter())
-                .map(|(parameter, &free)| parameter.value(parameter.bounded(free)))
-                .collect(),
+            values: physical(&self.parameters, &rival.free),
         })
     }
 }

@@ -1,5 +1,6 @@
 //! A fit that runs the model itself.
 
+use crate::evaluator::Evaluator;
 use crate::solution::Route;
 use crate::{Calibration, CalibrationError, Fit};
 
@@ -12,14 +13,11 @@ impl Calibration<'_> {
     /// more model runs than allowed.
     pub fn fit(&self) -> Result<Fit, CalibrationError> {
         self.check_count()?;
-        let units = self.units();
-        let options = &self.options;
-        let evaluator = self.evaluator(&units, options.max_evaluations);
-        let start = options.start.as_ref().map(|start| self.free(start));
+        let evaluator = Evaluator::new(self);
         let route = Route {
             scan: self.scan(),
-            start,
-            profiles: options.profiles,
+            start: self.start(),
+            profiles: self.options.profiles,
             scan_others: 0,
         };
         let solution = self.solve(&evaluator, &route)?;

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use crate::evaluator::Evaluator;
 use crate::interval::{ACCURACY, EXCLUSION, Witness};
+use crate::parameter::physical;
 use crate::point::{Point, all_over, score};
 use crate::search::MAX_ROUNDS;
 use crate::solution::{Route, Solution};
@@ -62,29 +63,27 @@ impl Calibration<'_> {
     /// As for [`fit`](Self::fit), and [`CalibrationError::InvalidOption`] for a `coarse` of other parameters or observations.
     pub fn fit_emulated(&self, coarse: Option<&Emulator>) -> Result<(Fit, Emulator), CalibrationError> {
         self.check_count()?;
-        let units = self.units();
-        let options = self.options();
-        let runs = self.evaluator(&units, options.max_evaluations);
+        let runs = Evaluator::new(self);
+        let (dimensions, observations) = (self.parameters.len(), self.observations.len());
         // One that could not follow its model has nothing to teach.
         let coarse = coarse.filter(|coarse| coarse.runs() > 0);
-        if coarse.is_some_and(|coarse| !coarse.is_of(self.parameters(), self.observations().len())) {
+        if coarse.is_some_and(|coarse| !coarse.is_of(&self.parameters, observations)) {
             return Err(CalibrationError::InvalidOption {
                 name: "coarse emulator's parameters",
-                value: self.parameters().len() as f64,
+                value: dimensions as f64,
                 allowed: "those of this calibration, and its observations",
             });
         }
         let mut emulation = Emulation {
             calibration: self,
-            emulator: Emulator::new(self.parameters(), coarse),
+            emulator: Emulator::new(&self.parameters, coarse),
             runs: &runs,
         };
-        let start = options.start.as_ref().map(|start| self.free(start));
+        let start = self.start();
         let mut design: Vec<DVector<f64>> = start.clone().into_iter().collect();
-        let dimensions = self.parameters().len();
         let score = |free: &DVector<f64>, predicted: &[f64]| {
             let residuals = runs.standardised(free, predicted);
-            score(&residuals, self.observations().len(), self.sigmas().is_some())
+            score(&residuals, observations, self.knows_noise)
         };
         design.extend(match coarse {
             // Along the whole valley, so that what the coarse model misses is known where it may matter.
@@ -95,19 +94,20 @@ impl Calibration<'_> {
             self.answer(&runs, solution)
         } else {
             let best = emulation.emulator.low_points(score, 0.0, 0);
-            self.fit_directly(runs.count(), best.first().map(|best| runs.physical(best)))?
+            let best = best.first().map(|best| physical(&self.parameters, best));
+            self.fit_directly(runs.count(), best)?
         };
         Ok((fit, emulation.emulator))
     }
 
     /// Fits without an emulator after `runs` in vain, the best of which was at `best`.
     fn fit_directly(&self, runs: usize, best: Option<Vec<f64>>) -> Result<Fit, CalibrationError> {
-        let limit = self.options().max_evaluations;
+        let limit = self.options.max_evaluations;
         let spent = CalibrationError::EvaluationLimit { limit };
         let left = Options {
             max_evaluations: limit.saturating_sub(runs),
-            start: best.or_else(|| self.options().start.clone()),
-            ..self.options().clone()
+            start: best.or_else(|| self.options.start.clone()),
+            ..self.options.clone()
         };
         if left.max_evaluations == 0 {
             return Err(spent);
@@ -143,7 +143,7 @@ impl Emulation<'_> {
         design: Vec<DVector<f64>>,
         mut start: Option<DVector<f64>>,
     ) -> Result<Option<Solution>, CalibrationError> {
-        let wanted = self.calibration.options().profiles;
+        let wanted = self.calibration.options.profiles;
         // Intervals are worth a look around an optimum that holds, or that a coarser model gave.
         let mut profiles = if self.emulator.is_corrected() {
             wanted
@@ -209,11 +209,11 @@ impl Emulation<'_> {
     ) -> Result<Option<Solution>, CalibrationError> {
         let route = Route {
             start,
-            scan: SCAN * (1 + self.calibration.parameters().len()),
+            scan: SCAN * (1 + self.calibration.parameters.len()),
             profiles,
             scan_others: SCAN,
         };
-        let emulator = self.runs.of(&self.emulator);
+        let emulator = Evaluator::emulated(self.calibration, &self.emulator);
         match self.calibration.solve(&emulator, &route) {
             Ok(solution) => Ok(Some(solution)),
             Err(CalibrationError::Stopped) => Err(CalibrationError::Stopped),
@@ -249,7 +249,7 @@ impl Emulation<'_> {
     /// left is ripple between runs.
     fn is_settled(&self, solution: &Solution, seen: &Run, shift: f64, learned: bool) -> bool {
         let off = distance(solution, &solution.optimum.point, &seen.point);
-        let tolerance = self.calibration.options().tolerance;
+        let tolerance = self.calibration.options.tolerance;
         shift <= tolerance || (learned && off <= RIPPLE * self.noise(solution))
     }
 

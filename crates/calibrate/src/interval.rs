@@ -93,7 +93,7 @@ impl Profiler<'_> {
     /// The rival, if it lies on this side.
     fn at_rival(&self, k: usize, sign: f64) -> Option<Station> {
         let rival = self.rival?;
-        let coordinate = self.search.evaluator.parameters[k].bounded(rival.free[k]);
+        let coordinate = self.parameter(k).bounded(rival.free[k]);
         let distance = sign * (coordinate - self.coordinate(k));
         (distance > 0.0).then(|| Station {
             root: self.rise(rival).max(0.0).sqrt(),
@@ -107,7 +107,7 @@ impl Profiler<'_> {
 
     /// Distance of the end on one side, where it is closed. `stations` are those known, by distance, and stay so; the bound is the last.
     fn side(&self, k: usize, sign: f64, stations: &mut Vec<Station>) -> Result<Option<f64>, Stop> {
-        let parameter = &self.search.evaluator.parameters[k];
+        let parameter = self.parameter(k);
         let excluded = EXCLUSION * self.wanted;
         let farthest = (parameter.bounded(sign * FARTHEST) - self.coordinate(k)).abs();
         // What the data do not exclude at the bound itself, they do not exclude.

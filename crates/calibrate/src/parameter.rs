@@ -5,6 +5,8 @@
 //!
 //! s = s_lower + (s_upper − s_lower)/(1 + e^(−z)).
 
+use nalgebra::DVector;
+
 use crate::CalibrationError;
 
 /// Farthest that the free variable goes: within a thousandth of the range from a bound.
@@ -181,6 +183,11 @@ impl Parameter {
         (share / (1.0 - share)).ln().clamp(-FARTHEST, FARTHEST)
     }
 
+    /// Value at z.
+    pub(crate) fn physical(&self, free: f64) -> f64 {
+        self.value(self.bounded(free))
+    }
+
     /// Whether a value is as close to a bound as the fit goes.
     pub(crate) fn is_at_bound(&self, value: f64) -> bool {
         self.free(self.coordinate(value)).abs() > FARTHEST - 0.5
@@ -197,6 +204,12 @@ impl Parameter {
         self.prior
             .map(|prior| (self.bounded(free) - self.coordinate(prior.value)) / prior.sigma)
     }
+}
+
+/// Values of `parameters` at free variables.
+pub(crate) fn physical(parameters: &[Parameter], free: &DVector<f64>) -> Vec<f64> {
+    let pairs = parameters.iter().zip(free.iter());
+    pairs.map(|(parameter, &z)| parameter.physical(z)).collect()
 }
 
 #[cfg(test)]

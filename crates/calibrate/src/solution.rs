@@ -43,26 +43,13 @@ pub(crate) struct Solution {
 }
 
 impl Calibration<'_> {
-    /// A search by `evaluator`.
-    pub(crate) fn search<'e>(&'e self, evaluator: &'e Evaluator<'e>) -> Search<'e> {
-        let options = self.options();
-        Search {
-            evaluator,
-            observer: options.observer.as_ref(),
-            known_noise: self.sigmas().is_some(),
-            tolerance: options.tolerance,
-            loss: options.loss,
-            least_noise: self.least_noise(evaluator.sigmas),
-        }
-    }
-
     /// Searches the optimum and describes it.
     pub(crate) fn solve(
         &self,
         evaluator: &Evaluator<'_>,
         route: &Route,
     ) -> Result<Solution, CalibrationError> {
-        let mut search = self.search(evaluator);
+        let mut search = Search::new(evaluator);
         let scan = search.scan(route.start.clone(), route.scan)?;
         let (mut optimum, rival) = search.best(&scan)?;
         for _ in 0..MAX_ROUNDS {
@@ -75,7 +62,7 @@ impl Calibration<'_> {
             match self.describe(&search, &optimum, rival.as_ref(), route) {
                 Ok(solution) => return Ok(Solution { misfit, ..solution }),
                 Err(Stop::Better(point)) => {
-                    search.known_noise = self.sigmas().is_some();
+                    search.known_noise = self.knows_noise;
                     optimum = search.refine(point, None)?;
                 }
                 Err(Stop::Failed(error)) => return Err(error),
@@ -89,7 +76,7 @@ impl Calibration<'_> {
 
     /// Whether the residuals are larger than known sigmas allow. A robust loss judges its own spread.
     fn misfit(&self, optimum: &Optimum) -> Option<Warning> {
-        if self.sigmas().is_none() || self.options().loss != Loss::Squares {
+        if !self.knows_noise || self.options.loss != Loss::Squares {
             return None;
         }
         let residuals = optimum.point.residuals.iter().take(optimum.deviance.data);
@@ -106,7 +93,7 @@ impl Calibration<'_> {
     /// Observations less the parameters that they determine.
     pub(crate) fn freedom(&self, optimum: &Optimum) -> f64 {
         let used = parameters_from_data(&optimum.jacobian, &optimum.deviance, &optimum.point.residuals);
-        (self.observations().len() as f64 - used).max(0.0)
+        (self.observations.len() as f64 - used).max(0.0)
     }
 
     /// The optimum with estimates and their intervals.
@@ -119,8 +106,8 @@ impl Calibration<'_> {
     ) -> Result<Solution, Stop> {
         let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
         let covariance = Covariance::new(&optimum.jacobian, &curvatures);
-        let noise_estimated = !search.known_noise || self.options().loss.is_robust();
-        let tail = 1.0 - self.options().confidence;
+        let noise_estimated = !search.known_noise || self.options.loss.is_robust();
+        let tail = 1.0 - self.options.confidence;
         let profiler = Profiler {
             search,
             optimum,
@@ -138,7 +125,7 @@ impl Calibration<'_> {
             })
             .into_iter()
             .collect();
-        for (k, parameter) in self.parameters().iter().enumerate() {
+        for (k, parameter) in self.parameters.iter().enumerate() {
             let free = optimum.point.free[k];
             let coordinate = parameter.bounded(free);
             let error = covariance
