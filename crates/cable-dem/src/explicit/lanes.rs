@@ -3,9 +3,8 @@
 //! Displacements carry a ghost at either end, the mirror image of the first inner node: with half the mass at the ends
 //! the same stencil then holds at every node.
 
-use super::law::ContactLaw;
 use crate::transient::{EnergyBalance, Lumped};
-use crate::{CableState, EndForces};
+use crate::{CableState, EndForces, FrictionLaw};
 
 /// State and energy accounts of all nodes.
 #[derive(Debug, Clone)]
@@ -58,7 +57,15 @@ impl Lanes {
     }
 
     /// One step of `time_step` \[s\]; the duct's increments stand in `increment`.
-    pub fn step<L: ContactLaw>(&mut self, lumped: &Lumped, law: L, time_step: f64) {
+    ///
+    /// `law` is the friction of one node, without branches: given its velocity after the elastic forces \[m/s\], how far its duct moves
+    /// in the step \[m\] and the friction before \[N/m\], the velocity with friction, and the friction after.
+    pub fn step(
+        &mut self,
+        lumped: &Lumped,
+        law: impl Fn(f64, f64, f64) -> (f64, f64) + Copy,
+        time_step: f64,
+    ) {
         let n = self.velocity.len();
         let u = &mut self.displacement;
         (u[0], u[n + 1]) = (u[2], u[n - 1]);
@@ -79,7 +86,13 @@ impl Lanes {
         advance(&mut u[1..=n], v, increment, &mut self.slip, time_step);
         let compliance = lumped.elastic_compliance();
         unload(&mut self.slip, &self.before, &self.friction, compliance);
-        let acting = if L::LAGS { &self.before } else { &self.friction };
+        // Coulomb friction is found with the velocity; any other that acts in a step is that of its start.
+        let found_at_once = lumped.cable.friction().law() == FrictionLaw::Coulomb;
+        let acting = if found_at_once {
+            &self.friction
+        } else {
+            &self.before
+        };
         for (work, done) in self.work.iter_mut().zip(done(acting, &self.earlier, increment)) {
             *work += done;
         }
@@ -144,11 +157,17 @@ fn accelerate(v: &mut [f64], u: &[f64], c: f64) {
 }
 
 #[inline]
-fn rub<L: ContactLaw>(v: &mut [f64], friction: &mut [f64], before: &[f64], increment: &[f64], law: L) {
+fn rub(
+    v: &mut [f64],
+    friction: &mut [f64],
+    before: &[f64],
+    increment: &[f64],
+    law: impl Fn(f64, f64, f64) -> (f64, f64),
+) {
     let n = v.len();
     let (friction, before, increment) = (&mut friction[..n], &before[..n], &increment[..n]);
     for i in 0..n {
-        (v[i], friction[i]) = law.step(v[i], increment[i], before[i]);
+        (v[i], friction[i]) = law(v[i], increment[i], before[i]);
     }
 }
 

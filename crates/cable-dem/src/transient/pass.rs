@@ -5,7 +5,7 @@ use super::leak::SigmoidLeak;
 use super::lumped::Lumped;
 use super::moving_duct::MovingDuct;
 use super::outcome::TransientOutcome;
-use super::rest::{Ground, Settler};
+use super::rest::Settler;
 use crate::outcome::Recorder;
 use crate::step::check_precision;
 use crate::{CableError, CableState};
@@ -37,22 +37,14 @@ pub(crate) fn pass(
     }
     check_precision(&lumped.cable, &lumped.mesh, &state.displacement, duct.peak())?;
     let mut moving = state.clone();
-    let arrival_heat = settler.follow(
-        Ground::Arrives,
-        lumped,
-        duct,
-        &mut moving,
-        &mut recorder.statistics,
-    )?;
+    let mut follow = |ground, state: &mut CableState, recorder: &mut Recorder| {
+        settler.follow(ground, lumped, duct, state, &mut recorder.statistics)
+    };
+    // From rest to the vehicle's first position, and from its last one back to rest.
+    let arrival_heat = follow((0.0, 1.0), &mut moving, &mut recorder)?;
     let energy = run(&mut moving, &mut recorder)?;
     let force_before_rest = forces(&moving);
-    let departure_heat = settler.follow(
-        Ground::Leaves,
-        lumped,
-        duct,
-        &mut moving,
-        &mut recorder.statistics,
-    )?;
+    let departure_heat = follow((duct.duration(), -1.0), &mut moving, &mut recorder)?;
     recorder.dissipated = arrival_heat + energy.dissipated + departure_heat;
     *state = moving;
     Ok(TransientOutcome {

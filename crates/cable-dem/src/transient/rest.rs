@@ -27,15 +27,6 @@ pub(crate) struct Settler {
     friction: Vec<f64>,
 }
 
-/// Which way the ground moves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ground {
-    /// From rest to the vehicle's first position.
-    Arrives,
-    /// From the vehicle's last position back to rest.
-    Leaves,
-}
-
 impl Settler {
     pub fn new(lumped: &Lumped) -> Self {
         Self {
@@ -45,10 +36,11 @@ impl Settler {
         }
     }
 
-    /// One step of the cable after the ground. Returns the heat of the slip \[J\].
+    /// One step of the cable after the ground, which moves by `sign` times the duct's displacement at `time` \[s\]. Returns the heat of
+    /// the slip \[J\].
     pub fn follow(
         &mut self,
-        ground: Ground,
+        (time, sign): (f64, f64),
         lumped: &Lumped,
         duct: &MovingDuct,
         state: &mut CableState,
@@ -59,10 +51,6 @@ impl Settler {
             increment,
             friction,
         } = self;
-        let (time, sign) = match ground {
-            Ground::Arrives => (0.0, 1.0),
-            Ground::Leaves => (duct.duration(), -1.0),
-        };
         duct.displacement(time, increment);
         for increment in increment.iter_mut() {
             *increment *= sign;
