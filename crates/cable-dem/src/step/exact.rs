@@ -34,8 +34,8 @@ pub(crate) fn set_contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, tri
     };
     for i in lo..=hi {
         let neighbours = usize::from(i > 0) + usize::from(i + 1 < r.len());
-        graph.add_support(k * (chain.diagonal[i] - neighbours as f64), load.support[i]);
-        graph.add_friction(friction(chain, load, i));
+        let support = k * (chain.diagonal[i] - neighbours as f64);
+        graph.add_node((support, load.support[i]), friction(chain, load, i));
         if i < hi {
             graph.add_spring();
         }
@@ -70,8 +70,7 @@ pub(crate) fn set_contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, tri
                 Contact::Stuck
             }
         };
-        graph.remove_friction();
-        graph.remove_support();
+        graph.remove_node();
     }
     if !held && !contact[lo..=hi].contains(&Contact::Stuck) {
         contact[least.1] = Contact::Stuck;
