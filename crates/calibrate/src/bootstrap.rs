@@ -10,7 +10,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use statrs::statistics::{Data, Distribution, OrderStatistics};
 
 use crate::estimate::Interval;
-use crate::evaluator::{Evaluator, feasible};
+use crate::evaluator::Evaluator;
 use crate::fit::Fit;
 use crate::parameter::physical;
 use crate::point::Point;
@@ -156,16 +156,9 @@ impl Calibration<'_> {
         drawn.options.observer = None;
         let evaluator = Evaluator::new(&drawn);
         let found = || {
-            let residuals = evaluator.residuals(&fit.free)?;
-            if !feasible(&residuals) {
-                return Err(CalibrationError::NoFeasibleStart {
-                    starts: 1,
-                    source: evaluator.last_failure(),
-                });
-            }
             let start = Point {
                 free: fit.free.clone(),
-                residuals,
+                residuals: evaluator.residuals(&fit.free)?,
             };
             let mut search = Search::new(&evaluator);
             search.known_noise &= !fit.noise_estimated;

@@ -11,11 +11,10 @@ use rayon::prelude::*;
 
 use crate::evaluator::Evaluator;
 use crate::interval::{ACCURACY, EXCLUSION, Witness};
-use crate::parameter::physical;
 use crate::point::{Point, all_over, score};
 use crate::search::MAX_ROUNDS;
 use crate::solution::{Route, Solution};
-use crate::{Calibration, CalibrationError, Emulator, Fit, Options, Profiles};
+use crate::{Calibration, CalibrationError, Emulator, Fit, Profiles};
 
 /// Points of the emulator that are scanned for each parameter and one more, and for each of the others along a profile.
 const SCAN: usize = 64;
@@ -94,32 +93,10 @@ impl Calibration<'_> {
             self.answer(&runs, solution)
         } else {
             let best = emulation.emulator.low_points(score, 0.0, 0);
-            let best = best.first().map(|best| physical(&self.parameters, best));
-            self.fit_directly(runs.count(), best)?
+            // After runs in vain, the best of which is where to begin.
+            self.fit_directly(&runs, best.into_iter().next().or_else(|| self.start()))?
         };
         Ok((fit, emulation.emulator))
-    }
-
-    /// Fits without an emulator after `runs` in vain, the best of which was at `best`.
-    fn fit_directly(&self, runs: usize, best: Option<Vec<f64>>) -> Result<Fit, CalibrationError> {
-        let limit = self.options.max_evaluations;
-        let spent = CalibrationError::EvaluationLimit { limit };
-        let left = Options {
-            max_evaluations: limit.saturating_sub(runs),
-            start: best.or_else(|| self.options.start.clone()),
-            ..self.options.clone()
-        };
-        if left.max_evaluations == 0 {
-            return Err(spent);
-        }
-        match self.clone().with_options(left)?.fit() {
-            Ok(fit) => Ok(Fit {
-                evaluations: fit.evaluations + runs,
-                ..fit
-            }),
-            Err(CalibrationError::EvaluationLimit { .. }) => Err(spent),
-            Err(error) => Err(error),
-        }
     }
 }
 
@@ -145,7 +122,7 @@ impl Emulation<'_> {
     ) -> Result<Option<Solution>, CalibrationError> {
         let wanted = self.calibration.options.profiles;
         // Intervals are worth a look around an optimum that holds, or that a coarser model gave.
-        let mut profiles = if self.emulator.is_corrected() {
+        let mut profiles = if self.emulator.coarse.is_some() {
             wanted
         } else {
             Profiles::None
@@ -178,7 +155,7 @@ impl Emulation<'_> {
                 agreed &= self.agrees(&solution, witness, found) && self.is_followed(&solution, witness, run);
                 if let (Some(bound), true) = (witness.bound, settled && found > EXCLUSION * witness.threshold)
                 {
-                    self.emulator.exclude(bound);
+                    self.emulator.excluded.push(bound);
                 }
             }
             if agreed && profiles == wanted {
@@ -269,7 +246,9 @@ impl Emulation<'_> {
     /// Whether the witness stands at a bound that the model itself, or a coarser one, was seen to exclude by far, as the emulator says.
     fn is_excluded(&self, solution: &Solution, witness: &Witness) -> bool {
         let rise = root(solution, &witness.point, &solution.optimum.point);
-        witness.bound.is_some_and(|bound| self.emulator.excludes(bound))
+        witness
+            .bound
+            .is_some_and(|bound| self.emulator.excluded.contains(&bound))
             && rise > EXCLUSION * witness.threshold
     }
 

@@ -124,8 +124,7 @@ impl<'a> Search<'a> {
                 let offset = optimum.offset;
                 return Err(CalibrationError::NotConverged { iterations, offset });
             }
-            let used = parameters_from_data(&optimum.jacobian, &deviance, &optimum.point.residuals);
-            let freedom = (data as f64 - used).max(0.5);
+            let freedom = (data as f64 - parameters_from_data(&optimum)).max(0.5);
             let mut next = self.scaled(deviance, &optimum.point.residuals, freedom);
             let change = |new: f64, old: f64| (new / old).ln().abs();
             let moved = change(next.spread, deviance.spread);

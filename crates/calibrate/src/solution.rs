@@ -92,8 +92,7 @@ impl Calibration<'_> {
 
     /// Observations less the parameters that they determine.
     pub(crate) fn freedom(&self, optimum: &Optimum) -> f64 {
-        let used = parameters_from_data(&optimum.jacobian, &optimum.deviance, &optimum.point.residuals);
-        (self.observations.len() as f64 - used).max(0.0)
+        (self.observations.len() as f64 - parameters_from_data(optimum)).max(0.0)
     }
 
     /// The optimum with estimates and their intervals.
@@ -104,8 +103,7 @@ impl Calibration<'_> {
         rival: Option<&Point>,
         route: &Route,
     ) -> Result<Solution, Stop> {
-        let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
-        let covariance = Covariance::new(&optimum.jacobian, &curvatures);
+        let covariance = Covariance::of(optimum);
         let noise_estimated = !search.known_noise || self.options.loss.is_robust();
         let tail = 1.0 - self.options.confidence;
         let profiler = Profiler {

@@ -6,7 +6,8 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-use crate::deviance::{Deviance, information};
+use crate::descent::Optimum;
+use crate::deviance::information;
 
 /// Eigenvalues of the information, scaled to a unit diagonal, below which a direction counts as unknown: rounding makes no larger ones. A
 /// parameter with more than its fourth root in such a direction is unknown.
@@ -21,8 +22,10 @@ pub(crate) struct Covariance {
 }
 
 impl Covariance {
-    pub fn new(jacobian: &DMatrix<f64>, curvatures: &DVector<f64>) -> Self {
-        let information = information(jacobian, curvatures);
+    /// Around `optimum`.
+    pub fn of(optimum: &Optimum) -> Self {
+        let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
+        let information = information(&optimum.jacobian, &curvatures);
         let count = information.nrows();
         let scale: Vec<f64> = (0..count)
             .map(|k| information[(k, k)].sqrt())
@@ -88,12 +91,11 @@ impl Covariance {
 }
 
 /// Number of parameters that the data determine; the rest is the priors' doing.
-pub(crate) fn parameters_from_data(
-    jacobian: &DMatrix<f64>,
-    deviance: &Deviance,
-    residuals: &DVector<f64>,
-) -> f64 {
-    let covariance = Covariance::new(jacobian, &deviance.curvatures(residuals));
+pub(crate) fn parameters_from_data(optimum: &Optimum) -> f64 {
+    let Optimum {
+        jacobian, deviance, ..
+    } = optimum;
+    let covariance = Covariance::of(optimum);
     let priors = jacobian.rows(deviance.data, jacobian.nrows() - deviance.data);
     jacobian.ncols() as f64 - (covariance.matrix * priors.transpose() * priors).trace()
 }
