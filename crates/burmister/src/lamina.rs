@@ -72,34 +72,14 @@ impl Lamina {
 
     /// Impedance of this soil without end below: what decays downward.
     pub fn downward_impedance(&self) -> Matrix2 {
-        let scale = self.shear_modulus / self.kappa;
-        Matrix2::new(
-            -(1.0 + self.kappa),
-            1.0 - self.kappa,
-            1.0 - self.kappa,
-            -(1.0 + self.kappa),
-        ) * scale
-    }
-
-    fn upward_impedance(&self) -> Matrix2 {
-        let scale = self.shear_modulus / self.kappa;
-        Matrix2::new(
-            1.0 + self.kappa,
-            1.0 - self.kappa,
-            1.0 - self.kappa,
-            1.0 + self.kappa,
-        ) * scale
+        let (own, across) = (-(1.0 + self.kappa), 1.0 - self.kappa);
+        Matrix2::new(own, across, across, own) * (self.shear_modulus / self.kappa)
     }
 
     /// What decays downward, displacement to displacement over `x` = m·distance.
     pub fn downward_decay(&self, x: f64) -> Matrix2 {
         let s = x / self.kappa;
         Matrix2::new(1.0 - s, s, -s, 1.0 + s) * (-x).exp()
-    }
-
-    fn upward_decay(&self, x: f64) -> Matrix2 {
-        let s = x / self.kappa;
-        Matrix2::new(1.0 - s, -s, s, 1.0 + s) * (-x).exp()
     }
 
     /// The lamina at `wavenumber` on `support`.
@@ -166,14 +146,15 @@ impl Lamina {
     }
 
     fn cross_thick(&self, x: f64, support: Support) -> Crossing {
-        let downward = self.downward_impedance();
-        let upward = self.upward_impedance();
+        let (downward, decay) = (self.downward_impedance(), self.downward_decay(x));
+        // Upside down, horizontal displacement and vertical traction change their signs against the others.
+        let upward = Matrix2::new(-downward.a, downward.b, downward.c, -downward.d);
+        let upward_decay = Matrix2::new(decay.a, -decay.b, -decay.c, decay.d);
         let reflection = match support {
             Support::Elastic(below) => (upward - below).inverse() * (below - downward),
             Support::Rigid => Matrix2::IDENTITY * -1.0,
         };
-        let decay = self.downward_decay(x);
-        let returned = self.upward_decay(x) * reflection * decay;
+        let returned = upward_decay * reflection * decay;
         let share = (Matrix2::IDENTITY + returned).inverse();
         Crossing {
             impedance: (downward + upward * returned) * share,
