@@ -119,15 +119,7 @@ impl GroundField for HalfSpace {
         if load.force() == 0.0 {
             return Ok(Displacement::ZERO);
         }
-        let distance = point::distance(radius, depth);
-        let (shape, length) = if load.is_point() {
-            if distance == 0.0 {
-                return Err(singular(radius, depth));
-            }
-            (point::shape(radius, depth, distance), distance)
-        } else {
-            disc::shape(radius, depth, distance, load.contact_radius())
-        };
+        let (shape, length) = disc::shape(load, radius, depth);
         let scale = self.compliance * load.force() / length;
         let displacement = shape.displacement(scale, self.soil.poisson_ratio());
         if displacement.is_finite() {
