@@ -159,14 +159,17 @@ impl Moving {
         state: &mut CableState,
         recorder: &mut Recorder,
     ) -> Result<EnergyBalance, CableError> {
-        let (solver, history) = (self.solver.take(), &mut self.history);
-        let mut solver = match solver {
+        let mut solver = match self.solver.take() {
             Some((made_for, solver)) if made_for == time_step => solver,
             _ => Implicit::new(lumped, 9.0 / (4.0 * time_step * time_step)),
         };
         let (mesh, nodes) = (&lumped.mesh, lumped.mesh.nodes());
+        let whole = Stretch {
+            lo: 0,
+            hi: mesh.elements(),
+        };
         let steps = (duct.duration() / time_step).round() as usize;
-        history.start(&state.displacement);
+        self.history.start(&state.displacement);
         self.prediction.clear();
         self.prediction
             .fit(steps * mesh.stride() + nodes * mesh.phases(), mesh.phases());
@@ -184,15 +187,26 @@ impl Moving {
             let t = time_step * step as f64;
             duct.at(t, nodes).advance(&mut self.duct, &mut self.increment);
             self.before.copy_from_slice(&self.friction);
-            let advanced = match duct.direction() {
-                Direction::Forward => steps - step,
-                Direction::Reverse => step,
-            };
-            self.step(lumped, &mut solver, time_step, advanced * mesh.stride())
-                .map_err(|violation| CableError::NoConvergence {
-                    vehicle_position: duct.vehicle_position(t),
-                    violation,
-                })?;
+            solver.load_elastic(lumped, &self.history.displacement);
+            self.history.load_inertia(lumped, time_step, &mut solver.load);
+            // The lattice point from which contact states are predicted.
+            let first = mesh.stride()
+                * match duct.direction() {
+                    Direction::Forward => steps - step,
+                    Direction::Reverse => step,
+                };
+            if let Some(contacts) = solver.contacts() {
+                self.prediction.read(first, whole, contacts);
+            }
+            let moved = solver.solve(lumped, &self.increment, &mut self.friction);
+            let moved = moved.map_err(|violation| CableError::NoConvergence {
+                vehicle_position: duct.vehicle_position(t),
+                violation,
+            })?;
+            self.history.advance(moved, time_step);
+            if let Some(contacts) = solver.contacts() {
+                self.prediction.write(first, whole, contacts);
+            }
             self.account(lumped, &mut energy);
             recorder.record(lumped.end_forces(&self.history.displacement, &self.friction));
         }
@@ -205,32 +219,6 @@ impl Moving {
         recorder.statistics.widest_window = nodes;
         self.solver = Some((time_step, solver));
         Ok(energy)
-    }
-
-    /// One step, whose contact states are predicted from lattice point `first` on; on failure the largest violation as a share of the
-    /// friction limit.
-    fn step(
-        &mut self,
-        lumped: &Lumped,
-        solver: &mut Implicit,
-        time_step: f64,
-        first: usize,
-    ) -> Result<(), f64> {
-        let whole = Stretch {
-            lo: 0,
-            hi: lumped.mesh.elements(),
-        };
-        solver.load_elastic(lumped, &self.history.displacement);
-        self.history.load_inertia(lumped, time_step, &mut solver.load);
-        if let Some(contacts) = solver.contacts() {
-            self.prediction.read(first, whole, contacts);
-        }
-        let r = solver.solve(lumped, &self.increment, &mut self.friction)?;
-        self.history.advance(r, time_step);
-        if let Some(contacts) = solver.contacts() {
-            self.prediction.write(first, whole, contacts);
-        }
-        Ok(())
     }
 
     /// Books the step just taken. Friction acts at its mean over the step where it changes by shear, at its value at

@@ -12,7 +12,7 @@ pub(super) struct Lanes {
     /// u \[m\], with a ghost at either end.
     displacement: Vec<f64>,
     /// v \[m/s\], half a step back.
-    velocity: Vec<f64>,
+    pub velocity: Vec<f64>,
     /// f \[N/m\].
     friction: Vec<f64>,
     /// Friction of the step before.
@@ -83,9 +83,13 @@ impl Lanes {
             v[node] = 0.0;
             self.friction[node] = lumped.held.after_slip(self.before[node], increment[node]);
         }
-        advance(&mut u[1..=n], v, increment, &mut self.slip, time_step);
         let compliance = lumped.elastic_compliance();
-        unload(&mut self.slip, &self.before, &self.friction, compliance);
+        for i in 0..n {
+            let moved = time_step * v[i];
+            u[i + 1] += moved;
+            // What is left of the slip beside its elastic part, γ Δf.
+            self.slip[i] = increment[i] - moved - compliance * (self.friction[i] - self.before[i]);
+        }
         // Coulomb friction is found with the velocity; any other that acts in a step is that of its start.
         let found_at_once = lumped.cable.friction().law() == FrictionLaw::Coulomb;
         let acting = if found_at_once {
@@ -107,10 +111,6 @@ impl Lanes {
         }
         std::mem::swap(&mut self.plastic, &mut self.slip);
         std::mem::swap(&mut self.earlier, &mut self.increment);
-    }
-
-    pub fn kinetic_energy(&self, lumped: &Lumped) -> f64 {
-        lumped.kinetic_energy(&self.velocity)
     }
 
     pub fn end_forces(&self, lumped: &Lumped) -> EndForces {
@@ -135,7 +135,7 @@ impl Lanes {
         EnergyBalance {
             duct_work: sum(&self.work),
             elastic: lumped.elastic_energy(&self.displacement[1..=n]) - elastic,
-            kinetic: self.kinetic_energy(lumped),
+            kinetic: lumped.kinetic_energy(&self.velocity),
             stored: lumped.stored_energy(&self.friction) - stored,
             dissipated,
             returned: 0.5 * (sum(&self.gross) - dissipated),
@@ -168,25 +168,6 @@ fn rub(
     let (friction, before, increment) = (&mut friction[..n], &before[..n], &increment[..n]);
     for i in 0..n {
         (v[i], friction[i]) = law(v[i], increment[i], before[i]);
-    }
-}
-
-#[inline]
-fn advance(u: &mut [f64], v: &[f64], increment: &[f64], slip: &mut [f64], time_step: f64) {
-    let n = u.len();
-    let (v, increment, slip) = (&v[..n], &increment[..n], &mut slip[..n]);
-    for i in 0..n {
-        let moved = time_step * v[i];
-        u[i] += moved;
-        slip[i] = increment[i] - moved;
-    }
-}
-
-/// Slip minus its elastic part is plastic: slip ← slip − γ Δf.
-#[inline]
-fn unload(slip: &mut [f64], before: &[f64], after: &[f64], compliance: f64) {
-    for (slip, (before, after)) in slip.iter_mut().zip(before.iter().zip(after)) {
-        *slip -= compliance * (after - before);
     }
 }
 

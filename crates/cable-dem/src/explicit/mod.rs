@@ -273,7 +273,7 @@ fn run(
         lanes.step(lumped, law, time_step);
         recorder.record(lanes.end_forces(lumped));
         if step % LOOK == 0 || step == steps {
-            let kinetic = lanes.kinetic_energy(lumped);
+            let kinetic = lumped.kinetic_energy(&lanes.velocity);
             if !kinetic.is_finite() {
                 return Err(CableError::EnergyNotConserved {
                     unbalanced: 1.0,
