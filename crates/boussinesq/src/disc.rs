@@ -32,17 +32,16 @@ mod rim;
 
 use ground_field::SurfaceLoad;
 
-use crate::point;
-use crate::shape::Shape;
+use crate::shape::{Shape, distance, point};
 
 /// From this distance on, in units of the disc's radius, the multipole series is used.
 const FAR: f64 = 4.0;
 
 /// The shape of `load`, a point load too, at a point, and its length; not a number under a point load.
 pub(crate) fn shape(load: SurfaceLoad, radius: f64, depth: f64) -> (Shape, f64) {
-    let distance = point::distance(radius, depth);
+    let distance = distance(radius, depth);
     if load.is_point() {
-        return (point::shape(radius, depth, distance), distance);
+        return (point(radius, depth, distance), distance);
     }
     let contact_radius = load.contact_radius();
     if distance >= FAR * contact_radius {

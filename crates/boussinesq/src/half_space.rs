@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad, check_place};
 
-use crate::{disc, point};
+use crate::disc;
+use crate::shape::distance;
 
 const MODEL: &str = "boussinesq half-space";
 
@@ -80,7 +81,7 @@ impl HalfSpace {
         if load.force() == 0.0 {
             return Ok(Stress::default());
         }
-        let distance = point::distance(radius, depth);
+        let distance = distance(radius, depth);
         let (sine, cosine) = (radius / distance, depth / distance);
         let free = 1.0 - 2.0 * self.soil.poisson_ratio();
         let scale = force / TAU / distance / distance;

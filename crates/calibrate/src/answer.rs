@@ -1,12 +1,14 @@
-//! From a solution to what the user reads: residuals, statistics, warnings.
+//! A fit that runs the model itself, and what the user reads of any: residuals, statistics, warnings.
+
+use nalgebra::DVector;
 
 use crate::evaluator::Evaluator;
 use crate::fit::Fit;
 use crate::interval::EXCLUSION;
 use crate::parameter::{FARTHEST, physical};
 use crate::search::ROUGH;
-use crate::solution::Solution;
-use crate::{Calibration, Warning};
+use crate::solution::{Route, Solution};
+use crate::{Calibration, CalibrationError, Warning};
 
 /// Correlation from which two parameters count as hardly distinguishable.
 const CORRELATED: f64 = 0.99;
@@ -16,6 +18,33 @@ const OUTLIER: f64 = 0.35;
 const FEW: f64 = 5.0;
 
 impl Calibration<'_> {
+    /// Fits, running the model wherever the search asks for it.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError`] where there are too few observations, the model has no answer anywhere, the fit does not converge or needs
+    /// more model runs than allowed.
+    pub fn fit(&self) -> Result<Fit, CalibrationError> {
+        self.check_count()?;
+        self.fit_directly(&Evaluator::new(self), self.start())
+    }
+
+    /// The fit by `evaluator`, which may have run before, from `start` and all over the range.
+    pub(crate) fn fit_directly(
+        &self,
+        evaluator: &Evaluator<'_>,
+        start: Option<DVector<f64>>,
+    ) -> Result<Fit, CalibrationError> {
+        let route = Route {
+            scan: self.scan(),
+            start,
+            profiles: self.options.profiles,
+            scan_others: 0,
+        };
+        let solution = self.solve(evaluator, &route)?;
+        Ok(self.answer(evaluator, solution))
+    }
+
     /// What a solution says.
     pub(crate) fn answer(&self, evaluator: &Evaluator<'_>, solution: Solution) -> Fit {
         let deviance = solution.optimum.deviance;

@@ -24,9 +24,8 @@ const STRIDES: (f64, f64) = (1.3, 2.5);
 /// The profile of one parameter.
 #[derive(Debug, Default)]
 pub(crate) struct Profile {
-    /// Ends in the parameter's coordinate; `None` where the likelihood does not close.
-    pub lower: Option<f64>,
-    pub upper: Option<f64>,
+    /// Lower and upper end in the parameter's coordinate; `None` where the likelihood does not close.
+    pub ends: [Option<f64>; 2],
     /// Coordinates and rises that were computed, ascending.
     pub curve: Vec<(f64, f64)>,
     /// What the ends rest on.
@@ -48,17 +47,17 @@ impl Profiler<'_> {
     pub fn profile(&self, k: usize) -> Result<Profile, Stop> {
         let here = self.coordinate(k);
         let mut profile = Profile::default();
-        for sign in [-1.0, 1.0] {
-            let mut stations = vec![self.at_optimum()];
+        for (index, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let mut stations = vec![Station {
+                optimum: self.optimum.clone(),
+                distance: 0.0,
+                root: 0.0,
+            }];
             stations.extend(self.at_rival(k, sign));
             let end = self
                 .side(k, sign, &mut stations)?
                 .map(|distance| here + sign * distance);
-            *(if sign < 0.0 {
-                &mut profile.lower
-            } else {
-                &mut profile.upper
-            }) = end;
+            profile.ends[index] = end;
             if let Some(bound) = stations.last() {
                 profile.witnesses.push(Witness {
                     point: bound.optimum.point.clone(),
@@ -73,21 +72,13 @@ impl Profiler<'_> {
                 threshold: self.wanted,
                 bound: None,
             }));
-            let curve = stations.iter().skip(usize::from(sign > 0.0));
+            let curve = stations.iter().skip(index);
             profile
                 .curve
                 .extend(curve.map(|station| (here + sign * station.distance, station.root.powi(2))));
         }
         profile.curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         Ok(profile)
-    }
-
-    fn at_optimum(&self) -> Station {
-        Station {
-            optimum: self.optimum.clone(),
-            distance: 0.0,
-            root: 0.0,
-        }
     }
 
     /// The rival, if it lies on this side.

@@ -136,10 +136,8 @@ impl Calibration<'_> {
                 }
             };
             let value = |coordinate: f64| parameter.value(coordinate);
-            let interval = Interval {
-                lower: profile.lower.map(value),
-                upper: profile.upper.map(value),
-            };
+            let [lower, upper] = profile.ends.map(|end| end.map(value));
+            let interval = Interval { lower, upper };
             estimates.push(Estimate {
                 name: parameter.name().to_owned(),
                 value: value(coordinate),
@@ -170,14 +168,10 @@ impl Calibration<'_> {
 /// The interval of `reach` to either side; open where it would leave the bounds.
 fn symmetric(parameter: &Parameter, coordinate: f64, reach: Option<f64>) -> Profile {
     let [lowest, highest] = [-FARTHEST, FARTHEST].map(|free| parameter.bounded(free));
-    let end = |sign: f64| {
-        reach
-            .map(|reach| coordinate + sign * reach)
-            .filter(|end| (lowest..=highest).contains(end))
-    };
+    let inside = |end: &f64| (lowest..=highest).contains(end);
+    let end = |sign: f64| reach.map(|reach| coordinate + sign * reach).filter(inside);
     Profile {
-        lower: end(-1.0),
-        upper: end(1.0),
+        ends: [-1.0, 1.0].map(end),
         ..Profile::default()
     }
 }

@@ -14,10 +14,9 @@ use ground_field::{Base, Displacement, Soil, SoilProfile};
 use crate::FemError;
 use crate::element::{ElementMatrix, NODES};
 use crate::grading::Lines;
-use crate::half_space::HalfSpace;
 use crate::line::DepthLine;
 use crate::load;
-use crate::material::Elasticity;
+use crate::material::{Elasticity, HalfSpace};
 use crate::mesh::{Mesh, with_midpoints};
 use crate::system::System;
 

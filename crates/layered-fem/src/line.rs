@@ -10,7 +10,7 @@
 
 use ground_field::Displacement;
 
-use crate::half_space::HalfSpace;
+use crate::material::HalfSpace;
 
 /// Nodes of the stencil that gives the derivatives.
 const STENCIL: usize = 7;

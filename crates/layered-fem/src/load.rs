@@ -25,7 +25,7 @@ use std::f64::consts::PI;
 use crate::cholesky::dofs;
 use crate::element::{GAUSS_3, GAUSS_6, Shape, edge_shape};
 use crate::grading::Lines;
-use crate::half_space::HalfSpace;
+use crate::material::HalfSpace;
 use crate::mesh::Mesh;
 use crate::system::System;
 
