@@ -35,20 +35,18 @@ pub(crate) struct Lamina {
 }
 
 /// What a lamina does at one wavenumber.
+///
+/// The impedance is a quotient of matrices, traction over displacement. The rounding error of either is a share of the terms that were
+/// added up.
 pub(crate) struct Crossing {
     /// Impedance at the top.
     pub impedance: Matrix2,
     /// Displacement at the bottom for a displacement at the top.
     pub descent: Matrix2,
-    /// Size of the terms that were added up: the rounding error of a sum is a share of them.
-    pub terms: Terms,
-}
-
-/// The impedance is a quotient of matrices, traction over displacement; these are the sums of their terms' absolute values,
-/// and the inverse of the denominator.
-pub(crate) struct Terms {
+    /// Sums of the terms' absolute values.
     pub traction: Matrix2,
     pub displacement: Matrix2,
+    /// Inverse of the denominator.
     pub inverse: Matrix2,
 }
 
@@ -123,11 +121,9 @@ impl Lamina {
                 Crossing {
                     impedance: (tu + tt * below) * descent,
                     descent,
-                    terms: Terms {
-                        traction: tu.abs() + tt.abs() * below.abs(),
-                        displacement: uu.abs() + ut.abs() * below.abs(),
-                        inverse: descent,
-                    },
+                    traction: tu.abs() + tt.abs() * below.abs(),
+                    displacement: uu.abs() + ut.abs() * below.abs(),
+                    inverse: descent,
                 }
             }
             Support::Rigid => {
@@ -135,11 +131,9 @@ impl Lamina {
                 Crossing {
                     impedance: tt * inverse,
                     descent: Matrix2::IDENTITY * 0.0,
-                    terms: Terms {
-                        traction: tt.abs(),
-                        displacement: ut.abs(),
-                        inverse,
-                    },
+                    traction: tt.abs(),
+                    displacement: ut.abs(),
+                    inverse,
                 }
             }
         }
@@ -159,11 +153,9 @@ impl Lamina {
         Crossing {
             impedance: (downward + upward * returned) * share,
             descent: (Matrix2::IDENTITY + reflection) * decay * share,
-            terms: Terms {
-                traction: downward.abs() + upward.abs() * returned.abs(),
-                displacement: Matrix2::IDENTITY + returned.abs(),
-                inverse: share,
-            },
+            traction: downward.abs() + upward.abs() * returned.abs(),
+            displacement: Matrix2::IDENTITY + returned.abs(),
+            inverse: share,
         }
     }
 }

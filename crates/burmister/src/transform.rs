@@ -36,14 +36,8 @@ pub(crate) struct Transform<'a> {
     pub probes: Vec<f64>,
 }
 
-/// A closed form with its rounding error, radial and vertical.
-type Closed = (Displacement, (f64, f64));
-
-/// Values with their error, radial and vertical.
-struct Round {
-    values: Vec<Displacement>,
-    errors: Vec<(f64, f64)>,
-}
+/// A displacement with its error, radial and vertical.
+type Bounded = (Displacement, (f64, f64));
 
 impl Transform<'_> {
     /// Displacements at `radii`, in their order.
@@ -88,7 +82,7 @@ impl Transform<'_> {
             raise(&mut peak, &round);
 
             worst = (0.0, 0.0);
-            for (error, &radius) in round.errors.iter().zip(radii) {
+            for ((_, error), &radius) in round.iter().zip(radii) {
                 let relative = share_of(error.0, peak.0).max(share_of(error.1, peak.1));
                 if relative >= worst.0 {
                     worst = (relative, radius);
@@ -98,9 +92,9 @@ impl Transform<'_> {
             statistics.panels = panels.list.len();
             statistics.estimated_error = worst.0;
             if worst.0 <= self.accuracy {
-                return match round.values.iter().position(|value| !value.is_finite()) {
+                return match round.iter().position(|(value, _)| !value.is_finite()) {
                     Some(i) => Err(self.singular(radii[i])),
-                    None => Ok((round.values, statistics)),
+                    None => Ok((round.into_iter().map(|(value, _)| value).collect(), statistics)),
                 };
             }
             if panels.solved + 2 * NODES > MAX_WAVENUMBERS {
@@ -125,7 +119,7 @@ impl Transform<'_> {
     }
 
     /// Closed forms at the radii, with their rounding error.
-    fn closed_forms(&self, radii: &[f64]) -> Result<Vec<Closed>, GroundError> {
+    fn closed_forms(&self, radii: &[f64]) -> Result<Vec<Bounded>, GroundError> {
         let closed = |&radius: &f64| match self.remainder.closed_form(self.load, radius) {
             Ok(closed) if closed.0.is_finite() => Ok(closed),
             _ => Err(self.singular(radius)),
@@ -200,9 +194,9 @@ impl Transform<'_> {
         panels: &Panels,
         tail: (f64, f64),
         tolerance: (f64, f64),
-        (radii, closed): (&[f64], &[Closed]),
+        (radii, closed): (&[f64], &[Bounded]),
         statistics: &mut Statistics,
-    ) -> Round {
+    ) -> Vec<Bounded> {
         let mut fixed = panels.total(Panel::cut);
         let noise = panels.total(|panel| panel.noise);
         fixed = (fixed.0 + noise.0 + tail.0, fixed.1 + noise.1 + tail.1);
@@ -224,11 +218,7 @@ impl Transform<'_> {
         }
         statistics.bessel_pairs += sums.iter().map(|sum| sum.bessel).sum::<usize>();
         let unit = self.load.force() / TAU;
-        let mut round = Round {
-            values: Vec::with_capacity(radii.len()),
-            errors: Vec::with_capacity(radii.len()),
-        };
-        for ((sum, &radius), &(closed, noise)) in sums.iter().zip(radii).zip(closed) {
+        let bounded = |((sum, &radius), &(closed, noise)): ((&Integrals, &f64), &Bounded)| {
             let mut rest = Displacement {
                 radial: sum.radial,
                 vertical: sum.vertical,
@@ -241,10 +231,9 @@ impl Transform<'_> {
             if radius == 0.0 {
                 (rest.radial, error.0) = (0.0, 0.0);
             }
-            round.values.push(closed + rest * unit);
-            round.errors.push(error);
-        }
-        round
+            (closed + rest * unit, error)
+        };
+        sums.iter().zip(radii).zip(closed).map(bounded).collect()
     }
 }
 
@@ -253,8 +242,8 @@ fn times(factor: f64, pair: (f64, f64)) -> (f64, f64) {
 }
 
 /// Raises `peak` to the largest value that is certain after its error.
-fn raise(peak: &mut (f64, f64), round: &Round) {
-    for (value, error) in round.values.iter().zip(&round.errors) {
+fn raise(peak: &mut (f64, f64), round: &[Bounded]) {
+    for (value, error) in round {
         peak.0 = peak.0.max(value.radial.abs() - error.0);
         peak.1 = peak.1.max(value.vertical.abs() - error.1);
     }
