@@ -24,7 +24,6 @@ use crate::matrix::Matrix2;
 /// Dimensionless thickness up to which the propagator is used.
 const THIN: f64 = 1.0;
 
-/// A uniform layer.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lamina {
     pub thickness: f64,

@@ -78,7 +78,6 @@ pub(crate) fn derivative_of(values: &Series) -> Series {
     slope
 }
 
-/// Scalar product.
 pub(crate) fn dot(one: &Series, other: &Series) -> f64 {
     one.iter().zip(other).map(|(a, b)| a * b).sum()
 }
@@ -211,7 +210,6 @@ impl Panels {
         }
     }
 
-    /// Sum over the panels.
     pub fn total(&self, of: impl Fn(&Panel) -> (f64, f64)) -> (f64, f64) {
         self.list
             .iter()

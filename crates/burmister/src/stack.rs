@@ -51,7 +51,6 @@ impl Ground {
         self.laminae.iter().map(|lamina| lamina.thickness).sum()
     }
 
-    /// Shear moduli of all soils.
     fn shear_moduli(&self) -> impl Iterator<Item = f64> {
         let soils = self.laminae.iter().chain(&self.base);
         soils.map(|lamina| lamina.soil.shear_modulus())

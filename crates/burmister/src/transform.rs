@@ -15,7 +15,6 @@ use crate::panel::{NODES, Panel, Panels};
 use crate::remainder::Remainder;
 use crate::statistics::Statistics;
 
-/// Rounds of refinement.
 const ROUNDS: usize = 5;
 /// Wavenumbers after which refinement gives up.
 const MAX_WAVENUMBERS: usize = 100_000;

@@ -45,7 +45,6 @@ impl Calibration<'_> {
         Ok(self.answer(evaluator, solution))
     }
 
-    /// What a solution says.
     pub(crate) fn answer(&self, evaluator: &Evaluator<'_>, solution: Solution) -> Fit {
         let deviance = solution.optimum.deviance;
         let standardised = &solution.optimum.point.residuals;

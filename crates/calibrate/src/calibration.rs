@@ -129,7 +129,6 @@ impl<'a> Calibration<'a> {
         self.parameters.iter().filter(|p| p.prior().is_some()).count()
     }
 
-    /// Points to scan.
     pub(crate) fn scan(&self) -> usize {
         self.options.scan.unwrap_or(SCAN * (1 + self.parameters.len()))
     }

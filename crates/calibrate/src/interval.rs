@@ -175,7 +175,6 @@ impl Profiler<'_> {
     }
 }
 
-/// Puts a station in its place.
 fn insert(stations: &mut Vec<Station>, station: Station) {
     let place = stations.partition_point(|other| other.distance < station.distance);
     stations.insert(place, station);

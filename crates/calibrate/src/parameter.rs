@@ -57,12 +57,7 @@ impl Parameter {
     ///
     /// [`CalibrationError::InvalidParameter`] unless the bounds are finite, in order, and positive with a logarithmic scale.
     pub fn new(name: &str, lower: f64, upper: f64, scale: Scale) -> Result<Self, CalibrationError> {
-        let error = |quantity, value, allowed| CalibrationError::InvalidParameter {
-            name: name.to_owned(),
-            quantity,
-            value,
-            allowed,
-        };
+        let error = |quantity, value, allowed| invalid(name, quantity, value, allowed);
         let positive = scale == Scale::Logarithmic;
         if !lower.is_finite() || (positive && lower <= 0.0) {
             let allowed = "finite, and positive with a logarithmic scale";
@@ -93,12 +88,7 @@ impl Parameter {
     /// [`CalibrationError::InvalidParameter`] unless the prior's value lies within the bounds and its sigma is finite and
     /// positive.
     pub fn with_prior(mut self, prior: Prior) -> Result<Self, CalibrationError> {
-        let error = |quantity, value, allowed| CalibrationError::InvalidParameter {
-            name: self.name.clone(),
-            quantity,
-            value,
-            allowed,
-        };
+        let error = |quantity, value, allowed| invalid(&self.name, quantity, value, allowed);
         if !(self.lower..=self.upper).contains(&prior.value) {
             return Err(error("prior", prior.value, "a value within the bounds"));
         }
@@ -203,6 +193,15 @@ impl Parameter {
     pub(crate) fn prior_residual(&self, free: f64) -> Option<f64> {
         self.prior
             .map(|prior| (self.bounded(free) - self.coordinate(prior.value)) / prior.sigma)
+    }
+}
+
+fn invalid(name: &str, quantity: &'static str, value: f64, allowed: &'static str) -> CalibrationError {
+    CalibrationError::InvalidParameter {
+        name: name.to_owned(),
+        quantity,
+        value,
+        allowed,
     }
 }
 

@@ -31,7 +31,6 @@ const ELSEWHERE: f64 = 0.7;
 /// Descents from elsewhere; the tests' models have two minima, and a wave as many as the scan shows.
 const RESTARTS: usize = 3;
 
-/// What a search needs.
 pub(crate) struct Search<'a> {
     pub evaluator: &'a Evaluator<'a>,
     /// Whether the observations came with sigmas that are believed.

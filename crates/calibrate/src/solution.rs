@@ -17,7 +17,6 @@ use crate::{Calibration, CalibrationError, Loss, Parameter, Profiles, Warning};
 /// Probability of residuals as large as these under the given sigmas, below which the sigmas are not believed.
 const MISFIT: f64 = 0.001;
 
-/// How a solution is sought.
 pub(crate) struct Route {
     /// Free variables to try first.
     pub start: Option<DVector<f64>>,

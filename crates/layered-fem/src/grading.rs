@@ -37,7 +37,6 @@ pub(crate) struct Lines {
     pub(crate) depths: Vec<f64>,
     /// Layer of each row of elements; the number of layers for the base.
     pub(crate) layer_of_row: Vec<usize>,
-    /// Depth of each layer's top \[m\].
     pub(crate) tops: Vec<f64>,
     /// Columns of elements in the block around the load.
     pub(crate) block_columns: usize,
@@ -177,7 +176,6 @@ impl Lines {
     }
 }
 
-/// How lines are spaced.
 struct Grade {
     scale: f64,
     alpha: f64,

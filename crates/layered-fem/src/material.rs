@@ -46,7 +46,6 @@ impl HalfSpace {
         ))
     }
 
-    /// Young's modulus \[Pa\].
     pub(crate) fn young_modulus(self) -> f64 {
         self.0.soil().young_modulus()
     }

@@ -12,7 +12,6 @@ use crate::mesh::Mesh;
 
 /// Least change K⁻¹(f − K u) of a solution u, relative to it (largest components), that may be asked for.
 pub(crate) const LEAST_CHANGE: f64 = 1e-7;
-/// Corrections applied to a solution.
 const CORRECTIONS: usize = 2;
 
 /// A factored stiffness matrix with some degrees of freedom prescribed.
