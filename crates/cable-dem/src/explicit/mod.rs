@@ -10,7 +10,7 @@ use ground_field::DuctMotion;
 
 use crate::error::checked;
 use crate::outcome::Recorder;
-use crate::transient::{EnergyBalance, Lumped, MovingDuct, Settler, TransientOutcome, pass};
+use crate::transient::{EnergyBalance, Lumped, MovingDuct, TransientOutcome, pass};
 use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh};
 use lanes::Lanes;
 use tanh::tanh;
@@ -82,7 +82,6 @@ pub struct Explicit {
     lumped: Lumped,
     options: ExplicitOptions,
     limits: StepLimits,
-    settler: Settler,
 }
 
 impl Explicit {
@@ -119,7 +118,6 @@ impl Explicit {
             }
         }
         Ok(Self {
-            settler: Settler::new(&lumped),
             lumped,
             options,
             limits,
@@ -183,13 +181,8 @@ impl Explicit {
     ) -> Result<TransientOutcome, CableError> {
         let steps = self.steps(duct);
         let time_step = duct.duration() / steps;
-        let Self {
-            lumped,
-            settler,
-            options,
-            ..
-        } = self;
-        pass(lumped, settler, duct, time_step, state, |state, recorder| {
+        let Self { lumped, options, .. } = &*self;
+        pass(lumped, duct, time_step, state, |state, recorder| {
             let node_updates = steps * lumped.mesh.nodes() as f64;
             let allowed = options.max_node_updates;
             if node_updates > allowed {

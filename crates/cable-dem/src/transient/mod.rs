@@ -19,4 +19,3 @@ pub use pass::TransientOutcome;
 pub(crate) use implicit::Implicit;
 pub(crate) use lumped::Lumped;
 pub(crate) use pass::pass;
-pub(crate) use rest::Settler;

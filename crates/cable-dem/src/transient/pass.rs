@@ -1,10 +1,11 @@
 //! A pass with inertia, from rest to rest.
 
 use super::energy::EnergyBalance;
+use super::implicit::Implicit;
 use super::leak::SigmoidLeak;
 use super::lumped::Lumped;
 use super::moving_duct::MovingDuct;
-use super::rest::Settler;
+use super::rest::follow;
 use crate::outcome::Recorder;
 use crate::step::check_precision;
 use crate::{CableError, CableState, EndForces, PassOutcome};
@@ -32,7 +33,6 @@ pub struct TransientOutcome {
 /// from the vehicle's first position to its last.
 pub(crate) fn pass(
     lumped: &Lumped,
-    settler: &mut Settler,
     duct: &MovingDuct,
     time_step: f64,
     state: &mut CableState,
@@ -55,8 +55,9 @@ pub(crate) fn pass(
     }
     check_precision(&lumped.cable, &lumped.mesh, &state.displacement, duct.peak())?;
     let mut moving = state.clone();
+    let mut solver = Implicit::new(lumped, 0.0);
     let mut follow = |ground, state: &mut CableState, recorder: &mut Recorder| {
-        settler.follow(ground, lumped, duct, state, &mut recorder.statistics)
+        follow(ground, &mut solver, lumped, duct, state, &mut recorder.statistics)
     };
     // From rest to the vehicle's first position, and from its last one back to rest.
     let arrival_heat = follow((0.0, 1.0), &mut moving, &mut recorder)?;
