@@ -24,7 +24,6 @@ pub(crate) struct StepSolver {
     /// Whether the exact step is taken at once.
     pub without_iteration: bool,
     tolerance: Tolerance,
-    soft_anchor: Vec<f64>,
 }
 
 impl StepSolver {
@@ -35,7 +34,6 @@ impl StepSolver {
             statistics: Statistics::default(),
             without_iteration: false,
             tolerance: Tolerance::new(&chain, 0.0),
-            soft_anchor: vec![0.0; nodes],
             chain,
         }
     }
@@ -84,7 +82,7 @@ impl StepSolver {
         let own = self.chain.compliance;
         let per_softness = self.chain.tributary[1] / self.chain.stiffness;
         self.trial.contact[stretch.nodes()].fill(Contact::Stuck);
-        let mut anchor = std::mem::take(&mut self.soft_anchor);
+        let mut anchor = load.anchor.to_vec();
         for compliance in SOFTNESSES.map(|softness| softness * per_softness) {
             if compliance <= own {
                 break;
@@ -100,7 +98,6 @@ impl StepSolver {
             // Its contact states are worth having, whether or not they all hold.
             let _ = self.iterate(&softer, stretch);
         }
-        self.soft_anchor = anchor;
         self.chain.soften(own);
     }
 }
