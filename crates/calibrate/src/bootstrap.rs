@@ -10,7 +10,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use statrs::statistics::{Data, Distribution, OrderStatistics};
 
 use crate::estimate::Interval;
-use crate::evaluator::Evaluator;
+use crate::evaluator::{Evaluator, feasible};
 use crate::fit::Fit;
 use crate::parameter::physical;
 use crate::point::Point;
@@ -160,6 +160,10 @@ impl Calibration<'_> {
                 free: fit.free.clone(),
                 residuals: evaluator.residuals(&fit.free)?,
             };
+            if !feasible(&start.residuals) {
+                let source = evaluator.last_failure();
+                return Err(CalibrationError::NoFeasibleStart { starts: 1, source });
+            }
             let mut search = Search::new(&evaluator);
             search.known_noise &= !fit.noise_estimated;
             let optimum = search.refine(start, Some(fit.jacobian.clone()))?;
