@@ -30,13 +30,20 @@ mod far;
 mod near_axis;
 mod rim;
 
-use crate::shape::Shape;
+use ground_field::SurfaceLoad;
+
+use crate::shape::{Shape, distance, point};
 
 /// From this distance on, in units of the disc's radius, the multipole series is used.
 const FAR: f64 = 4.0;
 
-/// The shape at a point, and its length. `distance` is that from the disc's centre, `contact_radius` > 0.
-pub(crate) fn shape(radius: f64, depth: f64, distance: f64, contact_radius: f64) -> (Shape, f64) {
+/// The shape of `load`, a point load too, at a point, and its length; not a number under a point load.
+pub(crate) fn shape(load: SurfaceLoad, radius: f64, depth: f64) -> (Shape, f64) {
+    let distance = distance(radius, depth);
+    if load.is_point() {
+        return (point(radius, depth, distance), distance);
+    }
+    let contact_radius = load.contact_radius();
     if distance >= FAR * contact_radius {
         return (far::shape(radius, depth, distance, contact_radius), distance);
     }

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use ground_field::{Displacement, GroundError, GroundField, Soil, SurfaceLoad, check_place};
 
-use crate::{disc, point};
+use crate::disc;
+use crate::shape::distance;
 
 const MODEL: &str = "boussinesq half-space";
 
@@ -80,7 +81,7 @@ impl HalfSpace {
         if load.force() == 0.0 {
             return Ok(Stress::default());
         }
-        let distance = point::distance(radius, depth);
+        let distance = distance(radius, depth);
         let (sine, cosine) = (radius / distance, depth / distance);
         let free = 1.0 - 2.0 * self.soil.poisson_ratio();
         let scale = force / TAU / distance / distance;
@@ -119,15 +120,7 @@ impl GroundField for HalfSpace {
         if load.force() == 0.0 {
             return Ok(Displacement::ZERO);
         }
-        let distance = point::distance(radius, depth);
-        let (shape, length) = if load.is_point() {
-            if distance == 0.0 {
-                return Err(singular(radius, depth));
-            }
-            (point::shape(radius, depth, distance), distance)
-        } else {
-            disc::shape(radius, depth, distance, load.contact_radius())
-        };
+        let (shape, length) = disc::shape(load, radius, depth);
         let scale = self.compliance * load.force() / length;
         let displacement = shape.displacement(scale, self.soil.poisson_ratio());
         if displacement.is_finite() {

@@ -34,7 +34,6 @@ mod disc;
 mod elliptic;
 mod half_space;
 mod odemark;
-mod point;
 mod shape;
 
 pub use half_space::{HalfSpace, Stress};

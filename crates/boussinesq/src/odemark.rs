@@ -206,8 +206,7 @@ impl Odemark {
 impl GroundField for Odemark {
     fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
         check_place(radius, depth)?;
-        let (radial, vertical) = self.transforms(depth);
-        evaluate(&Sum::new(&radial, &vertical), load, radius, depth)
+        Ok(self.displacements(load, &[radius], depth)?[0])
     }
 
     fn displacements(
@@ -219,28 +218,21 @@ impl GroundField for Odemark {
         check_place(0.0, depth)?;
         let (radial, vertical) = self.transforms(depth);
         let sum = Sum::new(&radial, &vertical);
-        radii
-            .iter()
-            .map(|&radius| {
-                check_place(radius, depth)?;
-                evaluate(&sum, load, radius, depth)
+        let displacement = |&radius: &f64| {
+            check_place(radius, depth)?;
+            if load.force() == 0.0 {
+                return Ok(Displacement::ZERO);
+            }
+            let displacement = sum.displacement(load, radius);
+            if displacement.is_finite() {
+                return Ok(displacement);
+            }
+            Err(GroundError::Singular {
+                model: MODEL,
+                radius,
+                depth,
             })
-            .collect()
-    }
-}
-
-fn evaluate(sum: &Sum, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
-    if load.force() == 0.0 {
-        return Ok(Displacement::ZERO);
-    }
-    let displacement = sum.displacement(load, radius);
-    if displacement.is_finite() {
-        Ok(displacement)
-    } else {
-        Err(GroundError::Singular {
-            model: MODEL,
-            radius,
-            depth,
-        })
+        };
+        radii.iter().map(displacement).collect()
     }
 }

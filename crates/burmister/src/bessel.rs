@@ -7,33 +7,23 @@
 /// Argument from which the asymptotic series has full precision.
 const ASYMPTOTIC: f64 = 32.0;
 
-/// Coefficients `a_k`(ν) = Π (4ν² − (2j−1)²) / (k! 8^k) with the signs of the series for P (even k) and Q (odd k).
-struct Hankel {
-    even: [f64; 7],
-    odd: [f64; 7],
-}
-
-const fn hankel(order: f64) -> Hankel {
-    let mut even = [0.0; 7];
-    let mut odd = [0.0; 7];
+/// Coefficients `a_k`(ν) = Π (4ν² − (2j−1)²) / (k! 8^k) with the signs of the series for P (even k), then for Q (odd k).
+const fn hankel(order: f64) -> [[f64; 7]; 2] {
+    let mut series = [[0.0; 7]; 2];
     let mut coefficient = 1.0;
     let mut k = 0;
     while k < 14 {
         let sign = if (k / 2) % 2 == 0 { 1.0 } else { -1.0 };
-        if k % 2 == 0 {
-            even[k / 2] = sign * coefficient;
-        } else {
-            odd[k / 2] = sign * coefficient;
-        }
+        series[k % 2][k / 2] = sign * coefficient;
         k += 1;
         let odd_number = 2.0 * k as f64 - 1.0;
         coefficient *= (4.0 * order * order - odd_number * odd_number) / (8.0 * k as f64);
     }
-    Hankel { even, odd }
+    series
 }
 
-const ORDER_0: Hankel = hankel(0.0);
-const ORDER_1: Hankel = hankel(1.0);
+const ORDER_0: [[f64; 7]; 2] = hankel(0.0);
+const ORDER_1: [[f64; 7]; 2] = hankel(1.0);
 
 /// (J0(x), J1(x)) for x ≥ 0.
 #[inline]
@@ -51,8 +41,8 @@ pub(crate) fn j0_j1(x: f64) -> (f64, f64) {
     let (sum, difference) = (sine + cosine, sine - cosine);
     let amplitude = (inverse * std::f64::consts::FRAC_1_PI).sqrt();
     (
-        amplitude * (series(&ORDER_0.even) * sum - inverse * series(&ORDER_0.odd) * difference),
-        amplitude * (series(&ORDER_1.even) * difference + inverse * series(&ORDER_1.odd) * sum),
+        amplitude * (series(&ORDER_0[0]) * sum - inverse * series(&ORDER_0[1]) * difference),
+        amplitude * (series(&ORDER_1[0]) * difference + inverse * series(&ORDER_1[1]) * sum),
     )
 }
 

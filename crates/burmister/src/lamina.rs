@@ -24,7 +24,6 @@ use crate::matrix::Matrix2;
 /// Dimensionless thickness up to which the propagator is used.
 const THIN: f64 = 1.0;
 
-/// A uniform layer.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lamina {
     pub thickness: f64,
@@ -35,20 +34,18 @@ pub(crate) struct Lamina {
 }
 
 /// What a lamina does at one wavenumber.
+///
+/// The impedance is a quotient of matrices, traction over displacement. The rounding error of either is a share of the terms that were
+/// added up.
 pub(crate) struct Crossing {
     /// Impedance at the top.
     pub impedance: Matrix2,
     /// Displacement at the bottom for a displacement at the top.
     pub descent: Matrix2,
-    /// Size of the terms that were added up: the rounding error of a sum is a share of them.
-    pub terms: Terms,
-}
-
-/// The impedance is a quotient of matrices, traction over displacement; these are the sums of their terms' absolute values,
-/// and the inverse of the denominator.
-pub(crate) struct Terms {
+    /// Sums of the terms' absolute values.
     pub traction: Matrix2,
     pub displacement: Matrix2,
+    /// Inverse of the denominator.
     pub inverse: Matrix2,
 }
 
@@ -72,34 +69,14 @@ impl Lamina {
 
     /// Impedance of this soil without end below: what decays downward.
     pub fn downward_impedance(&self) -> Matrix2 {
-        let scale = self.shear_modulus / self.kappa;
-        Matrix2::new(
-            -(1.0 + self.kappa),
-            1.0 - self.kappa,
-            1.0 - self.kappa,
-            -(1.0 + self.kappa),
-        ) * scale
-    }
-
-    fn upward_impedance(&self) -> Matrix2 {
-        let scale = self.shear_modulus / self.kappa;
-        Matrix2::new(
-            1.0 + self.kappa,
-            1.0 - self.kappa,
-            1.0 - self.kappa,
-            1.0 + self.kappa,
-        ) * scale
+        let (own, across) = (-(1.0 + self.kappa), 1.0 - self.kappa);
+        Matrix2::new(own, across, across, own) * (self.shear_modulus / self.kappa)
     }
 
     /// What decays downward, displacement to displacement over `x` = m·distance.
     pub fn downward_decay(&self, x: f64) -> Matrix2 {
         let s = x / self.kappa;
         Matrix2::new(1.0 - s, s, -s, 1.0 + s) * (-x).exp()
-    }
-
-    fn upward_decay(&self, x: f64) -> Matrix2 {
-        let s = x / self.kappa;
-        Matrix2::new(1.0 - s, -s, s, 1.0 + s) * (-x).exp()
     }
 
     /// The lamina at `wavenumber` on `support`.
@@ -143,11 +120,9 @@ impl Lamina {
                 Crossing {
                     impedance: (tu + tt * below) * descent,
                     descent,
-                    terms: Terms {
-                        traction: tu.abs() + tt.abs() * below.abs(),
-                        displacement: uu.abs() + ut.abs() * below.abs(),
-                        inverse: descent,
-                    },
+                    traction: tu.abs() + tt.abs() * below.abs(),
+                    displacement: uu.abs() + ut.abs() * below.abs(),
+                    inverse: descent,
                 }
             }
             Support::Rigid => {
@@ -155,34 +130,31 @@ impl Lamina {
                 Crossing {
                     impedance: tt * inverse,
                     descent: Matrix2::IDENTITY * 0.0,
-                    terms: Terms {
-                        traction: tt.abs(),
-                        displacement: ut.abs(),
-                        inverse,
-                    },
+                    traction: tt.abs(),
+                    displacement: ut.abs(),
+                    inverse,
                 }
             }
         }
     }
 
     fn cross_thick(&self, x: f64, support: Support) -> Crossing {
-        let downward = self.downward_impedance();
-        let upward = self.upward_impedance();
+        let (downward, decay) = (self.downward_impedance(), self.downward_decay(x));
+        // Upside down, horizontal displacement and vertical traction change their signs against the others.
+        let upward = Matrix2::new(-downward.a, downward.b, downward.c, -downward.d);
+        let upward_decay = Matrix2::new(decay.a, -decay.b, -decay.c, decay.d);
         let reflection = match support {
             Support::Elastic(below) => (upward - below).inverse() * (below - downward),
             Support::Rigid => Matrix2::IDENTITY * -1.0,
         };
-        let decay = self.downward_decay(x);
-        let returned = self.upward_decay(x) * reflection * decay;
+        let returned = upward_decay * reflection * decay;
         let share = (Matrix2::IDENTITY + returned).inverse();
         Crossing {
             impedance: (downward + upward * returned) * share,
             descent: (Matrix2::IDENTITY + reflection) * decay * share,
-            terms: Terms {
-                traction: downward.abs() + upward.abs() * returned.abs(),
-                displacement: Matrix2::IDENTITY + returned.abs(),
-                inverse: share,
-            },
+            traction: downward.abs() + upward.abs() * returned.abs(),
+            displacement: Matrix2::IDENTITY + returned.abs(),
+            inverse: share,
         }
     }
 }

@@ -17,7 +17,6 @@ const MOST_PANELS: usize = 40;
 const RULE: usize = 2;
 /// The integrand has a kink wherever the difference changes sign, which costs the rule a percent at most.
 const MARGIN: f64 = 1.05;
-/// Largest |J1|.
 const LARGEST_J1: f64 = 0.582;
 /// Radii in depths at which the peak of u_r is looked for; that of u_z is looked for there and on the axis.
 const RADII: [f64; 7] = [0.3, 0.6, 0.8, 1.1, 1.6, 2.4, 4.0];

@@ -13,7 +13,7 @@
 use crate::bessel::j0_j1;
 use crate::gauss::{SIZES, rule_of_class};
 use crate::levin::Setting;
-use crate::panel::{NODES, Panel, Series, basis, dot, evaluate};
+use crate::panel::{NODES, Panel, Series, basis, dot};
 
 /// Halvings of one panel for one radius; 2^60 turns are beyond any float's phase accuracy.
 const MAX_HALVINGS: usize = 60;
@@ -130,9 +130,8 @@ impl<'a> Prepared<'a> {
     fn levin(&self, radius: f64, from: f64, to: f64) -> Option<Integrals> {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let wavenumbers: Series = std::array::from_fn(|i| middle + half * basis().nodes[i]);
-        let local = |m: f64| (2.0 * m - self.panel.from - self.panel.to) / self.panel.width();
-        let radial: Series = wavenumbers.map(|m| evaluate(&self.panel.radial[..self.terms], local(m)));
-        let vertical: Series = wavenumbers.map(|m| evaluate(&self.panel.vertical[..self.terms], local(m)));
+        let values = wavenumbers.map(|m| self.panel.at(m, self.terms));
+        let (radial, vertical) = (values.map(|(r, _)| r), values.map(|(_, v)| v));
         let zero = [0.0; NODES];
         let setting = Setting {
             radius,
@@ -187,13 +186,9 @@ fn weighted_nodes(panel: &Panel, terms: usize, from: f64, to: f64, class: usize)
         .iter()
         .map(|&(t, weight)| {
             let m = middle + half * t;
-            let local = (2.0 * m - panel.from - panel.to) / panel.width();
             let weight = weight * half;
-            [
-                m,
-                weight * evaluate(&panel.radial[..terms], local),
-                weight * evaluate(&panel.vertical[..terms], local),
-            ]
+            let (radial, vertical) = panel.at(m, terms);
+            [m, weight * radial, weight * vertical]
         })
         .collect()
 }
@@ -244,7 +239,7 @@ mod tests {
             let middle = panel.from + (2.0 * i as f64 + 1.0) * half;
             for &(t, weight) in rule_of_class(10) {
                 let m = middle + half * t;
-                let value = evaluate(&panel.radial, (2.0 * m - panel.from - panel.to) / panel.width());
+                let (value, _) = panel.at(m, NODES);
                 radial += half * weight * value * libm::j1(m * radius);
                 vertical += half * weight * value * libm::j0(m * radius);
             }

@@ -78,7 +78,6 @@ pub(crate) fn derivative_of(values: &Series) -> Series {
     slope
 }
 
-/// Scalar product.
 pub(crate) fn dot(one: &Series, other: &Series) -> f64 {
     one.iter().zip(other).map(|(a, b)| a * b).sum()
 }
@@ -90,7 +89,7 @@ pub(crate) fn series_of(values: &Series) -> Series {
 }
 
 /// Value of the first `terms` terms at `t` in [−1, 1], by Clenshaw's recurrence.
-pub(crate) fn evaluate(series: &[f64], t: f64) -> f64 {
+fn evaluate(series: &[f64], t: f64) -> f64 {
     let (mut upper, mut lower) = (0.0, 0.0);
     for &c in series.iter().skip(1).rev() {
         (upper, lower) = (c + 2.0 * t * upper - lower, upper);
@@ -122,6 +121,15 @@ impl Panel {
 
     pub fn width(&self) -> f64 {
         self.to - self.from
+    }
+
+    /// Value of both series' first `terms` terms at `wavenumber`.
+    pub fn at(&self, wavenumber: f64, terms: usize) -> (f64, f64) {
+        let local = (2.0 * wavenumber - self.from - self.to) / self.width();
+        (
+            evaluate(&self.radial[..terms], local),
+            evaluate(&self.vertical[..terms], local),
+        )
     }
 
     /// Error of the integrals of (radial J1, vertical J0) over the panel from the cut of the series and what no sample saw: |J| ≤ 1.
@@ -202,7 +210,6 @@ impl Panels {
         }
     }
 
-    /// Sum over the panels.
     pub fn total(&self, of: impl Fn(&Panel) -> (f64, f64)) -> (f64, f64) {
         self.list
             .iter()

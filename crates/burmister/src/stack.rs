@@ -51,7 +51,6 @@ impl Ground {
         self.laminae.iter().map(|lamina| lamina.thickness).sum()
     }
 
-    /// Shear moduli of all soils.
     fn shear_moduli(&self) -> impl Iterator<Item = f64> {
         let soils = self.laminae.iter().chain(&self.base);
         soils.map(|lamina| lamina.soil.shear_modulus())
@@ -163,14 +162,13 @@ impl Stack {
         let below = self.below.iter().map(|lamina| (lamina, false));
         for (lamina, passed) in below.chain(self.above.iter().map(|lamina| (lamina, true))) {
             let crossing = lamina.cross(wavenumber, support);
-            let terms = &crossing.terms;
-            let inverse = terms.inverse.abs();
+            let inverse = crossing.inverse.abs();
             let down = crossing.descent.abs();
-            error = (terms.traction + crossing.impedance.abs() * terms.displacement) * inverse * f64::EPSILON
-                + down.transposed() * error * down;
+            let rounded = crossing.traction + crossing.impedance.abs() * crossing.displacement;
+            error = rounded * inverse * f64::EPSILON + down.transposed() * error * down;
             if passed {
-                descent_error =
-                    descent_error * down + descent.abs() * down * terms.displacement * inverse * f64::EPSILON;
+                descent_error = descent_error * down
+                    + descent.abs() * down * crossing.displacement * inverse * f64::EPSILON;
                 descent = descent * crossing.descent;
             }
             support = Support::Elastic(crossing.impedance);

@@ -15,7 +15,6 @@ use crate::panel::{NODES, Panel, Panels};
 use crate::remainder::Remainder;
 use crate::statistics::Statistics;
 
-/// Rounds of refinement.
 const ROUNDS: usize = 5;
 /// Wavenumbers after which refinement gives up.
 const MAX_WAVENUMBERS: usize = 100_000;
@@ -36,14 +35,8 @@ pub(crate) struct Transform<'a> {
     pub probes: Vec<f64>,
 }
 
-/// A closed form with its rounding error, radial and vertical.
-type Closed = (Displacement, (f64, f64));
-
-/// Values with their error, radial and vertical.
-struct Round {
-    values: Vec<Displacement>,
-    errors: Vec<(f64, f64)>,
-}
+/// A displacement with its error, radial and vertical.
+type Bounded = (Displacement, (f64, f64));
 
 impl Transform<'_> {
     /// Displacements at `radii`, in their order.
@@ -62,25 +55,16 @@ impl Transform<'_> {
         let mut end = self.first_end();
         let mut panels = Panels::new(self.remainder, end);
         // First a rough picture, from which the peak is read.
-        let rough = panels.total(Panel::size);
-        let hidden = panels.total(Panel::cut);
-        if ![rough.0, rough.1, hidden.0, hidden.1]
-            .iter()
-            .all(|v| v.is_finite())
-        {
+        let (rough, hidden) = (panels.total(Panel::size), panels.total(Panel::cut));
+        if !(rough.0 + rough.1 + hidden.0 + hidden.1).is_finite() {
             return Err(self.inaccurate((f64::INFINITY, radii[0])));
         }
-        panels.refine(self.remainder, (1e-3 * rough.0, 1e-3 * rough.1), MAX_WAVENUMBERS);
         let mut peak = (0.0, 0.0);
-        let mut tolerance = (1e-3 * rough.0, 1e-3 * rough.1);
+        let mut tolerance = times(1e-3, rough);
+        panels.refine(self.remainder, tolerance, MAX_WAVENUMBERS);
         let known = self.closed_forms(&self.probes)?;
-        let probes = self.evaluate(
-            &panels,
-            (0.0, 0.0),
-            tolerance,
-            (&self.probes, &known),
-            &mut statistics,
-        );
+        let probed = (&*self.probes, &*known);
+        let probes = self.evaluate(&panels, (0.0, 0.0), tolerance, probed, &mut statistics);
         raise(&mut peak, &probes);
 
         // Of the error: for the cut series, as much for their integration, the rest for the tail and rounding.
@@ -90,24 +74,14 @@ impl Transform<'_> {
             let unit = TAU / self.load.force() * self.accuracy;
             tolerance = (goal(peak.0 * unit, tolerance.0), goal(peak.1 * unit, tolerance.1));
             let tail = self.extend(&mut panels, &mut end, tolerance);
-            let each = share / EXPECTED_PANELS;
-            panels.refine(
-                self.remainder,
-                (each * tolerance.0, each * tolerance.1),
-                MAX_WAVENUMBERS,
-            );
-            let each = share / panels.list.len() as f64;
-            let round = self.evaluate(
-                &panels,
-                tail,
-                (each * tolerance.0, each * tolerance.1),
-                (radii, &closed),
-                &mut statistics,
-            );
+            let each = times(share / EXPECTED_PANELS, tolerance);
+            panels.refine(self.remainder, each, MAX_WAVENUMBERS);
+            let each = times(share / panels.list.len() as f64, tolerance);
+            let round = self.evaluate(&panels, tail, each, (radii, &closed), &mut statistics);
             raise(&mut peak, &round);
 
             worst = (0.0, 0.0);
-            for (error, &radius) in round.errors.iter().zip(radii) {
+            for ((_, error), &radius) in round.iter().zip(radii) {
                 let relative = share_of(error.0, peak.0).max(share_of(error.1, peak.1));
                 if relative >= worst.0 {
                     worst = (relative, radius);
@@ -117,18 +91,15 @@ impl Transform<'_> {
             statistics.panels = panels.list.len();
             statistics.estimated_error = worst.0;
             if worst.0 <= self.accuracy {
-                return self.checked(round.values, radii, statistics);
+                return match round.iter().position(|(value, _)| !value.is_finite()) {
+                    Some(i) => Err(self.singular(radii[i])),
+                    None => Ok((round.into_iter().map(|(value, _)| value).collect(), statistics)),
+                };
             }
             if panels.solved + 2 * NODES > MAX_WAVENUMBERS {
                 break;
             }
-            let again = self.evaluate(
-                &panels,
-                tail,
-                (each * tolerance.0, each * tolerance.1),
-                (&self.probes, &known),
-                &mut statistics,
-            );
+            let again = self.evaluate(&panels, tail, each, probed, &mut statistics);
             raise(&mut peak, &again);
             share *= 0.1;
         }
@@ -147,24 +118,12 @@ impl Transform<'_> {
     }
 
     /// Closed forms at the radii, with their rounding error.
-    fn closed_forms(&self, radii: &[f64]) -> Result<Vec<Closed>, GroundError> {
+    fn closed_forms(&self, radii: &[f64]) -> Result<Vec<Bounded>, GroundError> {
         let closed = |&radius: &f64| match self.remainder.closed_form(self.load, radius) {
             Ok(closed) if closed.0.is_finite() => Ok(closed),
             _ => Err(self.singular(radius)),
         };
         radii.iter().map(closed).collect()
-    }
-
-    fn checked(
-        &self,
-        values: Vec<Displacement>,
-        radii: &[f64],
-        statistics: Statistics,
-    ) -> Result<(Vec<Displacement>, Statistics), GroundError> {
-        match values.iter().position(|value| !value.is_finite()) {
-            Some(i) => Err(self.singular(radii[i])),
-            None => Ok((values, statistics)),
-        }
     }
 
     fn singular(&self, radius: f64) -> GroundError {
@@ -178,15 +137,12 @@ impl Transform<'_> {
     /// A guess where the transform has decayed: compared with its own size near 1/(decay length), for want of the peak.
     fn first_end(&self) -> f64 {
         let unit = 1.0 / self.remainder.decay_length;
-        let size = [0.25, 0.5, 1.0, 2.0]
-            .iter()
-            .fold((0.0, 0.0), |size: (f64, f64), x| {
-                let sample = self.remainder.field(x * unit);
-                (
-                    size.0.max(x * unit * sample.0.abs()),
-                    size.1.max(x * unit * sample.1.abs()),
-                )
-            });
+        let mut size = (0.0_f64, 0.0_f64);
+        for wavenumber in [0.25, 0.5, 1.0, 2.0].map(|x| x * unit) {
+            let sample = self.remainder.field(wavenumber);
+            size.0 = size.0.max(wavenumber * sample.0.abs());
+            size.1 = size.1.max(wavenumber * sample.1.abs());
+        }
         let decayed = |x: f64| {
             let tail = self.tail(x * unit);
             tail.0 <= 0.02 * self.accuracy * size.0 && tail.1 <= 0.02 * self.accuracy * size.1
@@ -221,18 +177,15 @@ impl Transform<'_> {
     /// Integral of the transform's decaying end beyond `wavenumber`, from its values just before: what is left after
     /// rounding, over the decay length, with a factor 2 for the powers of m beside the exponential.
     fn tail(&self, wavenumber: f64) -> (f64, f64) {
+        let (scale, mut tail) = (2.0 / self.remainder.decay_length, (0.0_f64, 0.0_f64));
         // Three places, lest a zero of the disc's factor passes for decay.
-        [1.0, 0.98, 0.95]
-            .iter()
-            .fold((0.0, 0.0), |(radial, vertical): (f64, f64), part| {
-                let sample = self.remainder.sample(part * wavenumber);
-                let noise = self.remainder.rounding(part * wavenumber);
-                let scale = 2.0 / self.remainder.decay_length;
-                (
-                    radial.max(scale * (sample.0.abs() - noise.0).max(0.0)),
-                    vertical.max(scale * (sample.1.abs() - noise.1).max(0.0)),
-                )
-            })
+        for wavenumber in [1.0, 0.98, 0.95].map(|part| part * wavenumber) {
+            let sample = self.remainder.sample(wavenumber);
+            let noise = self.remainder.rounding(wavenumber);
+            tail.0 = tail.0.max(scale * (sample.0.abs() - noise.0).max(0.0));
+            tail.1 = tail.1.max(scale * (sample.1.abs() - noise.1).max(0.0));
+        }
+        tail
     }
 
     fn evaluate(
@@ -240,9 +193,9 @@ impl Transform<'_> {
         panels: &Panels,
         tail: (f64, f64),
         tolerance: (f64, f64),
-        (radii, closed): (&[f64], &[Closed]),
+        (radii, closed): (&[f64], &[Bounded]),
         statistics: &mut Statistics,
-    ) -> Round {
+    ) -> Vec<Bounded> {
         let mut fixed = panels.total(Panel::cut);
         let noise = panels.total(|panel| panel.noise);
         fixed = (fixed.0 + noise.0 + tail.0, fixed.1 + noise.1 + tail.1);
@@ -264,33 +217,32 @@ impl Transform<'_> {
         }
         statistics.bessel_pairs += sums.iter().map(|sum| sum.bessel).sum::<usize>();
         let unit = self.load.force() / TAU;
-        let mut round = Round {
-            values: Vec::with_capacity(radii.len()),
-            errors: Vec::with_capacity(radii.len()),
-        };
-        for ((sum, &radius), &(closed, noise)) in sums.iter().zip(radii).zip(closed) {
-            let rest = Displacement {
-                radial: if radius == 0.0 { 0.0 } else { sum.radial },
+        let bounded = |((sum, &radius), &(closed, noise)): ((&Integrals, &f64), &Bounded)| {
+            let mut rest = Displacement {
+                radial: sum.radial,
                 vertical: sum.vertical,
             };
-            round.values.push(closed + rest * unit);
-            round.errors.push((
-                // On the axis nothing moves aside.
-                if radius == 0.0 {
-                    0.0
-                } else {
-                    unit * (fixed.0 + sum.error.0) + noise.0
-                },
+            let mut error = (
+                unit * (fixed.0 + sum.error.0) + noise.0,
                 unit * (fixed.1 + sum.error.1) + noise.1,
-            ));
-        }
-        round
+            );
+            // On the axis nothing moves aside.
+            if radius == 0.0 {
+                (rest.radial, error.0) = (0.0, 0.0);
+            }
+            (closed + rest * unit, error)
+        };
+        sums.iter().zip(radii).zip(closed).map(bounded).collect()
     }
 }
 
+fn times(factor: f64, pair: (f64, f64)) -> (f64, f64) {
+    (factor * pair.0, factor * pair.1)
+}
+
 /// Raises `peak` to the largest value that is certain after its error.
-fn raise(peak: &mut (f64, f64), round: &Round) {
-    for (value, error) in round.values.iter().zip(&round.errors) {
+fn raise(peak: &mut (f64, f64), round: &[Bounded]) {
+    for (value, error) in round {
         peak.0 = peak.0.max(value.radial.abs() - error.0);
         peak.1 = peak.1.max(value.vertical.abs() - error.1);
     }

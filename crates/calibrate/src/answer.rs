@@ -1,12 +1,14 @@
-//! From a solution to what the user reads: residuals, statistics, warnings.
+//! A fit that runs the model itself, and what the user reads of any: residuals, statistics, warnings.
+
+use nalgebra::DVector;
 
 use crate::evaluator::Evaluator;
 use crate::fit::Fit;
 use crate::interval::EXCLUSION;
-use crate::parameter::FARTHEST;
+use crate::parameter::{FARTHEST, physical};
 use crate::search::ROUGH;
-use crate::solution::Solution;
-use crate::{Calibration, Warning};
+use crate::solution::{Route, Solution};
+use crate::{Calibration, CalibrationError, Warning};
 
 /// Correlation from which two parameters count as hardly distinguishable.
 const CORRELATED: f64 = 0.99;
@@ -16,14 +18,40 @@ const OUTLIER: f64 = 0.35;
 const FEW: f64 = 5.0;
 
 impl Calibration<'_> {
-    /// What a solution says.
+    /// Fits, running the model wherever the search asks for it.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError`] where there are too few observations, the model has no answer anywhere, the fit does not converge or needs
+    /// more model runs than allowed.
+    pub fn fit(&self) -> Result<Fit, CalibrationError> {
+        self.check_count()?;
+        self.fit_directly(&Evaluator::new(self), self.start())
+    }
+
+    /// The fit by `evaluator`, which may have run before, from `start` and all over the range.
+    pub(crate) fn fit_directly(
+        &self,
+        evaluator: &Evaluator<'_>,
+        start: Option<DVector<f64>>,
+    ) -> Result<Fit, CalibrationError> {
+        let route = Route {
+            scan: self.scan(),
+            start,
+            profiles: self.options.profiles,
+            scan_others: 0,
+        };
+        let solution = self.solve(evaluator, &route)?;
+        Ok(self.answer(evaluator, solution))
+    }
+
     pub(crate) fn answer(&self, evaluator: &Evaluator<'_>, solution: Solution) -> Fit {
         let deviance = solution.optimum.deviance;
         let standardised = &solution.optimum.point.residuals;
-        let observed = self.observations();
+        let observed = &self.observations;
         let residuals: Vec<f64> = standardised
             .iter()
-            .zip(evaluator.sigmas)
+            .zip(&self.sigmas)
             .map(|(r, sigma)| -r * sigma)
             .collect();
         let square: f64 = residuals.iter().map(|r| r * r).sum();
@@ -32,11 +60,11 @@ impl Calibration<'_> {
         let weights: Vec<f64> = standardised
             .iter()
             .take(observed.len())
-            .map(|r| self.options().loss.weight(r / deviance.spread))
+            .map(|r| self.options.loss.weight(r / deviance.spread))
             .collect();
         let curvatures = deviance.curvatures(standardised);
         let degrees_of_freedom = self.freedom(&solution.optimum);
-        let parameters = 0..self.parameters().len();
+        let parameters = 0..self.parameters.len();
         Fit {
             warnings: self.warnings(&solution, &weights, degrees_of_freedom),
             correlation: parameters
@@ -63,7 +91,7 @@ impl Calibration<'_> {
             iterations: solution.optimum.iterations,
             curvatures: curvatures
                 .iter()
-                .zip(evaluator.sigmas)
+                .zip(&self.sigmas)
                 .map(|(curvature, sigma)| curvature / sigma)
                 .collect(),
             estimates: solution.estimates,
@@ -122,12 +150,7 @@ impl Calibration<'_> {
         };
         let closed = solution.estimates.iter().all(|estimate| estimate.identifiable);
         (closed && !(0..rival.free.len()).all(own)).then(|| Warning::Ambiguous {
-            values: self
-                .parameters()
-                .iter()
-                .zip(rival.free.iter())
-                .map(|(parameter, &free)| parameter.value(parameter.bounded(free)))
-                .collect(),
+            values: physical(&self.parameters, &rival.free),
         })
     }
 }

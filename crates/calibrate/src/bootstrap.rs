@@ -10,9 +10,11 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use statrs::statistics::{Data, Distribution, OrderStatistics};
 
 use crate::estimate::Interval;
-use crate::evaluator::feasible;
+use crate::evaluator::{Evaluator, feasible};
 use crate::fit::Fit;
+use crate::parameter::physical;
 use crate::point::Point;
+use crate::search::Search;
 use crate::{Calibration, CalibrationError, Parameter, Prior};
 
 /// Share of replicates that may fail: more of them would no longer show the spread.
@@ -72,7 +74,7 @@ impl Calibration<'_> {
         if options.replicates < 10 {
             return Err(invalid("replicates", options.replicates, "at least 10"));
         }
-        if fit.fitted.len() != self.observations().len() || fit.free.len() != self.parameters().len() {
+        if fit.fitted.len() != self.observations.len() || fit.free.len() != self.parameters.len() {
             return Err(invalid(
                 "observations of the fit",
                 fit.fitted.len(),
@@ -102,7 +104,7 @@ impl Calibration<'_> {
                 source: Box::new(source),
             });
         }
-        let columns: Vec<Data<Vec<f64>>> = (0..self.parameters().len())
+        let columns: Vec<Data<Vec<f64>>> = (0..self.parameters.len())
             .map(|k| Data::new(samples.iter().map(|sample| sample[k]).collect()))
             .collect();
         Ok(Bootstrap {
@@ -112,7 +114,7 @@ impl Calibration<'_> {
                 .collect(),
             intervals: columns
                 .into_iter()
-                .zip(self.parameters())
+                .zip(&self.parameters)
                 .map(|(column, parameter)| self.percentiles(column, parameter))
                 .collect(),
             samples,
@@ -122,7 +124,7 @@ impl Calibration<'_> {
     }
 
     fn percentiles(&self, mut sample: Data<Vec<f64>>, parameter: &Parameter) -> Interval {
-        let tail = 0.5 * (1.0 - self.options().confidence);
+        let tail = 0.5 * (1.0 - self.options.confidence);
         let [lower, upper] = [tail, 1.0 - tail].map(|share| {
             let value = sample.quantile(share);
             (!parameter.is_at_bound(value)).then_some(value)
@@ -133,14 +135,13 @@ impl Calibration<'_> {
     /// One refit; model runs and the values found.
     fn replicate(&self, fit: &Fit, seed: u64) -> (usize, Result<Vec<f64>, CalibrationError>) {
         let mut random = Rng::with_seed(seed);
-        let units = self.units();
         // Residuals are smaller than the noise by the parameters' share.
         let count = fit.residuals.len();
         let lost = (count as f64 / fit.degrees_of_freedom.max(0.5)).sqrt();
         let mut drawn = self.clone();
-        for ((value, fitted), unit) in drawn.observations.iter_mut().zip(&fit.fitted).zip(&units) {
+        for ((value, fitted), sigma) in drawn.observations.iter_mut().zip(&fit.fitted).zip(&self.sigmas) {
             let index = random.usize(..count);
-            *value = fitted + unit * lost * fit.residuals[index] / units[index];
+            *value = fitted + sigma * lost * fit.residuals[index] / self.sigmas[index];
         }
         for parameter in &mut drawn.parameters {
             if let Some(prior) = parameter.prior() {
@@ -153,23 +154,20 @@ impl Calibration<'_> {
             }
         }
         drawn.options.observer = None;
-        let evaluator = drawn.evaluator(&units, self.options().max_evaluations);
+        let evaluator = Evaluator::new(&drawn);
         let found = || {
-            let residuals = evaluator.residuals(&fit.free)?;
-            if !feasible(&residuals) {
-                return Err(CalibrationError::NoFeasibleStart {
-                    starts: 1,
-                    source: evaluator.last_failure(),
-                });
-            }
             let start = Point {
                 free: fit.free.clone(),
-                residuals,
+                residuals: evaluator.residuals(&fit.free)?,
             };
-            let mut search = drawn.search(&evaluator);
+            if !feasible(&start.residuals) {
+                let source = evaluator.last_failure();
+                return Err(CalibrationError::NoFeasibleStart { starts: 1, source });
+            }
+            let mut search = Search::new(&evaluator);
             search.known_noise &= !fit.noise_estimated;
             let optimum = search.refine(start, Some(fit.jacobian.clone()))?;
-            Ok(evaluator.physical(&optimum.point.free))
+            Ok(physical(&self.parameters, &optimum.point.free))
         };
         let found = found();
         (evaluator.count(), found)

@@ -4,7 +4,6 @@ use std::fmt;
 
 use nalgebra::DVector;
 
-use crate::evaluator::Evaluator;
 use crate::{CalibrationError, Model, Options, Parameter};
 
 /// Scanned points for each parameter and one more: 24 for two, of which the emulator learns as well.
@@ -27,10 +26,12 @@ const ROUNDING: f64 = 1e-12;
 /// ```
 #[derive(Clone)]
 pub struct Calibration<'a> {
-    model: &'a dyn Model,
+    pub(crate) model: &'a dyn Model,
     pub(crate) parameters: Vec<Parameter>,
     pub(crate) observations: Vec<f64>,
-    sigmas: Option<Vec<f64>>,
+    /// 1 where the noise is to be estimated.
+    pub(crate) sigmas: Vec<f64>,
+    pub(crate) knows_noise: bool,
     pub(crate) options: Options,
 }
 
@@ -65,19 +66,13 @@ impl<'a> Calibration<'a> {
                 });
             }
         }
-        if let Some(index) = observations.iter().position(|value| !value.is_finite()) {
-            return Err(CalibrationError::InvalidObservation {
-                index,
-                quantity: "value",
-                value: observations[index],
-                allowed: "finite",
-            });
-        }
+        check_each(&observations, "value", "finite", f64::is_finite)?;
         Ok(Self {
             model,
             parameters,
+            sigmas: vec![1.0; observations.len()],
             observations,
-            sigmas: None,
+            knows_noise: false,
             options: Options::default(),
         })
     }
@@ -94,15 +89,9 @@ impl<'a> Calibration<'a> {
                 observations: self.observations.len(),
             });
         }
-        if let Some(index) = sigmas.iter().position(|s| !(s.is_finite() && *s > 0.0)) {
-            return Err(CalibrationError::InvalidObservation {
-                index,
-                quantity: "sigma",
-                value: sigmas[index],
-                allowed: "finite and positive",
-            });
-        }
-        self.sigmas = Some(sigmas);
+        let positive = |s: f64| s.is_finite() && s > 0.0;
+        check_each(&sigmas, "sigma", "finite and positive", positive)?;
+        (self.sigmas, self.knows_noise) = (sigmas, true);
         Ok(self)
     }
 
@@ -127,45 +116,19 @@ impl<'a> Calibration<'a> {
         &self.observations
     }
 
-    pub(crate) fn sigmas(&self) -> Option<&[f64]> {
-        self.sigmas.as_deref()
-    }
-
-    pub(crate) fn options(&self) -> &Options {
-        &self.options
-    }
-
-    /// Sigma of every observation, 1 where the noise is to be estimated.
-    pub(crate) fn units(&self) -> Vec<f64> {
-        self.sigmas
-            .clone()
-            .unwrap_or_else(|| vec![1.0; self.observations.len()])
-    }
-
     /// Noise that the model's predictions have at least, in units of the sigmas.
-    pub(crate) fn least_noise(&self, units: &[f64]) -> f64 {
+    pub(crate) fn least_noise(&self) -> f64 {
         let share = self.options.relative_noise.max(ROUNDING);
-        self.observations
-            .iter()
-            .zip(units)
-            .fold(f64::MIN_POSITIVE, |most, (value, unit)| {
-                most.max(share * value.abs() / unit)
-            })
+        let sizes = self.observations.iter().zip(&self.sigmas);
+        let noise = sizes.map(|(value, sigma)| share * value.abs() / sigma);
+        noise.fold(f64::MIN_POSITIVE, f64::max)
     }
 
-    /// The model against the observations, for at most `limit` runs.
-    pub(crate) fn evaluator<'e>(&'e self, units: &'e [f64], limit: usize) -> Evaluator<'e> {
-        Evaluator::new(
-            self.model,
-            &self.parameters,
-            &self.observations,
-            units,
-            self.options.relative_noise,
-            limit,
-        )
+    /// Number of parameters with prior knowledge.
+    pub(crate) fn priors(&self) -> usize {
+        self.parameters.iter().filter(|p| p.prior().is_some()).count()
     }
 
-    /// Points to scan.
     pub(crate) fn scan(&self) -> usize {
         self.options.scan.unwrap_or(SCAN * (1 + self.parameters.len()))
     }
@@ -173,11 +136,11 @@ impl<'a> Calibration<'a> {
     /// Priors count as observations; noise to be estimated needs one more, and at least two of the data.
     pub(crate) fn check_count(&self) -> Result<(), CalibrationError> {
         let (observations, parameters) = (self.observations.len(), self.parameters.len());
-        let priors = self.parameters.iter().filter(|p| p.prior().is_some()).count();
-        let unknown = parameters - priors;
-        let needed = match self.sigmas {
-            Some(_) => unknown.max(1),
-            None => (unknown + 1).max(2),
+        let unknown = parameters - self.priors();
+        let needed = if self.knows_noise {
+            unknown.max(1)
+        } else {
+            (unknown + 1).max(2)
         };
         if parameters == 0 || observations < needed {
             return Err(CalibrationError::TooFewObservations {
@@ -189,13 +152,32 @@ impl<'a> Calibration<'a> {
         Ok(())
     }
 
-    pub(crate) fn free(&self, values: &[f64]) -> DVector<f64> {
-        DVector::from_iterator(
-            self.parameters.len(),
-            self.parameters.iter().zip(values).map(|(parameter, &value)| {
-                let inside = value.clamp(parameter.lower(), parameter.upper());
-                parameter.free(parameter.coordinate(inside))
-            }),
-        )
+    /// Free variables of the values to try first.
+    pub(crate) fn start(&self) -> Option<DVector<f64>> {
+        let free = |(parameter, &value): (&Parameter, &f64)| {
+            let inside = value.clamp(parameter.lower(), parameter.upper());
+            parameter.free(parameter.coordinate(inside))
+        };
+        let start = self.options.start.as_ref()?;
+        Some(DVector::from_vec(
+            self.parameters.iter().zip(start).map(free).collect(),
+        ))
+    }
+}
+
+fn check_each(
+    values: &[f64],
+    quantity: &'static str,
+    allowed: &'static str,
+    holds: impl Fn(f64) -> bool,
+) -> Result<(), CalibrationError> {
+    match values.iter().position(|&value| !holds(value)) {
+        None => Ok(()),
+        Some(index) => Err(CalibrationError::InvalidObservation {
+            index,
+            quantity,
+            value: values[index],
+            allowed,
+        }),
     }
 }

@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::deviance::Deviance;
 use crate::evaluator::Evaluator;
 use crate::observer::{Observer, Progress};
+use crate::parameter::physical;
 use crate::point::Point;
 use crate::step::{Damping, Quadratic};
 use crate::{CalibrationError, Parameter};
@@ -21,7 +22,6 @@ use crate::{CalibrationError, Parameter};
 pub(crate) struct Descent<'a> {
     pub evaluator: &'a Evaluator<'a>,
     pub deviance: Deviance,
-    pub observer: Option<&'a Observer>,
     /// A parameter that stays where it is.
     pub held: Option<usize>,
     /// J as it is near the start, if it is known.
@@ -56,9 +56,10 @@ impl Descent<'_> {
     /// Descends from `start`, whether or not that converges.
     pub fn run(self, start: Point) -> Result<Optimum, CalibrationError> {
         let (deviance, iterations) = (self.deviance, self.iterations);
-        let reporter = self.observer.map(|observer| Reporter {
+        let calibration = self.evaluator.calibration;
+        let reporter = calibration.options.observer.as_ref().map(|observer| Reporter {
             observer: observer.clone(),
-            parameters: self.evaluator.parameters.to_vec(),
+            parameters: calibration.parameters.clone(),
         });
         let solver = LevenbergMarquardt {
             cost: deviance.total(&start.residuals),
@@ -119,16 +120,11 @@ struct Reporter {
 
 impl Observe<Iteration> for Reporter {
     fn observe_iter(&mut self, state: &Iteration, _: &KV) -> Result<(), Error> {
-        let free = state.get_param().into_iter().flat_map(|free| free.iter());
+        let free = state.get_param();
         let progress = Progress {
             iteration: state.get_iter(),
             deviance: state.get_cost(),
-            parameters: self
-                .parameters
-                .iter()
-                .zip(free)
-                .map(|(parameter, &z)| parameter.value(parameter.bounded(z)))
-                .collect(),
+            parameters: free.map_or_else(Vec::new, |free| physical(&self.parameters, free)),
         };
         Ok(self.observer.call(&progress)?)
     }

@@ -9,6 +9,7 @@
 //! covariance is then κ A JᵀJ/s² plus that of the priors.
 
 use nalgebra::{DMatrix, DVector};
+use statrs::statistics::{Data, OrderStatistics};
 
 use crate::Loss;
 
@@ -96,14 +97,8 @@ impl Deviance {
 
     /// s from the median of the residuals, which outliers do not move.
     pub fn with_median_spread(self, residuals: &DVector<f64>, degrees_of_freedom: f64, least: f64) -> Self {
-        let mut sizes: Vec<f64> = residuals.iter().take(self.data).map(|r| r.abs()).collect();
-        sizes.sort_unstable_by(f64::total_cmp);
-        let middle = sizes.len() / 2;
-        let median = if sizes.len().is_multiple_of(2) {
-            0.5 * (sizes[middle - 1] + sizes[middle])
-        } else {
-            sizes[middle]
-        };
+        let sizes: Vec<f64> = residuals.iter().take(self.data).map(|r| r.abs()).collect();
+        let median = Data::new(sizes).median();
         let lost = (self.data as f64 / degrees_of_freedom).sqrt();
         Self {
             spread: (MEDIAN_TO_SIGMA * median * lost).max(least),

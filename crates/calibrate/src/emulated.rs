@@ -14,7 +14,7 @@ use crate::interval::{ACCURACY, EXCLUSION, Witness};
 use crate::point::{Point, all_over, score};
 use crate::search::MAX_ROUNDS;
 use crate::solution::{Route, Solution};
-use crate::{Calibration, CalibrationError, Emulator, Fit, Options, Profiles};
+use crate::{Calibration, CalibrationError, Emulator, Fit, Profiles};
 
 /// Points of the emulator that are scanned for each parameter and one more, and for each of the others along a profile.
 const SCAN: usize = 64;
@@ -30,7 +30,7 @@ impl Calibration<'_> {
     /// Fits a model that is expensive to run, as [`fit`](Self::fit) does. A smooth one takes a small part of the runs; one that the
     /// emulator cannot follow takes those of a direct fit on top of those that were in vain.
     ///
-    /// The emulator is searched all over: [`Options::scan`] only says how many runs it first learns from, and the observer is called for
+    /// The emulator is searched all over: [`Options::scan`](crate::Options::scan) only says how many runs it first learns from, and the observer is called for
     /// descents on the emulator. The model confirms the optimum, the ends of the intervals and the excluded bounds. Where three and more
     /// parameters are hardly known, an end may be a tenth of its distance off from that of a direct fit.
     ///
@@ -62,29 +62,27 @@ impl Calibration<'_> {
     /// As for [`fit`](Self::fit), and [`CalibrationError::InvalidOption`] for a `coarse` of other parameters or observations.
     pub fn fit_emulated(&self, coarse: Option<&Emulator>) -> Result<(Fit, Emulator), CalibrationError> {
         self.check_count()?;
-        let units = self.units();
-        let options = self.options();
-        let runs = self.evaluator(&units, options.max_evaluations);
+        let runs = Evaluator::new(self);
+        let (dimensions, observations) = (self.parameters.len(), self.observations.len());
         // One that could not follow its model has nothing to teach.
         let coarse = coarse.filter(|coarse| coarse.runs() > 0);
-        if coarse.is_some_and(|coarse| !coarse.is_of(self.parameters(), self.observations().len())) {
+        if coarse.is_some_and(|coarse| !coarse.is_of(&self.parameters, observations)) {
             return Err(CalibrationError::InvalidOption {
                 name: "coarse emulator's parameters",
-                value: self.parameters().len() as f64,
+                value: dimensions as f64,
                 allowed: "those of this calibration, and its observations",
             });
         }
         let mut emulation = Emulation {
             calibration: self,
-            emulator: Emulator::new(self.parameters(), coarse),
+            emulator: Emulator::new(&self.parameters, coarse),
             runs: &runs,
         };
-        let start = options.start.as_ref().map(|start| self.free(start));
+        let start = self.start();
         let mut design: Vec<DVector<f64>> = start.clone().into_iter().collect();
-        let dimensions = self.parameters().len();
         let score = |free: &DVector<f64>, predicted: &[f64]| {
             let residuals = runs.standardised(free, predicted);
-            score(&residuals, self.observations().len(), self.sigmas().is_some())
+            score(&residuals, observations, self.knows_noise)
         };
         design.extend(match coarse {
             // Along the whole valley, so that what the coarse model misses is known where it may matter.
@@ -95,31 +93,10 @@ impl Calibration<'_> {
             self.answer(&runs, solution)
         } else {
             let best = emulation.emulator.low_points(score, 0.0, 0);
-            self.fit_directly(runs.count(), best.first().map(|best| runs.physical(best)))?
+            // After runs in vain, the best of which is where to begin.
+            self.fit_directly(&runs, best.into_iter().next().or_else(|| self.start()))?
         };
         Ok((fit, emulation.emulator))
-    }
-
-    /// Fits without an emulator after `runs` in vain, the best of which was at `best`.
-    fn fit_directly(&self, runs: usize, best: Option<Vec<f64>>) -> Result<Fit, CalibrationError> {
-        let limit = self.options().max_evaluations;
-        let spent = CalibrationError::EvaluationLimit { limit };
-        let left = Options {
-            max_evaluations: limit.saturating_sub(runs),
-            start: best.or_else(|| self.options().start.clone()),
-            ..self.options().clone()
-        };
-        if left.max_evaluations == 0 {
-            return Err(spent);
-        }
-        match self.clone().with_options(left)?.fit() {
-            Ok(fit) => Ok(Fit {
-                evaluations: fit.evaluations + runs,
-                ..fit
-            }),
-            Err(CalibrationError::EvaluationLimit { .. }) => Err(spent),
-            Err(error) => Err(error),
-        }
     }
 }
 
@@ -143,9 +120,9 @@ impl Emulation<'_> {
         design: Vec<DVector<f64>>,
         mut start: Option<DVector<f64>>,
     ) -> Result<Option<Solution>, CalibrationError> {
-        let wanted = self.calibration.options().profiles;
+        let wanted = self.calibration.options.profiles;
         // Intervals are worth a look around an optimum that holds, or that a coarser model gave.
-        let mut profiles = if self.emulator.is_corrected() {
+        let mut profiles = if self.emulator.coarse.is_some() {
             wanted
         } else {
             Profiles::None
@@ -178,7 +155,7 @@ impl Emulation<'_> {
                 agreed &= self.agrees(&solution, witness, found) && self.is_followed(&solution, witness, run);
                 if let (Some(bound), true) = (witness.bound, settled && found > EXCLUSION * witness.threshold)
                 {
-                    self.emulator.exclude(bound);
+                    self.emulator.excluded.push(bound);
                 }
             }
             if agreed && profiles == wanted {
@@ -209,11 +186,11 @@ impl Emulation<'_> {
     ) -> Result<Option<Solution>, CalibrationError> {
         let route = Route {
             start,
-            scan: SCAN * (1 + self.calibration.parameters().len()),
+            scan: SCAN * (1 + self.calibration.parameters.len()),
             profiles,
             scan_others: SCAN,
         };
-        let emulator = self.runs.of(&self.emulator);
+        let emulator = Evaluator::emulated(self.calibration, &self.emulator);
         match self.calibration.solve(&emulator, &route) {
             Ok(solution) => Ok(Some(solution)),
             Err(CalibrationError::Stopped) => Err(CalibrationError::Stopped),
@@ -249,7 +226,7 @@ impl Emulation<'_> {
     /// left is ripple between runs.
     fn is_settled(&self, solution: &Solution, seen: &Run, shift: f64, learned: bool) -> bool {
         let off = distance(solution, &solution.optimum.point, &seen.point);
-        let tolerance = self.calibration.options().tolerance;
+        let tolerance = self.calibration.options.tolerance;
         shift <= tolerance || (learned && off <= RIPPLE * self.noise(solution))
     }
 
@@ -269,7 +246,9 @@ impl Emulation<'_> {
     /// Whether the witness stands at a bound that the model itself, or a coarser one, was seen to exclude by far, as the emulator says.
     fn is_excluded(&self, solution: &Solution, witness: &Witness) -> bool {
         let rise = root(solution, &witness.point, &solution.optimum.point);
-        witness.bound.is_some_and(|bound| self.emulator.excludes(bound))
+        witness
+            .bound
+            .is_some_and(|bound| self.emulator.excluded.contains(&bound))
             && rise > EXCLUSION * witness.threshold
     }
 

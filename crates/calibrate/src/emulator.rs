@@ -28,7 +28,7 @@ const NUGGET: f64 = 1e-8;
 pub struct Emulator {
     parameters: Vec<Parameter>,
     /// What the runs are compared with, if not with their mean alone.
-    coarse: Option<Arc<Emulator>>,
+    pub(crate) coarse: Option<Arc<Emulator>>,
     /// Free variables, a run each, and the shares of the parameters' ranges that they are.
     points: Vec<DVector<f64>>,
     places: Vec<DVector<f64>>,
@@ -37,8 +37,8 @@ pub struct Emulator {
     /// Mean of what `coarse` misses, and what each run's neighbourhood adds to it, a row each.
     mean: DVector<f64>,
     weights: DMatrix<f64>,
-    /// Parameters and their lower and upper bounds that the data were seen to exclude by far.
-    excluded: Vec<(usize, bool)>,
+    /// Parameters and their lower and upper bounds that this model, or a coarser one, was seen to exclude by far.
+    pub(crate) excluded: Vec<(usize, bool)>,
 }
 
 impl Emulator {
@@ -65,20 +65,6 @@ impl Emulator {
             && self.predictions.iter().all(|run| run.len() == observations)
     }
 
-    /// Whether it corrects a coarser one.
-    pub(crate) fn is_corrected(&self) -> bool {
-        self.coarse.is_some()
-    }
-
-    /// Whether the model, or a coarser one, was seen to exclude a bound by far.
-    pub(crate) fn excludes(&self, bound: (usize, bool)) -> bool {
-        self.excluded.contains(&bound)
-    }
-
-    pub(crate) fn exclude(&mut self, bound: (usize, bool)) {
-        self.excluded.push(bound);
-    }
-
     /// Runs of the model that it rests on, without those of a coarser model.
     pub fn runs(&self) -> usize {
         self.places.len()
@@ -86,13 +72,10 @@ impl Emulator {
 
     /// Shares of the parameters' ranges at free variables.
     fn place(&self, free: &DVector<f64>) -> DVector<f64> {
-        DVector::from_iterator(
-            free.len(),
-            self.parameters
-                .iter()
-                .zip(free.iter())
-                .map(|(parameter, &z)| parameter.share(parameter.bounded(z))),
-        )
+        DVector::from_fn(free.len(), |k, _| {
+            let parameter = &self.parameters[k];
+            parameter.share(parameter.bounded(free[k]))
+        })
     }
 
     /// Where the model fits: of its runs whose `score` is at most `margin` above the least, the best one and up to `count` more, each as
@@ -103,12 +86,8 @@ impl Emulator {
         margin: f64,
         count: usize,
     ) -> Vec<DVector<f64>> {
-        let scores: Vec<f64> = self
-            .points
-            .iter()
-            .zip(&self.predictions)
-            .map(|(free, predicted)| score(free, predicted))
-            .collect();
+        let runs = self.points.iter().zip(&self.predictions);
+        let scores: Vec<f64> = runs.map(|(free, predicted)| score(free, predicted)).collect();
         let least = scores.iter().copied().fold(f64::INFINITY, f64::min);
         let mut low: Vec<usize> = (0..scores.len())
             .filter(|&run| scores[run] <= least + margin)
@@ -117,19 +96,11 @@ impl Emulator {
         let mut chosen: Vec<usize> = low.first().copied().into_iter().collect();
         for _ in 0..count {
             let distance = |run: usize| {
-                chosen
-                    .iter()
-                    .map(|&other| (&self.places[run] - &self.places[other]).norm())
-                    .fold(f64::INFINITY, f64::min)
+                let to = |&other: &usize| (&self.places[run] - &self.places[other]).norm();
+                chosen.iter().map(to).fold(f64::INFINITY, f64::min)
             };
-            let farthest = low
-                .iter()
-                .copied()
-                .max_by(|&a, &b| distance(a).total_cmp(&distance(b)));
-            match farthest.filter(|&run| distance(run) > 0.0) {
-                Some(run) => chosen.push(run),
-                None => break,
-            }
+            let farthest = low.iter().max_by(|&&a, &&b| distance(a).total_cmp(&distance(b)));
+            chosen.extend(farthest.copied().filter(|&run| distance(run) > 0.0));
         }
         chosen.into_iter().map(|run| self.points[run].clone()).collect()
     }
@@ -186,12 +157,9 @@ impl Emulator {
 
     /// Predictions at shares of the ranges.
     fn at(&self, place: &DVector<f64>) -> DVector<f64> {
-        let near = DVector::from_iterator(
-            self.places.len(),
-            self.places
-                .iter()
-                .map(|other| correlation((place - other).norm())),
-        );
+        let near = DVector::from_fn(self.places.len(), |run, _| {
+            correlation((place - &self.places[run]).norm())
+        });
         let mut predicted = self.mean.clone();
         predicted.gemv_tr(1.0, &self.weights, &near, 1.0);
         match &self.coarse {
@@ -203,13 +171,10 @@ impl Emulator {
 
 impl Model for Emulator {
     fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError> {
-        let place = DVector::from_iterator(
-            parameters.len(),
-            self.parameters
-                .iter()
-                .zip(parameters)
-                .map(|(parameter, &value)| parameter.share(parameter.coordinate(value))),
-        );
+        let place = DVector::from_fn(parameters.len(), |k, _| {
+            let parameter = &self.parameters[k];
+            parameter.share(parameter.coordinate(parameters[k]))
+        });
         Ok(self.at(&place).data.into())
     }
 }

@@ -10,8 +10,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
+use crate::parameter::physical;
 use crate::point::Point;
-use crate::{CalibrationError, Model, ModelError, Parameter};
+use crate::{Calibration, CalibrationError, Model, ModelError};
 
 /// Smallest and largest step of a derivative, in the free variable: rounding spoils shorter ones, curvature longer ones.
 const STEPS: (f64, f64) = (1e-4, 0.5);
@@ -20,11 +21,9 @@ const CHANGE_TO_NOISE: f64 = 5.0;
 
 /// The model, what it is compared with, and how often it has run.
 pub(crate) struct Evaluator<'a> {
+    pub calibration: &'a Calibration<'a>,
+    /// The calibration's own, or an emulator of it.
     model: &'a dyn Model,
-    pub parameters: &'a [Parameter],
-    pub values: &'a [f64],
-    /// 1 where the noise is to be estimated.
-    pub sigmas: &'a [f64],
     relative_noise: f64,
     limit: usize,
     count: AtomicUsize,
@@ -32,36 +31,25 @@ pub(crate) struct Evaluator<'a> {
 }
 
 impl<'a> Evaluator<'a> {
-    pub fn new(
-        model: &'a dyn Model,
-        parameters: &'a [Parameter],
-        values: &'a [f64],
-        sigmas: &'a [f64],
-        relative_noise: f64,
-        limit: usize,
-    ) -> Self {
+    pub fn new(calibration: &'a Calibration<'a>) -> Self {
         Self {
-            model,
-            parameters,
-            values,
-            sigmas,
-            relative_noise,
-            limit,
+            calibration,
+            model: calibration.model,
+            relative_noise: calibration.options.relative_noise,
+            limit: calibration.options.max_evaluations,
             count: AtomicUsize::new(0),
             failure: Mutex::new(None),
         }
     }
 
     /// The same for an emulator of the model: smooth, and free to run.
-    pub fn of(&self, emulator: &'a dyn Model) -> Self {
-        Self::new(
-            emulator,
-            self.parameters,
-            self.values,
-            self.sigmas,
-            0.0,
-            usize::MAX,
-        )
+    pub fn emulated(calibration: &'a Calibration<'a>, emulator: &'a dyn Model) -> Self {
+        Self {
+            model: emulator,
+            relative_noise: 0.0,
+            limit: usize::MAX,
+            ..Self::new(calibration)
+        }
     }
 
     /// Model runs so far.
@@ -69,22 +57,13 @@ impl<'a> Evaluator<'a> {
         self.count.load(Ordering::Relaxed)
     }
 
-    /// Physical values of the free variables.
-    pub fn physical(&self, free: &DVector<f64>) -> Vec<f64> {
-        self.parameters
-            .iter()
-            .zip(free.iter())
-            .map(|(parameter, &z)| parameter.value(parameter.bounded(z)))
-            .collect()
-    }
-
     /// Standardised residuals; all infinite where the model has no answer.
     pub fn residuals(&self, free: &DVector<f64>) -> Result<DVector<f64>, CalibrationError> {
         if let Some(predicted) = self.predict(free)? {
             return Ok(self.standardised(free, &predicted));
         }
-        let priors = self.parameters.iter().filter(|p| p.prior().is_some()).count();
-        Ok(DVector::from_element(self.values.len() + priors, f64::INFINITY))
+        let count = self.calibration.observations.len() + self.calibration.priors();
+        Ok(DVector::from_element(count, f64::INFINITY))
     }
 
     /// Runs the model; nothing where it has no answer.
@@ -92,18 +71,16 @@ impl<'a> Evaluator<'a> {
         if self.count.fetch_add(1, Ordering::Relaxed) >= self.limit {
             return Err(CalibrationError::EvaluationLimit { limit: self.limit });
         }
-        let predicted = match self.model.predict(&self.physical(free)) {
+        let predicted = match self.model.predict(&physical(&self.calibration.parameters, free)) {
             Ok(predicted) => predicted,
             Err(error) => {
                 self.remember(error);
                 return Ok(None);
             }
         };
-        if predicted.len() != self.values.len() {
-            return Err(CalibrationError::PredictionLength {
-                expected: self.values.len(),
-                found: predicted.len(),
-            });
+        let (found, expected) = (predicted.len(), self.calibration.observations.len());
+        if found != expected {
+            return Err(CalibrationError::PredictionLength { expected, found });
         }
         if let Some(index) = predicted.iter().position(|value| !value.is_finite()) {
             self.remember(Box::new(NotFinite { index }));
@@ -116,15 +93,17 @@ impl<'a> Evaluator<'a> {
     pub fn standardised(&self, free: &DVector<f64>, predicted: &[f64]) -> DVector<f64> {
         let data = predicted
             .iter()
-            .zip(self.values)
-            .zip(self.sigmas)
-            .map(|((predicted, observed), sigma)| (predicted - observed) / sigma);
-        let priors = self
-            .parameters
-            .iter()
-            .zip(free.iter())
-            .filter_map(|(parameter, &z)| parameter.prior_residual(z));
+            .zip(self.data())
+            .map(|(predicted, (observed, sigma))| (predicted - observed) / sigma);
+        let parameters = self.calibration.parameters.iter().zip(free.iter());
+        let priors = parameters.filter_map(|(parameter, &z)| parameter.prior_residual(z));
         DVector::from_vec(data.chain(priors).collect())
+    }
+
+    /// The observations with their sigmas.
+    fn data(&self) -> impl Iterator<Item = (&f64, &f64)> {
+        let calibration = self.calibration;
+        calibration.observations.iter().zip(&calibration.sigmas)
     }
 
     /// The residuals at many places, in parallel.
@@ -144,7 +123,7 @@ impl<'a> Evaluator<'a> {
             let column = near.column(k);
             column.component_mul(&column).dot(weights).sqrt()
         };
-        (0..self.parameters.len())
+        (0..self.calibration.parameters.len())
             .map(|k| match near.map(|near| slope(near, k)) {
                 Some(slope) if slope > 0.0 => (noise / slope).clamp(least, STEPS.1),
                 Some(_) => STEPS.1,
@@ -155,14 +134,8 @@ impl<'a> Evaluator<'a> {
 
     /// Length of the model's own noise in the weighted residuals.
     pub fn noise(&self, weights: &DVector<f64>) -> f64 {
-        let square: f64 = self
-            .values
-            .iter()
-            .zip(self.sigmas)
-            .zip(weights.iter())
-            .map(|((value, sigma), weight)| weight * (self.relative_noise * value / sigma).powi(2))
-            .sum();
-        square.sqrt()
+        let square = |((value, sigma), weight)| weight * f64::powi(self.relative_noise * value / sigma, 2);
+        self.data().zip(weights.iter()).map(square).sum::<f64>().sqrt()
     }
 
     /// Derivatives of the residuals by the free variables over `steps`; the column of one that is `held` is 0.
@@ -194,9 +167,10 @@ impl<'a> Evaluator<'a> {
             let column = match (feasible(&pair[0]), feasible(&pair[1])) {
                 (true, true) => (&pair[0] - &pair[1]) / (2.0 * steps[k]),
                 (false, false) => {
+                    let parameter = &self.calibration.parameters[k];
                     return Err(CalibrationError::NoDerivative {
-                        name: self.parameters[k].name().to_owned(),
-                        value: self.physical(free)[k],
+                        name: parameter.name().to_owned(),
+                        value: parameter.physical(free[k]),
                         source: self.last_failure(),
                     });
                 }

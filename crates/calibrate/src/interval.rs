@@ -24,9 +24,8 @@ const STRIDES: (f64, f64) = (1.3, 2.5);
 /// The profile of one parameter.
 #[derive(Debug, Default)]
 pub(crate) struct Profile {
-    /// Ends in the parameter's coordinate; `None` where the likelihood does not close.
-    pub lower: Option<f64>,
-    pub upper: Option<f64>,
+    /// Lower and upper end in the parameter's coordinate; `None` where the likelihood does not close.
+    pub ends: [Option<f64>; 2],
     /// Coordinates and rises that were computed, ascending.
     pub curve: Vec<(f64, f64)>,
     /// What the ends rest on.
@@ -48,17 +47,17 @@ impl Profiler<'_> {
     pub fn profile(&self, k: usize) -> Result<Profile, Stop> {
         let here = self.coordinate(k);
         let mut profile = Profile::default();
-        for sign in [-1.0, 1.0] {
-            let mut stations = vec![self.at_optimum()];
+        for (index, sign) in [-1.0, 1.0].into_iter().enumerate() {
+            let mut stations = vec![Station {
+                optimum: self.optimum.clone(),
+                distance: 0.0,
+                root: 0.0,
+            }];
             stations.extend(self.at_rival(k, sign));
             let end = self
                 .side(k, sign, &mut stations)?
                 .map(|distance| here + sign * distance);
-            *(if sign < 0.0 {
-                &mut profile.lower
-            } else {
-                &mut profile.upper
-            }) = end;
+            profile.ends[index] = end;
             if let Some(bound) = stations.last() {
                 profile.witnesses.push(Witness {
                     point: bound.optimum.point.clone(),
@@ -73,7 +72,7 @@ impl Profiler<'_> {
                 threshold: self.wanted,
                 bound: None,
             }));
-            let curve = stations.iter().skip(usize::from(sign > 0.0));
+            let curve = stations.iter().skip(index);
             profile
                 .curve
                 .extend(curve.map(|station| (here + sign * station.distance, station.root.powi(2))));
@@ -82,18 +81,10 @@ impl Profiler<'_> {
         Ok(profile)
     }
 
-    fn at_optimum(&self) -> Station {
-        Station {
-            optimum: self.optimum.clone(),
-            distance: 0.0,
-            root: 0.0,
-        }
-    }
-
     /// The rival, if it lies on this side.
     fn at_rival(&self, k: usize, sign: f64) -> Option<Station> {
         let rival = self.rival?;
-        let coordinate = self.search.evaluator.parameters[k].bounded(rival.free[k]);
+        let coordinate = self.parameter(k).bounded(rival.free[k]);
         let distance = sign * (coordinate - self.coordinate(k));
         (distance > 0.0).then(|| Station {
             root: self.rise(rival).max(0.0).sqrt(),
@@ -107,7 +98,7 @@ impl Profiler<'_> {
 
     /// Distance of the end on one side, where it is closed. `stations` are those known, by distance, and stay so; the bound is the last.
     fn side(&self, k: usize, sign: f64, stations: &mut Vec<Station>) -> Result<Option<f64>, Stop> {
-        let parameter = &self.search.evaluator.parameters[k];
+        let parameter = self.parameter(k);
         let excluded = EXCLUSION * self.wanted;
         let farthest = (parameter.bounded(sign * FARTHEST) - self.coordinate(k)).abs();
         // What the data do not exclude at the bound itself, they do not exclude.
@@ -184,7 +175,6 @@ impl Profiler<'_> {
     }
 }
 
-/// Puts a station in its place.
 fn insert(stations: &mut Vec<Station>, station: Station) {
     let place = stations.partition_point(|other| other.distance < station.distance);
     stations.insert(place, station);

@@ -44,7 +44,6 @@ mod bootstrap;
 mod calibration;
 mod descent;
 mod deviance;
-mod direct;
 mod emulated;
 mod emulator;
 mod error;

@@ -64,54 +64,33 @@ impl Default for Options {
 
 impl Options {
     pub(crate) fn check(&self, parameters: usize) -> Result<(), CalibrationError> {
-        let check = |name, value: f64, allowed, good: bool| {
-            if good {
-                Ok(())
-            } else {
-                Err(CalibrationError::InvalidOption { name, value, allowed })
-            }
-        };
-        let (confidence, noise) = (self.confidence, self.relative_noise);
-        let allowed = "between 0.5 and 0.9999";
-        check(
-            "confidence",
-            confidence,
-            allowed,
-            (0.5..=0.9999).contains(&confidence),
-        )?;
-        let tolerance = self.tolerance;
-        let allowed = "above 0, at most 0.5";
-        check(
-            "tolerance",
-            tolerance,
-            allowed,
-            tolerance > 0.0 && tolerance <= 0.5,
-        )?;
-        let allowed = "between 0 and 0.1";
-        check("relative_noise", noise, allowed, (0.0..=0.1).contains(&noise))?;
-        if let Some(threshold) = self.loss.threshold() {
-            let good = threshold.is_finite() && threshold >= 0.5;
-            check(
-                "threshold of the loss",
-                threshold,
-                "finite and at least 0.5",
-                good,
-            )?;
+        let invalid = |name, value, allowed| Err(CalibrationError::InvalidOption { name, value, allowed });
+        if !(0.5..=0.9999).contains(&self.confidence) {
+            return invalid("confidence", self.confidence, "between 0.5 and 0.9999");
+        }
+        if !(self.tolerance > 0.0 && self.tolerance <= 0.5) {
+            return invalid("tolerance", self.tolerance, "above 0, at most 0.5");
+        }
+        if !(0.0..=0.1).contains(&self.relative_noise) {
+            return invalid("relative_noise", self.relative_noise, "between 0 and 0.1");
+        }
+        if let Some(threshold) = self.loss.threshold()
+            && !(threshold.is_finite() && threshold >= 0.5)
+        {
+            return invalid("threshold of the loss", threshold, "finite and at least 0.5");
         }
         if let Some(start) = &self.start {
-            let found = start.len();
-            let allowed = "one value a parameter";
-            check(
-                "number of start values",
-                found as f64,
-                allowed,
-                found == parameters,
-            )?;
-            for &value in start {
-                check("start value", value, "finite", value.is_finite())?;
+            if start.len() != parameters {
+                let found = start.len() as f64;
+                return invalid("number of start values", found, "one value a parameter");
+            }
+            if let Some(&value) = start.iter().find(|value| !value.is_finite()) {
+                return invalid("start value", value, "finite");
             }
         }
-        let runs = self.max_evaluations;
-        check("max_evaluations", runs as f64, "at least 1", runs > 0)
+        if self.max_evaluations == 0 {
+            return invalid("max_evaluations", 0.0, "at least 1");
+        }
+        Ok(())
     }
 }

@@ -5,6 +5,8 @@
 //!
 //! s = s_lower + (s_upper − s_lower)/(1 + e^(−z)).
 
+use nalgebra::DVector;
+
 use crate::CalibrationError;
 
 /// Farthest that the free variable goes: within a thousandth of the range from a bound.
@@ -55,12 +57,7 @@ impl Parameter {
     ///
     /// [`CalibrationError::InvalidParameter`] unless the bounds are finite, in order, and positive with a logarithmic scale.
     pub fn new(name: &str, lower: f64, upper: f64, scale: Scale) -> Result<Self, CalibrationError> {
-        let error = |quantity, value, allowed| CalibrationError::InvalidParameter {
-            name: name.to_owned(),
-            quantity,
-            value,
-            allowed,
-        };
+        let error = |quantity, value, allowed| invalid(name, quantity, value, allowed);
         let positive = scale == Scale::Logarithmic;
         if !lower.is_finite() || (positive && lower <= 0.0) {
             let allowed = "finite, and positive with a logarithmic scale";
@@ -91,12 +88,7 @@ impl Parameter {
     /// [`CalibrationError::InvalidParameter`] unless the prior's value lies within the bounds and its sigma is finite and
     /// positive.
     pub fn with_prior(mut self, prior: Prior) -> Result<Self, CalibrationError> {
-        let error = |quantity, value, allowed| CalibrationError::InvalidParameter {
-            name: self.name.clone(),
-            quantity,
-            value,
-            allowed,
-        };
+        let error = |quantity, value, allowed| invalid(&self.name, quantity, value, allowed);
         if !(self.lower..=self.upper).contains(&prior.value) {
             return Err(error("prior", prior.value, "a value within the bounds"));
         }
@@ -181,6 +173,11 @@ impl Parameter {
         (share / (1.0 - share)).ln().clamp(-FARTHEST, FARTHEST)
     }
 
+    /// Value at z.
+    pub(crate) fn physical(&self, free: f64) -> f64 {
+        self.value(self.bounded(free))
+    }
+
     /// Whether a value is as close to a bound as the fit goes.
     pub(crate) fn is_at_bound(&self, value: f64) -> bool {
         self.free(self.coordinate(value)).abs() > FARTHEST - 0.5
@@ -197,6 +194,21 @@ impl Parameter {
         self.prior
             .map(|prior| (self.bounded(free) - self.coordinate(prior.value)) / prior.sigma)
     }
+}
+
+fn invalid(name: &str, quantity: &'static str, value: f64, allowed: &'static str) -> CalibrationError {
+    CalibrationError::InvalidParameter {
+        name: name.to_owned(),
+        quantity,
+        value,
+        allowed,
+    }
+}
+
+/// Values of `parameters` at free variables.
+pub(crate) fn physical(parameters: &[Parameter], free: &DVector<f64>) -> Vec<f64> {
+    let pairs = parameters.iter().zip(free.iter());
+    pairs.map(|(parameter, &z)| parameter.physical(z)).collect()
 }
 
 #[cfg(test)]

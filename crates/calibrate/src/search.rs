@@ -5,7 +5,6 @@ use nalgebra::{DMatrix, DVector};
 use crate::descent::{Descent, Optimum};
 use crate::deviance::Deviance;
 use crate::evaluator::{Evaluator, feasible};
-use crate::observer::Observer;
 use crate::point::{Point, all_over, score};
 use crate::uncertainty::parameters_from_data;
 use crate::{CalibrationError, Loss};
@@ -15,7 +14,7 @@ pub(crate) const MAX_ROUNDS: usize = 24;
 /// Iterations of a descent to the optimum, and of one that is only compared with it: with 6 instead of 12, direct fits take 145 runs
 /// instead of 165, and one end in a hundred is off by its interval's width (tests/calibration_coverage.rs, 2400 fits).
 const ITERATIONS: u64 = 200;
-pub(crate) const FEW_ITERATIONS: u64 = 12;
+const FEW_ITERATIONS: u64 = 12;
 /// Next step in standard errors at which a descent that is only compared has converged, and above which the user is warned. With 0.35,
 /// a direct fit takes 10 runs less and one end in a hundred moves by a sixth of its interval (the same fits).
 pub(crate) const ROUGH: f64 = 0.1;
@@ -32,51 +31,67 @@ const ELSEWHERE: f64 = 0.7;
 /// Descents from elsewhere; the tests' models have two minima, and a wave as many as the scan shows.
 const RESTARTS: usize = 3;
 
-/// What a search needs.
 pub(crate) struct Search<'a> {
     pub evaluator: &'a Evaluator<'a>,
-    pub observer: Option<&'a Observer>,
     /// Whether the observations came with sigmas that are believed.
     pub known_noise: bool,
-    /// Next step in standard errors at which a descent has converged.
-    pub tolerance: f64,
-    pub loss: Loss,
-    /// Smallest noise that makes sense, in units of σ.
-    pub least_noise: f64,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    pub fn new(evaluator: &'a Evaluator<'a>) -> Self {
+        Self {
+            evaluator,
+            known_noise: evaluator.calibration.knows_noise,
+        }
+    }
+
     /// A descent of all parameters, as exact as the fit is asked to be.
     pub fn descent(&self, deviance: Deviance, jacobian: Option<DMatrix<f64>>) -> Descent<'_> {
         Descent {
             evaluator: self.evaluator,
             deviance,
-            observer: self.observer,
             held: None,
             jacobian,
             verified: true,
-            tolerance: self.tolerance,
+            tolerance: self.evaluator.calibration.options.tolerance,
             iterations: ITERATIONS,
+        }
+    }
+
+    /// A descent that is only compared with an optimum, whose deviance it takes; parameter `held` stays where it is.
+    pub fn brief_descent(
+        &self,
+        deviance: Deviance,
+        jacobian: Option<DMatrix<f64>>,
+        held: Option<usize>,
+    ) -> Descent<'_> {
+        Descent {
+            held,
+            verified: false,
+            tolerance: ROUGH,
+            iterations: FEW_ITERATIONS,
+            ..self.descent(deviance, jacobian)
         }
     }
 
     /// Scale of the noise at a point: known, or from the residuals there.
     fn scaled(&self, deviance: Deviance, residuals: &DVector<f64>, freedom: f64) -> Deviance {
-        match (self.loss.is_robust(), self.known_noise) {
-            (false, true) => deviance,
-            (true, false) => deviance
-                .with_median_spread(residuals, freedom, self.least_noise)
-                .normalised(residuals, freedom, self.least_noise),
-            _ => deviance.normalised(residuals, freedom, self.least_noise),
-        }
+        let calibration = self.evaluator.calibration;
+        let (robust, least) = (calibration.options.loss.is_robust(), calibration.least_noise());
+        let spread = match (robust, self.known_noise) {
+            (false, true) => return deviance,
+            (true, false) => deviance.with_median_spread(residuals, freedom, least),
+            _ => deviance,
+        };
+        spread.normalised(residuals, freedom, least)
     }
 
     /// Descends from `start`, adapting the scale of the noise. Tukey's loss is not convex: Huber's leads to it.
     pub fn refine(&self, start: Point, jacobian: Option<DMatrix<f64>>) -> Result<Optimum, CalibrationError> {
-        match self.loss {
-            Loss::Tukey { .. } => {
+        match self.evaluator.calibration.options.loss {
+            loss @ Loss::Tukey { .. } => {
                 let near = self.refine_with(Loss::HUBER, start, jacobian)?;
-                self.refine_with(self.loss, near.point, Some(near.jacobian))
+                self.refine_with(loss, near.point, Some(near.jacobian))
             }
             loss => self.refine_with(loss, start, jacobian),
         }
@@ -88,8 +103,9 @@ impl Search<'_> {
         start: Point,
         mut jacobian: Option<DMatrix<f64>>,
     ) -> Result<Optimum, CalibrationError> {
-        let data = self.evaluator.values.len();
-        let freedom = (data as f64 - self.evaluator.parameters.len() as f64).max(1.0);
+        let calibration = self.evaluator.calibration;
+        let data = calibration.observations.len();
+        let freedom = (data as f64 - calibration.parameters.len() as f64).max(1.0);
         let first = Deviance {
             loss,
             data,
@@ -107,8 +123,7 @@ impl Search<'_> {
                 let offset = optimum.offset;
                 return Err(CalibrationError::NotConverged { iterations, offset });
             }
-            let used = parameters_from_data(&optimum.jacobian, &deviance, &optimum.point.residuals);
-            let freedom = (data as f64 - used).max(0.5);
+            let freedom = (data as f64 - parameters_from_data(&optimum)).max(0.5);
             let mut next = self.scaled(deviance, &optimum.point.residuals, freedom);
             let change = |new: f64, old: f64| (new / old).ln().abs();
             let moved = change(next.spread, deviance.spread);
@@ -137,9 +152,10 @@ impl Search<'_> {
         let mut places: Vec<DVector<f64>> = start.into_iter().collect();
         // Of several minima that are as good, the one next to the start is wanted.
         let started = places.len();
-        places.extend(all_over(self.evaluator.parameters.len(), count));
+        let calibration = self.evaluator.calibration;
+        places.extend(all_over(calibration.parameters.len(), count));
         let mut points = self.evaluator.points(places)?;
-        let data = self.evaluator.values.len();
+        let data = calibration.observations.len();
         let score = |point: &Point| score(&point.residuals, data, self.known_noise);
         points[started..].sort_by(|a, b| score(a).total_cmp(&score(b)));
         points.retain(|point| feasible(&point.residuals));
@@ -188,12 +204,7 @@ impl Search<'_> {
         let Some(start) = scan.iter().skip(1).find(|point| far(point)) else {
             return Ok(None);
         };
-        let descent = Descent {
-            verified: false,
-            tolerance: ROUGH,
-            iterations: FEW_ITERATIONS,
-            ..self.descent(optimum.deviance, None)
-        };
+        let descent = self.brief_descent(optimum.deviance, None, None);
         match descent.run(start.clone()) {
             Ok(other) if other.value() < optimum.value() - BETTER => Ok(Some(other)),
             Ok(other) if other.value() < optimum.value() + RIVAL && far(&other.point) => Ok(Some(other)),

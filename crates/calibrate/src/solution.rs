@@ -17,7 +17,6 @@ use crate::{Calibration, CalibrationError, Loss, Parameter, Profiles, Warning};
 /// Probability of residuals as large as these under the given sigmas, below which the sigmas are not believed.
 const MISFIT: f64 = 0.001;
 
-/// How a solution is sought.
 pub(crate) struct Route {
     /// Free variables to try first.
     pub start: Option<DVector<f64>>,
@@ -43,26 +42,13 @@ pub(crate) struct Solution {
 }
 
 impl Calibration<'_> {
-    /// A search by `evaluator`.
-    pub(crate) fn search<'e>(&'e self, evaluator: &'e Evaluator<'e>) -> Search<'e> {
-        let options = self.options();
-        Search {
-            evaluator,
-            observer: options.observer.as_ref(),
-            known_noise: self.sigmas().is_some(),
-            tolerance: options.tolerance,
-            loss: options.loss,
-            least_noise: self.least_noise(evaluator.sigmas),
-        }
-    }
-
     /// Searches the optimum and describes it.
     pub(crate) fn solve(
         &self,
         evaluator: &Evaluator<'_>,
         route: &Route,
     ) -> Result<Solution, CalibrationError> {
-        let mut search = self.search(evaluator);
+        let mut search = Search::new(evaluator);
         let scan = search.scan(route.start.clone(), route.scan)?;
         let (mut optimum, rival) = search.best(&scan)?;
         for _ in 0..MAX_ROUNDS {
@@ -75,7 +61,7 @@ impl Calibration<'_> {
             match self.describe(&search, &optimum, rival.as_ref(), route) {
                 Ok(solution) => return Ok(Solution { misfit, ..solution }),
                 Err(Stop::Better(point)) => {
-                    search.known_noise = self.sigmas().is_some();
+                    search.known_noise = self.knows_noise;
                     optimum = search.refine(point, None)?;
                 }
                 Err(Stop::Failed(error)) => return Err(error),
@@ -89,7 +75,7 @@ impl Calibration<'_> {
 
     /// Whether the residuals are larger than known sigmas allow. A robust loss judges its own spread.
     fn misfit(&self, optimum: &Optimum) -> Option<Warning> {
-        if self.sigmas().is_none() || self.options().loss != Loss::Squares {
+        if !self.knows_noise || self.options.loss != Loss::Squares {
             return None;
         }
         let residuals = optimum.point.residuals.iter().take(optimum.deviance.data);
@@ -105,8 +91,7 @@ impl Calibration<'_> {
 
     /// Observations less the parameters that they determine.
     pub(crate) fn freedom(&self, optimum: &Optimum) -> f64 {
-        let used = parameters_from_data(&optimum.jacobian, &optimum.deviance, &optimum.point.residuals);
-        (self.observations().len() as f64 - used).max(0.0)
+        (self.observations.len() as f64 - parameters_from_data(optimum)).max(0.0)
     }
 
     /// The optimum with estimates and their intervals.
@@ -117,10 +102,9 @@ impl Calibration<'_> {
         rival: Option<&Point>,
         route: &Route,
     ) -> Result<Solution, Stop> {
-        let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
-        let covariance = Covariance::new(&optimum.jacobian, &curvatures);
-        let noise_estimated = !search.known_noise || self.options().loss.is_robust();
-        let tail = 1.0 - self.options().confidence;
+        let covariance = Covariance::of(optimum);
+        let noise_estimated = !search.known_noise || self.options.loss.is_robust();
+        let tail = 1.0 - self.options.confidence;
         let profiler = Profiler {
             search,
             optimum,
@@ -138,7 +122,7 @@ impl Calibration<'_> {
             })
             .into_iter()
             .collect();
-        for (k, parameter) in self.parameters().iter().enumerate() {
+        for (k, parameter) in self.parameters.iter().enumerate() {
             let free = optimum.point.free[k];
             let coordinate = parameter.bounded(free);
             let error = covariance
@@ -151,10 +135,8 @@ impl Calibration<'_> {
                 }
             };
             let value = |coordinate: f64| parameter.value(coordinate);
-            let interval = Interval {
-                lower: profile.lower.map(value),
-                upper: profile.upper.map(value),
-            };
+            let [lower, upper] = profile.ends.map(|end| end.map(value));
+            let interval = Interval { lower, upper };
             estimates.push(Estimate {
                 name: parameter.name().to_owned(),
                 value: value(coordinate),
@@ -185,14 +167,10 @@ impl Calibration<'_> {
 /// The interval of `reach` to either side; open where it would leave the bounds.
 fn symmetric(parameter: &Parameter, coordinate: f64, reach: Option<f64>) -> Profile {
     let [lowest, highest] = [-FARTHEST, FARTHEST].map(|free| parameter.bounded(free));
-    let end = |sign: f64| {
-        reach
-            .map(|reach| coordinate + sign * reach)
-            .filter(|end| (lowest..=highest).contains(end))
-    };
+    let inside = |end: &f64| (lowest..=highest).contains(end);
+    let end = |sign: f64| reach.map(|reach| coordinate + sign * reach).filter(inside);
     Profile {
-        lower: end(-1.0),
-        upper: end(1.0),
+        ends: [-1.0, 1.0].map(end),
         ..Profile::default()
     }
 }

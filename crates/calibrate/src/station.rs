@@ -2,13 +2,13 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::CalibrationError;
-use crate::descent::{Descent, Optimum};
+use crate::descent::Optimum;
 use crate::parameter::FARTHEST;
 use crate::point::{Point, all_over};
-use crate::search::{BETTER, FEW_ITERATIONS, ROUGH, Search};
+use crate::search::{BETTER, Search};
 use crate::step::LONGEST_STEP;
 use crate::uncertainty::Covariance;
+use crate::{CalibrationError, Parameter};
 
 /// Best places of a scan from which the others are fitted at a station. With none, one end of μ_d in a hundred is off by a tenth of its
 /// interval and the worst by 0.4; 4 change nothing more (tests/calibration_coverage.rs).
@@ -54,7 +54,11 @@ pub(crate) struct Station {
 impl Profiler<'_> {
     /// The estimate of parameter `k` in its coordinate.
     pub fn coordinate(&self, k: usize) -> f64 {
-        self.search.evaluator.parameters[k].bounded(self.optimum.point.free[k])
+        self.parameter(k).bounded(self.optimum.point.free[k])
+    }
+
+    pub fn parameter(&self, k: usize) -> &Parameter {
+        &self.search.evaluator.calibration.parameters[k]
     }
 
     /// Rise of the deviance from the optimum.
@@ -64,7 +68,7 @@ impl Profiler<'_> {
 
     /// Fits all parameters but `k`, which lies `distance` away from its estimate.
     pub fn station(&self, k: usize, sign: f64, distance: f64, known: &[Station]) -> Result<Station, Stop> {
-        let held = self.search.evaluator.parameters[k].free(self.coordinate(k) + sign * distance);
+        let held = self.parameter(k).free(self.coordinate(k) + sign * distance);
         let (near, jacobian) = self.near(k, held, known);
         let mut found = Optimum {
             point: self.best_of(near, 1)?.swap_remove(0),
@@ -105,14 +109,8 @@ impl Profiler<'_> {
         start: Point,
         jacobian: Option<DMatrix<f64>>,
     ) -> Result<Optimum, CalibrationError> {
-        Descent {
-            held: Some(k),
-            verified: false,
-            tolerance: ROUGH,
-            iterations: FEW_ITERATIONS,
-            ..self.search.descent(self.optimum.deviance, jacobian)
-        }
-        .run(start)
+        let deviance = self.optimum.deviance;
+        self.search.brief_descent(deviance, jacobian, Some(k)).run(start)
     }
 
     /// The `count` best points of `places`.

@@ -30,8 +30,8 @@ pub(crate) struct Quadratic {
     free: DVector<f64>,
     gradient: DVector<f64>,
     information: DMatrix<f64>,
-    /// The variables that a step may move.
-    moving: Vec<usize>,
+    /// Whether a step may move each variable.
+    moves: Vec<bool>,
 }
 
 /// A step and by how much it should lower the deviance.
@@ -47,8 +47,8 @@ impl Quadratic {
         let gradient = jacobian.tr_mul(&weights.component_mul(&point.residuals));
         let pressed = |k: usize| gradient[k] * point.free[k] < 0.0 && point.free[k].abs() >= FARTHEST;
         Self {
-            moving: (0..gradient.len())
-                .filter(|&k| Some(k) != held && !pressed(k))
+            moves: (0..gradient.len())
+                .map(|k| Some(k) != held && !pressed(k))
                 .collect(),
             free: point.free.clone(),
             information: information(jacobian, weights),
@@ -58,24 +58,22 @@ impl Quadratic {
 
     /// The step at damping λ; nothing where H is singular for it.
     pub fn step(&self, damping: f64) -> Option<Step> {
-        let moving = &self.moving;
-        let mut change = DVector::zeros(self.free.len());
-        if moving.is_empty() {
-            return Some(Step { change, gain: 0.0 });
+        let (mut matrix, mut downhill) = (self.information.clone(), -&self.gradient);
+        for (k, &moves) in self.moves.iter().enumerate() {
+            if moves {
+                // Where the slopes vanish while the deviance bends, damping acts on the ridge alone.
+                matrix[(k, k)] = (1.0 + damping) * (matrix[(k, k)] + RIDGE);
+            } else {
+                matrix.fill_row(k, 0.0);
+                matrix.fill_column(k, 0.0);
+                (matrix[(k, k)], downhill[k]) = (1.0, 0.0);
+            }
         }
-        let mut matrix = DMatrix::from_fn(moving.len(), moving.len(), |i, j| {
-            self.information[(moving[i], moving[j])]
+        let solved = matrix.cholesky()?.solve(&downhill);
+        let change = self.free.zip_map(&solved, |free, solved| {
+            let moved = free + solved.clamp(-LONGEST_STEP, LONGEST_STEP);
+            moved.clamp(-FARTHEST, FARTHEST) - free
         });
-        for i in 0..moving.len() {
-            // Where the slopes vanish while the deviance bends, damping acts on the ridge alone.
-            matrix[(i, i)] = (1.0 + damping) * (matrix[(i, i)] + RIDGE);
-        }
-        let gradient = DVector::from_fn(moving.len(), |i, _| -self.gradient[moving[i]]);
-        let solved = matrix.cholesky()?.solve(&gradient);
-        for (&k, solved) in moving.iter().zip(solved.iter()) {
-            let moved = self.free[k] + solved.clamp(-LONGEST_STEP, LONGEST_STEP);
-            change[k] = moved.clamp(-FARTHEST, FARTHEST) - self.free[k];
-        }
         let gain = -2.0 * self.gradient.dot(&change) - change.dot(&(&self.information * &change));
         Some(Step { change, gain })
     }

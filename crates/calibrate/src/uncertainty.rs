@@ -6,7 +6,8 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
-use crate::deviance::{Deviance, information};
+use crate::descent::Optimum;
+use crate::deviance::information;
 
 /// Eigenvalues of the information, scaled to a unit diagonal, below which a direction counts as unknown: rounding makes no larger ones. A
 /// parameter with more than its fourth root in such a direction is unknown.
@@ -21,22 +22,26 @@ pub(crate) struct Covariance {
 }
 
 impl Covariance {
-    pub fn new(jacobian: &DMatrix<f64>, curvatures: &DVector<f64>) -> Self {
-        let information = information(jacobian, curvatures);
+    /// Around `optimum`.
+    pub fn of(optimum: &Optimum) -> Self {
+        let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
+        let information = information(&optimum.jacobian, &curvatures);
         let count = information.nrows();
-        let scale: Vec<f64> = (0..count)
-            .map(|k| information[(k, k)].sqrt())
-            .map(|size| if size > 0.0 && size.is_finite() { size } else { 0.0 })
-            .collect();
-        let scaled = DMatrix::from_fn(count, count, |i, j| {
-            let size = scale[i] * scale[j];
-            if size > 0.0 {
-                information[(i, j)] / size
-            } else {
-                0.0
-            }
-        });
-        let mut known: Vec<bool> = scale.iter().map(|&size| size > 0.0).collect();
+        let scale = information.diagonal().map(f64::sqrt);
+        // What is not positive has a NaN for its root.
+        let mut known: Vec<bool> = scale.iter().map(|&size| size > 0.0 && size.is_finite()).collect();
+        // Beside the scales of what is known; 0 for the rest.
+        let over_scales = |matrix: DMatrix<f64>, known: &[bool]| {
+            matrix.map_with_location(|i, j, value| {
+                let size = scale[i] * scale[j];
+                if known[i] && known[j] && size > 0.0 {
+                    value / size
+                } else {
+                    0.0
+                }
+            })
+        };
+        let scaled = over_scales(information, &known);
         let eigen = SymmetricEigen::new(scaled);
         let mut matrix = DMatrix::zeros(count, count);
         for (index, &value) in eigen.eigenvalues.iter().enumerate() {
@@ -49,16 +54,7 @@ impl Covariance {
                 }
             }
         }
-        for i in 0..count {
-            for j in 0..count {
-                let size = scale[i] * scale[j];
-                matrix[(i, j)] = if known[i] && known[j] {
-                    matrix[(i, j)] / size
-                } else {
-                    0.0
-                };
-            }
-        }
+        let matrix = over_scales(matrix, &known);
         Self { matrix, known }
     }
 
@@ -88,12 +84,11 @@ impl Covariance {
 }
 
 /// Number of parameters that the data determine; the rest is the priors' doing.
-pub(crate) fn parameters_from_data(
-    jacobian: &DMatrix<f64>,
-    deviance: &Deviance,
-    residuals: &DVector<f64>,
-) -> f64 {
-    let covariance = Covariance::new(jacobian, &deviance.curvatures(residuals));
+pub(crate) fn parameters_from_data(optimum: &Optimum) -> f64 {
+    let Optimum {
+        jacobian, deviance, ..
+    } = optimum;
+    let covariance = Covariance::of(optimum);
     let priors = jacobian.rows(deviance.data, jacobian.nrows() - deviance.data);
     jacobian.ncols() as f64 - (covariance.matrix * priors.transpose() * priors).trace()
 }

@@ -59,7 +59,6 @@ impl Factor {
         Some(dissection.factor)
     }
 
-    /// Number of entries.
     pub(crate) fn entries(&self) -> usize {
         let entries = |front: &Front| {
             let (order, count) = (front.unknowns.len(), front.count());
@@ -102,19 +101,16 @@ impl Factor {
 }
 
 impl Front {
-    /// Unknowns eliminated.
     fn count(&self) -> usize {
         self.columns.len() / self.unknowns.len()
     }
 
-    /// The entries of `values` at the unknowns.
     fn gather(&self, values: &[f64], local: &mut Vec<f64>) {
         local.clear();
         local.extend(self.unknowns.iter().map(|&unknown| values[unknown]));
     }
 }
 
-/// A factorisation on its way.
 struct Dissection<'a> {
     mesh: &'a Mesh,
     matrices: &'a [ElementMatrix],

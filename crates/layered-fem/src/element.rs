@@ -40,9 +40,7 @@ pub(crate) const GAUSS_6: [(f64, f64); 6] = [
     (0.932_469_514_203_152, 0.171_324_492_379_170_35),
 ];
 
-/// Nodes of an element.
 pub(crate) const NODES: usize = 9;
-/// Degrees of freedom of an element.
 pub(crate) const DOFS: usize = 2 * NODES;
 /// Terms of the projected dilatation: {1, ξ, η}.
 const TERMS: usize = 3;

@@ -12,7 +12,6 @@
 
 /// Columns eliminated before the rest of the matrix is brought up to date.
 const BLOCK: usize = 48;
-/// Side of a tile.
 const TILE: usize = 4;
 
 /// Replaces the first `count` columns of a matrix of order `order` by (L, W), and C by S; `None` where A is not positive

@@ -37,7 +37,6 @@ pub(crate) struct Lines {
     pub(crate) depths: Vec<f64>,
     /// Layer of each row of elements; the number of layers for the base.
     pub(crate) layer_of_row: Vec<usize>,
-    /// Depth of each layer's top \[m\].
     pub(crate) tops: Vec<f64>,
     /// Columns of elements in the block around the load.
     pub(crate) block_columns: usize,
@@ -136,9 +135,10 @@ impl Lines {
                     .abs()
             }
         };
+        let uniform = |_: f64| 0.0;
         let block_rows = match profile.layers().first() {
-            Some(layer) => grade.fill_steep(block, &mut depths, steepness(layer, 0.0))?,
-            None => grade.fill(block, &mut depths)?,
+            Some(layer) => grade.fill(block, &mut depths, steepness(layer, 0.0))?,
+            None => grade.fill(block, &mut depths, uniform)?,
         };
         layer_of_row.extend(std::iter::repeat_n(0, block_rows));
         let (mut tops, mut bottom) = (Vec::new(), 0.0);
@@ -146,16 +146,16 @@ impl Lines {
             let top = bottom;
             tops.push(top);
             bottom += layer.thickness();
-            let rows = grade.fill_steep(bottom, &mut depths, steepness(layer, top))?;
+            let rows = grade.fill(bottom, &mut depths, steepness(layer, top))?;
             layer_of_row.extend(std::iter::repeat_n(index, rows));
         }
         if matches!(profile.base(), Base::HalfSpace(_)) {
-            let rows = grade.fill(bottom.max(block) + reach, &mut depths)?;
+            let rows = grade.fill(bottom.max(block) + reach, &mut depths, uniform)?;
             layer_of_row.extend(std::iter::repeat_n(profile.layers().len(), rows));
         }
         let mut radii = vec![0.0];
-        let block_columns = grade.fill(block, &mut radii)?;
-        grade.fill(block + reach, &mut radii)?;
+        let block_columns = grade.fill(block, &mut radii, uniform)?;
+        grade.fill(block + reach, &mut radii, uniform)?;
         let needed = 2 * (2 * radii.len() - 1) * (2 * depths.len() - 1);
         if needed > max_unknowns {
             return Err(FemError::TooLarge {
@@ -176,7 +176,6 @@ impl Lines {
     }
 }
 
-/// How lines are spaced.
 struct Grade {
     scale: f64,
     alpha: f64,
@@ -185,13 +184,9 @@ struct Grade {
 }
 
 impl Grade {
-    /// Continues `lines` to `end` and returns the number of intervals added: none if `end` is there already.
-    fn fill(&self, end: f64, lines: &mut Vec<f64>) -> Result<usize, FemError> {
-        self.fill_steep(end, lines, |_| 0.0)
-    }
-
-    /// The same in a soil whose |ln E| is `steepness`, monotone in the depth.
-    fn fill_steep(
+    /// Continues `lines` to `end` in a soil whose |ln E| is `steepness`, monotone in the depth, and returns the number of intervals added:
+    /// none if `end` is there already.
+    fn fill(
         &self,
         end: f64,
         lines: &mut Vec<f64>,

@@ -8,17 +8,15 @@
 //! outer radius above it, where the field has died out.
 
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
 
 use ground_field::{Base, Displacement, Soil, SoilProfile};
 
 use crate::FemError;
 use crate::element::{ElementMatrix, NODES};
 use crate::grading::Lines;
-use crate::half_space::HalfSpace;
 use crate::line::DepthLine;
 use crate::load;
-use crate::material::Elasticity;
+use crate::material::{Elasticity, HalfSpace};
 use crate::mesh::{Mesh, with_midpoints};
 use crate::system::System;
 
@@ -29,12 +27,12 @@ const ROWS_IN_DEPTH: usize = 5;
 #[derive(Debug)]
 pub(crate) struct Level {
     profile: SoilProfile,
-    lines: Lines,
+    pub lines: Lines,
     /// Radii of all columns of nodes.
-    columns: Vec<f64>,
+    pub columns: Vec<f64>,
     /// Depths of all rows of nodes.
     rows: Vec<f64>,
-    system: System,
+    pub system: System,
     /// Largest change by which a solution may still be corrected.
     rounding: f64,
     /// The closed form with the soil at the surface.
@@ -43,7 +41,7 @@ pub(crate) struct Level {
     far: Option<HalfSpace>,
     far_displacement: Vec<f64>,
     /// Solutions u* under a unit load by the bits of the contact radius.
-    solutions: Mutex<HashMap<u64, Arc<Vec<f64>>>>,
+    pub solutions: HashMap<u64, Vec<f64>>,
 }
 
 /// The soil of a layer (the base comes last) at a depth.
@@ -95,73 +93,49 @@ impl Level {
             system,
             rounding,
             far_displacement,
-            solutions: Mutex::default(),
+            solutions: HashMap::new(),
         })
-    }
-
-    /// Parts into which the intervals of the first mesh are cut.
-    pub(crate) fn parts(&self) -> usize {
-        self.lines.parts
-    }
-
-    /// Unknowns of the factored system.
-    pub(crate) fn unknowns(&self) -> usize {
-        self.system.unknowns()
-    }
-
-    /// Entries of its Cholesky factor.
-    pub(crate) fn factor_entries(&self) -> usize {
-        self.system.factor_entries()
-    }
-
-    /// Loads solved so far.
-    pub(crate) fn solves(&self) -> usize {
-        self.solutions
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner)
-            .len()
     }
 
     /// Bytes held: element matrices, factor, mesh and solutions.
     pub(crate) fn bytes(&self) -> usize {
-        let mesh = self.system.mesh();
+        let mesh = &self.system.mesh;
         let element = size_of::<ElementMatrix>() + size_of::<[usize; NODES]>();
-        element * mesh.elements.len() + 8 * self.factor_entries() + mesh.dofs() * 8 * (3 + self.solves())
+        let numbers = self.system.factor.entries() + mesh.dofs() * (3 + self.solutions.len());
+        element * mesh.elements.len() + 8 * numbers
     }
 
-    /// The solution u* under a unit load, solved at its first use.
-    fn solution(&self, contact_radius: f64) -> Result<Arc<Vec<f64>>, FemError> {
-        let mut solutions = self.solutions.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(found) = solutions.get(&contact_radius.to_bits()) {
-            return Ok(Arc::clone(found));
-        }
+    /// The solution u* under a unit load.
+    fn solve(&self, contact_radius: f64) -> Result<Vec<f64>, FemError> {
         let force = if contact_radius == 0.0 {
             load::point(&self.system, &self.lines, self.near, |z| {
                 soil_at(&self.profile, &self.lines, 0, z).young_modulus()
             })
         } else {
-            load::disc(self.system.mesh(), &self.lines, contact_radius)
+            load::disc(&self.system.mesh, &self.lines, contact_radius)
         };
-        let solved = self.system.solve(&force, &self.far_displacement, self.rounding)?;
-        let solved = Arc::new(solved);
-        solutions.insert(contact_radius.to_bits(), Arc::clone(&solved));
-        Ok(solved)
+        self.system.solve(&force, &self.far_displacement, self.rounding)
     }
 
-    /// Displacement along r at one depth under a unit load.
-    pub(crate) fn line(&self, contact_radius: f64, depth: f64) -> Result<DepthLine, FemError> {
+    /// Displacement along r at one depth under a unit load, which is solved for at its first use.
+    pub(crate) fn line(&mut self, contact_radius: f64, depth: f64) -> Result<DepthLine, FemError> {
         let bottom = self.rows[self.rows.len() - 1];
         if depth >= bottom {
-            return Ok(DepthLine::beyond(self.far, depth));
+            // Below the mesh.
+            return Ok(DepthLine::new(&[], 1.0, &[], None, self.far, depth));
         }
-        let solution = self.solution(contact_radius)?;
+        let key = contact_radius.to_bits();
+        if !self.solutions.contains_key(&key) {
+            self.solutions.insert(key, self.solve(contact_radius)?);
+        }
+        let solution = &self.solutions[&key];
         let weights = self.depth_weights(depth);
         let width = self.columns.len();
         let in_block = depth < self.lines.depths[self.lines.block_rows] && contact_radius == 0.0;
         let near = self.near;
         let last_column = 2 * self.lines.block_columns;
         let edge = if in_block {
-            load::edge_displacement(self.system.mesh(), &self.lines, near)
+            load::edge_displacement(&self.system.mesh, &self.lines, near)
         } else {
             Vec::new()
         };
@@ -173,7 +147,7 @@ impl Level {
                 let mut u = Displacement::ZERO;
                 for &(row, weight) in &weights {
                     let node = column + row * width;
-                    u += at_node(&solution, node) * weight;
+                    u += at_node(solution, node) * weight;
                     // Inside the block the unknown is the difference already; on its edge it is made one.
                     if in_block && column <= last_column {
                         u += at_node(&edge, node) * -weight;
@@ -238,11 +212,6 @@ impl Level {
             })
             .collect()
     }
-
-    /// Radii of the columns of nodes \[m\].
-    pub(crate) fn columns(&self) -> &[f64] {
-        &self.columns
-    }
 }
 
 /// A node's entries of a vector over the degrees of freedom.
@@ -267,7 +236,7 @@ mod tests {
         // Largest error of u_r over depths and radii, each depth by its own peak.
         let error = |parts: usize| {
             let lines = Lines::new(&profile, 0.4, parts, usize::MAX).unwrap();
-            let level = Level::new(&profile, LEAST_CHANGE, lines).unwrap();
+            let mut level = Level::new(&profile, LEAST_CHANGE, lines).unwrap();
             let depths = (0..15).map(|k| 0.6 + 0.1 * f64::from(k));
             let shares = depths.map(|depth| {
                 let line = level.line(0.0, depth).unwrap();

@@ -8,7 +8,6 @@ mod element;
 mod error;
 mod front;
 mod grading;
-mod half_space;
 mod level;
 mod line;
 mod load;

@@ -10,7 +10,7 @@
 
 use ground_field::Displacement;
 
-use crate::half_space::HalfSpace;
+use crate::material::HalfSpace;
 
 /// Nodes of the stencil that gives the derivatives.
 const STENCIL: usize = 7;
@@ -31,7 +31,7 @@ pub(crate) struct DepthLine {
 }
 
 impl DepthLine {
-    /// A line through `values` at `radii`, the first of which is the axis.
+    /// A line through `values` at `radii`, the first of which is the axis; without any, the closed form answers everywhere.
     pub(crate) fn new(
         radii: &[f64],
         scale: f64,
@@ -50,19 +50,6 @@ impl DepthLine {
             reach: radii.last().copied().unwrap_or(0.0),
             nodes,
             near,
-            far,
-            depth,
-        }
-    }
-
-    /// A line below the mesh.
-    pub(crate) fn beyond(far: Option<HalfSpace>, depth: f64) -> Self {
-        Self {
-            stretched: Vec::new(),
-            scale: 1.0,
-            reach: 0.0,
-            nodes: Vec::new(),
-            near: None,
             far,
             depth,
         }
@@ -143,23 +130,16 @@ fn fornberg(places: &[f64; STENCIL]) -> [[f64; 3]; STENCIL] {
     weights[0][0] = 1.0;
     let mut previous = 1.0;
     for i in 1..STENCIL {
-        let mut product = 1.0;
-        for j in 0..i {
-            let gap = places[i] - places[j];
-            product *= gap;
-            if j == i - 1 {
-                for m in (0..3).rev() {
-                    let lower = if m > 0 {
-                        m as f64 * weights[i - 1][m - 1]
-                    } else {
-                        0.0
-                    };
-                    weights[i][m] = previous / product * (lower - places[i - 1] * weights[i - 1][m]);
-                }
-            }
-            for m in (0..3).rev() {
-                let lower = if m > 0 { m as f64 * weights[j][m - 1] } else { 0.0 };
-                weights[j][m] = (places[i] * weights[j][m] - lower) / gap;
+        let lower = |weight: [f64; 3]| [0.0, weight[0], 2.0 * weight[1]];
+        let product: f64 = places[..i].iter().map(|place| places[i] - place).product();
+        let last = weights[i - 1];
+        for (m, lower) in lower(last).into_iter().enumerate() {
+            weights[i][m] = previous / product * (lower - places[i - 1] * last[m]);
+        }
+        for (weight, place) in weights.iter_mut().zip(&places[..i]) {
+            let lower = lower(*weight);
+            for m in 0..3 {
+                weight[m] = (places[i] * weight[m] - lower[m]) / (places[i] - place);
             }
         }
         previous = product;

@@ -25,7 +25,7 @@ use std::f64::consts::PI;
 use crate::cholesky::dofs;
 use crate::element::{GAUSS_3, GAUSS_6, Shape, edge_shape};
 use crate::grading::Lines;
-use crate::half_space::HalfSpace;
+use crate::material::HalfSpace;
 use crate::mesh::Mesh;
 use crate::system::System;
 
@@ -69,7 +69,7 @@ pub(crate) fn point(
     near: HalfSpace,
     young_modulus: impl Fn(f64) -> f64,
 ) -> Vec<f64> {
-    let mesh = system.mesh();
+    let mesh = &system.mesh;
     let mut force = vec![0.0; mesh.dofs()];
     let (last_column, last_row) = (2 * lines.block_columns, 2 * lines.block_rows);
     let edge = edge_displacement(mesh, lines, near);

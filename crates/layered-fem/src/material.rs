@@ -1,4 +1,4 @@
-//! Isotropic linear elasticity at a point, in the two moduli the element integrals need: the stress is
+//! Isotropic linear elasticity: at a point, in the two moduli the element integrals need, and in closed form. The stress is
 //! σ = 2 G ε + λ (tr ε) I with G = E / (2 (1 + ν)) and λ = 2 G ν / (1 − 2 ν).
 //!
 //! # Limit
@@ -6,7 +6,8 @@
 //! At ν = 1/2 λ is infinite. A ratio above [`LARGEST_POISSON_RATIO`] is replaced by it: that changes displacements by
 //! about 1/2 − ν = 1e-5 of themselves, far below what a mesh resolves. The elements keep their accuracy up to it.
 
-use ground_field::Soil;
+use boussinesq::Stress;
+use ground_field::{Displacement, GroundField, Soil, SurfaceLoad};
 
 /// The largest Poisson's ratio the elements use.
 pub(crate) const LARGEST_POISSON_RATIO: f64 = 0.499_99;
@@ -32,10 +33,39 @@ impl Elasticity {
     }
 }
 
+/// A unit point load on a homogeneous half-space, which the mesh uses where it is exact: next to the load, where only the top soil counts,
+/// and far away, where only the base does. The closed form of the crate `boussinesq`, with the Poisson's ratio that the elements use.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct HalfSpace(boussinesq::HalfSpace);
+
+impl HalfSpace {
+    pub(crate) fn new(soil: Soil) -> Self {
+        let ratio = soil.poisson_ratio().min(LARGEST_POISSON_RATIO);
+        Self(boussinesq::HalfSpace::new(
+            Soil::new(soil.young_modulus(), ratio).unwrap_or(soil),
+        ))
+    }
+
+    pub(crate) fn young_modulus(self) -> f64 {
+        self.0.soil().young_modulus()
+    }
+
+    /// Displacement \[m/N\]; not a number at the load.
+    pub(crate) fn displacement(self, r: f64, z: f64) -> Displacement {
+        let unit = SurfaceLoad::point(1.0);
+        unit.and_then(|load| self.0.displacement(load, r, z))
+            .unwrap_or(Displacement::ZERO * f64::NAN)
+    }
+
+    /// Stress \[1/m²\], tension positive; zero at the load, where there is none.
+    pub(crate) fn stress(self, r: f64, z: f64) -> Stress {
+        self.0.point_stress(1.0, r, z).unwrap_or_default()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::half_space::HalfSpace;
     use approx::assert_relative_eq;
 
     /// Stress (r, z, θ, rz) from strain (`ε_r`, `ε_z`, `ε_θ`, `γ_rz`).

@@ -52,7 +52,6 @@ impl Mesh {
         }
     }
 
-    /// Coordinates of one element's nodes \[m\].
     pub(crate) fn corners(&self, element: usize) -> Corners {
         self.elements[element].map(|node| self.nodes[node])
     }
@@ -63,7 +62,6 @@ impl Mesh {
     }
 }
 
-/// The lines and the mid-points between them.
 pub(crate) fn with_midpoints(lines: &[f64]) -> Vec<f64> {
     let mut out = Vec::with_capacity(2 * lines.len());
     for pair in lines.windows(2) {

@@ -162,41 +162,33 @@ impl LayeredFem {
 
     /// Work done and memory held so far.
     pub fn statistics(&self) -> FemStatistics {
-        let meshes = self.meshes();
+        let meshes = locked(&self.meshes);
         let (coarse, fine) = (&meshes.coarse, &meshes.fine);
         FemStatistics {
-            unknowns: fine.unknowns(),
-            factor_entries: fine.factor_entries(),
+            unknowns: fine.system.unknowns,
+            factor_entries: fine.system.factor.entries(),
             factorisations: meshes.factorisations,
-            solves: coarse.solves() + fine.solves(),
+            solves: coarse.solutions.len() + fine.solutions.len(),
             bytes: coarse.bytes() + fine.bytes(),
         }
-    }
-
-    fn meshes(&self) -> MutexGuard<'_, Meshes> {
-        self.meshes.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    fn answers(&self) -> MutexGuard<'_, HashMap<(u64, u64), Arc<Answer>>> {
-        self.answers.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The line at `depth` under a unit load, accepted by the estimate.
     fn answer(&self, contact_radius: f64, depth: f64) -> Result<Arc<Answer>, GroundError> {
         let key = (contact_radius.to_bits(), depth.to_bits());
-        if let Some(found) = self.answers().get(&key) {
+        if let Some(found) = locked(&self.answers).get(&key) {
             return Ok(Arc::clone(found));
         }
         let at_edge = depth < DEPTH_OF_EDGE * contact_radius;
         let gain = if at_edge { LEAST_GAIN_AT_EDGE } else { LEAST_GAIN };
-        let mut meshes = self.meshes();
+        let mut meshes = locked(&self.meshes);
         loop {
             let coarse = meshes.coarse.line(contact_radius, depth).map_err(in_model)?;
             let fine = meshes.fine.line(contact_radius, depth).map_err(in_model)?;
-            let estimate = compare(&coarse, &fine, meshes.fine.columns(), gain);
+            let estimate = compare(&coarse, &fine, &meshes.fine.columns, gain);
             if estimate.largest() <= self.options.accuracy() {
                 let answer = Arc::new(Answer { line: fine, estimate });
-                let mut answers = self.answers();
+                let mut answers = locked(&self.answers);
                 if answers.len() >= MOST_ANSWERS {
                     answers.clear();
                 }
@@ -210,9 +202,10 @@ impl LayeredFem {
     /// Puts a finer mesh in place of the coarse one, or says that the accuracy is out of reach.
     fn refine(&self, meshes: &mut Meshes, estimate: ErrorEstimate, depth: f64) -> Result<(), GroundError> {
         let excess = estimate.largest() / self.options.accuracy();
-        let next = RATIO * meshes.fine.parts();
+        let parts = meshes.fine.lines.parts;
+        let next = RATIO * parts;
         // What the accuracy needs at least, should the error fall as fast as it can.
-        let wanted = meshes.fine.parts() as f64 * excess.powf(1.0 / BEST_ORDER);
+        let wanted = parts as f64 * excess.powf(1.0 / BEST_ORDER);
         let fits = |parts| Lines::new(&self.profile, self.alpha, parts, self.options.max_unknowns()).is_ok();
         if excess.is_nan() || !fits(next) || !fits(wanted as usize) {
             return Err(GroundError::Accuracy {
@@ -260,43 +253,39 @@ fn level(profile: &SoilProfile, options: FemOptions, alpha: f64, parts: usize) -
 
 /// Estimated error of `fine` from its difference to `coarse`, whose error is at least `gain` times as large.
 fn compare(coarse: &DepthLine, fine: &DepthLine, radii: &[f64], gain: f64) -> ErrorEstimate {
-    let mut peak = Displacement::ZERO;
-    let mut difference = [(0.0_f64, 0.0_f64); 2];
+    let mut peak = [0.0_f64; 2];
+    // Largest difference, and where it is.
+    let mut worst = [(0.0, 0.0); 2];
     for &r in radii {
         let (u, other) = (fine.at(r), coarse.at(r));
         // The singular point of a point load has no value to compare.
         if !u.is_finite() && r == 0.0 {
             continue;
         }
-        peak.radial = peak.radial.max(u.radial.abs());
-        peak.vertical = peak.vertical.max(u.vertical.abs());
-        for (worst, gap) in difference
-            .iter_mut()
-            .zip([u.radial - other.radial, u.vertical - other.vertical])
+        for (c, (u, other)) in [(u.radial, other.radial), (u.vertical, other.vertical)]
+            .into_iter()
+            .enumerate()
         {
-            if gap.abs() > worst.0 || gap.is_nan() {
-                *worst = (gap.abs(), r);
+            peak[c] = peak[c].max(u.abs());
+            let gap = (u - other).abs();
+            if gap > worst[c].0 || gap.is_nan() {
+                worst[c] = (gap, r);
             }
         }
     }
-    let share = |worst: f64, peak: f64| {
-        if worst == 0.0 {
-            0.0
-        } else {
-            worst / peak / (gain - 1.0)
-        }
+    let share = |difference: f64, peak: f64| match difference {
+        0.0 => 0.0,
+        _ => difference / peak / (gain - 1.0),
     };
-    let (radial, vertical) = (
-        share(difference[0].0, peak.radial.max(LEAST_RADIAL * peak.vertical)),
-        share(difference[1].0, peak.vertical),
-    );
+    let radial = share(worst[0].0, peak[0].max(LEAST_RADIAL * peak[1]));
+    let vertical = share(worst[1].0, peak[1]);
     ErrorEstimate {
         radial,
         vertical,
         radius: if radial >= vertical {
-            difference[0].1
+            worst[0].1
         } else {
-            difference[1].1
+            worst[1].1
         },
     }
 }
@@ -318,6 +307,10 @@ fn evaluate(
         radius,
         depth,
     })
+}
+
+fn locked<T>(held: &Mutex<T>) -> MutexGuard<'_, T> {
+    held.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn in_model(error: FemError) -> GroundError {

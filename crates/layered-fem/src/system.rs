@@ -12,18 +12,18 @@ use crate::mesh::Mesh;
 
 /// Least change K⁻¹(f − K u) of a solution u, relative to it (largest components), that may be asked for.
 pub(crate) const LEAST_CHANGE: f64 = 1e-7;
-/// Corrections applied to a solution.
 const CORRECTIONS: usize = 2;
 
 /// A factored stiffness matrix with some degrees of freedom prescribed.
 #[derive(Debug)]
 pub(crate) struct System {
-    mesh: Mesh,
+    pub mesh: Mesh,
     matrices: Vec<ElementMatrix>,
     /// Number of each degree of freedom among the unknowns, or `FIXED`.
     unknown: Vec<usize>,
-    unknowns: usize,
-    factor: Factor,
+    /// Those that are not prescribed.
+    pub unknowns: usize,
+    pub factor: Factor,
 }
 
 impl System {
@@ -62,20 +62,6 @@ impl System {
         })
     }
 
-    pub(crate) fn mesh(&self) -> &Mesh {
-        &self.mesh
-    }
-
-    /// Unknowns after elimination of prescribed degrees of freedom.
-    pub(crate) fn unknowns(&self) -> usize {
-        self.unknowns
-    }
-
-    /// Entries of the Cholesky factor.
-    pub(crate) fn factor_entries(&self) -> usize {
-        self.factor.entries()
-    }
-
     /// Displacements at all degrees of freedom under `force` (per radian), where the prescribed ones have the values in `given`,
     /// which is zero elsewhere. A last correction may change them by `allowed` of themselves.
     ///
@@ -87,12 +73,8 @@ impl System {
         let mut change = 0.0;
         for _ in 0..=CORRECTIONS {
             let mut correction = vec![0.0; self.unknowns];
-            let free = || {
-                self.unknown
-                    .iter()
-                    .enumerate()
-                    .filter(|(_, unknown)| **unknown != FIXED)
-            };
+            let numbers = self.unknown.iter().enumerate();
+            let free = || numbers.clone().filter(|(_, unknown)| **unknown != FIXED);
             let residual = self.residual(force, &displacement);
             for (dof, &unknown) in free() {
                 correction[unknown] = residual[dof];

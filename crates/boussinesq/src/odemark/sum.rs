@@ -14,20 +14,17 @@
 
 use ground_field::{Displacement, SurfaceLoad};
 
-use crate::shape::Shape;
-use crate::{disc, point};
+use crate::disc;
 
 /// Half the step of the central difference, as a share of the depth.
 const STEP: f64 = 1e-3;
-
-/// Factors of m⁰, m¹ and m².
-pub(super) type Powers = [f64; 3];
 
 /// One exponential e^{−mδ} and its factor.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Term {
     pub depth: f64,
-    pub powers: Powers,
+    /// Factors of m⁰, m¹ and m².
+    pub powers: [f64; 3],
 }
 
 /// A transform as a list of terms.
@@ -50,12 +47,11 @@ pub(super) fn at(transform: &[Term], wavenumber: f64) -> f64 {
     transform.iter().map(value).sum()
 }
 
-/// The terms at one depth.
+/// The terms of u_r and u_z at one depth, by powers of m.
 #[derive(Debug, Clone, Copy)]
 struct Level {
     depth: f64,
-    radial: Powers,
-    vertical: Powers,
+    powers: [[f64; 2]; 3],
 }
 
 /// A displacement field: the transforms of u_r and u_z, terms at the same depth merged.
@@ -68,28 +64,23 @@ impl Sum {
     /// The field with these transforms.
     pub fn new(radial: &[Term], vertical: &[Term]) -> Self {
         let mut sum = Self::default();
-        for term in radial {
-            add(&mut sum.level(term.depth).radial, term.powers);
+        let radial = radial.iter().map(|term| (0, term));
+        let vertical = vertical.iter().map(|term| (1, term));
+        for (component, term) in radial.chain(vertical) {
+            let found = sum.levels.iter().position(|level| level.depth == term.depth);
+            let place = found.unwrap_or(sum.levels.len());
+            if found.is_none() {
+                sum.levels.push(Level {
+                    depth: term.depth,
+                    powers: [[0.0; 2]; 3],
+                });
+            }
+            for (value, more) in sum.levels[place].powers.iter_mut().zip(term.powers) {
+                value[component] += more;
+            }
         }
-        for term in vertical {
-            add(&mut sum.level(term.depth).vertical, term.powers);
-        }
-        sum.levels
-            .retain(|level| level.radial != [0.0; 3] || level.vertical != [0.0; 3]);
+        sum.levels.retain(|level| level.powers != [[0.0; 2]; 3]);
         sum
-    }
-
-    fn level(&mut self, depth: f64) -> &mut Level {
-        let found = self.levels.iter().position(|level| level.depth == depth);
-        let place = found.unwrap_or(self.levels.len());
-        if found.is_none() {
-            self.levels.push(Level {
-                depth,
-                radial: [0.0; 3],
-                vertical: [0.0; 3],
-            });
-        }
-        &mut self.levels[place]
     }
 
     /// The displacement at `radius` under `load`; not finite at the load itself.
@@ -98,19 +89,19 @@ impl Sum {
         for level in &self.levels {
             let (surface, shear) = parts(load, radius, level.depth);
             let mut values = [surface, shear, Displacement::ZERO];
-            if level.radial[2] != 0.0 || level.vertical[2] != 0.0 {
+            if level.powers[2] != [0.0; 2] {
                 let step = STEP * level.depth;
                 let (_, above) = parts(load, radius, level.depth - step);
                 let (_, below) = parts(load, radius, level.depth + step);
                 values[2] = (above - below) * (0.5 / step);
             }
-            for (power, value) in values.into_iter().enumerate() {
+            for ([radial, vertical], value) in level.powers.into_iter().zip(values) {
                 // A factor of zero may stand before a value that does not exist, such as the shear terms at depth 0.
-                if level.radial[power] != 0.0 {
-                    total.radial += level.radial[power] * value.radial;
+                if radial != 0.0 {
+                    total.radial += radial * value.radial;
                 }
-                if level.vertical[power] != 0.0 {
-                    total.vertical += level.vertical[power] * value.vertical;
+                if vertical != 0.0 {
+                    total.vertical += vertical * value.vertical;
                 }
             }
         }
@@ -118,20 +109,9 @@ impl Sum {
     }
 }
 
-fn add(to: &mut Powers, powers: Powers) {
-    for (value, more) in to.iter_mut().zip(powers) {
-        *value += more;
-    }
-}
-
 /// e^{−mδ} and m e^{−mδ} in space.
 fn parts(load: SurfaceLoad, radius: f64, depth: f64) -> (Displacement, Displacement) {
-    let distance = point::distance(radius, depth);
-    let (shape, length): (Shape, f64) = if load.is_point() {
-        (point::shape(radius, depth, distance), distance)
-    } else {
-        disc::shape(radius, depth, distance, load.contact_radius())
-    };
+    let (shape, length) = disc::shape(load, radius, depth);
     let surface = Displacement {
         radial: shape.surface_radial,
         vertical: shape.surface_vertical,

@@ -23,21 +23,14 @@ pub(super) struct History {
 }
 
 impl History {
-    pub fn new(nodes: usize) -> Self {
-        let zeros = || vec![0.0; nodes];
+    /// With displacement `u` \[m\].
+    pub fn at_rest(u: &[f64]) -> Self {
+        let zeros = || vec![0.0; u.len()];
         Self {
-            displacement: zeros(),
+            displacement: u.to_vec(),
             increment: zeros(),
             velocity: zeros(),
             earlier: zeros(),
-        }
-    }
-
-    /// At rest with displacement `u`.
-    pub fn start(&mut self, u: &[f64]) {
-        self.displacement.copy_from_slice(u);
-        for lane in [&mut self.increment, &mut self.velocity, &mut self.earlier] {
-            lane.fill(0.0);
         }
     }
 

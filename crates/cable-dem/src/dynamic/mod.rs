@@ -6,7 +6,7 @@ use ground_field::{Direction, DuctMotion};
 
 use crate::outcome::Recorder;
 use crate::step::{Prediction, Stretch, largest};
-use crate::transient::{EnergyBalance, Implicit, Lumped, MovingDuct, Settler, TransientOutcome, pass};
+use crate::transient::{EnergyBalance, Implicit, Lumped, MovingDuct, TransientOutcome, pass};
 use crate::{CableError, CableState, DuctedCable, Mesh};
 use history::History;
 
@@ -47,21 +47,6 @@ use history::History;
 #[derive(Debug, Clone)]
 pub struct Dynamic {
     lumped: Lumped,
-    settler: Settler,
-    moving: Moving,
-}
-
-/// The cable in motion.
-#[derive(Debug, Clone)]
-struct Moving {
-    history: History,
-    prediction: Prediction,
-    friction: Vec<f64>,
-    before: Vec<f64>,
-    duct: Vec<f64>,
-    increment: Vec<f64>,
-    /// Step solver for the time step it was made for.
-    solver: Option<(f64, Implicit)>,
 }
 
 impl Dynamic {
@@ -72,20 +57,7 @@ impl Dynamic {
     /// [`CableError::InvalidParameter`] unless the mass is finite and positive and the mesh is as long as the cable.
     pub fn new(cable: DuctedCable, mesh: Mesh, mass_per_metre: f64) -> Result<Self, CableError> {
         let lumped = Lumped::new(cable, mesh, mass_per_metre)?;
-        let zeros = || vec![0.0; mesh.nodes()];
-        Ok(Self {
-            settler: Settler::new(&lumped),
-            moving: Moving {
-                history: History::new(mesh.nodes()),
-                prediction: Prediction::default(),
-                friction: zeros(),
-                before: zeros(),
-                duct: zeros(),
-                increment: zeros(),
-                solver: None,
-            },
-            lumped,
-        })
+        Ok(Self { lumped })
     }
 
     /// The mesh.
@@ -136,42 +108,56 @@ impl Dynamic {
         state: &mut CableState,
     ) -> Result<TransientOutcome, CableError> {
         let time_step = self.time_step(duct);
-        let Self {
-            lumped,
-            settler,
-            moving,
-        } = self;
-        pass(lumped, settler, duct, time_step, state, |state, recorder| {
-            let energy = moving.run(lumped, duct, time_step, state, recorder)?;
+        let lumped = &self.lumped;
+        pass(lumped, duct, time_step, state, |state, recorder| {
+            let energy = Moving::from(state).run(lumped, duct, time_step, state, recorder)?;
             energy.check(false)?;
             Ok(energy)
         })
     }
 }
 
+/// The cable in motion.
+struct Moving {
+    history: History,
+    friction: Vec<f64>,
+    /// Friction one step before.
+    before: Vec<f64>,
+    duct: Vec<f64>,
+    increment: Vec<f64>,
+}
+
 impl Moving {
+    fn from(state: &CableState) -> Self {
+        let zeros = vec![0.0; state.friction.len()];
+        Self {
+            history: History::at_rest(&state.displacement),
+            friction: state.friction.clone(),
+            before: zeros.clone(),
+            duct: zeros.clone(),
+            increment: zeros,
+        }
+    }
+
     /// All steps of one pass; `state` is carried on.
     fn run(
-        &mut self,
+        mut self,
         lumped: &Lumped,
         duct: &MovingDuct,
         time_step: f64,
         state: &mut CableState,
         recorder: &mut Recorder,
     ) -> Result<EnergyBalance, CableError> {
-        let (solver, history) = (self.solver.take(), &mut self.history);
-        let mut solver = match solver {
-            Some((made_for, solver)) if made_for == time_step => solver,
-            _ => Implicit::new(lumped, 9.0 / (4.0 * time_step * time_step)),
-        };
+        let mut solver = Implicit::new(lumped, 9.0 / (4.0 * time_step * time_step));
         let (mesh, nodes) = (&lumped.mesh, lumped.mesh.nodes());
+        let whole = Stretch {
+            lo: 0,
+            hi: mesh.elements(),
+        };
         let steps = (duct.duration() / time_step).round() as usize;
-        history.start(&state.displacement);
-        self.prediction.clear();
-        self.prediction
-            .fit(steps * mesh.stride() + nodes * mesh.phases(), mesh.phases());
+        let mut prediction = Prediction::default();
+        prediction.fit(steps * mesh.stride() + nodes * mesh.phases(), mesh.phases());
         solver.start(largest(&state.displacement, duct.peak()));
-        self.friction.copy_from_slice(&state.friction);
         duct.displacement(0.0, &mut self.duct);
         let elastic = lumped.elastic_energy(&state.displacement);
         let stored = lumped.stored_energy(&state.friction);
@@ -184,53 +170,36 @@ impl Moving {
             let t = time_step * step as f64;
             duct.at(t, nodes).advance(&mut self.duct, &mut self.increment);
             self.before.copy_from_slice(&self.friction);
-            let advanced = match duct.direction() {
-                Direction::Forward => steps - step,
-                Direction::Reverse => step,
-            };
-            self.step(lumped, &mut solver, time_step, advanced * mesh.stride())
-                .map_err(|violation| CableError::NoConvergence {
-                    vehicle_position: duct.vehicle_position(t),
-                    violation,
-                })?;
+            solver.load_elastic(lumped, &self.history.displacement);
+            self.history.load_inertia(lumped, time_step, &mut solver.load);
+            // The lattice point from which contact states are predicted.
+            let first = mesh.stride()
+                * match duct.direction() {
+                    Direction::Forward => steps - step,
+                    Direction::Reverse => step,
+                };
+            if let Some(contacts) = solver.contacts() {
+                prediction.read(first, whole, contacts);
+            }
+            let moved = solver.solve(lumped, &self.increment, &mut self.friction);
+            let moved = moved.map_err(|violation| CableError::NoConvergence {
+                vehicle_position: duct.vehicle_position(t),
+                violation,
+            })?;
+            self.history.advance(moved, time_step);
+            if let Some(contacts) = solver.contacts() {
+                prediction.write(first, whole, contacts);
+            }
             self.account(lumped, &mut energy);
             recorder.record(lumped.end_forces(&self.history.displacement, &self.friction));
         }
         energy.elastic = lumped.elastic_energy(&self.history.displacement) - elastic;
         energy.stored = lumped.stored_energy(&self.friction) - stored;
-        state.displacement.copy_from_slice(&self.history.displacement);
-        state.friction.copy_from_slice(&self.friction);
+        (state.displacement, state.friction) = (self.history.displacement, self.friction);
         recorder.statistics += solver.statistics();
         recorder.statistics.steps = steps;
         recorder.statistics.widest_window = nodes;
-        self.solver = Some((time_step, solver));
         Ok(energy)
-    }
-
-    /// One step, whose contact states are predicted from lattice point `first` on; on failure the largest violation as a share of the
-    /// friction limit.
-    fn step(
-        &mut self,
-        lumped: &Lumped,
-        solver: &mut Implicit,
-        time_step: f64,
-        first: usize,
-    ) -> Result<(), f64> {
-        let whole = Stretch {
-            lo: 0,
-            hi: lumped.mesh.elements(),
-        };
-        solver.load_elastic(lumped, &self.history.displacement);
-        self.history.load_inertia(lumped, time_step, &mut solver.load);
-        if let Some(contacts) = solver.contacts() {
-            self.prediction.read(first, whole, contacts);
-        }
-        let r = solver.solve(lumped, &self.increment, &mut self.friction)?;
-        self.history.advance(r, time_step);
-        if let Some(contacts) = solver.contacts() {
-            self.prediction.write(first, whole, contacts);
-        }
-        Ok(())
     }
 
     /// Books the step just taken. Friction acts at its mean over the step where it changes by shear, at its value at

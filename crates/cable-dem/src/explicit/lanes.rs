@@ -3,9 +3,8 @@
 //! Displacements carry a ghost at either end, the mirror image of the first inner node: with half the mass at the ends
 //! the same stencil then holds at every node.
 
-use super::law::ContactLaw;
 use crate::transient::{EnergyBalance, Lumped};
-use crate::{CableState, EndForces};
+use crate::{CableState, EndForces, FrictionLaw};
 
 /// State and energy accounts of all nodes.
 #[derive(Debug, Clone)]
@@ -13,7 +12,7 @@ pub(super) struct Lanes {
     /// u \[m\], with a ghost at either end.
     displacement: Vec<f64>,
     /// v \[m/s\], half a step back.
-    velocity: Vec<f64>,
+    pub velocity: Vec<f64>,
     /// f \[N/m\].
     friction: Vec<f64>,
     /// Friction of the step before.
@@ -58,7 +57,15 @@ impl Lanes {
     }
 
     /// One step of `time_step` \[s\]; the duct's increments stand in `increment`.
-    pub fn step<L: ContactLaw>(&mut self, lumped: &Lumped, law: L, time_step: f64) {
+    ///
+    /// `law` is the friction of one node, without branches: given its velocity after the elastic forces \[m/s\], how far its duct moves
+    /// in the step \[m\] and the friction before \[N/m\], the velocity with friction, and the friction after.
+    pub fn step(
+        &mut self,
+        lumped: &Lumped,
+        law: impl Fn(f64, f64, f64) -> (f64, f64) + Copy,
+        time_step: f64,
+    ) {
         let n = self.velocity.len();
         let u = &mut self.displacement;
         (u[0], u[n + 1]) = (u[2], u[n - 1]);
@@ -76,10 +83,20 @@ impl Lanes {
             v[node] = 0.0;
             self.friction[node] = lumped.held.after_slip(self.before[node], increment[node]);
         }
-        advance(&mut u[1..=n], v, increment, &mut self.slip, time_step);
         let compliance = lumped.elastic_compliance();
-        unload(&mut self.slip, &self.before, &self.friction, compliance);
-        let acting = if L::LAGS { &self.before } else { &self.friction };
+        for i in 0..n {
+            let moved = time_step * v[i];
+            u[i + 1] += moved;
+            // What is left of the slip beside its elastic part, γ Δf.
+            self.slip[i] = increment[i] - moved - compliance * (self.friction[i] - self.before[i]);
+        }
+        // Coulomb friction is found with the velocity; any other that acts in a step is that of its start.
+        let found_at_once = lumped.cable.friction().law() == FrictionLaw::Coulomb;
+        let acting = if found_at_once {
+            &self.friction
+        } else {
+            &self.before
+        };
         for (work, done) in self.work.iter_mut().zip(done(acting, &self.earlier, increment)) {
             *work += done;
         }
@@ -94,10 +111,6 @@ impl Lanes {
         }
         std::mem::swap(&mut self.plastic, &mut self.slip);
         std::mem::swap(&mut self.earlier, &mut self.increment);
-    }
-
-    pub fn kinetic_energy(&self, lumped: &Lumped) -> f64 {
-        lumped.kinetic_energy(&self.velocity)
     }
 
     pub fn end_forces(&self, lumped: &Lumped) -> EndForces {
@@ -122,7 +135,7 @@ impl Lanes {
         EnergyBalance {
             duct_work: sum(&self.work),
             elastic: lumped.elastic_energy(&self.displacement[1..=n]) - elastic,
-            kinetic: self.kinetic_energy(lumped),
+            kinetic: lumped.kinetic_energy(&self.velocity),
             stored: lumped.stored_energy(&self.friction) - stored,
             dissipated,
             returned: 0.5 * (sum(&self.gross) - dissipated),
@@ -144,30 +157,17 @@ fn accelerate(v: &mut [f64], u: &[f64], c: f64) {
 }
 
 #[inline]
-fn rub<L: ContactLaw>(v: &mut [f64], friction: &mut [f64], before: &[f64], increment: &[f64], law: L) {
+fn rub(
+    v: &mut [f64],
+    friction: &mut [f64],
+    before: &[f64],
+    increment: &[f64],
+    law: impl Fn(f64, f64, f64) -> (f64, f64),
+) {
     let n = v.len();
     let (friction, before, increment) = (&mut friction[..n], &before[..n], &increment[..n]);
     for i in 0..n {
-        (v[i], friction[i]) = law.step(v[i], increment[i], before[i]);
-    }
-}
-
-#[inline]
-fn advance(u: &mut [f64], v: &[f64], increment: &[f64], slip: &mut [f64], time_step: f64) {
-    let n = u.len();
-    let (v, increment, slip) = (&v[..n], &increment[..n], &mut slip[..n]);
-    for i in 0..n {
-        let moved = time_step * v[i];
-        u[i] += moved;
-        slip[i] = increment[i] - moved;
-    }
-}
-
-/// Slip minus its elastic part is plastic: slip ← slip − γ Δf.
-#[inline]
-fn unload(slip: &mut [f64], before: &[f64], after: &[f64], compliance: f64) {
-    for (slip, (before, after)) in slip.iter_mut().zip(before.iter().zip(after)) {
-        *slip -= compliance * (after - before);
+        (v[i], friction[i]) = law(v[i], increment[i], before[i]);
     }
 }
 

@@ -1,7 +1,6 @@
 //! The explicit solver.
 
 mod lanes;
-mod law;
 mod limits;
 mod tanh;
 
@@ -11,10 +10,10 @@ use ground_field::DuctMotion;
 
 use crate::error::checked;
 use crate::outcome::Recorder;
-use crate::transient::{EnergyBalance, Lumped, MovingDuct, Settler, TransientOutcome, pass};
+use crate::transient::{EnergyBalance, Lumped, MovingDuct, TransientOutcome, pass};
 use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh};
 use lanes::Lanes;
-use law::{Constants, ContactLaw, Coulomb, ElasticPlastic, Sigmoid};
+use tanh::tanh;
 
 /// Steps between two looks at the kinetic energy.
 const LOOK: usize = 32;
@@ -83,7 +82,6 @@ pub struct Explicit {
     lumped: Lumped,
     options: ExplicitOptions,
     limits: StepLimits,
-    settler: Settler,
 }
 
 impl Explicit {
@@ -120,7 +118,6 @@ impl Explicit {
             }
         }
         Ok(Self {
-            settler: Settler::new(&lumped),
             lumped,
             options,
             limits,
@@ -184,13 +181,8 @@ impl Explicit {
     ) -> Result<TransientOutcome, CableError> {
         let steps = self.steps(duct);
         let time_step = duct.duration() / steps;
-        let Self {
-            lumped,
-            settler,
-            options,
-            ..
-        } = self;
-        pass(lumped, settler, duct, time_step, state, |state, recorder| {
+        let Self { lumped, options, .. } = &*self;
+        pass(lumped, duct, time_step, state, |state, recorder| {
             let node_updates = steps * lumped.mesh.nodes() as f64;
             let allowed = options.max_node_updates;
             if node_updates > allowed {
@@ -201,15 +193,7 @@ impl Explicit {
                     allowed,
                 });
             }
-            let constants = Constants::new(lumped.cable.friction(), lumped.mass_per_metre, time_step);
-            let steps = steps as usize;
-            let energy = match lumped.cable.friction().law() {
-                FrictionLaw::Coulomb => run(lumped, Coulomb(constants), duct, steps, state, recorder),
-                FrictionLaw::ElasticPlastic { .. } => {
-                    run(lumped, ElasticPlastic(constants), duct, steps, state, recorder)
-                }
-                FrictionLaw::Sigmoid { .. } => run(lumped, Sigmoid(constants), duct, steps, state, recorder),
-            }?;
+            let energy = rub(lumped, duct, steps as usize, state, recorder)?;
             if options.check_energy {
                 energy.check(true)?;
             }
@@ -218,10 +202,54 @@ impl Explicit {
     }
 }
 
-/// All steps of one pass by one law; `state` is carried on.
-fn run<L: ContactLaw>(
+/// All steps of one pass, whichever the friction law; `state` is carried on.
+fn rub(
     lumped: &Lumped,
-    law: L,
+    duct: &MovingDuct,
+    steps: usize,
+    state: &mut CableState,
+    recorder: &mut Recorder,
+) -> Result<EnergyBalance, CableError> {
+    let time_step = duct.duration() / steps as f64;
+    let (q, per_mass) = (lumped.cable.friction().limit(), time_step / lumped.mass_per_metre);
+    match lumped.cable.friction().law() {
+        // The friction that stops the slip, returned to ±q where that is too much (J. J. Moreau's time stepping, node by node, as the
+        // masses are lumped).
+        FrictionLaw::Coulomb => {
+            let per_time = 1.0 / time_step;
+            let law = move |velocity: f64, duct: f64, _| {
+                let stopping = (duct * per_time - velocity) / per_mass;
+                let friction = stopping.max(-q).min(q);
+                (velocity + per_mass * friction, friction)
+            };
+            run(lumped, law, duct, steps, state, recorder)
+        }
+        // f ← clamp(f + (q b/2) Δs, −q, q): return mapping of the elastic predictor.
+        FrictionLaw::ElasticPlastic { shape_factor } => {
+            let slope = 0.5 * q * shape_factor;
+            let law = move |velocity, duct, friction| {
+                let velocity = velocity + per_mass * friction;
+                let trial: f64 = friction + slope * (duct - time_step * velocity);
+                (velocity, trial.max(-q).min(q))
+            };
+            run(lumped, law, duct, steps, state, recorder)
+        }
+        // f = q tanh(b Δs/2).
+        FrictionLaw::Sigmoid { shape_factor } => {
+            let half = 0.5 * shape_factor;
+            let law = move |velocity, duct, friction| {
+                let velocity = velocity + per_mass * friction;
+                (velocity, q * tanh(half * (duct - time_step * velocity)))
+            };
+            run(lumped, law, duct, steps, state, recorder)
+        }
+    }
+}
+
+/// The same by one law: see [`Lanes::step`].
+fn run(
+    lumped: &Lumped,
+    law: impl Fn(f64, f64, f64) -> (f64, f64) + Copy,
     duct: &MovingDuct,
     steps: usize,
     state: &mut CableState,
@@ -238,7 +266,7 @@ fn run<L: ContactLaw>(
         lanes.step(lumped, law, time_step);
         recorder.record(lanes.end_forces(lumped));
         if step % LOOK == 0 || step == steps {
-            let kinetic = lanes.kinetic_energy(lumped);
+            let kinetic = lumped.kinetic_energy(&lanes.velocity);
             if !kinetic.is_finite() {
                 return Err(CableError::EnergyNotConserved {
                     unbalanced: 1.0,

@@ -11,101 +11,78 @@ use super::tolerance::Tolerance;
 /// Linear solves after which the iteration counts as cycling.
 const MAX_SWEEPS: usize = 24;
 
-/// The iteration, with its working storage over all nodes.
-#[derive(Debug, Clone)]
-pub(crate) struct ActiveSet {
-    /// What elimination leaves above the diagonal: r_i = value + factor · r_{i+1}.
-    factor: Vec<f64>,
+/// Iterates from the trial's contact states; on success the trial is the step's one answer. Else the largest violation as a share of the
+/// friction limit is returned, and in any case the number of linear solves.
+pub(crate) fn iterate(
+    chain: &Chain,
+    load: &Load<'_>,
+    stretch: Stretch,
+    tolerance: Tolerance,
+    trial: &mut Trial,
+) -> (Result<(), f64>, usize) {
+    let mut outcome = Err(f64::INFINITY);
+    for sweep in 1..=MAX_SWEEPS {
+        if !solve(chain, load, stretch, trial) {
+            return (Err(f64::INFINITY), sweep);
+        }
+        outcome = correct(chain, load, stretch, tolerance, trial);
+        if outcome.is_ok() {
+            return (outcome, sweep);
+        }
+    }
+    (outcome, MAX_SWEEPS)
 }
 
-/// How an iteration ended.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Outcome {
-    /// All contact states hold: r, g are the step's one answer.
-    Solved,
-    /// Some do not; the largest violation as a share of the friction limit.
-    Violated(f64),
-}
-
-impl ActiveSet {
-    pub fn new(nodes: usize) -> Self {
-        Self {
-            factor: vec![0.0; nodes],
-        }
-    }
-
-    /// Iterates from the trial's contact states; on success the trial is the answer. Returns the outcome and the number
-    /// of linear solves.
-    pub fn iterate(
-        &mut self,
-        chain: &Chain,
-        load: &Load<'_>,
-        stretch: Stretch,
-        tolerance: Tolerance,
-        trial: &mut Trial,
-    ) -> (Outcome, usize) {
-        let mut outcome = Outcome::Violated(f64::INFINITY);
-        for sweep in 1..=MAX_SWEEPS {
-            if !self.solve(chain, load, stretch, trial) {
-                return (Outcome::Violated(f64::INFINITY), sweep);
+/// Solves the linear system of the given contact states; false if it is singular.
+///
+/// A stuck row reads r + γ g = anchor, a slipping one k⁻¹ times equilibrium with g at its bound. Both are diagonally
+/// dominant, so that elimination needs no pivoting.
+fn solve(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) -> bool {
+    let Stretch { lo, hi } = stretch;
+    let Trial {
+        r, contact, factors, ..
+    } = trial;
+    let per_stiffness = 1.0 / chain.stiffness;
+    let last = r.len() - 1;
+    // A held neighbour enters as a known value, a missing one not at all.
+    let mut factor = 0.0;
+    let mut before = if lo > 0 { r[lo - 1] } else { 0.0 };
+    let after = if hi < last { r[hi + 1] } else { 0.0 };
+    for i in lo..=hi {
+        let (diagonal, off, right) = match contact[i] {
+            Contact::Stuck => {
+                let soft = chain.softness[i];
+                (
+                    1.0 + soft * chain.diagonal[i],
+                    soft,
+                    load.anchor[i] + soft * per_stiffness * load.support[i],
+                )
             }
-            outcome = correct(chain, load, stretch, tolerance, trial);
-            if outcome == Outcome::Solved {
-                return (outcome, sweep);
-            }
+            slipping => (
+                chain.diagonal[i],
+                1.0,
+                per_stiffness
+                    * (chain.tributary[i] * chain.bound(slipping, load.adhesion[i]) + load.support[i]),
+            ),
+        };
+        let held = if i == hi { off * after } else { 0.0 };
+        let pivot = diagonal - off * factor;
+        // Rows add up to the supports' share alone: without any, and all slipping, nothing holds the stretch.
+        if pivot <= 1e-14 * diagonal {
+            return false;
         }
-        (outcome, MAX_SWEEPS)
+        let inverse = 1.0 / pivot;
+        factor = off * inverse;
+        before = (right + off * before + held) * inverse;
+        factors[i] = factor;
+        r[i] = before;
     }
-
-    /// Solves the linear system of the given contact states; false if it is singular.
-    ///
-    /// A stuck row reads r + γ g = anchor, a slipping one k⁻¹ times equilibrium with g at its bound. Both are diagonally
-    /// dominant, so that elimination needs no pivoting.
-    fn solve(&mut self, chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) -> bool {
-        let Stretch { lo, hi } = stretch;
-        let (r, contact) = (&mut trial.r, &trial.contact);
-        let per_stiffness = 1.0 / chain.stiffness;
-        let last = r.len() - 1;
-        // A held neighbour enters as a known value, a missing one not at all.
-        let mut factor = 0.0;
-        let mut before = if lo > 0 { r[lo - 1] } else { 0.0 };
-        let after = if hi < last { r[hi + 1] } else { 0.0 };
-        for i in lo..=hi {
-            let (diagonal, off, right) = match contact[i] {
-                Contact::Stuck => {
-                    let soft = chain.softness[i];
-                    (
-                        1.0 + soft * chain.diagonal[i],
-                        soft,
-                        load.anchor[i] + soft * per_stiffness * load.support[i],
-                    )
-                }
-                slipping => (
-                    chain.diagonal[i],
-                    1.0,
-                    per_stiffness
-                        * (chain.tributary[i] * chain.bound(slipping, load.adhesion[i]) + load.support[i]),
-                ),
-            };
-            let held = if i == hi { off * after } else { 0.0 };
-            let pivot = diagonal - off * factor;
-            // Rows add up to the supports' share alone: without any, and all slipping, nothing holds the stretch.
-            if pivot <= 1e-14 * diagonal {
-                return false;
-            }
-            let inverse = 1.0 / pivot;
-            factor = off * inverse;
-            before = (right + off * before + held) * inverse;
-            self.factor[i] = factor;
-            r[i] = before;
-        }
-        let mut next = r[hi];
-        for i in (lo..hi).rev() {
-            next = r[i] + self.factor[i] * next;
-            r[i] = next;
-        }
-        true
+    let mut next = r[hi];
+    for i in (lo..hi).rev() {
+        next = r[i] + factors[i] * next;
+        r[i] = next;
     }
+    true
 }
 
 /// Sets g from the solved r and corrects contact states that do not hold.
@@ -115,8 +92,8 @@ fn correct(
     stretch: Stretch,
     tolerance: Tolerance,
     trial: &mut Trial,
-) -> Outcome {
-    let Trial { r, g, contact } = trial;
+) -> Result<(), f64> {
+    let Trial { r, g, contact, .. } = trial;
     let mut worst = 0.0_f64;
     for i in stretch.lo..=stretch.hi {
         let balancing = chain.balancing_friction(r, load.support, i);
@@ -158,9 +135,9 @@ fn correct(
         }
     }
     if worst == 0.0 {
-        Outcome::Solved
+        Ok(())
     } else {
-        Outcome::Violated(worst / chain.limit)
+        Err(worst / chain.limit)
     }
 }
 

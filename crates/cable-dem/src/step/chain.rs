@@ -75,6 +75,8 @@ pub(crate) struct Trial {
     pub g: Vec<f64>,
     /// Contact states.
     pub contact: Vec<Contact>,
+    /// Storage of the elimination: r_i = value + factor · r_{i+1}.
+    pub factors: Vec<f64>,
 }
 
 impl Stretch {
@@ -94,6 +96,7 @@ impl Trial {
             r: vec![0.0; nodes],
             g: vec![0.0; nodes],
             contact: vec![Contact::Stuck; nodes],
+            factors: vec![0.0; nodes],
         }
     }
 }

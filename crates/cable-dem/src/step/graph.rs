@@ -39,14 +39,18 @@ pub(super) struct NodeFriction {
     pub lower: f64,
 }
 
-/// What one node's friction did to the stacks.
-#[derive(Debug, Clone, Copy)]
-struct Inserted {
+/// What one node did to the graph, for undoing it.
+#[derive(Debug, Clone)]
+struct Added {
+    friction: NodeFriction,
+    /// Slope outside the corners before and after.
+    outer: [f64; 2],
+    /// The stacks before a support touched them.
+    unsupported: Option<[Stack; 2]>,
     /// Corners that the gap passed, upward positive.
     passed: isize,
     /// Corners on the slope between both limits.
     sloped: usize,
-    friction: NodeFriction,
 }
 
 /// The graph; beyond its corners it goes on with one slope on either side.
@@ -57,11 +61,9 @@ pub(super) struct Graph {
     above: Stack,
     /// Slope outside the corners; infinite for a held displacement.
     outer: f64,
-    /// What has been done, for undoing it.
-    inserted: Vec<Inserted>,
+    added: Vec<Added>,
+    /// The corners on all nodes' slopes, as they were before.
     sloped: Vec<Corner>,
-    outers: Vec<f64>,
-    supported: Vec<Option<[Stack; 2]>>,
     /// Corners touched: the work done.
     pub touched: usize,
 }
@@ -78,17 +80,14 @@ impl Graph {
             below,
             above: Stack::default(),
             outer,
-            inserted: Vec::new(),
+            added: Vec::new(),
             sloped: Vec::new(),
-            outers: Vec::new(),
-            supported: Vec::new(),
             touched: 0,
         }
     }
 
     /// The graph behind one more spring.
     pub fn add_spring(&mut self) {
-        self.outers.push(self.outer);
         self.outer = 1.0 / (1.0 / self.outer + 1.0 / self.stiffness);
         for stack in [&mut self.below, &mut self.above] {
             stack.map.springs += 1.0;
@@ -96,28 +95,23 @@ impl Graph {
         }
     }
 
-    /// Takes the last spring off again.
+    /// Takes the spring behind the last node off again.
     pub fn remove_spring(&mut self) {
-        self.outer = self
-            .outers
-            .pop()
-            .expect("a spring is removed once for each one added");
+        self.outer = self.added.last().map_or(self.outer, |added| added.outer[1]);
         for stack in [&mut self.below, &mut self.above] {
             stack.map.springs -= 1.0;
             stack.map.u -= stack.map.p / self.stiffness;
         }
     }
 
-    /// Adds a spring to the ground and its load at the node where the graph stands. This does touch all corners.
-    pub fn add_support(&mut self, stiffness: f64, load: f64) {
-        self.outers.push(self.outer);
+    /// Adds a spring to the ground and its load at the node where the graph stands. This does touch all corners. Returns the stacks as
+    /// they were.
+    fn add_support(&mut self, stiffness: f64, load: f64) -> Option<[Stack; 2]> {
         if stiffness == 0.0 && load == 0.0 {
-            self.supported.push(None);
-            return;
+            return None;
         }
         let k = self.stiffness;
-        self.supported
-            .push(Some([self.below.clone(), self.above.clone()]));
+        let before = [self.below.clone(), self.above.clone()];
         for stack in [&mut self.below, &mut self.above] {
             let map = std::mem::take(&mut stack.map);
             for corner in &mut stack.corners {
@@ -127,21 +121,13 @@ impl Graph {
             self.touched += stack.corners.len();
         }
         self.outer += stiffness;
+        Some(before)
     }
 
-    /// Takes the last support off again.
-    pub fn remove_support(&mut self) {
-        if let Some(Some([below, above])) = self.supported.pop() {
-            (self.below, self.above) = (below, above);
-        }
-        self.outer = self
-            .outers
-            .pop()
-            .expect("a support is removed once for each one added");
-    }
-
-    /// Subtracts a node's friction: two more corners.
-    pub fn add_friction(&mut self, friction: NodeFriction) {
+    /// Adds the (stiffness, load) of a node's support, and subtracts its friction: two more corners.
+    pub fn add_node(&mut self, (stiffness, load): (f64, f64), friction: NodeFriction) {
+        let before = self.outer;
+        let unsupported = self.add_support(stiffness, load);
         let NodeFriction {
             forward,
             backward,
@@ -166,7 +152,7 @@ impl Graph {
             u: backward,
             p: self.force(backward) - lower,
         };
-        let before = self.sloped.len();
+        let known = self.sloped.len();
         while let Some(corner) = self.above.top(k).filter(|corner| corner.u <= backward) {
             self.above.corners.pop();
             self.sloped.push(corner);
@@ -174,7 +160,7 @@ impl Graph {
         self.below.map.p -= upper;
         self.above.map.p -= lower;
         self.below.push(start, k);
-        for &corner in &self.sloped[before..] {
+        for &corner in &self.sloped[known..] {
             let share = if backward > forward {
                 (corner.u - forward) / (backward - forward)
             } else {
@@ -184,19 +170,21 @@ impl Graph {
             self.below.push(Corner { p, ..corner }, k);
         }
         self.above.push(stop, k);
-        let sloped = self.sloped.len() - before;
+        let sloped = self.sloped.len() - known;
         self.touched += passed.unsigned_abs() + sloped + 2;
-        self.inserted.push(Inserted {
+        self.added.push(Added {
+            friction,
+            outer: [before, self.outer],
+            unsupported,
             passed,
             sloped,
-            friction,
         });
     }
 
     /// Where `u` lies beside the last node's slip limits, by its corners as they stand now: their maps, undone and done
     /// again, leave rounding that a comparison with the limits themselves would take for slip.
     pub fn side_of_last(&self, u: f64) -> Ordering {
-        let sloped = self.inserted.last().map_or(0, |inserted| inserted.sloped);
+        let sloped = self.added.last().map_or(0, |added| added.sloped);
         let stop = self.below.corners.len();
         let limits = (stop - sloped - 1..=stop).map(|index| self.corner(index).u);
         let (least, most) = limits.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), at| {
@@ -211,16 +199,26 @@ impl Graph {
         }
     }
 
-    /// Takes the last node's friction out again.
-    pub fn remove_friction(&mut self) {
-        let Some(Inserted {
+    /// Takes the last node out again.
+    pub fn remove_node(&mut self) {
+        let Some(Added {
+            friction,
+            outer: [outer, _],
+            unsupported,
             passed,
             sloped,
-            friction,
-        }) = self.inserted.pop()
+        }) = self.added.pop()
         else {
             return;
         };
+        self.outer = outer;
+        self.touched += passed.unsigned_abs() + sloped + 2;
+        if let Some(stacks) = unsupported {
+            [self.below, self.above] = stacks;
+            let left = self.sloped.len().saturating_sub(sloped);
+            self.sloped.truncate(left);
+            return;
+        }
         let k = self.stiffness;
         self.above.corners.pop();
         self.below
@@ -240,7 +238,6 @@ impl Graph {
                 self.below.hand_over(&mut self.above, k);
             }
         }
-        self.touched += passed.unsigned_abs() + sloped + 2;
     }
 
     /// The u for which u + p(u)/k is `beyond`, the displacement behind a spring.

@@ -21,11 +21,6 @@ impl Prediction {
         self.phases = phases;
     }
 
-    /// Forgets all.
-    pub fn clear(&mut self) {
-        self.by_distance.fill(Contact::Stuck);
-    }
-
     /// Writes the predicted states of the nodes in `stretch` to `contacts`.
     pub fn read(&self, first: usize, stretch: Stretch, contacts: &mut [Contact]) {
         for node in stretch.nodes() {

@@ -46,7 +46,7 @@ impl Implicit {
     pub fn start(&mut self, largest: f64) {
         self.clamped.start(largest);
         if let Some(newton) = &mut self.sigmoid {
-            newton.start();
+            newton.r.fill(0.0);
         }
     }
 
@@ -89,7 +89,7 @@ impl Implicit {
         if solved.is_err() {
             f.fill(0.0);
             if self.solve_clamped(lumped, duct, f).is_ok() {
-                newton.restart(&self.clamped.trial.r);
+                newton.r.copy_from_slice(&self.clamped.trial.r);
             }
             let statistics = &mut self.clamped.statistics;
             solved = newton.solve(&self.load, accuracy, duct, last, statistics);

@@ -7,7 +7,7 @@
 use crate::ends::{Balance, EndReader};
 use crate::error::checked;
 use crate::step::{FixedEndFriction, Support};
-use crate::{CableError, DuctedCable, EndForces, Mesh};
+use crate::{CableError, DuctedCable, End, EndForces, Mesh};
 
 /// Masses, springs and supports of one cable on one mesh.
 #[derive(Debug, Clone)]
@@ -20,9 +20,7 @@ pub(crate) struct Lumped {
     pub stiffness: f64,
     /// Springs to the ground (node, stiffness \[N/m\]), ascending by node.
     pub springs: Vec<(usize, f64)>,
-    /// Whether the first and the last node are held.
-    pub fixed: [bool; 2],
-    /// Friction of the held ones.
+    /// Friction of held nodes.
     pub held: FixedEndFriction,
     ends: EndReader,
 }
@@ -39,7 +37,6 @@ impl Lumped {
         Ok(Self {
             mass_per_metre,
             stiffness: cable.axial_stiffness() / mesh.spacing(),
-            fixed: [cable.upstream(), cable.downstream()].map(|end| end.stiffness().is_none()),
             springs: springs.collect(),
             held: FixedEndFriction::new(&cable, &mesh),
             ends: EndReader::new(&cable, &mesh),
@@ -55,7 +52,8 @@ impl Lumped {
 
     /// Whether `node` is a fixed end.
     pub fn holds(&self, node: usize) -> bool {
-        (self.fixed[0] && node == 0) || (self.fixed[1] && node == self.mesh.elements())
+        let (first, last) = (self.cable.upstream(), self.cable.downstream());
+        (node == 0 && first == End::Fixed) || (node == self.mesh.elements() && last == End::Fixed)
     }
 
     /// ½ uᵀ(K + S) u \[J\].

@@ -6,7 +6,6 @@ mod inertia;
 mod leak;
 mod lumped;
 mod moving_duct;
-mod outcome;
 mod pass;
 mod rest;
 mod sigmoid;
@@ -15,9 +14,8 @@ pub use energy::EnergyBalance;
 pub use inertia::inertia_ratio;
 pub use leak::SigmoidLeak;
 pub use moving_duct::MovingDuct;
-pub use outcome::TransientOutcome;
+pub use pass::TransientOutcome;
 
 pub(crate) use implicit::Implicit;
 pub(crate) use lumped::Lumped;
 pub(crate) use pass::pass;
-pub(crate) use rest::Settler;

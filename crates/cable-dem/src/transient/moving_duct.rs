@@ -26,20 +26,13 @@ pub struct MovingDuct {
     speed: f64,
     mesh: Mesh,
     approach: f64,
-    /// Rows by phase: the lattice points p, p + M, p + 2M, …
-    rows: Vec<Row>,
+    /// By phase the values at the lattice points p, p + M, p + 2M, …, and the slopes there times the lattice step.
+    rows: Vec<[Vec<f64>; 2]>,
     /// ξ of the first lattice point is −`origin` \[m\].
     origin: f64,
     step: f64,
     peak: f64,
     steepest: f64,
-}
-
-#[derive(Debug, Clone)]
-struct Row {
-    value: Vec<f64>,
-    /// Slope times the lattice step.
-    slope: Vec<f64>,
 }
 
 /// The four rows and weights that give every node's duct displacement at one instant.
@@ -120,10 +113,10 @@ impl MovingDuct {
         let rows = (0..phases)
             .map(|p| {
                 let points = || (0..per_row).map(move |c| p + c * phases);
-                Row {
-                    value: points().map(|j| values[j + 2]).collect(),
-                    slope: points().map(slope).collect(),
-                }
+                [
+                    points().map(|j| values[j + 2]).collect(),
+                    points().map(slope).collect(),
+                ]
             })
             .collect();
         Ok(Self {
@@ -213,10 +206,9 @@ impl MovingDuct {
         let left = left as usize;
         let row = |j: usize| {
             let (phase, first) = (j % self.rows.len(), j / self.rows.len());
-            let row = &self.rows[phase];
-            (&row.value[first..first + nodes], &row.slope[first..first + nodes])
+            self.rows[phase].each_ref().map(|row| &row[first..first + nodes])
         };
-        let ((value, slope), (next_value, next_slope)) = (row(left), row(left + 1));
+        let ([value, slope], [next_value, next_slope]) = (row(left), row(left + 1));
         Instant {
             rows: [value, slope, next_value, next_slope],
             weights: [

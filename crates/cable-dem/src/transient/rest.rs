@@ -18,72 +18,36 @@ use super::moving_duct::MovingDuct;
 use crate::step::largest;
 use crate::{CableError, CableState, Statistics};
 
-/// Takes the cable from rest to the start of a pass, and from its end to rest; see the module's text.
-#[derive(Debug, Clone)]
-pub(crate) struct Settler {
-    solver: Implicit,
-    /// How far each node's duct moves \[m\].
-    increment: Vec<f64>,
-    friction: Vec<f64>,
-}
-
-/// Which way the ground moves.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Ground {
-    /// From rest to the vehicle's first position.
-    Arrives,
-    /// From the vehicle's last position back to rest.
-    Leaves,
-}
-
-impl Settler {
-    pub fn new(lumped: &Lumped) -> Self {
-        Self {
-            solver: Implicit::new(lumped, 0.0),
-            increment: vec![0.0; lumped.mesh.nodes()],
-            friction: vec![0.0; lumped.mesh.nodes()],
-        }
+/// One step of the cable after the ground, which moves by `sign` times the duct's displacement at `time` \[s\], by a `solver` without
+/// inertia. Returns the heat of the slip \[J\].
+pub(super) fn follow(
+    (time, sign): (f64, f64),
+    solver: &mut Implicit,
+    lumped: &Lumped,
+    duct: &MovingDuct,
+    state: &mut CableState,
+    statistics: &mut Statistics,
+) -> Result<f64, CableError> {
+    let (mut increment, mut friction) = (vec![0.0; lumped.mesh.nodes()], state.friction.clone());
+    duct.displacement(time, &mut increment);
+    for increment in &mut increment {
+        *increment *= sign;
     }
-
-    /// One step of the cable after the ground. Returns the heat of the slip \[J\].
-    pub fn follow(
-        &mut self,
-        ground: Ground,
-        lumped: &Lumped,
-        duct: &MovingDuct,
-        state: &mut CableState,
-        statistics: &mut Statistics,
-    ) -> Result<f64, CableError> {
-        let Self {
-            solver,
-            increment,
-            friction,
-        } = self;
-        let (time, sign) = match ground {
-            Ground::Arrives => (0.0, 1.0),
-            Ground::Leaves => (duct.duration(), -1.0),
-        };
-        duct.displacement(time, increment);
-        for increment in increment.iter_mut() {
-            *increment *= sign;
-        }
-        friction.copy_from_slice(&state.friction);
-        solver.start(largest(&state.displacement, duct.peak()));
-        solver.load_elastic(lumped, &state.displacement);
-        let moved = solver.solve(lumped, increment, friction);
-        let moved = moved.map_err(|violation| CableError::NoConvergence {
-            vehicle_position: duct.vehicle_position(time),
-            violation,
-        })?;
-        let compliance = lumped.elastic_compliance();
-        let heat = lumped.weighted(|i| {
-            friction[i] * (increment[i] - moved[i] - compliance * (friction[i] - state.friction[i]))
-        });
-        for (u, r) in state.displacement.iter_mut().zip(moved) {
-            *u += r;
-        }
-        state.friction.copy_from_slice(friction);
-        *statistics += solver.statistics();
-        Ok(heat)
+    solver.start(largest(&state.displacement, duct.peak()));
+    solver.load_elastic(lumped, &state.displacement);
+    let moved = solver.solve(lumped, &increment, &mut friction);
+    let moved = moved.map_err(|violation| CableError::NoConvergence {
+        vehicle_position: duct.vehicle_position(time),
+        violation,
+    })?;
+    let compliance = lumped.elastic_compliance();
+    let heat = lumped.weighted(|i| {
+        friction[i] * (increment[i] - moved[i] - compliance * (friction[i] - state.friction[i]))
+    });
+    for (u, r) in state.displacement.iter_mut().zip(moved) {
+        *u += r;
     }
+    state.friction = friction;
+    *statistics += solver.statistics();
+    Ok(heat)
 }

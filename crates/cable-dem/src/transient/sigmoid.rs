@@ -20,27 +20,14 @@ const HALVINGS: usize = 40;
 #[derive(Debug, Clone)]
 pub(super) struct Newton {
     half_shape: f64,
-    limit: f64,
-    /// k \[N/m\], and the unknown nodes.
-    stiffness: f64,
-    free: Stretch,
-    /// K + S + c on the diagonal \[N/m\].
-    diagonal: Vec<f64>,
-    tributary: Vec<f64>,
-    r: Vec<f64>,
+    /// K + S + c, and the friction limit.
+    chain: Chain,
+    /// Increments \[m\]: where the next step starts from, and its answer.
+    pub r: Vec<f64>,
     direction: Vec<f64>,
     residual: Vec<f64>,
     slope: Vec<f64>,
     upper: Vec<f64>,
-}
-
-/// How far r is from the answer.
-#[derive(Debug, Clone, Copy)]
-struct Evaluation {
-    /// Largest residual per metre of cable \[N/m\].
-    worst: f64,
-    /// Derivative of the energy along the direction.
-    along: f64,
 }
 
 impl Newton {
@@ -52,11 +39,7 @@ impl Newton {
         };
         Self {
             half_shape,
-            limit: chain.limit,
-            stiffness: chain.stiffness,
-            free: chain.free,
-            diagonal: chain.diagonal.iter().map(|d| chain.stiffness * d).collect(),
-            tributary: chain.tributary.clone(),
+            chain: chain.clone(),
             r: zeros(),
             direction: zeros(),
             residual: zeros(),
@@ -65,20 +48,10 @@ impl Newton {
         }
     }
 
-    /// Forgets the last increment.
-    pub fn start(&mut self) {
-        self.r.fill(0.0);
-    }
-
-    /// Starts from `r` next.
-    pub fn restart(&mut self, r: &[f64]) {
-        self.r.copy_from_slice(r);
-    }
-
     /// The increments found \[m\]; writes the friction to `f`.
     pub fn answer(&self, duct: &[f64], f: &mut [f64]) -> &[f64] {
         for (f, (duct, r)) in f.iter_mut().zip(duct.iter().zip(&self.r)) {
-            *f = self.limit * (self.half_shape * (duct - r)).tanh();
+            *f = self.chain.limit * (self.half_shape * (duct - r)).tanh();
         }
         &self.r
     }
@@ -94,7 +67,7 @@ impl Newton {
     ) -> Result<(), f64> {
         let mut worst = f64::INFINITY;
         for step in 0..=steps {
-            worst = worst.min(self.evaluate(load, duct, 0.0).worst);
+            worst = worst.min(self.evaluate(load, duct, 0.0).0);
             if worst <= accuracy {
                 return Ok(());
             }
@@ -111,7 +84,7 @@ impl Newton {
             }
             let mut share = 1.0;
             for _ in 0..HALVINGS {
-                if self.evaluate(load, duct, share).along <= 0.5 * descent.abs() {
+                if self.evaluate(load, duct, share).1 <= 0.5 * descent.abs() {
                     break;
                 }
                 share *= 0.5;
@@ -121,16 +94,14 @@ impl Newton {
             }
         }
         self.r.fill(0.0);
-        Err(worst / self.limit)
+        Err(worst / self.chain.limit)
     }
 
-    /// Residual and slope at r + share · direction.
-    fn evaluate(&mut self, load: &[f64], duct: &[f64], share: f64) -> Evaluation {
-        let mut result = Evaluation {
-            worst: 0.0,
-            along: 0.0,
-        };
-        let last = duct.len() - 1;
+    /// Sets residual and slope at r + share · direction. Returns the largest residual per metre of cable \[N/m\] and the derivative of
+    /// the energy along the direction.
+    fn evaluate(&mut self, load: &[f64], duct: &[f64], share: f64) -> (f64, f64) {
+        let (mut worst, mut along) = (0.0_f64, 0.0);
+        let (last, k, q) = (duct.len() - 1, self.chain.stiffness, self.chain.limit);
         let at = |i: usize| {
             self.r[i]
                 + if share == 0.0 {
@@ -143,34 +114,33 @@ impl Newton {
         for i in 0..=last {
             let left = r;
             (r, right) = (right, if i < last { at(i + 1) } else { 0.0 });
-            if !self.free.nodes().contains(&i) {
+            if !self.chain.free.nodes().contains(&i) {
                 continue;
             }
-            let w = self.tributary[i];
+            let w = self.chain.tributary[i];
             let tanh = (self.half_shape * (duct[i] - r)).tanh();
-            let residual =
-                self.diagonal[i] * r - self.stiffness * (left + right) - load[i] - w * self.limit * tanh;
+            let residual = k * self.chain.diagonal[i] * r - k * (left + right) - load[i] - w * q * tanh;
             self.residual[i] = residual;
-            self.slope[i] = w * self.limit * self.half_shape * (1.0 - tanh * tanh);
+            self.slope[i] = w * q * self.half_shape * (1.0 - tanh * tanh);
             let violation = residual.abs() / w;
             // What is not a number is a violation too.
-            result.worst = result.worst.max(if violation.is_nan() {
+            worst = if violation.is_nan() {
                 f64::INFINITY
             } else {
-                violation
-            });
-            result.along += residual * self.direction[i];
+                worst.max(violation)
+            };
+            along += residual * self.direction[i];
         }
-        result
+        (worst, along)
     }
 
     /// Newton's direction −H⁻¹ R by elimination; H is diagonally dominant.
     fn solve_direction(&mut self) {
-        let (k, Stretch { lo, hi }) = (self.stiffness, self.free);
+        let (k, Stretch { lo, hi }) = (self.chain.stiffness, self.chain.free);
         self.direction.fill(0.0);
         let (mut upper, mut before) = (0.0, 0.0);
         for i in lo..=hi {
-            let inverse = 1.0 / (self.diagonal[i] + self.slope[i] - k * upper);
+            let inverse = 1.0 / (k * self.chain.diagonal[i] + self.slope[i] - k * upper);
             upper = k * inverse;
             before = (k * before - self.residual[i]) * inverse;
             self.upper[i] = upper;
