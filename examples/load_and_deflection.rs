@@ -51,6 +51,24 @@ pub fn outcome(file: &str, load: Option<&str>, deflection: Option<f64>) -> Resul
     on(file, load, None, deflection)
 }
 
+/// The same within a tolerance of your own, such as `5 %`.
+///
+/// # Errors
+///
+/// Those of the scene and the run.
+pub fn outcome_within(
+    tolerance: &str,
+    file: &str,
+    load: Option<&str>,
+    deflection: Option<f64>,
+) -> Result<Outcome, Failure> {
+    let tolerance = format!("solver.tolerance={tolerance}");
+    after_200(
+        file,
+        [Some(tolerance), load.map(Into::into), scaled_to(deflection)],
+    )
+}
+
 /// The same on another ground than the scene's.
 ///
 /// # Errors
@@ -62,10 +80,21 @@ pub fn on(
     ground: Option<&str>,
     deflection: Option<f64>,
 ) -> Result<Outcome, Failure> {
-    let mut overrides = vec!["traffic.passes=200".into()];
-    overrides.extend(ground.map(Into::into));
-    overrides.extend(load.map(Into::into));
-    overrides.extend(deflection.map(|peak| format!("ground.vertical_peak={peak} um")));
+    let overrides = [
+        ground.map(Into::into),
+        load.map(Into::into),
+        scaled_to(deflection),
+    ];
+    after_200(file, overrides)
+}
+
+fn scaled_to(deflection: Option<f64>) -> Option<String> {
+    deflection.map(|peak| format!("ground.vertical_peak={peak} um"))
+}
+
+fn after_200(file: &str, overrides: [Option<String>; 3]) -> Result<Outcome, Failure> {
+    let mut overrides: Vec<String> = overrides.into_iter().flatten().collect();
+    overrides.push("traffic.passes=200".into());
     let run = creepage::run(&scene(file, &overrides)?)?;
     Ok(Outcome {
         deflection: run.duct_motion.peak_vertical_m * 1e6,

@@ -16,7 +16,9 @@ const LAST: u64 = 100_000;
 const SHOWN: [u64; 15] = [1, 2, 3, 5, 8, 12, 20, 35, 60, 100, 170, 300, 500, 850, 1500];
 
 fn points<'a>(passes: impl Iterator<Item = &'a PassRecord>) -> Vec<(f64, f64)> {
-    passes.map(|record| (record.pass as f64, record.downstream_force_n)).collect()
+    passes
+        .map(|record| (record.pass as f64, record.downstream_force_n))
+        .collect()
 }
 
 fn main() -> Result<(), common::Failure> {
@@ -37,7 +39,10 @@ fn main() -> Result<(), common::Failure> {
         Axis::linear("force, N"),
     )
     .with(Series::line("with jumps", points(jumps.passes.iter())))
-    .with(Series::points("passes simulated for it and listed", points(simulated)))
+    .with(Series::points(
+        "passes simulated for it and listed",
+        points(simulated),
+    ))
     .with(Series::points(
         "every pass simulated",
         points(every.passes.iter().filter(|record| SHOWN.contains(&record.pass))),

@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 
 use cable_dem::CableError;
-use cycle_jump::JumpError;
 #[cfg(feature = "calibrate")]
 use calibrate::CalibrationError;
+use cycle_jump::JumpError;
 use ground_field::GroundError;
 
 #[cfg(feature = "calibrate")]

@@ -135,7 +135,11 @@ impl Case {
             Ok::<_, JumpError>(outcome)
         })?;
         Ok(Found {
-            forces: evolution.records.iter().map(|record| record.outcome.force.downstream).collect(),
+            forces: evolution
+                .records
+                .iter()
+                .map(|record| record.outcome.force.downstream)
+                .collect(),
             node_updates,
         })
     }

@@ -56,10 +56,20 @@ impl Case {
             Ok(Passage::new(&cable, &mesh, &motion.scaled(factor)?, APPROACH)?)
         };
         let passages = [passage(Direction::Forward)?, passage(Direction::Reverse)?];
-        Ok(Self { cable, mesh, passages, mix })
+        Ok(Self {
+            cable,
+            mesh,
+            passages,
+            mix,
+        })
     }
 
-    fn pass(&self, solver: &mut QuasiStatic, phase: usize, state: &mut CableState) -> Result<PassOutcome, CableError> {
+    fn pass(
+        &self,
+        solver: &mut QuasiStatic,
+        phase: usize,
+        state: &mut CableState,
+    ) -> Result<PassOutcome, CableError> {
         solver.pass(&self.passages[self.mix[phase]], state)
     }
 
@@ -97,15 +107,27 @@ impl Case {
             beyond: &[],
             guide,
         };
-        let evolution = evolve(&self.cable, &self.mesh, &jumps, &request, |Next { phase, .. }, state| {
-            self.pass(&mut solver, phase, state).map_err(JumpError::from)
-        })?;
-        Ok(evolution.records.iter().map(|record| record.outcome.force.downstream).collect())
+        let evolution = evolve(
+            &self.cable,
+            &self.mesh,
+            &jumps,
+            &request,
+            |Next { phase, .. }, state| self.pass(&mut solver, phase, state).map_err(JumpError::from),
+        )?;
+        Ok(evolution
+            .records
+            .iter()
+            .map(|record| record.outcome.force.downstream)
+            .collect())
     }
 }
 
 /// Without guards, and with them.
-fn outcomes(lengths: f64, number: f64, mix: &'static [usize]) -> Result<[Cell; 2], Box<dyn Error + Send + Sync>> {
+fn outcomes(
+    lengths: f64,
+    number: f64,
+    mix: &'static [usize],
+) -> Result<[Cell; 2], Box<dyn Error + Send + Sync>> {
     let case = Case::new(lengths, number, mix)?;
     let right = case.simulated()?;
     let last = right[right.len() - 1];
@@ -117,9 +139,10 @@ fn outcomes(lengths: f64, number: f64, mix: &'static [usize]) -> Result<[Cell; 2
             let scale = |right: f64| right.abs().max(0.1 * largest).max(0.01 * LIMIT);
             let error = |(found, right): &(f64, f64)| (found - right).abs() / scale(*right);
             let pairs = forces.into_iter().zip(right.iter().copied());
-            pairs
-                .max_by(|a, b| error(a).total_cmp(&error(b)))
-                .map_or_else(|| silent(Outcome::Failed, last), |(found, right)| judge(found, right, scale(right), false))
+            pairs.max_by(|a, b| error(a).total_cmp(&error(b))).map_or_else(
+                || silent(Outcome::Failed, last),
+                |(found, right)| judge(found, right, scale(right), false),
+            )
         }
     };
     Ok([Guide::Obey(&BLIND), Guide::Free].map(|guide| judged(case.jumped(number, guide))))
@@ -145,12 +168,16 @@ pub fn maps(mix: &'static [usize], lengths: usize, numbers: usize) -> Result<[Gr
 ///
 /// As for writing files and for [`creepage::figure::Chart`].
 pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
-    let mut figure = Panels::new("Jumps over passes: force after 20 to 600 passes, against the simulation of every pass")
-        .columns(2)
-        .panel_size(700.0, 480.0);
+    let mut figure =
+        Panels::new("Jumps over passes: force after 20 to 600 passes, against the simulation of every pass")
+            .columns(2)
+            .panel_size(700.0, 480.0);
     let mut table = String::from("map,length_in_depths,friction_number,outcome,force_n,right_force_n\n");
     for (mix, vehicles) in MIXES {
-        for (grid, guards) in maps(vehicles, 11, 11)?.into_iter().zip(["fixed jumps, unchecked", "guards on"]) {
+        for (grid, guards) in maps(vehicles, 11, 11)?
+            .into_iter()
+            .zip(["fixed jumps, unchecked", "guards on"])
+        {
             let name = format!("{mix}, {guards}");
             println!("{name}: {}", grid.summary());
             figure = figure.with(grid.map(

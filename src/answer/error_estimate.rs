@@ -193,7 +193,8 @@ pub fn judge(reached: f64, tolerance: f64) -> Result<(), Error> {
 /// Largest difference of a force after a pass, as a share of the largest force or tension after that pass, or of a tenth of
 /// the largest in the run; and largest difference of a movement.
 pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
-    let outcomes = |records: &[Record]| -> Vec<PassOutcome> { records.iter().map(|record| record.outcome).collect() };
+    let outcomes =
+        |records: &[Record]| -> Vec<PassOutcome> { records.iter().map(|record| record.outcome).collect() };
     let (a, b) = (outcomes(a), outcomes(b));
     let forces = |outcome: &PassOutcome| {
         [

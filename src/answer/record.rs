@@ -261,7 +261,11 @@ impl Cost {
 
 impl PassRecord {
     pub(crate) fn new(record: &Record) -> Self {
-        let Record { pass, outcome, interpolated } = record;
+        let Record {
+            pass,
+            outcome,
+            interpolated,
+        } = record;
         Self {
             pass: *pass,
             downstream_force_n: outcome.force.downstream,

@@ -37,25 +37,55 @@ pub fn saturation(
     beyond: Option<&Beyond>,
 ) -> Option<(Saturation, ForceRange)> {
     let none = (scene.ends.upstream, scene.ends.downstream) == (End::Free, End::Free);
-    let scale = records.iter().map(|record| peak(&record.outcome)).fold(0.0, f64::max);
+    let scale = records
+        .iter()
+        .map(|record| peak(&record.outcome))
+        .fold(0.0, f64::max);
     let level = |force: fn(&PassOutcome) -> f64| match beyond {
         Some(beyond) => range(beyond.period.iter().map(force)),
-        None => extrapolate(&records.iter().map(|record| force(&record.outcome)).collect::<Vec<_>>(), scale),
+        None => extrapolate(
+            &records
+                .iter()
+                .map(|record| force(&record.outcome))
+                .collect::<Vec<_>>(),
+            scale,
+        ),
     };
-    let at = |end: End, force| if end == End::Free { Some((0.0, 0.0)) } else { level(force) };
+    let at = |end: End, force| {
+        if end == End::Free {
+            Some((0.0, 0.0))
+        } else {
+            level(force)
+        }
+    };
     let upstream = at(scene.ends.upstream, |o| o.force.upstream)?;
     let downstream = at(scene.ends.downstream, |o| o.force.downstream)?;
-    let inside = if none { level(|o| o.max_compression)? } else { (0.0, 0.0) };
-    let [upstream_force_n, downstream_force_n, inside] = [upstream, downstream, inside].map(|(least, most)| larger(least, most));
-    let mut force_n = [downstream_force_n, upstream_force_n, inside].into_iter().fold(0.0, larger);
+    let inside = if none {
+        level(|o| o.max_compression)?
+    } else {
+        (0.0, 0.0)
+    };
+    let [upstream_force_n, downstream_force_n, inside] =
+        [upstream, downstream, inside].map(|(least, most)| larger(least, most));
+    let mut force_n = [downstream_force_n, upstream_force_n, inside]
+        .into_iter()
+        .fold(0.0, larger);
 
     // At least what is reached, if that is nearly it, and no more than friction can carry to an end whose other end is free.
     let free = scene.ends.upstream == End::Free || scene.ends.downstream == End::Free;
     let limit = scene.friction_limit() * scene.duct.length;
     let impossible = free && scene.restraints.is_empty() && force_n.abs() > (1.0 + balance::MARGIN) * limit;
     let shown = |record: &Record| {
-        let PassOutcome { force, max_compression, .. } = record.outcome;
-        if none { max_compression } else { larger(force.upstream, force.downstream) }
+        let PassOutcome {
+            force,
+            max_compression,
+            ..
+        } = record.outcome;
+        if none {
+            max_compression
+        } else {
+            larger(force.upstream, force.downstream)
+        }
     };
     let reached = records.iter().map(shown).fold(0.0, larger);
     // From much more than it the force falls: it does not level off.
@@ -65,7 +95,10 @@ pub fn saturation(
     }
     force_n = larger(force_n, reached);
     let later = beyond.map_or(&[][..], |beyond| &beyond.records);
-    let first = records.iter().chain(later).find(|record| shown(record) / (LEVEL * force_n) >= 1.0)?;
+    let first = records
+        .iter()
+        .chain(later)
+        .find(|record| shown(record) / (LEVEL * force_n) >= 1.0)?;
     let saturation = Saturation {
         force_n,
         passes_to_95_percent: first.pass,
@@ -83,10 +116,21 @@ pub fn saturation(
 
 /// Largest force on an end in a pass, in size.
 fn peak(outcome: &PassOutcome) -> f64 {
-    let PassOutcome { peak, lowest, max_compression, .. } = outcome;
-    [peak.upstream, peak.downstream, lowest.upstream, lowest.downstream, *max_compression]
-        .into_iter()
-        .fold(0.0, |largest, force| largest.max(force.abs()))
+    let PassOutcome {
+        peak,
+        lowest,
+        max_compression,
+        ..
+    } = outcome;
+    [
+        peak.upstream,
+        peak.downstream,
+        lowest.upstream,
+        lowest.downstream,
+        *max_compression,
+    ]
+    .into_iter()
+    .fold(0.0, |largest, force| largest.max(force.abs()))
 }
 
 fn range(values: impl Iterator<Item = f64>) -> Option<Range> {

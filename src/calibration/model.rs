@@ -53,7 +53,11 @@ impl SeriesModel {
             (plan.choice.method.cable_method(), plan.period)
         };
         let motions = Ground::new(&scene, None, road::reach(&scene))?.motions;
-        let passes = series.readings.readings().iter().map(|reading: &Reading| reading.pass);
+        let passes = series
+            .readings
+            .readings()
+            .iter()
+            .map(|reading: &Reading| reading.pass);
         let mut model = Self {
             passes: passes.collect(),
             jumps: None,

@@ -158,7 +158,10 @@ fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
     }
     let inertia = estimates.inertia_in_words();
     let (method, reason) = if estimates.inertia_matters(tolerance) {
-        (CableMethod::Dynamic, format!("{inertia}: too much for the tolerance"))
+        (
+            CableMethod::Dynamic,
+            format!("{inertia}: too much for the tolerance"),
+        )
     } else {
         (CableMethod::QuasiStatic, inertia)
     };
@@ -166,7 +169,8 @@ fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
         return (PassMethod::EveryPass(method), reason);
     }
     let (simulated, passes) = (estimates.simulated, scene.traffic.passes);
-    let jumps = format!("about {simulated:.0} of {passes} passes are simulated, with jumps between them; {reason}");
+    let jumps =
+        format!("about {simulated:.0} of {passes} passes are simulated, with jumps between them; {reason}");
     (PassMethod::Jumps(method), jumps)
 }
 
@@ -276,7 +280,10 @@ impl Estimates {
                 self.passes
             ),
             PassMethod::EveryPass(CableMethod::QuasiStatic) => {
-                format!("simulating every pass would take {}", time(self.every_pass(CableMethod::QuasiStatic)))
+                format!(
+                    "simulating every pass would take {}",
+                    time(self.every_pass(CableMethod::QuasiStatic))
+                )
             }
             PassMethod::EveryPass(CableMethod::Dynamic) => "more than the tolerance needs".into(),
         }

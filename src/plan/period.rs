@@ -44,17 +44,27 @@ impl Period {
                     return Ok(exact(sequence.clone()));
                 }
                 let count = |vehicle| sequence.iter().filter(|&&one| one == vehicle).count();
-                (0..scene.vehicles.len()).map(|vehicle| count(vehicle) as f64).collect()
+                (0..scene.vehicles.len())
+                    .map(|vehicle| count(vehicle) as f64)
+                    .collect()
             }
             _ => scene.vehicles.iter().map(|vehicle| vehicle.share).collect(),
         };
         let total: f64 = shares.iter().sum();
         let shares: Vec<f64> = shares.iter().map(|share| share / total).collect();
-        let mut mixes: Vec<Mix> = (1..=LONGEST).map(|length| Mix::nearest(&shares, length)).collect();
+        let mut mixes: Vec<Mix> = (1..=LONGEST)
+            .map(|length| Mix::nearest(&shares, length))
+            .collect();
         // The shortest of the nearest.
-        mixes.sort_by(|a, b| (a.distance / SAME).round().total_cmp(&(b.distance / SAME).round()));
+        mixes.sort_by(|a, b| {
+            (a.distance / SAME)
+                .round()
+                .total_cmp(&(b.distance / SAME).round())
+        });
         let first = &mixes[0];
-        let other = (first.distance > SAME).then(|| first.opposite(&shares, &mixes)).flatten();
+        let other = (first.distance > SAME)
+            .then(|| first.opposite(&shares, &mixes))
+            .flatten();
         Ok(Self {
             vehicles: first.interleaved()?,
             other: match other {
@@ -90,7 +100,11 @@ impl Mix {
         for &vehicle in order.iter().take(length - counts.iter().sum::<usize>()) {
             counts[vehicle] += 1;
         }
-        let off: Vec<f64> = counts.iter().zip(shares).map(|(&count, share)| count as f64 / length as f64 - share).collect();
+        let off: Vec<f64> = counts
+            .iter()
+            .zip(shares)
+            .map(|(&count, share)| count as f64 / length as f64 - share)
+            .collect();
         Self {
             distance: off.iter().fold(0.0, |most, off| most.max(off.abs())),
             counts,
@@ -102,15 +116,26 @@ impl Mix {
     fn opposite<'a>(&self, shares: &[f64], mixes: &'a [Mix]) -> Option<(&'a Mix, f64)> {
         debug_assert_eq!(shares.len(), self.off.len());
         let along = |mix: &Mix| -> f64 { self.off.iter().zip(&mix.off).map(|(a, b)| a * b).sum() };
-        let other = mixes.iter().filter(|mix| along(mix) < 0.0).min_by(|a, b| a.distance.total_cmp(&b.distance))?;
+        let other = mixes
+            .iter()
+            .filter(|mix| along(mix) < 0.0)
+            .min_by(|a, b| a.distance.total_cmp(&b.distance))?;
         Some((other, self.distance / (self.distance + other.distance)))
     }
 
     /// Its vehicles, as evenly as possible.
     fn interleaved(&self) -> Result<Vec<usize>, Error> {
-        let present: Vec<usize> = (0..self.counts.len()).filter(|&vehicle| self.counts[vehicle] > 0).collect();
-        let counts: Vec<f64> = present.iter().map(|&vehicle| self.counts[vehicle] as f64).collect();
+        let present: Vec<usize> = (0..self.counts.len())
+            .filter(|&vehicle| self.counts[vehicle] > 0)
+            .collect();
+        let counts: Vec<f64> = present
+            .iter()
+            .map(|&vehicle| self.counts[vehicle] as f64)
+            .collect();
         let traffic = Traffic::new(&counts, Order::Interleaved)?;
-        Ok(traffic.take(self.counts.iter().sum()).map(|index| present[index]).collect())
+        Ok(traffic
+            .take(self.counts.iter().sum())
+            .map(|index| present[index])
+            .collect())
     }
 }

@@ -37,9 +37,9 @@ impl<'a> RunBuilder<'a> {
     /// Every pass is simulated after all.
     pub fn gives_up_jumps(&mut self, error: &Error) {
         self.summary.cable = self.plan.choice.method.cable_method().name().into();
-        self.summary
-            .reasons
-            .push(format!("jumps gave no answer here ({error}): every pass was simulated after all"));
+        self.summary.reasons.push(format!(
+            "jumps gave no answer here ({error}): every pass was simulated after all"
+        ));
     }
 
     fn duct_motion(&self) -> DuctMotionSummary {
@@ -76,7 +76,11 @@ impl<'a> RunBuilder<'a> {
             ));
         }
         let total = solved.error.total();
-        let levels_off = saturation(self.plan.scene, &solved.passes.records, solved.passes.beyond.as_ref());
+        let levels_off = saturation(
+            self.plan.scene,
+            &solved.passes.records,
+            solved.passes.beyond.as_ref(),
+        );
         let (saturation, range) = levels_off.unzip();
         Ok(Run {
             title: self.plan.scene.title.clone(),
@@ -189,6 +193,9 @@ fn restraints(passes: &Passes) -> Result<Vec<RestraintRecord>, Error> {
 /// The passes that are listed.
 fn records(plan: &Plan<'_>, passes: &Passes) -> Vec<PassRecord> {
     let listed = simulated(plan.scene.traffic.passes);
-    let known = passes.records.iter().filter(|record| listed.binary_search(&record.pass).is_ok());
+    let known = passes
+        .records
+        .iter()
+        .filter(|record| listed.binary_search(&record.pass).is_ok());
     known.map(PassRecord::new).collect()
 }

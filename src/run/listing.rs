@@ -61,7 +61,11 @@ impl Listing {
                 recent.remove(0);
             }
             if next.next_if_eq(&pass).is_some() {
-                let shown = if pass <= own_passes { pass } else { alike(period, &recent, pass, count) };
+                let shown = if pass <= own_passes {
+                    pass
+                } else {
+                    alike(period, &recent, pass, count)
+                };
                 rows.push((pass, shown..=shown));
             }
         }
@@ -85,7 +89,11 @@ impl Listing {
 
     /// The listed passes, from all that were wanted.
     pub fn records(&self, known: &[Record]) -> Vec<Record> {
-        let of = |pass: u64| known.binary_search_by_key(&pass, |record| record.pass).map(|place| known[place]);
+        let of = |pass: u64| {
+            known
+                .binary_search_by_key(&pass, |record| record.pass)
+                .map(|place| known[place])
+        };
         let row = |(pass, shown): &(u64, RangeInclusive<u64>)| {
             let shown: Vec<Record> = shown.clone().filter_map(|pass| of(pass).ok()).collect();
             let first = shown.first()?;
@@ -106,7 +114,9 @@ const LONGEST_ORDER: u64 = 100_000_000;
 fn alike(period: &Period, recent: &[usize], pass: u64, count: u64) -> u64 {
     let length = period.len();
     let back = |phase: usize| {
-        let same = |steps: &usize| period.vehicles[(phase + length - steps % length) % length] == recent[recent.len() - 1 - steps];
+        let same = |steps: &usize| {
+            period.vehicles[(phase + length - steps % length) % length] == recent[recent.len() - 1 - steps]
+        };
         (0..recent.len()).take_while(same).count()
     };
     let own = ((pass - 1) % length as u64) as usize;

@@ -177,11 +177,18 @@ impl<'a> Simulation<'a> {
         number: Option<u64>,
         state: &mut CableState,
     ) -> Result<PassOutcome, Error> {
-        let Task { scene, stages, progress, .. } = self.task;
+        let Task {
+            scene,
+            stages,
+            progress,
+            ..
+        } = self.task;
         let count = scene.traffic.passes;
         let stage = number.filter(|pass| stages.contains(pass));
         let outcome = if stage.is_some() || number == Some(count) {
-            let (outcome, friction) = self.solver.pass_and_look(vehicle, state, 0.5 * scene.duct.length)?;
+            let (outcome, friction) = self
+                .solver
+                .pass_and_look(vehicle, state, 0.5 * scene.duct.length)?;
             if number == Some(count) {
                 self.slip = friction.as_ref().map(|friction| friction.slip_lengths);
             }
@@ -207,7 +214,11 @@ impl<'a> Simulation<'a> {
     /// The share of the work done with `pass`.
     fn share(&self, pass: u64) -> f64 {
         let (pass, count) = (pass as f64, self.task.scene.traffic.passes as f64);
-        if self.jumps { pass.ln_1p() / count.ln_1p() } else { pass / count }
+        if self.jumps {
+            pass.ln_1p() / count.ln_1p()
+        } else {
+            pass / count
+        }
     }
 
     fn passes(self, records: Vec<Record>, state: CableState, simulated: u64) -> Passes {

@@ -8,10 +8,10 @@ use ground_field::DuctMotion;
 
 use super::passes::{Jumping, Passes, Task};
 use super::random;
-use crate::answer::{RandomSpread, simulated};
 use crate::answer::error_estimate::{
     self, ErrorParts, Scale, Shares, difference, measured, of_mesh, of_passes,
 };
+use crate::answer::{RandomSpread, simulated};
 use crate::ground::road;
 use crate::plan::{Levels, PassMethod, Period, Plan};
 use crate::shown::{exact_percent, percent};
@@ -91,7 +91,8 @@ impl Refinement<'_> {
             passes: jumps.as_ref().map_or(Shares::default(), |jumps| jumps.error),
             measured: false,
         };
-        let (mut statistics, found) = jumps.map_or(Default::default(), |jumps| (jumps.statistics, Some(jumps)));
+        let (mut statistics, found) =
+            jumps.map_or(Default::default(), |jumps| (jumps.statistics, Some(jumps)));
         let way = found.as_ref().map(|found| Jumping {
             period: &self.plan.period,
             tolerance: found.tolerance,
@@ -101,7 +102,10 @@ impl Refinement<'_> {
         });
         let way = way.as_ref();
         let known = found.as_ref().map(|found| (found.level, &found.passes));
-        let (finest, coarser) = both(|| self.simulate(level, way, true), || self.coarser(level, way, known))?;
+        let (finest, coarser) = both(
+            || self.simulate(level, way, true),
+            || self.coarser(level, way, known),
+        )?;
         let mut passes = coarser;
         passes.push(finest);
         loop {
@@ -186,7 +190,19 @@ impl Refinement<'_> {
             taken.first_jump *= FINER_JUMP.1;
             let fine = self.simulate(level, Some(&taken), false)?;
             let mut error = of_passes(&coarse.records, &fine.records, self.scale());
-            if std::env::var("JUMP_LOG").is_ok() { let d: Vec<(u64,f64)> = coarse.records.iter().zip(&fine.records).map(|(a,b)| (a.pass, difference(&[*a],&[*b],self.scale()).force)).collect(); let w = d.iter().fold((0,0.0),|m,x| if x.1>m.1 {*x} else {m}); eprintln!("FOUND tol {} {error:?} sim {} worst {w:?}", taken.tolerance, fine.simulated); }
+            if std::env::var("JUMP_LOG").is_ok() {
+                let d: Vec<(u64, f64)> = coarse
+                    .records
+                    .iter()
+                    .zip(&fine.records)
+                    .map(|(a, b)| (a.pass, difference(&[*a], &[*b], self.scale()).force))
+                    .collect();
+                let w = d.iter().fold((0, 0.0), |m, x| if x.1 > m.1 { *x } else { m });
+                eprintln!(
+                    "FOUND tol {} {error:?} sim {} worst {w:?}",
+                    taken.tolerance, fine.simulated
+                );
+            }
             if enough(error) || finer == FINEST_JUMPS {
                 error = error + self.mix_error(level, &taken, &fine, &mut statistics)?;
                 return Ok(FoundJumps {
@@ -219,7 +235,10 @@ impl Refinement<'_> {
             vehicles: vehicles.clone(),
             ..self.plan.period.clone()
         };
-        let other = Jumping { period: &period, ..*taken };
+        let other = Jumping {
+            period: &period,
+            ..*taken
+        };
         let other = self.simulate(level, Some(&other), false)?;
         *statistics += other.statistics;
         Ok(difference(&passes.records, &other.records, self.scale()).times(*share))
@@ -289,7 +308,10 @@ impl Refinement<'_> {
         if shown {
             (task.stages, task.progress) = (self.stages, self.progress);
         }
-        let way = way.map(|way| Jumping { beyond: shown, ..*way });
+        let way = way.map(|way| Jumping {
+            beyond: shown,
+            ..*way
+        });
         carry_out(&task, way.as_ref())
     }
 

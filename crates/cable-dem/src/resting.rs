@@ -84,7 +84,9 @@ impl RestingCable {
     /// Largest force \[N\] in the chain, its end springs and clamps where the nodes are displaced by `u` \[m\].
     pub fn largest_force(&self, u: &[f64]) -> f64 {
         let chain = &self.step.chain;
-        let elements = u.windows(2).map(|pair| chain.stiffness * (pair[0] - pair[1]).abs());
+        let elements = u
+            .windows(2)
+            .map(|pair| chain.stiffness * (pair[0] - pair[1]).abs());
         let springs = self.supports.iter().map(|support| {
             let stiffness = support.stiffness.unwrap_or(0.0);
             stiffness * u[support.node].abs()

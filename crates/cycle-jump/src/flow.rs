@@ -72,7 +72,11 @@ impl<'a> Flow<'a> {
         let implicit = |i: usize| GAMMA * length * self.slope[i];
         let mut first = self.derivative(cable, y);
         cable.diffuse(implicit, &mut first);
-        let mut sum: Vec<f64> = y.iter().zip(&first).map(|(y, k)| y + (1.0 - GAMMA) * length * k).collect();
+        let mut sum: Vec<f64> = y
+            .iter()
+            .zip(&first)
+            .map(|(y, k)| y + (1.0 - GAMMA) * length * k)
+            .collect();
         let mut second = self.derivative(cable, &sum);
         cable.diffuse(implicit, &mut second);
         for (sum, k) in sum.iter_mut().zip(&second) {

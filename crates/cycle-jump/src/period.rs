@@ -33,13 +33,19 @@ impl Period {
         let phase = |(done, (state, outcome)): (f64, &(CableState, PassOutcome))| {
             let moved = state.displacement().iter().zip(start).zip(&rate);
             Phase {
-                shape: moved.map(|((u, start), v)| u - start - done / count * v).collect(),
+                shape: moved
+                    .map(|((u, start), v)| u - start - done / count * v)
+                    .collect(),
                 friction: state.friction().to_vec(),
                 outcome: *outcome,
             }
         };
         Self {
-            phases: passes.iter().enumerate().map(|(before, pass)| phase((before as f64 + 1.0, pass))).collect(),
+            phases: passes
+                .iter()
+                .enumerate()
+                .map(|(before, pass)| phase((before as f64 + 1.0, pass)))
+                .collect(),
             middle: start.iter().zip(&rate).map(|(u, v)| u + 0.5 * v).collect(),
             rate,
         }

@@ -17,9 +17,14 @@ impl Scale {
     /// Takes account of what the cable in `state` shows.
     pub fn see(&mut self, cable: &RestingCable, state: &CableState) -> Result<(), cable_dem::CableError> {
         let seen = PassOutcome::at_rest(cable.cable(), state)?;
-        self.force = [seen.max_compression, seen.max_tension, seen.force.upstream, seen.force.downstream]
-            .into_iter()
-            .fold(self.force, |most, force| most.max(force.abs()));
+        self.force = [
+            seen.max_compression,
+            seen.max_tension,
+            seen.force.upstream,
+            seen.force.downstream,
+        ]
+        .into_iter()
+        .fold(self.force, |most, force| most.max(force.abs()));
         self.movement = self.movement.max(largest(state.displacement()));
         Ok(())
     }

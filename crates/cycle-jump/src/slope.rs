@@ -75,7 +75,11 @@ impl Slope {
         let weight = INERTIA * largest.max(large);
         let overshoot = change.predicted.map_or(0.0, |predicted| {
             let seen: f64 = change.rate.iter().zip(predicted).map(|(v, p)| v * p).sum();
-            seen / predicted.iter().map(|p| p * p).sum::<f64>().max(f64::MIN_POSITIVE)
+            seen / predicted
+                .iter()
+                .map(|p| p * p)
+                .sum::<f64>()
+                .max(f64::MIN_POSITIVE)
         });
         for ((value, last), below) in above.iter_mut().zip(&self.values).zip(below) {
             *value = (*value + weight * last) / (below + weight);

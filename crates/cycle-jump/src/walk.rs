@@ -134,7 +134,12 @@ where
         if let Some(known) = &mut known {
             if !self.until(all, known, self.jumps.most_passes)? {
                 let (periods, simulated) = (self.done, self.simulated);
-                return Err(JumpError::Stuck { periods, wanted: all, simulated }.into());
+                return Err(JumpError::Stuck {
+                    periods,
+                    wanted: all,
+                    simulated,
+                }
+                .into());
             }
         }
         let whole = self.state.clone();
@@ -154,7 +159,9 @@ where
             let most = self.simulated + MOST_BEYOND * period as u64;
             if self.until(last / period as u64, &mut known, most)? {
                 evolution.beyond = Some(Beyond {
-                    records: self.records.split_off(self.records.partition_point(|record| record.pass <= passes)),
+                    records: self
+                        .records
+                        .split_off(self.records.partition_point(|record| record.pass <= passes)),
                     period: known.period.phases.iter().map(|phase| phase.outcome).collect(),
                     state: self.state,
                 });
@@ -210,7 +217,9 @@ where
                 known.length = (left - CHECKED) as f64;
                 known.not_before = 2 * self.done;
             }
-            let length = guided.unwrap_or(known.length as u64).min(left.saturating_sub(CHECKED));
+            let length = guided
+                .unwrap_or(known.length as u64)
+                .min(left.saturating_sub(CHECKED));
             if length < SHORTEST && !whole {
                 let next = self.next_period()?;
                 self.learn(known, &next, None);
@@ -229,7 +238,13 @@ where
         if self.done < known.not_before {
             return false;
         }
-        let ahead = Flow::new(&mut self.cable, rate, known.slope.values(), left as f64, SUBSTEPS_AHEAD);
+        let ahead = Flow::new(
+            &mut self.cable,
+            rate,
+            known.slope.values(),
+            left as f64,
+            SUBSTEPS_AHEAD,
+        );
         self.scale.shares(&self.cable, ahead.end()).force < STEADY * self.jumps.tolerance
     }
 
@@ -256,7 +271,9 @@ where
     /// Jumps over `length` periods, simulates two more and chooses the next length; false where the error is so large that the jump
     /// is taken back.
     fn jump(&mut self, known: &mut Knowledge, rate: &[f64], length: u64) -> Result<bool, E> {
-        let Jumps { tolerance, motion, .. } = *self.jumps;
+        let Jumps {
+            tolerance, motion, ..
+        } = *self.jumps;
         let (from, slope) = (self.state.clone(), known.slope.values().to_vec());
         if largest(&known.period.rate) >= AT_REST * motion {
             let flow = Flow::new(&mut self.cable, rate, &slope, length as f64, SUBSTEPS);
@@ -279,7 +296,19 @@ where
         let error = shares.force.max(shares.movement);
         let factor = (CAUTION * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt()).clamp(GROWTH.0, GROWTH.1);
         if std::env::var("JUMP_LOG").is_ok() {
-            eprintln!("n {} p {} m {length} err {error:.2e} tol {tolerance:.1e} ({:.1e} {:.1e}) v {:.1e} g {:.1e}..{:.1e} F {:.1e} u {:.1e} sim {}", self.done, self.request.period, shares.force, shares.movement, largest(&known.period.rate), slope.iter().fold(f64::INFINITY, |a, &b| a.min(b)), slope.iter().fold(0.0_f64, |a, &b| a.max(b)), self.scale.force, self.scale.movement, self.simulated);
+            eprintln!(
+                "n {} p {} m {length} err {error:.2e} tol {tolerance:.1e} ({:.1e} {:.1e}) v {:.1e} g {:.1e}..{:.1e} F {:.1e} u {:.1e} sim {}",
+                self.done,
+                self.request.period,
+                shares.force,
+                shares.movement,
+                largest(&known.period.rate),
+                slope.iter().fold(f64::INFINITY, |a, &b| a.min(b)),
+                slope.iter().fold(0.0_f64, |a, &b| a.max(b)),
+                self.scale.force,
+                self.scale.movement,
+                self.simulated
+            );
         }
         self.learn(known, &checked, Some(&predicted));
         let allowed = match self.guide {
@@ -323,7 +352,13 @@ where
 
     /// Records the passes within a jump.
     fn record(&mut self, jumped: &Jumped<'_>) -> Result<(), E> {
-        let Request { period, wanted, looked_at, beyond, .. } = *self.request;
+        let Request {
+            period,
+            wanted,
+            looked_at,
+            beyond,
+            ..
+        } = *self.request;
         let first = jumped.begin * period as u64;
         let last = (self.done - 1) * period as u64;
         let inside = |pass: &&u64| (first + 1..=last).contains(*pass);
@@ -336,7 +371,13 @@ where
                 };
                 let now = std::mem::replace(&mut self.state, before);
                 let phase = ((pass - 1) % period as u64) as usize;
-                let outcome = (self.pass)(Next { phase, number: Some(pass) }, &mut self.state)?;
+                let outcome = (self.pass)(
+                    Next {
+                        phase,
+                        number: Some(pass),
+                    },
+                    &mut self.state,
+                )?;
                 self.simulated += 1;
                 self.state = now;
                 outcome

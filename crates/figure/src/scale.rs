@@ -67,14 +67,19 @@ pub(crate) fn is_sound((from, to): (f64, f64), logarithmic: bool) -> bool {
     from < to && span.is_finite() && (!logarithmic || from > 0.0)
 }
 
+/// Share of numbers below which they differ by rounding alone.
+const SAME: f64 = 1e-9;
+
 /// `data`, its least and its largest number, with round numbers at both ends.
 pub(crate) fn round_range((low, high): (f64, f64), logarithmic: bool, count: usize) -> (f64, f64) {
+    // Numbers that differ by their rounding are one number: no label has room for what tells them apart.
+    let same = low == high || (low < high && high - low < SAME * low.abs().max(high.abs()));
     if logarithmic {
-        let wider = if low == high { 3.0 } else { 1.0 };
+        let wider = if same { 3.0 } else { 1.0 };
         // The reciprocals of round numbers are round.
         return (1.0 / round_up(wider / low), round_up(high * wider));
     }
-    let (low, high) = match (low == high, low) {
+    let (low, high) = match (same, low) {
         (true, 0.0) => (-1.0, 1.0),
         (true, value) => (value - 0.5 * value.abs(), value + 0.5 * value.abs()),
         _ => (low, high),
@@ -248,6 +253,9 @@ mod tests {
         assert_eq!(scale((3.0, 187.0), false), (0.0, 200.0));
         assert_eq!(scale((0.003, 7000.0), true), (0.002, 10_000.0));
         assert_eq!(scale((4.0, 4.0), false), (2.0, 6.0));
+        assert_eq!(scale((4.0, 4.0 + 1e-15), false), (2.0, 6.0));
+        assert_eq!(scale((-4.0 - 1e-15, -4.0), false), (-6.0, -2.0));
+        assert_eq!(scale((4.0, 4.0 + 1e-15), true), scale((4.0, 4.0), true));
         assert_eq!(scale((0.0, 0.0), false), (-1.0, 1.0));
         assert_eq!(scale((1e-3, 10.0), true), (1e-3, 10.0));
     }

@@ -36,53 +36,114 @@ pub(crate) fn iterate(
 /// Solves the linear system of the given contact states; false if it is singular.
 ///
 /// A stuck row reads r + γ g = anchor, a slipping one k⁻¹ times equilibrium with g at its bound. Both are diagonally
-/// dominant, so that elimination needs no pivoting.
+/// dominant, so that elimination needs no pivoting. It comes from both ends and meets in the middle: a row waits for the
+/// division of the row before, and two rows can wait at once.
 fn solve(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) -> bool {
     let Stretch { lo, hi } = stretch;
     let Trial {
         r, contact, factors, ..
     } = trial;
     let per_stiffness = 1.0 / chain.stiffness;
-    let last = r.len() - 1;
+    let row = |i: usize| Row::new(chain, load, contact[i], per_stiffness, i);
     // A held neighbour enters as a known value, a missing one not at all.
-    let mut factor = 0.0;
-    let mut before = if lo > 0 { r[lo - 1] } else { 0.0 };
-    let after = if hi < last { r[hi + 1] } else { 0.0 };
-    for i in lo..=hi {
-        let (diagonal, off, right) = match contact[i] {
-            Contact::Stuck => {
-                let soft = chain.softness[i];
-                (
-                    1.0 + soft * chain.diagonal[i],
-                    soft,
-                    load.anchor[i] + soft * per_stiffness * load.support[i],
-                )
-            }
-            slipping => (
-                chain.diagonal[i],
-                1.0,
-                per_stiffness
-                    * (chain.tributary[i] * chain.bound(slipping, load.adhesion[i]) + load.support[i]),
-            ),
-        };
-        let held = if i == hi { off * after } else { 0.0 };
-        let pivot = diagonal - off * factor;
-        // Rows add up to the supports' share alone: without any, and all slipping, nothing holds the stretch.
-        if pivot <= 1e-14 * diagonal {
+    let held = |value: Option<&f64>| Eliminated {
+        value: value.copied().unwrap_or(0.0),
+        factor: 0.0,
+    };
+    let mut below = held(lo.checked_sub(1).map(|i| &r[i]));
+    let mut above = held(r.get(hi + 1));
+    let middle = lo + stretch.len() / 2;
+    let pairs = hi - middle;
+    for k in 0..pairs {
+        let (i, j) = (lo + k, hi - k);
+        let (Some(from_below), Some(from_above)) = (row(i).eliminate(below), row(j).eliminate(above)) else {
             return false;
-        }
-        let inverse = 1.0 / pivot;
-        factor = off * inverse;
-        before = (right + off * before + held) * inverse;
-        factors[i] = factor;
-        r[i] = before;
+        };
+        (below, above) = (from_below, from_above);
+        (r[i], factors[i]) = (below.value, below.factor);
+        (r[j], factors[j]) = (above.value, above.factor);
     }
-    let mut next = r[hi];
-    for i in (lo..hi).rev() {
-        next = r[i] + factors[i] * next;
-        r[i] = next;
+    if lo + pairs < middle {
+        let Some(last) = row(middle - 1).eliminate(below) else {
+            return false;
+        };
+        below = last;
+        (r[middle - 1], factors[middle - 1]) = (below.value, below.factor);
+    }
+    let Some(met) = row(middle).between(below, above) else {
+        return false;
+    };
+    r[middle] = met;
+    let (mut right, mut left) = (met, met);
+    for k in 1..=pairs {
+        let (i, j) = (middle - k, middle + k);
+        left = r[i] + factors[i] * left;
+        right = r[j] + factors[j] * right;
+        (r[i], r[j]) = (left, right);
+    }
+    if lo + pairs < middle {
+        r[lo] += factors[lo] * left;
     }
     true
+}
+
+/// One row: diagonal · r_i − off · (r_{i−1} + r_{i+1}) = right.
+struct Row {
+    diagonal: f64,
+    off: f64,
+    right: f64,
+}
+
+/// A row without one of its neighbours: r_i = value + factor · r of the other one.
+#[derive(Clone, Copy)]
+struct Eliminated {
+    value: f64,
+    factor: f64,
+}
+
+impl Row {
+    #[inline]
+    fn new(chain: &Chain, load: &Load<'_>, contact: Contact, per_stiffness: f64, i: usize) -> Self {
+        match contact {
+            Contact::Stuck => {
+                let soft = chain.softness[i];
+                Self {
+                    diagonal: 1.0 + soft * chain.diagonal[i],
+                    off: soft,
+                    right: load.anchor[i] + soft * per_stiffness * load.support[i],
+                }
+            }
+            slipping => Self {
+                diagonal: chain.diagonal[i],
+                off: 1.0,
+                right: per_stiffness
+                    * (chain.tributary[i] * chain.bound(slipping, load.adhesion[i]) + load.support[i]),
+            },
+        }
+    }
+
+    /// Puts the eliminated neighbour in; none where nothing is left to hold the node.
+    #[inline]
+    fn eliminate(&self, neighbour: Eliminated) -> Option<Eliminated> {
+        let inverse = self.inverse(neighbour.factor)?;
+        Some(Eliminated {
+            value: (self.right + self.off * neighbour.value) * inverse,
+            factor: self.off * inverse,
+        })
+    }
+
+    /// The answer where both neighbours are eliminated.
+    fn between(&self, below: Eliminated, above: Eliminated) -> Option<f64> {
+        let inverse = self.inverse(below.factor + above.factor)?;
+        Some((self.right + self.off * (below.value + above.value)) * inverse)
+    }
+
+    /// 1/pivot. Rows add up to the supports' share alone: without any, and all slipping, nothing holds the stretch.
+    #[inline]
+    fn inverse(&self, factor: f64) -> Option<f64> {
+        let pivot = self.diagonal - self.off * factor;
+        (pivot > 1e-14 * self.diagonal).then(|| 1.0 / pivot)
+    }
 }
 
 /// Sets g from the solved r and corrects contact states that do not hold.

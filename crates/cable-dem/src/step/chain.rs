@@ -158,6 +158,7 @@ impl Chain {
     }
 
     /// Friction per metre \[N/m\] that balances node i: (K r + s r − p)/w.
+    #[inline]
     pub fn balancing_friction(&self, r: &[f64], support: &[f64], i: usize) -> f64 {
         let left = if i > 0 { r[i - 1] } else { 0.0 };
         let right = r.get(i + 1).copied().unwrap_or(0.0);
