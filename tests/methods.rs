@@ -70,29 +70,25 @@ fn the_law_agrees_with_every_pass() {
 }
 
 #[test]
-fn ten_million_passes_take_few_steps_and_reach_saturation() {
+fn ten_million_passes_take_few_and_reach_saturation() {
     let run = run(&["duct.length=300 m", "traffic.passes=10000000"]);
     assert_eq!(run.passes.last().expect("passes").pass, 10_000_000);
-    assert!(run.cost.steps < 1000, "{:?}", run.cost);
+    assert!(run.cost.simulated_passes < 150, "{:?}", run.cost);
     let saturation = run.saturation.expect("it levels off");
     assert!((force_after(&run, 10_000_000) / saturation.force_n - 1.0).abs() < 0.01);
 }
 
+/// Jumps need a state of rest, and nothing else.
 #[test]
-fn the_law_refuses_what_it_does_not_cover() {
-    let short = creepage::run(&scene(&["solver.method=pass-law", "duct.length=5 m"]));
-    assert!(
-        matches!(
-            short,
-            Err(Error::Unfit {
-                key: "solver.method",
-                ..
-            })
-        ),
-        "{short:?}"
-    );
+fn jumps_take_any_duct_but_no_law_without_memory() {
+    let short = run(&["solver.method=pass-law", "duct.length=5 m", "traffic.passes=1000000"]);
+    assert!(short.cost.simulated_passes < 100, "{:?}", short.cost);
     let forgetful = creepage::run(&scene(&["solver.method=pass-law", "friction.law=sigmoid"]));
-    assert!(matches!(forgetful, Err(Error::Unfit { .. })), "{forgetful:?}");
+    let key = "solver.method";
+    assert!(
+        matches!(forgetful, Err(Error::Unfit { key: found, .. }) if found == key),
+        "{forgetful:?}"
+    );
 }
 
 #[test]
@@ -199,7 +195,7 @@ fn a_run_is_looked_at_in_stages() {
 }
 
 #[test]
-fn stages_of_the_pass_law_end_with_its_answer() {
+fn stages_between_jumps_end_with_the_answer() {
     let scene = scene(&["traffic.passes=300", "solver.method=pass-law"]);
     let options = RunOptions {
         stages: &[1, 300],

@@ -17,7 +17,8 @@ pub struct Run {
     pub passes: Vec<PassRecord>,
     /// Where the force levels off, if it does.
     pub saturation: Option<Saturation>,
-    /// Forces on the ends over a period of the traffic, where they level off.
+    /// Forces on the ends over a period of the traffic once nothing changes any more, where that is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<ForceRange>,
     /// How far forces scatter where vehicles come in random order and not every pass is simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -30,80 +30,26 @@ const NOTHING: f64 = 1e-3;
 /// Least and largest value of a force over a period \[N\].
 type Range = (f64, f64);
 
-/// Where the forces of a run level off: over `records`, all passes or listed ones, and `beyond` them.
+/// Where the forces of a run lead: over `records`, all passes or listed ones, and `beyond` them; and the forces on the ends once nothing
+/// changes any more.
 pub fn saturation(
     scene: &Scene,
     records: &[Record],
     beyond: Option<&Beyond>,
-) -> Option<(Saturation, ForceRange)> {
-    let none = (scene.ends.upstream, scene.ends.downstream) == (End::Free, End::Free);
-    let scale = records
-        .iter()
-        .map(|record| peak(&record.outcome))
-        .fold(0.0, f64::max);
+) -> (Option<Saturation>, Option<ForceRange>) {
+    let scale = records.iter().map(|record| peak(&record.outcome)).fold(0.0, f64::max);
     let level = |force: fn(&PassOutcome) -> f64| match beyond {
         Some(beyond) => range(beyond.period.iter().map(force)),
-        None => extrapolate(
-            &records
-                .iter()
-                .map(|record| force(&record.outcome))
-                .collect::<Vec<_>>(),
-            scale,
-        ),
-    };
-    let at = |end: End, force| {
-        if end == End::Free {
-            Some((0.0, 0.0))
-        } else {
-            level(force)
+        None => {
+            let forces: Vec<f64> = records.iter().map(|record| force(&record.outcome)).collect();
+            extrapolate(&forces, scale)
         }
     };
-    let upstream = at(scene.ends.upstream, |o| o.force.upstream)?;
-    let downstream = at(scene.ends.downstream, |o| o.force.downstream)?;
-    let inside = if none {
-        level(|o| o.max_compression)?
-    } else {
-        (0.0, 0.0)
-    };
-    let [upstream_force_n, downstream_force_n, inside] =
-        [upstream, downstream, inside].map(|(least, most)| larger(least, most));
-    let mut force_n = [downstream_force_n, upstream_force_n, inside]
-        .into_iter()
-        .fold(0.0, larger);
-
-    // At least what is reached, if that is nearly it, and no more than friction can carry to an end whose other end is free.
-    let free = scene.ends.upstream == End::Free || scene.ends.downstream == End::Free;
-    let limit = scene.friction_limit() * scene.duct.length;
-    let impossible = free && scene.restraints.is_empty() && force_n.abs() > (1.0 + balance::MARGIN) * limit;
-    let shown = |record: &Record| {
-        let PassOutcome {
-            force,
-            max_compression,
-            ..
-        } = record.outcome;
-        if none {
-            max_compression
-        } else {
-            larger(force.upstream, force.downstream)
-        }
-    };
-    let reached = records.iter().map(shown).fold(0.0, larger);
-    // From much more than it the force falls: it does not level off.
-    let falls = reached.abs() > (1.0 + NEARLY) * force_n.abs();
-    if force_n.abs() < NOTHING * scale || impossible || falls {
-        return None;
-    }
-    force_n = larger(force_n, reached);
-    let later = beyond.map_or(&[][..], |beyond| &beyond.records);
-    let first = records
-        .iter()
-        .chain(later)
-        .find(|record| shown(record) / (LEVEL * force_n) >= 1.0)?;
-    let saturation = Saturation {
-        force_n,
-        passes_to_95_percent: first.pass,
-        downstream_force_n,
-        upstream_force_n,
+    let at = |end, force| if end == End::Free { Some((0.0, 0.0)) } else { level(force) };
+    let upstream = at(scene.ends.upstream, |o| o.force.upstream);
+    let downstream = at(scene.ends.downstream, |o| o.force.downstream);
+    let (Some(upstream), Some(downstream)) = (upstream, downstream) else {
+        return (None, None);
     };
     let range = ForceRange {
         downstream_min_n: downstream.0,
@@ -111,7 +57,58 @@ pub fn saturation(
         upstream_min_n: upstream.0,
         upstream_max_n: upstream.1,
     };
-    Some((saturation, range))
+    let inside = match (scene.ends.upstream, scene.ends.downstream) {
+        (End::Free, End::Free) => level(|o| o.max_compression),
+        _ => Some((0.0, 0.0)),
+    };
+    let largest = inside.map(|inside| [downstream, upstream, inside].map(|(least, most)| larger(least, most)));
+    let saturation = largest.and_then(|largest| levels_off(scene, records, beyond, largest, scale));
+    (saturation, Some(range))
+}
+
+/// The saturation at the forces `largest` on the downstream end, the upstream end and inside the cable: at least what is reached, if that is
+/// nearly it, and no more than friction can carry to an end whose other end is free. `None` where there is none worth the name
+/// beside the force `scale`, or the force falls.
+fn levels_off(
+    scene: &Scene,
+    records: &[Record],
+    beyond: Option<&Beyond>,
+    largest: [f64; 3],
+    scale: f64,
+) -> Option<Saturation> {
+    let mut force_n = largest.into_iter().fold(0.0, larger);
+    let free = [scene.ends.upstream, scene.ends.downstream].map(|end| end == End::Free);
+    let limit = scene.friction_limit() * scene.duct.length;
+    let one_free = free.contains(&true) && scene.restraints.is_empty();
+    let shown = |record: &Record| {
+        let PassOutcome {
+            force,
+            max_compression,
+            ..
+        } = record.outcome;
+        if free == [true; 2] {
+            max_compression
+        } else {
+            larger(force.upstream, force.downstream)
+        }
+    };
+    let reached = records.iter().map(shown).fold(0.0, larger);
+    let nothing = force_n.abs() < NOTHING * scale;
+    let impossible = one_free && force_n.abs() > (1.0 + balance::MARGIN) * limit;
+    let falls = reached.abs() > (1.0 + NEARLY) * force_n.abs();
+    if nothing || impossible || falls {
+        return None;
+    }
+    force_n = larger(force_n, reached);
+    let later = beyond.map_or(&[][..], |beyond| &beyond.records);
+    let mut all = records.iter().chain(later);
+    let first = all.find(|record| shown(record) / (LEVEL * force_n) >= 1.0)?;
+    Some(Saturation {
+        force_n,
+        passes_to_95_percent: first.pass,
+        downstream_force_n: largest[0],
+        upstream_force_n: largest[1],
+    })
 }
 
 /// Largest force on an end in a pass, in size.

@@ -45,6 +45,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     destination.write(&answer, &answer.passes, || print(&answer))
 }
 
+/// Forces that differ by a smaller share are the same to a reader.
+const NOTICEABLE: f64 = 0.01;
+
 fn print(run: &Run) -> Result<(), Failure> {
     let mut out = terminal::out();
     writeln!(out, "{}", terminal::line(&run.title))?;
@@ -83,7 +86,19 @@ fn print(run: &Run) -> Result<(), Failure> {
             "saturation: {:.1} N, 95 % of it after {} passes",
             saturation.force_n, saturation.passes_to_95_percent
         )?,
+        None if run.range.is_some() => writeln!(out, "saturation: none, the force was larger before")?,
         None => writeln!(out, "saturation: not reached within these passes")?,
+    }
+    if let Some(range) = run.range {
+        for (end, least, most) in [
+            ("upstream", range.upstream_min_n, range.upstream_max_n),
+            ("downstream", range.downstream_min_n, range.downstream_max_n),
+        ] {
+            // Vehicles that differ leave different forces by turns.
+            if most - least > NOTICEABLE * most.abs().max(least.abs()) {
+                writeln!(out, "in the end the {end} end shows {least:.1} to {most:.1} N by turns")?;
+            }
+        }
     }
     for restraint in &run.restraints {
         writeln!(

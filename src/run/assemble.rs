@@ -76,12 +76,8 @@ impl<'a> RunBuilder<'a> {
             ));
         }
         let total = solved.error.total();
-        let levels_off = saturation(
-            self.plan.scene,
-            &solved.passes.records,
-            solved.passes.beyond.as_ref(),
-        );
-        let (saturation, range) = levels_off.unzip();
+        let beyond = solved.passes.beyond.as_ref();
+        let (saturation, range) = saturation(self.plan.scene, &solved.passes.records, beyond);
         Ok(Run {
             title: self.plan.scene.title.clone(),
             duct_motion: self.duct_motion(),
