@@ -81,7 +81,11 @@ fn ten_million_passes_take_few_and_reach_saturation() {
 /// Jumps need a state of rest, and nothing else.
 #[test]
 fn jumps_take_any_duct_but_no_law_without_memory() {
-    let short = run(&["solver.method=pass-law", "duct.length=5 m", "traffic.passes=1000000"]);
+    let short = run(&[
+        "solver.method=pass-law",
+        "duct.length=5 m",
+        "traffic.passes=1000000",
+    ]);
     assert!(short.cost.simulated_passes < 100, "{:?}", short.cost);
     let forgetful = creepage::run(&scene(&["solver.method=pass-law", "friction.law=sigmoid"]));
     let key = "solver.method";

@@ -117,7 +117,7 @@ impl Case {
             depth,
             motion,
             least: (0.01 * cable.friction().limit(), 0.1 * motion),
-            most_passes: passes as u64,
+            most_passes: (passes as u64, passes as u64),
         };
         let wanted: Vec<u64> = (half(passes)..=passes).map(|pass| pass as u64).collect();
         let request = Request {

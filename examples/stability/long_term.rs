@@ -97,7 +97,7 @@ impl Case {
             depth: DEPTH,
             motion,
             least: (0.01 * LIMIT, 0.1 * motion),
-            most_passes: 1000,
+            most_passes: (1000, 1000),
         };
         let request = Request {
             passes: PASSES[PASSES.len() - 1],

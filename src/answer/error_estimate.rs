@@ -25,8 +25,6 @@ const MANY: usize = 40;
 const WEIGHT_ALONE: f64 = 2.0;
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 const VERIFIED: f64 = 4.0 / 3.0;
-/// Weight of the difference between two runs with jumps.
-const WEIGHT_OF_JUMPS: f64 = 1.0;
 /// Forces below this share of the largest one count as nothing when errors are compared, and movements of an end below this
 /// share of the duct's largest.
 const SMALL: f64 = 0.1;
@@ -60,6 +58,16 @@ impl Shares {
 
     pub fn max(self, other: Self) -> Self {
         self.map(other, f64::max)
+    }
+
+    /// What is left without `other`.
+    pub fn less(self, other: Self) -> Self {
+        self.map(other, |a, b| a - b)
+    }
+
+    /// Whether both are at most as large as `allowed`.
+    pub fn is_within(self, allowed: Self) -> bool {
+        self.force <= allowed.force && self.movement <= allowed.movement
     }
 
     pub fn times(self, factor: f64) -> Self {
@@ -172,13 +180,6 @@ pub fn is_doubtful(reached: f64, tolerance: f64) -> bool {
     reached.is_nan() || reached > tolerance.max(DOUBTFUL)
 }
 
-/// What jumps leave wrong in the second of two runs, `fine`, which is held to a fourth of the error of the first and begins with a
-/// jump half as long. Their difference is about the error of the first, and that of the second half as large; twice the difference covered the true
-/// error in 26 of 27 random scenes that had any.
-pub fn of_passes(coarse: &[Record], fine: &[Record], scale: Scale) -> Shares {
-    difference(fine, coarse, scale).times(WEIGHT_OF_JUMPS)
-}
-
 /// Refuses an answer whose error of the force, `reached`, is too large to be one.
 pub fn judge(reached: f64, tolerance: f64) -> Result<(), Error> {
     if is_doubtful(reached, tolerance) {
@@ -193,6 +194,13 @@ pub fn judge(reached: f64, tolerance: f64) -> Result<(), Error> {
 /// Largest difference of a force after a pass, as a share of the largest force or tension after that pass, or of a tenth of
 /// the largest in the run; and largest difference of a movement.
 pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
+    differences(a, b, scale)
+        .into_iter()
+        .fold(Shares::default(), Shares::max)
+}
+
+/// The same of every pass.
+pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
     let outcomes =
         |records: &[Record]| -> Vec<PassOutcome> { records.iter().map(|record| record.outcome).collect() };
     let (a, b) = (outcomes(a), outcomes(b));
@@ -222,22 +230,23 @@ pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
         .iter()
         .flat_map(movements)
         .fold(scale.movement, |largest, u| largest.max(u.abs()));
-    let mut worst = Shares::default();
-    for (a, b) in a.iter().zip(&b) {
+    let of_pass = |(a, b): (&PassOutcome, &PassOutcome)| {
         // A clamp may hold a cable whose ends are free: what is compressed is then small beside what is stretched.
         let scale = forces(a)
             .into_iter()
             .chain([a.max_tension])
             .map(f64::abs)
             .fold(floor, f64::max);
-        for (a, b) in forces(a).into_iter().zip(forces(b)) {
-            worst.force = worst.force.max(share((a - b).abs(), scale));
+        let largest = |a: &[f64], b: &[f64], scale| {
+            let pairs = a.iter().zip(b);
+            pairs.fold(0.0, |most: f64, (a, b)| most.max(share((a - b).abs(), scale)))
+        };
+        Shares {
+            force: largest(&forces(a), &forces(b), scale),
+            movement: largest(&movements(a), &movements(b), moved),
         }
-        for (a, b) in movements(a).into_iter().zip(movements(b)) {
-            worst.movement = worst.movement.max(share((a - b).abs(), moved));
-        }
-    }
-    worst
+    };
+    a.iter().zip(&b).map(of_pass).collect()
 }
 
 /// part/whole; nothing of nothing is nothing.

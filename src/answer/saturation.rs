@@ -37,7 +37,10 @@ pub fn saturation(
     records: &[Record],
     beyond: Option<&Beyond>,
 ) -> (Option<Saturation>, Option<ForceRange>) {
-    let scale = records.iter().map(|record| peak(&record.outcome)).fold(0.0, f64::max);
+    let scale = records
+        .iter()
+        .map(|record| peak(&record.outcome))
+        .fold(0.0, f64::max);
     let level = |force: fn(&PassOutcome) -> f64| match beyond {
         Some(beyond) => range(beyond.period.iter().map(force)),
         None => {
@@ -45,7 +48,13 @@ pub fn saturation(
             extrapolate(&forces, scale)
         }
     };
-    let at = |end, force| if end == End::Free { Some((0.0, 0.0)) } else { level(force) };
+    let at = |end, force| {
+        if end == End::Free {
+            Some((0.0, 0.0))
+        } else {
+            level(force)
+        }
+    };
     let upstream = at(scene.ends.upstream, |o| o.force.upstream);
     let downstream = at(scene.ends.downstream, |o| o.force.downstream);
     let (Some(upstream), Some(downstream)) = (upstream, downstream) else {
@@ -61,7 +70,8 @@ pub fn saturation(
         (End::Free, End::Free) => level(|o| o.max_compression),
         _ => Some((0.0, 0.0)),
     };
-    let largest = inside.map(|inside| [downstream, upstream, inside].map(|(least, most)| larger(least, most)));
+    let largest =
+        inside.map(|inside| [downstream, upstream, inside].map(|(least, most)| larger(least, most)));
     let saturation = largest.and_then(|largest| levels_off(scene, records, beyond, largest, scale));
     (saturation, Some(range))
 }

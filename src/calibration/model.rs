@@ -27,9 +27,12 @@ const STEPS_PER_SPACING: f64 = 2.0;
 /// Most passes that are all simulated. Of more, the same few are in every run of a fit, with the same jumps between them: where
 /// jumps were chosen anew, forces would not be smooth in the parameters.
 const EVERY_PASS: u64 = 1000;
-/// Error of such a jump, and the length of the first one beside the periods before it.
+/// Error of such a jump, the periods before the first one, and its length beside them.
 const JUMP: f64 = 1e-3;
+const FIRST_PERIODS: u64 = 8;
 const FIRST_JUMP: f64 = 0.25;
+/// Most passes that are simulated to find the jumps.
+const MOST_PASSES: u64 = 100_000;
 
 /// One series, ready to be predicted.
 pub struct SeriesModel {
@@ -151,7 +154,9 @@ fn jumping<'a>(period: &'a Period, guide: Guide<'a>) -> Jumping<'a> {
     Jumping {
         period,
         tolerance: JUMP,
+        first_periods: FIRST_PERIODS,
         first_jump: FIRST_JUMP,
+        most_passes: MOST_PASSES,
         guide,
         beyond: false,
     }

@@ -96,7 +96,10 @@ fn print(run: &Run) -> Result<(), Failure> {
         ] {
             // Vehicles that differ leave different forces by turns.
             if most - least > NOTICEABLE * most.abs().max(least.abs()) {
-                writeln!(out, "in the end the {end} end shows {least:.1} to {most:.1} N by turns")?;
+                writeln!(
+                    out,
+                    "in the end the {end} end shows {least:.1} to {most:.1} N by turns"
+                )?;
             }
         }
     }

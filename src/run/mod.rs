@@ -1,6 +1,7 @@
 //! Carrying a plan out: the passes on ever finer meshes, and the answer.
 
 mod assemble;
+mod jumps;
 mod listing;
 pub mod passes;
 mod random;

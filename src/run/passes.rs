@@ -12,13 +12,11 @@ use crate::plan::{CableMethod, Period};
 use crate::scene::Scene;
 use crate::{Error, Progress};
 
-/// Passes after which a run with jumps gives up, for each pass of its period.
-const MOST_PERIODS: u64 = 500;
+/// Periods after which a run with jumps takes no more of them.
+const PATIENCE: u64 = 150;
 /// A force and a movement below which all is nothing: what friction holds on this length \[m\], and this share of the duct's motion.
 const SHORT: f64 = 0.01;
 const STILL: f64 = 0.1;
-/// Periods simulated at the start.
-const FIRST_PERIODS: u64 = 8;
 
 /// The passes of a scene on one mesh.
 #[derive(Clone, Copy)]
@@ -38,8 +36,11 @@ pub struct Jumping<'a> {
     pub period: &'a Period,
     /// Error of a jump.
     pub tolerance: f64,
-    /// Length of the first jump beside the periods before it.
+    /// Periods simulated at the start, and length of the first jump beside them.
+    pub first_periods: u64,
     pub first_jump: f64,
+    /// Passes after which it is given up.
+    pub most_passes: u64,
     pub guide: Guide<'a>,
     /// Whether it is followed where the forces lead.
     pub beyond: bool,
@@ -107,14 +108,15 @@ impl Task<'_> {
         simulation.jumps = true;
         let motion = self.motions.iter().map(DuctMotion::peak_longitudinal);
         let motion = motion.fold(0.0, f64::max);
+        let patience = PATIENCE * jumping.period.len() as u64;
         let jumps = Jumps {
             tolerance: jumping.tolerance,
-            first_periods: FIRST_PERIODS,
+            first_periods: jumping.first_periods,
             first_jump: jumping.first_jump,
             depth: scene.duct.depth,
             motion,
             least: (SHORT * scene.friction_limit(), STILL * motion),
-            most_passes: MOST_PERIODS * jumping.period.len() as u64,
+            most_passes: (patience, jumping.most_passes.max(patience)),
         };
         let count = scene.traffic.passes;
         let mut listed = listed.to_vec();

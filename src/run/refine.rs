@@ -3,17 +3,16 @@
 use std::thread;
 
 use cable_dem::{CableError, Mesh, Statistics};
-use cycle_jump::{Guide, Record};
+use cycle_jump::Record;
 use ground_field::DuctMotion;
 
+use super::jumps;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
-use crate::answer::error_estimate::{
-    self, ErrorParts, Scale, Shares, difference, measured, of_mesh, of_passes,
-};
+use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use crate::answer::{RandomSpread, simulated};
 use crate::ground::road;
-use crate::plan::{Levels, PassMethod, Period, Plan};
+use crate::plan::{Levels, PassMethod, Plan};
 use crate::shown::{exact_percent, percent};
 use crate::{Error, Progress, Scene};
 
@@ -23,16 +22,8 @@ const MAX_NODE_UPDATES: usize = 2_000_000_000;
 const REFINEMENT_COST: usize = 4;
 /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
 const SHARP: usize = 3;
-/// Error of a single jump to begin with, and length of the first jump beside the periods before it; what both are
-/// multiplied by until jumps are good enough, and how often at most.
-const JUMP: (f64, f64) = (1.0, 0.5);
-const FINER_JUMP: (f64, f64) = (0.25, 0.5);
-const FINEST_JUMPS: usize = 4;
-/// Share of the tolerance that jumps may take.
-const JUMPS_SHARE: f64 = 0.3;
-
-/// A duct of so many depths is short.
-const SHORT_DUCT: f64 = 20.0;
+/// Share of the tolerance that is left to the mesh at least.
+const LEAST_SHARE: f64 = 0.5;
 
 /// A plan's passes, on whatever level.
 pub struct Refinement<'a> {
@@ -55,17 +46,6 @@ pub struct Solved {
     pub random: Option<RandomSpread>,
 }
 
-/// Jumps that are good enough, as they were found on one level.
-struct FoundJumps {
-    level: usize,
-    passes: Passes,
-    tolerance: f64,
-    first_jump: f64,
-    error: Shares,
-    /// Work of the other runs on the way.
-    statistics: Statistics,
-}
-
 impl Refinement<'_> {
     /// Refines until the estimated error is within the tolerance, unless the scene says how fine to be.
     pub fn solve(&self, verify: bool, warnings: &mut Vec<String>) -> Result<Solved, Error> {
@@ -79,27 +59,23 @@ impl Refinement<'_> {
         let tolerance = scene.solver.tolerance;
         let scale = self.scale();
         let mut level = levels.first();
-        let jumps = match self.method {
-            PassMethod::Jumps(_) => Some(self.find_jumps(level)?),
-            PassMethod::EveryPass(_) => None,
+        let (found, mut statistics) = match self.method {
+            PassMethod::Jumps(_) => {
+                let simulate = |level, jumping: &Jumping<'_>| self.simulate(level, Some(jumping), false);
+                let (found, statistics) = jumps::find(self.plan, scale, simulate)?;
+                (Some(found), statistics)
+            }
+            PassMethod::EveryPass(_) => (None, Statistics::default()),
         };
         let mut error = ErrorParts {
             mesh: Shares::default(),
             ground: Shares::both(ground.accuracy),
             inertia: choice.inertia,
             road: Shares::default(),
-            passes: jumps.as_ref().map_or(Shares::default(), |jumps| jumps.error),
+            passes: found.as_ref().map_or(Shares::default(), |found| found.error),
             measured: false,
         };
-        let (mut statistics, found) =
-            jumps.map_or(Default::default(), |jumps| (jumps.statistics, Some(jumps)));
-        let way = found.as_ref().map(|found| Jumping {
-            period: &self.plan.period,
-            tolerance: found.tolerance,
-            first_jump: found.first_jump,
-            guide: Guide::Follow(&found.passes.schedule),
-            beyond: false,
-        });
+        let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
         let known = found.as_ref().map(|found| (found.level, &found.passes));
         let (finest, coarser) = both(
@@ -122,13 +98,20 @@ impl Refinement<'_> {
             // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
             let still = last.records.iter().all(|record| record.outcome.dissipated == 0.0);
             let seen = !still || level >= SHARP;
-            let total = error.total();
-            let within = total.force.max(total.movement) <= tolerance;
+            // What jumps leave, no finer mesh takes away.
+            let allowed = Shares::both(tolerance)
+                .less(error.passes)
+                .max(Shares::both(LEAST_SHARE * tolerance));
+            let within = error.total().less(error.passes).is_within(allowed);
             if (known && seen && within) || costly || level >= levels.finest() {
                 break;
             }
+            match self.simulate(level + 1, way, true) {
+                // What is known of coarser meshes counts.
+                Err(Error::Jumps(_)) if known => break,
+                finer => passes.push(finer?),
+            }
             level += 1;
-            passes.push(self.simulate(level, way, true)?);
         }
         for passes in &passes {
             statistics += passes.statistics;
@@ -158,90 +141,6 @@ impl Refinement<'_> {
             statistics,
             random,
         })
-    }
-
-    /// Jumps whose error is a small share of the tolerance, found on the level below `level`, where they cost a fourth. A short duct
-    /// costs little, and the few nodes that a coarser mesh gives it behave differently.
-    fn find_jumps(&self, level: usize) -> Result<FoundJumps, Error> {
-        let tolerance = self.plan.scene.solver.tolerance;
-        let enough = |error: Shares| error.force.max(error.movement) <= JUMPS_SHARE * tolerance;
-        let Scene { duct, .. } = self.plan.scene;
-        let below = level
-            .checked_sub(1)
-            .filter(|&below| duct.length > SHORT_DUCT * duct.depth && self.plan.levels.mesh(below).is_ok());
-        let mut level = below.unwrap_or(level);
-        let mut taken = Jumping {
-            period: &self.plan.period,
-            tolerance: JUMP.0 * tolerance,
-            first_jump: JUMP.1,
-            guide: Guide::Free,
-            beyond: false,
-        };
-        let mut coarse = match self.simulate(level, Some(&taken), false) {
-            Err(Error::Cable(CableError::CoarseMesh { .. })) if below.is_some() => {
-                level += 1;
-                self.simulate(level, Some(&taken), false)?
-            }
-            coarse => coarse?,
-        };
-        let mut statistics = coarse.statistics;
-        for finer in 1.. {
-            taken.tolerance *= FINER_JUMP.0;
-            taken.first_jump *= FINER_JUMP.1;
-            let fine = self.simulate(level, Some(&taken), false)?;
-            let mut error = of_passes(&coarse.records, &fine.records, self.scale());
-            if std::env::var("JUMP_LOG").is_ok() {
-                let d: Vec<(u64, f64)> = coarse
-                    .records
-                    .iter()
-                    .zip(&fine.records)
-                    .map(|(a, b)| (a.pass, difference(&[*a], &[*b], self.scale()).force))
-                    .collect();
-                let w = d.iter().fold((0, 0.0), |m, x| if x.1 > m.1 { *x } else { m });
-                eprintln!(
-                    "FOUND tol {} {error:?} sim {} worst {w:?}",
-                    taken.tolerance, fine.simulated
-                );
-            }
-            if enough(error) || finer == FINEST_JUMPS {
-                error = error + self.mix_error(level, &taken, &fine, &mut statistics)?;
-                return Ok(FoundJumps {
-                    level,
-                    passes: fine,
-                    tolerance: taken.tolerance,
-                    first_jump: taken.first_jump,
-                    error,
-                    statistics,
-                });
-            }
-            statistics += fine.statistics;
-            coarse = fine;
-        }
-        unreachable!("the loop returns")
-    }
-
-    /// What a mix that stands in for the traffic's own changes: its share of what a mix on the other side changes.
-    fn mix_error(
-        &self,
-        level: usize,
-        taken: &Jumping<'_>,
-        passes: &Passes,
-        statistics: &mut Statistics,
-    ) -> Result<Shares, Error> {
-        let Some((vehicles, share)) = &self.plan.period.other else {
-            return Ok(Shares::default());
-        };
-        let period = Period {
-            vehicles: vehicles.clone(),
-            ..self.plan.period.clone()
-        };
-        let other = Jumping {
-            period: &period,
-            ..*taken
-        };
-        let other = self.simulate(level, Some(&other), false)?;
-        *statistics += other.statistics;
-        Ok(difference(&passes.records, &other.records, self.scale()).times(*share))
     }
 
     /// What counts as nothing in this scene.
@@ -283,7 +182,11 @@ impl Refinement<'_> {
         (0..level)
             .filter(|&coarser| self.plan.levels.mesh(coarser).is_ok())
             .map(|coarser| match known {
-                Some((level, passes)) if level == coarser => Ok(passes.clone()),
+                Some((level, passes)) if level == coarser => Ok(Passes {
+                    // Their work is counted already.
+                    statistics: Statistics::default(),
+                    ..passes.clone()
+                }),
                 _ => self.simulate(coarser, way, false),
             })
             .filter(|passes| !matches!(passes, Err(Error::Cable(CableError::CoarseMesh { .. }))))
@@ -308,8 +211,10 @@ impl Refinement<'_> {
         if shown {
             (task.stages, task.progress) = (self.stages, self.progress);
         }
+        let affordable = MAX_NODE_UPDATES as f64 / self.plan.levels.node_updates(level, 1);
         let way = way.map(|way| Jumping {
             beyond: shown,
+            most_passes: affordable as u64,
             ..*way
         });
         carry_out(&task, way.as_ref())

@@ -74,6 +74,11 @@ impl RestingCable {
         self.step.chain.free.nodes()
     }
 
+    /// Whether an end spring, a clamp or a fixed end holds the cable: otherwise it may be moved as a whole.
+    pub fn is_held(&self) -> bool {
+        self.supports.iter().any(|support| support.stiffness != Some(0.0))
+    }
+
     /// Friction K u/w \[N/m\] that balances the displacements `u` \[m\] at every node that can move; the others are left.
     pub fn balance(&self, u: &[f64], friction: &mut [f64]) {
         for i in self.free() {

@@ -25,6 +25,9 @@ pub struct Jumped<'a> {
     /// Displacements at both ends.
     pub from: &'a CableState,
     pub to: &'a CableState,
+    /// What a cable that nothing holds has moved as a whole at its beginning, and since then to its end \[m\].
+    pub offset: f64,
+    pub moved: f64,
     /// The period before it and the one at its end.
     pub before: &'a [Phase],
     pub after: &'a [Phase],
@@ -32,34 +35,40 @@ pub struct Jumped<'a> {
 }
 
 impl Jumped<'_> {
-    /// The cable at rest after `pass`.
-    pub fn state(&self, cable: &mut RestingCable, pass: u64) -> Result<CableState, CableError> {
+    /// The cable at rest after `pass`, and what it has moved as a whole \[m\].
+    pub fn state(&self, cable: &mut RestingCable, pass: u64) -> Result<(CableState, f64), CableError> {
         let period = self.before.len() as u64;
         let into = pass as f64 / period as f64 - self.begin as f64;
         let share = into / self.length as f64;
         let phase = ((pass - 1) % period) as usize;
-        let advance = self.flow.after(cable, into);
         let between = |before: f64, after: f64| (1.0 - share) * before + share * after;
         let (before, after) = (&self.before[phase], &self.after[phase]);
+        let advance = self.flow.after(cable, into);
         let mut displacement = Vec::with_capacity(advance.len());
         let mut friction = Vec::with_capacity(advance.len());
         for (i, y) in advance.iter().enumerate() {
-            let (from, to) = (self.from.displacement()[i], self.to.displacement()[i]);
+            let (from, to) = (
+                self.from.displacement()[i],
+                self.moved + self.to.displacement()[i],
+            );
             // What the flow misses at its end grows from nothing.
             let missed = to - from - self.flow.end()[i];
             let shape = between(before.shape[i], after.shape[i]);
             displacement.push(from + y + share * share * missed + shape);
             friction.push(between(before.friction[i], after.friction[i]));
         }
+        let whole = take_whole(cable, &mut displacement);
         let mut state = CableState::from_parts(self.mesh, displacement, friction)?;
         cable.settle(&mut state)?;
-        Ok(state)
+        Ok((state, self.offset + whole))
     }
 
     /// What `pass` did.
     pub fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
-        let state = self.state(cable, pass)?;
+        let (state, offset) = self.state(cable, pass)?;
         let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?;
+        outcome.upstream_displacement += offset;
+        outcome.downstream_displacement += offset;
         let period = self.before.len() as u64;
         let phase = ((pass - 1) % period) as usize;
         let share = (pass as f64 / period as f64 - self.begin as f64) / self.length as f64;
@@ -72,4 +81,17 @@ impl Jumped<'_> {
         outcome.dissipated = between(|o| o.dissipated);
         Ok(outcome)
     }
+}
+
+/// Takes away what displacements \[m\] of a cable that nothing holds have in common, and returns it: rounding of metres would hide what
+/// micrometres do. Zero where something holds the cable.
+pub fn take_whole(cable: &RestingCable, displacement: &mut [f64]) -> f64 {
+    if cable.is_held() {
+        return 0.0;
+    }
+    let mean = displacement.iter().sum::<f64>() / displacement.len() as f64;
+    for u in displacement.iter_mut() {
+        *u -= mean;
+    }
+    mean
 }

@@ -16,8 +16,8 @@ pub struct Jumps {
     pub motion: f64,
     /// Force \[N\] and movement \[m\] below which all is nothing.
     pub least: (f64, f64),
-    /// Passes after which the run gives up.
-    pub most_passes: u64,
+    /// Passes after which every one is simulated until nothing changes any more, and those after which the run gives up.
+    pub most_passes: (u64, u64),
 }
 
 /// Traffic and what is wanted to know of it.

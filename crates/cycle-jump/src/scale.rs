@@ -1,6 +1,6 @@
 //! What counts as large in a run: forces and movements are compared with the largest so far.
 
-use cable_dem::{CableState, PassOutcome, RestingCable};
+use cable_dem::{CableError, CableState, PassOutcome, RestingCable};
 
 use crate::period::largest;
 
@@ -14,8 +14,8 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// Takes account of what the cable in `state` shows.
-    pub fn see(&mut self, cable: &RestingCable, state: &CableState) -> Result<(), cable_dem::CableError> {
+    /// Takes account of what the cable in `state`, moved as a whole by `offset` \[m\], shows.
+    pub fn see(&mut self, cable: &RestingCable, state: &CableState, offset: f64) -> Result<(), CableError> {
         let seen = PassOutcome::at_rest(cable.cable(), state)?;
         self.force = [
             seen.max_compression,
@@ -25,7 +25,7 @@ impl Scale {
         ]
         .into_iter()
         .fold(self.force, |most, force| most.max(force.abs()));
-        self.movement = self.movement.max(largest(state.displacement()));
+        self.movement = self.movement.max(largest(state.displacement()) + offset.abs());
         Ok(())
     }
 

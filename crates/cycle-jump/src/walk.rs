@@ -5,7 +5,7 @@ use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingC
 use crate::JumpError;
 use crate::flow::Flow;
 use crate::period::{Period, difference, largest};
-use crate::record::{Jumped, Record};
+use crate::record::{Jumped, Record, take_whole};
 use crate::request::{Guide, Jumps, Next, Request};
 use crate::scale::Scale;
 use crate::slope::{Change, Slope};
@@ -31,8 +31,10 @@ const STEADY: f64 = 0.1;
 const AT_REST: f64 = 1e-8;
 /// Simulated periods at the end of a jump: its check, and one that heals what the correction left rough.
 const CHECKED: u64 = 2;
-/// Periods simulated at most to see where the forces lead.
+/// Periods simulated at most to see where the forces lead; the error of a jump there beside that before: where they lead does not
+/// depend on the way.
 const MOST_BEYOND: u64 = 200;
+const TOLERANCE_BEYOND: f64 = 4.0;
 
 /// The cable over all passes.
 #[derive(Debug, Clone)]
@@ -68,7 +70,10 @@ struct Walk<'a, P> {
     cable: RestingCable,
     pass: P,
     guide: Guide<'a>,
+    tolerance: f64,
     state: CableState,
+    /// What a cable that nothing holds has moved as a whole \[m\].
+    offset: f64,
     /// Periods done.
     done: u64,
     scale: Scale,
@@ -105,7 +110,9 @@ pub fn evolve<E: From<JumpError>>(
         cable: RestingCable::new(cable, mesh).map_err(wrap)?,
         pass,
         guide: request.guide,
+        tolerance: jumps.tolerance,
         state: CableState::at_rest(mesh),
+        offset: 0.0,
         done: 0,
         scale: Scale {
             force: jumps.least.0,
@@ -156,7 +163,9 @@ where
             beyond: None,
         };
         if let (Some(mut known), Some(&last)) = (known, self.request.beyond.last()) {
+            self.tolerance *= TOLERANCE_BEYOND;
             let most = self.simulated + MOST_BEYOND * period as u64;
+            let most = (most, most);
             if self.until(last / period as u64, &mut known, most)? {
                 evolution.beyond = Some(Beyond {
                     records: self
@@ -202,10 +211,11 @@ where
         }))
     }
 
-    /// Goes on until `all` periods are done; false where it does not get on within `most` simulated passes.
-    fn until(&mut self, all: u64, known: &mut Knowledge, most: u64) -> Result<bool, E> {
+    /// Goes on until `all` periods are done, without jumps beyond the first of the numbers of simulated passes `most`; false where
+    /// the second is not enough.
+    fn until(&mut self, all: u64, known: &mut Knowledge, most: (u64, u64)) -> Result<bool, E> {
         while self.done < all {
-            if self.simulated > most {
+            if self.simulated > most.1 {
                 return Ok(false);
             }
             let left = all - self.done;
@@ -220,7 +230,8 @@ where
             let length = guided
                 .unwrap_or(known.length as u64)
                 .min(left.saturating_sub(CHECKED));
-            if length < SHORTEST && !whole {
+            let patient = self.simulated <= most.0;
+            if !whole && (length < SHORTEST || !patient) {
                 let next = self.next_period()?;
                 self.learn(known, &next, None);
                 known.period = next;
@@ -245,7 +256,7 @@ where
             left as f64,
             SUBSTEPS_AHEAD,
         );
-        self.scale.shares(&self.cable, ahead.end()).force < STEADY * self.jumps.tolerance
+        self.scale.shares(&self.cable, ahead.end()).force < STEADY * self.tolerance
     }
 
     /// Advance per period in the cable's state, from that of the last period.
@@ -271,10 +282,9 @@ where
     /// Jumps over `length` periods, simulates two more and chooses the next length; false where the error is so large that the jump
     /// is taken back.
     fn jump(&mut self, known: &mut Knowledge, rate: &[f64], length: u64) -> Result<bool, E> {
-        let Jumps {
-            tolerance, motion, ..
-        } = *self.jumps;
-        let (from, slope) = (self.state.clone(), known.slope.values().to_vec());
+        let (tolerance, motion) = (self.tolerance, self.jumps.motion);
+        let (from, offset) = (self.state.clone(), self.offset);
+        let slope = known.slope.values().to_vec();
         if largest(&known.period.rate) >= AT_REST * motion {
             let flow = Flow::new(&mut self.cable, rate, &slope, length as f64, SUBSTEPS);
             self.advance(flow.end())?;
@@ -295,21 +305,6 @@ where
         let shares = self.scale.shares(&self.cable, &missed);
         let error = shares.force.max(shares.movement);
         let factor = (CAUTION * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt()).clamp(GROWTH.0, GROWTH.1);
-        if std::env::var("JUMP_LOG").is_ok() {
-            eprintln!(
-                "n {} p {} m {length} err {error:.2e} tol {tolerance:.1e} ({:.1e} {:.1e}) v {:.1e} g {:.1e}..{:.1e} F {:.1e} u {:.1e} sim {}",
-                self.done,
-                self.request.period,
-                shares.force,
-                shares.movement,
-                largest(&known.period.rate),
-                slope.iter().fold(f64::INFINITY, |a, &b| a.min(b)),
-                slope.iter().fold(0.0_f64, |a, &b| a.max(b)),
-                self.scale.force,
-                self.scale.movement,
-                self.simulated
-            );
-        }
         self.learn(known, &checked, Some(&predicted));
         let allowed = match self.guide {
             Guide::Free => REJECTED * tolerance,
@@ -317,7 +312,7 @@ where
             Guide::Obey(_) => f64::INFINITY,
         };
         if error > allowed && length > CHECKED {
-            self.state = from;
+            (self.state, self.offset) = (from, offset);
             // From here on the other run is no guide.
             self.guide = Guide::Free;
             known.length = factor * length as f64;
@@ -338,6 +333,8 @@ where
             length,
             from: &from,
             to: &to,
+            offset,
+            moved: self.offset - offset,
             before: &known.period.phases,
             after: &next.phases,
             flow: Flow::new(&mut self.cable, rate, &slope, length as f64, SUBSTEPS),
@@ -365,21 +362,16 @@ where
         for &pass in wanted.iter().chain(beyond).filter(inside) {
             let outcome = if looked_at.contains(&pass) {
                 let before = if pass - 1 == first {
-                    jumped.from.clone()
+                    (jumped.from.clone(), jumped.offset)
                 } else {
                     jumped.state(&mut self.cable, pass - 1).map_err(wrap)?
                 };
-                let now = std::mem::replace(&mut self.state, before);
+                let now = (std::mem::replace(&mut self.state, before.0), self.offset);
+                self.offset = before.1;
                 let phase = ((pass - 1) % period as u64) as usize;
-                let outcome = (self.pass)(
-                    Next {
-                        phase,
-                        number: Some(pass),
-                    },
-                    &mut self.state,
-                )?;
-                self.simulated += 1;
-                self.state = now;
+                let number = Some(pass);
+                let outcome = self.pass(Next { phase, number })?;
+                (self.state, self.offset) = now;
                 outcome
             } else {
                 jumped.outcome(&mut self.cable, pass).map_err(wrap)?
@@ -396,9 +388,10 @@ where
     /// Moves the cable by `advance` \[m\] and lets it come to rest.
     fn advance(&mut self, advance: &[f64]) -> Result<(), E> {
         let now = self.state.displacement().iter().zip(advance);
+        let mut moved: Vec<f64> = now.map(|(u, y)| u + y).collect();
+        self.offset += take_whole(&self.cable, &mut moved);
         let friction = self.state.friction().to_vec();
-        let moved = CableState::from_parts(self.mesh, now.map(|(u, y)| u + y).collect(), friction);
-        self.state = moved.map_err(wrap)?;
+        self.state = CableState::from_parts(self.mesh, moved, friction).map_err(wrap)?;
         self.cable.settle(&mut self.state).map_err(wrap)
     }
 
@@ -418,13 +411,14 @@ where
             let outcome = self.simulate(Next { phase, number })?;
             passes.push((self.state.clone(), outcome));
         }
-        self.scale.see(&self.cable, &self.state).map_err(wrap)?;
+        self.scale
+            .see(&self.cable, &self.state, self.offset)
+            .map_err(wrap)?;
         Ok(Period::new(&start, passes))
     }
 
     fn simulate(&mut self, next: Next) -> Result<PassOutcome, E> {
-        let outcome = (self.pass)(next, &mut self.state)?;
-        self.simulated += 1;
+        let outcome = self.pass(next)?;
         let Request { wanted, beyond, .. } = self.request;
         let is_wanted = |pass: &u64| wanted.binary_search(pass).is_ok() || beyond.binary_search(pass).is_ok();
         if let Some(pass) = next.number.filter(is_wanted) {
@@ -434,6 +428,15 @@ where
                 interpolated: false,
             });
         }
+        Ok(outcome)
+    }
+
+    /// Simulates a pass.
+    fn pass(&mut self, next: Next) -> Result<PassOutcome, E> {
+        let mut outcome = (self.pass)(next, &mut self.state)?;
+        self.simulated += 1;
+        outcome.upstream_displacement += self.offset;
+        outcome.downstream_displacement += self.offset;
         Ok(outcome)
     }
 }

@@ -1,0 +1,169 @@
+//! Jumps that are good enough: how large they may be, and what they leave wrong.
+//!
+//! Two runs that differ in the error of a single jump and in the length of the first one differ by about the error of the coarser;
+//! that of the finer is half as large or less. Where only early passes are off, every one of them is simulated; else both are
+//! made smaller.
+
+use cable_dem::{CableError, Statistics};
+use cycle_jump::Guide;
+
+use super::passes::{Jumping, Passes};
+use crate::Error;
+use crate::answer::error_estimate::{Scale, Shares, difference, differences};
+use crate::plan::{Period, Plan};
+
+/// Error of a single jump beside the tolerance to begin with, and length of the first jump beside the periods before it.
+const FIRST: (f64, f64) = (2.0, 0.5);
+/// What both are multiplied by, and how often at most.
+const FINER: (f64, f64) = (0.25, 0.5);
+const FINEST: usize = 4;
+/// Share of the tolerance that jumps may take.
+const SHARE: f64 = 0.35;
+/// Periods simulated at the start, and at most where only early jumps are off; and passes in them at most.
+const FIRST_PERIODS: u64 = 8;
+const MOST_FIRST_PERIODS: u64 = 48;
+const MOST_FIRST_PASSES: u64 = 200;
+/// Jumps are looked for on the level below the first, where they cost a fourth, unless the duct is so many depths short: that costs
+/// little, and the few nodes that a coarser mesh gives it behave differently.
+const SHORT: f64 = 20.0;
+const COST_OF_A_LEVEL: usize = 4;
+/// Finer jumps take about so many times the passes. No finer ones are looked for where they would take more nodes than this on the
+/// first level: some ten seconds.
+const COST_OF_FINER: usize = 3;
+const MAX_NODE_UPDATES: usize = 1_000_000_000;
+
+/// Jumps that are good enough.
+pub struct Found {
+    /// The level they were found on, and its passes.
+    pub level: usize,
+    pub passes: Passes,
+    /// What they leave wrong.
+    pub error: Shares,
+    tolerance: f64,
+    first_periods: u64,
+    first_jump: f64,
+}
+
+impl Found {
+    /// These jumps over `period` again, as long as their errors allow it.
+    pub fn jumping<'a>(&'a self, period: &'a Period) -> Jumping<'a> {
+        Jumping {
+            period,
+            tolerance: self.tolerance,
+            first_periods: self.first_periods,
+            first_jump: self.first_jump,
+            most_passes: 0,
+            guide: Guide::Follow(&self.passes.schedule),
+            beyond: false,
+        }
+    }
+}
+
+/// Finds jumps for `plan` that take a small share of its tolerance, or the best that are affordable. `simulate` carries out all passes on a
+/// level. Returned with them: the work of all other runs.
+pub fn find(
+    plan: &Plan<'_>,
+    scale: Scale,
+    simulate: impl Fn(usize, &Jumping<'_>) -> Result<Passes, Error>,
+) -> Result<(Found, Statistics), Error> {
+    let tolerance = plan.scene.solver.tolerance;
+    let allowed = Shares::both(SHARE * tolerance);
+    let duct = plan.scene.duct;
+    let first = plan.levels.first();
+    let is_short = duct.length <= SHORT * duct.depth;
+    let below = first
+        .checked_sub(1)
+        .filter(|&below| !is_short && plan.levels.mesh(below).is_ok());
+    let mut level = below.unwrap_or(first);
+    let mut taken = Jumping {
+        period: &plan.period,
+        tolerance: FIRST.0 * tolerance,
+        first_periods: FIRST_PERIODS,
+        first_jump: FIRST.1,
+        most_passes: 0,
+        guide: Guide::Free,
+        beyond: false,
+    };
+    let mut coarse = match simulate(level, &taken) {
+        Err(Error::Cable(CableError::CoarseMesh { .. })) if below.is_some() => {
+            level = first;
+            simulate(level, &taken)?
+        }
+        coarse => coarse?,
+    };
+    let mut statistics = coarse.statistics;
+    let mut best = None;
+    for finer in 1..=FINEST {
+        taken.tolerance *= FINER.0;
+        taken.first_jump *= FINER.1;
+        let fine = match simulate(level, &taken) {
+            Err(Error::Jumps(_)) if best.is_some() => break,
+            fine => fine?,
+        };
+        statistics += fine.statistics;
+        let errors = differences(&fine.records, &coarse.records, scale);
+        let bad = errors.iter().rposition(|error| !error.is_within(allowed));
+        let last_bad = bad.map_or(0, |bad| fine.records[bad].pass);
+        let periods = last_bad / plan.period.len() as u64 + 1;
+        let is_early = periods <= MOST_FIRST_PERIODS && last_bad <= MOST_FIRST_PASSES;
+        let mut found = Found {
+            level,
+            error: errors.iter().copied().fold(Shares::default(), Shares::max),
+            passes: fine,
+            tolerance: taken.tolerance,
+            first_periods: taken.first_periods,
+            first_jump: taken.first_jump,
+        };
+        if let Some(bad) = bad.filter(|_| is_early) {
+            taken.first_periods = periods.max(FIRST_PERIODS);
+            found.first_periods = taken.first_periods;
+            found.error = errors[bad + 1..]
+                .iter()
+                .copied()
+                .fold(Shares::default(), Shares::max);
+            found.passes = simulate(level, &taken)?;
+            statistics += found.passes.statistics;
+        }
+        let work = found.passes.statistics.node_updates + found.passes.statistics.corners;
+        let next = COST_OF_FINER
+            * if level < first {
+                COST_OF_A_LEVEL * work
+            } else {
+                work
+            };
+        let enough = bad.is_none() || is_early || next > MAX_NODE_UPDATES;
+        if enough || finer == FINEST {
+            best = Some(found);
+            break;
+        }
+        coarse = found.passes.clone();
+        best = Some(found);
+    }
+    let mut found = best.expect("the first pair of runs is an answer");
+    found.error = found.error + mix_error(plan, &found, scale, &simulate, &mut statistics)?;
+    Ok((found, statistics))
+}
+
+/// What a mix that stands in for the traffic's own changes: its share of what a mix on the other side changes.
+fn mix_error(
+    plan: &Plan<'_>,
+    found: &Found,
+    scale: Scale,
+    simulate: impl Fn(usize, &Jumping<'_>) -> Result<Passes, Error>,
+    statistics: &mut Statistics,
+) -> Result<Shares, Error> {
+    let Some((vehicles, share)) = &plan.period.other else {
+        return Ok(Shares::default());
+    };
+    let period = Period {
+        vehicles: vehicles.clone(),
+        ..plan.period.clone()
+    };
+    let jumping = Jumping {
+        guide: Guide::Free,
+        ..found.jumping(&period)
+    };
+    let other = simulate(found.level, &jumping)?;
+    *statistics += other.statistics;
+    Ok(difference(&found.passes.records, &other.records, scale).times(*share))
+}
