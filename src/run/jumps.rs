@@ -12,13 +12,15 @@ use crate::Error;
 use crate::answer::error_estimate::{Scale, Shares, difference, differences};
 use crate::plan::{Period, Plan};
 
-/// Error of a single jump beside the tolerance to begin with, and length of the first jump beside the periods before it.
-const FIRST: (f64, f64) = (2.0, 0.5);
+/// Error of a single jump beside the tolerance to begin with, and length of the first jump beside the periods before it; the largest
+/// such error.
+const FIRST: (f64, f64) = (4.0, 0.5);
+const LARGEST: f64 = 0.04;
 /// What both are multiplied by, and how often at most.
 const FINER: (f64, f64) = (0.25, 0.5);
 const FINEST: usize = 4;
 /// Share of the tolerance that jumps may take.
-const SHARE: f64 = 0.35;
+const SHARE: f64 = 0.5;
 /// Periods simulated at the start, and at most where only early jumps are off; and passes in them at most.
 const FIRST_PERIODS: u64 = 8;
 const MOST_FIRST_PERIODS: u64 = 48;
@@ -77,7 +79,7 @@ pub fn find(
     let mut level = below.unwrap_or(first);
     let mut taken = Jumping {
         period: &plan.period,
-        tolerance: FIRST.0 * tolerance,
+        tolerance: (FIRST.0 * tolerance).min(LARGEST),
         first_periods: FIRST_PERIODS,
         first_jump: FIRST.1,
         most_passes: 0,
