@@ -1,6 +1,7 @@
 //! Any number of vehicles over a cable: few simulated passes, and jumps between them.
 mod error;
 mod flow;
+mod knowledge;
 mod period;
 mod record;
 mod request;
@@ -9,6 +10,6 @@ mod slope;
 mod walk;
 
 pub use error::JumpError;
-pub use record::Record;
+pub use record::{Beyond, Evolution, Record};
 pub use request::{Guide, Jumps, Next, Request};
-pub use walk::{Beyond, Evolution, evolve};
+pub use walk::evolve;

@@ -16,6 +16,32 @@ pub struct Record {
     pub interpolated: bool,
 }
 
+/// The cable over all passes.
+#[derive(Debug, Clone)]
+pub struct Evolution {
+    /// The passes that were wanted.
+    pub records: Vec<Record>,
+    /// The cable after the last pass.
+    pub state: CableState,
+    /// Passes simulated.
+    pub simulated: u64,
+    /// Lengths of the jumps \[periods\] in their order, 0 for a simulated period between.
+    pub schedule: Vec<u64>,
+    /// Where it leads; `None` where nothing beyond the last pass was wanted, or it does not become steady.
+    pub beyond: Option<Beyond>,
+}
+
+/// Where the forces lead.
+#[derive(Debug, Clone)]
+pub struct Beyond {
+    /// The passes that were wanted.
+    pub records: Vec<Record>,
+    /// What each pass of a period does once the forces no longer change from period to period.
+    pub period: Vec<PassOutcome>,
+    /// The cable then.
+    pub state: CableState,
+}
+
 /// A jump that was taken, from one measured period to another.
 pub struct Jumped<'a> {
     pub mesh: &'a Mesh,

@@ -29,7 +29,8 @@ pub struct Request<'a> {
     pub period: usize,
     /// Passes to be recorded, ascending.
     pub wanted: &'a [u64],
-    /// Those of them that are simulated also where they lie within a jump, from the state that is interpolated before them.
+    /// Those of them that are shown to `pass` also where they lie within a jump, from the state that is interpolated before them; what is
+    /// recorded is interpolated all the same.
     pub looked_at: &'a [u64],
     /// Passes beyond the last one to be recorded, ascending: where the forces lead.
     pub beyond: &'a [u64],

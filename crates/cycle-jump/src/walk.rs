@@ -4,8 +4,9 @@ use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingC
 
 use crate::JumpError;
 use crate::flow::Flow;
+use crate::knowledge::Knowledge;
 use crate::period::{Period, difference, largest};
-use crate::record::{Jumped, Record, take_whole};
+use crate::record::{Beyond, Evolution, Jumped, Record, take_whole};
 use crate::request::{Guide, Jumps, Next, Request};
 use crate::scale::Scale;
 use crate::slope::{Change, Slope};
@@ -36,32 +37,6 @@ const CHECKED: u64 = 2;
 const MOST_BEYOND: u64 = 200;
 const TOLERANCE_BEYOND: f64 = 4.0;
 
-/// The cable over all passes.
-#[derive(Debug, Clone)]
-pub struct Evolution {
-    /// The passes that were wanted.
-    pub records: Vec<Record>,
-    /// The cable after the last pass.
-    pub state: CableState,
-    /// Passes simulated.
-    pub simulated: u64,
-    /// Lengths of the jumps \[periods\] in their order, 0 for a simulated period between.
-    pub schedule: Vec<u64>,
-    /// Where it leads; `None` where nothing beyond the last pass was wanted, or it does not become steady.
-    pub beyond: Option<Beyond>,
-}
-
-/// Where the forces lead.
-#[derive(Debug, Clone)]
-pub struct Beyond {
-    /// The passes that were wanted.
-    pub records: Vec<Record>,
-    /// What each pass of a period does once the forces no longer change from period to period.
-    pub period: Vec<PassOutcome>,
-    /// The cable then.
-    pub state: CableState,
-}
-
 /// A run under way.
 struct Walk<'a, P> {
     jumps: &'a Jumps,
@@ -80,15 +55,6 @@ struct Walk<'a, P> {
     simulated: u64,
     records: Vec<Record>,
     schedule: Vec<u64>,
-}
-
-/// What is known after a simulated period: it, the slope, the length of the next jump \[periods\], and the number of periods
-/// before which the rest is not tried in one jump.
-struct Knowledge {
-    period: Period,
-    slope: Slope,
-    length: f64,
-    not_before: u64,
 }
 
 /// Lets vehicles drive over `cable` on `mesh`, as laid: few of them simulated, each by a call of `pass`.
@@ -219,7 +185,7 @@ where
                 return Ok(false);
             }
             let left = all - self.done;
-            let rate = self.rate(known);
+            let rate = known.rate(&self.state, &self.cable);
             let resting = largest(&known.period.rate) < AT_REST * self.jumps.motion;
             let guided = self.guide.length(self.schedule.len());
             let whole = guided.is_none() && left > CHECKED && (resting || self.is_steady(known, &rate, left));
@@ -233,7 +199,7 @@ where
             let patient = self.simulated <= most.0;
             if !whole && (length < SHORTEST || !patient) {
                 let next = self.next_period()?;
-                self.learn(known, &next, None);
+                known.learn(&next, None, &self.cable);
                 known.period = next;
                 known.length = (GROWTH_BETWEEN * known.length).max(2.0);
                 self.schedule.push(0);
@@ -257,26 +223,6 @@ where
             SUBSTEPS_AHEAD,
         );
         self.scale.shares(&self.cable, ahead.end()).force < STEADY * self.tolerance
-    }
-
-    /// Advance per period in the cable's state, from that of the last period.
-    fn rate(&self, known: &Knowledge) -> Vec<f64> {
-        // −K (u − ū)/w, with u after and ū in the middle of the period.
-        let mut rate = known.period.friction_from(self.state.displacement(), &self.cable);
-        for ((f, v), g) in rate.iter_mut().zip(&known.period.rate).zip(known.slope.values()) {
-            *f = v + g * *f;
-        }
-        rate
-    }
-
-    fn learn(&self, known: &mut Knowledge, next: &Period, predicted: Option<&[f64]>) {
-        let rate = difference(&next.rate, &known.period.rate);
-        let friction = next.friction_from(&known.period.middle, &self.cable);
-        known.slope.learn(Change {
-            rate: &rate,
-            friction: &friction,
-            predicted,
-        });
     }
 
     /// Jumps over `length` periods, simulates two more and chooses the next length; false where the error is so large that the jump
@@ -305,7 +251,7 @@ where
         let shares = self.scale.shares(&self.cable, &missed);
         let error = shares.force.max(shares.movement);
         let factor = (CAUTION * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt()).clamp(GROWTH.0, GROWTH.1);
-        self.learn(known, &checked, Some(&predicted));
+        known.learn(&checked, Some(&predicted), &self.cable);
         let allowed = match self.guide {
             Guide::Free => REJECTED * tolerance,
             Guide::Follow(_) => REJECTED_AS_GUIDED * tolerance,
@@ -360,7 +306,8 @@ where
         let last = (self.done - 1) * period as u64;
         let inside = |pass: &&u64| (first + 1..=last).contains(*pass);
         for &pass in wanted.iter().chain(beyond).filter(inside) {
-            let outcome = if looked_at.contains(&pass) {
+            let outcome = jumped.outcome(&mut self.cable, pass).map_err(wrap)?;
+            if looked_at.contains(&pass) {
                 let before = if pass - 1 == first {
                     (jumped.from.clone(), jumped.offset)
                 } else {
@@ -370,12 +317,9 @@ where
                 self.offset = before.1;
                 let phase = ((pass - 1) % period as u64) as usize;
                 let number = Some(pass);
-                let outcome = self.pass(Next { phase, number })?;
+                self.pass(Next { phase, number })?;
                 (self.state, self.offset) = now;
-                outcome
-            } else {
-                jumped.outcome(&mut self.cable, pass).map_err(wrap)?
-            };
+            }
             self.records.push(Record {
                 pass,
                 outcome,
