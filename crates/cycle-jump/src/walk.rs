@@ -363,6 +363,7 @@ where
 
     fn simulate(&mut self, next: Next) -> Result<PassOutcome, E> {
         let outcome = self.pass(next)?;
+        self.simulated += 1;
         let Request { wanted, beyond, .. } = self.request;
         let is_wanted = |pass: &u64| wanted.binary_search(pass).is_ok() || beyond.binary_search(pass).is_ok();
         if let Some(pass) = next.number.filter(is_wanted) {
@@ -378,7 +379,6 @@ where
     /// Simulates a pass.
     fn pass(&mut self, next: Next) -> Result<PassOutcome, E> {
         let mut outcome = (self.pass)(next, &mut self.state)?;
-        self.simulated += 1;
         outcome.upstream_displacement += self.offset;
         outcome.downstream_displacement += self.offset;
         Ok(outcome)

@@ -1,0 +1,188 @@
+//! Jumps against every period, on a law of passes that is known and on the cable itself.
+
+use boussinesq::HalfSpace;
+use cable_dem::{
+    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, QuasiStatic,
+    RestingCable,
+};
+use cycle_jump::{Evolution, Guide, JumpError, Jumps, Next, Request, evolve};
+use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
+
+const LIMIT: f64 = 27.2;
+const LENGTH: f64 = 30.0;
+
+fn cable(upstream: End, downstream: End) -> Result<(DuctedCable, Mesh), CableError> {
+    let law = FrictionLaw::ElasticPlastic {
+        shape_factor: 2e8 / LIMIT,
+    };
+    let cable =
+        DuctedCable::new(LENGTH, 8.01e6, Friction::new(law, LIMIT)?)?.with_ends(upstream, downstream)?;
+    Ok((cable, Mesh::for_depth(LENGTH, 1.2, 6.0)?))
+}
+
+fn jumps(tolerance: f64) -> Jumps {
+    Jumps {
+        tolerance,
+        first_periods: 8,
+        first_jump: 0.25,
+        depth: 1.2,
+        motion: 37e-6,
+        least: (0.01 * LIMIT, 4e-6),
+        most_passes: (1000, 1000),
+    }
+}
+
+fn request<'a>(passes: u64, period: usize, wanted: &'a [u64], guide: Guide<'a>) -> Request<'a> {
+    Request {
+        passes,
+        period,
+        wanted,
+        looked_at: &[],
+        beyond: &[],
+        guide,
+    }
+}
+
+/// A pass that moves every node by g (0.7 q − f̄), spread as one period spreads it: the exact law of a diffusion.
+fn diffuse(
+    resting: &mut RestingCable,
+    mesh: &Mesh,
+    state: &mut CableState,
+) -> Result<PassOutcome, CableError> {
+    const SLOPE: f64 = 2e-6;
+    let mut moved = vec![0.0; mesh.nodes()];
+    resting.balance(state.displacement(), &mut moved);
+    for advance in &mut moved {
+        *advance = SLOPE * (0.7 * LIMIT - *advance);
+    }
+    resting.diffuse(|_| SLOPE, &mut moved);
+    let displacement = state
+        .displacement()
+        .iter()
+        .zip(&moved)
+        .map(|(u, v)| u + v)
+        .collect();
+    *state = CableState::from_parts(mesh, displacement, state.friction().to_vec())?;
+    resting.settle(state)?;
+    PassOutcome::at_rest(resting.cable(), state)
+}
+
+/// The law of a diffusion, thousands of times one by one.
+#[test]
+fn a_diffusion_is_followed_to_its_end() -> Result<(), Box<dyn std::error::Error>> {
+    let (cable, mesh) = cable(End::Free, End::Spring(1e6))?;
+    let wanted = [5, 20, 50, 100, 300, 1000, 3000, 20_000];
+    let mut resting = RestingCable::new(&cable, &mesh)?;
+    let mut state = CableState::at_rest(&mesh);
+    let mut right = Vec::new();
+    for pass in 1..=wanted[wanted.len() - 1] {
+        let outcome = diffuse(&mut resting, &mesh, &mut state)?;
+        if wanted.contains(&pass) {
+            right.push(outcome);
+        }
+    }
+    for (tolerance, allowed, most) in [(2e-2, 5e-3, 60), (1e-3, 1e-3, 120)] {
+        let request = request(20_000, 1, &wanted, Guide::Free);
+        let found = evolve(&cable, &mesh, &jumps(tolerance), &request, |_: Next, state| {
+            diffuse(&mut resting, &mesh, state).map_err(JumpError::from)
+        })?;
+        assert!(found.simulated <= most, "{} passes", found.simulated);
+        for (record, right) in found.records.iter().zip(&right) {
+            let (force, expected) = (record.outcome.force.downstream, right.force.downstream);
+            assert!(
+                (force - expected).abs() <= allowed * expected,
+                "pass {}: {force} N, {expected} N",
+                record.pass
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Nothing holds the cable: it goes on for ever, 0.7 q g a pass, and no rounding of its way is felt.
+#[test]
+fn a_cable_that_nothing_holds_moves_on() -> Result<(), Box<dyn std::error::Error>> {
+    let (cable, mesh) = cable(End::Free, End::Free)?;
+    let mut resting = RestingCable::new(&cable, &mesh)?;
+    let passes = 1_000_000_000;
+    let wanted = [10, passes];
+    let request = request(passes, 1, &wanted, Guide::Free);
+    let found = evolve(&cable, &mesh, &jumps(1e-3), &request, |_: Next, state| {
+        diffuse(&mut resting, &mesh, state).map_err(JumpError::from)
+    })?;
+    let moved = found.records[1].outcome.downstream_displacement;
+    let expected = 0.7 * LIMIT * 2e-6 * passes as f64;
+    assert!((moved / expected - 1.0).abs() < 1e-3, "{moved} m, {expected} m");
+    assert!(found.records[1].outcome.max_compression.abs() < 1e-3 * LIMIT * LENGTH);
+    Ok(())
+}
+
+/// Two trucks there and one back over the cable itself.
+fn trucks(
+    guide: Guide<'_>,
+    friction: f64,
+) -> Result<(Evolution, Vec<PassOutcome>), Box<dyn std::error::Error>> {
+    let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
+    let line = DuctLine::new(1.2, 0.0)?;
+    let (cable, mesh) = cable(End::Free, End::Fixed)?;
+    let law = cable.friction().law();
+    let cable =
+        DuctedCable::new(LENGTH, 8.01e6, Friction::new(law, friction)?)?.with_ends(End::Free, End::Fixed)?;
+    let mut solver = QuasiStatic::new(cable.clone(), mesh)?;
+    let wheels = Vehicle::point("truck", 196_133.0, 11.1)?.wheels().to_vec();
+    let mut passages = Vec::new();
+    for direction in [Direction::Forward, Direction::Forward, Direction::Reverse] {
+        let truck = Vehicle::new("truck", wheels.clone(), 11.1, direction)?;
+        let motion = DuctMotion::new(&ground, &truck, line, 130.0, 1e-8)?;
+        passages.push(solver.passage(&motion, 48.0)?);
+    }
+    let mut state = solver.at_rest();
+    let mut every = Vec::new();
+    for pass in 0..300 {
+        every.push(solver.pass(&passages[pass % 3], &mut state)?);
+    }
+    let wanted: Vec<u64> = (1..=300).collect();
+    let request = request(300, 3, &wanted, guide);
+    let found = evolve(&cable, &mesh, &jumps(5e-3), &request, |next: Next, state| {
+        solver.pass(&passages[next.phase], state).map_err(JumpError::from)
+    })?;
+    Ok((found, every))
+}
+
+#[test]
+fn two_way_traffic_agrees_with_every_pass() -> Result<(), Box<dyn std::error::Error>> {
+    let (found, every) = trucks(Guide::Free, LIMIT)?;
+    let largest = every
+        .iter()
+        .fold(0.0_f64, |most, pass| most.max(pass.max_compression));
+    assert!(found.simulated < 120, "{}", found.simulated);
+    assert_eq!(found.records.len(), every.len());
+    for (record, every) in found.records.iter().zip(&every) {
+        let off = (record.outcome.force.downstream - every.force.downstream).abs();
+        assert!(off < 5e-3 * largest, "pass {}: {off} N", record.pass);
+        let off = (record.outcome.peak.downstream - every.peak.downstream).abs();
+        assert!(off < 1e-2 * largest, "peak of pass {}: {off} N", record.pass);
+    }
+    Ok(())
+}
+
+/// The same jumps again and again: the answer is smooth in a parameter, as a fit needs it.
+#[test]
+fn obeyed_jumps_are_smooth() -> Result<(), Box<dyn std::error::Error>> {
+    let (first, _) = trucks(Guide::Free, LIMIT)?;
+    let mut forces = Vec::new();
+    for step in -3..=3 {
+        let (again, _) = trucks(
+            Guide::Obey(&first.schedule),
+            LIMIT * (1.0 + 1e-3 * f64::from(step)),
+        )?;
+        assert_eq!(again.schedule, first.schedule);
+        forces.push(again.records[299].outcome.force.downstream);
+    }
+    let slope = (forces[6] - forces[0]) / 6.0;
+    for three in forces.windows(3) {
+        let bend = three[0] - 2.0 * three[1] + three[2];
+        assert!(bend.abs() < 0.1 * slope.abs(), "{forces:?}");
+    }
+    Ok(())
+}
