@@ -96,7 +96,7 @@ struct Point {
     knob: f64,
     error: f64,
     seconds: f64,
-    /// The pass law does not count them.
+    /// `None` where none are counted.
     node_updates: Option<u64>,
 }
 

@@ -2,14 +2,17 @@
 
 use std::io::Write;
 
+use serde::Serialize;
+
 use super::failure::Failure;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::shared::{Input, OutputArguments, SceneArguments};
 use super::terminal;
 use crate::answer::table_rows;
 use crate::output::Kind;
+use crate::scene::Dimension;
 use crate::shown::{percent, rounded};
-use crate::{Run, RunOptions};
+use crate::{PassRecord, Run, RunOptions};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -23,8 +26,44 @@ pub struct Arguments {
     /// Measure the error by a second run on a mesh twice as fine
     #[arg(long)]
     verify: bool,
+    /// Force on an end whose first pass is told
+    #[arg(long, value_name = "FORCE", value_parser = |text: &str| Dimension::Force.parse_argument(text))]
+    limit_force: Option<f64>,
     #[command(flatten)]
     output: OutputArguments,
+}
+
+/// The run, and when a force on an end first exceeds the limit: null where it never does, absent where none is given.
+#[derive(Serialize)]
+struct Limited<'a> {
+    #[serde(flatten)]
+    run: &'a Run,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    limit_reached_after: Option<Option<Reached>>,
+}
+
+#[derive(Serialize, Clone, Copy)]
+struct Reached {
+    pass: u64,
+}
+
+impl<'a> Limited<'a> {
+    fn new(run: &'a Run, limit: Option<f64>) -> Self {
+        let exceeds = |record: &&PassRecord, limit: f64| {
+            let forces = [
+                record.upstream_force_n,
+                record.upstream_peak_n,
+                record.downstream_force_n,
+                record.downstream_peak_n,
+            ];
+            forces.into_iter().any(|force| force.abs() > limit)
+        };
+        let first = |limit| run.passes.iter().find(|record| exceeds(record, limit));
+        Self {
+            run,
+            limit_reached_after: limit.map(|limit| first(limit).map(|record| Reached { pass: record.pass })),
+        }
+    }
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
@@ -42,7 +81,28 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     });
     let mut answer = input.located(answer)?;
     input.warn(&mut answer.warnings);
-    destination.write(&answer, &answer.passes, || print(&answer))
+    let limited = Limited::new(&answer, arguments.limit_force);
+    // A column that only some rows have is none of a table.
+    let rows = answer.passes.iter().map(|record| PassRecord {
+        interpolated: false,
+        ..*record
+    });
+    destination.write(&limited, rows, || {
+        print(&answer)?;
+        let Some(limit) = arguments.limit_force else {
+            return Ok(());
+        };
+        let mut out = terminal::out();
+        match limited.limit_reached_after.flatten() {
+            Some(reached) => writeln!(
+                out,
+                "more than {limit} N on an end: from pass {} on",
+                reached.pass
+            )?,
+            None => writeln!(out, "more than {limit} N on an end: not within these passes")?,
+        }
+        Ok(())
+    })
 }
 
 /// Forces that differ by a smaller share are the same to a reader.

@@ -16,7 +16,7 @@ const DECADES: i32 = 2;
 const POINTS_PER_DECADE: i32 = 2;
 /// Width of the last bracket around a stiffness, as a share of it.
 const ACCURACY: f64 = 0.01;
-/// Name of the pass law, which chooses its own mesh.
+/// Name of the method with jumps, whose runs choose their mesh themselves.
 const PASS_LAW: &str = "pass-law";
 const MOST_STEPS: u64 = 40;
 /// Runs that finding the stiffness at a limit takes, about: only the progress depends on it.

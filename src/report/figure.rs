@@ -11,7 +11,7 @@ const ALONE: f64 = 330.0;
 const STACKED: f64 = 250.0;
 /// Passes beyond which their axis is logarithmic.
 const MANY: u64 = 2000;
-/// Passes that are all drawn; of more, those that a run by the pass law would list.
+/// Passes that are all drawn; of more, those that a run with jumps would list.
 const ALL_DRAWN: usize = 1000;
 
 /// Metres to millimetres, and to micrometres.

@@ -233,7 +233,7 @@ pub enum SolverMethod {
     Dynamic,
     /// Explicit time steps, with inertia.
     Explicit,
-    /// The homogenised law for many passes.
+    /// Without inertia too, but few passes are simulated, with jumps between them.
     PassLaw,
 }
 

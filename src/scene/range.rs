@@ -103,7 +103,7 @@ pub const COEFFICIENT: Quantity = number(0.0, 10.0, "from 0 to 10");
 pub const LOAD_FACTOR: Quantity = number(1e-6, 1e6, "greater than 0, from 1e-6 to 1e6");
 pub const SHARE: Quantity = number(1e-12, 1e12, "greater than 0, from 1e-12 to 1e12");
 
-/// Numbers of passes that can be computed, by the pass law at the latest.
+/// Numbers of passes that can be computed, few of them simulated.
 pub const PASSES: RangeInclusive<u64> = 1..=1_000_000_000_000;
 /// Most nodes and most steps of a vehicle over the duct; where the scene gives no step there are two to a node.
 const MOST_NODES: f64 = 5e6;
