@@ -73,7 +73,7 @@ pub fn saturation(
 
     // At least what is reached, if that is nearly it, and no more than friction can carry to an end whose other end is free.
     let free = scene.ends.upstream == End::Free || scene.ends.downstream == End::Free;
-    let limit = scene.friction_limit() * scene.duct.length;
+    let limit = balance::carried(scene);
     let impossible = free && scene.restraints.is_empty() && force_n.abs() > (1.0 + balance::MARGIN) * limit;
     let shown = |record: &Record| {
         let PassOutcome {

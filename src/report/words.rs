@@ -20,7 +20,10 @@ pub fn scene(scene: &Scene) -> Vec<String> {
         end(ends.downstream)
     );
     let mut points = vec![
-        format!("Duct: {long} long, {deep} from the road surface to the cable."),
+        format!(
+            "Duct: {long} long, {deep} from the road surface to the cable{}.",
+            slope(scene)
+        ),
         cable(scene),
         friction(scene),
         ends,
@@ -31,6 +34,20 @@ pub fn scene(scene: &Scene) -> Vec<String> {
     }));
     points.push(traffic(scene));
     points
+}
+
+/// Which way the duct slopes, and what draws the cable down it.
+fn slope(scene: &Scene) -> String {
+    let slope = scene.duct.slope;
+    if slope == 0.0 {
+        return String::new();
+    }
+    let way = if slope > 0.0 { "rises" } else { "falls" };
+    format!(
+        "; it {way} with x by {} %, and {} of the cable’s weight draw it down",
+        significant(100.0 * slope.abs()),
+        quantity(scene.body_force().abs(), "N/m")
+    )
 }
 
 fn cable(scene: &Scene) -> String {

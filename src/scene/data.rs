@@ -74,13 +74,18 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Largest friction per length of cable, q = μ_d N′ \[N/m\].
+    /// Largest friction per length of cable, q = μ_d N′ cos θ \[N/m\].
     pub fn friction_limit(&self) -> f64 {
-        self.friction.dynamic_coefficient * self.cable.normal_load()
+        self.friction.dynamic_coefficient * self.cable.normal_load() * self.duct.cosine()
+    }
+
+    /// Force of the cable's weight along the duct per length, p = −w sin θ \[N/m\], positive toward growing x.
+    pub fn body_force(&self) -> f64 {
+        -self.cable.weight * self.duct.sine()
     }
 }
 
-/// A straight duct at constant depth, from x = 0 to x = `length`.
+/// A straight duct at constant depth below a road that slopes as it does, from x = 0 to x = `length`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Duct {
     /// Length \[m\], positive.
@@ -89,6 +94,20 @@ pub struct Duct {
     pub depth: f64,
     /// Horizontal distance from the vehicle's axis to the duct's axis \[m\].
     pub lateral_offset: f64,
+    /// tan θ: how much it rises over a horizontal distance of 1, positive where it rises with x; from -1 to 1.
+    pub slope: f64,
+}
+
+impl Duct {
+    /// sin θ of the slope.
+    pub fn sine(&self) -> f64 {
+        self.slope / 1.0_f64.hypot(self.slope)
+    }
+
+    /// cos θ of the slope.
+    pub fn cosine(&self) -> f64 {
+        1.0 / 1.0_f64.hypot(self.slope)
+    }
 }
 
 /// The ground and how to model it.
@@ -145,7 +164,7 @@ pub struct Cable {
 }
 
 impl Cable {
-    /// Normal force between cable and duct per length N' \[N/m\].
+    /// Normal force between cable and duct per length N' in a level duct \[N/m\].
     pub fn normal_load(&self) -> f64 {
         self.normal_load_factor * self.weight
     }

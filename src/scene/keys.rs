@@ -4,7 +4,7 @@ use super::nearest::nearest;
 
 /// Sections and their keys, as messages list them; a misplaced key is looked for here.
 const SECTIONS: [(&str, &str); 10] = [
-    ("duct", "length, depth, lateral_offset"),
+    ("duct", "length, depth, lateral_offset, slope"),
     (
         "ground",
         "preset, model, rigid_base_depth, longitudinal_peak, vertical_peak, layers",

@@ -7,8 +7,8 @@ use super::document::Document;
 use super::error::SceneError;
 use super::range::{
     APPROACH, AXIAL_STIFFNESS, CLAMP, COEFFICIENT, DEPTH, DUCT_LENGTH, Follows, LATERAL_OFFSET, LOAD_FACTOR,
-    POSITION, SHAPE_FACTOR, SPRING, STEP, TIME_STEP, TOLERANCE, WEIGHT, node_spacings, positions,
-    vehicle_steps,
+    POSITION, SHAPE_FACTOR, SLOPE, SPRING, STEP, TIME_STEP, TOLERANCE, WEIGHT, node_spacings, positions,
+    shown, vehicle_steps,
 };
 use super::table::Table;
 use super::value::Value;
@@ -31,7 +31,7 @@ pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
     let restraints = restraints(&root, &duct)?;
     let (vehicles, traffic) = traffic::traffic(&root, ground.scaling)?;
     let solver = solver(&root, &duct)?;
-    Ok(Scene {
+    let scene = Scene {
         title,
         duct,
         ground,
@@ -42,7 +42,28 @@ pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
         vehicles,
         traffic,
         solver,
-    })
+    };
+    is_held(&root, &scene)?;
+    Ok(scene)
+}
+
+/// Refuses a cable that slides out of its duct.
+fn is_held(root: &Table, scene: &Scene) -> Result<(), SceneError> {
+    let Ends { upstream, downstream } = scene.ends;
+    let free = (upstream, downstream) == (End::Free, End::Free) && scene.restraints.is_empty();
+    let (drawn, limit) = (scene.body_force().abs(), scene.friction_limit());
+    match root.table("duct")?.optional("slope") {
+        Some(slope) if free && drawn > 0.0 && drawn >= limit => {
+            let steepest = shown(limit / (scene.cable.weight * scene.duct.cosine()));
+            Err(slope.inconsistent(
+                format!("{} between free ends, where the cable slides out of the duct", slope.written()),
+                format!(
+                    "a slope less than what friction holds, {steepest}, or an end or a clamp that holds the cable"
+                ),
+            ))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn duct(root: &Table) -> Result<Duct, SceneError> {
@@ -53,6 +74,7 @@ fn duct(root: &Table) -> Result<Duct, SceneError> {
         lateral_offset: table
             .optional_quantity("lateral_offset", LATERAL_OFFSET)?
             .unwrap_or(0.0),
+        slope: table.optional_quantity("slope", SLOPE)?.unwrap_or(0.0),
     })
 }
 

@@ -29,6 +29,9 @@ impl Scene {
         out.quantity("length", self.duct.length, "m");
         out.quantity("depth", self.duct.depth, "m");
         out.quantity("lateral_offset", self.duct.lateral_offset, "m");
+        if self.duct.slope != 0.0 {
+            out.number("slope", self.duct.slope);
+        }
         out.ground(&self.ground);
         out.section("[cable]");
         out.quantity("weight", self.cable.weight, "N/m");

@@ -76,6 +76,9 @@ fn every_part_of_a_scene_has_its_ranges() {
     assert_refused("duct.lateral_offset", |scene| {
         scene.duct.lateral_offset = f64::NAN;
     });
+    for slope in [1.1, -1.1, f64::NAN] {
+        assert_refused("duct.slope", |scene| scene.duct.slope = slope);
+    }
     assert_refused("cable.weight", |scene| scene.cable.weight = 0.0);
     assert_refused("cable.axial_stiffness", |scene| {
         scene.cable.axial_stiffness = -1.0;
@@ -307,11 +310,13 @@ fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
         28 => scene.solver.time_step = Some(1e-4 * value),
         29 => scene.solver.approach = Some(value),
         30 => scene.solver.method = SolverMethod::PassLaw,
+        31 => scene.duct.slope = value,
         _ => {
             scene.duct = Duct {
                 length: value,
                 depth: value,
                 lateral_offset: value,
+                slope: value,
             }
         }
     }
@@ -336,7 +341,7 @@ proptest! {
 
     #[test]
     fn no_edit_of_a_scene_panics(
-        edits in prop::collection::vec((0usize..32, numbers(), prop::sample::select(vec![0, 1, 2, u64::MAX])), 1..4),
+        edits in prop::collection::vec((0usize..33, numbers(), prop::sample::select(vec![0, 1, 2, u64::MAX])), 1..4),
     ) {
         let mut scene = example();
         scene.traffic.passes = 2;
