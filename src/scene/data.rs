@@ -94,6 +94,8 @@ pub struct Duct {
     pub depth: f64,
     /// Horizontal distance from the vehicle's axis to the duct's axis \[m\].
     pub lateral_offset: f64,
+    /// Inner diameter \[m\], where it is known.
+    pub inner_diameter: Option<f64>,
     /// tan θ: how much it rises over a horizontal distance of 1, positive where it rises with x; from -1 to 1.
     pub slope: f64,
 }
@@ -159,9 +161,35 @@ pub struct Cable {
     pub weight: f64,
     /// Axial stiffness EA \[N\], positive.
     pub axial_stiffness: f64,
-    /// Normal force on the duct as a multiple of the weight, positive.
+    /// Normal force on the duct as a multiple of the weight, positive. For one of several cables it is that of its arrangement
+    /// ([`Arrangement::normal_load_factor`]), which reading a scene sets.
     pub normal_load_factor: f64,
+    /// Diameter \[m\], where it is known.
+    pub diameter: Option<f64>,
+    /// How it lies beside others in its duct.
+    pub arrangement: Arrangement,
 }
+
+/// How a cable lies in its duct, alone or as one of three.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum Arrangement {
+    /// Alone.
+    #[default]
+    Single,
+    /// On two others.
+    TrefoilUpper,
+    /// Under a third one, beside another.
+    TrefoilLower,
+    /// At the side of three in a row on the bottom of the duct.
+    CradledOuter,
+    /// Between two others on the bottom of the duct.
+    CradledMiddle,
+}
+
+words!(
+    Arrangement: Single "single", TrefoilUpper "trefoil-upper", TrefoilLower "trefoil-lower", CradledOuter "cradled-outer", CradledMiddle "cradled-middle"
+);
 
 impl Cable {
     /// Normal force between cable and duct per length N' in a level duct \[N/m\].

@@ -4,7 +4,8 @@ use creepage::Readings;
 use creepage::calibration::{Quantity, Unknown};
 use creepage::design::{DesignOptions, Limits, Measure, Place, compare, design};
 use creepage::scene::{
-    Duct, End, FrictionLaw, Order, PeakScaling, Restraint, Scene, SceneError, SolverMethod, TrafficVehicle,
+    Arrangement, Duct, End, FrictionLaw, Order, PeakScaling, Restraint, Scene, SceneError, SolverMethod,
+    TrafficVehicle,
 };
 use creepage::{CalibrateOptions, Error, Progress, SceneFile};
 use ground_field::{Base, Direction, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle, Wheel};
@@ -311,12 +312,16 @@ fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
         29 => scene.solver.approach = Some(value),
         30 => scene.solver.method = SolverMethod::PassLaw,
         31 => scene.duct.slope = value,
+        32 => scene.duct.inner_diameter = Some(value),
+        33 => scene.cable.diameter = Some(0.067),
+        34 => scene.cable.arrangement = Arrangement::CradledMiddle,
         _ => {
             scene.duct = Duct {
                 length: value,
                 depth: value,
                 lateral_offset: value,
                 slope: value,
+                inner_diameter: None,
             }
         }
     }
@@ -341,7 +346,7 @@ proptest! {
 
     #[test]
     fn no_edit_of_a_scene_panics(
-        edits in prop::collection::vec((0usize..33, numbers(), prop::sample::select(vec![0, 1, 2, u64::MAX])), 1..4),
+        edits in prop::collection::vec((0usize..36, numbers(), prop::sample::select(vec![0, 1, 2, u64::MAX])), 1..4),
     ) {
         let mut scene = example();
         scene.traffic.passes = 2;

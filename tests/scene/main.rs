@@ -1,6 +1,7 @@
 //! Scene files: what is read from them, and what is said about each kind of bad input.
 
 mod any_input;
+mod arrangement;
 mod bad_input;
 mod contradictions;
 mod edited;
@@ -24,6 +25,7 @@ length = "30 m"
 depth = "1.2 m"
 lateral_offset = "-0.5 m"
 slope = "-3 %"
+inner_diameter = "20 cm"
 [ground]
 model = "fem"
 rigid_base_depth = "12 m"
@@ -135,7 +137,7 @@ fn every_key_is_read() {
         (scene.duct.length, scene.duct.depth, scene.duct.lateral_offset),
         (30.0, 1.2, -0.5)
     );
-    assert_eq!(scene.duct.slope, -0.03);
+    assert_eq!((scene.duct.slope, scene.duct.inner_diameter), (-0.03, Some(0.2)));
     assert_relative_eq!(scene.body_force(), 108.8 * 0.03_f64.atan().sin());
     assert_relative_eq!(scene.friction_limit(), 0.25 * 163.2 * 0.03_f64.atan().cos());
     assert_eq!(scene.ground.model, GroundModel::FiniteElements);

@@ -153,6 +153,7 @@ fn scene() -> impl Strategy<Value = Scene> {
                     depth,
                     lateral_offset,
                     slope: 0.0,
+                    inner_diameter: None,
                 };
                 scene.ground.model = GroundModel::Auto;
                 scene.ground.profile = profile;

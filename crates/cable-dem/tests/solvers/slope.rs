@@ -41,6 +41,9 @@ fn problem(cable: DuctedCable, spacing: f64) -> Result<Problem, Box<dyn std::err
     })
 }
 
+/// Which vehicle comes as which pass.
+type Traffic = fn(usize) -> usize;
+
 /// Force at the load cell \[N\] after the pass of that number: reference solutions with an independent full-chain program.
 const UPHILL: [(usize, f64); 5] = [(1, 80.28), (2, 109.09), (10, 212.8), (20, 281.15), (100, 364.24)];
 const DOWNHILL: [(usize, f64); 5] = [(1, 121.2), (2, 168.32), (10, 346.1), (20, 469.39), (100, 689.84)];
@@ -60,7 +63,7 @@ const DEVIATION: f64 = 0.003;
 fn forces_on_a_slope_are_those_of_an_independent_program() -> Outcome {
     let one_way = |_: usize| 0;
     let by_turns = |pass: usize| pass % 2;
-    let cases: [(f64, &[(usize, f64)], fn(usize) -> usize); 3] = [
+    let cases: [(f64, &[(usize, f64)], Traffic); 3] = [
         (0.05, &UPHILL, one_way),
         (-0.05, &DOWNHILL, one_way),
         (0.05, &BY_TURNS, by_turns),
