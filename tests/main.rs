@@ -35,6 +35,8 @@ mod readings;
 mod report;
 #[path = "scene/main.rs"]
 mod scene;
+#[path = "slope.rs"]
+mod slope;
 #[path = "sweep.rs"]
 mod sweep;
 #[path = "../crates/figure/tests/xml/mod.rs"]

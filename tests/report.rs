@@ -351,6 +351,22 @@ fn other_scenes_have_their_pages() {
         (&["ends.downstream=free"], "largest compression in the cable"),
         (&["duct.lateral_offset=2 m"], "2 m beside the duct"),
         (
+            &[
+                "duct.inner_diameter=200 mm",
+                "cable.diameter=67 mm",
+                "cable.arrangement=trefoil-lower",
+            ],
+            "it presses on the duct with 1.736 times its weight, as a lower one of three cables in trefoil, 67 mm thick in a duct of 0.2 m.",
+        ),
+        (
+            &[
+                "duct.inner_diameter=200 mm",
+                "cable.diameter=67 mm",
+                "cable.arrangement=trefoil-upper",
+            ],
+            "wedging alone does not explain the 900 N measured there.",
+        ),
+        (
             &["solver.method=dynamic"],
             "The method dynamic does not show friction",
         ),

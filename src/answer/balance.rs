@@ -1,8 +1,8 @@
 //! Whether an answer can be true: the balance of forces.
 //!
-//! In equilibrium friction carries at most q = μ_d N′ per metre. So the force differs between any two points of the cable by
-//! at most q times their distance and what clamps between them carry; at an end that is free it is at most q L and the
-//! clamps. No solver, law or mesh may break that.
+//! In equilibrium friction carries at most q = μ_d N′ per metre, beside the cable's own weight along the duct, p. So the force differs
+//! between any two points of the cable by at most q + |p| times their distance and what clamps between them carry; at an end that is free
+//! it is at most (q + |p|) L and the clamps. No solver, law or mesh may break that.
 
 use cable_dem::{CableState, DuctedCable};
 
@@ -31,6 +31,11 @@ pub fn of_state(cable: &DuctedCable, state: &CableState, pass: u64) -> Result<()
     }
 }
 
+/// The most \[N\] by which the forces on both ends differ where nothing else than friction and the cable's own weight acts between them.
+pub fn carried(scene: &Scene) -> f64 {
+    (scene.friction_limit() + scene.body_force().abs()) * scene.duct.length
+}
+
 /// Checks the forces on the ends of a cable whose clamps carry `restraints`.
 pub fn of_records(
     scene: &Scene,
@@ -38,7 +43,7 @@ pub fn of_records(
     restraints: &[RestraintRecord],
 ) -> Result<(), Error> {
     let limit = scene.friction_limit();
-    let friction = limit * scene.duct.length;
+    let friction = carried(scene);
     let clamps: f64 = restraints.iter().map(|clamp| clamp.force_n.abs()).sum();
     for record in records {
         let (upstream, downstream) = (record.upstream_force_n, record.downstream_force_n);

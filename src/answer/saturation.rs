@@ -88,7 +88,7 @@ fn levels_off(
 ) -> Option<Saturation> {
     let mut force_n = largest.into_iter().fold(0.0, larger);
     let free = [scene.ends.upstream, scene.ends.downstream].map(|end| end == End::Free);
-    let limit = scene.friction_limit() * scene.duct.length;
+    let limit = balance::carried(scene);
     let one_free = free.contains(&true) && scene.restraints.is_empty();
     let shown = |record: &Record| {
         let PassOutcome {

@@ -5,7 +5,7 @@ use ground_field::{Base, Direction, Modulus, Vehicle};
 use super::html::Html;
 use super::quantity::{count, length, quantity, significant};
 use crate::Scene;
-use crate::scene::{End, FrictionLaw, Order, PeakScaling};
+use crate::scene::{Arrangement, End, FrictionLaw, Order, PeakScaling};
 
 /// Kilometres an hour of a metre a second.
 const KILOMETRES_PER_HOUR: f64 = 3.6;
@@ -20,7 +20,10 @@ pub fn scene(scene: &Scene) -> Vec<String> {
         end(ends.downstream)
     );
     let mut points = vec![
-        format!("Duct: {long} long, {deep} from the road surface to the cable."),
+        format!(
+            "Duct: {long} long, {deep} from the road surface to the cable{}.",
+            slope(scene)
+        ),
         cable(scene),
         friction(scene),
         ends,
@@ -33,12 +36,27 @@ pub fn scene(scene: &Scene) -> Vec<String> {
     points
 }
 
+/// Which way the duct slopes, and what draws the cable down it.
+fn slope(scene: &Scene) -> String {
+    let slope = scene.duct.slope;
+    if slope == 0.0 {
+        return String::new();
+    }
+    let way = if slope > 0.0 { "rises" } else { "falls" };
+    format!(
+        "; it {way} with x by {} %, and {} of the cable’s weight draw it down",
+        significant(100.0 * slope.abs()),
+        quantity(scene.body_force().abs(), "N/m")
+    )
+}
+
 fn cable(scene: &Scene) -> String {
     let cable = &scene.cable;
     let pressed = match cable.normal_load_factor {
         1.0 => "it lies on the duct with its own weight".to_owned(),
         factor => format!(
-            "it presses on the duct with {} times its weight",
+            "it presses on {} with {} times its weight",
+            under(scene),
             significant(factor)
         ),
     };
@@ -46,7 +64,44 @@ fn cable(scene: &Scene) -> String {
         quantity(cable.weight, "N/m"),
         quantity(cable.axial_stiffness, "N"),
     );
-    format!("Cable: {weight} heavy, axial stiffness EA {stiffness}; {pressed}.")
+    format!(
+        "Cable: {weight} heavy, axial stiffness EA {stiffness}; {pressed}{}.",
+        beside(scene)
+    )
+}
+
+/// What the cable lies on.
+fn under(scene: &Scene) -> &'static str {
+    match scene.cable.arrangement {
+        Arrangement::TrefoilUpper => "the two lower cables",
+        _ => "the duct",
+    }
+}
+
+/// The other cables in the duct.
+fn beside(scene: &Scene) -> String {
+    let place = match scene.cable.arrangement {
+        Arrangement::TrefoilUpper => "the upper one of three cables in trefoil",
+        Arrangement::TrefoilLower => "a lower one of three cables in trefoil",
+        Arrangement::CradledOuter => "an outer one of three cables side by side",
+        Arrangement::CradledMiddle => "the middle one of three cables side by side",
+        _ => return String::new(),
+    };
+    let [inner, own] =
+        [scene.duct.inner_diameter, scene.cable.diameter].map(|d| length(d.unwrap_or_default()));
+    format!(", as {place}, {own} thick in a duct of {inner}")
+}
+
+/// What computing several cables together would change.
+fn together(scene: &Scene) -> &'static str {
+    match scene.cable.arrangement {
+        Arrangement::Single => "",
+        Arrangement::TrefoilUpper | Arrangement::TrefoilLower => {
+            " The cables are computed one by one. Computed together, the lower ones also carry the upper one’s friction, which lowers their \
+             force (from 707 to 592 N in a computation of the full-scale experiment): wedging alone does not explain the 900 N measured there."
+        }
+        _ => " The cables are computed one by one, without friction between them.",
+    }
 }
 
 fn friction(scene: &Scene) -> String {
@@ -59,9 +114,10 @@ fn friction(scene: &Scene) -> String {
         _ => "a law of its own".to_owned(),
     };
     format!(
-        "Friction: dynamic coefficient {}, so at most {}; {law}.",
+        "Friction: dynamic coefficient {}, so at most {}; {law}.{}",
         significant(scene.friction.dynamic_coefficient),
-        quantity(scene.friction_limit(), "N/m")
+        quantity(scene.friction_limit(), "N/m"),
+        together(scene)
     )
 }
 

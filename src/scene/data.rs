@@ -74,13 +74,18 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Largest friction per length of cable, q = μ_d N′ \[N/m\].
+    /// Largest friction per length of cable, q = μ_d N′ cos θ \[N/m\].
     pub fn friction_limit(&self) -> f64 {
-        self.friction.dynamic_coefficient * self.cable.normal_load()
+        self.friction.dynamic_coefficient * self.cable.normal_load() * self.duct.cosine()
+    }
+
+    /// Force of the cable's weight along the duct per length, p = −w sin θ \[N/m\], positive toward growing x.
+    pub fn body_force(&self) -> f64 {
+        -self.cable.weight * self.duct.sine()
     }
 }
 
-/// A straight duct at constant depth, from x = 0 to x = `length`.
+/// A straight duct at constant depth below a road that slopes as it does, from x = 0 to x = `length`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Duct {
     /// Length \[m\], positive.
@@ -89,6 +94,22 @@ pub struct Duct {
     pub depth: f64,
     /// Horizontal distance from the vehicle's axis to the duct's axis \[m\].
     pub lateral_offset: f64,
+    /// Inner diameter \[m\], where it is known.
+    pub inner_diameter: Option<f64>,
+    /// tan θ: how much it rises over a horizontal distance of 1, positive where it rises with x; from -1 to 1.
+    pub slope: f64,
+}
+
+impl Duct {
+    /// sin θ of the slope.
+    pub fn sine(&self) -> f64 {
+        self.slope / 1.0_f64.hypot(self.slope)
+    }
+
+    /// cos θ of the slope.
+    pub fn cosine(&self) -> f64 {
+        1.0 / 1.0_f64.hypot(self.slope)
+    }
 }
 
 /// The ground and how to model it.
@@ -140,12 +161,38 @@ pub struct Cable {
     pub weight: f64,
     /// Axial stiffness EA \[N\], positive.
     pub axial_stiffness: f64,
-    /// Normal force on the duct as a multiple of the weight, positive.
+    /// Normal force on the duct as a multiple of the weight, positive. For one of several cables it is that of its arrangement
+    /// ([`Arrangement::normal_load_factor`]), which reading a scene sets.
     pub normal_load_factor: f64,
+    /// Diameter \[m\], where it is known.
+    pub diameter: Option<f64>,
+    /// How it lies beside others in its duct.
+    pub arrangement: Arrangement,
 }
 
+/// How a cable lies in its duct, alone or as one of three.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum Arrangement {
+    /// Alone.
+    #[default]
+    Single,
+    /// On two others.
+    TrefoilUpper,
+    /// Under a third one, beside another.
+    TrefoilLower,
+    /// At the side of three in a row on the bottom of the duct.
+    CradledOuter,
+    /// Between two others on the bottom of the duct.
+    CradledMiddle,
+}
+
+words!(
+    Arrangement: Single "single", TrefoilUpper "trefoil-upper", TrefoilLower "trefoil-lower", CradledOuter "cradled-outer", CradledMiddle "cradled-middle"
+);
+
 impl Cable {
-    /// Normal force between cable and duct per length N' \[N/m\].
+    /// Normal force between cable and duct per length N' in a level duct \[N/m\].
     pub fn normal_load(&self) -> f64 {
         self.normal_load_factor * self.weight
     }

@@ -14,7 +14,7 @@ use super::{overrides, preset, read};
 
 /// A scene file larger than this \[bytes\] is not a scene file.
 const LARGEST_FILE: u64 = 16 << 20;
-/// How far a share may be from what it has to be.
+/// How far a share, or a factor beside itself, may be from what it has to be.
 const ROUNDING: f64 = 1e-9;
 
 /// The text of a scene and what was set on top of it.
@@ -168,6 +168,20 @@ impl Scene {
         // A scene is valid if a file can hold it.
         let read = SceneFile::from_toml("scene", &self.to_toml()).and_then(|file| file.scene());
         let read = read.map_err(SceneError::without_location)?;
+        let (factor, follows) = (self.cable.normal_load_factor, read.cable.normal_load_factor);
+        // Written so that NaN fails.
+        let same = (factor - follows).abs() <= ROUNDING * follows;
+        if !same {
+            let allowed = format!(
+                "{}, which follows from the arrangement and the diameters",
+                shown(follows)
+            );
+            return Err(SceneError::value(
+                "cable.normal_load_factor",
+                shown(factor),
+                allowed,
+            ));
+        }
         for (index, (one, other)) in self.vehicles.iter().zip(&read.vehicles).enumerate() {
             if (one.share - other.share).abs() > ROUNDING {
                 let allowed = format!(

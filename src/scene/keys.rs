@@ -4,13 +4,16 @@ use super::nearest::nearest;
 
 /// Sections and their keys, as messages list them; a misplaced key is looked for here.
 const SECTIONS: [(&str, &str); 10] = [
-    ("duct", "length, depth, lateral_offset"),
+    ("duct", "length, depth, lateral_offset, slope, inner_diameter"),
     (
         "ground",
         "preset, model, rigid_base_depth, longitudinal_peak, vertical_peak, layers",
     ),
     ("ground.layers", "thickness, young_modulus, poisson_ratio"),
-    ("cable", "preset, weight, axial_stiffness, normal_load_factor"),
+    (
+        "cable",
+        "preset, weight, axial_stiffness, normal_load_factor, diameter, arrangement",
+    ),
     ("friction", "preset, law, dynamic_coefficient, shape_factor"),
     ("ends", "upstream, downstream"),
     ("restraints", "position, stiffness"),

@@ -41,6 +41,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod arrangement;
 mod data;
 mod document;
 mod error;
@@ -67,8 +68,8 @@ mod write;
 #[cfg(feature = "calibrate")]
 pub(crate) use data::words;
 pub use data::{
-    Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Order, PeakScaling, Restraint, Scene,
-    Solver, SolverMethod, Traffic, TrafficVehicle, UnknownWord,
+    Arrangement, Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Order, PeakScaling,
+    Restraint, Scene, Solver, SolverMethod, Traffic, TrafficVehicle, UnknownWord,
 };
 pub use error::{SceneError, Wrong, WrongKind};
 pub use file::SceneFile;

@@ -69,14 +69,14 @@ impl Dimension {
                 nearest: nearest(&symbol, self.units()),
             });
         };
-        if unit.dimension != self {
+        if !self.takes(unit.dimension) {
             return Err(QuantityError::WrongDimension {
                 unit: written.to_owned(),
                 dimension: unit.dimension,
             });
         }
         let value = number.shifted(unit.exponent).ok_or(QuantityError::NotANumber)?;
-        Ok(value * unit.factor / unit.divisor)
+        Ok(unit.in_si(value))
     }
 
     /// As [`Dimension::parse`], but a number without a unit is taken as SI: for values typed on a command line.
@@ -221,10 +221,21 @@ mod tests {
             (Dimension::Time, "2 min", 120.0),
             (Dimension::Time, "2 h", 7200.0),
             (Dimension::Ratio, "1 %", 0.01),
+            (Dimension::Slope, "-3 %", -0.03),
         ];
         for (dimension, text, value) in cases {
             assert_eq!(dimension.parse(text), Ok(value), "{text}");
         }
+    }
+
+    #[test]
+    fn an_angle_becomes_its_tangent() {
+        let slope = |text| Dimension::Slope.parse(text).unwrap();
+        for (text, tangent) in [("45 deg", 1.0), ("-30°", -1.0 / 3.0_f64.sqrt()), ("0 deg", 0.0)] {
+            assert!((slope(text) - tangent).abs() < 1e-15, "{text}");
+        }
+        assert_eq!(slope("180 deg"), f64::INFINITY);
+        assert_eq!(slope("-90 deg"), f64::NEG_INFINITY);
     }
 
     #[test]
@@ -273,7 +284,7 @@ mod tests {
             let text = format!("1 {}", unit.symbol);
             for other in UNITS {
                 let parsed = other.dimension.parse(&text);
-                if other.dimension == unit.dimension {
+                if other.dimension.takes(unit.dimension) {
                     assert!(parsed.is_ok(), "{text}");
                 } else {
                     let unit_symbol = unit.symbol.to_owned();

@@ -53,6 +53,8 @@ const POSITIVE: Range = range(LEAST, f64::MAX, "greater than 0");
 // The limits of what the models can mean, far outside what is built: beyond them numbers lose their digits, or a run its
 // end.
 const OFFSETS: Range = range(-1e3, 1e3, "of any sign, at most 1 km");
+const DIAMETERS: Range = range(1e-3, 10.0, "greater than 0, from 1 mm to 10 m");
+const SLOPES: Range = range(-1.0, 1.0, "of any sign, from -100 % to 100 %");
 const PEAKS: Range = range(1e-12, 1.0, "greater than 0, from 1e-6 um to 1 m");
 const LOADS: Range = range(0.0, 1e9, "of at least 0 and at most 1000 MN");
 const MODULI: Range = range(1e3, 1e13, "greater than 0, from 1 kPa to 10000 GPa");
@@ -71,6 +73,9 @@ pub const THICKNESSES: Range = range(1e-6, 1e4, "greater than 0, from 1 um to 10
 pub const DUCT_LENGTH: Quantity = length(DUCT_LENGTHS, "\"30 m\"");
 pub const DEPTH: Quantity = length(DEPTHS, "\"1.2 m\"");
 pub const LATERAL_OFFSET: Quantity = length(OFFSETS, "\"0.5 m\"");
+pub const SLOPE: Quantity = quantity(Dimension::Slope, SLOPES, "\"3 %\", \"1.7 deg\" or 0.03");
+pub const INNER_DIAMETER: Quantity = length(DIAMETERS, "\"200 mm\"");
+pub const DIAMETER: Quantity = length(DIAMETERS, "\"67 mm\"");
 pub const WHEEL_X: Quantity = length(OFFSETS, "\"-4 m\"");
 pub const WHEEL_Y: Quantity = length(OFFSETS, "\"0.9 m\"");
 pub const CONTACT_RADIUS: Quantity = length(RADII, "\"0.15 m\"");
@@ -124,6 +129,23 @@ pub fn vehicle_steps(length: f64) -> Follows {
     let all = shown(length);
     let words = format!("at most the duct's length, {all} m, and at least its ten-millionth part");
     (length / MOST_STEPS..=length, words)
+}
+
+/// Diameters \[m\] of a cable that lies alone in a duct of this inner diameter, or of one of three that fit while the duct is `closest`
+/// times as wide as each of them.
+pub fn diameters(inner_diameter: f64, closest: Option<f64>) -> Follows {
+    let inner = shown(inner_diameter);
+    match closest {
+        None => {
+            let words = format!("less than the duct's inner diameter, {inner} m");
+            (0.0..=inner_diameter.next_down(), words)
+        }
+        Some(closest) => {
+            let most = inner_diameter / closest;
+            let words = format!("at most {most:.4} m, so that three cables fit into the duct's {inner} m");
+            (0.0..=most, words)
+        }
+    }
 }
 
 /// Positions of clamps \[m\] in a duct of this length.

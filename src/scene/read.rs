@@ -2,13 +2,16 @@
 
 use std::path::Path;
 
-use super::data::{Cable, Duct, End, Ends, Friction, FrictionLaw, Restraint, Scene, Solver, SolverMethod};
+use super::arrangement::CLOSEST;
+use super::data::{
+    Arrangement, Cable, Duct, End, Ends, Friction, FrictionLaw, Restraint, Scene, Solver, SolverMethod,
+};
 use super::document::Document;
 use super::error::SceneError;
 use super::range::{
-    APPROACH, AXIAL_STIFFNESS, CLAMP, COEFFICIENT, DEPTH, DUCT_LENGTH, Follows, LATERAL_OFFSET, LOAD_FACTOR,
-    POSITION, SHAPE_FACTOR, SPRING, STEP, TIME_STEP, TOLERANCE, WEIGHT, node_spacings, positions,
-    vehicle_steps,
+    APPROACH, AXIAL_STIFFNESS, CLAMP, COEFFICIENT, DEPTH, DIAMETER, DUCT_LENGTH, Follows, INNER_DIAMETER,
+    LATERAL_OFFSET, LOAD_FACTOR, POSITION, SHAPE_FACTOR, SLOPE, SPRING, STEP, TIME_STEP, TOLERANCE, WEIGHT,
+    diameters, node_spacings, positions, shown, vehicle_steps,
 };
 use super::table::Table;
 use super::value::Value;
@@ -25,13 +28,13 @@ pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
     };
     let duct = duct(&root)?;
     let ground = ground::ground(&root)?;
-    let cable = cable(&root)?;
+    let cable = cable(&root, &duct)?;
     let friction = friction(&root)?;
     let ends = ends(&root)?;
     let restraints = restraints(&root, &duct)?;
     let (vehicles, traffic) = traffic::traffic(&root, ground.scaling)?;
     let solver = solver(&root, &duct)?;
-    Ok(Scene {
+    let scene = Scene {
         title,
         duct,
         ground,
@@ -42,7 +45,28 @@ pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
         vehicles,
         traffic,
         solver,
-    })
+    };
+    is_held(&root, &scene)?;
+    Ok(scene)
+}
+
+/// Refuses a cable that slides out of its duct.
+fn is_held(root: &Table, scene: &Scene) -> Result<(), SceneError> {
+    let Ends { upstream, downstream } = scene.ends;
+    let free = (upstream, downstream) == (End::Free, End::Free) && scene.restraints.is_empty();
+    let (drawn, limit) = (scene.body_force().abs(), scene.friction_limit());
+    match root.table("duct")?.optional("slope") {
+        Some(slope) if free && drawn > 0.0 && drawn >= limit => {
+            let steepest = shown(limit / (scene.cable.weight * scene.duct.cosine()));
+            Err(slope.inconsistent(
+                format!("{} between free ends, where the cable slides out of the duct", slope.written()),
+                format!(
+                    "a slope less than what friction holds, {steepest}, or an end or a clamp that holds the cable"
+                ),
+            ))
+        }
+        _ => Ok(()),
+    }
 }
 
 fn duct(root: &Table) -> Result<Duct, SceneError> {
@@ -53,18 +77,52 @@ fn duct(root: &Table) -> Result<Duct, SceneError> {
         lateral_offset: table
             .optional_quantity("lateral_offset", LATERAL_OFFSET)?
             .unwrap_or(0.0),
+        inner_diameter: table.optional_quantity("inner_diameter", INNER_DIAMETER)?,
+        slope: table.optional_quantity("slope", SLOPE)?.unwrap_or(0.0),
     })
 }
 
-fn cable(root: &Table) -> Result<Cable, SceneError> {
+fn cable(root: &Table, duct: &Duct) -> Result<Cable, SceneError> {
     let table = root.table("cable")?;
+    let (arrangement, diameter, factor) = arrangement(root, &table, duct)?;
     Ok(Cable {
         weight: table.quantity("weight", WEIGHT)?,
         axial_stiffness: table.quantity("axial_stiffness", AXIAL_STIFFNESS)?,
-        normal_load_factor: table
-            .optional_quantity("normal_load_factor", LOAD_FACTOR)?
-            .unwrap_or(1.0),
+        normal_load_factor: factor,
+        diameter,
+        arrangement,
     })
+}
+
+/// How the cable lies in the duct, its diameter, and its normal load factor: given, or as both make it.
+fn arrangement(
+    root: &Table,
+    table: &Table,
+    duct: &Duct,
+) -> Result<(Arrangement, Option<f64>, f64), SceneError> {
+    const FACTOR: &str = "normal_load_factor";
+    let mut arrangement = table.word("arrangement", Arrangement::WORDS, Arrangement::Single)?;
+    if arrangement.is_of_three() && table.alternatives("arrangement", FACTOR)?[0].is_none() {
+        arrangement = Arrangement::Single;
+    }
+    let [diameter, factor] = table.alternatives("diameter", FACTOR)?;
+    if let Some(factor) = factor {
+        return Ok((arrangement, None, factor.quantity(LOAD_FACTOR)?));
+    }
+    if !arrangement.is_of_three() && (diameter.is_none() || duct.inner_diameter.is_none()) {
+        let diameter = diameter.map(|diameter| diameter.quantity(DIAMETER)).transpose()?;
+        return Ok((arrangement, diameter, 1.0));
+    }
+    let inner = root.table("duct")?.quantity("inner_diameter", INNER_DIAMETER)?;
+    let room = diameters(inner, arrangement.is_of_three().then_some(CLOSEST));
+    let diameter = table
+        .required("diameter", &DIAMETER.allowed())?
+        .quantity_within(DIAMETER, room)?;
+    Ok((
+        arrangement,
+        Some(diameter),
+        arrangement.normal_load_factor(inner, diameter),
+    ))
 }
 
 fn friction(root: &Table) -> Result<Friction, SceneError> {

@@ -20,11 +20,13 @@ pub enum Dimension {
     Time,
     /// A ratio, as a percentage.
     Ratio,
+    /// A slope: rise over horizontal distance as a ratio, or an angle, whose tangent it is.
+    Slope,
 }
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Length,
         Self::Force,
         Self::Pressure,
@@ -33,16 +35,17 @@ impl Dimension {
         Self::Speed,
         Self::Time,
         Self::Ratio,
+        Self::Slope,
     ];
 
-    /// The symbols of this dimension's units, the SI unit first.
+    /// The symbols of this dimension's units, the SI unit first; ratios and slopes have none in SI.
     ///
     /// Written variants are accepted too: `µm` and `μm` for `um`, `N/mm²` and `N/mm^2` for `N/mm2`, `/m` and `m^-1` for
     /// `1/m`.
     pub fn units(self) -> impl Iterator<Item = &'static str> {
         UNITS
             .iter()
-            .filter(move |unit| unit.dimension == self)
+            .filter(move |unit| self.takes(unit.dimension))
             .map(|unit| unit.symbol)
     }
 
@@ -57,22 +60,43 @@ impl Dimension {
             Self::Speed => "a speed",
             Self::Time => "a time",
             Self::Ratio => "a ratio",
+            Self::Slope => "a slope",
         }
+    }
+
+    /// Whether it takes units of `dimension`: a slope may be a ratio.
+    pub(super) fn takes(self, dimension: Self) -> bool {
+        dimension == self || (self, dimension) == (Self::Slope, Self::Ratio)
     }
 }
 
 /// Standard gravity \[m/s²\]: 1 kgf = 9.80665 N by definition.
 const STANDARD_GRAVITY: f64 = 9.80665;
+/// 90 degrees.
+const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
 /// International pound-force \[N\].
 const POUND_FORCE: f64 = 4.4482216152605;
 
-/// A unit: one of it is `factor / divisor · 10^exponent` in SI.
+/// A unit: one of it is `factor / divisor · 10^exponent` in SI; for a slope that is the angle, and its tangent counts.
 pub struct Unit {
     pub symbol: &'static str,
     pub dimension: Dimension,
     pub exponent: i32,
     pub factor: f64,
     pub divisor: f64,
+}
+
+impl Unit {
+    /// The value in SI of `number`, from which the power of ten is already taken out.
+    pub fn in_si(&self, number: f64) -> f64 {
+        let value = number * self.factor / self.divisor;
+        match self.dimension {
+            // Steeper than upright is no slope.
+            Dimension::Slope if value.abs() < RIGHT_ANGLE => value.tan(),
+            Dimension::Slope => f64::INFINITY.copysign(value),
+            _ => value,
+        }
+    }
 }
 
 const fn unit(symbol: &'static str, dimension: Dimension, exponent: i32, factor: f64) -> Unit {
@@ -136,6 +160,7 @@ pub const UNITS: &[Unit] = &[
     unit("min", Dimension::Time, 0, 60.0),
     unit("h", Dimension::Time, 0, 3600.0),
     unit("%", Dimension::Ratio, -2, 1.0),
+    unit("deg", Dimension::Slope, 0, RIGHT_ANGLE / 90.0),
 ];
 
 /// The unit in the spelling of [`UNITS`].
@@ -152,6 +177,9 @@ pub fn normalised(unit: &str) -> String {
             c => c,
         })
         .collect();
+    if plain == "°" {
+        return "deg".to_owned();
+    }
     let inverse = plain.strip_prefix('/').or(plain.strip_suffix("-1"));
     match inverse {
         Some(length @ ("m" | "cm" | "mm" | "um")) => format!("1/{length}"),

@@ -5,6 +5,7 @@
 
 use ground_field::{Base, Modulus, SoilProfile};
 
+use super::arrangement::may_jam;
 use super::data::{Ground, Scene};
 
 /// Moduli \[Pa\] between which soils and pavements lie: peat and granite.
@@ -26,6 +27,7 @@ pub(crate) fn unusual(scene: &Scene) -> Vec<String> {
     let mut warnings = moduli(&scene.ground.profile);
     warnings.extend(rock(scene));
     warnings.extend(contrast(&scene.ground));
+    warnings.extend(may_jam(scene));
     let coefficient = scene.friction.dynamic_coefficient;
     if coefficient > ROUGHEST {
         warnings.push(format!(

@@ -176,16 +176,16 @@ impl<'d> Value<'d> {
 
 /// What a bare number out of its range was probably meant in.
 fn bare_in(value: f64, quantity: Quantity) -> String {
-    let (dimension, unit) = match quantity.dimension {
-        Some(dimension @ Dimension::Length) => (dimension, "mm"),
-        Some(dimension @ Dimension::Pressure) => (dimension, "MPa"),
+    let (dimension, unit, si) = match quantity.dimension {
+        Some(dimension @ Dimension::Length) => (dimension, "mm", "in m"),
+        Some(dimension @ Dimension::Pressure) => (dimension, "MPa", "in Pa"),
+        Some(dimension @ Dimension::Slope) => (dimension, "%", "the rise over a distance of 1"),
         _ => return String::new(),
     };
     let meant = format!("{value} {unit}");
     let fits = |value| quantity.range.contains(value);
     if dimension.parse(&meant).is_ok_and(fits) {
-        let si = dimension.units().next().unwrap_or_default();
-        format!("; a bare number is in {si}: did you mean \"{meant}\"?")
+        format!("; a bare number is {si}: did you mean \"{meant}\"?")
     } else {
         String::new()
     }

@@ -29,11 +29,21 @@ impl Scene {
         out.quantity("length", self.duct.length, "m");
         out.quantity("depth", self.duct.depth, "m");
         out.quantity("lateral_offset", self.duct.lateral_offset, "m");
+        out.optional("inner_diameter", self.duct.inner_diameter, "m");
+        if self.duct.slope != 0.0 {
+            out.number("slope", self.duct.slope);
+        }
         out.ground(&self.ground);
         out.section("[cable]");
         out.quantity("weight", self.cable.weight, "N/m");
         out.quantity("axial_stiffness", self.cable.axial_stiffness, "N");
-        out.number("normal_load_factor", self.cable.normal_load_factor);
+        // Of several cables the factor follows from what is known of them.
+        if self.cable.arrangement.is_of_three() {
+            out.word("arrangement", &self.cable.arrangement.to_string());
+        } else if self.cable.diameter.is_none() {
+            out.number("normal_load_factor", self.cable.normal_load_factor);
+        }
+        out.optional("diameter", self.cable.diameter, "m");
         out.section("[friction]");
         out.word("law", self.friction.law.name());
         out.number("dynamic_coefficient", self.friction.dynamic_coefficient);

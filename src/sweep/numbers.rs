@@ -22,6 +22,8 @@ pub fn si_unit(text: &str) -> Option<&'static str> {
         .find(|dimension| dimension.parse(text).is_ok())?
         .units()
         .next()
+        // Ratios and slopes are bare numbers.
+        .filter(|unit| *unit != "%")
 }
 
 /// Numbers and the one unit that all of them have, or all but none.

@@ -15,7 +15,7 @@ fn an_unknown_key_suggests_the_nearest() {
         &[
             "unknown key `duct.lenght`",
             "did you mean `length`?",
-            "allowed: length, depth, lateral_offset",
+            "allowed: length, depth, lateral_offset, slope, inner_diameter",
             "^^^^^^",
         ],
     );
@@ -255,6 +255,11 @@ length = "30 m" → length = "NaN m" | duct.length | a length greater than 0
 length = "30 m" → length = inf | duct.length | a length greater than 0
 length = "30 m" → length = 1e999 | duct.length | a length greater than 0
 lateral_offset = "-0.5 m" → lateral_offset = "inf m" | duct.lateral_offset | a length of any sign
+slope = "-3 %" → slope = "46 deg" | duct.slope | a slope of any sign, from -100 % to 100 %
+slope = "-3 %" → slope = "180 deg" | duct.slope | a slope of any sign, from -100 % to 100 %
+inner_diameter = "20 cm" → inner_diameter = 0 | duct.inner_diameter | a length greater than 0, from 1 mm to 10 m
+slope = "-3 %" → slope = nan | duct.slope | a slope of any sign, from -100 % to 100 %
+slope = "-3 %" → slope = 5 | duct.slope | a bare number is the rise over a distance of 1: did you mean "5 %"?
 longitudinal_peak = "35.7 um" → longitudinal_peak = 0 | ground.longitudinal_peak | greater than 0
 rigid_base_depth = "12 m" → rigid_base_depth = -1 | ground.rigid_base_depth | greater than 0
 rigid_base_depth = "12 m" → rigid_base_depth = "1.05 m" | ground.rigid_base_depth | below the upper layers, greater than 1.05 m

@@ -50,7 +50,7 @@ fn shape_factor_belongs_to_the_laws_that_have_one() {
             .replace("shape_factor = \"2e7 1/m\"\n", "");
         let message = read(&text).unwrap_err().to_string();
         assert!(
-            message.starts_with("bad.toml, line 25: key `friction.shape_factor` is missing"),
+            message.starts_with("bad.toml, line 27: key `friction.shape_factor` is missing"),
             "{message}"
         );
     }
@@ -84,7 +84,7 @@ fn a_half_space_has_one_modulus() {
     let message = read(&text).unwrap_err().to_string();
     assert!(
         message
-            .starts_with("bad.toml, line 18: `ground.layers.2.young_modulus`: found a modulus that varies"),
+            .starts_with("bad.toml, line 20: `ground.layers.2.young_modulus`: found a modulus that varies"),
         "{message}"
     );
     assert!(read(&FULL.replace("\"800 MPa\"", "{ top = 1e6, bottom = 2e6 }")).is_ok());
@@ -100,11 +100,11 @@ fn vehicles_have_different_names() {
     for (new, start) in [
         (
             "name = \"truck\"",
-            "bad.toml, line 41: `vehicles.1.name`: found \"truck\"; allowed: a name",
+            "bad.toml, line 43: `vehicles.1.name`: found \"truck\"; allowed: a name",
         ),
         (
             "name = \" \"",
-            "bad.toml, line 41: `vehicles.1.name`: found \" \"; allowed: a name",
+            "bad.toml, line 43: `vehicles.1.name`: found \" \"; allowed: a name",
         ),
     ] {
         assert!(message(new).starts_with(start), "{}", message(new));
@@ -126,7 +126,7 @@ fn a_sequence_names_known_vehicles() {
     let message = |list| read(&sequence(list)).unwrap_err().to_string();
     let unknown = message("[\"truck\", \"vam\"]");
     assert!(
-        unknown.starts_with("bad.toml, line 50: `traffic.sequence.1`: found \"vam\" (did you mean `van`?)"),
+        unknown.starts_with("bad.toml, line 52: `traffic.sequence.1`: found \"vam\" (did you mean `van`?)"),
         "{unknown}"
     );
     assert!(unknown.contains("allowed: \"truck\", \"van\""), "{unknown}");

@@ -4,7 +4,8 @@ use creepage::Readings;
 use creepage::calibration::{Quantity, Unknown};
 use creepage::design::{DesignOptions, Limits, Measure, Place, compare, design};
 use creepage::scene::{
-    Duct, End, FrictionLaw, Order, PeakScaling, Restraint, Scene, SceneError, SolverMethod, TrafficVehicle,
+    Arrangement, Duct, End, FrictionLaw, Order, PeakScaling, Restraint, Scene, SceneError, SolverMethod,
+    TrafficVehicle,
 };
 use creepage::{CalibrateOptions, Error, Progress, SceneFile};
 use ground_field::{Base, Direction, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle, Wheel};
@@ -76,6 +77,9 @@ fn every_part_of_a_scene_has_its_ranges() {
     assert_refused("duct.lateral_offset", |scene| {
         scene.duct.lateral_offset = f64::NAN;
     });
+    for slope in [1.1, -1.1, f64::NAN] {
+        assert_refused("duct.slope", |scene| scene.duct.slope = slope);
+    }
     assert_refused("cable.weight", |scene| scene.cable.weight = 0.0);
     assert_refused("cable.axial_stiffness", |scene| {
         scene.cable.axial_stiffness = -1.0;
@@ -307,11 +311,17 @@ fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
         28 => scene.solver.time_step = Some(1e-4 * value),
         29 => scene.solver.approach = Some(value),
         30 => scene.solver.method = SolverMethod::PassLaw,
+        31 => scene.duct.slope = value,
+        32 => scene.duct.inner_diameter = Some(value),
+        33 => scene.cable.diameter = Some(0.067),
+        34 => scene.cable.arrangement = Arrangement::CradledMiddle,
         _ => {
             scene.duct = Duct {
                 length: value,
                 depth: value,
                 lateral_offset: value,
+                slope: value,
+                inner_diameter: None,
             }
         }
     }
@@ -336,7 +346,7 @@ proptest! {
 
     #[test]
     fn no_edit_of_a_scene_panics(
-        edits in prop::collection::vec((0usize..32, numbers(), prop::sample::select(vec![0, 1, 2, u64::MAX])), 1..4),
+        edits in prop::collection::vec((0usize..36, numbers(), prop::sample::select(vec![0, 1, 2, u64::MAX])), 1..4),
     ) {
         let mut scene = example();
         scene.traffic.passes = 2;

@@ -1,6 +1,7 @@
 //! Scene files: what is read from them, and what is said about each kind of bad input.
 
 mod any_input;
+mod arrangement;
 mod bad_input;
 mod contradictions;
 mod edited;
@@ -23,6 +24,8 @@ const FULL: &str = r#"title = "Everything"
 length = "30 m"
 depth = "1.2 m"
 lateral_offset = "-0.5 m"
+slope = "-3 %"
+inner_diameter = "20 cm"
 [ground]
 model = "fem"
 rigid_base_depth = "12 m"
@@ -134,6 +137,9 @@ fn every_key_is_read() {
         (scene.duct.length, scene.duct.depth, scene.duct.lateral_offset),
         (30.0, 1.2, -0.5)
     );
+    assert_eq!((scene.duct.slope, scene.duct.inner_diameter), (-0.03, Some(0.2)));
+    assert_relative_eq!(scene.body_force(), 108.8 * 0.03_f64.atan().sin());
+    assert_relative_eq!(scene.friction_limit(), 0.25 * 163.2 * 0.03_f64.atan().cos());
     assert_eq!(scene.ground.model, GroundModel::FiniteElements);
     assert_eq!(scene.ground.scaling, Some(PeakScaling::Longitudinal(35.7e-6)));
     let layers = scene.ground.profile.layers();
@@ -213,7 +219,7 @@ fn what_may_be_left_out_has_a_default() {
     "#;
     let scene = Scene::from_toml("somewhere/short.toml", text).unwrap();
     assert_eq!(scene.title, "short");
-    assert_eq!(scene.duct.lateral_offset, 0.0);
+    assert_eq!((scene.duct.lateral_offset, scene.duct.slope), (0.0, 0.0));
     assert_eq!(
         (scene.ground.model, scene.ground.scaling),
         (GroundModel::Auto, None)

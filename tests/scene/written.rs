@@ -152,6 +152,8 @@ fn scene() -> impl Strategy<Value = Scene> {
                     length,
                     depth,
                     lateral_offset,
+                    slope: 0.0,
+                    inner_diameter: None,
                 };
                 scene.ground.model = GroundModel::Auto;
                 scene.ground.profile = profile;
@@ -173,6 +175,10 @@ fn scene() -> impl Strategy<Value = Scene> {
                     stiffness,
                 };
                 scene.restraints = clamps.into_iter().map(restraint).collect();
+                // A cable that nothing holds may slide out of its duct.
+                if (upstream, downstream) != (End::Free, End::Free) {
+                    scene.duct.slope = 0.1 * lateral_offset;
+                }
                 scene.vehicles = vec![vehicles.0, vehicles.1, vehicles.2];
                 let shares = match passes {
                     Passes::Shares(shares, seed) => {

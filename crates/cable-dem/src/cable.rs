@@ -67,6 +67,7 @@ pub struct DuctedCable {
     upstream: End,
     downstream: End,
     restraints: Vec<Restraint>,
+    body_force: f64,
 }
 
 impl DuctedCable {
@@ -84,6 +85,7 @@ impl DuctedCable {
             upstream: End::Free,
             downstream: End::Free,
             restraints: Vec::new(),
+            body_force: 0.0,
         })
     }
 
@@ -125,6 +127,17 @@ impl DuctedCable {
         Ok(self)
     }
 
+    /// The same cable with a force `body_force` p \[N/m\] along the duct on every metre, positive toward growing x: that of its weight w in
+    /// a duct that rises with x at an angle θ, p = −w sin θ. It is a load and no law: every step stays convex.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless it is finite.
+    pub fn with_body_force(mut self, body_force: f64) -> Result<Self, CableError> {
+        self.body_force = checked("body_force", body_force, "finite", |_| true)?;
+        Ok(self)
+    }
+
     /// The cable seen in a mirror across the duct's middle.
     #[must_use]
     pub fn mirrored(&self) -> Self {
@@ -133,6 +146,7 @@ impl DuctedCable {
         for restraint in &mut mirrored.restraints {
             restraint.position = self.length - restraint.position;
         }
+        mirrored.body_force = -self.body_force;
         mirrored
     }
 
@@ -164,6 +178,17 @@ impl DuctedCable {
     /// Clamps along the cable.
     pub fn restraints(&self) -> &[Restraint] {
         &self.restraints
+    }
+
+    /// Force p along the duct on every metre of the cable \[N/m\].
+    pub fn body_force(&self) -> f64 {
+        self.body_force
+    }
+
+    /// The force along the duct on every node of `mesh` \[N\].
+    pub(crate) fn body_loads(&self, mesh: &Mesh) -> Vec<f64> {
+        let load = |node| self.body_force * mesh.tributary_length(node);
+        (0..mesh.nodes()).map(load).collect()
     }
 
     /// Length \[m\] over which a stuck cable smooths the motion of its duct: λ = √(EA γ), with γ the shear compliance

@@ -7,9 +7,9 @@ use crate::{DuctedCable, End, Mesh};
 ///
 /// The half element beyond the middle of the last one balances
 ///
-/// F = k (u_inner − u_end) + w f,  w = h/2,
+/// F = k (u_inner − u_end) + w (f + p),  w = h/2,
 ///
-/// the chain's force and the friction on that half: what arrives at the end, of second order in the spacing h wherever the
+/// the chain's force, and friction and body force on that half: what arrives at the end, of second order in the spacing h wherever the
 /// slip near the end is resolved. What of it the end reads depends on what else holds its node:
 ///
 /// | end | reading at rest | while masses move |
@@ -43,6 +43,8 @@ pub(crate) struct EndReader {
     tributary: f64,
     last: usize,
     ends: [Reading; 2],
+    /// Body force on either end node \[N\], as it stands upstream and downstream.
+    body: [f64; 2],
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -56,6 +58,7 @@ impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();
         let supports = Support::of(cable, mesh);
+        let body = cable.body_loads(mesh);
         let reading = |node: usize, end: End| {
             let all = supports.iter().find(|support| support.node == node);
             let all = all.and_then(|support| support.stiffness).unwrap_or(0.0);
@@ -70,6 +73,7 @@ impl EndReader {
             stiffness: cable.axial_stiffness() / mesh.spacing(),
             tributary: mesh.tributary_length(0),
             last,
+            body: [body[0], body[last]],
             ends: [reading(0, cable.upstream()), reading(last, cable.downstream())],
         }
     }
@@ -81,17 +85,20 @@ impl EndReader {
         displacement: impl Fn(usize) -> f64,
         friction: impl Fn(usize) -> f64,
     ) -> EndForces {
-        let force = |Reading { end, share }: Reading, node: usize, inner: usize, outward: f64| match end {
-            End::Free => 0.0,
-            End::Spring(spring) if balance == Balance::Moving => outward * spring * displacement(node),
-            End::Spring(_) | End::Fixed => {
-                let chain = self.stiffness * (displacement(inner) - displacement(node));
-                outward * share * (chain + self.tributary * friction(node))
+        let force = |side: usize, node: usize, inner: usize, outward: f64| {
+            let Reading { end, share } = self.ends[side];
+            match end {
+                End::Free => 0.0,
+                End::Spring(spring) if balance == Balance::Moving => outward * spring * displacement(node),
+                End::Spring(_) | End::Fixed => {
+                    let chain = self.stiffness * (displacement(inner) - displacement(node));
+                    outward * share * (chain + self.tributary * friction(node) + self.body[side])
+                }
             }
         };
         EndForces {
-            upstream: force(self.ends[0], 0, 1, -1.0),
-            downstream: force(self.ends[1], self.last, self.last - 1, 1.0),
+            upstream: force(0, 0, 1, -1.0),
+            downstream: force(1, self.last, self.last - 1, 1.0),
         }
     }
 }

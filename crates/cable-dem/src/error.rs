@@ -34,6 +34,16 @@ pub enum CableError {
         /// Largest violation of equilibrium or of the friction law, as a share of the friction limit.
         violation: f64,
     },
+    /// Nothing holds a cable that its own weight draws down the duct.
+    #[error(
+        "the cable slides out of its duct: {body_force:?} N/m along it is no less than the friction of {limit:?} N/m, and no end and no clamp holds it"
+    )]
+    NothingHolds {
+        /// Force along the duct \[N/m\].
+        body_force: f64,
+        /// Friction limit \[N/m\].
+        limit: f64,
+    },
     /// Rounding is too large beside the friction limit for the answer to mean anything.
     #[error(
         "rounding of the elastic forces reaches {share:.1e} of the friction limit: axial stiffness {axial_stiffness:?} N at a node spacing of {spacing:?} m is too stiff for this friction"

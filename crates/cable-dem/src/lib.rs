@@ -4,9 +4,10 @@
 //! as the duct's forward motion is long and slow and its backward motion short and fast, the cable gains a little at
 //! every pass (K. Kashiro et al., Furukawa Review; Equations (2) and (3) there). In equilibrium
 //!
-//! EA u″ + f = 0,  |f| ≤ q = μ_d N′,
+//! EA u″ + f + p = 0,  |f| ≤ q = μ_d N′,
 //!
-//! with u the cable's displacement, EA its axial stiffness and f the friction per metre, which follows the slip between
+//! with u the cable's displacement, EA its axial stiffness, p the part of its weight along a duct that slopes
+//! ([`DuctedCable::with_body_force`]) and f the friction per metre, which follows the slip between
 //! duct and cable by a [`FrictionLaw`]. [`QuasiStatic`] leaves inertia out: the cable's wave speed √(EA/m′), near 850 m/s, is
 //! far above any vehicle's, and [`inertia_ratio`] bounds what that costs. [`Dynamic`] takes the same implicit step with
 //! inertia, [`Explicit`] integrates masses, springs and friction by central differences as Kashiro et al. do; both also
@@ -44,6 +45,7 @@ mod ends;
 mod error;
 mod explicit;
 mod friction;
+mod laid;
 mod mesh;
 mod outcome;
 mod quasi_static;
@@ -61,6 +63,7 @@ pub use ends::EndForces;
 pub use error::CableError;
 pub use explicit::{Explicit, ExplicitOptions, StepLimit, StepLimits};
 pub use friction::{Friction, FrictionLaw};
+pub use laid::laid;
 pub use mesh::Mesh;
 pub use outcome::{PassOutcome, Statistics};
 pub use quasi_static::{Passage, QuasiStatic, SlipLengths, StepView};

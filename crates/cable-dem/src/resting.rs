@@ -7,9 +7,9 @@ use crate::{CableError, CableState, DuctedCable, Mesh};
 ///
 /// Where it rests friction balances the chain's force at every node,
 ///
-/// w f = K u,
+/// w (f + p) = K u,
 ///
-/// with K the stiffness of the chain of springs EA/h with its ends and clamps, and w a node's length of cable. So the
+/// with K the stiffness of the chain of springs EA/h with its ends and clamps, w a node's length of cable and p the body force. So the
 /// displacements alone say how the cable lies; only at a fixed end, whose node does not move, friction is its own.
 ///
 /// ```
@@ -32,6 +32,8 @@ pub struct RestingCable {
     supports: Vec<Support>,
     anchor: Vec<f64>,
     nothing: Vec<f64>,
+    /// Body force w p of every node \[N\].
+    load: Vec<f64>,
     /// What elimination leaves above the diagonal.
     factor: Vec<f64>,
 }
@@ -60,6 +62,7 @@ impl RestingCable {
             supports: Support::of(cable, mesh),
             anchor: zeros(),
             nothing: zeros(),
+            load: cable.body_loads(mesh),
             factor: zeros(),
         })
     }
@@ -79,7 +82,8 @@ impl RestingCable {
         self.supports.iter().any(|support| support.stiffness != Some(0.0))
     }
 
-    /// Friction K u/w \[N/m\] that balances the displacements `u` \[m\] at every node that can move; the others are left.
+    /// Friction K u/w \[N/m\] that balances a change `u` \[m\] of the displacements, beside that which balances the body force, at every
+    /// node that can move; the others are left.
     pub fn balance(&self, u: &[f64], friction: &mut [f64]) {
         for i in self.free() {
             friction[i] = self.step.chain.balancing_friction(u, &self.nothing, i);
@@ -135,7 +139,7 @@ impl RestingCable {
         let free = chain.free;
         let mut at_rest = true;
         for i in free.nodes() {
-            let needed = chain.balancing_friction(&state.displacement, &self.nothing, i);
+            let needed = chain.balancing_friction(&state.displacement, &self.load, i);
             at_rest &= needed.abs() <= chain.limit;
             state.friction[i] = needed.clamp(-chain.limit, chain.limit);
             self.anchor[i] = state.displacement[i] + chain.compliance * state.friction[i];
@@ -147,7 +151,7 @@ impl RestingCable {
         self.step.start(largest(&state.displacement, 0.0));
         let load = Load {
             adhesion: &self.nothing,
-            support: &self.nothing,
+            support: &self.load,
             anchor: &self.anchor,
             friction: &state.friction,
         };

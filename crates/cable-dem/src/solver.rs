@@ -93,9 +93,13 @@ impl Solver {
         }
     }
 
-    /// The cable as laid.
+    /// The cable as laid, at rest under its own weight ([`crate::laid`]).
     pub fn at_rest(&self) -> CableState {
-        CableState::at_rest(self.mesh())
+        match self {
+            Self::QuasiStatic(solver) => solver.at_rest(),
+            Self::Dynamic(solver) => solver.at_rest(),
+            Self::Explicit(solver) => solver.at_rest(),
+        }
     }
 
     /// The passage of a vehicle whose duct motion is `motion`, followed from `approach` \[m\] before the duct to `approach` past it

@@ -64,7 +64,7 @@ impl TryFrom<Stored> for CableState {
 }
 
 impl CableState {
-    /// A cable as laid: no displacement, no friction.
+    /// A cable as laid in a level duct: no displacement, no friction. In one that slopes it lies as [`crate::laid`] says.
     pub fn at_rest(mesh: &Mesh) -> Self {
         Self {
             mesh: mesh.nodes_alone(),
@@ -154,13 +154,14 @@ impl CableState {
     }
 
     /// Largest friction per metre \[N/m\] that equilibrium needs at any node: the difference of the forces in both elements, less what
-    /// clamps and end springs carry, over the node's length of cable. In a state at rest it is at most the friction limit q.
+    /// clamps, end springs and the body force carry, over the node's length of cable. In a state at rest it is at most the friction limit q.
     ///
     /// # Errors
     ///
     /// As for [`CableState::element_forces`].
     pub fn friction_needed(&self, cable: &DuctedCable) -> Result<f64, CableError> {
         self.mesh.check_length(cable.length())?;
+        let body = cable.body_loads(&self.mesh);
         let mut springs = vec![Some(0.0); self.mesh.nodes()];
         for support in Support::of(cable, &self.mesh) {
             springs[support.node] = support.stiffness;
@@ -168,7 +169,7 @@ impl CableState {
         let (mut before, mut worst) = (0.0, 0.0_f64);
         for (node, after) in self.elements(cable).chain([0.0]).enumerate() {
             if let Some(spring) = springs[node] {
-                let carried = after - before + spring * self.displacement[node];
+                let carried = after - before + spring * self.displacement[node] - body[node];
                 worst = worst.max((carried / self.mesh.tributary_length(node)).abs());
             }
             before = after;
@@ -176,7 +177,7 @@ impl CableState {
         Ok(worst)
     }
 
-    /// Least and largest force along the cable \[N\]. Friction lets the force change evenly on either half of an element, so that it
+    /// Least and largest force along the cable \[N\]. Friction and body force change it evenly on either half of an element, so that it
     /// is largest in its middle, at a node, or beside a clamp, where it jumps. An element with a clamp within it is pulled from both
     /// sides: the force beside the clamp follows from its neighbours.
     pub(crate) fn extremes(&self, cable: &DuctedCable) -> (f64, f64) {
@@ -185,8 +186,10 @@ impl CableState {
         let stiffness = cable.axial_stiffness() / h;
         let force =
             |element: usize| stiffness * (self.displacement[element] - self.displacement[element + 1]);
-        let before = |node: usize| force(node - 1) + 0.5 * h * f[node];
-        let after = |node: usize| force(node) - 0.5 * h * f[node];
+        let body = cable.body_loads(mesh);
+        let drag = |node: usize| f[node] + body[node] / mesh.tributary_length(node);
+        let before = |node: usize| force(node - 1) + 0.5 * h * drag(node);
+        let after = |node: usize| force(node) - 0.5 * h * drag(node);
         let clamps = cable.restraints().iter().filter(|clamp| clamp.stiffness > 0.0);
         let places: Vec<(usize, f64)> = clamps
             .map(|clamp| mesh.place(clamp.position))
@@ -206,10 +209,10 @@ impl CableState {
         }
         for (element, share) in places {
             if element > 0 {
-                note(before(element) + share * h * f[element]);
+                note(before(element) + share * h * drag(element));
             }
             if element + 1 < mesh.elements() {
-                note(after(element + 1) - (1.0 - share) * h * f[element + 1]);
+                note(after(element + 1) - (1.0 - share) * h * drag(element + 1));
             }
         }
         (least, largest)

@@ -1,6 +1,6 @@
 //! The walk along the passes: simulated periods at the start, then jumps, each held to two simulated periods.
 
-use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable};
+use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable, laid};
 
 use crate::JumpError;
 use crate::flow::Flow;
@@ -77,7 +77,7 @@ pub fn evolve<E: From<JumpError>>(
         pass,
         guide: request.guide,
         tolerance: jumps.tolerance,
-        state: CableState::at_rest(mesh),
+        state: laid(cable, mesh).map_err(wrap)?,
         offset: 0.0,
         done: 0,
         scale: Scale {

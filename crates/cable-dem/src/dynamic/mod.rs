@@ -4,6 +4,7 @@ mod history;
 
 use ground_field::{Direction, DuctMotion};
 
+use crate::laid::laid;
 use crate::outcome::Recorder;
 use crate::step::{Prediction, Stretch, largest};
 use crate::transient::{EnergyBalance, Implicit, Lumped, MovingDuct, TransientOutcome, pass};
@@ -12,7 +13,7 @@ use history::History;
 
 /// Dynamic implicit solver for one cable on one mesh: the quasi-static step with inertia as one more term.
 ///
-/// M ü + K u + S u = w f is discretised by the second backward difference (C. W. Gear; E. Hairer, G. Wanner, Solving Ordinary
+/// M ü + K u + S u = w (f + p) is discretised by the second backward difference (C. W. Gear; E. Hairer, G. Wanner, Solving Ordinary
 /// Differential Equations II, 1996, §V.1), for displacement and velocity alike,
 ///
 /// v_n = (3 u_n − 4 u_{n−1} + u_{n−2})/(2Δt),  a_n = (3 v_n − 4 v_{n−1} + v_{n−2})/(2Δt),
@@ -47,6 +48,7 @@ use history::History;
 #[derive(Debug, Clone)]
 pub struct Dynamic {
     lumped: Lumped,
+    laid: CableState,
 }
 
 impl Dynamic {
@@ -54,10 +56,13 @@ impl Dynamic {
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless the mass is finite and positive and the mesh is as long as the cable.
+    /// [`CableError::InvalidParameter`] unless the mass is finite and positive and the mesh is as long as the cable; as for [`laid`].
     pub fn new(cable: DuctedCable, mesh: Mesh, mass_per_metre: f64) -> Result<Self, CableError> {
         let lumped = Lumped::new(cable, mesh, mass_per_metre)?;
-        Ok(Self { lumped })
+        Ok(Self {
+            laid: laid(&lumped.cable, &mesh)?,
+            lumped,
+        })
     }
 
     /// The mesh.
@@ -79,9 +84,9 @@ impl Dynamic {
         duct.steps(self.lumped.mesh.vehicle_step() / duct.speed())
     }
 
-    /// The cable as laid.
+    /// The cable as laid, at rest under its own weight ([`laid`]).
     pub fn at_rest(&self) -> CableState {
-        CableState::at_rest(&self.lumped.mesh)
+        self.laid.clone()
     }
 
     /// The passage of a vehicle whose duct motion is `motion`, followed from `approach` \[m\] before the duct to `approach` past it
@@ -193,6 +198,7 @@ impl Moving {
             self.account(lumped, &mut energy);
             recorder.record(lumped.end_forces(&self.history.displacement, &self.friction));
         }
+        energy.body_work = lumped.body_work(&state.displacement, &self.history.displacement);
         energy.elastic = lumped.elastic_energy(&self.history.displacement) - elastic;
         energy.stored = lumped.stored_energy(&self.friction) - stored;
         (state.displacement, state.friction) = (self.history.displacement, self.friction);

@@ -74,6 +74,11 @@ impl Lanes {
         for &(node, spring) in &lumped.springs {
             self.velocity[node] -= time_step * spring / lumped.mass(node) * u[node + 1];
         }
+        if lumped.cable.body_force() != 0.0 {
+            for (node, velocity) in self.velocity.iter_mut().enumerate() {
+                *velocity += time_step * lumped.body[node] / lumped.mass(node);
+            }
+        }
         std::mem::swap(&mut self.friction, &mut self.before);
         let (v, increment) = (&mut self.velocity, &self.increment);
         rub(v, &mut self.friction, &self.before, increment, law);
@@ -134,6 +139,7 @@ impl Lanes {
         let dissipated = sum(&self.heat);
         EnergyBalance {
             duct_work: sum(&self.work),
+            body_work: lumped.body_work(&state.displacement, &self.displacement[1..=n]),
             elastic: lumped.elastic_energy(&self.displacement[1..=n]) - elastic,
             kinetic: lumped.kinetic_energy(&self.velocity),
             stored: lumped.stored_energy(&self.friction) - stored,

@@ -9,6 +9,7 @@ pub use limits::{StepLimit, StepLimits};
 use ground_field::DuctMotion;
 
 use crate::error::checked;
+use crate::laid::laid;
 use crate::outcome::Recorder;
 use crate::transient::{EnergyBalance, Lumped, MovingDuct, TransientOutcome, pass};
 use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh};
@@ -48,9 +49,9 @@ impl Default for ExplicitOptions {
 
 /// Explicit solver for one cable on one mesh: masses, springs and friction by central differences (Kashiro et al., Equations (2), (3)).
 ///
-/// The cable is a row of masses on springs that the duct rubs, m a + K u = w f, with velocities half a step apart:
+/// The cable is a row of masses on springs that the duct rubs, m a + K u = w (f + p), with velocities half a step apart:
 ///
-/// v ← v + Δt (−K u + w f)/m,  u ← u + Δt v,  f ← law(f, ΔD − Δt v).
+/// v ← v + Δt (−K u + w (f + p))/m,  u ← u + Δt v,  f ← law(f, ΔD − Δt v).
 ///
 /// The step has a limit ([`StepLimits`]), which is enforced: beyond it the sigmoid chatters from +q to −q and reads next to nothing
 /// where hundreds of newtons are right, without ever overflowing. Independently of the limit every pass must balance its energy
@@ -82,6 +83,7 @@ pub struct Explicit {
     lumped: Lumped,
     options: ExplicitOptions,
     limits: StepLimits,
+    laid: CableState,
 }
 
 impl Explicit {
@@ -91,7 +93,7 @@ impl Explicit {
     /// # Errors
     ///
     /// [`CableError::InvalidParameter`] unless the mass is finite and positive, the mesh is as long as the cable and the
-    /// options are positive, [`CableError::UnstableStep`] for a time step beyond its limit.
+    /// options are positive, [`CableError::UnstableStep`] for a time step beyond its limit; as for [`laid`].
     pub fn new(
         cable: DuctedCable,
         mesh: Mesh,
@@ -118,6 +120,7 @@ impl Explicit {
             }
         }
         Ok(Self {
+            laid: laid(&lumped.cable, &mesh)?,
             lumped,
             options,
             limits,
@@ -150,9 +153,9 @@ impl Explicit {
         duct.steps(self.options.time_step.unwrap_or(longest))
     }
 
-    /// The cable as laid.
+    /// The cable as laid, at rest under its own weight ([`laid`]).
     pub fn at_rest(&self) -> CableState {
-        CableState::at_rest(&self.lumped.mesh)
+        self.laid.clone()
     }
 
     /// The passage of a vehicle whose duct motion is `motion`, followed from `approach` \[m\] before the duct to `approach` past it

@@ -13,6 +13,7 @@ pub use view::{SlipLengths, StepView};
 
 use ground_field::{Direction, DuctMotion};
 
+use crate::laid::laid;
 use crate::outcome::Recorder;
 use crate::step::check_precision;
 use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
@@ -22,9 +23,9 @@ use pass::ForwardSolver;
 ///
 /// The vehicle advances in steps. Each solves, for the displacements u and the friction f after it,
 ///
-/// K u + S u = w f,  f from the slip ΔD − Δu by the [friction law](crate::FrictionLaw),
+/// K u + S u = w (f + p),  f from the slip ΔD − Δu by the [friction law](crate::FrictionLaw),
 ///
-/// with K the stiffness of a chain of springs EA/h, S the springs of ends and clamps and w a node's length of cable: one implicit step of
+/// with K the stiffness of a chain of springs EA/h, S the springs of ends and clamps w a node's length of cable and p the body force: one implicit step of
 /// a rate-independent system, exact as long as no node reverses its slip within the step. Work is done only where something moves: in a
 /// window that travels with the vehicle and in small ones at ends and clamps, which are solved again when the vehicle's effect on them
 /// has changed. Outside the windows up to 1e-3 of the friction limit stays unbalanced while the vehicle passes.
@@ -59,6 +60,8 @@ use pass::ForwardSolver;
 pub struct QuasiStatic {
     cable: DuctedCable,
     mesh: Mesh,
+    /// The cable as laid.
+    laid: CableState,
     forward: ForwardSolver,
     /// The cable seen in the mirror, for reverse traffic; made when first needed.
     reverse: Option<ForwardSolver>,
@@ -70,7 +73,7 @@ impl QuasiStatic {
     /// # Errors
     ///
     /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::UnsupportedLaw`] for a law
-    /// without memory, which has no state of rest.
+    /// without memory, which has no state of rest, and as for [`laid`].
     pub fn new(cable: DuctedCable, mesh: Mesh) -> Result<Self, CableError> {
         let law = cable.friction().law();
         if !law.has_memory() {
@@ -82,6 +85,7 @@ impl QuasiStatic {
         }
         mesh.check_length(cable.length())?;
         Ok(Self {
+            laid: laid(&cable, &mesh)?,
             forward: ForwardSolver::new(cable.clone(), &mesh),
             reverse: None,
             cable,
@@ -108,9 +112,9 @@ impl QuasiStatic {
         &self.cable
     }
 
-    /// The cable as laid.
+    /// The cable as laid, at rest under its own weight ([`laid`]).
     pub fn at_rest(&self) -> CableState {
-        CableState::at_rest(&self.mesh)
+        self.laid.clone()
     }
 
     /// The passage of a vehicle whose duct motion is `motion`, followed from `approach` \[m\] before the duct to `approach` past it
@@ -151,7 +155,11 @@ impl QuasiStatic {
         }
         if self.cable.friction().limit() == 0.0 {
             // Nothing drags the cable, and what held it is gone.
-            state.release(&self.cable);
+            if self.cable.body_force() == 0.0 {
+                state.release(&self.cable);
+            } else {
+                state.clone_from(&self.laid);
+            }
             return Ok(self.outcome(state, Recorder::new(state.ends(&self.cable))));
         }
         check_precision(&self.cable, &self.mesh, state.displacement(), passage.peak)?;

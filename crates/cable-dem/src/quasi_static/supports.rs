@@ -37,8 +37,10 @@ pub(super) struct Supports {
     all: Vec<WatchedSupport>,
     /// Friction law of fixed nodes.
     law: FixedEndFriction,
-    /// Loads in the adherent frame \[N\] by node.
+    /// Loads in the adherent frame \[N\] by node: those of the supports, and the cable's own along the duct.
     pub load: Vec<f64>,
+    /// The latter alone.
+    body: Vec<f64>,
     /// Change of a support's force \[N\] from which it is solved again: as much as a window's edge may be off.
     threshold: f64,
     last: usize,
@@ -70,7 +72,8 @@ impl Supports {
         Self {
             all: Support::of(cable, mesh).into_iter().map(watched).collect(),
             law: FixedEndFriction::new(cable, mesh),
-            load: vec![0.0; mesh.nodes()],
+            load: cable.body_loads(mesh),
+            body: cable.body_loads(mesh),
             threshold: UNBALANCED_SHARE * chain.limit * mesh.spacing(),
             last: mesh.elements(),
         }
@@ -78,7 +81,7 @@ impl Supports {
 
     /// The ground at rest, where the adherent frame is that of the ground.
     pub fn rest(&mut self) {
-        self.load.fill(0.0);
+        self.load.copy_from_slice(&self.body);
         for watched in &mut self.all {
             watched.solved = Forcing::default();
             watched.followed = Forcing::default();
@@ -127,7 +130,9 @@ impl Supports {
                         r[node] = -forcing.adherent;
                         trial.r[node] = -forcing.adherent;
                     }
-                    Some(spring) => self.load[node] = forcing.cut - spring * forcing.adherent,
+                    Some(spring) => {
+                        self.load[node] = forcing.cut - spring * forcing.adherent + self.body[node];
+                    }
                 }
                 watched.solved = forcing;
             }

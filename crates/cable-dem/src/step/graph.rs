@@ -39,6 +39,17 @@ pub(super) struct NodeFriction {
     pub lower: f64,
 }
 
+impl NodeFriction {
+    /// The same with a constant `load`, which moves both its bounds.
+    pub fn and(self, load: f64) -> Self {
+        Self {
+            upper: self.upper + load,
+            lower: self.lower + load,
+            ..self
+        }
+    }
+}
+
 /// What one node did to the graph, for undoing it.
 #[derive(Debug, Clone)]
 struct Added {

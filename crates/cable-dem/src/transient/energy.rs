@@ -19,9 +19,9 @@ const NEGLIGIBLE: f64 = 0.05;
 /// The duct does work on the cable through friction; what comes in goes into the cable's elastic and kinetic energy, into
 /// the elastic shear of the contact, and into heat:
 ///
-/// Σ w f ΔD = Δ(½ uᵀK u) + Δ(½ vᵀM v) + Δ(½ γ Σ w f²) + Σ w f Δp,
+/// Σ w f ΔD + Σ w p Δu = Δ(½ uᵀK u) + Δ(½ vᵀM v) + Δ(½ γ Σ w f²) + Σ w f Δs,
 ///
-/// with p the slip beyond the elastic shear (all slip for the sigmoid, which stores nothing). Two laws of physics make two
+/// with p the body force and Δs the slip beyond the elastic shear (all slip for the sigmoid, which stores nothing). Two laws of physics make two
 /// checks that know nothing of any step limit:
 ///
 /// - the *first law*: both sides agree, up to what the scheme itself adds or takes;
@@ -33,6 +33,8 @@ const NEGLIGIBLE: f64 = 0.05;
 pub struct EnergyBalance {
     /// Work of the duct on the cable through friction.
     pub duct_work: f64,
+    /// Work of the force along the duct on every metre of cable: what its weight loses in height.
+    pub body_work: f64,
     /// Change of the elastic energy of cable, end springs and clamps.
     pub elastic: f64,
     /// Kinetic energy at the end of the pass.
@@ -55,13 +57,14 @@ pub struct EnergyBalance {
 impl EnergyBalance {
     /// Work of the duct that is not found again \[J\]; positive where the scheme damps, negative where it creates energy.
     pub fn residual(&self) -> f64 {
-        self.duct_work - self.elastic - self.kinetic - self.stored - self.dissipated
+        self.duct_work + self.body_work - self.elastic - self.kinetic - self.stored - self.dissipated
     }
 
     /// [`Self::residual`] as a share of all energy that took part.
     pub fn unbalanced_share(&self) -> f64 {
         let scale = self.initial
             + self.duct_work.abs()
+            + self.body_work.abs()
             + self.elastic.abs()
             + self.peak_kinetic.max(self.kinetic)
             + self.stored.abs()
@@ -94,11 +97,14 @@ impl EnergyBalance {
 
 impl fmt::Display for EnergyBalance {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "duct work {:.3e} J ", self.duct_work)?;
+        if self.body_work != 0.0 {
+            write!(f, "+ work of the weight {:.3e} J ", self.body_work)?;
+        }
         write!(
             f,
-            "duct work {:.3e} J = elastic {:+.3e} + kinetic {:+.3e} + stored {:+.3e} + heat {:.3e} + unbalanced {:+.1e} J; \
+            "= elastic {:+.3e} + kinetic {:+.3e} + stored {:+.3e} + heat {:.3e} + unbalanced {:+.1e} J; \
              friction returned {:.1e} of its heat",
-            self.duct_work,
             self.elastic,
             self.kinetic,
             self.stored,

@@ -61,13 +61,13 @@ impl Implicit {
         has_memory.then_some(&mut *self.clamped.trial.contact)
     }
 
-    /// Sets the loads to the elastic forces that displacements `u` put on the nodes, −(K + S) u \[N\].
+    /// Sets the loads to the body force and the elastic forces that displacements `u` put on the nodes, w p − (K + S) u \[N\].
     pub fn load_elastic(&mut self, lumped: &Lumped, u: &[f64]) {
         let k = lumped.stiffness;
         let mut left = 0.0;
         for i in 0..u.len() {
             let right = u.get(i + 1).map_or(0.0, |next| k * (next - u[i]));
-            self.load[i] = right - left;
+            self.load[i] = right - left + lumped.body[i];
             left = right;
         }
         for &(node, spring) in &lumped.springs {

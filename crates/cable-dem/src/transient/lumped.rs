@@ -1,4 +1,4 @@
-//! The cable as masses and springs: M ü + K u + S u = w f.
+//! The cable as masses and springs: M ü + K u + S u = w (f + p).
 //!
 //! Node i carries the mass m_i = w_i m′ and the friction w_i f_i of its tributary length w_i (h, and h/2 at the ends),
 //! and hangs on its neighbours by springs k = EA/h. End springs and clamps are springs S to the ground; a fixed end does
@@ -20,6 +20,8 @@ pub(crate) struct Lumped {
     pub stiffness: f64,
     /// Springs to the ground (node, stiffness \[N/m\]), ascending by node.
     pub springs: Vec<(usize, f64)>,
+    /// Body force w p of every node \[N\].
+    pub body: Vec<f64>,
     /// Friction of held nodes.
     pub held: FixedEndFriction,
     ends: EndReader,
@@ -38,6 +40,7 @@ impl Lumped {
             mass_per_metre,
             stiffness: cable.axial_stiffness() / mesh.spacing(),
             springs: springs.collect(),
+            body: cable.body_loads(&mesh),
             held: FixedEndFriction::new(&cable, &mesh),
             ends: EndReader::new(&cable, &mesh),
             cable,
@@ -61,6 +64,16 @@ impl Lumped {
         let stretched: f64 = u.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
         let supported: f64 = self.springs.iter().map(|&(node, s)| s * u[node] * u[node]).sum();
         0.5 * (self.stiffness * stretched + supported)
+    }
+
+    /// Work of the body force as the cable moves from `before` to `after` \[J\].
+    pub fn body_work(&self, before: &[f64], after: &[f64]) -> f64 {
+        let moved = before.iter().zip(after).map(|(before, after)| after - before);
+        self.body
+            .iter()
+            .zip(moved)
+            .map(|(load, moved)| load * moved)
+            .sum()
     }
 
     /// ½ Σ m v² \[J\].

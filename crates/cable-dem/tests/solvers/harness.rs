@@ -5,7 +5,7 @@ use std::rc::Rc;
 use boussinesq::HalfSpace;
 use cable_dem::{
     CableError, CableState, DuctedCable, Dynamic, EndForces, EnergyBalance, Explicit, ExplicitOptions,
-    FrictionLaw, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic,
+    FrictionLaw, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic, laid,
 };
 use ground_field::Direction;
 
@@ -142,9 +142,9 @@ pub struct Pass {
 }
 
 impl Run {
-    /// From rest.
+    /// As laid.
     pub fn new(kind: Kind, problem: &Problem) -> Result<Self, CableError> {
-        Self::resumed(kind, problem, CableState::at_rest(&problem.mesh))
+        Self::resumed(kind, problem, laid(&problem.cable, &problem.mesh)?)
     }
 
     /// From `state`, by a new solver.

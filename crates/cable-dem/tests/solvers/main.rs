@@ -9,5 +9,6 @@ mod models;
 mod opposing_traffic;
 mod rate;
 mod restart;
+mod slope;
 mod stiff_ends;
 mod test_models;
