@@ -163,6 +163,7 @@ pub struct Saturation {
 
 /// Forces on the ends over a period of the traffic once nothing changes any more.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[allow(clippy::struct_field_names, reason = "units stand in the names")]
 pub struct ForceRange {
     /// Least force on the downstream end \[N\].
     pub downstream_min_n: f64,
@@ -185,6 +186,7 @@ pub struct RandomSpread {
 
 /// Forces after passes in random order.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[allow(clippy::struct_field_names, reason = "units stand in the names")]
 pub struct Quantiles {
     /// One in twenty is below this \[N\].
     pub q05_n: f64,

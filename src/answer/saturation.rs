@@ -41,9 +41,10 @@ pub fn saturation(
         .iter()
         .map(|record| peak(&record.outcome))
         .fold(0.0, f64::max);
-    let level = |force: fn(&PassOutcome) -> f64| match beyond {
-        Some(beyond) => range(beyond.period.iter().map(force)),
-        None => {
+    let level = |force: fn(&PassOutcome) -> f64| {
+        if let Some(beyond) = beyond {
+            range(beyond.period.iter().map(force))
+        } else {
             let forces: Vec<f64> = records.iter().map(|record| force(&record.outcome)).collect();
             extrapolate(&forces, scale)
         }

@@ -33,18 +33,28 @@ pub struct Arguments {
     output: OutputArguments,
 }
 
-/// The run, and when a force on an end first exceeds the limit: null where it never does, absent where none is given.
+/// The run, and when a force on an end first exceeds the limit.
 #[derive(Serialize)]
 struct Limited<'a> {
     #[serde(flatten)]
     run: &'a Run,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    limit_reached_after: Option<Option<Reached>>,
+    #[serde(skip_serializing_if = "Reached::is_not_asked")]
+    limit_reached_after: Reached,
 }
 
-#[derive(Serialize, Clone, Copy)]
-struct Reached {
-    pass: u64,
+/// When a limit is reached.
+#[derive(Serialize, Clone, Copy, PartialEq)]
+#[serde(untagged)]
+enum Reached {
+    After { pass: u64 },
+    Never,
+    NotAsked,
+}
+
+impl Reached {
+    fn is_not_asked(&self) -> bool {
+        *self == Self::NotAsked
+    }
 }
 
 impl<'a> Limited<'a> {
@@ -58,10 +68,13 @@ impl<'a> Limited<'a> {
             ];
             forces.into_iter().any(|force| force.abs() > limit)
         };
-        let first = |limit| run.passes.iter().find(|record| exceeds(record, limit));
+        let first = |limit| {
+            let record = run.passes.iter().find(|record| exceeds(record, limit));
+            record.map_or(Reached::Never, |record| Reached::After { pass: record.pass })
+        };
         Self {
             run,
-            limit_reached_after: limit.map(|limit| first(limit).map(|record| Reached { pass: record.pass })),
+            limit_reached_after: limit.map_or(Reached::NotAsked, first),
         }
     }
 }
@@ -89,17 +102,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     });
     destination.write(&limited, rows, || {
         print(&answer)?;
-        let Some(limit) = arguments.limit_force else {
-            return Ok(());
-        };
-        let mut out = terminal::out();
-        match limited.limit_reached_after.flatten() {
-            Some(reached) => writeln!(
-                out,
-                "more than {limit} N on an end: from pass {} on",
-                reached.pass
-            )?,
-            None => writeln!(out, "more than {limit} N on an end: not within these passes")?,
+        let (mut out, limit) = (terminal::out(), arguments.limit_force.unwrap_or_default());
+        match limited.limit_reached_after {
+            Reached::After { pass } => writeln!(out, "more than {limit} N on an end: from pass {pass} on")?,
+            Reached::Never => writeln!(out, "more than {limit} N on an end: not within these passes")?,
+            Reached::NotAsked => {}
         }
         Ok(())
     })

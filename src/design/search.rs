@@ -16,8 +16,6 @@ const DECADES: i32 = 2;
 const POINTS_PER_DECADE: i32 = 2;
 /// Width of the last bracket around a stiffness, as a share of it.
 const ACCURACY: f64 = 0.01;
-/// Name of the method with jumps, whose runs choose their mesh themselves.
-const PASS_LAW: &str = "pass-law";
 const MOST_STEPS: u64 = 40;
 /// Runs that finding the stiffness at a limit takes, about: only the progress depends on it.
 const USUAL_STEPS: usize = 8;
@@ -105,10 +103,8 @@ pub(super) fn on_one_mesh(scene: &Scene, place: Place, progress: Progress<'_>) -
         _ => crate::run_with(&place.held(scene, f64::INFINITY), &options)?.plan,
     };
     let mut scene = scene.clone();
-    if plan.cable != PASS_LAW {
-        scene.solver.node_spacing.get_or_insert(plan.node_spacing_m);
-        scene.solver.vehicle_step.get_or_insert(plan.vehicle_step_m);
-    }
+    scene.solver.node_spacing.get_or_insert(plan.node_spacing_m);
+    scene.solver.vehicle_step.get_or_insert(plan.vehicle_step_m);
     Ok(scene)
 }
 

@@ -271,7 +271,9 @@ impl Estimates {
             _ if !has_rest && !method.has_inertia() => NO_REST.into(),
             _ if named => "the scene names another method".into(),
             PassMethod::EveryPass(CableMethod::Explicit) => "only where the scene names it".into(),
-            method if !method.has_inertia() && self.inertia_matters(scene.solver.tolerance) => {
+            method @ (PassMethod::EveryPass(_) | PassMethod::Jumps(_))
+                if !method.has_inertia() && self.inertia_matters(scene.solver.tolerance) =>
+            {
                 self.inertia_in_words()
             }
             PassMethod::Jumps(_) => format!(

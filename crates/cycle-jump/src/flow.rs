@@ -62,8 +62,8 @@ impl<'a> Flow<'a> {
     fn derivative(&self, cable: &RestingCable, y: &[f64]) -> Vec<f64> {
         let mut k = vec![0.0; y.len()];
         cable.balance(y, &mut k);
-        for i in 0..k.len() {
-            k[i] = self.rate[i] - self.slope[i] * k[i];
+        for ((k, c), g) in k.iter_mut().zip(self.rate).zip(self.slope) {
+            *k = c - g * *k;
         }
         k
     }

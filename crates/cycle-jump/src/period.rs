@@ -26,7 +26,7 @@ pub struct Phase {
 
 impl Period {
     /// The period that began with the displacements `start` \[m\], from the cable after each of its passes and what they did.
-    pub fn new(start: &[f64], passes: Vec<(CableState, PassOutcome)>) -> Self {
+    pub fn new(start: &[f64], passes: &[(CableState, PassOutcome)]) -> Self {
         let count = passes.len() as f64;
         let end = passes.last().map_or(start, |(state, _)| state.displacement());
         let rate = difference(end, start);

@@ -358,7 +358,7 @@ where
         self.scale
             .see(&self.cable, &self.state, self.offset)
             .map_err(wrap)?;
-        Ok(Period::new(&start, passes))
+        Ok(Period::new(&start, &passes))
     }
 
     fn simulate(&mut self, next: Next) -> Result<PassOutcome, E> {

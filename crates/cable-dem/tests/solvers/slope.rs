@@ -63,6 +63,7 @@ const DEVIATION: f64 = 0.003;
 fn forces_on_a_slope_are_those_of_an_independent_program() -> Outcome {
     let one_way = |_: usize| 0;
     let by_turns = |pass: usize| pass % 2;
+    #[allow(clippy::type_complexity, reason = "slope, forces after passes, vehicles")]
     let cases: [(f64, &[(usize, f64)], Traffic); 3] = [
         (0.05, &UPHILL, one_way),
         (-0.05, &DOWNHILL, one_way),
