@@ -2,7 +2,9 @@
 
 use cable_dem::End;
 
-use crate::{Error, PassRecord, Scene};
+#[cfg(feature = "plot")]
+use crate::PassRecord;
+use crate::{Error, Scene};
 
 /// The end of the cable that pressed on the load cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -33,6 +35,7 @@ impl CellEnd {
     }
 
     /// The force on it after a pass \[N\].
+    #[cfg(feature = "plot")]
     pub fn force(self, record: &PassRecord) -> f64 {
         match self {
             Self::Upstream => record.upstream_force_n,
