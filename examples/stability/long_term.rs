@@ -3,7 +3,9 @@
 //! The friction number compares the largest longitudinal displacement D of the duct with the displacement q z²/EA that
 //! friction can impose on the cable over a depth z: small, the cable follows its duct; large, it is dragged through. Right is
 //! the simulation of every pass, on the same mesh. The worst of the forces on the held end after [`PASSES`] counts, as a share of the
-//! larger of the right one and a tenth of the largest. Without guards, jumps of fixed lengths are taken whatever their error.
+//! larger of the right one and a tenth of the largest. With guards, the whole
+//! program answers, which holds its jumps to simulated passes and states its error. Without them, jumps of fixed lengths are taken
+//! whatever their error.
 
 use std::error::Error;
 use std::path::Path;
@@ -11,10 +13,12 @@ use std::path::Path;
 use boussinesq::HalfSpace;
 use cable_dem::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic};
 use creepage::figure::{Axis, Panels};
+use creepage::scene::SolverMethod;
+use creepage::{Run, Scene};
 use cycle_jump::{Guide, JumpError, Jumps, Next, Request, evolve};
 use ground_field::{Direction, DuctLine, DuctMotion, Soil, Vehicle};
 
-use crate::cable_map::{Cell, DEPTH, EA, Grid, LIMIT, Outcome, cable, decades, judge, silent};
+use crate::cable_map::{Cell, DEPTH, EA, Grid, LIMIT, Outcome, WRONG, cable, decades, judge, silent};
 
 /// Passes after which forces are compared.
 const PASSES: [u64; 5] = [20, 60, 120, 240, 600];
@@ -122,6 +126,65 @@ impl Case {
     }
 }
 
+/// The worst of `found` beside what is `right`.
+fn worst(found: &[f64], right: &[f64], warned: bool) -> Cell {
+    let largest = right.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+    let scale = |right: f64| right.abs().max(0.1 * largest).max(0.01 * LIMIT);
+    let error = |(found, right): &(f64, f64)| (found - right).abs() / scale(*right);
+    let pairs = found.iter().copied().zip(right.iter().copied());
+    pairs.max_by(|a, b| error(a).total_cmp(&error(b))).map_or_else(
+        || silent(Outcome::Failed, f64::NAN),
+        |(found, right)| judge(found, right, scale(right), warned),
+    )
+}
+
+/// The same duct as a scene, computed with all guards of the program.
+fn guarded(lengths: f64, number: f64, mix: &[usize]) -> Result<Cell, Box<dyn Error + Send + Sync>> {
+    let truck = |name: usize| {
+        let direction = if name == 0 { "forward" } else { "reverse" };
+        format!("{{ name = \"{name}\", speed = 10, load = 196133, direction = \"{direction}\" }}")
+    };
+    let names: Vec<String> = mix.iter().map(|vehicle| format!("\"{vehicle}\"")).collect();
+    let vehicles: Vec<String> = (0..=mix.iter().copied().max().unwrap_or(0)).map(truck).collect();
+    let text = format!(
+        "duct = {{ length = {}, depth = {DEPTH} }}
+ground = {{ longitudinal_peak = {}, layers = [{{ young_modulus = 8e8, poisson_ratio = 0.4 }}] }}
+cable = {{ weight = {}, axial_stiffness = {EA} }}
+friction = {{ dynamic_coefficient = 0.25, shape_factor = {} }}
+ends = {{ upstream = \"free\", downstream = \"fixed\" }}
+vehicles = [{}]
+traffic = {{ passes = {}, sequence = [{}] }}
+solver = {{ node_spacing = {}, vehicle_step = {}, tolerance = 0.05 }}",
+        lengths * DEPTH,
+        number * LIMIT * DEPTH * DEPTH / EA,
+        LIMIT / 0.25,
+        2e8 / LIMIT,
+        vehicles.join(", "),
+        PASSES[PASSES.len() - 1],
+        names.join(", "),
+        DEPTH / NODES,
+        0.5 * DEPTH / NODES,
+    );
+    let mut scene = Scene::from_toml("cell", &text)?;
+    let mut run = |method| {
+        scene.solver.method = method;
+        creepage::run(&scene)
+    };
+    let forces = |run: &Run| -> Vec<f64> {
+        let listed = run.passes.iter().filter(|record| PASSES.contains(&record.pass));
+        listed.map(|record| record.downstream_force_n).collect()
+    };
+    let (jumps, every) = (run(SolverMethod::PassLaw), run(SolverMethod::QuasiStatic));
+    Ok(match (jumps, every) {
+        (Ok(jumps), Ok(every)) => worst(
+            &forces(&jumps),
+            &forces(&every),
+            jumps.error_estimate.relative > WRONG,
+        ),
+        _ => silent(Outcome::Refused, f64::NAN),
+    })
+}
+
 /// Without guards, and with them.
 fn outcomes(
     lengths: f64,
@@ -130,22 +193,11 @@ fn outcomes(
 ) -> Result<[Cell; 2], Box<dyn Error + Send + Sync>> {
     let case = Case::new(lengths, number, mix)?;
     let right = case.simulated()?;
-    let last = right[right.len() - 1];
-    let largest = right.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
-    let judged = |answer: Result<Vec<f64>, JumpError>| match answer {
-        Err(JumpError::Stuck { .. }) => silent(Outcome::Refused, last),
-        Err(_) => silent(Outcome::Failed, last),
-        Ok(forces) => {
-            let scale = |right: f64| right.abs().max(0.1 * largest).max(0.01 * LIMIT);
-            let error = |(found, right): &(f64, f64)| (found - right).abs() / scale(*right);
-            let pairs = forces.into_iter().zip(right.iter().copied());
-            pairs.max_by(|a, b| error(a).total_cmp(&error(b))).map_or_else(
-                || silent(Outcome::Failed, last),
-                |(found, right)| judge(found, right, scale(right), false),
-            )
-        }
+    let bare = match case.jumped(number, Guide::Obey(&BLIND)) {
+        Ok(forces) => worst(&forces, &right, false),
+        Err(_) => silent(Outcome::Failed, f64::NAN),
     };
-    Ok([Guide::Obey(&BLIND), Guide::Free].map(|guide| judged(case.jumped(number, guide))))
+    Ok([bare, guarded(lengths, number, mix)?])
 }
 
 /// The maps of a mix without and with guards, of `lengths` × `numbers` cells.

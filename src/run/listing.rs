@@ -33,11 +33,11 @@ impl Listing {
                 own: Vec::new(),
             });
         }
+        let window = |pass: u64| {
+            let reach = (length / 2).min(pass - 1).min(count - pass);
+            pass - reach..=pass + reach
+        };
         if matches!(scene.traffic.order, Order::Random { .. }) {
-            let window = |pass: u64| {
-                let reach = (length / 2).min(pass - 1).min(count - pass);
-                pass - reach..=pass + reach
-            };
             return Ok(Self {
                 rows: listed.iter().map(|&pass| (pass, window(pass))).collect(),
                 own: Vec::new(),
@@ -69,7 +69,8 @@ impl Listing {
                 rows.push((pass, shown..=shown));
             }
         }
-        rows.extend(next.map(|pass| (pass, pass..=pass)));
+        // So far on its order is not known: the mean of a period stands for it.
+        rows.extend(next.map(|pass| (pass, window(pass))));
         Ok(Self { rows, own })
     }
 
@@ -108,7 +109,7 @@ impl Listing {
 }
 
 /// Passes of a traffic whose vehicles are followed one by one.
-const LONGEST_ORDER: u64 = 100_000_000;
+const LONGEST_ORDER: u64 = 1_000_000;
 
 /// The pass near `pass` that follows the vehicles `recent` as far back as possible in the period's traffic.
 fn alike(period: &Period, recent: &[usize], pass: u64, count: u64) -> u64 {
