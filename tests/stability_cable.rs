@@ -55,7 +55,7 @@ fn the_quasi_static_solver_is_right_where_plain_newton_cycles() -> Tested {
 #[test]
 fn jumps_over_passes_are_right_or_say_that_they_are_not() -> Tested {
     for (name, mix) in long_term::MIXES {
-        let grids = long_term::maps(mix, 3, 4)?;
+        let grids = long_term::maps(mix, 3, 4, true)?;
         assert_guarded(name, &grids);
         let [_, guarded] = grids;
         // Near shakedown what is left depends on the way to it: one cell may say so.

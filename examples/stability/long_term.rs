@@ -3,9 +3,8 @@
 //! The friction number compares the largest longitudinal displacement D of the duct with the displacement q z²/EA that
 //! friction can impose on the cable over a depth z: small, the cable follows its duct; large, it is dragged through. Right is
 //! the simulation of every pass, on the same mesh. The worst of the forces on the held end after [`PASSES`] counts, as a share of the
-//! larger of the right one and a tenth of the largest. With guards, the whole
-//! program answers, which holds its jumps to simulated passes and states its error. Without them, jumps of fixed lengths are taken
-//! whatever their error.
+//! larger of the right one and a tenth of the largest. With guards, jumps are held
+//! to simulated passes. Without them, jumps of fixed lengths are taken whatever their error.
 
 use std::error::Error;
 use std::path::Path;
@@ -185,31 +184,44 @@ solver = {{ node_spacing = {}, vehicle_step = {}, tolerance = 0.05 }}",
     })
 }
 
-/// Without guards, and with them.
+/// Without guards, and with those of the jumps or of the whole program.
 fn outcomes(
     lengths: f64,
     number: f64,
     mix: &'static [usize],
+    by_program: bool,
 ) -> Result<[Cell; 2], Box<dyn Error + Send + Sync>> {
     let case = Case::new(lengths, number, mix)?;
     let right = case.simulated()?;
-    let bare = match case.jumped(number, Guide::Obey(&BLIND)) {
+    let jumped = |guide| match case.jumped(number, guide) {
         Ok(forces) => worst(&forces, &right, false),
+        Err(JumpError::Stuck { .. }) => silent(Outcome::Refused, f64::NAN),
         Err(_) => silent(Outcome::Failed, f64::NAN),
     };
-    Ok([bare, guarded(lengths, number, mix)?])
+    let held = if by_program {
+        guarded(lengths, number, mix)?
+    } else {
+        jumped(Guide::Free)
+    };
+    Ok([jumped(Guide::Obey(&BLIND)), held])
 }
 
-/// The maps of a mix without and with guards, of `lengths` × `numbers` cells.
+/// The maps of a mix without and with guards, of `lengths` × `numbers` cells; the guards are those of the jumps, or of the whole program,
+/// which also states its error.
 ///
 /// # Errors
 ///
 /// None for these scenes.
-pub fn maps(mix: &'static [usize], lengths: usize, numbers: usize) -> Result<[Grid; 2], Box<dyn Error>> {
+pub fn maps(
+    mix: &'static [usize],
+    lengths: usize,
+    numbers: usize,
+    by_program: bool,
+) -> Result<[Grid; 2], Box<dyn Error>> {
     Grid::fill_pair(
         &decades(0.5, 2.0, lengths),
         &decades(-1.5, 1.5, numbers),
-        |length, number| outcomes(length, number, mix),
+        |length, number| outcomes(length, number, mix, by_program),
     )
     .map_err(|error| error as Box<dyn Error>)
 }
@@ -226,7 +238,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
             .panel_size(700.0, 480.0);
     let mut table = String::from("map,length_in_depths,friction_number,outcome,force_n,right_force_n\n");
     for (mix, vehicles) in MIXES {
-        for (grid, guards) in maps(vehicles, 11, 11)?
+        for (grid, guards) in maps(vehicles, 11, 11, false)?
             .into_iter()
             .zip(["fixed jumps, unchecked", "guards on"])
         {
