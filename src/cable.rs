@@ -1,6 +1,6 @@
-//! The cable of a scene.
+//! The cable of a scene, and the vehicles that pass over it.
 
-use cable_dem::{CableError, DuctedCable, Friction};
+use cable_dem::{CableError, DuctedCable, Friction, Order, Traffic};
 
 use crate::scene::Scene;
 
@@ -19,4 +19,10 @@ pub fn cable(scene: &Scene) -> Result<DuctedCable, CableError> {
 /// Mass per metre \[kg/m\]: that of the cable's own weight, whatever presses it down.
 pub fn mass(scene: &Scene) -> f64 {
     scene.cable.weight / GRAVITY
+}
+
+/// A scene's vehicles one after the other in `order`, by their place in the scene.
+pub fn traffic(scene: &Scene, order: Order) -> Result<Traffic, CableError> {
+    let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
+    Traffic::new(&shares, order)
 }

@@ -87,9 +87,9 @@ impl std::ops::Add for Shares {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Scale {
     /// \[N\]
-    force: f64,
+    pub force: f64,
     /// \[m\]
-    movement: f64,
+    pub movement: f64,
 }
 
 impl Scale {

@@ -2,7 +2,7 @@
 
 /// The first passes are all listed, then each this much later than the one before.
 const GROWTH: f64 = 1.03;
-/// Where every pass is simulated, all are listed up to this number.
+/// A run lists all passes up to this number.
 const ALL_LISTED: u64 = 10_000;
 /// How far it is followed where forces lead: this number of passes, and this many times those of the traffic.
 const FAR: u64 = 1_000_000_000;
@@ -32,7 +32,7 @@ pub fn beyond(count: u64) -> Vec<u64> {
     listed(far).into_iter().filter(|&pass| pass > count).collect()
 }
 
-/// The passes that are listed where all `count` are simulated.
+/// The passes that a run of `count` lists.
 pub fn simulated(count: u64) -> Vec<u64> {
     if count <= ALL_LISTED {
         (1..=count).collect()

@@ -45,6 +45,13 @@ pub fn saturation(
         if let Some(beyond) = beyond {
             range(beyond.period.iter().map(force))
         } else {
+            // Listed passes grow ever farther apart: their gains say nothing.
+            if records
+                .last()
+                .is_none_or(|last| last.pass != records.len() as u64)
+            {
+                return None;
+            }
             let forces: Vec<f64> = records.iter().map(|record| force(&record.outcome)).collect();
             extrapolate(&forces, scale)
         }

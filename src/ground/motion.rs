@@ -25,6 +25,14 @@ pub fn motions(
     scale(scene, motions)
 }
 
+/// max |D_l| under any vehicle \[m\].
+pub fn peak(motions: &[DuctMotion]) -> f64 {
+    motions
+        .iter()
+        .map(DuctMotion::peak_longitudinal)
+        .fold(0.0, f64::max)
+}
+
 fn scale(scene: &Scene, motions: Vec<DuctMotion>) -> Result<Vec<DuctMotion>, Error> {
     let scaled = |motion: DuctMotion, wanted: f64, peak: f64, key: &'static str| {
         let factor = wanted / peak;

@@ -98,7 +98,6 @@ pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodC
     let estimates = Estimates::new(scene, levels, period)?;
     let has_rest = scene.friction.law.has_memory();
     let count = scene.traffic.passes;
-    let every = |method| PassMethod::EveryPass(method);
     let (method, reason) = match scene.solver.method {
         SolverMethod::Auto => automatic(scene, &estimates),
         SolverMethod::PassLaw if !has_rest => return Err(no_rest("pass-law")),
@@ -108,7 +107,7 @@ pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodC
                 SolverMethod::PassLaw => PassMethod::Jumps(CableMethod::QuasiStatic),
                 SolverMethod::Dynamic => estimates.affordable(CableMethod::Dynamic, has_rest),
                 SolverMethod::Explicit => estimates.affordable(CableMethod::Explicit, has_rest),
-                _ => every(CableMethod::QuasiStatic),
+                _ => PassMethod::EveryPass(CableMethod::QuasiStatic),
             };
             (method, "the scene asks for it".to_owned())
         }
@@ -271,9 +270,7 @@ impl Estimates {
             _ if !has_rest && !method.has_inertia() => NO_REST.into(),
             _ if named => "the scene names another method".into(),
             PassMethod::EveryPass(CableMethod::Explicit) => "only where the scene names it".into(),
-            method @ (PassMethod::EveryPass(_) | PassMethod::Jumps(_))
-                if !method.has_inertia() && self.inertia_matters(scene.solver.tolerance) =>
-            {
+            _ if !method.has_inertia() && self.inertia_matters(scene.solver.tolerance) => {
                 self.inertia_in_words()
             }
             PassMethod::Jumps(_) => format!(

@@ -17,6 +17,7 @@
 use ground_field::DuctMotion;
 use serde::Serialize;
 
+use crate::ground::peak;
 use crate::scene::Scene;
 
 /// What runs gave for one value of Q.
@@ -125,10 +126,7 @@ pub struct Occurrence {
 impl Occurrence {
     /// `None` where nothing moves the duct.
     pub(super) fn new(scene: &Scene, motions: &[DuctMotion]) -> Option<Self> {
-        let displacement = motions
-            .iter()
-            .map(DuctMotion::peak_longitudinal)
-            .fold(0.0, f64::max);
+        let displacement = peak(motions);
         let limit = scene.friction_limit();
         let (depth, length) = (scene.duct.depth, scene.duct.length);
         // EA D/z, the force that the duct's motion alone could make over a depth.

@@ -62,9 +62,7 @@ impl Period {
                 .total_cmp(&(b.distance / SAME).round())
         });
         let first = &mixes[0];
-        let other = (first.distance > SAME)
-            .then(|| first.opposite(&shares, &mixes))
-            .flatten();
+        let other = (first.distance > SAME).then(|| first.opposite(&mixes)).flatten();
         Ok(Self {
             vehicles: first.interleaved()?,
             other: match other {
@@ -113,8 +111,7 @@ impl Mix {
     }
 
     /// The mix on the other side of the wanted shares that is nearest to them, and the share of the way to it at which they lie.
-    fn opposite<'a>(&self, shares: &[f64], mixes: &'a [Mix]) -> Option<(&'a Mix, f64)> {
-        debug_assert_eq!(shares.len(), self.off.len());
+    fn opposite<'a>(&self, mixes: &'a [Mix]) -> Option<(&'a Mix, f64)> {
         let along = |mix: &Mix| -> f64 { self.off.iter().zip(&mix.off).map(|(a, b)| a * b).sum() };
         let other = mixes
             .iter()

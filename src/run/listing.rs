@@ -5,10 +5,11 @@
 
 use std::ops::RangeInclusive;
 
-use cable_dem::{Order, PassOutcome, Traffic};
+use cable_dem::{Order, PassOutcome};
 use cycle_jump::Record;
 
 use crate::Error;
+use crate::cable::traffic;
 use crate::plan::Period;
 use crate::scene::Scene;
 
@@ -43,8 +44,7 @@ impl Listing {
                 own: Vec::new(),
             });
         }
-        let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
-        let traffic = Traffic::new(&shares, scene.traffic.order.clone())?;
+        let traffic = traffic(scene, scene.traffic.order.clone())?;
         let last = listed.last().copied().unwrap_or(0);
         let own_passes = (OWN_PERIODS * length).min(count);
         // Vehicles of the last period before each listed pass, the newest last.

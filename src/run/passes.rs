@@ -1,22 +1,21 @@
 //! All passes of a scene on one mesh: every one simulated, or few with jumps between them.
 
-use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statistics, Traffic};
+use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statistics};
 use cycle_jump::{Beyond, Guide, Jumps, Next, Record, Request, evolve};
 use ground_field::DuctMotion;
 
 use super::listing::Listing;
 use super::solver::PassSolver;
+use crate::answer::error_estimate::Scale;
 use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
-use crate::cable::cable;
+use crate::cable::{cable, traffic};
+use crate::ground::peak;
 use crate::plan::{CableMethod, Period};
 use crate::scene::Scene;
 use crate::{Error, Progress};
 
 /// Periods after which a run with jumps takes no more of them.
 const PATIENCE: u64 = 150;
-/// A force and a movement below which all is nothing: what friction holds on this length \[m\], and this share of the duct's motion.
-const SHORT: f64 = 0.01;
-const STILL: f64 = 0.1;
 
 /// The passes of a scene on one mesh.
 #[derive(Clone, Copy)]
@@ -85,8 +84,7 @@ impl Task<'_> {
     /// Simulates every pass.
     pub fn every_pass(&self) -> Result<Passes, Error> {
         let mut simulation = Simulation::new(self)?;
-        let shares: Vec<f64> = self.scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
-        let traffic = Traffic::new(&shares, self.scene.traffic.order.clone())?;
+        let traffic = traffic(self.scene, self.scene.traffic.order.clone())?;
         let count = self.scene.traffic.passes;
         let mut state = simulation.solver.at_rest();
         let mut records = Vec::new();
@@ -106,8 +104,8 @@ impl Task<'_> {
         let Self { scene, mesh, .. } = self;
         let mut simulation = Simulation::new(self)?;
         simulation.jumps = true;
-        let motion = self.motions.iter().map(DuctMotion::peak_longitudinal);
-        let motion = motion.fold(0.0, f64::max);
+        let motion = peak(self.motions);
+        let scale = Scale::new(scene.friction_limit(), motion);
         let patience = PATIENCE * jumping.period.len() as u64;
         let jumps = Jumps {
             tolerance: jumping.tolerance,
@@ -115,7 +113,7 @@ impl Task<'_> {
             first_jump: jumping.first_jump,
             depth: scene.duct.depth,
             motion,
-            least: (SHORT * scene.friction_limit(), STILL * motion),
+            least: (scale.force, scale.movement),
             most_passes: (patience, jumping.most_passes.max(patience)),
         };
         let count = scene.traffic.passes;

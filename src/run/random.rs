@@ -3,11 +3,12 @@
 //! Many passes later the cable lies as the mean of the traffic has left it, and only the last few tens of vehicles scatter around
 //! that. So a few short random runs from there show the spread.
 
-use cable_dem::{CableState, Order, Traffic};
+use cable_dem::{CableState, Order};
 
 use super::passes::{Simulation, Task};
 use crate::Error;
-use crate::answer::{Quantiles, RandomSpread};
+use crate::answer::{Quantiles, RandomSpread, larger};
+use crate::cable::traffic;
 
 /// Random runs, their passes, and how many of these forget the order before.
 const RUNS: u64 = 8;
@@ -19,7 +20,6 @@ pub fn spread(task: &Task<'_>, state: &CableState) -> Result<Option<RandomSpread
     let Order::Random { seed } = task.scene.traffic.order else {
         return Ok(None);
     };
-    let shares: Vec<f64> = task.scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
     let mut simulation = Simulation::new(task)?;
     let (mut downstream, mut upstream) = (Vec::new(), Vec::new());
     for run in 0..RUNS {
@@ -27,7 +27,7 @@ pub fn spread(task: &Task<'_>, state: &CableState) -> Result<Option<RandomSpread
         let order = Order::Random {
             seed: seed.wrapping_add(run),
         };
-        for (number, vehicle) in Traffic::new(&shares, order)?.take(PASSES).enumerate() {
+        for (number, vehicle) in traffic(task.scene, order)?.take(PASSES).enumerate() {
             let force = simulation.pass(vehicle, None, &mut state)?.force;
             if number >= FORGOTTEN {
                 downstream.push(force.downstream);
@@ -48,6 +48,6 @@ fn quantiles(mut forces: Vec<f64>) -> Quantiles {
         q05_n: at(0.05),
         q50_n: at(0.5),
         q95_n: at(0.95),
-        max_n: forces.iter().copied().fold(0.0, crate::answer::larger),
+        max_n: forces.iter().copied().fold(0.0, larger),
     }
 }

@@ -4,14 +4,13 @@ use std::thread;
 
 use cable_dem::{CableError, Mesh, Statistics};
 use cycle_jump::Record;
-use ground_field::DuctMotion;
 
 use super::jumps;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use crate::answer::{RandomSpread, simulated};
-use crate::ground::road;
+use crate::ground::{peak, road};
 use crate::plan::{Levels, PassMethod, Plan};
 use crate::shown::{exact_percent, percent};
 use crate::{Error, Progress, Scene};
@@ -145,8 +144,7 @@ impl Refinement<'_> {
 
     /// What counts as nothing in this scene.
     fn scale(&self) -> Scale {
-        let peaks = self.plan.ground.motions.iter().map(DuctMotion::peak_longitudinal);
-        Scale::new(self.plan.scene.friction_limit(), peaks.fold(0.0, f64::max))
+        Scale::new(self.plan.scene.friction_limit(), peak(&self.plan.ground.motions))
     }
 
     /// What an approach that the scene names leaves out: the passes once more on the same mesh, with the vehicles followed far

@@ -26,10 +26,11 @@ pub enum CableError {
     },
     /// A step did not reach equilibrium within the friction bounds; no state is returned in its place.
     #[error(
-        "no equilibrium with the vehicle at {vehicle_position} m: {violation:.1e} of the friction limit remains unbalanced"
+        "no equilibrium {}: {violation:.1e} of the friction limit remains unbalanced",
+        vehicle(*.vehicle_position)
     )]
     NoConvergence {
-        /// Position of the vehicle's origin along the duct, from where it enters \[m\].
+        /// Position of the vehicle's origin along the duct, from where it enters \[m\]; infinite where none is near.
         vehicle_position: f64,
         /// Largest violation of equilibrium or of the friction law, as a share of the friction limit.
         violation: f64,
@@ -126,6 +127,15 @@ pub enum CableError {
         /// Work that friction returned, as a share of its heat.
         returned: f64,
     },
+}
+
+/// Where the vehicle is, in words.
+fn vehicle(position: f64) -> String {
+    if position.is_finite() {
+        format!("with the vehicle at {position} m")
+    } else {
+        "of the cable at rest".into()
+    }
 }
 
 /// `value` if it is a number for which `holds`, or the error that says what is allowed.

@@ -107,6 +107,18 @@ impl Friction {
         self.limit
     }
 
+    /// Refuses a law without memory for a `solver` whose steps begin and end at rest.
+    pub(crate) fn check_memory(self, solver: &'static str) -> Result<(), CableError> {
+        if self.law.has_memory() {
+            return Ok(());
+        }
+        Err(CableError::UnsupportedLaw {
+            solver,
+            law: self.law.name(),
+            reason: "its friction depends on the time step and fades at rest",
+        })
+    }
+
     /// Shear compliance γ = 2/(q b) \[m²/N\] of the stuck contact: slip per friction. 0 for Coulomb's law, infinite
     /// without friction.
     pub fn compliance(self) -> f64 {

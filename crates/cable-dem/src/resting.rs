@@ -46,14 +46,7 @@ impl RestingCable {
     /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::UnsupportedLaw`] for a law
     /// without memory, which has no state of rest.
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Result<Self, CableError> {
-        let law = cable.friction().law();
-        if !law.has_memory() {
-            return Err(CableError::UnsupportedLaw {
-                solver: "resting",
-                law: law.name(),
-                reason: "its friction fades at rest",
-            });
-        }
+        cable.friction().check_memory("resting")?;
         mesh.check_length(cable.length())?;
         let zeros = || vec![0.0; mesh.nodes()];
         Ok(Self {

@@ -2,8 +2,11 @@
 
 use cable_dem::{CableState, RestingCable};
 
-use crate::period::{Period, difference};
+use crate::period::{Period, difference, largest};
 use crate::slope::{Change, Slope};
+
+/// Advance of a period as a share of the duct's motion below which the cable rests for good.
+const AT_REST: f64 = 1e-8;
 
 /// What is known after a simulated period.
 pub struct Knowledge {
@@ -18,6 +21,11 @@ pub struct Knowledge {
 }
 
 impl Knowledge {
+    /// Whether the cable no longer moves, in a duct that moves by `motion` \[m\].
+    pub fn rests(&self, motion: f64) -> bool {
+        largest(&self.period.rate) < AT_REST * motion
+    }
+
     /// Advance per period in `state`, from that of the last period.
     pub fn rate(&self, state: &CableState, cable: &RestingCable) -> Vec<f64> {
         // −K (u − ū)/w, with u after and ū in the middle of the period.

@@ -38,8 +38,6 @@ pub struct Beyond {
     pub records: Vec<Record>,
     /// What each pass of a period does once the forces no longer change from period to period.
     pub period: Vec<PassOutcome>,
-    /// The cable then.
-    pub state: CableState,
 }
 
 /// A jump that was taken, from one measured period to another.
@@ -61,12 +59,17 @@ pub struct Jumped<'a> {
 }
 
 impl Jumped<'_> {
+    /// Where `pass` stands in its period, and how many periods after the jump's beginning it ends.
+    pub fn place(&self, pass: u64) -> (usize, f64) {
+        let period = self.before.len() as u64;
+        let phase = ((pass - 1) % period) as usize;
+        (phase, pass as f64 / period as f64 - self.begin as f64)
+    }
+
     /// The cable at rest after `pass`, and what it has moved as a whole \[m\].
     pub fn state(&self, cable: &mut RestingCable, pass: u64) -> Result<(CableState, f64), CableError> {
-        let period = self.before.len() as u64;
-        let into = pass as f64 / period as f64 - self.begin as f64;
+        let (phase, into) = self.place(pass);
         let share = into / self.length as f64;
-        let phase = ((pass - 1) % period) as usize;
         let between = |before: f64, after: f64| (1.0 - share) * before + share * after;
         let (before, after) = (&self.before[phase], &self.after[phase]);
         let advance = self.flow.after(cable, into);
@@ -95,9 +98,8 @@ impl Jumped<'_> {
         let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?;
         outcome.upstream_displacement += offset;
         outcome.downstream_displacement += offset;
-        let period = self.before.len() as u64;
-        let phase = ((pass - 1) % period) as usize;
-        let share = (pass as f64 / period as f64 - self.begin as f64) / self.length as f64;
+        let (phase, into) = self.place(pass);
+        let share = into / self.length as f64;
         let (before, after) = (&self.before[phase].outcome, &self.after[phase].outcome);
         let between = |of: fn(&PassOutcome) -> f64| (1.0 - share) * of(before) + share * of(after);
         outcome.peak.upstream += between(|o| o.peak.upstream - o.force.upstream);

@@ -5,7 +5,7 @@ use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingC
 use crate::JumpError;
 use crate::flow::Flow;
 use crate::knowledge::Knowledge;
-use crate::period::{Period, difference, largest};
+use crate::period::{Period, difference};
 use crate::record::{Beyond, Evolution, Jumped, Record, take_whole};
 use crate::request::{Guide, Jumps, Next, Request};
 use crate::scale::Scale;
@@ -28,12 +28,10 @@ const REJECTED: f64 = 2.0;
 const REJECTED_AS_GUIDED: f64 = 4.0;
 /// Change of all forces still to come, beside the tolerance, below which all that is left is one jump.
 const STEADY: f64 = 0.1;
-/// Advance of a period as a share of the duct's motion below which the cable rests for good.
-const AT_REST: f64 = 1e-8;
 /// Simulated periods at the end of a jump: its check, and one that heals what the correction left rough.
 const CHECKED: u64 = 2;
-/// Periods simulated at most to see where the forces lead; the error of a jump there beside that before: where they lead does not
-/// depend on the way.
+/// Periods simulated at most to see where the forces lead; the error of a jump there beside that before: where they lead hardly
+/// depends on the way, but near shakedown.
 const MOST_BEYOND: u64 = 200;
 const TOLERANCE_BEYOND: f64 = 4.0;
 
@@ -138,7 +136,6 @@ where
                         .records
                         .split_off(self.records.partition_point(|record| record.pass <= passes)),
                     period: known.period.phases.iter().map(|phase| phase.outcome).collect(),
-                    state: self.state,
                 });
             }
             evolution.simulated = self.simulated;
@@ -186,7 +183,7 @@ where
             }
             let left = all - self.done;
             let rate = known.rate(&self.state, &self.cable);
-            let resting = largest(&known.period.rate) < AT_REST * self.jumps.motion;
+            let resting = known.rests(self.jumps.motion);
             let guided = self.guide.length(self.schedule.len());
             let whole = guided.is_none() && left > CHECKED && (resting || self.is_steady(known, &rate, left));
             if whole {
@@ -228,10 +225,10 @@ where
     /// Jumps over `length` periods, simulates two more and chooses the next length; false where the error is so large that the jump
     /// is taken back.
     fn jump(&mut self, known: &mut Knowledge, rate: &[f64], length: u64) -> Result<bool, E> {
-        let (tolerance, motion) = (self.tolerance, self.jumps.motion);
+        let tolerance = self.tolerance;
         let (from, offset) = (self.state.clone(), self.offset);
         let slope = known.slope.values().to_vec();
-        if largest(&known.period.rate) >= AT_REST * motion {
+        if !known.rests(self.jumps.motion) {
             let flow = Flow::new(&mut self.cable, rate, &slope, length as f64, SUBSTEPS);
             self.advance(flow.end())?;
         }
@@ -315,7 +312,7 @@ where
                 };
                 let now = (std::mem::replace(&mut self.state, before.0), self.offset);
                 self.offset = before.1;
-                let phase = ((pass - 1) % period as u64) as usize;
+                let phase = jumped.place(pass).0;
                 let number = Some(pass);
                 self.pass(Next { phase, number })?;
                 (self.state, self.offset) = now;

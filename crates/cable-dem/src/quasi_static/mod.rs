@@ -75,14 +75,7 @@ impl QuasiStatic {
     /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::UnsupportedLaw`] for a law
     /// without memory, which has no state of rest, and as for [`laid`].
     pub fn new(cable: DuctedCable, mesh: Mesh) -> Result<Self, CableError> {
-        let law = cable.friction().law();
-        if !law.has_memory() {
-            return Err(CableError::UnsupportedLaw {
-                solver: "quasi-static",
-                law: law.name(),
-                reason: "its friction depends on the time step and fades at rest",
-            });
-        }
+        cable.friction().check_memory("quasi-static")?;
         mesh.check_length(cable.length())?;
         Ok(Self {
             laid: laid(&cable, &mesh)?,
