@@ -226,7 +226,7 @@ fn all_figures_are_there_and_have_dark_colours() {
 fn figures_and_tables_are_over_time_where_the_vehicles_a_day_are_known() {
     for (years, per_day, label) in [
         ("20", "800", "1 month"),
-        ("100", "3", "10 years"),
+        ("100", "3", "100 years"),
         ("0.01", "10000", "1 h"),
         ("2", "0.7", "days"),
         ("0.001", "1000", "hours"),

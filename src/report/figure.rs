@@ -18,7 +18,7 @@ const ALL_DRAWN: usize = 1000;
 const UNITS: [(f64, &str); 3] = [(DAYS_PER_YEAR, "years"), (1.0, "days"), (1.0 / 24.0, "hours")];
 const FEWEST: f64 = 2.0;
 /// Share of a logarithmic axis that a label needs.
-const LABEL: f64 = 0.17;
+const LABEL: f64 = 0.2;
 /// Ticks of one that is \[days\].
 const TICKS: [(f64, &str); 8] = [
     (1.0 / 1440.0, "1 min"),
