@@ -3,14 +3,15 @@
 pub mod balance;
 mod calendar;
 pub mod error_estimate;
+mod limits;
 mod listed;
 mod record;
 mod saturation;
 #[cfg(any(feature = "cli", feature = "plot"))]
 mod table_rows;
 
-#[cfg(any(feature = "cli", feature = "plot"))]
 pub use calendar::after;
+pub use limits::*;
 #[cfg(feature = "plot")]
 pub use listed::listed;
 pub use listed::{beyond, simulated};

@@ -4,6 +4,7 @@ mod calibrate;
 mod check;
 mod design;
 mod failure;
+mod limits;
 mod new;
 mod plan;
 mod presets;
