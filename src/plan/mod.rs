@@ -8,6 +8,7 @@ mod method;
 pub mod occurrence;
 mod period;
 mod report;
+mod stand_ins;
 mod warnings;
 
 use ground_field::GroundField;
@@ -50,7 +51,7 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Pl
     let levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first())?;
-    let period = Period::new(scene)?;
+    let period = Period::new(scene, &ground.motions)?;
     Ok(Plan {
         scene,
         choice: method::choose(scene, &levels, &period)?,

@@ -4,8 +4,8 @@
 //! that of the finer is half as large or less. Where only early passes are off, every one of them is simulated; else both are
 //! made smaller.
 
-use cable_dem::{CableError, Statistics};
-use cycle_jump::Guide;
+use cable_dem::{CableError, Order, Statistics};
+use cycle_jump::{Guide, Record};
 
 use super::passes::{Jumping, Passes};
 use crate::Error;
@@ -167,5 +167,18 @@ fn mix_error(
     };
     let other = simulate(found.level, &jumping)?;
     *statistics += other.statistics;
-    Ok(difference(&found.passes.records, &other.records, scale).times(*share))
+    // The first vehicles of a random order are a draw, which no mix foretells.
+    let drawn = match plan.scene.traffic.order {
+        Order::Random { .. } => 2 * plan.period.len() as u64,
+        _ => 0,
+    };
+    let later = |records: &[Record]| -> Vec<Record> {
+        records
+            .iter()
+            .filter(|record| record.pass > drawn)
+            .copied()
+            .collect()
+    };
+    let (own, other) = (later(&found.passes.records), later(&other.records));
+    Ok(difference(&own, &other, scale).times(*share))
 }

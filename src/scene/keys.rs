@@ -21,7 +21,10 @@ const SECTIONS: [(&str, &str); 10] = [
         "vehicles",
         "preset, name, speed, load, wheels, lateral_offset, direction, share",
     ),
-    ("traffic", "passes, years, per_day, order, seed, sequence"),
+    (
+        "traffic",
+        "passes, years, per_day, histogram, speed, order, seed, sequence",
+    ),
     (
         "solver",
         "method, tolerance, node_spacing, vehicle_step, time_step, approach",

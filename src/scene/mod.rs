@@ -47,6 +47,7 @@ mod document;
 mod error;
 mod file;
 mod ground;
+mod histogram;
 mod keys;
 mod location;
 mod nearest;
