@@ -33,12 +33,13 @@ const SETTLED: usize = 300;
 fn scene(overrides: &[&str]) -> Scene {
     let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("axles");
     std::fs::create_dir_all(&folder).expect("a folder");
-    let mut table = "load,count,contact_radius\n".to_owned();
-    for load in (5..=120).step_by(5) {
+    let row = |load: i32| {
         let off = (f64::from(load) - 60.0) / 25.0;
-        table += &format!("{load} kN,{:.3},0.15 m\n", 1000.0 * (-0.5 * off * off).exp());
-    }
-    table += "170 kN,80,0.15 m\n210 kN,40,0.15 m\n";
+        format!("{load} kN,{:.3},0.15 m\n", 1000.0 * (-0.5 * off * off).exp())
+    };
+    let rows: Vec<String> = (5..=120).step_by(5).map(row).collect();
+    let heavy = "170 kN,80,0.15 m\n210 kN,40,0.15 m\n";
+    let table = format!("load,count,contact_radius\n{}{heavy}", rows.concat());
     std::fs::write(folder.join("axles.csv"), table).expect("a table");
     let name = folder.join("duct.toml");
     SceneFile::from_toml(&name.display().to_string(), SCENE)
