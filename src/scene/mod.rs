@@ -48,6 +48,7 @@ mod error;
 mod file;
 mod ground;
 mod histogram;
+mod key;
 mod keys;
 mod location;
 mod nearest;
@@ -75,6 +76,9 @@ pub use data::{
 };
 pub use error::{SceneError, Wrong, WrongKind};
 pub use file::SceneFile;
+#[cfg(feature = "cli")]
+pub(crate) use key::nearest_key;
+pub use key::{KeyMeaning, key_meanings};
 pub use location::Location;
 pub use quantity::QuantityError;
 #[cfg(feature = "sweep")]
