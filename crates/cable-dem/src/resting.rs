@@ -76,6 +76,11 @@ impl RestingCable {
         self.step.chain.free.nodes()
     }
 
+    /// Length of cable \[m\] that belongs to `node`.
+    pub fn tributary(&self, node: usize) -> f64 {
+        self.step.chain.tributary[node]
+    }
+
     /// Whether an end spring, a clamp or a fixed end holds the cable: otherwise it may be moved as a whole.
     pub fn is_held(&self) -> bool {
         self.supports.iter().any(|support| support.stiffness != Some(0.0))

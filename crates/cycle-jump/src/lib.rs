@@ -76,6 +76,7 @@
 //! # Ok::<(), JumpError>(())
 //! ```
 
+pub mod days;
 mod error;
 mod flow;
 mod knowledge;
