@@ -219,6 +219,68 @@ fn run_prints_a_short_table_and_the_plan() {
 }
 
 #[test]
+fn years_and_vehicles_a_day_give_the_passes_a_time() {
+    let folder = folder("years");
+    let file = folder.join("years.csv");
+    let rate = [
+        "--years",
+        "0.5",
+        "--trucks-per-day",
+        "60",
+        "--set",
+        "duct.length=10 m",
+    ];
+    let run = |more: &[&'static str]| [&["run", UPPER][..], &rate, more].concat();
+    let document = json(&run(&[]));
+    let rows = document["passes"].as_array().expect("a list");
+    let time = |row: &Value| (row["pass"].as_u64().expect("a number"), number(&row["years"]));
+    for row in rows {
+        let (pass, years) = time(row);
+        assert!(
+            (years / (pass as f64 / (365.25 * 60.0)) - 1.0).abs() < 1e-12,
+            "{row}"
+        );
+    }
+    // 0.5 · 365.25 · 60 = 10957.5
+    assert_eq!(time(rows.last().expect("a pass")).0, 10_958);
+    assert!(rows.iter().any(|row| time(row).0 == 1826), "the first month");
+    let said = printed(&run(&[]));
+    for line in [
+        "       60      1 day",
+        "     1826    1 month",
+        "    10958   183 days",
+    ] {
+        assert!(said.contains(line), "{said}");
+    }
+    printed(&[&run(&[])[..], &["--csv", text(&file)]].concat());
+    assert_eq!(table(&file).0[..2], ["pass", "years"]);
+
+    // The same keys on the other commands; what the scene has not cannot be reckoned with.
+    let plan = [
+        "plan",
+        UPPER,
+        "--years",
+        "20",
+        "--trucks-per-day",
+        "800",
+        "--json",
+    ];
+    assert!(printed(&plan).contains("of 5844000 passes"));
+    assert_fails(
+        &["run", UPPER, "--years", "20"],
+        2,
+        &["`traffic.per_day` is missing"],
+    );
+    assert_fails(
+        &["run", UPPER, "--years", "-1", "--trucks-per-day", "3"],
+        2,
+        &["`traffic.years`"],
+    );
+    let few = printed(&["run", UPPER, "--trucks-per-day", "2", "--set", "traffic.passes=3"]);
+    assert!(few.contains("        3   1.5 days"), "{few}");
+}
+
+#[test]
 fn run_writes_the_same_numbers_as_csv() {
     let file = folder("run_csv").join("forces.csv");
     let run = json(&["run", UPPER, "--set", "traffic.passes=6", "--csv", text(&file)]);
@@ -796,7 +858,7 @@ fn design_answers_in_words_and_as_json() {
         (&["--limit-force", "0"], "greater than 0"),
         (&["--limit-force", "1", "--at", "nowhere"], "upstream, downstream"),
         (&["--limit-force", "1", "--at", "99 m"], "position"),
-        (&["--limit-force", "1", "--years", "3"], "--trucks-per-day"),
+        (&["--limit-force", "1", "--years", "3"], "traffic.per_day"),
         (&[], "--limit-force"),
     ] {
         assert_fails(&design(more), 2, &[part]);

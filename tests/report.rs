@@ -223,6 +223,49 @@ fn all_figures_are_there_and_have_dark_colours() {
 }
 
 #[test]
+fn figures_and_tables_are_over_time_where_the_vehicles_a_day_are_known() {
+    for (years, per_day, label) in [
+        ("20", "800", "1 month"),
+        ("100", "3", "100 years"),
+        ("0.01", "10000", "1 h"),
+        ("2", "0.7", "days"),
+        ("0.001", "1000", "hours"),
+    ] {
+        let set = [
+            "traffic.passes=",
+            &*format!("traffic.years={years}"),
+            &*format!("traffic.per_day={per_day}"),
+            "duct.length=8 m",
+            "solver.tolerance=0.1",
+        ];
+        let options = ReportOptions {
+            measures: Some(&[]),
+            ..ReportOptions::default()
+        };
+        let page = Report::new(&scene(&set), &options).expect("a report").to_html();
+        let elements = elements(&page);
+        let labels = texts(&elements, "text");
+        for text in ["Force against time", label] {
+            assert!(
+                labels.contains(&text),
+                "{years} years, {per_day} a day: {labels:?}"
+            );
+        }
+        assert!(
+            !page.contains("could not be drawn"),
+            "{years} years, {per_day} a day"
+        );
+        assert!(
+            !table(
+                &page,
+                &["pass", "after", "force downstream, N", "moved upstream, mm"]
+            )
+            .is_empty()
+        );
+    }
+}
+
+#[test]
 fn a_page_loads_nothing() {
     let page = page(&[], &ReportOptions::default()).to_lowercase();
     assert!(page.contains("default-src 'none'; style-src 'unsafe-inline'"));

@@ -1,6 +1,7 @@
 //! What a run gives, whether it can be true, and how wrong it may be.
 
 pub mod balance;
+mod calendar;
 pub mod error_estimate;
 mod listed;
 mod record;
@@ -8,7 +9,11 @@ mod saturation;
 #[cfg(any(feature = "cli", feature = "plot"))]
 mod table_rows;
 
-pub use listed::{beyond, listed, simulated};
+#[cfg(any(feature = "cli", feature = "plot"))]
+pub use calendar::after;
+#[cfg(feature = "plot")]
+pub use listed::listed;
+pub use listed::{beyond, simulated};
 pub use record::*;
 pub use saturation::{larger, saturation};
 #[cfg(any(feature = "cli", feature = "plot"))]

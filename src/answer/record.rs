@@ -4,6 +4,8 @@ use cable_dem::{SlipLengths, Statistics};
 use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
+use crate::scene::Traffic;
+
 /// Answer of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Run {
@@ -71,6 +73,9 @@ pub struct DuctMotionSummary {
 pub struct PassRecord {
     /// Number of the pass, from 1.
     pub pass: u64,
+    /// The time after it \[years of 365.25 days\], where the vehicles a day are known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub years: Option<f64>,
     /// Force on the downstream end after the pass.
     pub downstream_force_n: f64,
     /// Largest force on the downstream end during the pass.
@@ -263,7 +268,7 @@ impl Cost {
 }
 
 impl PassRecord {
-    pub(crate) fn new(record: &Record) -> Self {
+    pub(crate) fn new(record: &Record, traffic: &Traffic) -> Self {
         let Record {
             pass,
             outcome,
@@ -271,6 +276,7 @@ impl PassRecord {
         } = record;
         Self {
             pass: *pass,
+            years: traffic.years_after(*pass),
             downstream_force_n: outcome.force.downstream,
             downstream_peak_n: outcome.peak.downstream,
             upstream_force_n: outcome.force.upstream,

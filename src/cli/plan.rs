@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use super::failure::Failure;
-use super::shared::{Input, Json, SceneArguments};
+use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
 use crate::occurrence::Occurrence;
 use crate::shown::{percent, time};
@@ -15,13 +15,13 @@ use crate::{Part, PlanReport};
   creepage plan my-duct.toml --set solver.tolerance=0.05 --json")]
 pub struct Arguments {
     #[command(flatten)]
-    scene: SceneArguments,
+    scene: TrafficArguments,
     #[command(flatten)]
     json: Json,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let input = Input::read(&arguments.scene)?;
+    let input = Input::of(arguments.scene.read()?)?;
     let mut plan = input.located(crate::plan(&input.scene))?.report();
     input.warn(&mut plan.warnings);
     arguments.json.print(&plan, || print(&plan))

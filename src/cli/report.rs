@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::failure::Failure;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
-use super::shared::{Force, Input, SceneArguments};
+use super::shared::{Force, Input, TrafficArguments};
 use super::terminal;
 use crate::output::Kind;
 use crate::readings::Readings;
@@ -21,7 +21,7 @@ Examples:
 )]
 pub struct Arguments {
     #[command(flatten)]
-    scene: SceneArguments,
+    scene: TrafficArguments,
     /// Page to write (HTML); an older page is replaced
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -33,14 +33,14 @@ pub struct Arguments {
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let input = Input::read(&arguments.scene)?;
+    let input = Input::of(arguments.scene.read()?)?;
     let readings = arguments
         .data
         .as_deref()
         .map(Readings::from_file)
         .transpose()
         .map_err(crate::Error::from)?;
-    let read = [Some(&*arguments.scene.scene), arguments.data.as_deref()];
+    let read = [Some(&*arguments.scene.file.scene), arguments.data.as_deref()];
     let mut files = arguments.force.files(read.into_iter().flatten());
     let page = files.output(&arguments.output, Kind::Page)?;
     let report = with_bar(PERCENT, PER_MILLE, |progress| {

@@ -6,11 +6,11 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
-use super::shared::{Input, OutputArguments, SceneArguments};
+use super::shared::{Input, OutputArguments, TrafficArguments};
 use super::terminal;
-use crate::answer::table_rows;
+use crate::answer::{after, table_rows};
 use crate::output::Kind;
-use crate::scene::Dimension;
+use crate::scene::{Dimension, Traffic};
 use crate::shown::{percent, rounded};
 use crate::{PassRecord, Run, RunOptions};
 
@@ -22,7 +22,7 @@ use crate::{PassRecord, Run, RunOptions};
   creepage run my-duct.toml --csv forces.csv --verify")]
 pub struct Arguments {
     #[command(flatten)]
-    scene: SceneArguments,
+    scene: TrafficArguments,
     /// Measure the error by a second run on a mesh twice as fine
     #[arg(long)]
     verify: bool,
@@ -80,10 +80,10 @@ impl<'a> Limited<'a> {
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let input = Input::read(&arguments.scene)?;
+    let input = Input::of(arguments.scene.read()?)?;
     let destination = arguments
         .output
-        .destination(Kind::Passes, [&*arguments.scene.scene])?;
+        .destination(Kind::Passes, [&*arguments.scene.file.scene])?;
     let answer = with_bar(PERCENT, PER_MILLE, |progress| {
         let options = RunOptions {
             verify: arguments.verify,
@@ -93,6 +93,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         crate::run_with(&input.scene, &options)
     });
     let mut answer = input.located(answer)?;
+    let traffic = input.scene.traffic.clone();
     input.warn(&mut answer.warnings);
     let limited = Limited::new(&answer, arguments.limit_force);
     // A column that only some rows have is none of a table.
@@ -101,7 +102,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         ..*record
     });
     destination.write(&limited, rows, || {
-        print(&answer)?;
+        print(&answer, &traffic)?;
         let (mut out, limit) = (terminal::out(), arguments.limit_force.unwrap_or_default());
         match limited.limit_reached_after {
             Reached::After { pass } => writeln!(out, "more than {limit} N on an end: from pass {pass} on")?,
@@ -112,10 +113,16 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     })
 }
 
+/// The time of a pass behind its number, where it is known.
+fn in_time(traffic: &Traffic, pass: u64) -> String {
+    let years = traffic.years_after(pass);
+    years.map_or_else(String::new, |years| format!(", {}", after(years)))
+}
+
 /// Forces that differ by a smaller share are the same to a reader.
 const NOTICEABLE: f64 = 0.01;
 
-fn print(run: &Run) -> Result<(), Failure> {
+fn print(run: &Run, traffic: &Traffic) -> Result<(), Failure> {
     let mut out = terminal::out();
     writeln!(out, "{}", terminal::line(&run.title))?;
     writeln!(
@@ -124,34 +131,14 @@ fn print(run: &Run) -> Result<(), Failure> {
         1e6 * run.duct_motion.peak_longitudinal_m,
         1e6 * run.duct_motion.peak_vertical_m
     )?;
-    writeln!(
-        out,
-        "\n{:>9} {:>23} {:>23} {:>12}",
-        "", "force after pass, N", "end moved, mm", "largest"
-    )?;
-    writeln!(
-        out,
-        "{:>9} {:>11} {:>11} {:>11} {:>11} {:>12}",
-        "pass", "upstream", "downstream", "upstream", "downstream", "in cable, N"
-    )?;
-    for record in table_rows(&run.passes) {
-        writeln!(
-            out,
-            "{:>9} {:>11} {:>11} {:>11} {:>11} {:>12}",
-            record.pass,
-            rounded(record.upstream_force_n, 1),
-            rounded(record.downstream_force_n, 1),
-            rounded(1e3 * record.upstream_displacement_m, 4),
-            rounded(1e3 * record.downstream_displacement_m, 4),
-            rounded(record.max_compression_n, 1)
-        )?;
-    }
-    writeln!(out)?;
+    table(&mut out, run, traffic)?;
     match &run.saturation {
         Some(saturation) => writeln!(
             out,
-            "saturation: {:.1} N, 95 % of it after {} passes",
-            saturation.force_n, saturation.passes_to_95_percent
+            "saturation: {:.1} N, 95 % of it after {} passes{}",
+            saturation.force_n,
+            saturation.passes_to_95_percent,
+            in_time(traffic, saturation.passes_to_95_percent)
         )?,
         None if run.range.is_some() => writeln!(out, "saturation: none, the force was larger before")?,
         None => writeln!(out, "saturation: not reached within these passes")?,
@@ -201,4 +188,48 @@ fn print(run: &Run) -> Result<(), Failure> {
         writeln!(out, "  {}", terminal::sentence(reason))?;
     }
     Ok(())
+}
+
+/// Forces and movements after some passes.
+fn table(out: &mut impl Write, run: &Run, traffic: &Traffic) -> std::io::Result<()> {
+    // A column of times where they are known.
+    let time = |text: &str| {
+        traffic
+            .per_day
+            .map_or_else(String::new, |_| format!(" {text:>10}"))
+    };
+    writeln!(
+        out,
+        "\n{:>9}{} {:>23} {:>23} {:>12}",
+        "",
+        time(""),
+        "force after pass, N",
+        "end moved, mm",
+        "largest"
+    )?;
+    writeln!(
+        out,
+        "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}",
+        "pass",
+        time("after"),
+        "upstream",
+        "downstream",
+        "upstream",
+        "downstream",
+        "in cable, N"
+    )?;
+    for record in table_rows(&run.passes, traffic) {
+        writeln!(
+            out,
+            "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}",
+            record.pass,
+            time(&record.years.map_or_else(String::new, after)),
+            rounded(record.upstream_force_n, 1),
+            rounded(record.downstream_force_n, 1),
+            rounded(1e3 * record.upstream_displacement_m, 4),
+            rounded(1e3 * record.downstream_displacement_m, 4),
+            rounded(record.max_compression_n, 1)
+        )?;
+    }
+    writeln!(out)
 }

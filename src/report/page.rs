@@ -10,6 +10,7 @@ use super::measures::pressed_end;
 use super::plan::plan;
 use super::quantity::count;
 use super::words;
+use crate::answer::after;
 use crate::design::Place;
 use crate::figure::dark_style;
 use crate::shown::{percent, rounded};
@@ -85,7 +86,13 @@ fn headline(html: &mut Html, report: &Report) {
         let force = saturation.force_n;
         html.headline("Saturated force", &newtons(force), &place(force));
         let reached = count(saturation.passes_to_95_percent);
-        html.headline("Passes to 95 % of it", &reached, &format!("of {passes} computed"));
+        let time = report.scene.traffic.years_after(saturation.passes_to_95_percent);
+        let time = time.map_or_else(String::new, |years| format!("{}, ", after(years)));
+        html.headline(
+            "Passes to 95 % of it",
+            &reached,
+            &format!("{time}of {passes} computed"),
+        );
     } else {
         let note = format!("{}, not levelled off after {passes} passes", place(force));
         html.headline("Force after the last pass", &newtons(force), &note);

@@ -5,6 +5,7 @@ use ground_field::{Base, Direction, Modulus, Vehicle};
 use super::html::Html;
 use super::quantity::{count, length, quantity, significant};
 use crate::Scene;
+use crate::answer::after;
 use crate::scene::{Arrangement, End, FrictionLaw, Order, PeakScaling};
 
 /// Kilometres an hour of a metre a second.
@@ -134,6 +135,12 @@ fn traffic(scene: &Scene) -> String {
         1 => "one pass".to_owned(),
         passes => format!("{} passes", count(passes)),
     };
+    let rate = scene
+        .traffic
+        .per_day
+        .zip(scene.traffic.years_after(scene.traffic.passes));
+    let rate = rate.map(|(per_day, years)| format!(" in {}, {} a day,", after(years), significant(per_day)));
+    let passes = passes + &rate.unwrap_or_default();
     let vehicles = scene.vehicles.len();
     let order = match &scene.traffic.order {
         _ if vehicles == 1 => return format!("Traffic: {passes} of one vehicle."),

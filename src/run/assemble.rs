@@ -1,10 +1,12 @@
 //! Puts the answer of a run together, by whatever way it was found.
 
+use cycle_jump::Record;
+
 use super::passes::{Passes, Task, force_profile};
 use super::refine::Solved;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
-    Stage, balance, listed, saturation, simulated,
+    Stage, balance, saturation, simulated,
 };
 use crate::plan::Plan;
 use crate::{Error, Progress};
@@ -130,7 +132,8 @@ impl<'a> RunBuilder<'a> {
         };
         let first = task.every_pass()?;
         let profile = force_profile(&first.cable, &first.state)?;
-        let count = self.plan.scene.traffic.passes;
+        let traffic = &self.plan.scene.traffic;
+        let count = traffic.passes;
         let summary = &mut self.summary;
         summary.cable = method.name().into();
         (summary.node_spacing_m, summary.vehicle_step_m) = (mesh.spacing(), mesh.vehicle_step());
@@ -142,11 +145,16 @@ impl<'a> RunBuilder<'a> {
             title: self.plan.scene.title.clone(),
             duct_motion: self.duct_motion(),
             plan: self.summary,
-            passes: listed(count)
+            passes: simulated(traffic)
                 .into_iter()
-                .map(|pass| PassRecord {
-                    pass,
-                    ..PassRecord::new(&first.records[0])
+                .map(|pass| {
+                    PassRecord::new(
+                        &Record {
+                            pass,
+                            ..first.records[0]
+                        },
+                        traffic,
+                    )
                 })
                 .collect(),
             saturation: None,
@@ -188,10 +196,12 @@ fn restraints(passes: &Passes) -> Result<Vec<RestraintRecord>, Error> {
 
 /// The passes that are listed.
 fn records(plan: &Plan<'_>, passes: &Passes) -> Vec<PassRecord> {
-    let listed = simulated(plan.scene.traffic.passes);
+    let listed = simulated(&plan.scene.traffic);
     let known = passes
         .records
         .iter()
         .filter(|record| listed.binary_search(&record.pass).is_ok());
-    known.map(PassRecord::new).collect()
+    known
+        .map(|record| PassRecord::new(record, &plan.scene.traffic))
+        .collect()
 }

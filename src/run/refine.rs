@@ -255,7 +255,7 @@ impl Refinement<'_> {
 
 fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
     match way {
-        Some(way) => task.with_jumps(way, &simulated(task.scene.traffic.passes)),
+        Some(way) => task.with_jumps(way, &simulated(&task.scene.traffic)),
         None => task.every_pass(),
     }
 }

@@ -232,8 +232,21 @@ pub struct TrafficVehicle {
 pub struct Traffic {
     /// Number of passes, all vehicles together, at least 1.
     pub passes: u64,
+    /// Vehicles a day, positive, where they are known: passes then have a time.
+    pub per_day: Option<f64>,
     /// Which vehicle drives when.
     pub order: Order,
+}
+
+/// Days of a year, on average.
+pub(crate) const DAYS_PER_YEAR: f64 = 365.25;
+
+impl Traffic {
+    /// The time after this pass \[years of 365.25 days\], where the vehicles a day are known.
+    pub fn years_after(&self, pass: u64) -> Option<f64> {
+        self.per_day
+            .map(|per_day| pass as f64 / (DAYS_PER_YEAR * per_day))
+    }
 }
 
 /// How to compute. Lengths and times that are `None` are chosen to suit the scene.

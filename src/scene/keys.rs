@@ -18,7 +18,7 @@ const SECTIONS: [(&str, &str); 10] = [
     ("ends", "upstream, downstream"),
     ("restraints", "position, stiffness"),
     ("vehicles", "preset, name, speed, load, wheels, direction, share"),
-    ("traffic", "passes, order, seed, sequence"),
+    ("traffic", "passes, years, per_day, order, seed, sequence"),
     (
         "solver",
         "method, tolerance, node_spacing, vehicle_step, time_step, approach",

@@ -65,6 +65,7 @@ mod unusual;
 mod value;
 mod write;
 
+pub(crate) use data::DAYS_PER_YEAR;
 #[cfg(feature = "calibrate")]
 pub(crate) use data::words;
 pub use data::{

@@ -108,6 +108,9 @@ pub const COEFFICIENT: Quantity = number(0.0, 10.0, "from 0 to 10");
 pub const LOAD_FACTOR: Quantity = number(1e-6, 1e6, "greater than 0, from 1e-6 to 1e6");
 pub const SHARE: Quantity = number(1e-12, 1e12, "greater than 0, from 1e-12 to 1e12");
 
+pub const YEARS: Quantity = number(1e-9, 1e6, "greater than 0, from 1e-9 to 1e6");
+pub const PER_DAY: Quantity = number(1e-6, 1e9, "greater than 0, from 1e-6 to 1e9");
+
 /// Numbers of passes that can be computed, few of them simulated.
 pub const PASSES: RangeInclusive<u64> = 1..=1_000_000_000_000;
 /// Most nodes and most steps of a vehicle over the duct; where the scene gives no step there are two to a node.

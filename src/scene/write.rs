@@ -176,6 +176,9 @@ impl Text {
     fn traffic(&mut self, scene: &Scene) {
         self.section("[traffic]");
         self.line("passes", scene.traffic.passes);
+        if let Some(per_day) = scene.traffic.per_day {
+            self.number("per_day", per_day);
+        }
         match &scene.traffic.order {
             Order::Interleaved => {}
             Order::Random { seed } => {

@@ -7,6 +7,7 @@ mod contradictions;
 mod edited;
 mod overrides;
 mod presets;
+mod traffic;
 mod unusual;
 mod written;
 
@@ -70,6 +71,7 @@ wheels = [
 direction = "reverse"
 [traffic]
 passes = 60
+per_day = 800
 order = "random"
 seed = 7
 [solver]
