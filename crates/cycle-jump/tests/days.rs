@@ -180,6 +180,32 @@ fn explore() -> Outcome {
     let sharp: &'static [(f64, f64)] = &[(0.0, 0.0), (0.25, 1.0)];
     let scenes = [
         Scene {
+            name: "L300",
+            length: 300.0,
+            per_day: 800,
+            days: 6,
+            ..Scene::default()
+        },
+        Scene {
+            name: "L300 sp",
+            length: 300.0,
+            per_day: 800,
+            days: 4,
+            kelvin: 40.0,
+            slope: 0.03,
+            ends: (SPRING(1e6), SPRING(1e5)),
+            ..Scene::default()
+        },
+        Scene {
+            name: "A30 6",
+            length: 30.0,
+            per_day: 800,
+            days: 20,
+            ends: (End::Free, End::Free),
+            slope: 0.03,
+            ..Scene::default()
+        },
+        Scene {
             name: "S60",
             ..Scene::default()
         },
@@ -254,9 +280,13 @@ fn explore() -> Outcome {
             begin.elapsed(),
             1e3 * right.drift
         );
-        for knots in [24, 48] {
+        for knots in [24, 48, 96] {
             let begin = std::time::Instant::now();
             let found = scene.live(knots, false)?;
+            for (r, f) in right.days.iter().zip(&found.days) {
+                let d = r.extremes.difference(&f.extremes, (1.0, 1e-6));
+                print!(" {:.2}/{:.2}", 100.0 * d.0, 100.0 * d.1);
+            }
             let (force, movement, day) = error(&right.days, &found.days);
             let passes =
                 right

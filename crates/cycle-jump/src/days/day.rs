@@ -9,8 +9,6 @@ use super::rows::{Row, Shape};
 use crate::record::take_whole;
 use crate::{JumpError, Next};
 
-/// Weight of what a day's own knot says of the defect until the next one, beside the day before: with all of it the days never settle.
-const OWN: f64 = 0.5;
 /// Periods that are simulated one by one on the first morning, and growth of the steps after them.
 const MORNING: u64 = 8;
 const MORNING_GROWTH: f64 = 1.5;
@@ -140,6 +138,8 @@ pub struct Living<'a, P> {
     /// Those of the last day with real periods.
     pub defects: Defects,
     pub shapes: Vec<Shape>,
+    /// Weight of what a real period says of the defect until the next one, beside the day before.
+    pub own: f64,
     /// Advance of each period where all are simulated, from which the next day's is sought.
     advances: Vec<Vec<f64>>,
 }
@@ -206,6 +206,7 @@ where
             steps: 0,
             defects: Vec::new(),
             shapes: Vec::new(),
+            own: 1.0,
             advances: Vec::new(),
         }
     }
@@ -449,7 +450,7 @@ where
         if let Some((measured, defect)) = own {
             let before = self.between(*measured, morning);
             for ((expected, defect), before) in expected.iter_mut().zip(defect).zip(before) {
-                *expected += OWN * (defect - before);
+                *expected += self.own * (defect - before);
             }
         }
         expected

@@ -19,6 +19,12 @@ const MOST_FROZEN: u64 = 64;
 /// Beside the tolerance: what a day may differ from the one before, and from what was expected of it, where nothing changes any more.
 const STEADY: f64 = 0.3;
 const EXPECTED: f64 = 0.5;
+/// As long as a day changes by more than this, each is lived with real periods.
+const SETTLING: f64 = 0.05;
+/// A day that changes by more than this is led by its own real periods alone; else they count half: days that follow their own
+/// measurements alone never settle.
+const TRANSIENT: f64 = 0.1;
+const OWN: f64 = 0.5;
 /// Frozen days that show it.
 const SHOWN: usize = 3;
 /// Days with real periods after which they ought to repeat.
@@ -75,6 +81,9 @@ pub struct Days {
     pub simulated: u64,
     /// Days with real periods.
     pub corrected: u64,
+    /// How much days without them may be off by what such a day showed at their end: a force as a share of the day's largest, a movement of
+    /// its range.
+    pub surprise: (f64, f64),
     /// Steps of many periods.
     pub steps: u64,
 }
@@ -104,6 +113,7 @@ pub fn live<E: From<JumpError>>(
         extremes: Extremes::none(),
         done: 0,
         corrected: 0,
+        surprise: (0.0, 0.0),
     }
     .run()
 }
@@ -120,6 +130,13 @@ struct Life<'a, P> {
     /// Days done.
     done: u64,
     corrected: u64,
+    /// The largest difference between a day with real periods and what was expected of it.
+    surprise: (f64, f64),
+}
+
+/// The larger of each.
+fn largest(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    (a.0.max(b.0), a.1.max(b.1))
 }
 
 impl<E, P> Life<'_, P>
@@ -153,6 +170,7 @@ where
             offset,
             simulated,
             corrected: self.corrected,
+            surprise: self.surprise,
             steps,
         })
     }
@@ -160,7 +178,7 @@ where
     /// Lives `count` days; the day from which on nothing changes but for a drift \[m\].
     fn until(&mut self, count: u64) -> Result<Option<(u64, f64)>, E> {
         let (tolerance, least) = (self.request.tolerance, self.request.least);
-        let mut block = 1;
+        let mut block = 0;
         let mut before = self.place();
         let mut today = None;
         while self.done < count && (self.done < FIRST_DAYS || self.request.every_day) {
@@ -186,30 +204,24 @@ where
             today = self.corrected(self.living.day.passes, false)?.extremes;
             let drift = self.living.whole() - from;
             beside = today.less(&self.again(start)?);
-            if std::env::var("TRACE").is_ok() {
-                let a = today.difference(&expected, least);
-                let b = today.difference(&yesterday.moved(drift), least);
-                eprintln!(
-                    "day {} block {block}: surprise {:.4} {:.4} change {:.4} {:.4} drift {:.4} most {:.1}",
-                    self.done,
-                    a.0,
-                    a.1,
-                    b.0,
-                    b.1,
-                    1e3 * drift,
-                    today.most.downstream
-                );
+            if block > 0 {
+                self.surprise = largest(self.surprise, today.difference(&expected, least));
             }
             let larger = |(force, movement): (f64, f64)| force.max(movement);
             let surprise = larger(today.difference(&expected, least));
             let change = larger(today.difference(&yesterday.moved(drift), least));
+            self.living.own = if change > TRANSIENT { 1.0 } else { OWN };
             if change < STEADY * tolerance && surprise < EXPECTED * tolerance && self.is_steady(tolerance)? {
                 let settled = self.done;
                 self.repeat(count, drift, &today)?;
                 return Ok(Some((settled, drift)));
             }
             let growth = (CAUTION * tolerance / surprise.max(f64::MIN_POSITIVE)).clamp(GROWTH.0, GROWTH.1);
-            block = ((block as f64 * growth).round() as u64).clamp(1, MOST_FROZEN);
+            block = if change > SETTLING {
+                0
+            } else {
+                ((block as f64 * growth).round() as u64).clamp(1, MOST_FROZEN)
+            };
         }
         Ok(None)
     }
