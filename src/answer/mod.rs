@@ -3,6 +3,7 @@
 pub mod balance;
 mod calendar;
 pub mod error_estimate;
+mod heat;
 mod listed;
 mod record;
 mod saturation;
@@ -11,6 +12,7 @@ mod table_rows;
 
 #[cfg(any(feature = "cli", feature = "plot"))]
 pub use calendar::after;
+pub use heat::{DayExtremes, HeatRecord};
 #[cfg(feature = "plot")]
 pub use listed::listed;
 pub use listed::{beyond, simulated};

@@ -79,7 +79,12 @@ impl<'a> RunBuilder<'a> {
         }
         let total = solved.error.total();
         let beyond = solved.passes.beyond.as_ref();
-        let (saturation, range) = saturation(self.plan.scene, &solved.passes.records, beyond);
+        let (days, heat) = solved.heat.clone().unzip();
+        let (saturation, range) = if heat.is_some() {
+            (None, None)
+        } else {
+            saturation(self.plan.scene, &solved.passes.records, beyond)
+        };
         Ok(Run {
             title: self.plan.scene.title.clone(),
             duct_motion: self.duct_motion(),
@@ -88,6 +93,8 @@ impl<'a> RunBuilder<'a> {
             range,
             random: solved.random,
             passes,
+            days: days.unwrap_or_default(),
+            heat,
             force_profile: force_profile(&solved.passes.cable, &solved.passes.state)?,
             restraints,
             slip_lengths: solved.passes.slip,
@@ -101,6 +108,7 @@ impl<'a> RunBuilder<'a> {
                     inertia: solved.error.inertia,
                     road: solved.error.road.force,
                     passes: solved.error.passes.force,
+                    temperature: solved.error.temperature.force,
                     law: solved.error.passes.force,
                     movement: total.movement,
                 },
@@ -160,6 +168,8 @@ impl<'a> RunBuilder<'a> {
             saturation: None,
             range: None,
             random: None,
+            days: Vec::new(),
+            heat: None,
             restraints: restraints(&first)?,
             slip_lengths: None,
             stages: stages

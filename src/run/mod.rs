@@ -1,6 +1,7 @@
 //! Carrying a plan out: the passes on ever finer meshes, and the answer.
 
 mod assemble;
+mod days;
 mod jumps;
 mod listing;
 pub mod passes;
@@ -72,6 +73,9 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
         return answer.without_friction(options.stages);
     }
     let solve = |method, warnings: &mut Vec<String>| {
+        if let Some(heat) = plan.scene.warming() {
+            return days::solve(plan, heat, method, options.progress, options.verify, warnings);
+        }
         let refinement = Refinement {
             plan,
             method,

@@ -9,16 +9,16 @@ use super::jumps;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
-use crate::answer::{RandomSpread, simulated};
+use crate::answer::{DayExtremes, HeatRecord, RandomSpread, simulated};
 use crate::ground::{peak, road};
 use crate::plan::{Levels, PassMethod, Plan};
 use crate::shown::{exact_percent, percent};
 use crate::{Error, Progress, Scene};
 
 /// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
-const MAX_NODE_UPDATES: usize = 2_000_000_000;
+pub(super) const MAX_NODE_UPDATES: usize = 2_000_000_000;
 /// A mesh twice as fine takes about this many times the node updates.
-const REFINEMENT_COST: usize = 4;
+pub(super) const REFINEMENT_COST: usize = 4;
 /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
 const SHARP: usize = 3;
 /// Share of the tolerance that is left to the mesh at least.
@@ -43,6 +43,8 @@ pub struct Solved {
     /// Work on all meshes together.
     pub statistics: Statistics,
     pub random: Option<RandomSpread>,
+    /// Of a cable that is heated every day.
+    pub heat: Option<(Vec<DayExtremes>, HeatRecord)>,
 }
 
 impl Refinement<'_> {
@@ -67,12 +69,8 @@ impl Refinement<'_> {
             PassMethod::EveryPass(_) => (None, Statistics::default()),
         };
         let mut error = ErrorParts {
-            mesh: Shares::default(),
-            ground: Shares::both(ground.accuracy),
-            inertia: choice.inertia,
-            road: Shares::default(),
             passes: found.as_ref().map_or(Shares::default(), |found| found.error),
-            measured: false,
+            ..ErrorParts::new(ground.accuracy, choice.inertia)
         };
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
@@ -127,18 +125,19 @@ impl Refinement<'_> {
             error.mesh = measured(&finest.records, &finer.records, scale);
             error.measured = true;
         }
-        self.judge(&error, warnings)?;
+        judge(&error, scene, warnings)?;
         let random = match way {
             Some(_) => random::spread(&self.task(scene, mesh), &finest.state)?,
             None => None,
         };
         Ok(Solved {
-            reasons: vec![self.mesh_reason(&mesh)],
+            reasons: vec![mesh_reason(self.plan, &mesh)],
             mesh,
             passes: finest,
             error,
             statistics,
             random,
+            heat: None,
         })
     }
 
@@ -217,40 +216,40 @@ impl Refinement<'_> {
         });
         carry_out(&task, way.as_ref())
     }
+}
 
-    /// Refuses an answer that is none, and warns of one that is not as good as asked.
-    fn judge(&self, error: &ErrorParts, warnings: &mut Vec<String>) -> Result<(), Error> {
-        let scene = self.plan.scene;
-        let tolerance = scene.solver.tolerance;
-        let total = error.total();
-        error_estimate::judge(total.force, tolerance)?;
-        for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
-            if share > tolerance {
-                let (share, tolerance) = (percent(share), percent(tolerance));
-                warnings.push(format!(
-                    "the estimated error{of} of {share} exceeds the tolerance of {tolerance}"
-                ));
-            }
+/// Refuses an answer that is none, and warns of one that is not as good as asked.
+pub(super) fn judge(error: &ErrorParts, scene: &Scene, warnings: &mut Vec<String>) -> Result<(), Error> {
+    let tolerance = scene.solver.tolerance;
+    let total = error.total();
+    error_estimate::judge(total.force, tolerance)?;
+    for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
+        if share > tolerance {
+            let (share, tolerance) = (percent(share), percent(tolerance));
+            warnings.push(format!(
+                "the estimated error{of} of {share} exceeds the tolerance of {tolerance}"
+            ));
         }
-        if !scene.friction.law.has_memory() {
-            warnings.push(
-                "the error is of the node spacing alone: the sigmoid law's result depends on the time step"
-                    .into(),
-            );
-        }
-        Ok(())
     }
+    if !scene.friction.law.has_memory() {
+        warnings.push(
+            "the error is of the node spacing alone: the sigmoid law's result depends on the time step"
+                .into(),
+        );
+    }
+    Ok(())
+}
 
-    fn mesh_reason(&self, mesh: &Mesh) -> String {
-        let Plan { scene, levels, .. } = self.plan;
-        let nodes = scene.duct.depth / mesh.spacing();
-        let why = if levels.named() {
-            "as the scene asks".to_owned()
-        } else {
-            format!("for the requested {}", exact_percent(scene.solver.tolerance))
-        };
-        format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
-    }
+/// Why this mesh.
+pub(super) fn mesh_reason(plan: &Plan<'_>, mesh: &Mesh) -> String {
+    let Plan { scene, levels, .. } = plan;
+    let nodes = scene.duct.depth / mesh.spacing();
+    let why = if levels.named() {
+        "as the scene asks".to_owned()
+    } else {
+        format!("for the requested {}", exact_percent(scene.solver.tolerance))
+    };
+    format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
 }
 
 fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
@@ -261,7 +260,7 @@ fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error
 }
 
 /// Runs two computations side by side; the first error wins.
-fn both<A: Send, B: Send>(
+pub(super) fn both<A: Send, B: Send>(
     first: impl FnOnce() -> Result<A, Error> + Send,
     second: impl FnOnce() -> Result<B, Error> + Send,
 ) -> Result<(A, B), Error> {

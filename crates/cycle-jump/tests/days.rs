@@ -304,13 +304,13 @@ fn explore() -> Outcome {
                         }
                     });
             println!(
-                "  K {knots}: force {:.2} % (day {day}), movement {:.2} %; passes of day 1: {:.2} % at {}; {} passes, {} steps, {} corrected, {:.1?}",
+                "  K {knots}: force {:.2} % (day {day}), movement {:.2} %; passes of day 1: {:.2} % at {}; {} passes, {} sweeps, {} corrected, {:.1?}",
                 100.0 * force,
                 100.0 * movement,
                 100.0 * passes.0 / right.extremes.largest_force(),
                 passes.1,
                 found.simulated,
-                found.steps,
+                found.sweeps,
                 found.corrected,
                 begin.elapsed()
             );
@@ -393,10 +393,10 @@ fn years() -> Outcome {
             let found = scene.live(knots, false)?;
             let e = found.extremes;
             println!(
-                "{} K {knots}: {} passes, {} steps, {} corrected, periodic {:?}, drift {:.3} mm, {:.1?}",
+                "{} K {knots}: {} passes, {} sweeps, {} corrected, periodic {:?}, drift {:.3} mm, {:.1?}",
                 scene.name,
                 found.simulated,
-                found.steps,
+                found.sweeps,
                 found.corrected,
                 found.periodic_from,
                 1e3 * found.drift,

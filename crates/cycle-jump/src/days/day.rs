@@ -20,9 +20,10 @@ const AFTER_A_CORNER: [u64; 6] = [0, 1, 2, 4, 8, 16];
 /// A day of traffic and heat.
 #[derive(Debug, Clone)]
 pub struct Day {
-    /// Passes of a day, a multiple of the period; evenly over the day, the first after half an interval.
+    /// Passes of a day, at least as many as a period has; evenly over the day, the first after half an interval. The last period of the day
+    /// takes those along that are too few for another one.
     pub passes: u64,
-    /// Vehicles after which the traffic repeats.
+    /// Vehicles after which the traffic repeats, every day anew.
     pub period: usize,
     /// Temperature over the day.
     pub heat: DailyHeat,
@@ -34,6 +35,24 @@ impl Day {
     /// Periods of a day.
     pub fn periods(&self) -> u64 {
         self.passes / self.period as u64
+    }
+
+    /// Time when `periods` of the day are done, as a number of periods: the last one is longer.
+    fn time(&self, periods: u64) -> f64 {
+        if periods == self.periods() {
+            self.passes as f64 / self.period as f64
+        } else {
+            periods as f64
+        }
+    }
+
+    /// Passes done when `periods` of the day are.
+    fn passes_of(&self, periods: u64) -> u64 {
+        if periods == self.periods() {
+            self.passes
+        } else {
+            periods * self.period as u64
+        }
     }
 
     /// Θ as the cable has it when `passes` of the day are done, `half` a pass later or earlier \[N\].
@@ -133,8 +152,6 @@ pub struct Living<'a, P> {
     /// What a cable that nothing holds has moved as a whole \[m\].
     pub offset: f64,
     pub simulated: u64,
-    /// Steps of many periods.
-    pub steps: u64,
     /// Those of the last day with real periods.
     pub defects: Defects,
     pub shapes: Vec<Shape>,
@@ -203,7 +220,6 @@ where
             state: laid,
             offset: 0.0,
             simulated: 0,
-            steps: 0,
             defects: Vec::new(),
             shapes: Vec::new(),
             own: 1.0,
@@ -211,12 +227,12 @@ where
         }
     }
 
-    /// A day with real periods, of which the first `passes` are lived; the passes before it are `after`. Its `last` period is one of them where
-    /// no other pass follows.
+    /// A day with real periods, of which the first `passes` are lived; the passes before it are `after`. Where no other day follows,
+    /// its last period is real.
     pub fn corrected(&mut self, after: u64, passes: u64, is_last: bool) -> Result<Lived, E> {
         let day = self.day;
         let mut diary = self.open()?;
-        let whole = passes.div_ceil(day.period as u64);
+        let whole = passes.div_ceil(day.period as u64).min(day.periods());
         let mut knots = day.simulated(self.defects.is_empty());
         if is_last {
             knots.retain(|knot| *knot + 1 < whole);
@@ -231,17 +247,14 @@ where
             let noted = diary.rows.len();
             self.period(knot, Some(after), passes, &mut diary)?;
             shapes.push(Shape::of(&diary.rows, noted));
-            let advance: Vec<f64> = self
-                .state
-                .displacement()
-                .iter()
-                .zip(&from)
-                .map(|(u, v)| u - v)
-                .collect();
+            // Per period, also where the day's last one is longer.
+            let per_period = 1.0 / (day.time(knot + 1) - day.time(knot));
+            let moved = self.state.displacement().iter().zip(&from);
+            let advance: Vec<f64> = moved.map(|(u, from)| per_period * (u - from)).collect();
             let defect = self.defect(&advance);
             self.rate.expect(&advance);
             let done = knot + 1;
-            measured.push((done as f64, defect));
+            measured.push((day.time(done), defect));
             if day.is_simulated() {
                 advances.push(advance);
             } else if end > done {
@@ -258,22 +271,39 @@ where
 
     /// A day as the defects of the last corrected one say, without a real pass.
     pub fn frozen(&mut self) -> Result<Lived, E> {
-        let day = self.day;
         let mut diary = self.open()?;
-        if day.is_simulated() {
-            for period in 0..day.periods() {
-                self.replay(period, &mut diary)?;
-            }
-        } else {
-            let knots = day.simulated(false);
-            for (k, &knot) in knots.iter().enumerate() {
-                let end = knots.get(k + 1).copied().unwrap_or(day.periods());
-                self.advance(knot, end, None, &mut diary)?;
-            }
-        }
+        self.replay_to(self.day.periods(), &mut diary)?;
         let last = self.state.clone();
         self.end(&mut diary)?;
         Ok(diary.close(last))
+    }
+
+    /// The last day of all, of which `passes` are lived after `after` others: its last period is real.
+    pub fn last(&mut self, after: u64, passes: u64) -> Result<Lived, E> {
+        let day = self.day;
+        let last = passes.div_ceil(day.period as u64).min(day.periods()) - 1;
+        let mut diary = self.open()?;
+        self.replay_to(last, &mut diary)?;
+        self.period(last, Some(after), passes, &mut diary)?;
+        let state = self.state.clone();
+        if passes == day.passes {
+            self.end(&mut diary)?;
+        }
+        Ok(diary.close(state))
+    }
+
+    /// Goes through the day up to `periods`, as the defects say.
+    fn replay_to(&mut self, periods: u64, diary: &mut Diary) -> Result<(), E> {
+        if self.day.is_simulated() {
+            return (0..periods).try_for_each(|period| self.replay(period, diary));
+        }
+        let mut knots = self.day.simulated(false);
+        knots.retain(|knot| *knot < periods);
+        for (k, &knot) in knots.iter().enumerate() {
+            let end = knots.get(k + 1).copied().unwrap_or(periods);
+            self.advance(knot, end, None, diary)?;
+        }
+        Ok(())
     }
 
     fn open(&mut self) -> Result<Diary, E> {
@@ -347,11 +377,9 @@ where
     /// Simulates the `period` of the day, up to the pass `most` of the day. Its passes follow `after` others where they have numbers.
     fn period(&mut self, period: u64, after: Option<u64>, most: u64, diary: &mut Diary) -> Result<(), E> {
         let day = self.day;
-        for phase in 0..day.period {
-            let pass = period * day.period as u64 + phase as u64;
-            if pass >= most {
-                break;
-            }
+        let passes = period * day.period as u64..day.passes_of(period + 1).min(most);
+        for pass in passes {
+            let phase = (pass % day.period as u64) as usize;
             for thermal in day.turns_before(pass) {
                 self.warm(thermal, pass as f64, true, diary)?;
             }
@@ -388,7 +416,7 @@ where
 
     /// One step from the period `from` of the day to `to`; `today` has what was measured today.
     fn advance(&mut self, from: u64, to: u64, today: Option<&Defects>, diary: &mut Diary) -> Result<(), E> {
-        let (begin, end) = (from as f64, to as f64);
+        let (begin, end) = (self.day.time(from), self.day.time(to));
         let stage = begin + RateStep::STAGE * (end - begin);
         let drives = [stage, end].map(|time| Drive {
             thermal_force: self.day.before(time),
@@ -399,7 +427,6 @@ where
             .rate
             .second_order(&mut self.cable, &mut u, end - begin, [&drives[0], &drives[1]]);
         moved.map_err(wrap)?;
-        self.steps += 1;
         self.place(u, drives[1].thermal_force)?;
         self.look(to, diary)
     }
@@ -408,24 +435,24 @@ where
     fn replay(&mut self, period: u64, diary: &mut Diary) -> Result<(), E> {
         let index = period as usize;
         let drive = Drive {
-            thermal_force: self.day.before((period + 1) as f64),
+            thermal_force: self.day.before(self.day.time(period + 1)),
             defect: self.defects[index].1.clone(),
         };
+        let periods = self.day.time(period + 1) - self.day.time(period);
         let mut u = self.state.displacement().to_vec();
         self.rate.expect(&self.advances[index]);
         let advance = self
             .rate
-            .one_period(&mut self.cable, &mut u, &drive)
+            .first_order(&mut self.cable, &mut u, periods, &drive)
             .map_err(wrap)?;
         self.advances[index].copy_from_slice(advance);
-        self.steps += 1;
         self.place(u, drive.thermal_force)?;
         self.look(period + 1, diary)
     }
 
     /// Notes the cable when `periods` of the day are done, and as the temperature changes before the next pass.
     fn look(&mut self, periods: u64, diary: &mut Diary) -> Result<(), E> {
-        let passes = periods * self.day.period as u64;
+        let passes = self.day.passes_of(periods);
         self.note(passes as f64, false, false, diary)?;
         if passes < self.day.passes {
             let state = self.state.clone();
@@ -458,7 +485,7 @@ where
 
     /// The defect of the day before at `time`, with the next `morning` after its end.
     fn between(&self, time: f64, morning: &(f64, Vec<f64>)) -> Vec<f64> {
-        let all = self.day.periods() as f64;
+        let all = self.day.time(self.day.periods());
         let next = self.defects.partition_point(|(ended, _)| *ended <= time);
         let last = self.defects.len() - 1;
         let (from, before) = if next == 0 {

@@ -84,8 +84,8 @@ pub struct Days {
     /// How much days without them may be off by what such a day showed at their end: a force as a share of the day's largest, a movement of
     /// its range.
     pub surprise: (f64, f64),
-    /// Steps of many periods.
-    pub steps: u64,
+    /// Linear solves of the whole cable in the steps between them.
+    pub sweeps: u64,
 }
 
 /// Lets `cable` on `mesh`, as laid, live through days of traffic and heat: few passes simulated, each by a call of `pass`, which finds the
@@ -134,6 +134,17 @@ struct Life<'a, P> {
     surprise: (f64, f64),
 }
 
+/// Days that are all like the one before.
+#[derive(Clone, Copy)]
+struct Settled {
+    /// The first of them.
+    day: u64,
+    /// But for this movement as a whole \[m\].
+    drift: f64,
+    /// What a day with real periods shows beside one without.
+    beside: Extremes,
+}
+
 /// The larger of each.
 fn largest(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
     (a.0.max(b.0), a.1.max(b.1))
@@ -148,14 +159,22 @@ where
         let (passes, a_day) = (self.request.passes, self.living.day.passes);
         let (whole, rest) = (passes / a_day, passes % a_day);
         let all = whole + u64::from(rest > 0);
-        // The last day is lived with real periods, whatever comes before.
         let settled = self.until(all - 1)?;
-        let drift = settled.map_or(0.0, |(_, drift)| drift);
-        let last = self.corrected(if rest > 0 { rest } else { a_day }, true)?;
+        let drift = settled.map_or(0.0, |settled| settled.drift);
+        let passes = if rest > 0 { rest } else { a_day };
+        let last = match settled {
+            Some(Settled { beside, .. }) if passes == a_day => {
+                let lived = self.living.last(self.done * a_day, passes)?;
+                self.done += 1;
+                self.book(&lived, &lived.extremes.plus(&beside), passes);
+                lived
+            }
+            _ => self.corrected(passes, true)?,
+        };
         let Living {
             offset,
             simulated,
-            steps,
+            rate,
             ..
         } = self.living;
         Ok(Days {
@@ -163,7 +182,7 @@ where
             days: self.days,
             extremes: self.extremes,
             drift,
-            periodic_from: settled.map(|(day, _)| day),
+            periodic_from: settled.map(|settled| settled.day),
             hot: last.hot,
             cold: last.cold,
             state: last.last,
@@ -171,12 +190,12 @@ where
             simulated,
             corrected: self.corrected,
             surprise: self.surprise,
-            steps,
+            sweeps: rate.sweeps,
         })
     }
 
-    /// Lives `count` days; the day from which on nothing changes but for a drift \[m\].
-    fn until(&mut self, count: u64) -> Result<Option<(u64, f64)>, E> {
+    /// Lives `count` days; what they have come to, where nothing changes any more.
+    fn until(&mut self, count: u64) -> Result<Option<Settled>, E> {
         let (tolerance, least) = (self.request.tolerance, self.request.least);
         let mut block = 0;
         let mut before = self.place();
@@ -212,9 +231,9 @@ where
             let change = larger(today.difference(&yesterday.moved(drift), least));
             self.living.own = if change > TRANSIENT { 1.0 } else { OWN };
             if change < STEADY * tolerance && surprise < EXPECTED * tolerance && self.is_steady(tolerance)? {
-                let settled = self.done;
+                let day = self.done;
                 self.repeat(count, drift, &today)?;
-                return Ok(Some((settled, drift)));
+                return Ok(Some(Settled { day, drift, beside }));
             }
             let growth = (CAUTION * tolerance / surprise.max(f64::MIN_POSITIVE)).clamp(GROWTH.0, GROWTH.1);
             block = if change > SETTLING {

@@ -29,6 +29,8 @@ pub struct Drive {
 #[derive(Debug)]
 pub struct RateStep {
     pub law: LockedLaw,
+    /// Linear solves so far.
+    pub sweeps: u64,
     limit: f64,
     /// The last advance, from which the next is sought.
     advance: Vec<f64>,
@@ -44,6 +46,7 @@ impl RateStep {
         let zeros = || vec![0.0; nodes];
         Self {
             law,
+            sweeps: 0,
             limit,
             advance: zeros(),
             place: zeros(),
@@ -84,17 +87,18 @@ impl RateStep {
     /// Time of the first stage, as a share of a step.
     pub const STAGE: f64 = GAMMA;
 
-    /// Moves `u` over one period as a period that left the defect in `drive` did; the advance.
-    pub fn one_period(
+    /// Moves `u` over `periods` as real ones that left the defect in `drive` did; the advance per period.
+    pub fn first_order(
         &mut self,
         cable: &mut RestingCable,
         u: &mut [f64],
+        periods: f64,
         drive: &Drive,
     ) -> Result<&[f64], CableError> {
         let base = u.to_vec();
-        self.solve(cable, &base, 1.0, drive)?;
+        self.solve(cable, &base, periods, drive)?;
         for (u, v) in u.iter_mut().zip(&self.advance) {
-            *u += v;
+            *u += periods * v;
         }
         Ok(&self.advance)
     }
@@ -118,6 +122,7 @@ impl RateStep {
             }
             let slope = &self.slope;
             cable.diffuse(|i| reach / slope[i], &mut self.step);
+            self.sweeps += 1;
             let start = self.along(cable);
             let mut share = 1.0;
             left = self.balance(cable, base, reach, drive, share);

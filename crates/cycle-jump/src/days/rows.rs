@@ -53,7 +53,8 @@ pub fn of_pass(rows: &[Row], shapes: &[Shape], pass: u64, period: usize) -> Opti
         return Some((row.outcome, false));
     }
     // Ends of periods on both sides.
-    let ends = |row: &&Row| row.passes % period as f64 == 0.0;
+    let last = rows.last()?.passes;
+    let ends = |row: &&Row| row.passes % period as f64 == 0.0 || row.passes == last;
     let after = passes().filter(ends).find(|row| row.passes >= time)?;
     let before = passes()
         .filter(ends)
@@ -62,7 +63,7 @@ pub fn of_pass(rows: &[Row], shapes: &[Shape], pass: u64, period: usize) -> Opti
     let share = (time - before.passes) / (after.passes - before.passes);
     let phase = ((pass - 1) % period as u64) as usize;
     let distance = |shape: &&Shape| (shape.begin - time).abs();
-    let complete = shapes.iter().filter(|shape| shape.passes.len() == period);
+    let complete = shapes.iter().filter(|shape| shape.passes.len() >= period);
     let shape = complete.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
     let outcome = PassOutcome::combined(&[
         (1.0 - share, at_rest(&before.outcome)),
