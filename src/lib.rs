@@ -93,8 +93,9 @@ pub use plain_figure as figure;
 pub use {boussinesq, burmister, cable_dem, cycle_jump, ground_field};
 
 pub use answer::{
-    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, ForceRange, FrictionProfile,
-    PassRecord, PlanSummary, Quantiles, RandomSpread, RestraintRecord, Run, Saturation, SlipRecord, Stage,
+    Cost, DayExtremes, DayPoint, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, ForceRange,
+    FrictionProfile, HeatRecord, PassRecord, PlanSummary, Quantiles, RandomSpread, RestraintRecord, Run,
+    Saturation, SlipRecord, Stage,
 };
 #[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};

@@ -32,6 +32,23 @@ pub struct DayExtremes {
     pub downstream_displacement_min_m: f64,
 }
 
+/// The cable at one time of a day, after a pass.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DayPoint {
+    /// Time since the day began \[h\].
+    pub hour: f64,
+    /// Temperature of the cable above that at laying \[K\].
+    pub warming_k: f64,
+    /// Force on the upstream end \[N\].
+    pub upstream_force_n: f64,
+    /// Force on the downstream end \[N\].
+    pub downstream_force_n: f64,
+    /// Displacement at the upstream end \[m\].
+    pub upstream_displacement_m: f64,
+    /// Displacement at the downstream end \[m\].
+    pub downstream_displacement_m: f64,
+}
+
 /// The cable over all days.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct HeatRecord {
@@ -41,7 +58,9 @@ pub struct HeatRecord {
     pub periodic_from_day: Option<u64>,
     /// How far the cable moves from one such day to the next \[m\].
     pub drift_per_day_m: Option<f64>,
-    /// Force along the cable when the last whole day is hottest.
+    /// The last day, hour by hour.
+    pub cycle: Vec<DayPoint>,
+    /// Force along the cable when that day is hottest.
     pub hot_profile: ForceProfile,
     /// Force along the cable when it is coldest.
     pub cold_profile: ForceProfile,
@@ -71,4 +90,12 @@ impl DayExtremes {
             downstream_displacement_min_m: backward[1],
         }
     }
+}
+
+/// By how much the force on an end changes at most over `day` \[N\], and how far an end moves \[m\]: the cyclic load of joints.
+pub fn largest_range(day: &DayExtremes) -> (f64, f64) {
+    let force = (day.upstream_max_n - day.upstream_min_n).max(day.downstream_max_n - day.downstream_min_n);
+    let upstream = day.upstream_displacement_max_m - day.upstream_displacement_min_m;
+    let downstream = day.downstream_displacement_max_m - day.downstream_displacement_min_m;
+    (force, upstream.max(downstream))
 }

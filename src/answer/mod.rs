@@ -12,11 +12,11 @@ mod table_rows;
 
 #[cfg(any(feature = "cli", feature = "plot"))]
 pub use calendar::after;
-pub use heat::{DayExtremes, HeatRecord};
+pub use heat::{DayExtremes, DayPoint, HeatRecord, largest_range};
 #[cfg(feature = "plot")]
 pub use listed::listed;
 pub use listed::{beyond, simulated};
 pub use record::*;
 pub use saturation::{larger, saturation};
 #[cfg(any(feature = "cli", feature = "plot"))]
-pub use table_rows::table_rows;
+pub use table_rows::{table_days, table_rows};

@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod check;
+mod days;
 mod design;
 mod failure;
 mod new;

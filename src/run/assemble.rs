@@ -71,7 +71,8 @@ impl<'a> RunBuilder<'a> {
         let passes = records(self.plan, &solved.passes);
         let restraints = restraints(&solved.passes)?;
         balance::of_records(self.plan.scene, &passes, &restraints)?;
-        if let Some(first) = passes.iter().find(|record| record.interpolated) {
+        let first = passes.iter().find(|record| record.interpolated);
+        if let Some(first) = first.filter(|_| solved.heat.is_none()) {
             summary.reasons.push(format!(
                 "{} of {} passes were simulated; between them the answer follows jumps, from pass {} on",
                 solved.passes.simulated, self.plan.scene.traffic.passes, first.pass

@@ -11,7 +11,7 @@ use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, LockedLaw, live};
 use super::passes::{Passes, Simulation, Task, force_profile};
 use super::refine::{MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both, judge, mesh_reason};
 use crate::answer::error_estimate::{ErrorParts, Scale, Shares, VERIFIED};
-use crate::answer::{DayExtremes, HeatRecord, listed, simulated};
+use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed, simulated};
 use crate::cable::{cable, traffic};
 use crate::ground::{peak, road};
 use crate::plan::{PassMethod, Period, Plan};
@@ -340,7 +340,21 @@ impl Living<'_> {
             .iter()
             .map(|record| DayExtremes::new(record.day, &record.extremes))
             .collect();
+        let day = self.day(1);
+        let per_kelvin = self.plan.scene.cable.axial_stiffness * self.heat.expansion;
+        let cycle = lived.days.last_day.iter().filter(|row| !row.heat).map(|row| {
+            let outcome = &row.outcome;
+            DayPoint {
+                hour: 24.0 * (row.passes - 0.5) / day.passes as f64,
+                warming_k: row.thermal_force / per_kelvin,
+                upstream_force_n: outcome.force.upstream,
+                downstream_force_n: outcome.force.downstream,
+                upstream_displacement_m: outcome.upstream_displacement,
+                downstream_displacement_m: outcome.downstream_displacement,
+            }
+        });
         let record = HeatRecord {
+            cycle: cycle.collect(),
             all_days: DayExtremes::new(count, extremes),
             periodic_from_day: *periodic_from,
             drift_per_day_m: periodic_from.map(|_| *drift),

@@ -365,6 +365,7 @@ where
         diary.note(
             Row {
                 passes,
+                thermal_force: self.state.thermal_force(),
                 outcome,
                 simulated,
                 heat,
@@ -393,6 +394,7 @@ where
             diary.note(
                 Row {
                     passes,
+                    thermal_force: self.state.thermal_force(),
                     outcome,
                     simulated: true,
                     heat: false,

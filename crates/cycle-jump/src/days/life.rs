@@ -6,7 +6,7 @@ use super::day::{Day, Lived, Living, wrap};
 use super::extremes::Extremes;
 use super::law::LockedLaw;
 use super::rate::RateStep;
-use super::rows::of_pass;
+use super::rows::{Row, of_pass};
 use crate::record::Record;
 use crate::{JumpError, Next};
 
@@ -63,6 +63,8 @@ pub struct Days {
     pub records: Vec<Record>,
     /// The days that were wanted.
     pub days: Vec<DayRecord>,
+    /// The last one in the order of time.
+    pub last_day: Vec<Row>,
     /// Over all days.
     pub extremes: Extremes,
     /// Movement of the cable as a whole from one day to the next, in the end \[m\].
@@ -180,6 +182,7 @@ where
         Ok(Days {
             records: self.records,
             days: self.days,
+            last_day: last.rows,
             extremes: self.extremes,
             drift,
             periodic_from: settled.map(|settled| settled.day),

@@ -27,3 +27,4 @@ pub use extremes::Extremes;
 pub use heat::DailyHeat;
 pub use law::LockedLaw;
 pub use life::{DayRecord, Days, DaysRequest, live};
+pub use rows::Row;

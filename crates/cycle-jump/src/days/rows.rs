@@ -7,6 +7,9 @@ use cable_dem::PassOutcome;
 pub struct Row {
     /// Passes of the day done.
     pub passes: f64,
+    /// Θ \[N\].
+    pub thermal_force: f64,
+    /// The cable then.
     pub outcome: PassOutcome,
     /// Whether the passes around it are simulated.
     pub simulated: bool,
