@@ -51,6 +51,11 @@ impl<'a> Progress<'a> {
         }
     }
 
+    /// Its first half and its second.
+    pub(crate) fn halves(self) -> (Self, Self) {
+        (self.part(0.0, 0.5), self.part(0.5, 1.0))
+    }
+
     /// Reports the share done.
     ///
     /// # Errors

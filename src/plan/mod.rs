@@ -51,10 +51,13 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Pl
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first())?;
     let period = Period::new(scene)?;
+    let choice = method::choose(scene, &levels, &period)?;
+    let mut warnings = warnings::warnings(scene);
+    warnings.extend(warnings::of_mix(scene, choice.method, &period));
     Ok(Plan {
         scene,
-        choice: method::choose(scene, &levels, &period)?,
-        warnings: warnings::warnings(scene),
+        choice,
+        warnings,
         period,
         ground,
         levels,

@@ -1,8 +1,11 @@
 //! What lies outside the model's range, whatever is chosen.
 
+use cable_dem::Order;
 use ground_field::Base;
 
-use crate::scene::{Order, Scene, unusual};
+use super::method::PassMethod;
+use super::period::Period;
+use crate::scene::{Scene, unusual};
 
 /// Density of soil \[kg/m³\] for the speed of its shear waves: moist sand and clay have 1700 to 2000.
 const SOIL_DENSITY: f64 = 1800.0;
@@ -41,6 +44,23 @@ fn warm(scene: &Scene) -> Vec<String> {
         );
     }
     warnings
+}
+
+/// A sequence of which only the mix is computed.
+pub fn of_mix(scene: &Scene, method: PassMethod, period: &Period) -> Option<String> {
+    let Order::Sequence(sequence) = &scene.traffic.order else {
+        return None;
+    };
+    let is_mixed = period.reordered && matches!(method, PassMethod::Jumps(_));
+    is_mixed.then(|| {
+        format!(
+            "a sequence of {} vehicles is too long to repeat itself often enough in {} passes: a period of {} vehicles stands in for it, \
+             in nearly its shares and as evenly mixed as possible",
+            sequence.len(),
+            scene.traffic.passes,
+            period.len()
+        )
+    })
 }
 
 fn fast(scene: &Scene) -> Option<String> {

@@ -21,6 +21,8 @@ pub(super) const MAX_NODE_UPDATES: usize = 2_000_000_000;
 pub(super) const REFINEMENT_COST: usize = 4;
 /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
 const SHARP: usize = 3;
+/// Share of the work that finding jumps is taken for.
+const FINDING: f64 = 0.3;
 /// Share of the tolerance that is left to the mesh at least.
 const LEAST_SHARE: f64 = 0.5;
 
@@ -62,11 +64,24 @@ impl Refinement<'_> {
         let mut level = levels.first();
         let (found, mut statistics) = match self.method {
             PassMethod::Jumps(_) => {
-                let simulate = |level, jumping: &Jumping<'_>| self.simulate(level, Some(jumping), false);
-                let (found, statistics) = jumps::find(self.plan, scale, simulate)?;
+                let simulate = |level, jumping: &Jumping<'_>, progress| {
+                    self.simulate(level, Some(jumping), progress, false)
+                };
+                let (found, statistics) =
+                    jumps::find(self.plan, scale, self.progress.part(0.0, FINDING), simulate)?;
                 (Some(found), statistics)
             }
             PassMethod::EveryPass(_) => (None, Statistics::default()),
+        };
+        // How many meshes it takes is not known: each is half of what is left.
+        let mut left = match found {
+            Some(_) => self.progress.part(FINDING, 1.0),
+            None => self.progress,
+        };
+        let mut next_part = || {
+            let (now, later) = left.halves();
+            left = later;
+            now
         };
         let mut error = ErrorParts {
             passes: found.as_ref().map_or(Shares::default(), |found| found.error),
@@ -75,8 +90,9 @@ impl Refinement<'_> {
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
         let known = found.as_ref().map(|found| (found.level, &found.passes));
+        let now = next_part();
         let (finest, coarser) = both(
-            || self.simulate(level, way, true),
+            || self.simulate(level, way, now, true),
             || self.coarser(level, way, known),
         )?;
         let mut passes = coarser;
@@ -103,7 +119,7 @@ impl Refinement<'_> {
             if (known && seen && within) || costly || level >= levels.finest() {
                 break;
             }
-            match self.simulate(level + 1, way, true) {
+            match self.simulate(level + 1, way, next_part(), true) {
                 // What is known of coarser meshes counts.
                 Err(Error::Jumps(_)) if known => break,
                 finer => passes.push(finer?),
@@ -120,16 +136,19 @@ impl Refinement<'_> {
         let finest = passes.pop().expect("the first level was computed");
         error.road = self.road_error(&finest, mesh, way, &mut statistics)?;
         if verify || alone || doubtful {
-            let finer = self.simulate(level + 1, way, true)?;
+            let finer = self.simulate(level + 1, way, next_part(), true)?;
             statistics += finer.statistics;
             error.mesh = measured(&finest.records, &finer.records, scale);
             error.measured = true;
         }
         judge(&error, scene, warnings)?;
-        let random = match way {
-            Some(_) => random::spread(&self.task(scene, mesh), &finest.state)?,
-            None => None,
-        };
+        let mut random = None;
+        if let Some(found) = &found {
+            let task = self.task(scene, levels.mesh(found.level)?);
+            let (spread, work) = random::spread(&task, &found.passes.state)?;
+            statistics += work;
+            random = spread;
+        }
         Ok(Solved {
             reasons: vec![mesh_reason(self.plan, &mesh)],
             mesh,
@@ -184,7 +203,7 @@ impl Refinement<'_> {
                     statistics: Statistics::default(),
                     ..passes.clone()
                 }),
-                _ => self.simulate(coarser, way, false),
+                _ => self.simulate(coarser, way, Progress::default(), false),
             })
             .filter(|passes| !matches!(passes, Err(Error::Cable(CableError::CoarseMesh { .. }))))
             .collect()
@@ -202,11 +221,18 @@ impl Refinement<'_> {
         }
     }
 
-    /// All passes on `level`; `shown` ones report their progress, their stages and where they lead.
-    fn simulate(&self, level: usize, way: Option<&Jumping<'_>>, shown: bool) -> Result<Passes, Error> {
+    /// All passes on `level`; `shown` ones report their stages and where they lead.
+    fn simulate(
+        &self,
+        level: usize,
+        way: Option<&Jumping<'_>>,
+        progress: Progress<'_>,
+        shown: bool,
+    ) -> Result<Passes, Error> {
         let mut task = self.task(self.plan.scene, self.plan.levels.mesh(level)?);
+        task.progress = progress;
         if shown {
-            (task.stages, task.progress) = (self.stages, self.progress);
+            task.stages = self.stages;
         }
         let affordable = MAX_NODE_UPDATES as f64 / self.plan.levels.node_updates(level, 1);
         let way = way.map(|way| Jumping {
