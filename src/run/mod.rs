@@ -1,8 +1,10 @@
 //! Carrying a plan out: the passes on ever finer meshes, and the answer.
 
 mod assemble;
+mod forecast;
 mod jumps;
 mod listing;
+mod outlook;
 pub mod passes;
 mod random;
 mod refine;
@@ -13,6 +15,7 @@ use ground_field::GroundField;
 use crate::plan::{PassMethod, Plan, plan, plan_on};
 use crate::{Error, Progress, Run, Scene, finite};
 use assemble::RunBuilder;
+pub use forecast::{Forecast, forecast};
 use refine::Refinement;
 
 /// How to run.
