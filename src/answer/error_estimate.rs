@@ -175,15 +175,20 @@ pub fn of_mesh(levels: &[&[Record]], typical: f64, scale: Scale) -> Shares {
         .rev()
         .map(|pair| difference(pair[1], pair[0], scale))
         .collect();
+    let passes = levels.last().map_or(0, |finest| finest.len());
+    of_differences(&differences, passes, typical)
+}
+
+/// The same from the differences between neighbouring levels, the finest first, of so many `passes`.
+pub fn of_differences(differences: &[Shares], passes: usize, typical: f64) -> Shares {
     let least = Shares::both(typical);
-    if let [only] = differences[..] {
+    if let [only] = differences {
         return only.times(WEIGHT_ALONE).max(least);
     }
-    let passes = levels.last().map_or(0, |finest| finest.len());
     let shares = if passes < MANY { WEIGHTS } else { WEIGHTS_OF_MANY };
     shares
         .iter()
-        .zip(&differences)
+        .zip(differences)
         .map(|(&share, difference)| difference.times(share))
         .fold(least, Shares::max)
 }

@@ -2,8 +2,10 @@
 
 mod assemble;
 mod days;
+mod forecast;
 mod jumps;
 mod listing;
+mod outlook;
 pub mod passes;
 mod random;
 mod refine;
@@ -14,6 +16,7 @@ use ground_field::GroundField;
 use crate::plan::{PassMethod, Plan, plan, plan_on};
 use crate::{Error, Progress, Run, Scene, finite};
 use assemble::RunBuilder;
+pub use forecast::{Forecast, forecast};
 use refine::Refinement;
 
 /// How to run.

@@ -16,11 +16,11 @@ use crate::shown::{exact_percent, percent};
 use crate::{Error, Progress, Scene};
 
 /// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
-pub(super) const MAX_NODE_UPDATES: usize = 2_000_000_000;
+pub const MAX_NODE_UPDATES: usize = 2_000_000_000;
 /// A mesh twice as fine takes about this many times the node updates.
-pub(super) const REFINEMENT_COST: usize = 4;
+pub const REFINEMENT_COST: usize = 4;
 /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
-const SHARP: usize = 3;
+pub const SHARP: usize = 3;
 /// Share of the work that finding jumps is taken for.
 const FINDING: f64 = 0.3;
 /// Share of the tolerance that is left to the mesh at least.
@@ -111,11 +111,10 @@ impl Refinement<'_> {
             // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
             let still = last.records.iter().all(|record| record.outcome.dissipated == 0.0);
             let seen = !still || level >= SHARP;
-            // What jumps leave, no finer mesh takes away.
-            let allowed = Shares::both(tolerance)
+            let within = error
+                .total()
                 .less(error.passes)
-                .max(Shares::both(LEAST_SHARE * tolerance));
-            let within = error.total().less(error.passes).is_within(allowed);
+                .is_within(allowed(tolerance, error.passes));
             if (known && seen && within) || costly || level >= levels.finest() {
                 break;
             }
@@ -276,6 +275,13 @@ pub(super) fn mesh_reason(plan: &Plan<'_>, mesh: &Mesh) -> String {
         format!("for the requested {}", exact_percent(scene.solver.tolerance))
     };
     format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
+}
+
+/// What of the `tolerance` is left to all that is not the error of `passes`: what jumps leave, no finer mesh takes away.
+pub fn allowed(tolerance: f64, passes: Shares) -> Shares {
+    Shares::both(tolerance)
+        .less(passes)
+        .max(Shares::both(LEAST_SHARE * tolerance))
 }
 
 fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
