@@ -93,9 +93,9 @@ pub use plain_figure as figure;
 pub use {boussinesq, burmister, cable_dem, cycle_jump, ground_field};
 
 pub use answer::{
-    Cost, DayExtremes, DayPoint, DuctMotionSummary, ErrorEstimate, ErrorShares, ForceProfile, ForceRange,
-    FrictionProfile, HeatRecord, PassRecord, PlanSummary, Quantiles, RandomSpread, RestraintRecord, Run,
-    Saturation, SlipRecord, Stage,
+    CableEnd, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, ErrorEstimate, ErrorShares,
+    ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits, PassRecord, PlanSummary,
+    Quantiles, RandomSpread, Reached, RestraintRecord, Run, Saturation, SlipRecord, Stage, Verdict,
 };
 #[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};

@@ -281,6 +281,75 @@ fn years_and_vehicles_a_day_give_the_passes_a_time() {
 }
 
 #[test]
+fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
+    fn run<'a>(more: &[&'a str]) -> Vec<&'a str> {
+        let short = [
+            "--set",
+            "traffic.passes=8",
+            "--set",
+            "duct.length=10 m",
+            "--trucks-per-day",
+            "4",
+        ];
+        [&["run", UPPER][..], &short, more].concat()
+    }
+    let rows = json(&run(&[]));
+    assert_eq!(rows.get("limit_reached_after"), None);
+    let rows = rows["passes"].as_array().expect("a list").clone();
+    // A limit between two passes is broken by the later one.
+    let largest = |row: &Value| number(&row["downstream_force_n"]).max(number(&row["downstream_peak_n"]));
+    let limit = 0.5 * (largest(&rows[2]) + largest(&rows[3]));
+    let first = rows
+        .iter()
+        .position(|row| largest(row) > limit)
+        .expect("a pass above the limit");
+    assert!(first > 0);
+    let broken = json(&run(&["--limit-force", &limit.to_string()]));
+    let reached = &broken["limit_reached_after"];
+    assert_eq!(reached["pass"], rows[first]["pass"]);
+    assert_eq!(number(&reached["years"]), number(&rows[first]["years"]));
+    assert_eq!(
+        broken["limits"].as_array().map(Vec::len),
+        Some(1),
+        "the upstream end is free"
+    );
+    assert!(json(&run(&["--limit-force", "downstream=1kN"]))["limit_reached_after"].is_null());
+
+    // The free end counts only by its name.
+    let kept = printed(&run(&["--limit-movement", "1 um"]));
+    assert!(
+        kept.contains("limit kept: movement of the downstream end at most 0.0000 mm"),
+        "{kept}"
+    );
+    let named = printed(&run(&[
+        "--limit-movement",
+        "1 um",
+        "--limit-movement",
+        "upstream=2 um",
+    ]));
+    for line in [
+        "limit exceeded: movement of the upstream end above 0.0020 mm from pass 1 on, 6 h; largest ",
+        "limit kept: movement of the downstream end at most 0.0000 mm of 0.0010 mm",
+    ] {
+        assert!(named.contains(line), "{named}");
+    }
+    let free = ["--set", "ends.downstream=free", "--limit-movement", "1 mm"];
+    assert_fails(
+        &run(&free),
+        2,
+        &["--limit-movement", "both are free", "downstream=10mm"],
+    );
+    for (bad, part) in [
+        ("-3", "greater than 0"),
+        ("3 m", "a length"),
+        ("left=3kN", "upstream or downstream"),
+        ("nan N", "finite"),
+    ] {
+        assert_fails(&run(&["--limit-force", bad]), 2, &["--limit-force", part]);
+    }
+}
+
+#[test]
 fn run_writes_the_same_numbers_as_csv() {
     let file = folder("run_csv").join("forces.csv");
     let run = json(&["run", UPPER, "--set", "traffic.passes=6", "--csv", text(&file)]);

@@ -21,6 +21,8 @@ mod fuzz;
 mod ground_models;
 #[path = "house.rs"]
 mod house;
+#[path = "lanes.rs"]
+mod lanes;
 #[path = "methods.rs"]
 mod methods;
 #[path = "occurrence.rs"]

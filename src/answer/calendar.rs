@@ -32,7 +32,6 @@ pub fn calendar(traffic: &Traffic) -> Vec<(u64, String)> {
 }
 
 /// A time \[years\] in words, to three digits.
-#[cfg(any(feature = "cli", feature = "plot"))]
 pub fn after(years: f64) -> String {
     let days = years * DAYS_PER_YEAR;
     // Passes are whole: a month of 100 a day is 3044 of them.
@@ -54,7 +53,7 @@ pub fn after(years: f64) -> String {
     format!("{text} {unit}")
 }
 
-#[cfg(all(test, any(feature = "cli", feature = "plot")))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::scene::Order;

@@ -4,15 +4,16 @@ pub mod balance;
 mod calendar;
 pub mod error_estimate;
 mod heat;
+mod limits;
 mod listed;
 mod record;
 mod saturation;
 #[cfg(any(feature = "cli", feature = "plot"))]
 mod table_rows;
 
-#[cfg(any(feature = "cli", feature = "plot"))]
 pub use calendar::after;
 pub use heat::{DayExtremes, DayPoint, HeatRecord, largest_range};
+pub use limits::*;
 #[cfg(feature = "plot")]
 pub use listed::listed;
 pub use listed::{beyond, simulated};

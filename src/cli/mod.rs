@@ -5,6 +5,7 @@ mod check;
 mod days;
 mod design;
 mod failure;
+mod limits;
 mod new;
 mod plan;
 mod presets;

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::failure::Failure;
+use super::limits::LimitArguments;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::shared::{Force, Input, TrafficArguments};
 use super::terminal;
@@ -17,6 +18,7 @@ use crate::report::{Report, ReportOptions};
 Examples:
   creepage report my-duct.toml -o my-duct.html
   creepage report my-duct.toml -o my-duct.html --data load-cell.csv
+  creepage report my-duct.toml -o my-duct.html --years 20 --trucks-per-day 800 --limit-force 2kN --limit-movement downstream=10mm
   creepage report my-duct.toml -o stiffer.html --set ground.vertical_peak=90um"
 )]
 pub struct Arguments {
@@ -29,11 +31,14 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     data: Option<PathBuf>,
     #[command(flatten)]
+    limits: LimitArguments,
+    #[command(flatten)]
     force: Force,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
+    let limits = arguments.limits.limits(input.scene.ends)?;
     let readings = arguments
         .data
         .as_deref()
@@ -49,6 +54,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             &ReportOptions {
                 readings: readings.as_ref(),
                 warnings: &input.warnings,
+                limits,
                 progress,
                 ..ReportOptions::default()
             },

@@ -6,82 +6,65 @@ use serde::Serialize;
 
 use super::days;
 use super::failure::Failure;
+use super::limits::LimitArguments;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::shared::{Input, OutputArguments, TrafficArguments};
 use super::terminal;
 use crate::answer::{after, table_rows};
 use crate::output::Kind;
-use crate::scene::{Dimension, Traffic};
+use crate::scene::Traffic;
 use crate::shown::{percent, rounded};
-use crate::{PassRecord, Run, RunOptions};
+use crate::{Limits, PassRecord, Reached, Run, RunOptions, Verdict};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage run my-duct.toml
   creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --set vehicles.0.load=15tf
   creepage run my-duct.toml --json > answer.json
-  creepage run my-duct.toml --csv forces.csv --verify")]
+  creepage run my-duct.toml --csv forces.csv --verify
+  creepage run my-duct.toml --years 20 --trucks-per-day 800 --limit-force downstream=2kN --limit-movement 10mm")]
 pub struct Arguments {
     #[command(flatten)]
     scene: TrafficArguments,
     /// Measure the error by a second run on a mesh twice as fine
     #[arg(long)]
     verify: bool,
-    /// Force on an end whose first pass is told
-    #[arg(long, value_name = "FORCE", value_parser = |text: &str| Dimension::Force.parse_argument(text))]
-    limit_force: Option<f64>,
+    #[command(flatten)]
+    limits: LimitArguments,
     #[command(flatten)]
     output: OutputArguments,
 }
 
-/// The run, and when a force on an end first exceeds the limit.
+/// The run, and what it makes of the limits, if there are any.
 #[derive(Serialize)]
-struct Limited<'a> {
+struct Judged<'a> {
     #[serde(flatten)]
     run: &'a Run,
-    #[serde(skip_serializing_if = "Reached::is_not_asked")]
-    limit_reached_after: Reached,
+    #[serde(flatten)]
+    judgement: Option<Judgement>,
 }
 
-/// When a limit is reached.
-#[derive(Serialize, Clone, Copy, PartialEq)]
-#[serde(untagged)]
-enum Reached {
-    After { pass: u64 },
-    Never,
-    NotAsked,
+#[derive(Serialize)]
+struct Judgement {
+    /// Of the limit that is exceeded first; null where all are kept.
+    limit_reached_after: Option<Reached>,
+    limits: Vec<Verdict>,
 }
 
-impl Reached {
-    fn is_not_asked(&self) -> bool {
-        *self == Self::NotAsked
-    }
-}
-
-impl<'a> Limited<'a> {
-    fn new(run: &'a Run, limit: Option<f64>) -> Self {
-        let exceeds = |record: &&PassRecord, limit: f64| {
-            let forces = [
-                record.upstream_force_n,
-                record.upstream_peak_n,
-                record.downstream_force_n,
-                record.downstream_peak_n,
-            ];
-            forces.into_iter().any(|force| force.abs() > limit)
-        };
-        let first = |limit| {
-            let record = run.passes.iter().find(|record| exceeds(record, limit));
-            record.map_or(Reached::Never, |record| Reached::After { pass: record.pass })
-        };
+impl Judgement {
+    fn new(run: &Run, limits: &Limits) -> Self {
+        let limits = limits.verdicts(run);
+        let reached = limits.iter().filter_map(|verdict| verdict.reached_after);
         Self {
-            run,
-            limit_reached_after: limit.map_or(Reached::NotAsked, first),
+            limit_reached_after: reached.min_by_key(|reached| reached.pass),
+            limits,
         }
     }
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
+    let limits = arguments.limits.limits(input.scene.ends)?;
     let destination = arguments
         .output
         .destination(Kind::Passes, [&*arguments.scene.file.scene])?;
@@ -96,19 +79,24 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut answer = input.located(answer)?;
     let traffic = input.scene.traffic.clone();
     input.warn(&mut answer.warnings);
-    let limited = Limited::new(&answer, arguments.limit_force);
+    let judgement = arguments
+        .limits
+        .are_given()
+        .then(|| Judgement::new(&answer, &limits));
+    let judged = Judged {
+        run: &answer,
+        judgement,
+    };
     // A column that only some rows have is none of a table.
     let rows = answer.passes.iter().map(|record| PassRecord {
         interpolated: false,
         ..*record
     });
-    destination.write(&limited, rows, || {
+    destination.write(&judged, rows, || {
         print(&answer, &traffic)?;
-        let (mut out, limit) = (terminal::out(), arguments.limit_force.unwrap_or_default());
-        match limited.limit_reached_after {
-            Reached::After { pass } => writeln!(out, "more than {limit} N on an end: from pass {pass} on")?,
-            Reached::Never => writeln!(out, "more than {limit} N on an end: not within these passes")?,
-            Reached::NotAsked => {}
+        let mut out = terminal::out();
+        for verdict in judged.judgement.iter().flat_map(|judgement| &judgement.limits) {
+            writeln!(out, "{verdict}")?;
         }
         Ok(())
     })

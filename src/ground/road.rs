@@ -15,9 +15,12 @@ const FARTHEST: f64 = 3000.0;
 pub fn farthest(scene: &Scene) -> f64 {
     let wheels = || scene.vehicles.iter().flat_map(|traffic| traffic.vehicle.wheels());
     let ahead = wheels().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
-    let aside = wheels()
-        .map(|wheel| wheel.y.abs() + scene.duct.lateral_offset.abs())
-        .fold(0.0, f64::max);
+    let aside = scene.vehicles.iter().flat_map(|traffic| {
+        let offset = scene.offset_from(traffic).abs();
+        let wheels = traffic.vehicle.wheels().iter();
+        wheels.map(move |wheel| wheel.y.abs() + offset)
+    });
+    let aside = aside.fold(0.0, f64::max);
     let thickness: f64 = scene
         .ground
         .profile

@@ -184,20 +184,25 @@ impl<'a> Probe<'a> {
             .find(|lowered| cheap(first - known.coarsest - lowered))
             .unwrap_or(first.saturating_sub(known.coarsest + 1));
         let total = Cell::new(Work::default());
-        let (found, _) = jumps::find(self.plan, known.scale, Progress::default(), |level, jumping: &Jumping<'_>, _| {
-            let lower = level.saturating_sub(lowered).max(known.coarsest);
-            let simulated = self.simulate(self.plan.scene, lower, Some(*jumping));
-            if let Err(Error::Jumps(_)) = simulated {
-                let pass = pass.refined(level - known.coarsest);
-                total.set(total.get() + pass.times(self.affordable(level)));
-            }
-            let (mut passes, work) = simulated?;
-            let work = work.refined(level - lower);
-            passes.statistics.node_updates = work.0[0] as usize;
-            passes.statistics.corners = work.0[2] as usize;
-            total.set(total.get() + work);
-            Ok(passes)
-        })?;
+        let (found, _) = jumps::find(
+            self.plan,
+            known.scale,
+            Progress::default(),
+            |level, jumping: &Jumping<'_>, _| {
+                let lower = level.saturating_sub(lowered).max(known.coarsest);
+                let simulated = self.simulate(self.plan.scene, lower, Some(*jumping));
+                if let Err(Error::Jumps(_)) = simulated {
+                    let pass = pass.refined(level - known.coarsest);
+                    total.set(total.get() + pass.times(self.affordable(level)));
+                }
+                let (mut passes, work) = simulated?;
+                let work = work.refined(level - lower);
+                passes.statistics.node_updates = work.0[0] as usize;
+                passes.statistics.corners = work.0[2] as usize;
+                total.set(total.get() + work);
+                Ok(passes)
+            },
+        )?;
         let own = found.passes.statistics.node_updates as f64 / total.get().0[0].max(1.0);
         // Its level does not count twice.
         known.besides = total.get().times(if found.level < first {

@@ -92,6 +92,11 @@ impl Scene {
         (!without).then_some(heat)
     }
 
+    /// How far the duct's axis lies to the left of this vehicle's axis \[m\], seen in the direction of forward traffic.
+    pub fn offset_from(&self, vehicle: &TrafficVehicle) -> f64 {
+        self.duct.lateral_offset - vehicle.lateral_offset
+    }
+
     /// Force of the cable's weight along the duct per length, p = −w sin θ \[N/m\], positive toward growing x.
     pub fn body_force(&self) -> f64 {
         -self.cable.weight * self.duct.sine()
@@ -105,7 +110,7 @@ pub struct Duct {
     pub length: f64,
     /// Depth of the cable below the road surface \[m\], positive.
     pub depth: f64,
-    /// Horizontal distance from the vehicle's axis to the duct's axis \[m\].
+    /// Horizontal distance from the line where vehicles drive that name no lane of their own \[m\], positive to the left of forward traffic.
     pub lateral_offset: f64,
     /// Inner diameter \[m\], where it is known.
     pub inner_diameter: Option<f64>,
@@ -237,6 +242,9 @@ pub struct TrafficVehicle {
     pub vehicle: Vehicle,
     /// Its share of the passes; all shares sum to 1. With [`Order::Sequence`], its share of the sequence, which may be 0.
     pub share: f64,
+    /// Its lane: how far its axis lies to the left of the line from which [`Duct::lateral_offset`] is measured \[m\], seen in the direction of
+    /// forward traffic.
+    pub lateral_offset: f64,
 }
 
 /// How many vehicles drive, in which order.

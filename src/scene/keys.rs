@@ -17,7 +17,10 @@ const SECTIONS: [(&str, &str); 11] = [
     ("friction", "preset, law, dynamic_coefficient, shape_factor"),
     ("ends", "upstream, downstream"),
     ("restraints", "position, stiffness"),
-    ("vehicles", "preset, name, speed, load, wheels, direction, share"),
+    (
+        "vehicles",
+        "preset, name, speed, load, wheels, lateral_offset, direction, share",
+    ),
     ("traffic", "passes, years, per_day, order, seed, sequence"),
     ("heat", "expansion, daily_swing, offset, profile"),
     (

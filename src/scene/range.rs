@@ -74,6 +74,7 @@ pub const THICKNESSES: Range = range(1e-6, 1e4, "greater than 0, from 1 um to 10
 pub const DUCT_LENGTH: Quantity = length(DUCT_LENGTHS, "\"30 m\"");
 pub const DEPTH: Quantity = length(DEPTHS, "\"1.2 m\"");
 pub const LATERAL_OFFSET: Quantity = length(OFFSETS, "\"0.5 m\"");
+pub const LANE: Quantity = length(OFFSETS, "\"3.5 m\"");
 pub const SLOPE: Quantity = quantity(Dimension::Slope, SLOPES, "\"3 %\", \"1.7 deg\" or 0.03");
 pub const INNER_DIAMETER: Quantity = length(DIAMETERS, "\"200 mm\"");
 pub const DIAMETER: Quantity = length(DIAMETERS, "\"67 mm\"");

@@ -5,8 +5,8 @@ use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 use super::data::{DAYS_PER_YEAR, Order, PeakScaling, Traffic, TrafficVehicle};
 use super::error::SceneError;
 use super::range::{
-    CONTACT_RADIUS, LOAD, PASSES, PER_DAY, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y, YEARS, allowed_whole,
-    shown,
+    CONTACT_RADIUS, LANE, LOAD, PASSES, PER_DAY, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y, YEARS,
+    allowed_whole, shown,
 };
 use super::table::Table;
 use super::value::Value;
@@ -38,7 +38,12 @@ pub fn traffic(
             ));
         }
         let share = table.optional_quantity("share", SHARE)?.unwrap_or(1.0);
-        vehicles.push(TrafficVehicle { vehicle, share });
+        let lateral_offset = table.optional_quantity("lateral_offset", LANE)?;
+        vehicles.push(TrafficVehicle {
+            vehicle,
+            share,
+            lateral_offset: lateral_offset.unwrap_or(0.0),
+        });
     }
     let table = root.table("traffic")?;
     let per_day = table.optional_quantity("per_day", PER_DAY)?;

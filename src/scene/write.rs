@@ -162,11 +162,15 @@ impl Text {
         }
     }
 
-    fn vehicle(&mut self, TrafficVehicle { vehicle, .. }: &TrafficVehicle) {
+    fn vehicle(&mut self, traffic: &TrafficVehicle) {
+        let vehicle = &traffic.vehicle;
         self.section("[[vehicles]]");
         self.word("name", vehicle.name());
         self.quantity("speed", vehicle.speed(), "m/s");
         self.word("direction", &vehicle.direction().to_string());
+        if traffic.lateral_offset != 0.0 {
+            self.quantity("lateral_offset", traffic.lateral_offset, "m");
+        }
         match vehicle.wheels() {
             [Wheel { x, y, load }] if (*x, *y, load.contact_radius()) == (0.0, 0.0, 0.0) => {
                 self.quantity("load", load.force(), "N");

@@ -68,6 +68,7 @@ wheels = [
   { x = "0 m", y = "0.9 m", load = "5 kN", contact_radius = "0.15 m" },
   { x = "-2.5 m", y = "-0.9 m", load = "7 kN" },
 ]
+lateral_offset = "3.5 m"
 direction = "reverse"
 [traffic]
 passes = 60
