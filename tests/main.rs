@@ -29,6 +29,8 @@ mod occurrence;
 mod paper;
 #[path = "planner/main.rs"]
 mod planner;
+#[path = "reading_shapes.rs"]
+mod reading_shapes;
 #[path = "readings.rs"]
 mod readings;
 #[path = "report.rs"]

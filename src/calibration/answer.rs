@@ -10,6 +10,7 @@ use super::result::{
 };
 use super::unknown::Unknown;
 use crate::Error;
+use crate::readings::Measured;
 
 pub fn answer(problem: &Problem<'_>, found: &Final) -> Result<Calibrated, Error> {
     let fit = &found.fit;
@@ -60,9 +61,8 @@ fn warnings(problem: &Problem<'_>, fit: &Fit, error: &ModelErrorEstimate) -> Vec
             ));
         }
     }
-    let skipped: usize = problem.series.iter().map(|one| one.readings.skipped()).sum();
-    if skipped > 0 {
-        warnings.push(format!("{skipped} rows without a force were left out"));
+    for one in problem.series {
+        warnings.extend(one.readings.notes().iter().cloned());
     }
     warnings
 }
@@ -88,7 +88,11 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
     let fit = &found.fit;
     Ok(FitMethod {
         cable: problem.models[0].method().name().into(),
-        load_cell: problem.models.iter().map(|model| model.end.name()).collect(),
+        load_cell: problem
+            .models
+            .iter()
+            .map(|model| model.observed[0].1.place())
+            .collect(),
         node_spacing_m: meshes.iter().map(cable_dem::Mesh::spacing).collect(),
         vehicle_step_m: meshes.iter().map(cable_dem::Mesh::vehicle_step).collect(),
         loss: match problem.options.loss {
@@ -109,20 +113,31 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
 }
 
 fn readings(problem: &Problem<'_>, fit: &Fit) -> Vec<FittedReading> {
-    let series = problem.series.iter().enumerate();
-    let readings = series.flat_map(|(index, one)| {
-        let list = one.readings.readings().iter();
-        list.map(move |reading| (index, reading))
+    let series = problem.series.iter().zip(problem.models).enumerate();
+    let readings = series.flat_map(|(index, (one, model))| {
+        let list = one.readings.readings().iter().zip(&model.observed);
+        list.map(move |(reading, (_, observed))| (index, one.readings, reading, observed))
     });
     readings
         .enumerate()
-        .map(|(row, (index, reading))| FittedReading {
-            series: index + 1,
-            pass: reading.pass,
-            force_n: reading.force,
-            fitted_n: fit.fitted[row],
-            residual_n: fit.residuals[row],
-            weight: fit.weights[row],
+        .map(|(row, (index, readings, reading, observed))| {
+            let force = |value: f64| matches!(reading.measured, Measured::Force(_)).then_some(value);
+            FittedReading {
+                series: index + 1,
+                pass: reading.pass,
+                force_n: force(reading.value),
+                fitted_n: force(fit.fitted[row]),
+                residual_n: force(fit.residuals[row]),
+                weight: fit.weights[row],
+                run: readings.runs()[reading.run].clone(),
+                line: reading.line,
+                measured: reading.measured.name(),
+                at: observed.place(),
+                value: reading.value,
+                fitted: fit.fitted[row],
+                residual: fit.residuals[row],
+                unit: reading.measured.unit(),
+            }
         })
         .collect()
 }

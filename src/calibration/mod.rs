@@ -9,7 +9,8 @@
 //!
 //! *Runs.* An emulator learns the forces on each mesh, from what it knows of the coarser one and few runs (`calibrate::Emulator`).
 //!
-//! *Load cell.* At the downstream end if that is held, else at the upstream end; the force after the vehicle has left.
+//! *Readings.* Forces on load cells after the vehicle has left: at the downstream end if that is held, else at the upstream end, or where
+//! the readings say; movements of an end, forces and strains along the cable, the duct's deflection. Before the first pass all are zero.
 //!
 //! *Assumptions.* The cable was at rest before the first pass, and the noise of the readings is independent. What
 //! the model leaves out (the spread of wheels, heat, bends) is not in the intervals.
@@ -28,7 +29,7 @@ use ::calibrate::Options;
 
 pub use ::calibrate::{BootstrapOptions, CalibrationError, Loss};
 #[cfg(feature = "plot")]
-pub(crate) use cell::CellEnd;
+pub(crate) use cell::{CellEnd, force_ends};
 pub use options::{CalibrateOptions, Deflection, Series};
 pub use result::{
     BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,

@@ -57,7 +57,7 @@ impl Problem<'_> {
             .map(|unknown| unknown.parameter(self.prior(*unknown)))
             .collect::<Result<Vec<_>, _>>()?;
         let readings = || self.series.iter().map(|series| series.readings);
-        let forces = readings().flat_map(Readings::forces).collect();
+        let forces = readings().flat_map(Readings::values).collect();
         let sigmas: Option<Vec<Vec<f64>>> = readings().map(Readings::sigmas).collect();
         let mut calibration = Calibration::new(model, parameters, forces)?;
         if let Some(sigmas) = sigmas {

@@ -52,7 +52,9 @@ fn over_passes(report: &Report) -> Chart {
     let run = &report.run;
     let readings = report.agreement.as_ref().map_or(&[][..], |a| &a.readings);
     let computed = run.passes.iter().map(|record| record.pass);
-    let last = computed.chain(readings.iter().map(|reading| reading.pass)).max();
+    let last = computed
+        .chain(readings.iter().map(|reading| reading.passes))
+        .max();
     let axes = (passes_axis(last.unwrap_or(1)), Axis::linear("force, N"));
     let mut chart = Chart::new("Force against passes", axes.0, axes.1);
     let line = |name: &str, look, value: fn(&PassRecord) -> f64| {
@@ -78,11 +80,11 @@ fn over_passes(report: &Report) -> Chart {
     let shown = || readings.iter().step_by(readings.len().div_ceil(READINGS));
     for reading in shown() {
         if let Some(sigma) = reading.sigma {
-            let bar = [-sigma, sigma].map(|sigma| (reading.pass as f64, reading.force + sigma));
+            let bar = [-sigma, sigma].map(|sigma| (reading.passes as f64, reading.value + sigma));
             chart = chart.with(Series::line("", bar).colour(1).solid());
         }
     }
-    let points = shown().map(|reading| (reading.pass as f64, reading.force));
+    let points = shown().map(|reading| (reading.passes as f64, reading.value));
     chart.with(Series::points("measured", points).look(1).marker(0))
 }
 
