@@ -330,7 +330,11 @@ fn what_cannot_be_read_is_refused_with_its_cause() {
         (
             "pass;force_n\n1;94,1\n2;135.8\n",
             "",
-            &["cell.csv:3", "135.8", "a decimal point where other numbers have a comma"],
+            &[
+                "cell.csv:3",
+                "135.8",
+                "a decimal point where other numbers have a comma",
+            ],
         ),
         (
             "pass;force_n\n1;1,113\n2;2,450\n",

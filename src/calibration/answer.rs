@@ -8,20 +8,18 @@ use super::problem::Problem;
 use super::result::{
     BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
 };
-use super::unknown::Unknown;
 use crate::Error;
 use crate::readings::Measured;
 
 pub fn answer(problem: &Problem<'_>, found: &Final) -> Result<Calibrated, Error> {
     let fit = &found.fit;
     let model_error = model_error(found);
-    let parameters = fit.estimates.iter().zip(problem.unknowns);
+    let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
+    let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
     let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());
     Ok(Calibrated {
         titles: problem.series.iter().map(|one| one.scene.title.clone()).collect(),
-        parameters: parameters
-            .map(|(estimate, unknown)| parameter(estimate, *unknown))
-            .collect(),
+        parameters: fit.estimates.iter().zip(units).map(|(estimate, unit)| parameter(estimate, unit)).collect(),
         correlation: fit.correlation.clone(),
         residual_rms_n: fit.residual_rms,
         r_squared: fit.r_squared,
@@ -67,11 +65,11 @@ fn warnings(problem: &Problem<'_>, fit: &Fit, error: &ModelErrorEstimate) -> Vec
     warnings
 }
 
-fn parameter(estimate: &Estimate, unknown: Unknown) -> FittedParameter {
+fn parameter(estimate: &Estimate, unit: &'static str) -> FittedParameter {
     let profile = estimate.profile.iter();
     FittedParameter {
         name: estimate.name.clone(),
-        unit: unknown.quantity.unit(),
+        unit,
         value: estimate.value,
         standard_error: estimate.standard_error,
         interval_95: [estimate.interval.lower, estimate.interval.upper],

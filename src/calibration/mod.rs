@@ -19,9 +19,11 @@ mod answer;
 mod cell;
 mod meshes;
 mod model;
+mod noise;
 mod options;
 mod problem;
 mod result;
+mod terms;
 mod unknown;
 mod watch;
 
@@ -71,11 +73,15 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
         0 => Options::default().max_evaluations,
         limit => limit,
     };
+    let (terms, unknowns): (Vec<Unknown>, Vec<Unknown>) =
+        unknowns.into_iter().partition(|unknown| unknown.quantity.is_of_cell());
+    let terms = terms::terms(series, &models, &terms, options)?;
     let watch = Watch::new(options.progress, limit);
     let problem = Problem {
         series,
         models: &models,
         unknowns: &unknowns,
+        terms: &terms,
         options,
         watch: &watch,
     };

@@ -41,6 +41,7 @@ pub struct Fit {
     pub(crate) jacobian: DMatrix<f64>,
     /// Half the second derivative of the deviance by each prediction.
     pub(crate) curvatures: Vec<f64>,
+    pub(crate) sigmas: Vec<f64>,
     /// Covariance of the free variables.
     pub(crate) covariance: DMatrix<f64>,
 }
