@@ -13,6 +13,8 @@ mod calibration;
 mod cli;
 #[path = "design.rs"]
 mod design;
+#[path = "faulty_cells.rs"]
+mod faulty_cells;
 #[path = "files/main.rs"]
 mod files;
 #[path = "fuzz/main.rs"]

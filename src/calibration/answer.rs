@@ -1,8 +1,11 @@
 //! From the final fit to what the user reads.
 
-use calibrate::{Bootstrap, BootstrapOptions, Estimate, Fit, Loss};
+use calibrate::{Bootstrap, BootstrapOptions, CalibrationError, Estimate, Fit, Loss, Model, Warning};
 
+use super::ground;
+use super::judgement::judge;
 use super::meshes::{Final, MESH_SHIFT};
+use super::mistakes::mistakes;
 use super::model::SeriesModel;
 use super::problem::Problem;
 use super::result::{
@@ -16,15 +19,25 @@ pub fn answer(problem: &Problem<'_>, found: &Final) -> Result<Calibrated, Error>
     let model_error = model_error(found);
     let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
     let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
+    let judgement = judge(problem, fit, mistakes(problem, &predicted_by_scene(problem)?));
+    let suspicious = judgement.lack_of_fit.suspicious;
+    let assumptions = ground::assumption(problem, found)?.into_iter().collect();
     let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());
     Ok(Calibrated {
         titles: problem.series.iter().map(|one| one.scene.title.clone()).collect(),
-        parameters: fit.estimates.iter().zip(units).map(|(estimate, unit)| parameter(estimate, unit)).collect(),
+        parameters: fit
+            .estimates
+            .iter()
+            .zip(units)
+            .map(|(estimate, unit)| parameter(estimate, unit, suspicious))
+            .collect(),
         correlation: fit.correlation.clone(),
         residual_rms_n: fit.residual_rms,
         r_squared: fit.r_squared,
         evaluations: found.evaluations,
-        warnings: warnings(problem, fit, &model_error),
+        warnings: warnings(problem, fit, &model_error, judgement.warnings),
+        lack_of_fit: judgement.lack_of_fit,
+        assumptions,
         // Where readings have their own sigmas, there is no single noise.
         noise_n: (!own_sigmas).then_some(fit.noise),
         degrees_of_freedom: fit.degrees_of_freedom,
@@ -49,8 +62,26 @@ fn model_error(found: &Final) -> ModelErrorEstimate {
     }
 }
 
-fn warnings(problem: &Problem<'_>, fit: &Fit, error: &ModelErrorEstimate) -> Vec<String> {
-    let mut warnings: Vec<String> = fit.warnings.iter().map(ToString::to_string).collect();
+/// What the scenes' own values predict, on the coarsest mesh.
+fn predicted_by_scene(problem: &Problem<'_>) -> Result<Vec<f64>, Error> {
+    let values = problem.scene_values();
+    let predicted = problem.model(0, None).predict(problem.of_model(&values));
+    Ok(predicted.map_err(|source| CalibrationError::NoFeasibleStart { starts: 1, source })?)
+}
+
+fn warnings(
+    problem: &Problem<'_>,
+    fit: &Fit,
+    error: &ModelErrorEstimate,
+    judged: Vec<String>,
+) -> Vec<String> {
+    let mut warnings = judged;
+    // Outliers are told by pass and line.
+    let own = fit
+        .warnings
+        .iter()
+        .filter(|warning| !matches!(warning, Warning::Outliers { .. }));
+    warnings.extend(own.map(ToString::to_string));
     for (estimate, error) in fit.estimates.iter().zip(&error.standard_errors) {
         if *error > MESH_SHIFT {
             warnings.push(format!(
@@ -65,7 +96,7 @@ fn warnings(problem: &Problem<'_>, fit: &Fit, error: &ModelErrorEstimate) -> Vec
     warnings
 }
 
-fn parameter(estimate: &Estimate, unit: &'static str) -> FittedParameter {
+fn parameter(estimate: &Estimate, unit: &'static str, suspicious: bool) -> FittedParameter {
     let profile = estimate.profile.iter();
     FittedParameter {
         name: estimate.name.clone(),
@@ -73,7 +104,7 @@ fn parameter(estimate: &Estimate, unit: &'static str) -> FittedParameter {
         value: estimate.value,
         standard_error: estimate.standard_error,
         interval_95: [estimate.interval.lower, estimate.interval.upper],
-        identifiable: estimate.identifiable,
+        identifiable: estimate.identifiable && !suspicious,
         profile: profile
             .map(|&(value, rise)| ProfilePoint { value, rise })
             .collect(),

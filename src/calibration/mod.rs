@@ -17,7 +17,10 @@
 
 mod answer;
 mod cell;
+mod ground;
+mod judgement;
 mod meshes;
+mod mistakes;
 mod model;
 mod noise;
 mod options;
@@ -32,6 +35,7 @@ use ::calibrate::Options;
 pub use ::calibrate::{BootstrapOptions, CalibrationError, Loss};
 #[cfg(feature = "plot")]
 pub(crate) use cell::{CellEnd, force_ends};
+pub use judgement::LackOfFit;
 pub use options::{CalibrateOptions, Deflection, Series};
 pub use result::{
     BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
@@ -73,8 +77,9 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
         0 => Options::default().max_evaluations,
         limit => limit,
     };
-    let (terms, unknowns): (Vec<Unknown>, Vec<Unknown>) =
-        unknowns.into_iter().partition(|unknown| unknown.quantity.is_of_cell());
+    let (terms, unknowns): (Vec<Unknown>, Vec<Unknown>) = unknowns
+        .into_iter()
+        .partition(|unknown| unknown.quantity.is_of_cell());
     let terms = terms::terms(series, &models, &terms, options)?;
     let watch = Watch::new(options.progress, limit);
     let problem = Problem {
@@ -85,9 +90,9 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
         options,
         watch: &watch,
     };
-    let found = meshes::fit(&problem, limit);
+    let found = meshes::fit(&problem, limit).and_then(|found| answer::answer(&problem, &found));
     if watch.is_stopped() {
         return Err(Error::Stopped);
     }
-    answer::answer(&problem, &found?)
+    found
 }

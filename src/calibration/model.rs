@@ -187,6 +187,8 @@ pub struct CableModel<'a> {
     pub series: &'a [SeriesModel],
     pub unknowns: &'a [Unknown],
     pub level: u32,
+    /// Stiffness of the ground beside the scene's, where it is not fitted.
+    pub stiffness: f64,
     /// Added to what this level predicts: the difference to the next one, near the optimum.
     pub correction: Option<Vec<f64>>,
     pub watch: &'a Watch<'a>,
@@ -200,7 +202,7 @@ impl Model for CableModel<'_> {
             .enumerate()
             .map(|(index, series)| {
                 let mut scene = series.scene.clone();
-                let mut stiffness = 1.0;
+                let mut stiffness = self.stiffness;
                 for (unknown, &value) in self.unknowns.iter().zip(parameters) {
                     if unknown.acts_on(index) {
                         unknown.quantity.set(&mut scene, value);

@@ -3,8 +3,8 @@
 use calibrate::{Calibration, Options, Prior, Profiles};
 
 use super::model::{CableModel, SeriesModel};
-use super::options::{CalibrateOptions, Series};
 use super::noise;
+use super::options::{CalibrateOptions, Series};
 use super::terms::Term;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
@@ -44,6 +44,7 @@ impl Problem<'_> {
             series: self.models,
             unknowns: self.unknowns,
             level,
+            stiffness: 1.0,
             correction,
             watch: self.watch,
         }
@@ -170,7 +171,9 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
     }
     if let [only] = series {
         // What has a prior needs no reading.
-        let has_prior = |unknown: &&Unknown| unknown.quantity.is_of_cell() || (options.deflection.is_some() && **unknown == ground);
+        let has_prior = |unknown: &&Unknown| {
+            unknown.quantity.is_of_cell() || (options.deflection.is_some() && **unknown == ground)
+        };
         let free = unknowns.len() - unknowns.iter().filter(has_prior).count();
         let needed = match only.readings.sigmas() {
             Some(_) => free.max(1),

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::judgement::LackOfFit;
+
 /// A calibrated scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Calibrated {
@@ -19,6 +21,10 @@ pub struct Calibrated {
     pub evaluations: usize,
     /// What the user should know before trusting the answer.
     pub warnings: Vec<String>,
+    /// Whether the residuals are noise.
+    pub lack_of_fit: LackOfFit,
+    /// What the answer takes from the scene that these readings do not show, and what an error of it would do.
+    pub assumptions: Vec<String>,
     /// Standard deviation of the noise \[N\] as estimated; null where every reading has its own.
     pub noise_n: Option<f64>,
     /// Readings less the parameters that they determine.
@@ -46,7 +52,7 @@ pub struct FittedParameter {
     pub standard_error: Option<f64>,
     /// Interval that holds the true value in 95 % of all cases; null is an end that the readings do not close.
     pub interval_95: [Option<f64>; 2],
-    /// Whether the interval is closed on both sides.
+    /// Whether the interval is closed on both sides, and the fit not suspicious.
     pub identifiable: bool,
     /// Likelihood along the parameter.
     pub profile: Vec<ProfilePoint>,

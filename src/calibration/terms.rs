@@ -65,7 +65,11 @@ pub fn cells(series: &[Series<'_>], models: &[SeriesModel]) -> Vec<Cell> {
         }
     }
     for k in 0..cells.len() {
-        cells[k].shares = cells.iter().filter(|other| other.series == cells[k].series).count() > 1;
+        cells[k].shares = cells
+            .iter()
+            .filter(|other| other.series == cells[k].series)
+            .count()
+            > 1;
     }
     cells
 }
@@ -110,7 +114,8 @@ pub fn terms(
             };
             let sigma = told.unwrap_or(natural);
             let bound = FARTHEST * sigma;
-            let parameter = Parameter::term(&cell.name(unknown.quantity, series.len()), -bound, bound, column)?;
+            let parameter =
+                Parameter::term(&cell.name(unknown.quantity, series.len()), -bound, bound, column)?;
             terms.push(Term {
                 quantity: unknown.quantity,
                 parameter: parameter.with_prior(Prior { value: 0.0, sigma })?,

@@ -52,6 +52,15 @@ impl Fit {
         self.estimates.iter().map(|estimate| estimate.value).collect()
     }
 
+    /// Residuals in units of their sigmas.
+    pub fn standardised_residuals(&self) -> Vec<f64> {
+        self.residuals
+            .iter()
+            .zip(&self.sigmas)
+            .map(|(residual, sigma)| residual / sigma)
+            .collect()
+    }
+
     /// By how many standard errors each estimate would move, to first order, if the model predicted `change` more, in the
     /// observations' unit: what an error of the model does to the parameters. 0 for what has no standard error.
     pub fn shift(&self, change: &[f64]) -> Vec<f64> {

@@ -15,6 +15,9 @@ use crate::Fit;
 /// Share of a column that the parameters must leave: with less the term is one of them by another name.
 const LEFT: f64 = 1e-9;
 
+/// Fewest residuals that are judged.
+const FEWEST: f64 = 3.0;
+
 /// What terms more in the model would say of the residuals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TermTest {
@@ -96,9 +99,38 @@ pub fn probability_of_signs(series: &[Vec<f64>]) -> f64 {
     Binomial::new(0.5, chances).map_or(1.0, |binomial| binomial.cdf(changes))
 }
 
+/// Probability that noise like that between neighbours makes residuals so large, of which `used` are determined by parameters: a ratio of
+/// variances, one from all residuals and one from how far each lies off the line between its neighbours, which a curve hardly moves (J. von Neumann,
+/// "Distribution of the ratio of the mean square successive difference to the variance", 1941). `None` of too few.
+pub fn probability_of_size(series: &[Vec<f64>], used: f64) -> Option<f64> {
+    let all = series.iter().flatten();
+    let (count, square) = all.fold((0.0, 0.0), |(count, square), r| (count + 1.0, square + r * r));
+    let off = |three: &[f64]| (three[1] - 0.5 * (three[0] + three[2])).powi(2) / 1.5;
+    let local = series.iter().flat_map(|residuals| residuals.windows(3)).map(off);
+    let (pieces, rough) = local.fold((0.0, 0.0), |(count, sum), off| (count + 1.0, sum + off));
+    // Neighbouring pieces share readings: they count as half as many.
+    let (freedom, half) = (count - used, 0.5 * pieces);
+    if rough <= 0.0 || freedom < FEWEST || half < FEWEST {
+        return None;
+    }
+    let ratio = square / freedom / (rough / pieces);
+    Some(1.0 - FisherSnedecor::new(freedom, half).ok()?.cdf(ratio))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::probability_of_signs;
+    use super::{probability_of_signs, probability_of_size};
+
+    #[test]
+    fn a_curve_is_larger_than_its_neighbours_differ() {
+        let curve: Vec<f64> = (0..40)
+            .map(|k| f64::from(k) * 0.1 + if k % 2 == 0 { 0.2 } else { -0.2 })
+            .collect();
+        assert!(probability_of_size(&[curve], 2.0).unwrap() < 1e-6);
+        let noise: Vec<f64> = (0..40).map(|k| f64::from(k * 7 % 11) - 5.0).collect();
+        assert!(probability_of_size(&[noise], 2.0).unwrap() > 0.3);
+        assert_eq!(probability_of_size(&[vec![1.0, 2.0]], 0.0), None);
+    }
 
     #[test]
     fn signs_count_as_coins_do() {
