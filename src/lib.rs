@@ -104,7 +104,7 @@ pub use ground::profile::{Profile, profile, profile_at};
 pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
 pub use progress::Progress;
 #[cfg(feature = "calibrate")]
-pub use readings::{DataError, Reading, Readings};
+pub use readings::{DataError, ReadOptions, Reading, Readings};
 pub use run::{Forecast, RunOptions, check, forecast, run, run_plan, run_with};
 pub use scene::{Scene, SceneError, SceneFile};
 

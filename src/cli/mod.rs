@@ -11,6 +11,7 @@ mod plan;
 mod presets;
 mod profile;
 mod progress;
+mod readings;
 #[cfg(feature = "plot")]
 mod report;
 mod run;

@@ -52,7 +52,9 @@ fn over_passes(report: &Report) -> Chart {
     let run = &report.run;
     let readings = report.agreement.as_ref().map_or(&[][..], |a| &a.readings);
     let computed = run.passes.iter().map(|record| record.pass);
-    let last = computed.chain(readings.iter().map(|reading| reading.pass)).max();
+    let last = computed
+        .chain(readings.iter().map(|reading| reading.passes))
+        .max();
     let along = Passes::new(&report.scene.traffic, last.unwrap_or(1));
     let mut chart = Chart::new(along.title("Force"), along.axis(), Axis::linear("force, N"));
     let line = |name: &str, look, value: fn(&PassRecord) -> f64| {
@@ -78,11 +80,11 @@ fn over_passes(report: &Report) -> Chart {
     let shown = || readings.iter().step_by(readings.len().div_ceil(READINGS));
     for reading in shown() {
         if let Some(sigma) = reading.sigma {
-            let bar = [-sigma, sigma].map(|sigma| (along.place(reading.pass), reading.force + sigma));
+            let bar = [-sigma, sigma].map(|sigma| (along.place(reading.passes), reading.value + sigma));
             chart = chart.with(Series::line("", bar).colour(1).solid());
         }
     }
-    let points = shown().map(|reading| (along.place(reading.pass), reading.force));
+    let points = shown().map(|reading| (along.place(reading.passes), reading.value));
     chart.with(Series::points("measured", points).look(1).marker(0))
 }
 
