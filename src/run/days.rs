@@ -4,17 +4,19 @@
 //! passes are not for it, and crate `cycle-jump` lives its days otherwise ([`cycle_jump::days`]). The number of real periods a day is
 //! doubled on a coarse mesh until twice as many change little; then meshes are refined as for every run.
 
-use cable_dem::{CableError, CableState, Mesh, QuasiStatic, Statistics};
+use cable_dem::{CableError, CableState, Statistics};
 use cycle_jump::Next;
-use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, LockedLaw, live};
+use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, live};
 
+use super::locked_law::locked_law;
+use super::outlook::Work;
 use super::passes::{Passes, Simulation, Task, force_profile};
 use super::refine::{MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both, judge, mesh_reason};
 use crate::answer::error_estimate::{ErrorParts, Scale, Shares, VERIFIED};
 use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed, simulated};
 use crate::cable::{cable, traffic};
-use crate::ground::{peak, road};
-use crate::plan::{PassMethod, Period, Plan};
+use crate::ground::peak;
+use crate::plan::{PassMethod, Plan};
 use crate::scene::{Heat, Scene, Warming};
 use crate::{Error, Progress};
 
@@ -29,8 +31,6 @@ const SHARE: f64 = 0.5;
 const FROZEN_SHARE: f64 = 0.5;
 /// Up to so many passes a day all are simulated on a day with real ones.
 const FEW: u64 = 100;
-/// Length of the cable on which the law of advance is measured \[depths\].
-const LAW_LENGTH: f64 = 24.0;
 /// Typical errors of the forces on the levels of a mesh, below which none is stated, and what is left of the difference to the level
 /// below: measured on nine scenes up to level 3. From level 2 on, 12 nodes a depth, differences fall by a factor of 4 to 14.
 const TYPICAL: [f64; 4] = [5e-2, 1.2e-2, 1.5e-3, 4e-4];
@@ -69,6 +69,31 @@ pub fn solve(
         every_pass: matches!(method, PassMethod::EveryPass(_)),
     };
     living.solve(verify, warnings)
+}
+
+/// Work that a run of `plan` is expected to take, and the level that it ends on: one run on a coarse mesh tells.
+pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<(Work, usize), Error> {
+    let living = Living {
+        plan,
+        heat,
+        progress: Progress::default(),
+        every_pass: false,
+    };
+    let level = living.first_level();
+    let (coarse, lived) = living.coarse(level, FIRST_KNOTS)?;
+    let periods = lived.passes.simulated as f64;
+    let nodes = plan.levels.mesh(coarse)?.nodes();
+    let work = Work::new(&lived.passes.statistics, nodes, periods);
+    // That level and the one below; before them, with as many real periods a day and with twice as many, the coarse one.
+    let meshes = |work: Work| match (level - coarse).checked_sub(1) {
+        Some(below) => work.refined(below) + work.refined(below + 1),
+        None => work.refined(level - coarse),
+    };
+    let all = match method {
+        PassMethod::EveryPass(_) => meshes(work.times(plan.scene.traffic.passes as f64 / periods)),
+        PassMethod::Jumps(_) => meshes(work) + work.times(3.0),
+    };
+    Ok((all, level))
 }
 
 impl Living<'_> {
@@ -158,6 +183,16 @@ impl Living<'_> {
         }
     }
 
+    /// The same on a level that is coarse beside `level`, where there is one, and that level.
+    fn coarse(&self, level: usize, knots: u64) -> Result<(usize, Lived), Error> {
+        for coarser in level.saturating_sub(COARSER)..level {
+            if let Some(lived) = self.on_coarse(coarser, knots)? {
+                return Ok((coarser, lived));
+            }
+        }
+        Ok((level, self.live(level, knots, false)?))
+    }
+
     /// Real periods a day that are enough for `level`, found on a coarser one, and what they leave wrong.
     fn knots(&self, level: usize, statistics: &mut Statistics) -> Result<(u64, Shares), Error> {
         let all = self.day(u64::MAX).periods();
@@ -166,16 +201,7 @@ impl Living<'_> {
         }
         let allowed = Shares::both(SHARE * self.plan.scene.solver.tolerance);
         let mut knots = FIRST_KNOTS;
-        let mut fewer = None;
-        let mut level = level;
-        for coarser in level.saturating_sub(COARSER)..level {
-            fewer = self.on_coarse(coarser, knots)?;
-            if fewer.is_some() {
-                level = coarser;
-                break;
-            }
-        }
-        let mut fewer = fewer.map_or_else(|| self.live(level, knots, false), Ok)?;
+        let (level, mut fewer) = self.coarse(level, knots)?;
         *statistics += fewer.passes.statistics;
         loop {
             let more = self.live(level, 2 * knots, false)?;
@@ -245,7 +271,7 @@ impl Living<'_> {
         };
         let mut simulation = Simulation::new(&task)?;
         let day = self.day(knots);
-        let law = law(&task, period, day.period)?;
+        let law = locked_law(&task, period, day.period)?;
         let count = scene.traffic.passes;
         let scale = Scale::new(scene.friction_limit(), peak(&ground.motions));
         let days = count.div_ceil(day.passes);
@@ -371,43 +397,4 @@ fn a_day(scene: &Scene) -> u64 {
         .traffic
         .per_day
         .map_or(1, |per_day| per_day.round().max(1.0) as u64)
-}
-
-/// The advance of a cable per `period` of passes against locked friction, measured on a short piece of it with the same mesh.
-fn law(task: &Task<'_>, traffic: &Period, period: usize) -> Result<LockedLaw, Error> {
-    let Task {
-        scene, motions, mesh, ..
-    } = task;
-    let limit = scene.friction_limit();
-    let spacing = mesh.spacing();
-    let elements = (LAW_LENGTH * scene.duct.depth / spacing).ceil();
-    let length = elements * spacing;
-    let mesh = Mesh::new(length, spacing, mesh.vehicle_step())?;
-    let whole = cable(scene)?;
-    let short = |body_force: f64| {
-        cable_dem::DuctedCable::new(length, whole.axial_stiffness(), whole.friction())
-            .and_then(|cable| cable.with_body_force(body_force))
-    };
-    let approach = road::needed(scene, motions)?;
-    let solver = QuasiStatic::new(short(0.0)?, mesh)?;
-    let passages = motions
-        .iter()
-        .map(|motion| solver.passage(motion, approach))
-        .collect::<Result<Vec<_>, _>>()?;
-    let (nodes, middle) = (mesh.nodes(), mesh.nodes() / 2);
-    let mut advances = Vec::with_capacity(LockedLaw::SHARES.len());
-    for share in LockedLaw::SHARES {
-        let mut solver = QuasiStatic::new(short(-share * limit)?, mesh)?;
-        let mut state = CableState::from_parts(&mesh, vec![0.0; nodes], vec![share * limit; nodes])?;
-        let mut before = 0.0;
-        for _ in 0..2 {
-            before = state.displacement()[middle];
-            for &vehicle in &traffic.vehicles {
-                solver.pass(&passages[vehicle], &mut state)?;
-            }
-        }
-        let moved = state.displacement()[middle] - before;
-        advances.push(moved * period as f64 / traffic.len() as f64);
-    }
-    Ok(LockedLaw::new(&advances, limit))
 }

@@ -10,6 +10,7 @@ use std::cell::Cell;
 
 use cable_dem::CableError;
 
+use super::days;
 use super::jumps::{self, Found};
 use super::outlook::{Known, Level, Outlook, Work};
 use super::passes::{Jumping, Passes, Task};
@@ -65,6 +66,15 @@ pub struct Forecast {
 /// ```
 pub fn forecast(plan: &Plan<'_>) -> Result<Forecast, Error> {
     let method = plan.choice.method;
+    let told = |work: Work, level| Forecast {
+        seconds: START + plan.took.as_secs_f64() + work.seconds(method.cable_method()),
+        node_updates: work.0[0],
+        node_spacing_m: plan.levels.spacing(level).0,
+    };
+    if let Some(heat) = plan.scene.warming() {
+        let (work, level) = days::outlook(plan, heat, method)?;
+        return Ok(told(work, level));
+    }
     let outlook = match Probe::new(plan, method).outlook() {
         // The run simulates every pass then.
         Err(Error::Jumps(_)) if plan.choice.may_simulate && matches!(method, PassMethod::Jumps(_)) => {
@@ -73,11 +83,7 @@ pub fn forecast(plan: &Plan<'_>) -> Result<Forecast, Error> {
         }
         outlook => outlook?,
     };
-    Ok(Forecast {
-        seconds: START + plan.took.as_secs_f64() + outlook.work.seconds(method.cable_method()),
-        node_updates: outlook.work.0[0],
-        node_spacing_m: plan.levels.spacing(outlook.level).0,
-    })
+    Ok(told(outlook.work, outlook.level))
 }
 
 /// A run on coarse meshes.

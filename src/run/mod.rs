@@ -5,6 +5,7 @@ mod days;
 mod forecast;
 mod jumps;
 mod listing;
+mod locked_law;
 mod outlook;
 pub mod passes;
 mod random;

@@ -27,10 +27,10 @@ struct Scene {
     /// Times and shares of the swing, for a profile.
     profile: &'static [(f64, f64)],
     friction: f64,
+    law: FrictionLaw,
     days: u64,
+    knots: u64,
 }
-
-const SPRING: fn(f64) -> End = End::Spring;
 
 impl Default for Scene {
     fn default() -> Self {
@@ -45,7 +45,10 @@ impl Default for Scene {
             kelvin: 20.0,
             profile: &[],
             friction: 0.25,
+            // The shape factor is that of the sheath.
+            law: FrictionLaw::ElasticPlastic { shape_factor: 0.0 },
             days: 3,
+            knots: 24,
         }
     }
 }
@@ -54,8 +57,11 @@ impl Scene {
     fn live(&self, knots: u64, every_day: bool) -> Outcome<Days> {
         let angle = self.slope.atan();
         let limit = self.friction * WEIGHT * angle.cos();
-        let law = FrictionLaw::ElasticPlastic {
-            shape_factor: 2e8 / limit,
+        let law = match self.law {
+            FrictionLaw::ElasticPlastic { .. } => FrictionLaw::ElasticPlastic {
+                shape_factor: 2e8 / limit,
+            },
+            law => law,
         };
         let friction = Friction::new(law, limit)?;
         let clamps = self
@@ -153,268 +159,177 @@ fn measured_law(motions: &[DuctMotion], friction: Friction) -> Outcome<LockedLaw
         }
         advances.push(state.displacement()[nodes / 2] - before);
     }
-    println!("{advances:.2?}");
     Ok(LockedLaw::new(&advances, q))
 }
 
-/// Largest error of a force and a movement on any day, and where.
-fn error(right: &[DayRecord], found: &[DayRecord]) -> (f64, f64, u64) {
-    right
-        .iter()
-        .zip(found)
-        .fold((0.0, 0.0, 0), |worst: (f64, f64, u64), (right, found)| {
-            assert_eq!(right.day, found.day);
-            let (force, movement) = right.extremes.difference(&found.extremes, (1.0, 1e-6));
-            (
-                worst.0.max(force),
-                worst.1.max(movement),
-                if force > worst.0 { right.day } else { worst.2 },
-            )
-        })
+/// Largest error of a force, as a share of the largest that day, and of a movement, as a share of its range, on any day.
+fn error(right: &[DayRecord], found: &[DayRecord]) -> (f64, f64) {
+    assert_eq!(right.len(), found.len());
+    let days = right.iter().zip(found);
+    days.fold((0.0, 0.0), |worst: (f64, f64), (right, found)| {
+        assert_eq!(right.day, found.day);
+        let (force, movement) = right.extremes.difference(&found.extremes, (1.0, 1e-6));
+        (worst.0.max(force), worst.1.max(movement))
+    })
 }
 
-#[test]
-#[ignore = "explores"]
-fn explore() -> Outcome {
+const FREE: (End, End) = (End::Free, End::Free);
+const SHARP: &[(f64, f64)] = &[(0.0, 0.0), (0.25, 1.0)];
+
+/// Short and long, free and held, one way and two, near shakedown, with sharp corners of the temperature.
+fn scenes() -> Vec<Scene> {
     use Direction::{Forward, Reverse};
-    let sharp: &'static [(f64, f64)] = &[(0.0, 0.0), (0.25, 1.0)];
-    let scenes = [
-        Scene {
-            name: "L300",
-            length: 300.0,
-            per_day: 800,
-            days: 6,
+    let of = |name, change: fn(&mut Scene)| {
+        let mut scene = Scene {
+            name,
             ..Scene::default()
-        },
-        Scene {
-            name: "L300 sp",
-            length: 300.0,
-            per_day: 800,
-            days: 4,
-            kelvin: 40.0,
-            slope: 0.03,
-            ends: (SPRING(1e6), SPRING(1e5)),
-            ..Scene::default()
-        },
-        Scene {
-            name: "A30 6",
-            length: 30.0,
-            per_day: 800,
-            days: 20,
-            ends: (End::Free, End::Free),
-            slope: 0.03,
-            ..Scene::default()
-        },
-        Scene {
-            name: "S60",
-            ..Scene::default()
-        },
-        Scene {
-            name: "S60ff",
-            ends: (End::Free, End::Free),
-            slope: 0.03,
-            ..Scene::default()
-        },
-        Scene {
-            name: "A30",
-            length: 30.0,
-            per_day: 800,
-            ..Scene::default()
-        },
-        Scene {
-            name: "A30ff",
-            length: 30.0,
-            per_day: 800,
-            ends: (End::Free, End::Free),
-            slope: 0.03,
-            ..Scene::default()
-        },
-        Scene {
-            name: "S60sp",
-            ends: (SPRING(1e6), SPRING(1e5)),
-            ..Scene::default()
-        },
-        Scene {
-            name: "S60tw",
-            traffic: &[(20.0, Forward), (12.0, Reverse)],
-            clamps: &[(45.0, 1e6)],
-            ..Scene::default()
-        },
-        Scene {
-            name: "R192ff",
-            length: 100.0,
-            per_day: 192,
-            ends: (End::Free, End::Free),
-            slope: 0.03,
-            kelvin: 40.0,
-            ..Scene::default()
-        },
-        Scene {
-            name: "S60 sharp",
-            profile: sharp,
-            ..Scene::default()
-        },
-        Scene {
-            name: "A30ff sharp",
-            length: 30.0,
-            per_day: 800,
-            ends: (End::Free, End::Free),
-            slope: 0.03,
-            profile: sharp,
-            ..Scene::default()
-        },
-        Scene {
-            name: "shk",
-            friction: 0.9,
-            traffic: &[(12.0, Forward)],
-            ..Scene::default()
-        },
-    ];
-    for scene in scenes {
-        let begin = std::time::Instant::now();
-        let right = scene.live(scene.per_day, true)?;
-        println!(
-            "{}: {} passes {:.1?}, drift {:.4}",
-            scene.name,
-            right.simulated,
-            begin.elapsed(),
-            1e3 * right.drift
-        );
-        for knots in [24, 48, 96] {
-            let begin = std::time::Instant::now();
-            let found = scene.live(knots, false)?;
-            for (r, f) in right.days.iter().zip(&found.days) {
-                let d = r.extremes.difference(&f.extremes, (1.0, 1e-6));
-                print!(" {:.2}/{:.2}", 100.0 * d.0, 100.0 * d.1);
-            }
-            let (force, movement, day) = error(&right.days, &found.days);
-            let passes =
-                right
-                    .records
-                    .iter()
-                    .zip(&found.records)
-                    .fold((0.0_f64, 0), |worst, (right, found)| {
-                        let apart = (right.outcome.force.downstream - found.outcome.force.downstream).abs();
-                        let apart =
-                            apart.max((right.outcome.force.upstream - found.outcome.force.upstream).abs());
-                        if apart > worst.0 {
-                            (apart, right.pass)
-                        } else {
-                            worst
-                        }
-                    });
-            println!(
-                "  K {knots}: force {:.2} % (day {day}), movement {:.2} %; passes of day 1: {:.2} % at {}; {} passes, {} sweeps, {} corrected, {:.1?}",
-                100.0 * force,
-                100.0 * movement,
-                100.0 * passes.0 / right.extremes.largest_force(),
-                passes.1,
-                found.simulated,
-                found.sweeps,
-                found.corrected,
-                begin.elapsed()
-            );
-            let e = [
-                right.days.last().unwrap().extremes,
-                found.days.last().unwrap().extremes,
-            ];
-            for e in e {
-                println!(
-                    "     {:.1?} {:.1?} C {:.1} T {:.1} {:.3?} {:.3?}",
-                    (e.most.upstream, e.most.downstream),
-                    (e.least.upstream, e.least.downstream),
-                    e.compression,
-                    e.tension,
-                    e.forward.map(|u| 1e3 * u),
-                    e.backward.map(|u| 1e3 * u)
-                );
-            }
-        }
+        };
+        change(&mut scene);
+        scene
+    };
+    vec![
+        of("60 m", |_| {}),
+        of("30 m, 800 a day, free on a slope", |scene| {
+            (scene.length, scene.per_day, scene.ends, scene.slope) = (30.0, 800, FREE, 0.03);
+        }),
+        of("60 m, near shakedown", |scene| {
+            (scene.friction, scene.traffic) = (0.9, &[(12.0, Forward)]);
+        }),
+        of("30 m, sharp corners, free on a slope", |scene| {
+            (scene.length, scene.per_day, scene.ends, scene.slope) = (30.0, 800, FREE, 0.03);
+            (scene.profile, scene.knots) = (SHARP, 48);
+        }),
+        of("60 m, springs", |scene| {
+            scene.ends = (End::Spring(1e6), End::Spring(1e5));
+        }),
+        of("60 m, two ways, a clamp", |scene| {
+            (scene.traffic, scene.clamps) = (&[(20.0, Forward), (12.0, Reverse)], &[(45.0, 1e6)]);
+        }),
+        of("30 m, 800 a day", |scene| {
+            (scene.length, scene.per_day) = (30.0, 800);
+        }),
+        of("60 m, free on a slope", |scene| {
+            (scene.ends, scene.slope) = (FREE, 0.03);
+        }),
+        of("60 m, sharp corners", |scene| scene.profile = SHARP),
+        of("60 m, three vehicles, which do not divide a day", |scene| {
+            scene.traffic = &[(20.0, Forward), (12.0, Reverse), (9.0, Forward)];
+            (scene.per_day, scene.slope, scene.days) = (500, -0.04, 4);
+        }),
+        of("100 m, few vehicles, free on a slope", |scene| {
+            (scene.length, scene.per_day, scene.ends) = (100.0, 192, FREE);
+            (scene.slope, scene.kelvin, scene.knots) = (0.03, 40.0, 48);
+        }),
+        of("300 m, springs, 40 K, on a slope", |scene| {
+            (scene.length, scene.per_day, scene.kelvin) = (300.0, 800, 40.0);
+            (scene.slope, scene.ends) = (0.03, (End::Spring(1e6), End::Spring(1e5)));
+        }),
+        of("300 m", |scene| {
+            (scene.length, scene.per_day, scene.days) = (300.0, 800, 6);
+        }),
+    ]
+}
+
+/// Forces and ends of every day within 1.5 %.
+fn agrees(scene: &Scene) -> Outcome {
+    let right = scene.live(scene.per_day, true)?;
+    assert_eq!(right.simulated, scene.per_day * scene.days);
+    let found = scene.live(scene.knots, false)?;
+    let (force, movement) = error(&right.days, &found.days);
+    println!(
+        "{}: force {:.2} %, movement {:.2} % with {} of {} passes",
+        scene.name,
+        100.0 * force,
+        100.0 * movement,
+        found.simulated,
+        right.simulated
+    );
+    assert!(force < 0.015 && movement < 0.015, "{}", scene.name);
+    // Few passes were simulated, all that were asked for are known, the last one exactly as often as the first.
+    assert!(found.simulated < right.simulated / 3);
+    assert_eq!(found.records.len(), right.records.len());
+    let largest = right.extremes.largest_force();
+    for (right, found) in right.records.iter().zip(&found.records) {
+        assert_eq!(right.pass, found.pass);
+        let apart = (right.outcome.max_compression - found.outcome.max_compression).abs() / largest;
+        assert!(apart < 0.03, "{}: pass {}: {apart}", scene.name, right.pass);
     }
     Ok(())
 }
 
 #[test]
-#[ignore = "explores"]
-fn years() -> Outcome {
-    let scenes = [
-        Scene {
-            name: "L300",
-            length: 300.0,
-            per_day: 800,
-            days: 7305,
-            ..Scene::default()
-        },
-        Scene {
-            name: "L300 up",
-            length: 300.0,
-            per_day: 800,
-            days: 7305,
-            slope: 0.03,
-            ..Scene::default()
-        },
-        Scene {
-            name: "L300ff",
-            length: 300.0,
-            per_day: 800,
-            days: 7305,
-            slope: 0.03,
-            ends: (End::Free, End::Free),
-            ..Scene::default()
-        },
-        Scene {
-            name: "H2c",
-            length: 300.0,
-            per_day: 48,
-            kelvin: 25.0,
-            days: 7305,
-            ..Scene::default()
-        },
-        Scene {
-            name: "A30",
-            length: 30.0,
-            per_day: 800,
-            days: 7305,
-            ..Scene::default()
-        },
-        Scene {
-            name: "A30ff",
-            length: 30.0,
-            per_day: 800,
-            ends: (End::Free, End::Free),
-            slope: 0.03,
-            days: 7305,
-            ..Scene::default()
-        },
-    ];
-    for scene in scenes {
-        for knots in [24, 48] {
-            let begin = std::time::Instant::now();
-            let found = scene.live(knots, false)?;
-            let e = found.extremes;
-            println!(
-                "{} K {knots}: {} passes, {} sweeps, {} corrected, periodic {:?}, drift {:.3} mm, {:.1?}",
-                scene.name,
-                found.simulated,
-                found.sweeps,
-                found.corrected,
-                found.periodic_from,
-                1e3 * found.drift,
-                begin.elapsed()
-            );
-            let d = found.days.last().unwrap().extremes;
-            for e in [e, d] {
-                println!(
-                    "     {:.1?} {:.1?} C {:.1} T {:.1} {:.3?} {:.3?}",
-                    (e.most.upstream, e.most.downstream),
-                    (e.least.upstream, e.least.downstream),
-                    e.compression,
-                    e.tension,
-                    e.forward.map(|u| 1e3 * u),
-                    e.backward.map(|u| 1e3 * u)
-                );
-            }
-        }
+fn days_with_few_real_passes_are_those_of_every_pass() -> Outcome {
+    scenes()[..4].iter().try_for_each(agrees)
+}
+
+#[test]
+#[ignore = "half a minute: twenty thousand passes"]
+fn thirteen_cables_live_their_days_as_those_of_every_pass() -> Outcome {
+    scenes().iter().try_for_each(agrees)
+}
+
+/// Twenty years cost a few days.
+#[test]
+fn days_repeat_in_the_end_but_for_a_drift() -> Outcome {
+    let mut scene = scenes().swap_remove(1);
+    // Every pass of the first four days: they repeat from the second on.
+    scene.days = 4;
+    let right = scene.live(scene.per_day, true)?;
+    let places: Vec<f64> = right
+        .days
+        .iter()
+        .map(|record| record.extremes.forward[0])
+        .collect();
+    scene.days = 7305;
+    let years = scene.live(scene.knots, false)?;
+    let last = years.days[years.days.len() - 1];
+    assert!(years.simulated < 400 && years.periodic_from.is_some_and(|day| day < 40));
+    assert!(
+        (years.drift / (places[3] - places[2]) - 1.0).abs() < 5e-3,
+        "{} m a day",
+        years.drift
+    );
+    // Forces stay those of the fourth day, and the ends are as far as the drift has brought them.
+    let (force, _) = right.days[3].extremes.difference(&last.extremes, (1.0, 1.0));
+    assert!(force < 0.015, "{force}");
+    let expected = places[3] + years.drift * 7301.0;
+    assert!((last.extremes.forward[0] / expected - 1.0).abs() < 1e-3);
+    assert!((years.extremes.forward[0] - last.extremes.forward[0]).abs() < 1e-9);
+    Ok(())
+}
+
+/// Without traffic a cable does what the closed forms say, day after day.
+#[test]
+fn without_traffic_only_heat_moves_the_cable() -> Outcome {
+    let mut scene = Scene {
+        length: 160.0,
+        traffic: &[(0.0, Direction::Forward)],
+        ends: FREE,
+        kelvin: 10.0,
+        days: 50,
+        ..Scene::default()
+    };
+    scene.law = FrictionLaw::Coulomb;
+    let lived = scene.live(24, false)?;
+    let force = STIFFNESS * EXPANSION * 10.0;
+    let moved = force * force / (2.0 * 0.25 * WEIGHT * STIFFNESS);
+    for DayRecord { day, extremes } in &lived.days {
+        assert!(
+            (extremes.compression / force - 1.0).abs() < 1e-2,
+            "day {day}: {} N",
+            extremes.compression
+        );
+        assert!(
+            (extremes.forward[1] / moved - 1.0).abs() < 1e-2,
+            "day {day}: {} m",
+            extremes.forward[1]
+        );
+        let stays = if *day == 1 { 0.0 } else { 0.5 };
+        assert!(
+            (extremes.backward[1] / moved - stays).abs() < 1e-2,
+            "day {day}: {} m",
+            extremes.backward[1]
+        );
     }
     Ok(())
 }

@@ -4,6 +4,8 @@
 const RESIDUAL: f64 = 1e-4;
 /// Least difference of advances \[m\]: the law falls strictly.
 const LEAST: f64 = 1e-10;
+/// Advances below this are none \[m\]: ten million of them are a tenth of a millimetre.
+const STILL: f64 = 1e-11;
 
 /// Friction f̄ \[N/m\] per metre against which a cable advances by v \[m\] in a period of the traffic: f̄ = Φ(v), falling.
 ///
@@ -16,6 +18,7 @@ pub struct LockedLaw {
     friction: Vec<f64>,
     limit: f64,
     residual: f64,
+    is_still: bool,
 }
 
 impl LockedLaw {
@@ -28,6 +31,7 @@ impl LockedLaw {
     /// The law with friction limit `limit` q \[N/m\] through `advances` \[m\], one for each of [`LockedLaw::SHARES`]: how far the middle of a
     /// cable advances in a period on which a body force −share · q acts.
     pub fn new(advances: &[f64], limit: f64) -> Self {
+        let is_still = advances.iter().all(|advance| advance.abs() < STILL);
         let mut falling = advances.to_vec();
         for k in 1..falling.len() {
             falling[k] = falling[k].min(falling[k - 1] - LEAST);
@@ -43,7 +47,13 @@ impl LockedLaw {
             friction: std::iter::once(limit).chain(friction).chain([-limit]).collect(),
             limit,
             residual: RESIDUAL * limit / width,
+            is_still,
         }
+    }
+
+    /// Whether the traffic moves a cable nowhere, whatever friction is locked in: below shakedown, or without load.
+    pub fn is_still(&self) -> bool {
+        self.is_still
     }
 
     /// Φ(v).

@@ -2,9 +2,11 @@
 
 use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, RestingCable, laid};
 
-use super::day::{Day, Lived, Living, wrap};
+use super::day::Day;
+use super::diary::Lived;
 use super::extremes::Extremes;
 use super::law::LockedLaw;
+use super::living::{Living, wrap};
 use super::rate::RateStep;
 use super::rows::{Row, of_pass};
 use crate::record::Record;
@@ -19,13 +21,18 @@ const MOST_FROZEN: u64 = 64;
 /// Beside the tolerance: what a day may differ from the one before, and from what was expected of it, where nothing changes any more.
 const STEADY: f64 = 0.3;
 const EXPECTED: f64 = 0.5;
-/// As long as a day changes by more than this, each is lived with real periods.
-const SETTLING: f64 = 0.05;
+/// As long as a day changes by more than this many times the tolerance, each is lived with real periods: of a day without any a
+/// thirtieth of the change is wrong.
+const SETTLING: f64 = 15.0;
 /// A day that changes by more than this is led by its own real periods alone; else they count half: days that follow their own
 /// measurements alone never settle.
 const TRANSIENT: f64 = 0.1;
 const OWN: f64 = 0.5;
-/// Frozen days that show it.
+/// Beside the tolerance: what real days in a row may differ where that alone shows that nothing changes any more.
+const CALM: f64 = 3e-3;
+/// A frozen day is believed where it shows a real one but for this share.
+const TRUSTED: f64 = 0.05;
+/// Days that show it.
 const SHOWN: usize = 3;
 /// Days with real periods after which they ought to repeat.
 const PATIENCE: u64 = 60;
@@ -143,8 +150,8 @@ struct Settled {
     day: u64,
     /// But for this movement as a whole \[m\].
     drift: f64,
-    /// What a day with real periods shows beside one without.
-    beside: Extremes,
+    /// What a day with real periods shows beside one without, where that is known.
+    beside: Option<Extremes>,
 }
 
 /// The larger of each.
@@ -165,7 +172,9 @@ where
         let drift = settled.map_or(0.0, |settled| settled.drift);
         let passes = if rest > 0 { rest } else { a_day };
         let last = match settled {
-            Some(Settled { beside, .. }) if passes == a_day => {
+            Some(Settled {
+                beside: Some(beside), ..
+            }) if passes == a_day => {
                 let lived = self.living.last(self.done * a_day, passes)?;
                 self.done += 1;
                 self.book(&lived, &lived.extremes.plus(&beside), passes);
@@ -201,6 +210,7 @@ where
     fn until(&mut self, count: u64) -> Result<Option<Settled>, E> {
         let (tolerance, least) = (self.request.tolerance, self.request.least);
         let mut block = 0;
+        let mut calm = 0;
         let mut before = self.place();
         let mut today = None;
         while self.done < count && (self.done < FIRST_DAYS || self.request.every_day) {
@@ -223,23 +233,35 @@ where
             let expected = self.again(start.clone())?.plus(&beside);
             let from = self.living.whole();
             let yesterday = today;
-            today = self.corrected(self.living.day.passes, false)?.extremes;
+            let lived = self.corrected(self.living.day.passes, false)?;
+            today = lived.extremes;
             let drift = self.living.whole() - from;
             beside = today.less(&self.again(start)?);
             if block > 0 {
                 self.surprise = largest(self.surprise, today.difference(&expected, least));
             }
             let larger = |(force, movement): (f64, f64)| force.max(movement);
+            let is_known = larger(today.difference(&today.less(&beside), least)) < TRUSTED;
             let surprise = larger(today.difference(&expected, least));
             let change = larger(today.difference(&yesterday.moved(drift), least));
             self.living.own = if change > TRANSIENT { 1.0 } else { OWN };
-            if change < STEADY * tolerance && surprise < EXPECTED * tolerance && self.is_steady(tolerance)? {
+            calm = if block == 0 && change < CALM * tolerance {
+                calm + 1
+            } else {
+                0
+            };
+            let steady = is_known && change < STEADY * tolerance && surprise < EXPECTED * tolerance;
+            if calm == SHOWN || steady && self.is_steady(tolerance)? {
                 let day = self.done;
-                self.repeat(count, drift, &today)?;
-                return Ok(Some(Settled { day, drift, beside }));
+                self.repeat(count, drift, &lived);
+                return Ok(Some(Settled {
+                    day,
+                    drift,
+                    beside: is_known.then_some(beside),
+                }));
             }
             let growth = (CAUTION * tolerance / surprise.max(f64::MIN_POSITIVE)).clamp(GROWTH.0, GROWTH.1);
-            block = if change > SETTLING {
+            block = if !is_known || change > SETTLING * tolerance {
                 0
             } else {
                 ((block as f64 * growth).round() as u64).clamp(1, MOST_FROZEN)
@@ -300,27 +322,23 @@ where
     }
 
     /// All days up to `count` are like `today` but for a drift.
-    fn repeat(&mut self, count: u64, drift: f64, today: &Extremes) -> Result<(), E> {
-        let here = self.place();
-        let lived = self.living.frozen()?;
-        self.go(here);
+    fn repeat(&mut self, count: u64, drift: f64, today: &Lived) {
         let first = self.done;
         for day in first + 1..=count {
-            let moved = drift * (day - first) as f64;
             self.done = day;
             // Only what is wanted, and the last one's extremes.
             let is_wanted = self.request.wanted_days.binary_search(&day).is_ok();
             if is_wanted || day == count || self.has_wanted_pass(day) {
-                let mut rows = lived.clone();
-                for row in &mut rows.rows {
-                    row.outcome.upstream_displacement += moved - drift;
-                    row.outcome.downstream_displacement += moved - drift;
+                let moved = drift * (day - first) as f64;
+                let mut lived = today.clone();
+                for row in &mut lived.rows {
+                    row.outcome.upstream_displacement += moved;
+                    row.outcome.downstream_displacement += moved;
                 }
-                self.book(&rows, &today.moved(moved), self.living.day.passes);
+                self.book(&lived, &today.extremes.moved(moved), self.living.day.passes);
             }
         }
         self.living.offset += drift * (count - first) as f64;
-        Ok(())
     }
 
     fn has_wanted_pass(&self, day: u64) -> bool {

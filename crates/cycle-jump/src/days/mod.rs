@@ -15,10 +15,12 @@
 //! two runs with different numbers show each other's error.
 
 mod day;
+mod diary;
 mod extremes;
 mod heat;
 mod law;
 mod life;
+mod living;
 mod rate;
 mod rows;
 
