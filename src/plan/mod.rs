@@ -61,11 +61,11 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Pl
     warnings.extend(warnings::of_mix(scene, choice.method, &period));
     Ok(Plan {
         scene,
-        choice,
-        warnings,
-        period,
         ground,
+        period,
+        choice,
         levels,
+        warnings,
         took: begun.elapsed(),
     })
 }

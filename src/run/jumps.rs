@@ -4,7 +4,7 @@
 //! that of the finer is half as large or less. Where only early passes are off, every one of them is simulated; else both are
 //! made smaller.
 
-use std::cell::Cell;
+use std::cell::RefCell;
 
 use cable_dem::{CableError, Statistics};
 use cycle_jump::Guide;
@@ -75,11 +75,10 @@ pub fn find<'a>(
     carry_out: impl Fn(usize, &Jumping<'_>, Progress<'a>) -> Result<Passes, Error>,
 ) -> Result<(Found, Statistics), Error> {
     // How many runs it takes is not known: each is half of what is left.
-    let left = Cell::new(progress);
+    let parts = RefCell::new(progress.halving());
     let simulate = |level, jumping: &Jumping<'_>| {
-        let (now, later) = left.get().halves();
-        left.set(later);
-        carry_out(level, jumping, now)
+        let part = parts.borrow_mut()();
+        carry_out(level, jumping, part)
     };
     let tolerance = plan.scene.solver.tolerance;
     let allowed = Shares::both(SHARE * tolerance);
@@ -160,7 +159,7 @@ pub fn find<'a>(
         best = Some(found);
     }
     let mut found = best.expect("the first pair of runs is an answer");
-    found.error = found.error + mix_error(plan, &found, scale, &simulate, &mut statistics)?;
+    found.error = found.error + mix_error(plan, &found, scale, simulate, &mut statistics)?;
     Ok((found, statistics))
 }
 

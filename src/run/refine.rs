@@ -74,15 +74,8 @@ impl Refinement<'_> {
             PassMethod::EveryPass(_) => (None, Statistics::default()),
         };
         // How many meshes it takes is not known: each is half of what is left.
-        let mut left = match found {
-            Some(_) => self.progress.part(FINDING, 1.0),
-            None => self.progress,
-        };
-        let mut next_part = || {
-            let (now, later) = left.halves();
-            left = later;
-            now
-        };
+        let left = found.as_ref().map_or(0.0, |_| FINDING);
+        let mut parts = self.progress.part(left, 1.0).halving();
         let mut error = ErrorParts {
             passes: found.as_ref().map_or(Shares::default(), |found| found.error),
             ..ErrorParts::new(ground.accuracy, choice.inertia)
@@ -90,7 +83,7 @@ impl Refinement<'_> {
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
         let known = found.as_ref().map(|found| (found.level, &found.passes));
-        let now = next_part();
+        let now = parts();
         let (finest, coarser) = both(
             || self.simulate(level, way, now, true),
             || self.coarser(level, way, known),
@@ -118,7 +111,7 @@ impl Refinement<'_> {
             if (known && seen && within) || costly || level >= levels.finest() {
                 break;
             }
-            match self.simulate(level + 1, way, next_part(), true) {
+            match self.simulate(level + 1, way, parts(), true) {
                 // What is known of coarser meshes counts.
                 Err(Error::Jumps(_)) if known => break,
                 finer => passes.push(finer?),
@@ -135,7 +128,7 @@ impl Refinement<'_> {
         let finest = passes.pop().expect("the first level was computed");
         error.road = self.road_error(&finest, mesh, way, &mut statistics)?;
         if verify || alone || doubtful {
-            let finer = self.simulate(level + 1, way, next_part(), true)?;
+            let finer = self.simulate(level + 1, way, parts(), true)?;
             statistics += finer.statistics;
             error.mesh = measured(&finest.records, &finer.records, scale);
             error.measured = true;

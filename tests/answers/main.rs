@@ -7,3 +7,4 @@ mod meshes;
 mod random;
 mod road;
 mod saturation;
+mod search;

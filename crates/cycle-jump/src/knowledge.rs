@@ -50,10 +50,9 @@ impl Knowledge {
     }
 
     /// Learns from the period `next`, of whose advance the slope had `predicted` the change where there was a jump.
-    pub fn learn(&mut self, next: &Period, predicted: Option<&[f64]>, cable: &mut RestingCable) {
+    pub fn learn(&mut self, next: &Period, predicted: Option<&[f64]>, cable: &RestingCable) {
         let rate = difference(&next.rate, &self.period.rate);
-        let mut friction = next.friction_from(&self.period.middle, cable);
-        self.spread(cable, &mut friction);
+        let friction = next.friction_from(&self.period.middle, cable);
         self.slope.learn(Change {
             rate: &rate,
             friction: &friction,

@@ -196,7 +196,7 @@ where
             let patient = self.simulated <= most.0;
             if !whole && (length < SHORTEST || !patient) {
                 let next = self.next_period()?;
-                known.learn(&next, None, &mut self.cable);
+                known.learn(&next, None, &self.cable);
                 known.period = next;
                 known.length = (GROWTH_BETWEEN * known.length).max(2.0);
                 self.schedule.push(0);
@@ -236,7 +236,7 @@ where
         }
         let checked = self.period(None)?;
         let predicted = known.predict(&checked, &mut self.cable);
-        known.learn(&checked, Some(&predicted), &mut self.cable);
+        known.learn(&checked, Some(&predicted), &self.cable);
         // The slope between both ends says best how the cable went from one to the other; what that leaves of the advance grew evenly.
         let measured = (length + 1) as f64;
         let growth = difference(&checked.rate, &known.period.rate)
