@@ -50,7 +50,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for note in readings.iter().flat_map(|readings| readings.notes()) {
         terminal::warn(note);
     }
-    let read = [Some(&*arguments.scene.file.scene), arguments.data.as_deref()];
+    let table = input.table();
+    let read = [
+        Some(&*arguments.scene.file.scene),
+        arguments.data.as_deref(),
+        table.as_deref(),
+    ];
     let mut files = arguments.force.files(read.into_iter().flatten());
     let page = files.output(&arguments.output, Kind::Page)?;
     let report = with_bar(PERCENT, PER_MILLE, |progress| {

@@ -65,9 +65,11 @@ impl Judgement {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let limits = arguments.limits.limits(input.scene.ends)?;
+    let table = input.table();
+    let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
     let destination = arguments
         .output
-        .destination(Kind::Passes, [&*arguments.scene.file.scene])?;
+        .destination(Kind::Passes, read.into_iter().flatten())?;
     let answer = with_bar(PERCENT, PER_MILLE, |progress| {
         let options = RunOptions {
             verify: arguments.verify,

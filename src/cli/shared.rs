@@ -97,6 +97,11 @@ impl Input {
         })
     }
 
+    /// The table that the scene reads beside its file, which no output may replace.
+    pub fn table(&self) -> Option<PathBuf> {
+        self.file.histogram()
+    }
+
     /// The answer, or the error with the line of the key at fault.
     pub fn located<T>(&self, answer: Result<T, Error>) -> Result<T, Failure> {
         answer.map_err(|error| Failure::Analysis(error.located(&self.file)))

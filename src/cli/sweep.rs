@@ -76,7 +76,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let sweep = Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?;
     warn_of_slips(&sweep.file_at(0)?);
-    let mut files = arguments.force.files([&*arguments.scene.file.scene]);
+    let table = sweep.file_at(0)?.histogram();
+    let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
+    let mut files = arguments.force.files(read.into_iter().flatten());
     files.output(&arguments.out, Format::of(&arguments.out)?.kind())?;
     #[cfg(feature = "plot")]
     let map = match &arguments.map {

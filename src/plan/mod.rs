@@ -8,6 +8,7 @@ mod method;
 pub mod occurrence;
 mod period;
 mod report;
+mod stand_ins;
 mod warnings;
 
 use std::time::{Duration, Instant};
@@ -55,7 +56,7 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Pl
     let levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first())?;
-    let period = Period::new(scene)?;
+    let period = Period::new(scene, &ground.motions)?;
     let choice = method::choose(scene, &levels, &period)?;
     let mut warnings = warnings::warnings(scene);
     warnings.extend(warnings::of_mix(scene, choice.method, &period));

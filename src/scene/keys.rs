@@ -21,8 +21,11 @@ const SECTIONS: [(&str, &str); 11] = [
         "vehicles",
         "preset, name, speed, load, wheels, lateral_offset, direction, share",
     ),
-    ("traffic", "passes, years, per_day, order, seed, sequence"),
     ("heat", "expansion, daily_swing, offset, profile"),
+    (
+        "traffic",
+        "passes, years, per_day, histogram, speed, order, seed, sequence",
+    ),
     (
         "solver",
         "method, tolerance, node_spacing, vehicle_step, time_step, approach",

@@ -48,6 +48,7 @@ mod error;
 mod file;
 mod ground;
 mod heat;
+mod histogram;
 mod keys;
 mod location;
 mod nearest;

@@ -57,6 +57,7 @@ const DIAMETERS: Range = range(1e-3, 10.0, "greater than 0, from 1 mm to 10 m");
 const SLOPES: Range = range(-1.0, 1.0, "of any sign, from -100 % to 100 %");
 const PEAKS: Range = range(1e-12, 1.0, "greater than 0, from 1e-6 um to 1 m");
 const LOADS: Range = range(0.0, 1e9, "of at least 0 and at most 1000 MN");
+const AXLE_LOADS: Range = range(LEAST, 1e9, "greater than 0 and at most 1000 MN");
 const MODULI: Range = range(1e3, 1e13, "greater than 0, from 1 kPa to 10000 GPa");
 const STIFFNESSES: Range = range(1e-9, 1e18, "greater than 0, from 1e-9 to 1e18 N/m");
 const RADII: Range = range(0.0, 100.0, "of at least 0 and at most 100 m");
@@ -101,6 +102,7 @@ pub const SPRING: Quantity = quantity(Dimension::ForcePerLength, STIFFNESSES, "\
 pub const CLAMP: Quantity = quantity(Dimension::ForcePerLength, STIFFNESSES, "\"1 MN/m\"");
 pub const LOAD: Quantity = quantity(Dimension::Force, LOADS, "\"20 tf\"");
 pub const WHEEL_LOAD: Quantity = quantity(Dimension::Force, LOADS, "\"50 kN\"");
+pub const AXLE_LOAD: Quantity = quantity(Dimension::Force, AXLE_LOADS, "\"100 kN\"");
 pub const SPEED: Quantity = quantity(Dimension::Speed, SPEEDS, "\"40 km/h\"");
 pub const EXPANSION: Quantity = quantity(
     Dimension::InverseTemperature,
@@ -127,6 +129,7 @@ pub const COEFFICIENT: Quantity = number(0.0, 10.0, "from 0 to 10");
 pub const LOAD_FACTOR: Quantity = number(1e-6, 1e6, "greater than 0, from 1e-6 to 1e6");
 pub const SHARE: Quantity = number(1e-12, 1e12, "greater than 0, from 1e-12 to 1e12");
 
+pub const AXLE_COUNT: Quantity = number(0.0, 1e12, "of at least 0 and at most 1e12");
 pub const YEARS: Quantity = number(1e-9, 1e6, "greater than 0, from 1e-9 to 1e6");
 pub const PER_DAY: Quantity = number(1e-6, 1e9, "greater than 0, from 1e-6 to 1e9");
 

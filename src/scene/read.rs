@@ -32,7 +32,7 @@ pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
     let friction = friction(&root)?;
     let ends = ends(&root)?;
     let restraints = restraints(&root, &duct)?;
-    let (vehicles, traffic) = traffic::traffic(&root, ground.scaling)?;
+    let (vehicles, traffic) = traffic::traffic(name, &root, ground.scaling)?;
     let heat = heat::heat(&root)?;
     let solver = solver(&root, &duct)?;
     let scene = Scene {

@@ -71,7 +71,7 @@ impl<'d> Table<'d> {
     }
 
     /// Which of two values was given later.
-    fn order(&self, one: &Value, other: &Value) -> Ordering {
+    pub fn order(&self, one: &Value, other: &Value) -> Ordering {
         let rank = |value: &Value| self.value.document.rank(&value.node.place);
         rank(one).cmp(&rank(other))
     }

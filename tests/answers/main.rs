@@ -1,5 +1,6 @@
 //! Every answer can be true: forces balance, numbers are finite, errors are stated and cover, or there is a typed error.
 
+mod axles;
 mod balance;
 mod common;
 pub mod long_term;

@@ -5,6 +5,7 @@ mod arrangement;
 mod bad_input;
 mod contradictions;
 mod edited;
+mod histogram;
 mod overrides;
 mod presets;
 mod traffic;
