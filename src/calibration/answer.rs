@@ -19,7 +19,7 @@ pub fn answer(problem: &Problem<'_>, found: &Final) -> Result<Calibrated, Error>
     let model_error = model_error(found);
     let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
     let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
-    let judgement = judge(problem, fit, mistakes(problem, &predicted_by_scene(problem)?));
+    let judgement = judge(problem, found, mistakes(problem, &predicted_by_scene(problem)?))?;
     let suspicious = judgement.lack_of_fit.suspicious;
     let assumptions = ground::assumption(problem, found)?.into_iter().collect();
     let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());

@@ -6,14 +6,20 @@
 use calibrate::{Fit, Loss, probability_of_signs, probability_of_size};
 use serde::Serialize;
 
+use super::alternatives::{Alternative, alternatives};
 use super::cell::Observed;
+use super::meshes::Final;
 use super::problem::Problem;
-use super::terms::{Cell, cells};
+use super::terms::cells;
 use super::unknown::Quantity;
+use crate::Error;
 use crate::readings::Reading;
 
 /// Probability below which chance is no longer believed. Four tests then call about three clean series in a hundred suspicious.
 const CHANCE: f64 = 0.01;
+/// The same for errors of a cell, which move friction farthest where they show least: with 0.01, one drift in eight of those that take friction
+/// out of its interval goes unseen (tests/faulty_cells.rs).
+const CHANCE_OF_ERRORS: f64 = 0.02;
 /// Robust standard deviations from which on a reading is an outlier: of forty, Gaussian noise makes one in a thousand series.
 const OUTLIER: f64 = 4.5;
 /// Makes the median of |r| under Gaussian noise a standard deviation.
@@ -34,7 +40,7 @@ pub struct LackOfFit {
     pub p_offset: Option<f64>,
     /// Probability of residuals so much larger than neighbouring readings differ: of an R² below what the noise explains.
     pub p_noise: Option<f64>,
-    /// Whether any of these is below 0.01, readings are outliers, or the data look mistaken: then no parameter is called identifiable.
+    /// Whether any of these is below 0.01 (0.02 of the second and third), readings are outliers, or the data look mistaken: then no parameter is called identifiable.
     pub suspicious: bool,
 }
 
@@ -45,32 +51,27 @@ pub struct Judgement {
 }
 
 /// Judges the fit; `mistakes` are those of sign and unit that were found.
-pub fn judge(problem: &Problem<'_>, fit: &Fit, mistakes: Vec<String>) -> Judgement {
+pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Judgement, Error> {
+    let fit = &found.fit;
     let rows = Rows::new(problem, fit);
     let outliers = rows.outliers();
     let sequences = rows.sequences(&outliers);
-    let signs = probability_of_signs(&sequences);
-    let is_judged = fit.degrees_of_freedom >= FEWEST;
     let cells = cells(problem.series, problem.models);
-    let test = |quantity| {
-        is_judged
-            .then(|| most_striking(problem, fit, &cells, quantity))
-            .flatten()
+    let judged: Vec<usize> = (0..rows.list.len()).filter(|row| !outliers.contains(row)).collect();
+    let alternatives = if fit.degrees_of_freedom < FEWEST || !mistakes.is_empty() {
+        [None, None]
+    } else {
+        alternatives(problem, found, &cells, &judged)?
     };
-    let (trend, offset) = (test(Quantity::Drift), test(Quantity::ZeroOffset));
-    let noise = probability_of_size(&sequences, rows.list.len() as f64 - fit.degrees_of_freedom);
-    let probability = |found: &Option<Found<'_>>| found.as_ref().map(|found| found.probability);
+    let [trend, offset] = [0, 1].map(|place| alternatives[place].as_ref().map(|found| found.probability));
     let mut lack_of_fit = LackOfFit {
-        p_runs: signs,
-        p_trend: probability(&trend),
-        p_offset: probability(&offset),
-        p_noise: noise,
+        p_runs: probability_of_signs(&sequences),
+        p_trend: trend,
+        p_offset: offset,
+        p_noise: probability_of_size(&sequences, rows.list.len() as f64 - fit.degrees_of_freedom),
         suspicious: false,
     };
-    let strikes = |p: Option<f64>| p.is_some_and(|p| p < CHANCE);
-    let misses = [Some(signs), lack_of_fit.p_trend, lack_of_fit.p_offset, noise]
-        .into_iter()
-        .any(strikes);
+    let misses = lack_of_fit.misses();
     let is_robust = problem.options.loss != Loss::Squares;
     lack_of_fit.suspicious = misses || !mistakes.is_empty() || (!outliers.is_empty() && !is_robust);
     let mut warnings = mistakes;
@@ -78,56 +79,19 @@ pub fn judge(problem: &Problem<'_>, fit: &Fit, mistakes: Vec<String>) -> Judgeme
         warnings.push(rows.told(&outliers, is_robust));
     }
     if misses {
-        warnings.push(explanation(
-            problem,
-            fit,
-            &lack_of_fit,
-            [trend, offset],
-            !outliers.is_empty(),
-        ));
+        warnings.push(explanation(problem, fit, &lack_of_fit, alternatives, !outliers.is_empty() && !is_robust));
     }
-    Judgement {
-        lack_of_fit,
-        warnings,
-    }
+    Ok(Judgement { lack_of_fit, warnings })
 }
 
-/// An error of a cell that would explain residuals.
-struct Found<'a> {
-    cell: &'a Cell,
-    quantity: Quantity,
-    /// Its size to first order.
-    size: f64,
-    probability: f64,
-}
-
-/// The cell whose error of this kind would explain most; its probability is that of the most striking of all cells.
-fn most_striking<'a>(
-    problem: &Problem<'_>,
-    fit: &Fit,
-    cells: &'a [Cell],
-    quantity: Quantity,
-) -> Option<Found<'a>> {
-    let fitted = |name: &str| problem.terms.iter().any(|term| term.parameter.name() == name);
-    let open: Vec<&Cell> = cells
-        .iter()
-        .filter(|cell| !fitted(&cell.name(quantity, problem.series.len())))
-        .collect();
-    let found = open.iter().filter_map(|cell| {
-        let column = if quantity == Quantity::Drift {
-            &cell.drift
-        } else {
-            &cell.offset
-        };
-        let test = fit.test_terms(&[column])?;
-        Some(Found {
-            cell,
-            quantity,
-            size: test.sizes[0],
-            probability: (test.probability * open.len() as f64).min(1.0),
-        })
-    });
-    found.min_by(|a, b| a.probability.total_cmp(&b.probability))
+impl LackOfFit {
+    fn misses(&self) -> bool {
+        let strikes = |p: Option<f64>, chance: f64| p.is_some_and(|p| p < chance);
+        strikes(Some(self.p_runs), CHANCE)
+            || strikes(self.p_noise, CHANCE)
+            || strikes(self.p_trend, CHANCE_OF_ERRORS)
+            || strikes(self.p_offset, CHANCE_OF_ERRORS)
+    }
 }
 
 /// What the residuals show, and what may explain them.
@@ -135,7 +99,7 @@ fn explanation(
     problem: &Problem<'_>,
     fit: &Fit,
     lack: &LackOfFit,
-    found: [Option<Found<'_>>; 2],
+    found: [Option<Alternative<'_>>; 2],
     has_outliers: bool,
 ) -> String {
     let chance = |p: f64| format!("{p:.1e}");
@@ -152,21 +116,23 @@ fn explanation(
             chance(p)
         ));
     }
-    let mut best: Option<Found<'_>> = None;
+    let mut best: Option<Alternative<'_>> = None;
     for found in found
         .into_iter()
         .flatten()
-        .filter(|found| found.probability < CHANCE)
+        .filter(|found| found.probability < CHANCE_OF_ERRORS)
     {
         let (what, unit) = match found.quantity {
             Quantity::Drift => ("a drift", "N a pass"),
             _ => ("a zero offset", "N"),
         };
         shown.push(format!(
-            "{what} of the {} cell of about {:.2} {unit} would explain a part (by chance {})",
+            "{what} of the {} cell of about {:.2} {unit} would explain them better (by chance {}) and make {} {:.4}",
             found.cell.observed.place(),
             found.size,
-            chance(found.probability)
+            chance(found.probability),
+            fit.estimates[0].name,
+            found.first_value
         ));
         if best
             .as_ref()

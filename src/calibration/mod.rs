@@ -15,6 +15,7 @@
 //! *Assumptions.* The cable was at rest before the first pass, and the noise of the readings is independent. What
 //! the model leaves out (the spread of wheels, heat, bends) is not in the intervals.
 
+mod alternatives;
 mod answer;
 mod cell;
 mod ground;
@@ -89,6 +90,7 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
         terms: &terms,
         options,
         watch: &watch,
+        memory: &model::Memory::default(),
     };
     let found = meshes::fit(&problem, limit).and_then(|found| answer::answer(&problem, &found));
     if watch.is_stopped() {

@@ -4,6 +4,8 @@
 //! is chosen by a run's tolerance, it may change from one run to the next.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::Mutex;
 
 use cable_dem::Mesh;
 use calibrate::{Model, ModelError};
@@ -20,8 +22,8 @@ use crate::plan::{CableMethod, PassMethod, Period, plan};
 use crate::run::passes::{Jumping, Task};
 use crate::{Error, Progress, Scene};
 
-/// Nodes per depth of the duct on the coarsest mesh; every further level has twice as many.
-const COARSEST: f64 = 6.0;
+/// Nodes per depth of the duct on the coarsest mesh, which only shows where to look; every further level has twice as many.
+const COARSEST: f64 = 3.0;
 /// Steps of the vehicle per node spacing.
 const STEPS_PER_SPACING: f64 = 2.0;
 /// Most passes that are all simulated. Of more, the same few are in every run of a fit, with the same jumps between them: where
@@ -182,6 +184,9 @@ fn jumping<'a>(period: &'a Period, guide: Guide<'a>) -> Jumping<'a> {
     }
 }
 
+/// Runs that were made: level, stiffness and parameters as bits, and what was predicted.
+pub type Memory = Mutex<HashMap<(u32, Vec<u64>), Vec<f64>>>;
+
 /// All series on one level of meshes.
 pub struct CableModel<'a> {
     pub series: &'a [SeriesModel],
@@ -192,10 +197,39 @@ pub struct CableModel<'a> {
     /// Added to what this level predicts: the difference to the next one, near the optimum.
     pub correction: Option<Vec<f64>>,
     pub watch: &'a Watch<'a>,
+    /// A fit on the next level begins where the runs of this one ended: none is made twice.
+    pub memory: &'a Memory,
 }
 
 impl Model for CableModel<'_> {
     fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError> {
+        let mut forces = self.remembered(parameters)?;
+        if let Some(correction) = &self.correction {
+            for (force, correction) in forces.iter_mut().zip(correction) {
+                *force += correction;
+            }
+        }
+        Ok(forces)
+    }
+}
+
+impl CableModel<'_> {
+    fn remembered(&self, parameters: &[f64]) -> Result<Vec<f64>, Error> {
+        let values = std::iter::once(&self.stiffness).chain(parameters);
+        // The way through free variables leaves the last bits to chance.
+        let key = (self.level, values.map(|value| value.to_bits() >> 10).collect());
+        let known = self.memory.lock().map_or(None, |memory| memory.get(&key).cloned());
+        if let Some(known) = known {
+            return Ok(known);
+        }
+        let forces = self.run(parameters)?;
+        if let Ok(mut memory) = self.memory.lock() {
+            memory.insert(key, forces.clone());
+        }
+        Ok(forces)
+    }
+
+    fn run(&self, parameters: &[f64]) -> Result<Vec<f64>, Error> {
         let forces: Vec<Vec<f64>> = self
             .series
             .par_iter()
@@ -215,12 +249,6 @@ impl Model for CableModel<'_> {
             })
             .collect::<Result<_, Error>>()?;
         self.watch.run()?;
-        let mut forces = forces.concat();
-        if let Some(correction) = &self.correction {
-            for (force, correction) in forces.iter_mut().zip(correction) {
-                *force += correction;
-            }
-        }
-        Ok(forces)
+        Ok(forces.concat())
     }
 }

@@ -2,7 +2,7 @@
 
 use calibrate::{Calibration, Options, Prior, Profiles};
 
-use super::model::{CableModel, SeriesModel};
+use super::model::{CableModel, Memory, SeriesModel};
 use super::noise;
 use super::options::{CalibrateOptions, Series};
 use super::terms::Term;
@@ -12,11 +12,12 @@ use crate::Error;
 use crate::readings::Readings;
 use crate::scene::FrictionLaw;
 
-/// Finest level of meshes that is fitted: 24 nodes per depth, corrected by 48.
-pub const LAST_LEVEL: u32 = 2;
+/// Coarsest level of meshes that may answer, with 12 nodes per depth, and finest that is fitted: 24 nodes per depth, corrected by 48.
+pub const FIRST_LEVEL: u32 = 2;
+pub const LAST_LEVEL: u32 = 3;
 /// Ripple of the forces as parameters change on a fixed mesh, as a share of them: as a node more slips, their slope jumps.
 /// Measured on the full-scale scenes; from the coarsest level up.
-const RIPPLE: [f64; 3] = [3e-4, 1e-4, 3e-5];
+const RIPPLE: [f64; 4] = [1e-3, 3e-4, 1e-4, 3e-5];
 
 pub struct Problem<'a> {
     pub series: &'a [Series<'a>],
@@ -27,6 +28,7 @@ pub struct Problem<'a> {
     pub terms: &'a [Term],
     pub options: &'a CalibrateOptions<'a>,
     pub watch: &'a Watch<'a>,
+    pub memory: &'a Memory,
 }
 
 pub struct Effort {
@@ -47,6 +49,7 @@ impl Problem<'_> {
             stiffness: 1.0,
             correction,
             watch: self.watch,
+            memory: self.memory,
         }
     }
 

@@ -16,6 +16,7 @@ const ERROR: f64 = 0.25;
 const FARTHEST: f64 = 8.0;
 
 /// An error of a cell that is fitted.
+#[derive(Clone)]
 pub struct Term {
     pub quantity: Quantity,
     pub parameter: Parameter,
@@ -107,20 +108,25 @@ pub fn terms(
             });
         }
         for cell in own {
-            let largest = cell.largest.max(f64::MIN_POSITIVE);
-            let (column, told, natural) = match unknown.quantity {
-                Quantity::Drift => (&cell.drift, options.drift_sigma, ERROR * largest / cell.last),
-                _ => (&cell.offset, options.zero_offset_sigma, ERROR * largest),
-            };
-            let sigma = told.unwrap_or(natural);
-            let bound = FARTHEST * sigma;
-            let parameter =
-                Parameter::term(&cell.name(unknown.quantity, series.len()), -bound, bound, column)?;
-            terms.push(Term {
-                quantity: unknown.quantity,
-                parameter: parameter.with_prior(Prior { value: 0.0, sigma })?,
-            });
+            let name = cell.name(unknown.quantity, series.len());
+            terms.push(term(cell, unknown.quantity, &name, options)?);
         }
     }
     Ok(terms)
+}
+
+/// An error of `cell` with its prior.
+pub fn term(cell: &Cell, quantity: Quantity, name: &str, options: &CalibrateOptions<'_>) -> Result<Term, Error> {
+    let largest = cell.largest.max(f64::MIN_POSITIVE);
+    let (column, told, natural) = match quantity {
+        Quantity::Drift => (&cell.drift, options.drift_sigma, ERROR * largest / cell.last),
+        _ => (&cell.offset, options.zero_offset_sigma, ERROR * largest),
+    };
+    let sigma = told.unwrap_or(natural);
+    let bound = FARTHEST * sigma;
+    let parameter = Parameter::term(name, -bound, bound, column)?;
+    Ok(Term {
+        quantity,
+        parameter: parameter.with_prior(Prior { value: 0.0, sigma })?,
+    })
 }

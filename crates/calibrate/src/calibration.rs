@@ -121,6 +121,13 @@ impl<'a> Calibration<'a> {
         })
     }
 
+    /// The same calibration, scanned all over the range beside its start.
+    #[must_use]
+    pub fn scanned(mut self) -> Self {
+        self.options.scan = None;
+        self
+    }
+
     /// How to fit.
     ///
     /// # Errors

@@ -32,7 +32,7 @@ pub struct Emulator {
     indices: Vec<usize>,
     /// What the runs are compared with, if not with their mean alone.
     pub(crate) coarse: Option<Arc<Emulator>>,
-    /// Free variables, a run each, and the shares of the parameters' ranges that they are.
+    /// Free variables of these parameters, a run each, and the shares of the parameters' ranges that they are.
     points: Vec<DVector<f64>>,
     places: Vec<DVector<f64>>,
     /// What the model predicted there.
@@ -40,6 +40,8 @@ pub struct Emulator {
     /// Mean of what `coarse` misses, and what each run's neighbourhood adds to it, a row each.
     mean: DVector<f64>,
     weights: DMatrix<f64>,
+    /// Where the intervals of the fit that it was made for end, and a rival of it; no two of them within half a standard error.
+    pub(crate) ends: Vec<DVector<f64>>,
     /// Parameters and their lower and upper bounds that this model, or a coarser one, was seen to exclude by far.
     pub(crate) excluded: Vec<(usize, bool)>,
 }
@@ -57,6 +59,7 @@ impl Emulator {
             predictions: Vec::new(),
             mean: DVector::zeros(0),
             weights: DMatrix::zeros(0, 0),
+            ends: Vec::new(),
             excluded: coarse.map_or_else(Vec::new, |coarse| coarse.excluded.clone()),
         }
     }
@@ -78,6 +81,20 @@ impl Emulator {
     /// Runs of the model that it rests on, without those of a coarser model.
     pub fn runs(&self) -> usize {
         self.places.len()
+    }
+
+    /// The free variables of the model's parameters.
+    pub(crate) fn of_model(&self, free: &DVector<f64>) -> DVector<f64> {
+        DVector::from_fn(self.indices.len(), |k, _| free[self.indices[k]])
+    }
+
+    /// Those of all parameters, terms at the middle of their ranges.
+    pub(crate) fn with_terms(&self, of_model: &DVector<f64>, count: usize) -> DVector<f64> {
+        let mut free = DVector::zeros(count);
+        for (&k, z) in self.indices.iter().zip(of_model.iter()) {
+            free[k] = *z;
+        }
+        free
     }
 
     /// Shares of the parameters' ranges at free variables.
@@ -123,6 +140,12 @@ impl Emulator {
         Some(&self.predictions[run])
     }
 
+    /// Distance to the nearest of its runs, which `measure` gives to what separates two places.
+    pub(crate) fn nearest(&self, free: &DVector<f64>, measure: impl Fn(&DVector<f64>) -> f64) -> f64 {
+        let here = self.of_model(free);
+        self.points.iter().map(|point| measure(&(point - &here))).fold(f64::INFINITY, f64::min)
+    }
+
     /// Adds runs at free variables.
     pub(crate) fn learn(&mut self, runs: impl IntoIterator<Item = (DVector<f64>, Vec<f64>)>) {
         for (free, predicted) in runs {
@@ -130,7 +153,7 @@ impl Emulator {
                 continue;
             }
             let place = self.place(&free);
-            self.points.push(free);
+            self.points.push(self.of_model(&free));
             self.places.push(place);
             self.predictions.push(predicted);
         }

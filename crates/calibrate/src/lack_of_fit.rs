@@ -99,6 +99,20 @@ pub fn probability_of_signs(series: &[Vec<f64>]) -> f64 {
     Binomial::new(0.5, chances).map_or(1.0, |binomial| binomial.cdf(changes))
 }
 
+/// Probability that noise alone gains as much from one parameter more: the sum of squared residuals falls from `before` to `after`, with this
+/// `freedom` left, where the residuals are in units of a noise that is known (`known`) or estimated. `None` of too few.
+pub fn probability_of_gain(before: f64, after: f64, freedom: f64, known: Option<f64>) -> Option<f64> {
+    let gain = (before - after).max(0.0);
+    match known {
+        Some(noise) => Some(1.0 - ChiSquared::new(1.0).ok()?.cdf(gain / (noise * noise))),
+        None if freedom < FEWEST => None,
+        None => {
+            let noise = (after / freedom).max(f64::MIN_POSITIVE);
+            Some(1.0 - FisherSnedecor::new(1.0, freedom).ok()?.cdf(gain / noise))
+        }
+    }
+}
+
 /// Probability that noise like that between neighbours makes residuals so large, of which `used` are determined by parameters: a ratio of
 /// variances, one from all residuals and one from how far each lies off the line between its neighbours, which a curve hardly moves (J. von Neumann,
 /// "Distribution of the ratio of the mean square successive difference to the variance", 1941). `None` of too few.
