@@ -40,7 +40,9 @@ fn scene(stiffness: f64) -> Scene {
     let modulus = format!("ground.layers.0.young_modulus={} MPa", 800.0 * stiffness);
     let file = SceneFile::read("examples/scenes/full-scale-upper.toml").unwrap();
     let mut scene = file.with(&[modulus]).unwrap().scene().unwrap();
-    if let Ok(d) = std::env::var("DUCT") { scene.duct.length = d.parse().unwrap(); }
+    if let Ok(d) = std::env::var("DUCT") {
+        scene.duct.length = d.parse().unwrap();
+    }
     scene
 }
 
@@ -73,7 +75,11 @@ fn file(fault: Fault, seed: u64) -> String {
     };
     let mut readings: Vec<f64> = forces[..count]
         .iter()
-        .map(|force| force + std::env::var("NOISE").map_or(NOISE, |d| d.parse().unwrap()) * testkit::gaussian(&mut random))
+        .map(|force| {
+            force
+                + std::env::var("NOISE").map_or(NOISE, |d| d.parse().unwrap())
+                    * testkit::gaussian(&mut random)
+        })
         .collect();
     if let Fault::Outliers(count, share) = fault {
         for k in 0..count {
@@ -169,7 +175,24 @@ fn judge(draws: u64) {
     let mut wrong = Vec::new();
     let draws: u64 = std::env::var("DRAWS").map_or(draws, |d| d.parse().unwrap());
     let kinds: Vec<(Fault, &[&str])> = match std::env::var("KIND") {
-        Ok(text) => text.split(',').map(|one| { let (k, v) = one.split_once('=').unwrap(); let v: f64 = v.parse().unwrap(); (match k { "none" => Fault::None, "zero" => Fault::ZeroOffset(v), "drift" => Fault::Drift(v), "out" => Fault::Outliers(3, v), "ground" => Fault::Ground(v), _ => panic!() }, &["follow", "ground", "--robust"] as &[&str]) }).collect(),
+        Ok(text) => text
+            .split(',')
+            .map(|one| {
+                let (k, v) = one.split_once('=').unwrap();
+                let v: f64 = v.parse().unwrap();
+                (
+                    match k {
+                        "none" => Fault::None,
+                        "zero" => Fault::ZeroOffset(v),
+                        "drift" => Fault::Drift(v),
+                        "out" => Fault::Outliers(3, v),
+                        "ground" => Fault::Ground(v),
+                        _ => panic!(),
+                    },
+                    &["follow", "ground", "--robust"] as &[&str],
+                )
+            })
+            .collect(),
         _ => KINDS.to_vec(),
     };
     for (fault, words) in kinds {

@@ -78,7 +78,11 @@ fn find_level(problem: &Problem<'_>, limit: usize) -> Result<(MeshChoice, usize)
         let model = problem.model(level, None);
         let effort = Effort {
             // What is learned on coarse meshes costs least: there the intervals are explored too.
-            profiles: if level < FIRST_LEVEL { Profiles::All } else { Profiles::None },
+            profiles: if level < FIRST_LEVEL {
+                Profiles::All
+            } else {
+                Profiles::None
+            },
             tolerance: PILOT_TOLERANCE,
             runs: limit.saturating_sub(evaluations),
         };
