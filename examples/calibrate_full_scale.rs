@@ -137,11 +137,10 @@ fn forces(file: &str) -> Result<Vec<f64>, Failure> {
 }
 
 fn saturated(force: f64) -> Readings {
+    let sigma = Some(FORCE_SIGMA * force);
     [Reading {
-        pass: SATURATED,
-        force,
-        sigma: Some(FORCE_SIGMA * force),
-        line: 1,
+        sigma,
+        ..Reading::force(SATURATED, force)
     }]
     .into_iter()
     .collect()

@@ -103,7 +103,22 @@ fn json_and_csv_of_the_synthetic_series() {
         .collect::<Vec<_>>();
     assert_eq!(
         header,
-        ["series", "pass", "force_n", "fitted_n", "residual_n", "weight"]
+        [
+            "series",
+            "pass",
+            "force_n",
+            "fitted_n",
+            "residual_n",
+            "weight",
+            "run",
+            "line",
+            "measured",
+            "at",
+            "value",
+            "fitted",
+            "residual",
+            "unit"
+        ]
     );
     let squares: Vec<f64> = rows
         .records()

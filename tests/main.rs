@@ -13,6 +13,8 @@ mod calibration;
 mod cli;
 #[path = "design.rs"]
 mod design;
+#[path = "faulty_cells.rs"]
+mod faulty_cells;
 #[path = "files/main.rs"]
 mod files;
 #[path = "fuzz/main.rs"]
@@ -21,6 +23,8 @@ mod fuzz;
 mod ground_models;
 #[path = "house.rs"]
 mod house;
+#[path = "lanes.rs"]
+mod lanes;
 #[path = "methods.rs"]
 mod methods;
 #[path = "occurrence.rs"]
@@ -29,6 +33,8 @@ mod occurrence;
 mod paper;
 #[path = "planner/main.rs"]
 mod planner;
+#[path = "reading_shapes.rs"]
+mod reading_shapes;
 #[path = "readings.rs"]
 mod readings;
 #[path = "report.rs"]

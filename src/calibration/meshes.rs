@@ -75,10 +75,11 @@ fn find_level(problem: &Problem<'_>, limit: usize) -> Result<(MeshChoice, usize)
         let calibration = problem.calibration(&model, start, &effort)?;
         let (fit, emulator) = emulated(&calibration, coarser.as_ref(), limit)?;
         let values = fit.values();
-        let finer = problem
+        let mut finer = problem
             .model(level + 1, None)
-            .predict(&values)
+            .predict(problem.of_model(&values))
             .map_err(|source| CalibrationError::NoFeasibleStart { starts: 1, source })?;
+        problem.add_terms(&mut finer, &values);
         evaluations += fit.evaluations + 1;
         let difference: Vec<f64> = finer.iter().zip(&fit.fitted).map(|(a, b)| a - b).collect();
         let shift = fit.shift(&difference);

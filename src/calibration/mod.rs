@@ -9,18 +9,24 @@
 //!
 //! *Runs.* An emulator learns the forces on each mesh, from what it knows of the coarser one and few runs (`calibrate::Emulator`).
 //!
-//! *Load cell.* At the downstream end if that is held, else at the upstream end; the force after the vehicle has left.
+//! *Readings.* Forces on load cells after the vehicle has left: at the downstream end if that is held, else at the upstream end, or where
+//! the readings say; movements of an end, forces and strains along the cable, the duct's deflection. Before the first pass all are zero.
 //!
 //! *Assumptions.* The cable was at rest before the first pass, and the noise of the readings is independent. What
 //! the model leaves out (the spread of wheels, heat, bends) is not in the intervals.
 
 mod answer;
 mod cell;
+mod ground;
+mod judgement;
 mod meshes;
+mod mistakes;
 mod model;
+mod noise;
 mod options;
 mod problem;
 mod result;
+mod terms;
 mod unknown;
 mod watch;
 
@@ -28,7 +34,8 @@ use ::calibrate::Options;
 
 pub use ::calibrate::{BootstrapOptions, CalibrationError, Loss};
 #[cfg(feature = "plot")]
-pub(crate) use cell::CellEnd;
+pub(crate) use cell::{CellEnd, force_ends};
+pub use judgement::LackOfFit;
 pub use options::{CalibrateOptions, Deflection, Series};
 pub use result::{
     BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
@@ -70,17 +77,22 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
         0 => Options::default().max_evaluations,
         limit => limit,
     };
+    let (terms, unknowns): (Vec<Unknown>, Vec<Unknown>) = unknowns
+        .into_iter()
+        .partition(|unknown| unknown.quantity.is_of_cell());
+    let terms = terms::terms(series, &models, &terms, options)?;
     let watch = Watch::new(options.progress, limit);
     let problem = Problem {
         series,
         models: &models,
         unknowns: &unknowns,
+        terms: &terms,
         options,
         watch: &watch,
     };
-    let found = meshes::fit(&problem, limit);
+    let found = meshes::fit(&problem, limit).and_then(|found| answer::answer(&problem, &found));
     if watch.is_stopped() {
         return Err(Error::Stopped);
     }
-    answer::answer(&problem, &found?)
+    found
 }

@@ -17,9 +17,14 @@ pub enum Quantity {
     ShapeFactor,
     /// How many times stiffer the ground is than the scene says: the duct's motion is divided by it.
     GroundStiffness,
+    /// What a load cell reads too much of any force \[N\].
+    ZeroOffset,
+    /// How much more it reads too much with every pass \[N\].
+    Drift,
 }
 
-words!(Quantity: DynamicCoefficient "dynamic_coefficient", ShapeFactor "shape_factor", GroundStiffness "ground_stiffness");
+words!(Quantity: DynamicCoefficient "dynamic_coefficient", ShapeFactor "shape_factor", GroundStiffness "ground_stiffness",
+    ZeroOffset "zero_offset", Drift "drift");
 
 impl Quantity {
     /// Its unit; 1 for a number.
@@ -27,15 +32,23 @@ impl Quantity {
         match self {
             Self::ShapeFactor => "1/m",
             Self::DynamicCoefficient | Self::GroundStiffness => "1",
+            Self::ZeroOffset => "N",
+            Self::Drift => "N/pass",
         }
     }
 
-    /// Least and largest value that a fit considers.
+    /// Whether it is an error of a load cell, not a property of cable or ground.
+    pub fn is_of_cell(self) -> bool {
+        matches!(self, Self::ZeroOffset | Self::Drift)
+    }
+
+    /// Least and largest value that a fit considers; those of a cell's errors follow from its readings.
     pub fn bounds(self) -> (f64, f64) {
         match self {
             Self::DynamicCoefficient => (0.03, 1.0),
             Self::ShapeFactor => (1e5, 1e9),
             Self::GroundStiffness => (0.1, 10.0),
+            Self::ZeroOffset | Self::Drift => (f64::NEG_INFINITY, f64::INFINITY),
         }
     }
 
@@ -45,6 +58,7 @@ impl Quantity {
             Self::DynamicCoefficient => scene.friction.dynamic_coefficient,
             Self::ShapeFactor => scene.friction.law.shape_factor(),
             Self::GroundStiffness => 1.0,
+            Self::ZeroOffset | Self::Drift => 0.0,
         }
     }
 

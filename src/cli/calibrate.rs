@@ -5,13 +5,13 @@ use std::path::PathBuf;
 
 use super::failure::Failure;
 use super::progress::{MODEL_RUNS, with_bar};
+use super::readings::ReadArguments;
 use super::shared::{Input, OutputArguments, SceneArguments};
 use super::terminal;
 use crate::calibration::{
     BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Quantity, Unknown,
 };
 use crate::output::Kind;
-use crate::readings::Readings;
 use crate::scene::{Dimension, FrictionLaw};
 use crate::shown::{ROWS, percent};
 
@@ -22,7 +22,8 @@ use crate::shown::{ROWS, percent};
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
-    /// Readings: CSV with the columns pass,force_n[,sigma_n], forces after the pass at the held end (the downstream one if both are)
+    /// Readings after passes: a table (text or .xlsx) with columns such as pass,force_n[,sigma_n] or `Pass;Force [kN]`. Forces are those on
+    /// the held end (the downstream one if both are), unless a column says its end
     #[arg(long, value_name = "FILE")]
     data: PathBuf,
     /// What to fit: dynamic_coefficient, shape_factor, ground_stiffness (how many times stiffer than in the scene). Default:
@@ -49,6 +50,8 @@ pub struct Arguments {
     max_evaluations: usize,
     #[command(flatten)]
     output: OutputArguments,
+    #[command(flatten)]
+    reading: ReadArguments,
 }
 
 fn positive_length(text: &str) -> Result<f64, String> {
@@ -65,7 +68,7 @@ fn positive_length(text: &str) -> Result<f64, String> {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::read(&arguments.scene)?;
-    let readings = Readings::from_file(&arguments.data).map_err(crate::Error::from)?;
+    let readings = arguments.reading.read(&arguments.data)?;
     let read = [&*arguments.scene.scene, &arguments.data];
     let destination = arguments.output.destination(Kind::Fit, read)?;
     let deflection = arguments.deflection.zip(arguments.deflection_sigma);
@@ -148,11 +151,17 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     )?;
     let stride = answer.fit.len().div_ceil(ROWS);
     for row in answer.fit.iter().step_by(stride.max(1)) {
-        writeln!(
-            out,
-            "{:>9} {:>13.1} {:>11.1} {:>13.1}",
-            row.pass, row.force_n, row.fitted_n, row.residual_n
-        )?;
+        let [measured, fitted, residual] =
+            [row.value, row.fitted, row.residual].map(|value| match row.unit {
+                "N" => format!("{value:.1}"),
+                _ => format!("{value:.3e}"),
+            });
+        write!(out, "{:>9} {measured:>13} {fitted:>11} {residual:>13}", row.pass)?;
+        match row.measured {
+            "force" if !row.run.is_empty() => writeln!(out, "  run {}", row.run)?,
+            "force" => writeln!(out)?,
+            other => writeln!(out, "  {other}, {}", row.unit)?,
+        }
     }
     if stride > 1 {
         writeln!(
@@ -169,6 +178,20 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         out,
         "residuals: {:.2} N rms{explained}, {:.1} degrees of freedom",
         answer.residual_rms_n, answer.degrees_of_freedom
+    )?;
+    for assumption in &answer.assumptions {
+        writeln!(out, "assumed: {assumption}")?;
+    }
+    let lack = &answer.lack_of_fit;
+    let chance = |p: Option<f64>| p.map_or_else(|| "-".into(), |p| format!("{p:.2}"));
+    writeln!(
+        out,
+        "are they noise? by chance signs {:.2}, drift {}, zero {}, size {}: {}",
+        lack.p_runs,
+        chance(lack.p_trend),
+        chance(lack.p_offset),
+        chance(lack.p_noise),
+        if lack.suspicious { "SUSPICIOUS" } else { "yes" }
     )?;
     let shifts = answer.model_error.standard_errors.iter();
     writeln!(

@@ -2,13 +2,16 @@
 
 mod calibrate;
 mod check;
+mod days;
 mod design;
 mod failure;
+mod limits;
 mod new;
 mod plan;
 mod presets;
 mod profile;
 mod progress;
+mod readings;
 #[cfg(feature = "plot")]
 mod report;
 mod run;

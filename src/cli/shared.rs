@@ -22,6 +22,31 @@ pub struct SceneArguments {
     pub set: Vec<String>,
 }
 
+/// A scene whose traffic may be given in years.
+#[derive(Debug, clap::Args)]
+pub struct TrafficArguments {
+    #[command(flatten)]
+    pub file: SceneArguments,
+    /// Years of traffic in place of the scene's passes, as traffic.years; of 365.25 days
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    years: Option<f64>,
+    /// Vehicles a day, as traffic.per_day
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    trucks_per_day: Option<f64>,
+}
+
+impl TrafficArguments {
+    /// The scene file with all that was set on top of it.
+    pub fn read(&self) -> Result<SceneFile, Failure> {
+        let keys = [("per_day", self.trucks_per_day), ("years", self.years)];
+        let given = keys
+            .iter()
+            .filter_map(|(key, value)| Some(format!("traffic.{key}={}", (*value)?)));
+        let overrides: Vec<String> = self.file.set.iter().cloned().chain(given).collect();
+        Ok(SceneFile::read(&self.file.scene)?.with(&overrides)?)
+    }
+}
+
 #[derive(Debug, clap::Args)]
 pub struct OutputArguments {
     #[command(flatten)]
@@ -60,7 +85,11 @@ pub struct Input {
 impl Input {
     /// Reads the scene and warns of numbers that look like slips.
     pub fn read(arguments: &SceneArguments) -> Result<Self, Failure> {
-        let file = SceneFile::read(&arguments.scene)?.with(&arguments.set)?;
+        Self::of(SceneFile::read(&arguments.scene)?.with(&arguments.set)?)
+    }
+
+    /// The same of a scene that is read.
+    pub fn of(file: SceneFile) -> Result<Self, Failure> {
         Ok(Self {
             scene: file.scene()?,
             warnings: warn_of_slips(&file),

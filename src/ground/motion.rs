@@ -3,7 +3,7 @@
 use ground_field::{DuctLine, DuctMotion, GroundField};
 
 use crate::Error;
-use crate::scene::{PeakScaling, Scene};
+use crate::scene::{PeakScaling, Scene, TrafficVehicle};
 
 /// Points at which two motions are compared, this far on either side of the vehicle \[depths\].
 const COMPARED: (usize, f64) = (241, 12.0);
@@ -16,12 +16,11 @@ pub fn motions(
     accuracy: f64,
     reach: f64,
 ) -> Result<Vec<DuctMotion>, Error> {
-    let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
-    let motions = scene
-        .vehicles
-        .iter()
-        .map(|traffic| DuctMotion::new(field, &traffic.vehicle, line, reach, accuracy))
-        .collect::<Result<_, _>>()?;
+    let motion = |traffic: &TrafficVehicle| {
+        let line = DuctLine::new(scene.duct.depth, scene.offset_from(traffic))?;
+        DuctMotion::new(field, &traffic.vehicle, line, reach, accuracy)
+    };
+    let motions = scene.vehicles.iter().map(motion).collect::<Result<_, _>>()?;
     scale(scene, motions)
 }
 

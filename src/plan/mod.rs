@@ -10,6 +10,8 @@ mod period;
 mod report;
 mod warnings;
 
+use std::time::{Duration, Instant};
+
 use ground_field::GroundField;
 
 use crate::ground::{Ground, road};
@@ -28,6 +30,8 @@ pub struct Plan<'a> {
     pub(crate) choice: MethodChoice,
     pub(crate) levels: Levels,
     pub(crate) warnings: Vec<String>,
+    /// Time that the plan took: above all the ground's motion.
+    pub(crate) took: Duration,
 }
 
 /// Plans how to compute `scene`.
@@ -45,6 +49,7 @@ pub fn plan(scene: &Scene) -> Result<Plan<'_>, Error> {
 ///
 /// As for [`plan`].
 pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Plan<'a>, Error> {
+    let begun = Instant::now();
     scene.validate()?;
     let ground = Ground::new(scene, own, road::reach(scene))?;
     let levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
@@ -61,5 +66,6 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Pl
         choice,
         levels,
         warnings,
+        took: begun.elapsed(),
     })
 }

@@ -10,6 +10,8 @@ use super::measures::pressed_end;
 use super::plan::plan;
 use super::quantity::count;
 use super::words;
+use crate::PassRecord;
+use crate::answer::after;
 use crate::design::Place;
 use crate::figure::dark_style;
 use crate::shown::{percent, rounded};
@@ -72,20 +74,28 @@ fn headline(html: &mut Html, report: &Report) {
     ));
     let Some(last) = run.passes.last() else { return };
     let passes = count(last.pass);
-    let (force, place) = match pressed_end(&report.scene, last) {
-        None => (last.max_compression_n, "largest compression in the cable"),
-        Some(Place::Upstream) => (last.upstream_force_n, "on the upstream end"),
-        Some(_) => (last.downstream_force_n, "on the downstream end"),
-    };
+    let (force, what) = pressed(report, last);
+    let place = what.trim_start_matches("force ");
     let newtons = |force| format!("{} N", rounded(force, 1));
     // What a force does, where that is not what one expects.
     let place = |force| format!("{place}{}", if force < 0.0 { ", tension" } else { "" });
+    html.paragraph(&answer(report, last));
+    html.raw("<div class=\"verdicts\">");
+    let verdicts: Vec<String> = report.verdicts.iter().map(ToString::to_string).collect();
+    html.list(&verdicts);
+    html.raw("</div>");
     html.raw("<dl class=\"headlines\">");
     if let Some(saturation) = &run.saturation {
         let force = saturation.force_n;
         html.headline("Saturated force", &newtons(force), &place(force));
         let reached = count(saturation.passes_to_95_percent);
-        html.headline("Passes to 95 % of it", &reached, &format!("of {passes} computed"));
+        let time = report.scene.traffic.years_after(saturation.passes_to_95_percent);
+        let time = time.map_or_else(String::new, |years| format!("{}, ", after(years)));
+        html.headline(
+            "Passes to 95 % of it",
+            &reached,
+            &format!("{time}of {passes} computed"),
+        );
     } else {
         let note = format!("{}, not levelled off after {passes} passes", place(force));
         html.headline("Force after the last pass", &newtons(force), &note);
@@ -107,6 +117,42 @@ fn headline(html: &mut Html, report: &Report) {
     let note = "of the forces, from the computation alone";
     html.headline("Estimated error", &error, note);
     html.raw("</dl>");
+}
+
+/// The answer in a sentence.
+fn answer(report: &Report, last: &PassRecord) -> String {
+    let traffic = &report.scene.traffic;
+    let passes = |pass: u64| {
+        let time = traffic.years_after(pass).map(after);
+        let words = if pass == 1 {
+            "one pass".into()
+        } else {
+            format!("{} passes", count(pass))
+        };
+        time.map_or(words.clone(), |time| format!("{words} ({time})"))
+    };
+    let (force, what) = pressed(report, last);
+    match &report.run.saturation {
+        Some(saturation) => format!(
+            "The {what} levels off at {} N. 95 % of that is reached after {}.",
+            rounded(saturation.force_n, 1),
+            passes(saturation.passes_to_95_percent)
+        ),
+        None => format!(
+            "After {} the {what} is {} N; it has not levelled off.",
+            passes(last.pass),
+            rounded(force, 1)
+        ),
+    }
+}
+
+/// The force that matters most after a pass, and where it acts.
+fn pressed(report: &Report, last: &PassRecord) -> (f64, &'static str) {
+    match pressed_end(&report.scene, last) {
+        None => (last.max_compression_n, "largest compression in the cable"),
+        Some(Place::Upstream) => (last.upstream_force_n, "force on the upstream end"),
+        Some(_) => (last.downstream_force_n, "force on the downstream end"),
+    }
 }
 
 fn warnings(html: &mut Html, report: &Report) {

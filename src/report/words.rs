@@ -5,7 +5,8 @@ use ground_field::{Base, Direction, Modulus, Vehicle};
 use super::html::Html;
 use super::quantity::{count, length, quantity, significant};
 use crate::Scene;
-use crate::scene::{Arrangement, End, FrictionLaw, Order, PeakScaling};
+use crate::answer::after;
+use crate::scene::{Arrangement, End, FrictionLaw, Order, PeakScaling, TrafficVehicle};
 
 /// Kilometres an hour of a metre a second.
 const KILOMETRES_PER_HOUR: f64 = 3.6;
@@ -134,6 +135,12 @@ fn traffic(scene: &Scene) -> String {
         1 => "one pass".to_owned(),
         passes => format!("{} passes", count(passes)),
     };
+    let rate = scene
+        .traffic
+        .per_day
+        .zip(scene.traffic.years_after(scene.traffic.passes));
+    let rate = rate.map(|(per_day, years)| format!(" in {}, {} a day,", after(years), significant(per_day)));
+    let passes = passes + &rate.unwrap_or_default();
     let vehicles = scene.vehicles.len();
     let order = match &scene.traffic.order {
         _ if vehicles == 1 => return format!("Traffic: {passes} of one vehicle."),
@@ -201,7 +208,7 @@ pub fn vehicles(html: &mut Html, scene: &Scene) {
         };
         vec![
             vehicle.name().to_owned(),
-            format!("{speed} km/h {direction}, {}", lane(scene, vehicle)),
+            format!("{speed} km/h {direction}, {}", lane(scene, traffic)),
             load(vehicle),
             format!("{} %", significant(100.0 * traffic.share)),
         ]
@@ -210,13 +217,13 @@ pub fn vehicles(html: &mut Html, scene: &Scene) {
 }
 
 /// Where the middle between a vehicle's outer wheels lies.
-fn lane(scene: &Scene, vehicle: &Vehicle) -> String {
-    let sides = || vehicle.wheels().iter().map(|wheel| wheel.y);
+fn lane(scene: &Scene, traffic: &TrafficVehicle) -> String {
+    let sides = || traffic.vehicle.wheels().iter().map(|wheel| wheel.y);
     let (right, left) = (
         sides().fold(f64::INFINITY, f64::min),
         sides().fold(f64::NEG_INFINITY, f64::max),
     );
-    let beside = (0.5 * (right + left) - scene.duct.lateral_offset).abs();
+    let beside = (0.5 * (right + left) - scene.offset_from(traffic)).abs();
     if beside < 5e-4 {
         "right above the duct".into()
     } else {

@@ -228,7 +228,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    fn passes(self, records: Vec<Record>, state: CableState, simulated: u64) -> Passes {
+    pub fn passes(self, records: Vec<Record>, state: CableState, simulated: u64) -> Passes {
         Passes {
             records,
             state,

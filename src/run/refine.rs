@@ -9,18 +9,18 @@ use super::jumps;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
-use crate::answer::{RandomSpread, simulated};
+use crate::answer::{DayExtremes, HeatRecord, RandomSpread, simulated};
 use crate::ground::{peak, road};
 use crate::plan::{Levels, PassMethod, Plan};
 use crate::shown::{exact_percent, percent};
 use crate::{Error, Progress, Scene};
 
 /// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
-const MAX_NODE_UPDATES: usize = 2_000_000_000;
+pub const MAX_NODE_UPDATES: usize = 2_000_000_000;
 /// A mesh twice as fine takes about this many times the node updates.
-const REFINEMENT_COST: usize = 4;
+pub const REFINEMENT_COST: usize = 4;
 /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
-const SHARP: usize = 3;
+pub const SHARP: usize = 3;
 /// Share of the work that finding jumps is taken for.
 const FINDING: f64 = 0.3;
 /// Share of the tolerance that is left to the mesh at least.
@@ -45,6 +45,8 @@ pub struct Solved {
     /// Work on all meshes together.
     pub statistics: Statistics,
     pub random: Option<RandomSpread>,
+    /// Of a cable that is heated every day.
+    pub heat: Option<(Vec<DayExtremes>, HeatRecord)>,
 }
 
 impl Refinement<'_> {
@@ -75,12 +77,8 @@ impl Refinement<'_> {
         let left = found.as_ref().map_or(0.0, |_| FINDING);
         let mut parts = self.progress.part(left, 1.0).halving();
         let mut error = ErrorParts {
-            mesh: Shares::default(),
-            ground: Shares::both(ground.accuracy),
-            inertia: choice.inertia,
-            road: Shares::default(),
             passes: found.as_ref().map_or(Shares::default(), |found| found.error),
-            measured: false,
+            ..ErrorParts::new(ground.accuracy, choice.inertia)
         };
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
@@ -106,11 +104,10 @@ impl Refinement<'_> {
             // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
             let still = last.records.iter().all(|record| record.outcome.dissipated == 0.0);
             let seen = !still || level >= SHARP;
-            // What jumps leave, no finer mesh takes away.
-            let allowed = Shares::both(tolerance)
+            let within = error
+                .total()
                 .less(error.passes)
-                .max(Shares::both(LEAST_SHARE * tolerance));
-            let within = error.total().less(error.passes).is_within(allowed);
+                .is_within(allowed(tolerance, error.passes));
             if (known && seen && within) || costly || level >= levels.finest() {
                 break;
             }
@@ -136,7 +133,7 @@ impl Refinement<'_> {
             error.mesh = measured(&finest.records, &finer.records, scale);
             error.measured = true;
         }
-        self.judge(&error, warnings)?;
+        judge(&error, scene, warnings)?;
         let mut random = None;
         if let Some(found) = &found {
             let task = self.task(scene, levels.mesh(found.level)?);
@@ -145,12 +142,13 @@ impl Refinement<'_> {
             random = spread;
         }
         Ok(Solved {
-            reasons: vec![self.mesh_reason(&mesh)],
+            reasons: vec![mesh_reason(self.plan, &mesh)],
             mesh,
             passes: finest,
             error,
             statistics,
             random,
+            heat: None,
         })
     }
 
@@ -236,51 +234,58 @@ impl Refinement<'_> {
         });
         carry_out(&task, way.as_ref())
     }
+}
 
-    /// Refuses an answer that is none, and warns of one that is not as good as asked.
-    fn judge(&self, error: &ErrorParts, warnings: &mut Vec<String>) -> Result<(), Error> {
-        let scene = self.plan.scene;
-        let tolerance = scene.solver.tolerance;
-        let total = error.total();
-        error_estimate::judge(total.force, tolerance)?;
-        for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
-            if share > tolerance {
-                let (share, tolerance) = (percent(share), percent(tolerance));
-                warnings.push(format!(
-                    "the estimated error{of} of {share} exceeds the tolerance of {tolerance}"
-                ));
-            }
+/// Refuses an answer that is none, and warns of one that is not as good as asked.
+pub(super) fn judge(error: &ErrorParts, scene: &Scene, warnings: &mut Vec<String>) -> Result<(), Error> {
+    let tolerance = scene.solver.tolerance;
+    let total = error.total();
+    error_estimate::judge(total.force, tolerance)?;
+    for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
+        if share > tolerance {
+            let (share, tolerance) = (percent(share), percent(tolerance));
+            warnings.push(format!(
+                "the estimated error{of} of {share} exceeds the tolerance of {tolerance}"
+            ));
         }
-        if !scene.friction.law.has_memory() {
-            warnings.push(
-                "the error is of the node spacing alone: the sigmoid law's result depends on the time step"
-                    .into(),
-            );
-        }
-        Ok(())
     }
+    if !scene.friction.law.has_memory() {
+        warnings.push(
+            "the error is of the node spacing alone: the sigmoid law's result depends on the time step"
+                .into(),
+        );
+    }
+    Ok(())
+}
 
-    fn mesh_reason(&self, mesh: &Mesh) -> String {
-        let Plan { scene, levels, .. } = self.plan;
-        let nodes = scene.duct.depth / mesh.spacing();
-        let why = if levels.named() {
-            "as the scene asks".to_owned()
-        } else {
-            format!("for the requested {}", exact_percent(scene.solver.tolerance))
-        };
-        format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
-    }
+/// Why this mesh.
+pub(super) fn mesh_reason(plan: &Plan<'_>, mesh: &Mesh) -> String {
+    let Plan { scene, levels, .. } = plan;
+    let nodes = scene.duct.depth / mesh.spacing();
+    let why = if levels.named() {
+        "as the scene asks".to_owned()
+    } else {
+        format!("for the requested {}", exact_percent(scene.solver.tolerance))
+    };
+    format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
+}
+
+/// What of the `tolerance` is left to all that is not the error of `passes`: what jumps leave, no finer mesh takes away.
+pub fn allowed(tolerance: f64, passes: Shares) -> Shares {
+    Shares::both(tolerance)
+        .less(passes)
+        .max(Shares::both(LEAST_SHARE * tolerance))
 }
 
 fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
     match way {
-        Some(way) => task.with_jumps(way, &simulated(task.scene.traffic.passes)),
+        Some(way) => task.with_jumps(way, &simulated(&task.scene.traffic)),
         None => task.every_pass(),
     }
 }
 
 /// Runs two computations side by side; the first error wins.
-fn both<A: Send, B: Send>(
+pub(super) fn both<A: Send, B: Send>(
     first: impl FnOnce() -> Result<A, Error> + Send,
     second: impl FnOnce() -> Result<B, Error> + Send,
 ) -> Result<(A, B), Error> {

@@ -3,7 +3,7 @@
 use super::nearest::nearest;
 
 /// Sections and their keys, as messages list them; a misplaced key is looked for here.
-const SECTIONS: [(&str, &str); 10] = [
+const SECTIONS: [(&str, &str); 11] = [
     ("duct", "length, depth, lateral_offset, slope, inner_diameter"),
     (
         "ground",
@@ -17,8 +17,12 @@ const SECTIONS: [(&str, &str); 10] = [
     ("friction", "preset, law, dynamic_coefficient, shape_factor"),
     ("ends", "upstream, downstream"),
     ("restraints", "position, stiffness"),
-    ("vehicles", "preset, name, speed, load, wheels, direction, share"),
-    ("traffic", "passes, order, seed, sequence"),
+    (
+        "vehicles",
+        "preset, name, speed, load, wheels, lateral_offset, direction, share",
+    ),
+    ("traffic", "passes, years, per_day, order, seed, sequence"),
+    ("heat", "expansion, daily_swing, offset, profile"),
     (
         "solver",
         "method, tolerance, node_spacing, vehicle_step, time_step, approach",
@@ -28,7 +32,7 @@ const SECTIONS: [(&str, &str); 10] = [
 const OTHERS: [(&str, &str); 5] = [
     (
         "",
-        "title, duct, ground, cable, friction, ends, restraints, vehicles, traffic, solver",
+        "title, duct, ground, cable, friction, ends, restraints, vehicles, traffic, heat, solver",
     ),
     ("ground.layers.young_modulus", "top, bottom"),
     ("ends.upstream", "spring"),

@@ -2,9 +2,12 @@
 
 use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
-use super::data::{Order, PeakScaling, Traffic, TrafficVehicle};
+use super::data::{DAYS_PER_YEAR, Order, PeakScaling, Traffic, TrafficVehicle};
 use super::error::SceneError;
-use super::range::{CONTACT_RADIUS, LOAD, PASSES, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y, allowed_whole};
+use super::range::{
+    CONTACT_RADIUS, LANE, LOAD, PASSES, PER_DAY, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y, YEARS,
+    allowed_whole, shown,
+};
 use super::table::Table;
 use super::value::Value;
 
@@ -35,12 +38,16 @@ pub fn traffic(
             ));
         }
         let share = table.optional_quantity("share", SHARE)?.unwrap_or(1.0);
-        vehicles.push(TrafficVehicle { vehicle, share });
+        let lateral_offset = table.optional_quantity("lateral_offset", LANE)?;
+        vehicles.push(TrafficVehicle {
+            vehicle,
+            share,
+            lateral_offset: lateral_offset.unwrap_or(0.0),
+        });
     }
     let table = root.table("traffic")?;
-    let passes = table
-        .required("passes", &allowed_whole(&PASSES))?
-        .integer(PASSES)?;
+    let per_day = table.optional_quantity("per_day", PER_DAY)?;
+    let passes = passes(&table)?;
     let order = order(&table, &vehicles)?;
     if let Order::Sequence(sequence) = &order {
         for (index, vehicle) in vehicles.iter_mut().enumerate() {
@@ -48,7 +55,42 @@ pub fn traffic(
         }
     }
     normalise(&mut vehicles);
-    Ok((vehicles, Traffic { passes, order }))
+    let traffic = Traffic {
+        passes,
+        per_day,
+        order,
+    };
+    Ok((vehicles, traffic))
+}
+
+/// The passes: as they stand, or those of so many years, rounded to whole ones.
+fn passes(table: &Table) -> Result<u64, SceneError> {
+    let [passes, years] = table.alternatives("passes", "years")?;
+    let Some(value) = years else {
+        let allowed = format!("{}, or `years` with `per_day`", allowed_whole(&PASSES));
+        return passes
+            .map_or_else(|| table.required("passes", &allowed), Ok)?
+            .integer(PASSES);
+    };
+    let years = value.quantity(YEARS)?;
+    let allowed = format!("vehicles a day beside `years`, {}", PER_DAY.allowed());
+    let per_day = table.required("per_day", &allowed)?.quantity(PER_DAY)?;
+    let passes = (years * DAYS_PER_YEAR * per_day).round();
+    if !(*PASSES.start() as f64..=*PASSES.end() as f64).contains(&passes) {
+        let found = format!(
+            "{} years of {} vehicles a day, {} passes",
+            shown(years),
+            shown(per_day),
+            shown(passes)
+        );
+        let allowed = format!(
+            "so many that there are from {} to {} passes",
+            PASSES.start(),
+            PASSES.end()
+        );
+        return Err(value.inconsistent(found, allowed));
+    }
+    Ok(passes as u64)
 }
 
 /// Makes the shares sum to 1, whatever their size. Shares that do so but for rounding are kept to the last digit.

@@ -2,7 +2,7 @@
 
 mod balance;
 mod common;
-mod long_term;
+pub mod long_term;
 mod meshes;
 mod random;
 mod road;

@@ -80,14 +80,26 @@ impl Calibration<'_> {
         };
         let start = self.start();
         let mut design: Vec<DVector<f64>> = start.clone().into_iter().collect();
+        let of_model = self.of_model();
+        let terms: Vec<usize> = (0..dimensions).filter(|k| !of_model.contains(k)).collect();
         let score = |free: &DVector<f64>, predicted: &[f64]| {
-            let residuals = runs.standardised(free, predicted);
-            score(&residuals, observations, self.knows_noise)
+            let point = runs.fitted_terms(free.clone(), predicted, &terms);
+            score(&point.residuals, observations, self.knows_noise)
+        };
+        let all = |of_model_free: DVector<f64>| {
+            let mut free = DVector::zeros(dimensions);
+            for (&k, z) in of_model.iter().zip(of_model_free.iter()) {
+                free[k] = *z;
+            }
+            free
         };
         design.extend(match coarse {
             // Along the whole valley, so that what the coarse model misses is known where it may matter.
-            Some(coarse) => coarse.low_points(score, (2.0 * EXCLUSION).powi(2), ANCHORS * dimensions),
-            None => all_over(dimensions, self.scan()),
+            Some(coarse) => coarse.low_points(score, (2.0 * EXCLUSION).powi(2), ANCHORS * of_model.len()),
+            None => all_over(of_model.len(), self.scan())
+                .into_iter()
+                .map(all)
+                .collect(),
         });
         let fit = if let Some(solution) = emulation.converge(design, start)? {
             self.answer(&runs, solution)

@@ -26,7 +26,10 @@ const NUGGET: f64 = 1e-8;
 /// An emulator of a model, learned from its runs by [`Calibration::fit_emulated`](crate::Calibration::fit_emulated).
 #[derive(Debug, Clone)]
 pub struct Emulator {
+    /// Those of the model.
     parameters: Vec<Parameter>,
+    /// Their indices among all.
+    indices: Vec<usize>,
     /// What the runs are compared with, if not with their mean alone.
     pub(crate) coarse: Option<Arc<Emulator>>,
     /// Free variables, a run each, and the shares of the parameters' ranges that they are.
@@ -43,8 +46,11 @@ pub struct Emulator {
 
 impl Emulator {
     pub(crate) fn new(parameters: &[Parameter], coarse: Option<&Self>) -> Self {
+        let of_model = |k: &usize| parameters[*k].column().is_none();
+        let indices: Vec<usize> = (0..parameters.len()).filter(of_model).collect();
         Self {
-            parameters: parameters.to_vec(),
+            parameters: indices.iter().map(|&k| parameters[k].clone()).collect(),
+            indices,
             coarse: coarse.cloned().map(Arc::new),
             points: Vec::new(),
             places: Vec::new(),
@@ -60,8 +66,12 @@ impl Emulator {
         let same = |(a, b): (&Parameter, &Parameter)| {
             (a.lower(), a.upper(), a.scale()) == (b.lower(), b.upper(), b.scale())
         };
-        self.parameters.len() == parameters.len()
-            && self.parameters.iter().zip(parameters).all(same)
+        let of_model: Vec<&Parameter> = parameters
+            .iter()
+            .filter(|parameter| parameter.column().is_none())
+            .collect();
+        self.parameters.len() == of_model.len()
+            && self.parameters.iter().zip(of_model).all(same)
             && self.predictions.iter().all(|run| run.len() == observations)
     }
 
@@ -72,9 +82,9 @@ impl Emulator {
 
     /// Shares of the parameters' ranges at free variables.
     fn place(&self, free: &DVector<f64>) -> DVector<f64> {
-        DVector::from_fn(free.len(), |k, _| {
+        DVector::from_fn(self.parameters.len(), |k, _| {
             let parameter = &self.parameters[k];
-            parameter.share(parameter.bounded(free[k]))
+            parameter.share(parameter.bounded(free[self.indices[k]]))
         })
     }
 

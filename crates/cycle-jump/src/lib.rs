@@ -73,6 +73,7 @@
 //! # Ok::<(), JumpError>(())
 //! ```
 
+pub mod days;
 mod error;
 mod flow;
 mod knowledge;
