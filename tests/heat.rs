@@ -227,14 +227,14 @@ fn few_real_passes_are_enough_within_the_stated_error() {
             let solver = format!(
                 "solver = {{ method = \"{method}\", node_spacing = 0.2, vehicle_step = 0.1, tolerance = 0.02 }}"
             );
-            run(&[lines, &["traffic = { passes = 2150, per_day = 400 }", &solver]].concat())
+            run(&[lines, &["traffic = { passes = 4300, per_day = 800 }", &solver]].concat())
         };
         let (every, few) = (answer("quasi-static"), answer("auto"));
         assert_eq!(
             (every.cost.simulated_passes, every.days.len(), few.days.len()),
-            (2150, 6, 6)
+            (4300, 6, 6)
         );
-        assert!(few.cost.simulated_passes < 700, "{}", few.cost.simulated_passes);
+        assert!(few.cost.simulated_passes < 1500, "{}", few.cost.simulated_passes);
         let stated = few.error_estimate.parts.temperature;
         assert!(stated > 0.0 && stated < 0.02, "{stated}");
         for (right, found) in every.days.iter().zip(&few.days) {
@@ -262,7 +262,7 @@ fn few_real_passes_are_enough_within_the_stated_error() {
             }
         }
         let last = [&every, &few].map(|run| run.passes[run.passes.len() - 1]);
-        assert_eq!(last.map(|record| record.pass), [2150, 2150]);
+        assert_eq!(last.map(|record| record.pass), [4300, 4300]);
         // The end of the cable is where its last row says it is, and the day stops there.
         assert_eq!(few.heat.as_ref().map(|heat| heat.all_days.day), Some(6));
     }
@@ -294,8 +294,9 @@ fn a_cable_walks_down_its_slope_for_twenty_years() {
     assert!(heat.cycle.len() > 20 && heat.cycle.windows(2).all(|pair| pair[0].hour < pair[1].hour));
     let warmest = heat.cycle.iter().map(|point| point.warming_k).fold(0.0, f64::max);
     assert!((warmest - 20.0).abs() < 0.1, "{warmest} K");
-    let force = |profile: &creepage::ForceProfile| profile.force_n.iter().copied().fold(0.0, f64::max);
-    assert!(force(&heat.hot_profile) > force(&heat.cold_profile));
+    // Traffic draws a cable together that is warmest at noon before that, and cold it is pulled apart.
+    let mean = |profile: &creepage::ForceProfile| profile.force_n.iter().sum::<f64>();
+    assert!(mean(&heat.hot_profile) > mean(&heat.cold_profile));
 }
 
 #[test]
@@ -312,7 +313,7 @@ fn what_heat_needs_is_told() {
         (&["heat = { daily_swing = 20 }"], &["`heat.expansion`"]),
         (
             &["heat = { expansion = \"17e-6 K\", daily_swing = 20 }"],
-            &["`K` is the unit of a difference of temperatures"],
+            &["a difference of temperatures; allowed: an expansion per degree"],
         ),
         (
             &["heat = { expansion = 17e-6, daily_swing = 20, profile = [[0, 0], [3600, 5]] }"],

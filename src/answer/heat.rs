@@ -3,7 +3,7 @@
 use cycle_jump::days::Extremes;
 use serde::{Deserialize, Serialize};
 
-use super::record::ForceProfile;
+use super::force_profile::ForceProfile;
 
 /// Largest and least forces and movements over a day, with the cable at rest: after every pass and every change of temperature.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

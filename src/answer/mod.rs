@@ -3,6 +3,7 @@
 pub mod balance;
 mod calendar;
 pub mod error_estimate;
+mod force_profile;
 mod heat;
 mod limits;
 mod listed;
@@ -12,6 +13,7 @@ mod saturation;
 mod table_rows;
 
 pub use calendar::after;
+pub use force_profile::ForceProfile;
 pub use heat::{DayExtremes, DayPoint, HeatRecord, largest_range};
 pub use limits::*;
 #[cfg(feature = "plot")]

@@ -389,10 +389,10 @@ impl Outlook {
 
 /// How likely a number with the given `mean` and standard deviation is below zero: the logistic distribution.
 fn below(mean: f64, spread: f64) -> f64 {
-    if spread == 0.0 {
-        return if mean <= 0.0 { 1.0 } else { 0.0 };
+    match spread {
+        0.0 => f64::from(mean <= 0.0),
+        _ => 1.0 / (1.0 + (1.7 * mean / spread).exp()),
     }
-    1.0 / (1.0 + (1.7 * mean / spread).exp())
 }
 
 fn between(levels: &[Level], place: usize, scale: Scale) -> Shares {
