@@ -1,7 +1,7 @@
 //! The cable under heat and traffic: a day as it goes, the days one after the other, the cable when it is hottest and coldest.
 
 use super::content::Report;
-use super::figure::{MILLI, figure};
+use super::figure::{MILLI, Passes, figure};
 use super::html::Html;
 use super::quantity::{count, length, significant};
 use crate::answer::{DayExtremes, DayPoint, HeatRecord, largest_range, table_days};
@@ -24,6 +24,8 @@ pub fn heat(html: &mut Html, report: &Report) {
     figure(html, day(report, record), &caption);
     let caption = "Force along the cable when that day is hottest and coldest.";
     figure(html, [along(record)], caption);
+    let caption = "Largest and least force and farthest places of the ends on each day.";
+    figure(html, over_days(report, record), caption);
     days(html, report, record);
     html.raw("</div>");
     html.paragraph(
@@ -97,6 +99,10 @@ fn day(report: &Report, record: &HeatRecord) -> [Chart; 3] {
     if ends.upstream != End::Free {
         force = force.with(line("upstream end", 1, |point| point.upstream_force_n));
     }
+    // Free ends carry nothing.
+    if (ends.upstream, ends.downstream) == (End::Free, End::Free) {
+        force = force.with(line("ends", 0, |point| point.downstream_force_n));
+    }
     [
         Chart::new("Temperature over the day", hours(), Axis::linear("warming, K")).with(line(
             "cable",
@@ -127,6 +133,49 @@ fn along(record: &HeatRecord) -> Chart {
             chart.with(Series::line(name, points.map(|(x, force)| (*x, *force))))
         },
     )
+}
+
+/// Largest and least values day by day.
+fn over_days(report: &Report, record: &HeatRecord) -> [Chart; 2] {
+    let days = &report.run.days;
+    let passes = |day: u64| day * record.passes_per_day;
+    let along = Passes::new(&report.scene.traffic, passes(record.all_days.day));
+    let line = |name: &str, colour, value: fn(&DayExtremes) -> f64| {
+        let points = days.iter().map(|day| (along.place(passes(day.day)), value(day)));
+        Series::line(name, points).look(colour)
+    };
+    let ends = &report.scene.ends;
+    let mut force = Chart::new("Force day by day", along.axis(), Axis::linear("force, N"));
+    let both_free = (ends.upstream, ends.downstream) == (End::Free, End::Free);
+    if both_free {
+        force = force
+            .with(line("compression in the cable", 0, |day| day.max_compression_n))
+            .with(line("tension in the cable", 1, |day| -day.max_tension_n));
+    }
+    if ends.downstream != End::Free {
+        force = force
+            .with(line("downstream end, most", 0, |day| day.downstream_max_n))
+            .with(line("downstream end, least", 0, |day| day.downstream_min_n));
+    }
+    if ends.upstream != End::Free {
+        force = force
+            .with(line("upstream end, most", 1, |day| day.upstream_max_n))
+            .with(line("upstream end, least", 1, |day| day.upstream_min_n));
+    }
+    let movement = Chart::new("Movement day by day", along.axis(), Axis::linear("movement, mm"))
+        .with(line("downstream end, most", 0, |day| {
+            MILLI * day.downstream_displacement_max_m
+        }))
+        .with(line("downstream end, least", 0, |day| {
+            MILLI * day.downstream_displacement_min_m
+        }))
+        .with(line("upstream end, most", 1, |day| {
+            MILLI * day.upstream_displacement_max_m
+        }))
+        .with(line("upstream end, least", 1, |day| {
+            MILLI * day.upstream_displacement_min_m
+        }));
+    [force, movement]
 }
 
 /// Extremes of some days, without what stays zero.

@@ -12,7 +12,7 @@ use super::plan::plan;
 use super::quantity::count;
 use super::words;
 use crate::PassRecord;
-use crate::answer::{DayExtremes, after};
+use crate::answer::{CableEnd, DayExtremes, after};
 use crate::design::Place;
 use crate::figure::dark_style;
 use crate::shown::{percent, rounded};
@@ -112,7 +112,15 @@ fn headline(html: &mut Html, report: &Report) {
         let note = format!("{}, not levelled off after {passes} passes", place(force));
         html.headline("Force after the last pass", &newtons(force), &note);
     }
-    let (upstream, downstream) = (last.upstream_displacement_m, last.downstream_displacement_m);
+    let (upstream, downstream) = run.heat.as_ref().map_or(
+        (last.upstream_displacement_m, last.downstream_displacement_m),
+        |heat| {
+            (
+                heat.all_days.movement(CableEnd::Upstream),
+                heat.all_days.movement(CableEnd::Downstream),
+            )
+        },
+    );
     let (end, moved) = if upstream.abs() > downstream.abs() {
         ("upstream", upstream)
     } else {
