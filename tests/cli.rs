@@ -643,6 +643,53 @@ fn help_and_version_are_no_errors() {
 // presets
 
 #[test]
+fn keys_are_listed_and_explained() {
+    let list = printed(&["explain"]);
+    for line in [
+        "* duct.depth ",
+        "  duct.slope ",
+        "  traffic.per_day ",
+        "* vehicles.wheels.load ",
+    ] {
+        assert!(list.contains(line), "{list}");
+    }
+    for key in ["duct.depth", "depth", "vehicles.0.speed", "vehicles.speed"] {
+        let said = printed(&["explain", key]);
+        for part in ["  allowed: a ", "(units: m", "  required"] {
+            assert!(said.contains(part), "{said}");
+        }
+    }
+    let both = printed(&["explain", "lateral_offset"]);
+    assert!(
+        both.contains("duct.lateral_offset\n")
+            && both.contains("vehicles.lateral_offset\n")
+            && both.contains("if omitted: 0 m")
+    );
+    assert!(printed(&["explain", "friction"]).contains("friction.law\n"));
+    let document = json(&["explain", "traffic.years"]);
+    assert_eq!(document[0]["key"], "traffic.years");
+    assert_fails(&["explain", "duct.dept"], 2, &["did you mean duct.depth?"]);
+    assert_fails(&["explain", "depht"], 2, &["did you mean duct.depth?"]);
+}
+
+#[test]
+fn every_help_tells_the_exit_status() {
+    for command in [
+        "run",
+        "plan",
+        "sweep",
+        "design",
+        "report",
+        "explain",
+        "calibrate",
+        "presets",
+    ] {
+        let help = printed(&[command, "--help"]);
+        assert!(help.trim_end().ends_with("2 bad input or usage."), "{help}");
+    }
+}
+
+#[test]
 fn presets_are_listed_with_their_sources() {
     let list = printed(&["presets"]);
     let document = json(&["presets"]);
@@ -1471,7 +1518,7 @@ fn readme_commands(test: &str, said: impl Fn(&str) -> String) {
 /// The same command with twelve passes, where it reads a scene and names no passes itself.
 fn short(line: &str) -> String {
     let words = line.split('#').next().unwrap_or_default().trim_end();
-    let sceneless = ["new ", "presets", "completions"];
+    let sceneless = ["new ", "presets", "explain", "completions"];
     if words.contains("traffic.passes") || sceneless.iter().any(|name| words.starts_with(name)) {
         words.to_owned()
     } else {

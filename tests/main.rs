@@ -21,6 +21,8 @@ mod files;
 mod fuzz;
 #[path = "ground_models/main.rs"]
 mod ground_models;
+#[path = "heat.rs"]
+mod heat;
 #[path = "house.rs"]
 mod house;
 #[path = "lanes.rs"]

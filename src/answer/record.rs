@@ -4,6 +4,7 @@ use cable_dem::{SlipLengths, Statistics};
 use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
+use super::force_profile::ForceProfile;
 use super::heat::{DayExtremes, HeatRecord};
 use crate::scene::Traffic;
 
@@ -102,15 +103,6 @@ pub struct PassRecord {
     /// Whether the pass was not simulated but lies within a jump between simulated ones.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interpolated: bool,
-}
-
-/// Force along the cable after the last pass.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ForceProfile {
-    /// Positions along the duct \[m\], midway between nodes.
-    pub positions_m: Vec<f64>,
-    /// Force in the cable there \[N\], compression positive.
-    pub force_n: Vec<f64>,
 }
 
 /// The cable at one pass.

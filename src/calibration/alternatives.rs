@@ -54,25 +54,39 @@ pub fn alternatives<'a>(
         values,
         rows,
     };
-    let Some(plain) = fits.coarsely(None)? else { return Ok([None, None]) };
+    let Some(plain) = fits.coarsely(None)? else {
+        return Ok([None, None]);
+    };
     // The final fit is one without the error as well; scatter between meshes must not count for the error.
     let last = fits.square(&found.fit);
     let before = fits.square(&plain).min(last);
     let known = (!found.fit.noise_estimated).then_some(1.0);
+    // Where an interval is open, what fits as well may lie so far away that the correction does not hold there.
+    let is_open = found.fit.estimates.iter().any(|estimate| !estimate.identifiable);
     let freedom = found.fit.degrees_of_freedom - 1.0 - (found.fit.residuals.len() - rows.len()) as f64;
     let mut best = [None, None];
     for (place, quantity) in [Quantity::Drift, Quantity::ZeroOffset].into_iter().enumerate() {
         let name = |cell: &Cell| cell.name(quantity, problem.series.len());
         let open: Vec<&Cell> = cells
             .iter()
-            .filter(|cell| problem.terms.iter().all(|term| term.parameter.name() != name(cell)))
+            .filter(|cell| {
+                problem
+                    .terms
+                    .iter()
+                    .all(|term| term.parameter.name() != name(cell))
+            })
             .collect();
         for cell in &open {
             let error = term(cell, quantity, &name(cell), problem.options)?;
-            let Some(mut fit) = fits.coarsely(Some(error.clone()))? else { continue };
-            let probability = |before, fit: &Fit| probability_of_gain(before, fits.square(fit), freedom, known);
-            let Some(mut chance) = probability(before, &fit) else { continue };
-            if chance < WORTH_ASKING
+            let Some(mut fit) = fits.coarsely(Some(error.clone()))? else {
+                continue;
+            };
+            let probability =
+                |before, fit: &Fit| probability_of_gain(before, fits.square(fit), freedom, known);
+            let Some(mut chance) = probability(before, &fit) else {
+                continue;
+            };
+            if (chance < WORTH_ASKING || is_open)
                 && let Some(finer) = fits.finally(error, fit.values())?
                 && let Some(finer_chance) = probability(last, &finer)
             {
@@ -106,7 +120,12 @@ struct Fits<'a> {
 impl Fits<'_> {
     /// A fit on the coarsest mesh, with a term more or without; nothing where it does not converge.
     fn coarsely(&self, more: Option<Term>) -> Result<Option<Fit>, Error> {
-        let start = self.values.iter().copied().chain(more.iter().map(|_| 0.0)).collect();
+        let start = self
+            .values
+            .iter()
+            .copied()
+            .chain(more.iter().map(|_| 0.0))
+            .collect();
         self.fit(more, start, 0)
     }
 
@@ -122,7 +141,11 @@ impl Fits<'_> {
             ..*self.problem
         };
         let is_final = level == self.found.mesh.level;
-        let correction = if is_final { self.found.mesh.correction() } else { Some(self.correction.clone()) };
+        let correction = if is_final {
+            self.found.mesh.correction()
+        } else {
+            Some(self.correction.clone())
+        };
         let model = problem.model(level, correction);
         let effort = Effort {
             profiles: Profiles::None,

@@ -57,7 +57,9 @@ pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Res
     let outliers = rows.outliers();
     let sequences = rows.sequences(&outliers);
     let cells = cells(problem.series, problem.models);
-    let judged: Vec<usize> = (0..rows.list.len()).filter(|row| !outliers.contains(row)).collect();
+    let judged: Vec<usize> = (0..rows.list.len())
+        .filter(|row| !outliers.contains(row))
+        .collect();
     let alternatives = if fit.degrees_of_freedom < FEWEST || !mistakes.is_empty() {
         [None, None]
     } else {
@@ -79,9 +81,18 @@ pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Res
         warnings.push(rows.told(&outliers, is_robust));
     }
     if misses {
-        warnings.push(explanation(problem, fit, &lack_of_fit, alternatives, !outliers.is_empty() && !is_robust));
+        warnings.push(explanation(
+            problem,
+            fit,
+            &lack_of_fit,
+            alternatives,
+            !outliers.is_empty() && !is_robust,
+        ));
     }
-    Ok(Judgement { lack_of_fit, warnings })
+    Ok(Judgement {
+        lack_of_fit,
+        warnings,
+    })
 }
 
 impl LackOfFit {

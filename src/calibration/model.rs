@@ -218,7 +218,10 @@ impl CableModel<'_> {
         let values = std::iter::once(&self.stiffness).chain(parameters);
         // The way through free variables leaves the last bits to chance.
         let key = (self.level, values.map(|value| value.to_bits() >> 10).collect());
-        let known = self.memory.lock().map_or(None, |memory| memory.get(&key).cloned());
+        let known = self
+            .memory
+            .lock()
+            .map_or(None, |memory| memory.get(&key).cloned());
         if let Some(known) = known {
             return Ok(known);
         }

@@ -116,7 +116,12 @@ pub fn terms(
 }
 
 /// An error of `cell` with its prior.
-pub fn term(cell: &Cell, quantity: Quantity, name: &str, options: &CalibrateOptions<'_>) -> Result<Term, Error> {
+pub fn term(
+    cell: &Cell,
+    quantity: Quantity,
+    name: &str,
+    options: &CalibrateOptions<'_>,
+) -> Result<Term, Error> {
     let largest = cell.largest.max(f64::MIN_POSITIVE);
     let (column, told, natural) = match quantity {
         Quantity::Drift => (&cell.drift, options.drift_sigma, ERROR * largest / cell.last),

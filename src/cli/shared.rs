@@ -17,7 +17,8 @@ const STDOUT: &str = "-";
 pub struct SceneArguments {
     /// Scene file (TOML)
     pub scene: PathBuf,
-    /// Override a key of the scene, such as friction.dynamic_coefficient=0.3; a number without a unit is SI; may be repeated
+    /// Override a key of the scene (`creepage explain` lists them), such as friction.dynamic_coefficient=0.3; a number without a unit is
+    /// SI; may be repeated
     #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     pub set: Vec<String>,
 }

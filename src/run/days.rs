@@ -381,6 +381,7 @@ impl Living<'_> {
         });
         let record = HeatRecord {
             cycle: cycle.collect(),
+            passes_per_day: day.passes,
             all_days: DayExtremes::new(count, extremes),
             periodic_from_day: *periodic_from,
             drift_per_day_m: periodic_from.map(|_| *drift),

@@ -293,10 +293,10 @@ impl<'a> Probe<'a> {
         {
             work += known.level_work(next);
         }
-        if let Some(approach) = scene.solver.approach {
-            if approach < road::needed(scene, &ground.motions)? {
-                work += passes;
-            }
+        if let Some(approach) = scene.solver.approach
+            && approach < road::needed(scene, &ground.motions)?
+        {
+            work += passes;
         }
         if matches!(scene.traffic.order, Order::Random { .. }) && matches!(self.method, PassMethod::Jumps(_))
         {

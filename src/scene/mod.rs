@@ -49,6 +49,7 @@ mod file;
 mod ground;
 mod heat;
 mod histogram;
+mod key;
 mod keys;
 mod location;
 mod nearest;
@@ -76,6 +77,9 @@ pub use data::{
 };
 pub use error::{SceneError, Wrong, WrongKind};
 pub use file::SceneFile;
+#[cfg(feature = "cli")]
+pub(crate) use key::nearest_key;
+pub use key::{KeyMeaning, key_meanings};
 pub use location::Location;
 pub use quantity::QuantityError;
 #[cfg(feature = "sweep")]

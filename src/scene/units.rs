@@ -84,6 +84,9 @@ const STANDARD_GRAVITY: f64 = 9.80665;
 const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
 /// International pound-force \[N\].
 const POUND_FORCE: f64 = 4.4482216152605;
+/// International foot and inch \[m\].
+const FOOT: f64 = 0.3048;
+const INCH: f64 = 0.0254;
 
 /// A unit: one of it is `factor / divisor · 10^exponent` in SI; for a slope that is the angle, and its tangent counts.
 pub struct Unit {
@@ -125,6 +128,8 @@ pub const UNITS: &[Unit] = &[
     unit("um", Dimension::Length, -6, 1.0),
     unit("nm", Dimension::Length, -9, 1.0),
     unit("km", Dimension::Length, 3, 1.0),
+    unit("in", Dimension::Length, 0, INCH),
+    unit("ft", Dimension::Length, 0, FOOT),
     unit("N", Dimension::Force, 0, 1.0),
     unit("kN", Dimension::Force, 3, 1.0),
     unit("MN", Dimension::Force, 6, 1.0),
@@ -132,6 +137,7 @@ pub const UNITS: &[Unit] = &[
     unit("kgf", Dimension::Force, 0, STANDARD_GRAVITY),
     unit("tf", Dimension::Force, 3, STANDARD_GRAVITY),
     unit("lbf", Dimension::Force, 0, POUND_FORCE),
+    unit("kip", Dimension::Force, 3, POUND_FORCE),
     unit("Pa", Dimension::Pressure, 0, 1.0),
     unit("kPa", Dimension::Pressure, 3, 1.0),
     unit("MPa", Dimension::Pressure, 6, 1.0),
@@ -142,6 +148,14 @@ pub const UNITS: &[Unit] = &[
     unit("N/mm2", Dimension::Pressure, 6, 1.0),
     unit("kgf/cm2", Dimension::Pressure, 4, STANDARD_GRAVITY),
     unit("tf/m2", Dimension::Pressure, 3, STANDARD_GRAVITY),
+    Unit {
+        divisor: INCH * INCH,
+        ..unit("psi", Dimension::Pressure, 0, POUND_FORCE)
+    },
+    Unit {
+        divisor: INCH * INCH,
+        ..unit("ksi", Dimension::Pressure, 3, POUND_FORCE)
+    },
     unit("N/m", Dimension::ForcePerLength, 0, 1.0),
     unit("kN/m", Dimension::ForcePerLength, 3, 1.0),
     unit("MN/m", Dimension::ForcePerLength, 6, 1.0),
@@ -150,6 +164,14 @@ pub const UNITS: &[Unit] = &[
     unit("kN/mm", Dimension::ForcePerLength, 6, 1.0),
     unit("kgf/m", Dimension::ForcePerLength, 0, STANDARD_GRAVITY),
     unit("tf/m", Dimension::ForcePerLength, 3, STANDARD_GRAVITY),
+    Unit {
+        divisor: FOOT,
+        ..unit("lbf/ft", Dimension::ForcePerLength, 0, POUND_FORCE)
+    },
+    Unit {
+        divisor: INCH,
+        ..unit("kip/in", Dimension::ForcePerLength, 3, POUND_FORCE)
+    },
     unit("1/m", Dimension::InverseLength, 0, 1.0),
     unit("1/cm", Dimension::InverseLength, 2, 1.0),
     unit("1/mm", Dimension::InverseLength, 3, 1.0),

@@ -6,6 +6,7 @@ mod bad_input;
 mod contradictions;
 mod edited;
 mod histogram;
+mod keys;
 mod overrides;
 mod presets;
 mod traffic;

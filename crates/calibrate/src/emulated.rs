@@ -100,8 +100,15 @@ impl Calibration<'_> {
         };
         design.extend(places.into_iter().map(all));
         // The best of a coarse model is often the start itself.
-        let twice = |place: usize| design[..place].iter().any(|other| (other - &design[place]).amax() < 1e-9);
-        let design = (0..design.len()).filter(|&place| !twice(place)).map(|place| design[place].clone()).collect();
+        let twice = |place: usize| {
+            design[..place]
+                .iter()
+                .any(|other| (other - &design[place]).amax() < 1e-9)
+        };
+        let design = (0..design.len())
+            .filter(|&place| !twice(place))
+            .map(|place| design[place].clone())
+            .collect();
         let fit = if let Some(solution) = emulation.converge(design, start)? {
             self.answer(&runs, solution)
         } else {
@@ -269,7 +276,10 @@ impl Emulation<'_> {
     /// Whether the model ran so close to the end of an interval that the emulator of its difference to a coarser one, which was asked there,
     /// knows it.
     fn is_known(&self, solution: &Solution, witness: &Witness) -> bool {
-        let near = || self.emulator.nearest(&witness.point.free, |change| self.length(solution, change));
+        let near = || {
+            self.emulator
+                .nearest(&witness.point.free, |change| self.length(solution, change))
+        };
         self.emulator.coarse.is_some() && witness.bound.is_none() && near() < NEAR
     }
 
@@ -285,9 +295,16 @@ impl Emulation<'_> {
     /// Where the model was asked beside the optimum and the bounds, each at some distance from the others.
     fn ends(&self, solution: &Solution) -> Vec<DVector<f64>> {
         let mut ends: Vec<DVector<f64>> = Vec::new();
-        for witness in solution.witnesses.iter().filter(|witness| witness.bound.is_none()) {
+        for witness in solution
+            .witnesses
+            .iter()
+            .filter(|witness| witness.bound.is_none())
+        {
             let free = self.emulator.of_model(&witness.point.free);
-            if ends.iter().all(|other| self.length(solution, &(other - &free)) >= NEAR) {
+            if ends
+                .iter()
+                .all(|other| self.length(solution, &(other - &free)) >= NEAR)
+            {
                 ends.push(free);
             }
         }

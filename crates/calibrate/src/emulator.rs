@@ -143,7 +143,10 @@ impl Emulator {
     /// Distance to the nearest of its runs, which `measure` gives to what separates two places.
     pub(crate) fn nearest(&self, free: &DVector<f64>, measure: impl Fn(&DVector<f64>) -> f64) -> f64 {
         let here = self.of_model(free);
-        self.points.iter().map(|point| measure(&(point - &here))).fold(f64::INFINITY, f64::min)
+        self.points
+            .iter()
+            .map(|point| measure(&(point - &here)))
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Adds runs at free variables.

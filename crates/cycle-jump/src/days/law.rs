@@ -22,10 +22,10 @@ pub struct LockedLaw {
 }
 
 impl LockedLaw {
-    /// Shares of q for which the advance is measured. More of them change nothing: between ten and eighteen the forces differ by less than
-    /// a tenth of a per cent.
-    pub const SHARES: [f64; 14] = [
-        -0.95, -0.8, -0.6, -0.35, -0.1, 0.1, 0.3, 0.45, 0.57, 0.66, 0.74, 0.82, 0.9, 0.96,
+    /// Shares of q for which the advance is measured, the same both ways. More of them change nothing: with ten the forces of days differ
+    /// by less than a tenth of a per cent.
+    pub const SHARES: [f64; 16] = [
+        -0.96, -0.9, -0.82, -0.72, -0.6, -0.45, -0.28, -0.1, 0.1, 0.28, 0.45, 0.6, 0.72, 0.82, 0.9, 0.96,
     ];
 
     /// The law with friction limit `limit` q \[N/m\] through `advances` \[m\], one for each of [`LockedLaw::SHARES`]: how far the middle of a
