@@ -219,6 +219,137 @@ fn run_prints_a_short_table_and_the_plan() {
 }
 
 #[test]
+fn years_and_vehicles_a_day_give_the_passes_a_time() {
+    let folder = folder("years");
+    let file = folder.join("years.csv");
+    let rate = [
+        "--years",
+        "0.5",
+        "--trucks-per-day",
+        "60",
+        "--set",
+        "duct.length=10 m",
+    ];
+    let run = |more: &[&'static str]| [&["run", UPPER][..], &rate, more].concat();
+    let document = json(&run(&[]));
+    let rows = document["passes"].as_array().expect("a list");
+    let time = |row: &Value| (row["pass"].as_u64().expect("a number"), number(&row["years"]));
+    for row in rows {
+        let (pass, years) = time(row);
+        assert!(
+            (years / (pass as f64 / (365.25 * 60.0)) - 1.0).abs() < 1e-12,
+            "{row}"
+        );
+    }
+    // 0.5 · 365.25 · 60 = 10957.5
+    assert_eq!(time(rows.last().expect("a pass")).0, 10_958);
+    assert!(rows.iter().any(|row| time(row).0 == 1826), "the first month");
+    let said = printed(&run(&[]));
+    for line in [
+        "       60      1 day",
+        "     1826    1 month",
+        "    10958   183 days",
+    ] {
+        assert!(said.contains(line), "{said}");
+    }
+    printed(&[&run(&[])[..], &["--csv", text(&file)]].concat());
+    assert_eq!(table(&file).0[..2], ["pass", "years"]);
+
+    // The same keys on the other commands; what the scene has not cannot be reckoned with.
+    let plan = [
+        "plan",
+        UPPER,
+        "--years",
+        "20",
+        "--trucks-per-day",
+        "800",
+        "--json",
+    ];
+    assert!(printed(&plan).contains("of 5844000 passes"));
+    assert_fails(
+        &["run", UPPER, "--years", "20"],
+        2,
+        &["`traffic.per_day` is missing"],
+    );
+    assert_fails(
+        &["run", UPPER, "--years", "-1", "--trucks-per-day", "3"],
+        2,
+        &["`traffic.years`"],
+    );
+    let few = printed(&["run", UPPER, "--trucks-per-day", "2", "--set", "traffic.passes=3"]);
+    assert!(few.contains("        3   1.5 days"), "{few}");
+}
+
+#[test]
+fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
+    fn run<'a>(more: &[&'a str]) -> Vec<&'a str> {
+        let short = [
+            "--set",
+            "traffic.passes=8",
+            "--set",
+            "duct.length=10 m",
+            "--trucks-per-day",
+            "4",
+        ];
+        [&["run", UPPER][..], &short, more].concat()
+    }
+    let rows = json(&run(&[]));
+    assert_eq!(rows.get("limit_reached_after"), None);
+    let rows = rows["passes"].as_array().expect("a list").clone();
+    // A limit between two passes is broken by the later one.
+    let largest = |row: &Value| number(&row["downstream_force_n"]).max(number(&row["downstream_peak_n"]));
+    let limit = 0.5 * (largest(&rows[2]) + largest(&rows[3]));
+    let first = rows
+        .iter()
+        .position(|row| largest(row) > limit)
+        .expect("a pass above the limit");
+    assert!(first > 0);
+    let broken = json(&run(&["--limit-force", &limit.to_string()]));
+    let reached = &broken["limit_reached_after"];
+    assert_eq!(reached["pass"], rows[first]["pass"]);
+    assert_eq!(number(&reached["years"]), number(&rows[first]["years"]));
+    assert_eq!(
+        broken["limits"].as_array().map(Vec::len),
+        Some(1),
+        "the upstream end is free"
+    );
+    assert!(json(&run(&["--limit-force", "downstream=1kN"]))["limit_reached_after"].is_null());
+
+    // The free end counts only by its name.
+    let kept = printed(&run(&["--limit-movement", "1 um"]));
+    assert!(
+        kept.contains("limit kept: movement of the downstream end at most 0.0000 mm"),
+        "{kept}"
+    );
+    let named = printed(&run(&[
+        "--limit-movement",
+        "1 um",
+        "--limit-movement",
+        "upstream=2 um",
+    ]));
+    for line in [
+        "limit exceeded: movement of the upstream end above 0.0020 mm from pass 1 on, 6 h; largest ",
+        "limit kept: movement of the downstream end at most 0.0000 mm of 0.0010 mm",
+    ] {
+        assert!(named.contains(line), "{named}");
+    }
+    let free = ["--set", "ends.downstream=free", "--limit-movement", "1 mm"];
+    assert_fails(
+        &run(&free),
+        2,
+        &["--limit-movement", "both are free", "downstream=10mm"],
+    );
+    for (bad, part) in [
+        ("-3", "greater than 0"),
+        ("3 m", "a length"),
+        ("left=3kN", "upstream or downstream"),
+        ("nan N", "finite"),
+    ] {
+        assert_fails(&run(&["--limit-force", bad]), 2, &["--limit-force", part]);
+    }
+}
+
+#[test]
 fn run_writes_the_same_numbers_as_csv() {
     let file = folder("run_csv").join("forces.csv");
     let run = json(&["run", UPPER, "--set", "traffic.passes=6", "--csv", text(&file)]);
@@ -512,6 +643,53 @@ fn help_and_version_are_no_errors() {
 // presets
 
 #[test]
+fn keys_are_listed_and_explained() {
+    let list = printed(&["explain"]);
+    for line in [
+        "* duct.depth ",
+        "  duct.slope ",
+        "  traffic.per_day ",
+        "* vehicles.wheels.load ",
+    ] {
+        assert!(list.contains(line), "{list}");
+    }
+    for key in ["duct.depth", "depth", "vehicles.0.speed", "vehicles.speed"] {
+        let said = printed(&["explain", key]);
+        for part in ["  allowed: a ", "(units: m", "  required"] {
+            assert!(said.contains(part), "{said}");
+        }
+    }
+    let both = printed(&["explain", "lateral_offset"]);
+    assert!(
+        both.contains("duct.lateral_offset\n")
+            && both.contains("vehicles.lateral_offset\n")
+            && both.contains("if omitted: 0 m")
+    );
+    assert!(printed(&["explain", "friction"]).contains("friction.law\n"));
+    let document = json(&["explain", "traffic.years"]);
+    assert_eq!(document[0]["key"], "traffic.years");
+    assert_fails(&["explain", "duct.dept"], 2, &["did you mean duct.depth?"]);
+    assert_fails(&["explain", "depht"], 2, &["did you mean duct.depth?"]);
+}
+
+#[test]
+fn every_help_tells_the_exit_status() {
+    for command in [
+        "run",
+        "plan",
+        "sweep",
+        "design",
+        "report",
+        "explain",
+        "calibrate",
+        "presets",
+    ] {
+        let help = printed(&[command, "--help"]);
+        assert!(help.trim_end().ends_with("2 bad input or usage."), "{help}");
+    }
+}
+
+#[test]
 fn presets_are_listed_with_their_sources() {
     let list = printed(&["presets"]);
     let document = json(&["presets"]);
@@ -796,7 +974,7 @@ fn design_answers_in_words_and_as_json() {
         (&["--limit-force", "0"], "greater than 0"),
         (&["--limit-force", "1", "--at", "nowhere"], "upstream, downstream"),
         (&["--limit-force", "1", "--at", "99 m"], "position"),
-        (&["--limit-force", "1", "--years", "3"], "--trucks-per-day"),
+        (&["--limit-force", "1", "--years", "3"], "traffic.per_day"),
         (&[], "--limit-force"),
     ] {
         assert_fails(&design(more), 2, &[part]);
@@ -1340,7 +1518,7 @@ fn readme_commands(test: &str, said: impl Fn(&str) -> String) {
 /// The same command with twelve passes, where it reads a scene and names no passes itself.
 fn short(line: &str) -> String {
     let words = line.split('#').next().unwrap_or_default().trim_end();
-    let sceneless = ["new ", "presets", "completions"];
+    let sceneless = ["new ", "presets", "explain", "completions"];
     if words.contains("traffic.passes") || sceneless.iter().any(|name| words.starts_with(name)) {
         words.to_owned()
     } else {

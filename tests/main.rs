@@ -21,8 +21,12 @@ mod files;
 mod fuzz;
 #[path = "ground_models/main.rs"]
 mod ground_models;
+#[path = "heat.rs"]
+mod heat;
 #[path = "house.rs"]
 mod house;
+#[path = "lanes.rs"]
+mod lanes;
 #[path = "methods.rs"]
 mod methods;
 #[path = "occurrence.rs"]

@@ -9,7 +9,7 @@ use std::process::{Command, Output, Stdio};
 use super::xml::{Element, parse};
 use creepage::design::{Measure, Place};
 use creepage::report::{Report, ReportOptions};
-use creepage::{Readings, Scene};
+use creepage::{Limits, Readings, Scene};
 use serde_json::Value;
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
@@ -219,6 +219,70 @@ fn all_figures_are_there_and_have_dark_colours() {
                 "{property} {colour} has no dark colour"
             );
         }
+    }
+}
+
+#[test]
+fn figures_and_tables_are_over_time_where_the_vehicles_a_day_are_known() {
+    for (years, per_day, label) in [
+        ("20", "800", "1 month"),
+        ("100", "3", "100 years"),
+        ("0.01", "10000", "1 h"),
+        ("2", "0.7", "days"),
+        ("0.001", "1000", "hours"),
+    ] {
+        let set = [
+            "traffic.passes=",
+            &*format!("traffic.years={years}"),
+            &*format!("traffic.per_day={per_day}"),
+            "duct.length=8 m",
+            "solver.tolerance=0.1",
+        ];
+        let options = ReportOptions {
+            measures: Some(&[]),
+            ..ReportOptions::default()
+        };
+        let page = Report::new(&scene(&set), &options).expect("a report").to_html();
+        let elements = elements(&page);
+        let labels = texts(&elements, "text");
+        for text in ["Force against time", label] {
+            assert!(
+                labels.contains(&text),
+                "{years} years, {per_day} a day: {labels:?}"
+            );
+        }
+        assert!(
+            !page.contains("could not be drawn"),
+            "{years} years, {per_day} a day"
+        );
+        assert!(
+            !table(
+                &page,
+                &["pass", "after", "force downstream, N", "moved upstream, mm"]
+            )
+            .is_empty()
+        );
+    }
+}
+
+#[test]
+fn the_page_begins_with_the_answer_and_a_verdict() {
+    let mut limits = Limits::default();
+    limits.downstream.force_n = Some(1e4);
+    limits.upstream.movement_m = Some(1e-6);
+    let options = ReportOptions {
+        limits,
+        measures: Some(&[]),
+        ..ReportOptions::default()
+    };
+    let page = page(&["traffic.per_day=2"], &options);
+    let before = page.split("Peak motion").next().expect("the headline");
+    for words in [
+        "After 6 passes (3 days) the force on the downstream end is ",
+        "limit kept: force on the downstream end at most ",
+        "limit exceeded: movement of the upstream end above 0.0010 mm from pass 1 on, 12 h; largest ",
+    ] {
+        assert!(before.contains(words), "{words}: {before}");
     }
 }
 

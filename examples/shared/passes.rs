@@ -77,7 +77,7 @@ pub fn motion(
     field: &dyn GroundField,
     accuracy: f64,
 ) -> Result<DuctMotion, Box<dyn Error + Send + Sync>> {
-    let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
+    let line = DuctLine::new(scene.duct.depth, scene.offset_from(&scene.vehicles[0]))?;
     let reach = scene.duct.length + 2.0 * APPROACH;
     Ok(DuctMotion::new(
         field,

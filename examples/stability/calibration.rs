@@ -64,7 +64,7 @@ impl Table {
                 .homogeneous()
                 .ok_or("the ground has layers")?,
         );
-        let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
+        let line = DuctLine::new(scene.duct.depth, scene.offset_from(&scene.vehicles[0]))?;
         let vehicle = &scene.vehicles[0].vehicle;
         let motion = DuctMotion::new(&ground, vehicle, line, scene.duct.length + APPROACH, 1e-6)?;
         let spacing = scene.duct.depth / density;

@@ -1,5 +1,8 @@
 //! Which passes an answer lists.
 
+use super::calendar::calendar;
+use crate::scene::Traffic;
+
 /// The first passes are all listed, then each this much later than the one before.
 const GROWTH: f64 = 1.03;
 /// A run lists all passes up to this number.
@@ -32,11 +35,14 @@ pub fn beyond(count: u64) -> Vec<u64> {
     listed(far).into_iter().filter(|&pass| pass > count).collect()
 }
 
-/// The passes that a run of `count` lists.
-pub fn simulated(count: u64) -> Vec<u64> {
-    if count <= ALL_LISTED {
-        (1..=count).collect()
-    } else {
-        listed(count)
+/// The passes that a run of this traffic lists.
+pub fn simulated(traffic: &Traffic) -> Vec<u64> {
+    if traffic.passes <= ALL_LISTED {
+        return (1..=traffic.passes).collect();
     }
+    let mut passes = listed(traffic.passes);
+    passes.extend(calendar(traffic).into_iter().map(|(pass, _)| pass));
+    passes.sort_unstable();
+    passes.dedup();
+    passes
 }

@@ -4,9 +4,9 @@ use std::io::Write;
 
 use super::failure::Failure;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
-use super::shared::{Input, Json, SceneArguments};
+use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
-use crate::design::{Design, DesignError, DesignOptions, Limits, Place, design, passes};
+use crate::design::{Design, DesignError, DesignOptions, Limits, Place, design};
 use crate::scene::Dimension;
 use crate::shown::percent;
 
@@ -23,7 +23,7 @@ Examples:
 )]
 pub struct Arguments {
     #[command(flatten)]
-    scene: SceneArguments,
+    scene: TrafficArguments,
     /// Largest force allowed on either end
     #[arg(long, value_name = "FORCE", value_parser = |text: &str| Dimension::Force.parse_argument(text))]
     limit_force: f64,
@@ -33,12 +33,6 @@ pub struct Arguments {
     /// Where the spring is: upstream, downstream (at these ends), or a position for a clamp
     #[arg(long, value_name = "PLACE", default_value = "downstream", value_parser = place)]
     at: Place,
-    /// Years of traffic, in place of the scene's number of passes
-    #[arg(long, value_name = "N", requires = "trucks_per_day")]
-    years: Option<f64>,
-    /// Trucks a day
-    #[arg(long, value_name = "N", requires = "years")]
-    trucks_per_day: Option<f64>,
     #[command(flatten)]
     json: Json,
 }
@@ -55,10 +49,7 @@ fn place(text: &str) -> Result<Place, String> {
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let mut input = Input::read(&arguments.scene)?;
-    if let (Some(years), Some(trucks)) = (arguments.years, arguments.trucks_per_day) {
-        input.scene.traffic.passes = passes(years, trucks)?;
-    }
+    let input = Input::of(arguments.scene.read()?)?;
     let limits = Limits {
         force_n: arguments.limit_force,
         movement_m: arguments.limit_movement,

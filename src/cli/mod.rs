@@ -2,8 +2,11 @@
 
 mod calibrate;
 mod check;
+mod days;
 mod design;
+mod explain;
 mod failure;
+mod limits;
 mod new;
 mod plan;
 mod presets;
@@ -21,7 +24,7 @@ mod terminal;
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use failure::Failure;
 
@@ -37,9 +40,7 @@ use failure::Failure;
   creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --csv forces.csv
   creepage profile my-duct.toml --positions -1.5,0,1.5 --json
   creepage calibrate my-duct.toml --data load-cell.csv --robust
-  creepage report my-duct.toml -o my-duct.html
-
-Exit status: 0 done; 1 the computation failed; 2 bad input or usage."
+  creepage report my-duct.toml -o my-duct.html"
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -69,6 +70,8 @@ enum Command {
     New(Box<new::Arguments>),
     /// List named values for vehicles, cables, friction and pavements, with their sources
     Presets(presets::Arguments),
+    /// Explain the keys of a scene: meaning, units, range, default
+    Explain(explain::Arguments),
     /// Print a script that completes commands and flags in a shell
     #[command(after_help = "Examples:
   creepage completions bash > ~/.local/share/bash-completion/completions/creepage
@@ -79,9 +82,27 @@ enum Command {
     },
 }
 
+/// Stands at the end of every help.
+const EXIT_STATUS: &str = "Exit status: 0 done; 1 the computation failed; 2 bad input or usage.";
+
+/// The command line, whose every help ends with the exit status.
+fn command_line() -> clap::Command {
+    fn with_status(command: clap::Command) -> clap::Command {
+        let help = command.get_after_help().map(ToString::to_string);
+        let help = help.map_or_else(
+            || EXIT_STATUS.to_owned(),
+            |help| format!("{help}\n\n{EXIT_STATUS}"),
+        );
+        command.after_help(help)
+    }
+    with_status(Arguments::command()).mut_subcommands(with_status)
+}
+
 /// Runs the command with the process's arguments. Exit status: 0 done; 1 the computation failed; 2 bad input or usage.
 pub fn main() -> ExitCode {
-    let parsed = Arguments::try_parse();
+    let parsed = command_line()
+        .try_get_matches()
+        .and_then(|mut matches| Arguments::from_arg_matches_mut(&mut matches));
     match parsed.map_or_else(
         |error| failure::unparsed(&error),
         |arguments| execute(&arguments.command),
@@ -104,6 +125,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
         Command::Report(arguments) => report::execute(arguments),
         Command::New(arguments) => new::execute(arguments),
         Command::Presets(arguments) => presets::execute(arguments),
+        Command::Explain(arguments) => explain::execute(arguments),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Arguments::command(), "creepage", &mut script);

@@ -42,9 +42,11 @@ struct Row {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::read(&arguments.scene)?;
+    let table = input.table();
+    let read = [Some(&*arguments.scene.scene), table.as_deref()];
     let destination = arguments
         .output
-        .destination(Kind::Motion, [&*arguments.scene.scene])?;
+        .destination(Kind::Motion, read.into_iter().flatten())?;
     let answer = input.located(match &arguments.positions {
         Some(positions) => crate::profile_at(&input.scene, positions),
         None => crate::profile(&input.scene),

@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use super::failure::Failure;
+use super::limits::LimitArguments;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::readings::ReadArguments;
-use super::shared::{Force, Input, SceneArguments};
+use super::shared::{Force, Input, TrafficArguments};
 use super::terminal;
 use crate::output::Kind;
 use crate::report::{Report, ReportOptions};
@@ -17,11 +18,12 @@ use crate::report::{Report, ReportOptions};
 Examples:
   creepage report my-duct.toml -o my-duct.html
   creepage report my-duct.toml -o my-duct.html --data load-cell.csv
+  creepage report my-duct.toml -o my-duct.html --years 20 --trucks-per-day 800 --limit-force 2kN --limit-movement downstream=10mm
   creepage report my-duct.toml -o stiffer.html --set ground.vertical_peak=90um"
 )]
 pub struct Arguments {
     #[command(flatten)]
-    scene: SceneArguments,
+    scene: TrafficArguments,
     /// Page to write (HTML); an older page is replaced
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
@@ -30,13 +32,16 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     data: Option<PathBuf>,
     #[command(flatten)]
+    limits: LimitArguments,
+    #[command(flatten)]
     force: Force,
     #[command(flatten)]
     reading: ReadArguments,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let input = Input::read(&arguments.scene)?;
+    let input = Input::of(arguments.scene.read()?)?;
+    let limits = arguments.limits.limits(input.scene.ends)?;
     let readings = arguments
         .data
         .as_deref()
@@ -45,7 +50,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     for note in readings.iter().flat_map(crate::Readings::notes) {
         terminal::warn(note);
     }
-    let read = [Some(&*arguments.scene.scene), arguments.data.as_deref()];
+    let table = input.table();
+    let read = [
+        Some(&*arguments.scene.file.scene),
+        arguments.data.as_deref(),
+        table.as_deref(),
+    ];
     let mut files = arguments.force.files(read.into_iter().flatten());
     let page = files.output(&arguments.output, Kind::Page)?;
     let report = with_bar(PERCENT, PER_MILLE, |progress| {
@@ -54,6 +64,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             &ReportOptions {
                 readings: readings.as_ref(),
                 warnings: &input.warnings,
+                limits,
                 progress,
                 ..ReportOptions::default()
             },

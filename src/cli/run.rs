@@ -4,86 +4,72 @@ use std::io::Write;
 
 use serde::Serialize;
 
+use super::days;
 use super::failure::Failure;
+use super::limits::LimitArguments;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
-use super::shared::{Input, OutputArguments, SceneArguments};
+use super::shared::{Input, OutputArguments, TrafficArguments};
 use super::terminal;
-use crate::answer::table_rows;
+use crate::answer::{after, table_rows};
 use crate::output::Kind;
-use crate::scene::Dimension;
+use crate::scene::Traffic;
 use crate::shown::{percent, rounded};
-use crate::{PassRecord, Run, RunOptions};
+use crate::{Limits, PassRecord, Reached, Run, RunOptions, Verdict};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage run my-duct.toml
   creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --set vehicles.0.load=15tf
   creepage run my-duct.toml --json > answer.json
-  creepage run my-duct.toml --csv forces.csv --verify")]
+  creepage run my-duct.toml --csv forces.csv --verify
+  creepage run my-duct.toml --years 20 --trucks-per-day 800 --limit-force downstream=2kN --limit-movement 10mm")]
 pub struct Arguments {
     #[command(flatten)]
-    scene: SceneArguments,
+    scene: TrafficArguments,
     /// Measure the error by a second run on a mesh twice as fine
     #[arg(long)]
     verify: bool,
-    /// Force on an end whose first pass is told
-    #[arg(long, value_name = "FORCE", value_parser = |text: &str| Dimension::Force.parse_argument(text))]
-    limit_force: Option<f64>,
+    #[command(flatten)]
+    limits: LimitArguments,
     #[command(flatten)]
     output: OutputArguments,
 }
 
-/// The run, and when a force on an end first exceeds the limit.
+/// The run, and what it makes of the limits, if there are any.
 #[derive(Serialize)]
-struct Limited<'a> {
+struct Judged<'a> {
     #[serde(flatten)]
     run: &'a Run,
-    #[serde(skip_serializing_if = "Reached::is_not_asked")]
-    limit_reached_after: Reached,
+    #[serde(flatten)]
+    judgement: Option<Judgement>,
 }
 
-/// When a limit is reached.
-#[derive(Serialize, Clone, Copy, PartialEq)]
-#[serde(untagged)]
-enum Reached {
-    After { pass: u64 },
-    Never,
-    NotAsked,
+#[derive(Serialize)]
+struct Judgement {
+    /// Of the limit that is exceeded first; null where all are kept.
+    limit_reached_after: Option<Reached>,
+    limits: Vec<Verdict>,
 }
 
-impl Reached {
-    fn is_not_asked(&self) -> bool {
-        *self == Self::NotAsked
-    }
-}
-
-impl<'a> Limited<'a> {
-    fn new(run: &'a Run, limit: Option<f64>) -> Self {
-        let exceeds = |record: &&PassRecord, limit: f64| {
-            let forces = [
-                record.upstream_force_n,
-                record.upstream_peak_n,
-                record.downstream_force_n,
-                record.downstream_peak_n,
-            ];
-            forces.into_iter().any(|force| force.abs() > limit)
-        };
-        let first = |limit| {
-            let record = run.passes.iter().find(|record| exceeds(record, limit));
-            record.map_or(Reached::Never, |record| Reached::After { pass: record.pass })
-        };
+impl Judgement {
+    fn new(run: &Run, limits: &Limits) -> Self {
+        let limits = limits.verdicts(run);
+        let reached = limits.iter().filter_map(|verdict| verdict.reached_after);
         Self {
-            run,
-            limit_reached_after: limit.map_or(Reached::NotAsked, first),
+            limit_reached_after: reached.min_by_key(|reached| reached.pass),
+            limits,
         }
     }
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let input = Input::read(&arguments.scene)?;
+    let input = Input::of(arguments.scene.read()?)?;
+    let limits = arguments.limits.limits(input.scene.ends)?;
+    let table = input.table();
+    let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
     let destination = arguments
         .output
-        .destination(Kind::Passes, [&*arguments.scene.scene])?;
+        .destination(Kind::Passes, read.into_iter().flatten())?;
     let answer = with_bar(PERCENT, PER_MILLE, |progress| {
         let options = RunOptions {
             verify: arguments.verify,
@@ -93,29 +79,41 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         crate::run_with(&input.scene, &options)
     });
     let mut answer = input.located(answer)?;
+    let traffic = input.scene.traffic.clone();
     input.warn(&mut answer.warnings);
-    let limited = Limited::new(&answer, arguments.limit_force);
+    let judgement = arguments
+        .limits
+        .are_given()
+        .then(|| Judgement::new(&answer, &limits));
+    let judged = Judged {
+        run: &answer,
+        judgement,
+    };
     // A column that only some rows have is none of a table.
     let rows = answer.passes.iter().map(|record| PassRecord {
         interpolated: false,
         ..*record
     });
-    destination.write(&limited, rows, || {
-        print(&answer)?;
-        let (mut out, limit) = (terminal::out(), arguments.limit_force.unwrap_or_default());
-        match limited.limit_reached_after {
-            Reached::After { pass } => writeln!(out, "more than {limit} N on an end: from pass {pass} on")?,
-            Reached::Never => writeln!(out, "more than {limit} N on an end: not within these passes")?,
-            Reached::NotAsked => {}
+    destination.write(&judged, rows, || {
+        print(&answer, &traffic)?;
+        let mut out = terminal::out();
+        for verdict in judged.judgement.iter().flat_map(|judgement| &judgement.limits) {
+            writeln!(out, "{verdict}")?;
         }
         Ok(())
     })
 }
 
+/// The time of a pass behind its number, where it is known.
+fn in_time(traffic: &Traffic, pass: u64) -> String {
+    let years = traffic.years_after(pass);
+    years.map_or_else(String::new, |years| format!(", {}", after(years)))
+}
+
 /// Forces that differ by a smaller share are the same to a reader.
 const NOTICEABLE: f64 = 0.01;
 
-fn print(run: &Run) -> Result<(), Failure> {
+fn print(run: &Run, traffic: &Traffic) -> Result<(), Failure> {
     let mut out = terminal::out();
     writeln!(out, "{}", terminal::line(&run.title))?;
     writeln!(
@@ -124,34 +122,18 @@ fn print(run: &Run) -> Result<(), Failure> {
         1e6 * run.duct_motion.peak_longitudinal_m,
         1e6 * run.duct_motion.peak_vertical_m
     )?;
-    writeln!(
-        out,
-        "\n{:>9} {:>23} {:>23} {:>12}",
-        "", "force after pass, N", "end moved, mm", "largest"
-    )?;
-    writeln!(
-        out,
-        "{:>9} {:>11} {:>11} {:>11} {:>11} {:>12}",
-        "pass", "upstream", "downstream", "upstream", "downstream", "in cable, N"
-    )?;
-    for record in table_rows(&run.passes) {
-        writeln!(
-            out,
-            "{:>9} {:>11} {:>11} {:>11} {:>11} {:>12}",
-            record.pass,
-            rounded(record.upstream_force_n, 1),
-            rounded(record.downstream_force_n, 1),
-            rounded(1e3 * record.upstream_displacement_m, 4),
-            rounded(1e3 * record.downstream_displacement_m, 4),
-            rounded(record.max_compression_n, 1)
-        )?;
+    table(&mut out, run, traffic)?;
+    if let Some(heat) = &run.heat {
+        days::print(&mut out, &run.days, heat)?;
     }
-    writeln!(out)?;
     match &run.saturation {
+        _ if run.heat.is_some() => {}
         Some(saturation) => writeln!(
             out,
-            "saturation: {:.1} N, 95 % of it after {} passes",
-            saturation.force_n, saturation.passes_to_95_percent
+            "saturation: {:.1} N, 95 % of it after {} passes{}",
+            saturation.force_n,
+            saturation.passes_to_95_percent,
+            in_time(traffic, saturation.passes_to_95_percent)
         )?,
         None if run.range.is_some() => writeln!(out, "saturation: none, the force was larger before")?,
         None => writeln!(out, "saturation: not reached within these passes")?,
@@ -201,4 +183,48 @@ fn print(run: &Run) -> Result<(), Failure> {
         writeln!(out, "  {}", terminal::sentence(reason))?;
     }
     Ok(())
+}
+
+/// Forces and movements after some passes.
+fn table(out: &mut impl Write, run: &Run, traffic: &Traffic) -> std::io::Result<()> {
+    // A column of times where they are known.
+    let time = |text: &str| {
+        traffic
+            .per_day
+            .map_or_else(String::new, |_| format!(" {text:>10}"))
+    };
+    writeln!(
+        out,
+        "\n{:>9}{} {:>23} {:>23} {:>12}",
+        "",
+        time(""),
+        "force after pass, N",
+        "end moved, mm",
+        "largest"
+    )?;
+    writeln!(
+        out,
+        "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}",
+        "pass",
+        time("after"),
+        "upstream",
+        "downstream",
+        "upstream",
+        "downstream",
+        "in cable, N"
+    )?;
+    for record in table_rows(&run.passes, traffic) {
+        writeln!(
+            out,
+            "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}",
+            record.pass,
+            time(&record.years.map_or_else(String::new, after)),
+            rounded(record.upstream_force_n, 1),
+            rounded(record.downstream_force_n, 1),
+            rounded(1e3 * record.upstream_displacement_m, 4),
+            rounded(1e3 * record.downstream_displacement_m, 4),
+            rounded(record.max_compression_n, 1)
+        )?;
+    }
+    writeln!(out)
 }

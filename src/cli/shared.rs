@@ -17,9 +17,35 @@ const STDOUT: &str = "-";
 pub struct SceneArguments {
     /// Scene file (TOML)
     pub scene: PathBuf,
-    /// Override a key of the scene, such as friction.dynamic_coefficient=0.3; a number without a unit is SI; may be repeated
+    /// Override a key of the scene (`creepage explain` lists them), such as friction.dynamic_coefficient=0.3; a number without a unit is
+    /// SI; may be repeated
     #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
     pub set: Vec<String>,
+}
+
+/// A scene whose traffic may be given in years.
+#[derive(Debug, clap::Args)]
+pub struct TrafficArguments {
+    #[command(flatten)]
+    pub file: SceneArguments,
+    /// Years of traffic in place of the scene's passes, as traffic.years; of 365.25 days
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    years: Option<f64>,
+    /// Vehicles a day, as traffic.per_day
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    trucks_per_day: Option<f64>,
+}
+
+impl TrafficArguments {
+    /// The scene file with all that was set on top of it.
+    pub fn read(&self) -> Result<SceneFile, Failure> {
+        let keys = [("per_day", self.trucks_per_day), ("years", self.years)];
+        let given = keys
+            .iter()
+            .filter_map(|(key, value)| Some(format!("traffic.{key}={}", (*value)?)));
+        let overrides: Vec<String> = self.file.set.iter().cloned().chain(given).collect();
+        Ok(SceneFile::read(&self.file.scene)?.with(&overrides)?)
+    }
 }
 
 #[derive(Debug, clap::Args)]
@@ -60,12 +86,21 @@ pub struct Input {
 impl Input {
     /// Reads the scene and warns of numbers that look like slips.
     pub fn read(arguments: &SceneArguments) -> Result<Self, Failure> {
-        let file = SceneFile::read(&arguments.scene)?.with(&arguments.set)?;
+        Self::of(SceneFile::read(&arguments.scene)?.with(&arguments.set)?)
+    }
+
+    /// The same of a scene that is read.
+    pub fn of(file: SceneFile) -> Result<Self, Failure> {
         Ok(Self {
             scene: file.scene()?,
             warnings: warn_of_slips(&file),
             file,
         })
+    }
+
+    /// The table that the scene reads beside its file, which no output may replace.
+    pub fn table(&self) -> Option<PathBuf> {
+        self.file.histogram()
     }
 
     /// The answer, or the error with the line of the key at fault.

@@ -5,9 +5,8 @@ use std::path::PathBuf;
 
 use super::failure::Failure;
 use super::progress::{POINTS, with_bar};
-use super::shared::{Force, Json, SceneArguments, warn_of_slips};
+use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
-use crate::SceneFile;
 #[cfg(feature = "plot")]
 use crate::output::Kind;
 use crate::sweep::{Axis, Band, Format, Samples, Sweep, SweepOptions, SweepSummary};
@@ -27,7 +26,7 @@ Examples:
 )]
 pub struct Arguments {
     #[command(flatten)]
-    scene: SceneArguments,
+    scene: TrafficArguments,
     /// A key and its values; may be repeated, for every combination:
     /// KEY=A:B:STEP
     /// KEY=V1,V2,…
@@ -69,7 +68,7 @@ pub struct Arguments {
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let file = SceneFile::read(&arguments.scene.scene)?.with(&arguments.scene.set)?;
+    let file = arguments.scene.read()?;
     let axes = arguments.vary.iter().map(|text| Axis::parse(text));
     let samples = Samples {
         count: arguments.samples.unwrap_or(0),
@@ -77,7 +76,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let sweep = Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?;
     warn_of_slips(&sweep.file_at(0)?);
-    let mut files = arguments.force.files([&*arguments.scene.scene]);
+    let table = sweep.file_at(0)?.histogram();
+    let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
+    let mut files = arguments.force.files(read.into_iter().flatten());
     files.output(&arguments.out, Format::of(&arguments.out)?.kind())?;
     #[cfg(feature = "plot")]
     let map = match &arguments.map {

@@ -5,9 +5,6 @@ use serde::{Deserialize, Serialize};
 use crate::scene::{End, Restraint};
 use crate::{Error, Progress, Scene};
 
-/// Days of a year, on average.
-const DAYS_PER_YEAR: f64 = 365.25;
-
 /// Where a spring is put.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -59,7 +56,7 @@ pub enum DesignError {
     /// A run of the scene failed.
     #[error(transparent)]
     Analysis(#[from] Error),
-    /// A limit, a position or an amount of traffic that has no meaning.
+    /// A limit or a position that has no meaning.
     #[error("{name}: found {found}; allowed: {allowed}")]
     Invalid {
         /// What it is.
@@ -143,23 +140,4 @@ impl Place {
         }
         scene
     }
-}
-
-/// The passes of a number of years with a number of trucks a day.
-///
-/// # Errors
-///
-/// [`DesignError::Invalid`] unless both are positive and make at least one pass and at most 10¹⁵.
-pub fn passes(years: f64, trucks_per_day: f64) -> Result<u64, DesignError> {
-    positive("years", years)?;
-    positive("trucks per day", trucks_per_day)?;
-    let passes = (years * DAYS_PER_YEAR * trucks_per_day).round();
-    if !(1.0..=1e15).contains(&passes) {
-        return Err(DesignError::Invalid {
-            name: "passes of all years",
-            found: passes,
-            allowed: "from 1 to 1e15",
-        });
-    }
-    Ok(passes as u64)
 }

@@ -21,6 +21,6 @@ mod search;
 mod trade_off;
 
 pub use compare::{Measure, compare};
-pub use limits::{DesignError, DesignOptions, Limits, Place, passes};
+pub use limits::{DesignError, DesignOptions, Limits, Place};
 pub use search::design;
 pub use trade_off::{Design, TradeOff};

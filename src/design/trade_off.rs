@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::limits::{Limits, Place};
-use crate::{PassRecord, Run};
+use crate::{CableEnd, DayExtremes, PassRecord, Run};
 
 /// A scene's answer with one stiffness.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -52,6 +52,12 @@ impl TradeOff {
             let all = passes.flat_map(|pass| values.iter().map(move |value| value(pass)));
             all.fold(0.0, |largest: f64, value| largest.max(value.abs()))
         };
+        // Heat is hardest between passes.
+        let heated = |of: fn(&DayExtremes, CableEnd) -> f64| {
+            let days = run.heat.iter().map(|heat| &heat.all_days);
+            days.flat_map(|days| CableEnd::ALL.map(|end| of(days, end)))
+                .fold(0.0, f64::max)
+        };
         let clamped = matches!(place, Place::Clamp(_)) && stiffness_n_per_m != Some(0.0);
         let clamp = run.restraints.last().filter(|_| clamped);
         let mut point = Self {
@@ -61,11 +67,13 @@ impl TradeOff {
                 |pass| pass.downstream_force_n,
                 |pass| pass.upstream_peak_n,
                 |pass| pass.downstream_peak_n,
-            ]),
+            ])
+            .max(heated(DayExtremes::largest_force)),
             movement_m: largest(&[
                 |pass| pass.upstream_displacement_m,
                 |pass| pass.downstream_displacement_m,
-            ]),
+            ])
+            .max(heated(DayExtremes::movement)),
             clamp_force_n: clamp.map(|clamp| clamp.force_n),
             error_estimate: run.error_estimate.relative,
             within_limits: true,

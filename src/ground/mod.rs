@@ -6,4 +6,4 @@ pub mod profile;
 pub mod road;
 
 pub use model::Ground;
-pub use motion::peak;
+pub use motion::{load_ratio, peak};

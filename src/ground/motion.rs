@@ -1,12 +1,15 @@
 //! Motion of the duct under each of a scene's vehicles.
 
-use ground_field::{DuctLine, DuctMotion, GroundField};
+use ground_field::{DuctLine, DuctMotion, GroundField, Wheel};
 
 use crate::Error;
-use crate::scene::{PeakScaling, Scene};
+use crate::scene::{PeakScaling, Scene, TrafficVehicle};
 
 /// Points at which two motions are compared, this far on either side of the vehicle \[depths\].
 const COMPARED: (usize, f64) = (241, 12.0);
+
+/// Loads in the same ratio to this share are so but for rounding.
+const SAME: f64 = 1e-12;
 
 /// The motion under every vehicle for |ξ| up to `reach` \[m\], to `accuracy` as a share of its peak; scaled to a measured peak
 /// where the scene has one.
@@ -16,13 +19,39 @@ pub fn motions(
     accuracy: f64,
     reach: f64,
 ) -> Result<Vec<DuctMotion>, Error> {
-    let line = DuctLine::new(scene.duct.depth, scene.duct.lateral_offset)?;
-    let motions = scene
-        .vehicles
-        .iter()
-        .map(|traffic| DuctMotion::new(field, &traffic.vehicle, line, reach, accuracy))
-        .collect::<Result<_, _>>()?;
+    let mut motions: Vec<DuctMotion> = Vec::with_capacity(scene.vehicles.len());
+    for (index, traffic) in scene.vehicles.iter().enumerate() {
+        // The ground is elastic: vehicles that differ by their load alone share one motion, scaled.
+        let mut before = scene.vehicles[..index].iter().enumerate();
+        let alike = before.find_map(|(base, other)| Some((base, load_ratio(traffic, other)?)));
+        motions.push(if let Some((base, ratio)) = alike {
+            motions[base].clone().scaled(ratio)?
+        } else {
+            let line = DuctLine::new(scene.duct.depth, scene.offset_from(traffic))?;
+            DuctMotion::new(field, &traffic.vehicle, line, reach, accuracy)?
+        });
+    }
     scale(scene, motions)
+}
+
+/// How many times as heavy a vehicle is as one that is like it but for its load; `None` where they differ in more.
+pub fn load_ratio(vehicle: &TrafficVehicle, base: &TrafficVehicle) -> Option<f64> {
+    let drives = |traffic: &TrafficVehicle| {
+        let vehicle = &traffic.vehicle;
+        (traffic.lateral_offset, vehicle.speed(), vehicle.direction())
+    };
+    let (wheels, others) = (vehicle.vehicle.wheels(), base.vehicle.wheels());
+    let ratio = vehicle.vehicle.weight() / base.vehicle.weight();
+    let is_alike = |(a, b): (&Wheel, &Wheel)| {
+        let radii = (a.load.contact_radius(), b.load.contact_radius());
+        (a.x, a.y, radii.0) == (b.x, b.y, radii.1)
+            && (a.load.force() - ratio * b.load.force()).abs() <= SAME * a.load.force()
+    };
+    let alike = drives(vehicle) == drives(base)
+        && wheels.len() == others.len()
+        && ratio.is_finite()
+        && wheels.iter().zip(others).all(is_alike);
+    alike.then_some(ratio)
 }
 
 /// max |D_l| under any vehicle \[m\].

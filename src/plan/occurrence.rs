@@ -165,7 +165,7 @@ fn is_of_the_table(scene: &Scene) -> bool {
     soil.is_some_and(|soil| alike(soil.poisson_ratio()))
         && wheel.load.is_point()
         && wheel.y == 0.0
-        && scene.duct.lateral_offset == 0.0
+        && scene.offset_from(traffic) == 0.0
         && scene.duct.slope == 0.0
         && scene.restraints.is_empty()
 }

@@ -1,10 +1,13 @@
 //! The vehicles after which traffic repeats itself.
 //!
 //! Shares such as 2:1 have a period of their own: 3 vehicles. Others get the nearest mix of at most twelve, and a second one
-//! on the other side of theirs shows what that changes.
+//! on the other side of theirs shows what that changes. Of many kinds that differ by their load alone, as axles of a histogram do, twelve
+//! stand in for all (`stand_ins`).
 
 use cable_dem::{Order, Traffic};
+use ground_field::DuctMotion;
 
+use super::stand_ins;
 use crate::Error;
 use crate::scene::Scene;
 
@@ -16,6 +19,9 @@ const FIRST_PERIODS: u64 = 8;
 const LONGEST_SEQUENCE: usize = 200;
 /// Rounding of shares.
 const SAME: f64 = 1e-9;
+
+/// What twelve stand-ins leave wrong beside their difference to half as many.
+const HALVED: f64 = 1.0;
 
 /// A period of traffic.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,8 +35,8 @@ pub struct Period {
 }
 
 impl Period {
-    /// The period of the scene's traffic.
-    pub fn new(scene: &Scene) -> Result<Self, Error> {
+    /// The period of the scene's traffic, whose vehicles move the duct by `motions`.
+    pub fn new(scene: &Scene, motions: &[DuctMotion]) -> Result<Self, Error> {
         let traffic = &scene.traffic;
         let exact = |vehicles| Self {
             vehicles,
@@ -62,6 +68,17 @@ impl Period {
                 .total_cmp(&(b.distance / SAME).round())
         });
         let first = &mixes[0];
+        let reordered = traffic.order != Order::Interleaved;
+        if first.distance > SAME
+            && let Some(advances) = stand_ins::advances(scene, motions)
+        {
+            let mix = |length| Mix::of(stand_ins::counts(&shares, &advances, length), &shares);
+            return Ok(Self {
+                vehicles: mix(LONGEST).interleaved()?,
+                other: Some((mix(LONGEST / 2).interleaved()?, HALVED)),
+                reordered,
+            });
+        }
         let other = (first.distance > SAME).then(|| first.opposite(&mixes)).flatten();
         Ok(Self {
             vehicles: first.interleaved()?,
@@ -69,7 +86,7 @@ impl Period {
                 Some((other, share)) => Some((other.interleaved()?, share)),
                 None => None,
             },
-            reordered: traffic.order != Order::Interleaved,
+            reordered,
         })
     }
 
@@ -98,6 +115,12 @@ impl Mix {
         for &vehicle in order.iter().take(length - counts.iter().sum::<usize>()) {
             counts[vehicle] += 1;
         }
+        Self::of(counts, shares)
+    }
+
+    /// The mix of these numbers of vehicles.
+    fn of(counts: Vec<usize>, shares: &[f64]) -> Self {
+        let length: usize = counts.iter().sum();
         let off: Vec<f64> = counts
             .iter()
             .zip(shares)

@@ -6,7 +6,9 @@ use super::measures::Comparison;
 use crate::calibration::CellEnd;
 use crate::design::Measure;
 use crate::readings::Readings;
-use crate::{Error, PlanReport, Profile, Progress, Run, RunOptions, Scene, finite, profile_at};
+use crate::{
+    Error, Limits, PlanReport, Profile, Progress, Run, RunOptions, Scene, Verdict, finite, profile_at,
+};
 
 /// Positions at which the motion of the duct is drawn, and how far on either side of the vehicle \[depths\].
 const POSITIONS: i32 = 301;
@@ -23,6 +25,8 @@ pub struct ReportOptions<'a> {
     pub readings: Option<&'a Readings>,
     /// Ways to hold the cable; without any, fixed end, springs and clamps that suit the scene.
     pub measures: Option<&'a [Measure]>,
+    /// Limits that are judged at the top of the page.
+    pub limits: Limits,
     /// Warnings in addition to those of the run.
     pub warnings: &'a [String],
     /// Called after each pass of the scene's run, then after each way to hold the cable; it may stop the report.
@@ -39,6 +43,7 @@ pub struct Report {
     pub(super) friction: Friction,
     pub(super) agreement: Option<Agreement>,
     pub(super) measures: Comparison,
+    pub(super) verdicts: Vec<Verdict>,
     pub(super) warnings: Vec<String>,
 }
 
@@ -72,6 +77,7 @@ impl Report {
             friction: Friction::new(scene, &run),
             agreement: agreement.transpose()?,
             measures: Comparison::new(scene, &run, options.measures, ways)?,
+            verdicts: options.limits.verdicts(&run),
             warnings: options.warnings.iter().chain(&run.warnings).cloned().collect(),
             run,
             scene: scene.clone(),

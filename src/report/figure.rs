@@ -4,6 +4,7 @@ use super::html::Html;
 use crate::PassRecord;
 use crate::answer::listed;
 use crate::figure::{Axis, Chart, Panels};
+use crate::scene::{DAYS_PER_YEAR, Traffic};
 
 /// Width of a figure, and height of a chart alone and of one of several \[px\].
 const WIDTH: f64 = 440.0;
@@ -13,6 +14,22 @@ const STACKED: f64 = 250.0;
 const MANY: u64 = 2000;
 /// Passes that are all drawn; of more, those that a run with jumps would list.
 const ALL_DRAWN: usize = 1000;
+/// Units of time \[days\] of an axis that is not logarithmic, and how many of one there are at least.
+const UNITS: [(f64, &str); 3] = [(DAYS_PER_YEAR, "years"), (1.0, "days"), (1.0 / 24.0, "hours")];
+const FEWEST: f64 = 2.0;
+/// Share of a logarithmic axis that a label needs.
+const LABEL: f64 = 0.2;
+/// Ticks of one that is \[days\].
+const TICKS: [(f64, &str); 8] = [
+    (1.0 / 1440.0, "1 min"),
+    (1.0 / 144.0, "10 min"),
+    (1.0 / 24.0, "1 h"),
+    (1.0, "1 day"),
+    (DAYS_PER_YEAR / 12.0, "1 month"),
+    (DAYS_PER_YEAR, "1 year"),
+    (10.0 * DAYS_PER_YEAR, "10 years"),
+    (100.0 * DAYS_PER_YEAR, "100 years"),
+];
 
 /// Metres to millimetres, and to micrometres.
 pub const MILLI: f64 = 1e3;
@@ -29,19 +46,83 @@ pub fn figure(html: &mut Html, charts: impl IntoIterator<Item = Chart>, caption:
     }
 }
 
-pub fn passes_axis(last: u64) -> Axis {
-    let axis = if last > MANY {
-        Axis::logarithmic
-    } else {
-        Axis::linear
-    };
-    axis("passes")
+/// Passes along an axis, or the time that they take where it is known.
+pub struct Passes {
+    per_day: Option<f64>,
+    last: u64,
 }
 
-/// A value after each pass.
-pub fn series(passes: &[PassRecord], value: impl Fn(&PassRecord) -> f64) -> Vec<(f64, f64)> {
-    let drawn = listed(passes.last().map_or(1, |record| record.pass));
-    let is_drawn = |pass: u64| passes.len() <= ALL_DRAWN || drawn.binary_search(&pass).is_ok();
-    let drawn = passes.iter().filter(|record| is_drawn(record.pass));
-    drawn.map(|record| (record.pass as f64, value(record))).collect()
+impl Passes {
+    pub fn new(traffic: &Traffic, last: u64) -> Self {
+        let per_day = traffic.per_day;
+        Self { per_day, last }
+    }
+
+    fn days(&self) -> Option<f64> {
+        Some(self.last as f64 / self.per_day?)
+    }
+
+    /// The unit of time \[days\] and its name.
+    fn unit(&self) -> Option<(f64, &'static str)> {
+        let days = self.days()?;
+        if self.last > MANY {
+            return Some((1.0, "time"));
+        }
+        let unit = UNITS.into_iter().find(|(unit, _)| days >= FEWEST * unit);
+        unit.or(UNITS.last().copied())
+    }
+
+    /// The title of a chart of `what` over this axis.
+    pub fn title(&self, what: &str) -> String {
+        let along = self.per_day.map_or("passes", |_| "time");
+        format!("{what} against {along}")
+    }
+
+    pub fn axis(&self) -> Axis {
+        let axis = if self.last > MANY {
+            Axis::logarithmic
+        } else {
+            Axis::linear
+        };
+        let Some((_, name)) = self.unit() else {
+            return axis("passes");
+        };
+        if self.last > MANY {
+            axis(name).ticks(self.ticks())
+        } else {
+            axis(name)
+        }
+    }
+
+    /// Ticks of a logarithmic axis of time, from its end on as many as have room.
+    fn ticks(&self) -> Vec<(f64, &'static str)> {
+        let apart = (self.last as f64).powf(LABEL);
+        let mut ticks: Vec<(f64, &str)> = Vec::new();
+        for (time, name) in TICKS.into_iter().rev() {
+            let inside = self.days().is_some_and(|days| time <= days);
+            if inside && ticks.last().is_none_or(|(later, _)| later / time >= apart) {
+                ticks.push((time, name));
+            }
+        }
+        ticks.reverse();
+        ticks
+    }
+
+    /// Where a pass is on the axis.
+    pub fn place(&self, pass: u64) -> f64 {
+        match (self.per_day, self.unit()) {
+            (Some(per_day), Some((unit, _))) => pass as f64 / per_day / unit,
+            _ => pass as f64,
+        }
+    }
+
+    /// A value after each pass.
+    pub fn series(&self, passes: &[PassRecord], value: impl Fn(&PassRecord) -> f64) -> Vec<(f64, f64)> {
+        let drawn = listed(passes.last().map_or(1, |record| record.pass));
+        let is_drawn = |pass: u64| passes.len() <= ALL_DRAWN || drawn.binary_search(&pass).is_ok();
+        let drawn = passes.iter().filter(|record| is_drawn(record.pass));
+        drawn
+            .map(|record| (self.place(record.pass), value(record)))
+            .collect()
+    }
 }

@@ -2,11 +2,11 @@
 
 use super::agreement::Agreement;
 use super::content::Report;
-use super::figure::{MILLI, figure, passes_axis, series};
+use super::figure::{MILLI, Passes, figure};
 use super::html::Html;
 use super::quantity::{count, length};
 use crate::PassRecord;
-use crate::answer::table_rows;
+use crate::answer::{after, table_rows};
 use crate::figure::{Axis, Chart, Reference, Series};
 use crate::scene::End;
 use crate::shown::rounded;
@@ -17,13 +17,21 @@ const READINGS: usize = 300;
 pub fn force(html: &mut Html, report: &Report) {
     html.raw("<div class=\"figures\">");
     let measured = report.agreement.as_ref().map_or(String::new(), measured);
-    let caption = format!("Force after each pass, compression positive. A free end carries none.{measured}");
+    let when = if report.run.heat.is_some() {
+        ", on the first day"
+    } else {
+        ""
+    };
+    let caption =
+        format!("Force after each pass{when}, compression positive. A free end carries none.{measured}");
     figure(html, [over_passes(report)], &caption);
     let caption = "Force along the cable after the passes named, compression positive.";
-    figure(html, [along(report)], caption);
-    let caption = "Displacement of the cable’s ends, positive toward growing x, downstream.";
-    figure(html, [movement(report)], caption);
-    passes(html, &report.run.passes);
+    if !report.run.stages.is_empty() {
+        figure(html, [along(report)], caption);
+    }
+    let caption = format!("Displacement of the cable’s ends{when}, positive toward growing x, downstream.");
+    figure(html, [movement(report)], &caption);
+    passes(html, report);
     html.raw("</div>");
     for clamp in &report.run.restraints {
         let (place, force) = (length(clamp.position_m), rounded(clamp.force_n, 1));
@@ -51,14 +59,15 @@ fn measured(agreement: &Agreement) -> String {
 fn over_passes(report: &Report) -> Chart {
     let run = &report.run;
     let readings = report.agreement.as_ref().map_or(&[][..], |a| &a.readings);
-    let computed = run.passes.iter().map(|record| record.pass);
+    let drawn = drawn(report);
+    let computed = drawn.iter().map(|record| record.pass);
     let last = computed
         .chain(readings.iter().map(|reading| reading.passes))
         .max();
-    let axes = (passes_axis(last.unwrap_or(1)), Axis::linear("force, N"));
-    let mut chart = Chart::new("Force against passes", axes.0, axes.1);
+    let along = Passes::new(&report.scene.traffic, last.unwrap_or(1));
+    let mut chart = Chart::new(along.title("Force"), along.axis(), Axis::linear("force, N"));
     let line = |name: &str, look, value: fn(&PassRecord) -> f64| {
-        Series::line(name, series(&run.passes, value)).look(look)
+        Series::line(name, along.series(drawn, value)).look(look)
     };
     let ends = &report.scene.ends;
     if ends.downstream != End::Free {
@@ -80,11 +89,11 @@ fn over_passes(report: &Report) -> Chart {
     let shown = || readings.iter().step_by(readings.len().div_ceil(READINGS));
     for reading in shown() {
         if let Some(sigma) = reading.sigma {
-            let bar = [-sigma, sigma].map(|sigma| (reading.passes as f64, reading.value + sigma));
+            let bar = [-sigma, sigma].map(|sigma| (along.place(reading.passes), reading.value + sigma));
             chart = chart.with(Series::line("", bar).colour(1).solid());
         }
     }
-    let points = shown().map(|reading| (reading.passes as f64, reading.value));
+    let points = shown().map(|reading| (along.place(reading.passes), reading.value));
     chart.with(Series::points("measured", points).look(1).marker(0))
 }
 
@@ -104,20 +113,31 @@ fn along(report: &Report) -> Chart {
     })
 }
 
-fn movement(report: &Report) -> Chart {
+/// The passes that a line can follow: of a heated cable those of the first day.
+fn drawn(report: &Report) -> &[PassRecord] {
     let passes = &report.run.passes;
+    let heat = report.run.heat.as_ref();
+    let count = heat.map_or(passes.len(), |heat| {
+        passes.partition_point(|record| record.pass <= heat.passes_per_day)
+    });
+    &passes[..count]
+}
+
+fn movement(report: &Report) -> Chart {
+    let passes = drawn(report);
     let last = passes.last().map_or(1, |record| record.pass);
-    let upstream = series(passes, |record| MILLI * record.upstream_displacement_m);
-    let downstream = series(passes, |record| MILLI * record.downstream_displacement_m);
-    let axes = (passes_axis(last), Axis::linear("movement, mm"));
-    Chart::new("Movement of the ends", axes.0, axes.1)
+    let along = Passes::new(&report.scene.traffic, last);
+    let upstream = along.series(passes, |record| MILLI * record.upstream_displacement_m);
+    let downstream = along.series(passes, |record| MILLI * record.downstream_displacement_m);
+    Chart::new("Movement of the ends", along.axis(), Axis::linear("movement, mm"))
         .with(Series::line("upstream end", upstream))
         .with(Series::line("downstream end", downstream))
 }
 
 /// Some passes, as the terminal shows them; without what stays zero, as the force on a free end.
-fn passes(html: &mut Html, passes: &[PassRecord]) {
+fn passes(html: &mut Html, report: &Report) {
     type Column = (&'static str, fn(&PassRecord) -> f64, usize);
+    let passes = &report.run.passes;
     // Soft hyphens: a phone is narrow.
     let mut columns: Vec<Column> = vec![
         ("force up\u{ad}stream, N", |record| record.upstream_force_n, 1),
@@ -141,9 +161,15 @@ fn passes(html: &mut Html, passes: &[PassRecord]) {
         let values = columns
             .iter()
             .map(|(_, value, decimals)| rounded(value(record), *decimals));
-        std::iter::once(count(record.pass)).chain(values).collect()
+        let time = record.years.map(after);
+        std::iter::once(count(record.pass))
+            .chain(time)
+            .chain(values)
+            .collect()
     };
+    let traffic = &report.scene.traffic;
     let names = columns.iter().map(|(name, ..)| *name);
-    let head: Vec<&str> = std::iter::once("pass").chain(names).collect();
-    html.table(0, &head, table_rows(passes).into_iter().map(row));
+    let time = traffic.per_day.map(|_| "after");
+    let head: Vec<&str> = std::iter::once("pass").chain(time).chain(names).collect();
+    html.table(0, &head, table_rows(passes, traffic).into_iter().map(row));
 }

@@ -5,8 +5,12 @@ use ground_field::{Base, Direction, Modulus, Vehicle};
 use super::html::Html;
 use super::quantity::{count, length, quantity, significant};
 use crate::Scene;
-use crate::scene::{Arrangement, End, FrictionLaw, Order, PeakScaling};
+use crate::answer::after;
+use crate::ground::load_ratio;
+use crate::scene::{Arrangement, End, FrictionLaw, Order, PeakScaling, TrafficVehicle};
 
+/// Vehicles that differ by their load alone have one row where there are more than this.
+const MOST_ROWS: usize = 12;
 /// Kilometres an hour of a metre a second.
 const KILOMETRES_PER_HOUR: f64 = 3.6;
 
@@ -134,6 +138,12 @@ fn traffic(scene: &Scene) -> String {
         1 => "one pass".to_owned(),
         passes => format!("{} passes", count(passes)),
     };
+    let rate = scene
+        .traffic
+        .per_day
+        .zip(scene.traffic.years_after(scene.traffic.passes));
+    let rate = rate.map(|(per_day, years)| format!(" in {}, {} a day,", after(years), significant(per_day)));
+    let passes = passes + &rate.unwrap_or_default();
     let vehicles = scene.vehicles.len();
     let order = match &scene.traffic.order {
         _ if vehicles == 1 => return format!("Traffic: {passes} of one vehicle."),
@@ -192,6 +202,9 @@ pub fn scaling(scene: &Scene) -> Option<String> {
 
 /// The vehicles, and where they drive.
 pub fn vehicles(html: &mut Html, scene: &Scene) {
+    let first = &scene.vehicles[0];
+    let alike = |other: &TrafficVehicle| load_ratio(other, first).is_some();
+    let many = scene.vehicles.len() > MOST_ROWS && scene.vehicles.iter().all(alike);
     let rows = scene.vehicles.iter().map(|traffic| {
         let vehicle = &traffic.vehicle;
         let speed = significant(KILOMETRES_PER_HOUR * vehicle.speed());
@@ -201,22 +214,47 @@ pub fn vehicles(html: &mut Html, scene: &Scene) {
         };
         vec![
             vehicle.name().to_owned(),
-            format!("{speed} km/h {direction}, {}", lane(scene, vehicle)),
+            format!("{speed} km/h {direction}, {}", lane(scene, traffic)),
             load(vehicle),
             format!("{} %", significant(100.0 * traffic.share)),
         ]
     });
-    html.table(3, &["vehicle", "drives", "load", "share"], rows);
+    let head = ["vehicle", "drives", "load", "share"];
+    if many {
+        let mut row = rows.take(1).next().unwrap_or_default();
+        row[0] = format!("{} classes of axles", scene.vehicles.len());
+        row[2] = loads(scene);
+        "100 %".clone_into(&mut row[3]);
+        html.table(3, &head, [row]);
+    } else {
+        html.table(3, &head, rows);
+    }
+}
+
+/// The range of the vehicles' loads and their mean.
+fn loads(scene: &Scene) -> String {
+    let weights = || scene.vehicles.iter().map(|traffic| traffic.vehicle.weight());
+    let (least, most) = (
+        weights().fold(f64::INFINITY, f64::min),
+        weights().fold(0.0, f64::max),
+    );
+    let mean: f64 = scene
+        .vehicles
+        .iter()
+        .map(|traffic| traffic.share * traffic.vehicle.weight())
+        .sum();
+    let [least, most, mean] = [least, most, mean].map(|load| quantity(load, "N"));
+    format!("{least} to {most}, in the mean {mean}")
 }
 
 /// Where the middle between a vehicle's outer wheels lies.
-fn lane(scene: &Scene, vehicle: &Vehicle) -> String {
-    let sides = || vehicle.wheels().iter().map(|wheel| wheel.y);
+fn lane(scene: &Scene, traffic: &TrafficVehicle) -> String {
+    let sides = || traffic.vehicle.wheels().iter().map(|wheel| wheel.y);
     let (right, left) = (
         sides().fold(f64::INFINITY, f64::min),
         sides().fold(f64::NEG_INFINITY, f64::max),
     );
-    let beside = (0.5 * (right + left) - scene.duct.lateral_offset).abs();
+    let beside = (0.5 * (right + left) - scene.offset_from(traffic)).abs();
     if beside < 5e-4 {
         "right above the duct".into()
     } else {

@@ -1,10 +1,12 @@
 //! Puts the answer of a run together, by whatever way it was found.
 
+use cycle_jump::Record;
+
 use super::passes::{Passes, Task, force_profile};
 use super::refine::Solved;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
-    Stage, balance, listed, saturation, simulated,
+    Stage, balance, saturation, simulated,
 };
 use crate::plan::Plan;
 use crate::{Error, Progress};
@@ -69,7 +71,8 @@ impl<'a> RunBuilder<'a> {
         let passes = records(self.plan, &solved.passes);
         let restraints = restraints(&solved.passes)?;
         balance::of_records(self.plan.scene, &passes, &restraints)?;
-        if let Some(first) = passes.iter().find(|record| record.interpolated) {
+        let first = passes.iter().find(|record| record.interpolated);
+        if let Some(first) = first.filter(|_| solved.heat.is_none()) {
             summary.reasons.push(format!(
                 "{} of {} passes were simulated; between them the answer follows jumps, from pass {} on",
                 solved.passes.simulated, self.plan.scene.traffic.passes, first.pass
@@ -77,7 +80,12 @@ impl<'a> RunBuilder<'a> {
         }
         let total = solved.error.total();
         let beyond = solved.passes.beyond.as_ref();
-        let (saturation, range) = saturation(self.plan.scene, &solved.passes.records, beyond);
+        let (days, heat) = solved.heat.clone().unzip();
+        let (saturation, range) = if heat.is_some() {
+            (None, None)
+        } else {
+            saturation(self.plan.scene, &solved.passes.records, beyond)
+        };
         Ok(Run {
             title: self.plan.scene.title.clone(),
             duct_motion: self.duct_motion(),
@@ -86,6 +94,8 @@ impl<'a> RunBuilder<'a> {
             range,
             random: solved.random,
             passes,
+            days: days.unwrap_or_default(),
+            heat,
             force_profile: force_profile(&solved.passes.cable, &solved.passes.state)?,
             restraints,
             slip_lengths: solved.passes.slip,
@@ -99,6 +109,7 @@ impl<'a> RunBuilder<'a> {
                     inertia: solved.error.inertia,
                     road: solved.error.road.force,
                     passes: solved.error.passes.force,
+                    temperature: solved.error.temperature.force,
                     law: solved.error.passes.force,
                     movement: total.movement,
                 },
@@ -130,7 +141,8 @@ impl<'a> RunBuilder<'a> {
         };
         let first = task.every_pass()?;
         let profile = force_profile(&first.cable, &first.state)?;
-        let count = self.plan.scene.traffic.passes;
+        let traffic = &self.plan.scene.traffic;
+        let count = traffic.passes;
         let summary = &mut self.summary;
         summary.cable = method.name().into();
         (summary.node_spacing_m, summary.vehicle_step_m) = (mesh.spacing(), mesh.vehicle_step());
@@ -142,16 +154,23 @@ impl<'a> RunBuilder<'a> {
             title: self.plan.scene.title.clone(),
             duct_motion: self.duct_motion(),
             plan: self.summary,
-            passes: listed(count)
+            passes: simulated(traffic)
                 .into_iter()
-                .map(|pass| PassRecord {
-                    pass,
-                    ..PassRecord::new(&first.records[0])
+                .map(|pass| {
+                    PassRecord::new(
+                        &Record {
+                            pass,
+                            ..first.records[0]
+                        },
+                        traffic,
+                    )
                 })
                 .collect(),
             saturation: None,
             range: None,
             random: None,
+            days: Vec::new(),
+            heat: None,
             restraints: restraints(&first)?,
             slip_lengths: None,
             stages: stages
@@ -188,10 +207,12 @@ fn restraints(passes: &Passes) -> Result<Vec<RestraintRecord>, Error> {
 
 /// The passes that are listed.
 fn records(plan: &Plan<'_>, passes: &Passes) -> Vec<PassRecord> {
-    let listed = simulated(plan.scene.traffic.passes);
+    let listed = simulated(&plan.scene.traffic);
     let known = passes
         .records
         .iter()
         .filter(|record| listed.binary_search(&record.pass).is_ok());
-    known.map(PassRecord::new).collect()
+    known
+        .map(|record| PassRecord::new(record, &plan.scene.traffic))
+        .collect()
 }

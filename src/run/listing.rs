@@ -39,8 +39,13 @@ impl Listing {
             pass - reach..=pass + reach
         };
         if matches!(scene.traffic.order, Order::Random { .. }) {
+            // The last passes too are the mean of a whole period: the last vehicle alone says nothing.
+            let mean = |pass: u64| match window(pass) {
+                shown if pass + length / 2 <= count => shown,
+                _ => (count + 1).saturating_sub(length).max(1)..=count,
+            };
             return Ok(Self {
-                rows: listed.iter().map(|&pass| (pass, window(pass))).collect(),
+                rows: listed.iter().map(|&pass| (pass, mean(pass))).collect(),
                 own: Vec::new(),
             });
         }

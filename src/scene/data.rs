@@ -69,6 +69,8 @@ pub struct Scene {
     pub vehicles: Vec<TrafficVehicle>,
     /// How many of them drive, in which order.
     pub traffic: Traffic,
+    /// How warm the cable gets every day, where that is known.
+    pub heat: Option<Heat>,
     /// How to compute.
     pub solver: Solver,
 }
@@ -77,6 +79,22 @@ impl Scene {
     /// Largest friction per length of cable, q = μ_d N′ cos θ \[N/m\].
     pub fn friction_limit(&self) -> f64 {
         self.friction.dynamic_coefficient * self.cable.normal_load() * self.duct.cosine()
+    }
+
+    /// The heat of its days, where it makes any force.
+    pub fn warming(&self) -> Option<&Heat> {
+        let heat = self.heat.as_ref()?;
+        let is_flat = match &heat.warming {
+            Warming::Swing(swing) => *swing == 0.0,
+            Warming::Profile(points) => points.iter().all(|(_, kelvin)| *kelvin == 0.0),
+        };
+        let without = heat.expansion == 0.0 || is_flat && heat.offset == 0.0;
+        (!without).then_some(heat)
+    }
+
+    /// How far the duct's axis lies to the left of this vehicle's axis \[m\], seen in the direction of forward traffic.
+    pub fn offset_from(&self, vehicle: &TrafficVehicle) -> f64 {
+        self.duct.lateral_offset - vehicle.lateral_offset
     }
 
     /// Force of the cable's weight along the duct per length, p = −w sin θ \[N/m\], positive toward growing x.
@@ -92,7 +110,7 @@ pub struct Duct {
     pub length: f64,
     /// Depth of the cable below the road surface \[m\], positive.
     pub depth: f64,
-    /// Horizontal distance from the vehicle's axis to the duct's axis \[m\].
+    /// Horizontal distance from the line where vehicles drive that name no lane of their own \[m\], positive to the left of forward traffic.
     pub lateral_offset: f64,
     /// Inner diameter \[m\], where it is known.
     pub inner_diameter: Option<f64>,
@@ -224,6 +242,9 @@ pub struct TrafficVehicle {
     pub vehicle: Vehicle,
     /// Its share of the passes; all shares sum to 1. With [`Order::Sequence`], its share of the sequence, which may be 0.
     pub share: f64,
+    /// Its lane: how far its axis lies to the left of the line from which [`Duct::lateral_offset`] is measured \[m\], seen in the direction of
+    /// forward traffic.
+    pub lateral_offset: f64,
 }
 
 /// How many vehicles drive, in which order.
@@ -232,8 +253,42 @@ pub struct TrafficVehicle {
 pub struct Traffic {
     /// Number of passes, all vehicles together, at least 1.
     pub passes: u64,
+    /// Vehicles a day, positive, where they are known: passes then have a time.
+    pub per_day: Option<f64>,
     /// Which vehicle drives when.
     pub order: Order,
+}
+
+/// Days of a year, on average.
+pub(crate) const DAYS_PER_YEAR: f64 = 365.25;
+
+impl Traffic {
+    /// The time after this pass \[years of 365.25 days\], where the vehicles a day are known.
+    pub fn years_after(&self, pass: u64) -> Option<f64> {
+        self.per_day
+            .map(|per_day| pass as f64 / (DAYS_PER_YEAR * per_day))
+    }
+}
+
+/// Heat of the cable: how much it expands, and how warm it is over a day.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heat {
+    /// Thermal expansion α per length and degree \[1/K\], at least 0.
+    pub expansion: f64,
+    /// Mean temperature of the cable's section over the day.
+    pub warming: Warming,
+    /// What is added to it \[K\]: the day's lowest temperature above that at laying.
+    pub offset: f64,
+}
+
+/// Temperature over a day that repeats.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Warming {
+    /// A cosine from 0 at midnight to this at noon \[K\].
+    Swing(f64),
+    /// Points joined by straight lines, the last one to the first of the next day: time of the day \[s\], ascending,
+    /// and temperature \[K\].
+    Profile(Vec<(f64, f64)>),
 }
 
 /// How to compute. Lengths and times that are `None` are chosen to suit the scene.

@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::Read;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::data::{Order, Scene};
 use super::document::{Content, Document, Node};
@@ -10,7 +10,7 @@ use super::error::SceneError;
 use super::location::Location;
 use super::range::shown;
 use super::slips::{self, UnitSlip};
-use super::{overrides, preset, read};
+use super::{histogram, overrides, preset, read};
 
 /// A scene file larger than this \[bytes\] is not a scene file.
 const LARGEST_FILE: u64 = 16 << 20;
@@ -115,10 +115,16 @@ impl SceneFile {
         slips::unit_slips(&self.document)
     }
 
-    /// All keys and values of the file and its overrides, without comments: two files with the same text make the same scenes.
+    /// The table of axle loads that the scene reads too, if it names one.
+    pub fn histogram(&self) -> Option<PathBuf> {
+        histogram::path(&self.name, &self.document)
+    }
+
+    /// All keys and values of the file, its overrides and its table, without comments: two files with the same text make the same scenes.
     #[cfg(feature = "sweep")]
     pub(crate) fn values(&self) -> String {
-        format!("{:?}", self.document.root)
+        let table = self.histogram().and_then(|file| std::fs::read(file).ok());
+        format!("{:?}{:?}", self.document.root, table.unwrap_or_default())
     }
 }
 

@@ -57,6 +57,7 @@ const DIAMETERS: Range = range(1e-3, 10.0, "greater than 0, from 1 mm to 10 m");
 const SLOPES: Range = range(-1.0, 1.0, "of any sign, from -100 % to 100 %");
 const PEAKS: Range = range(1e-12, 1.0, "greater than 0, from 1e-6 um to 1 m");
 const LOADS: Range = range(0.0, 1e9, "of at least 0 and at most 1000 MN");
+const AXLE_LOADS: Range = range(LEAST, 1e9, "greater than 0 and at most 1000 MN");
 const MODULI: Range = range(1e3, 1e13, "greater than 0, from 1 kPa to 10000 GPa");
 const STIFFNESSES: Range = range(1e-9, 1e18, "greater than 0, from 1e-9 to 1e18 N/m");
 const RADII: Range = range(0.0, 100.0, "of at least 0 and at most 100 m");
@@ -66,6 +67,7 @@ const WEIGHTS: Range = range(1e-3, 1e6, "greater than 0, from 1e-3 N/m to 1 MN/m
 const AXIAL_STIFFNESSES: Range = range(1.0, 1e15, "greater than 0, from 1 N to 1e15 N");
 const SHAPE_FACTORS: Range = range(1.0, 1e18, "greater than 0, from 1 to 1e18 1/m");
 const SPEEDS: Range = range(1e-3, 1e3, "greater than 0, from 1 mm/s to 1 km/s");
+const TEMPERATURES: Range = range(-500.0, 500.0, "of any sign, from -500 to 500 K");
 const TOLERANCES: Range = range(LEAST, 0.5, "greater than 0 and at most 0.5");
 /// Thicknesses of layers, and depths of a rigid base below those above it \[m\].
 pub const THICKNESSES: Range = range(1e-6, 1e4, "greater than 0, from 1 um to 10 km");
@@ -73,6 +75,7 @@ pub const THICKNESSES: Range = range(1e-6, 1e4, "greater than 0, from 1 um to 10
 pub const DUCT_LENGTH: Quantity = length(DUCT_LENGTHS, "\"30 m\"");
 pub const DEPTH: Quantity = length(DEPTHS, "\"1.2 m\"");
 pub const LATERAL_OFFSET: Quantity = length(OFFSETS, "\"0.5 m\"");
+pub const LANE: Quantity = length(OFFSETS, "\"3.5 m\"");
 pub const SLOPE: Quantity = quantity(Dimension::Slope, SLOPES, "\"3 %\", \"1.7 deg\" or 0.03");
 pub const INNER_DIAMETER: Quantity = length(DIAMETERS, "\"200 mm\"");
 pub const DIAMETER: Quantity = length(DIAMETERS, "\"67 mm\"");
@@ -99,7 +102,25 @@ pub const SPRING: Quantity = quantity(Dimension::ForcePerLength, STIFFNESSES, "\
 pub const CLAMP: Quantity = quantity(Dimension::ForcePerLength, STIFFNESSES, "\"1 MN/m\"");
 pub const LOAD: Quantity = quantity(Dimension::Force, LOADS, "\"20 tf\"");
 pub const WHEEL_LOAD: Quantity = quantity(Dimension::Force, LOADS, "\"50 kN\"");
+pub const AXLE_LOAD: Quantity = quantity(Dimension::Force, AXLE_LOADS, "\"100 kN\"");
 pub const SPEED: Quantity = quantity(Dimension::Speed, SPEEDS, "\"40 km/h\"");
+pub const EXPANSION: Quantity = quantity(
+    Dimension::InverseTemperature,
+    range(0.0, 1e-3, "of at least 0 and at most 1e-3 1/K"),
+    "\"17e-6 1/K\"",
+);
+pub const SWING: Quantity = quantity(
+    Dimension::Temperature,
+    range(0.0, 500.0, "of at least 0 and at most 500 K"),
+    "\"20 K\"",
+);
+pub const TEMPERATURE: Quantity = quantity(Dimension::Temperature, TEMPERATURES, "\"20 K\"");
+pub const OFFSET: Quantity = quantity(Dimension::Temperature, TEMPERATURES, "\"-5 K\"");
+pub const TIME_OF_DAY: Quantity = quantity(
+    Dimension::Time,
+    range(0.0, 86_400.0_f64.next_down(), "from 0 h on and before 24 h"),
+    "\"15 h\"",
+);
 pub const TIME_STEP: Quantity = quantity(Dimension::Time, POSITIVE, "\"0.1 ms\"");
 pub const TOLERANCE: Quantity = quantity(Dimension::Ratio, TOLERANCES, "0.01 or \"1 %\"");
 
@@ -107,6 +128,10 @@ pub const POISSON: Quantity = number(0.0, 0.5, "from 0 to 0.5");
 pub const COEFFICIENT: Quantity = number(0.0, 10.0, "from 0 to 10");
 pub const LOAD_FACTOR: Quantity = number(1e-6, 1e6, "greater than 0, from 1e-6 to 1e6");
 pub const SHARE: Quantity = number(1e-12, 1e12, "greater than 0, from 1e-12 to 1e12");
+
+pub const AXLE_COUNT: Quantity = number(0.0, 1e12, "of at least 0 and at most 1e12");
+pub const YEARS: Quantity = number(1e-9, 1e6, "greater than 0, from 1e-9 to 1e6");
+pub const PER_DAY: Quantity = number(1e-6, 1e9, "greater than 0, from 1e-6 to 1e9");
 
 /// Numbers of passes that can be computed, few of them simulated.
 pub const PASSES: RangeInclusive<u64> = 1..=1_000_000_000_000;

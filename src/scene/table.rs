@@ -34,12 +34,38 @@ impl<'d> Table<'d> {
             let document = value.document;
             return Err(document.wrong(kind, &entry.key_place, &key, "", known));
         }
-        Ok(Self { value, entries })
+        let table = Self { value, entries };
+        for key in known.split(", ") {
+            if let Some(other) = keys::other_name(key) {
+                table.alternatives_of(key, other)?;
+            }
+        }
+        Ok(table)
     }
 
+    /// Refuses two names of one thing that were given at the same time.
+    fn alternatives_of(&self, key: &str, other: &str) -> Result<(), SceneError> {
+        let has = |name: &str| self.entries.iter().find(|entry| entry.key == name);
+        if let (Some(a), Some(b)) = (has(key), has(other)) {
+            let (a, b) = (self.value.child(key, &a.value), self.value.child(other, &b.value));
+            if self.order(&a, &b) == Ordering::Equal {
+                return Err(b.inconsistent(format!("both `{key}` and `{other}`"), "only one of the two"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The value at `key`, by whichever of its names it was given later.
     pub fn optional(&self, key: &str) -> Option<Value<'d>> {
-        let entry = self.entries.iter().find(|entry| entry.key == key)?;
-        Some(self.value.child(key, &entry.value))
+        let at = |name: &str| {
+            let entry = self.entries.iter().find(|entry| entry.key == name)?;
+            Some(self.value.child(name, &entry.value))
+        };
+        let other = keys::other_name(key).and_then(at);
+        match (at(key), other) {
+            (Some(value), Some(other)) if self.order(&other, &value) == Ordering::Greater => Some(other),
+            (value, other) => value.or(other),
+        }
     }
 
     pub fn required(&self, key: &str, allowed: &str) -> Result<Value<'d>, SceneError> {
@@ -71,7 +97,7 @@ impl<'d> Table<'d> {
     }
 
     /// Which of two values was given later.
-    fn order(&self, one: &Value, other: &Value) -> Ordering {
+    pub fn order(&self, one: &Value, other: &Value) -> Ordering {
         let rank = |value: &Value| self.value.document.rank(&value.node.place);
         rank(one).cmp(&rank(other))
     }

@@ -1,10 +1,16 @@
 //! `[[vehicles]]` and `[traffic]`: who drives, how often, in which order.
 
+use std::cmp::Ordering;
+
 use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
-use super::data::{Order, PeakScaling, Traffic, TrafficVehicle};
+use super::data::{DAYS_PER_YEAR, Order, PeakScaling, Traffic, TrafficVehicle};
 use super::error::SceneError;
-use super::range::{CONTACT_RADIUS, LOAD, PASSES, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y, allowed_whole};
+use super::histogram;
+use super::range::{
+    CONTACT_RADIUS, LANE, LOAD, PASSES, PER_DAY, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y, YEARS,
+    allowed_whole, shown,
+};
 use super::table::Table;
 use super::value::Value;
 
@@ -12,11 +18,82 @@ const DIRECTIONS: &[(&str, Direction)] = &[("forward", Direction::Forward), ("re
 /// Seed of a random order where the file gives none.
 const DEFAULT_SEED: u64 = 1;
 
+/// Speed of the axles of a histogram where the file gives none \[m/s\]: 40 km/h, as for the presets.
+const AXLE_SPEED: f64 = 40.0 / 3.6;
+
+/// Who drives, and how often; `name` is that of the scene's file.
 pub fn traffic(
+    name: &str,
     root: &Table,
     scaling: Option<PeakScaling>,
 ) -> Result<(Vec<TrafficVehicle>, Traffic), SceneError> {
-    let allowed = "one [[vehicles]] or more";
+    let table = root.table("traffic")?;
+    let (mut vehicles, order) = if let Some(value) = histogram(root, &table)? {
+        if let Some(PeakScaling::Longitudinal(_)) = scaling {
+            let allowed = "`ground.vertical_peak`, which is that of the first row: one longitudinal peak for every load has no meaning";
+            return Err(value.inconsistent("a histogram with `ground.longitudinal_peak`", allowed));
+        }
+        let speed = table.optional_quantity("speed", SPEED)?.unwrap_or(AXLE_SPEED);
+        (histogram::axles(name, &value, speed)?, random_order(&table)?)
+    } else {
+        let vehicles = listed(root, scaling)?;
+        let order = order(&table, &vehicles)?;
+        (vehicles, order)
+    };
+    if let Order::Sequence(sequence) = &order {
+        for (index, vehicle) in vehicles.iter_mut().enumerate() {
+            vehicle.share = sequence.iter().filter(|&&i| i == index).count() as f64;
+        }
+    }
+    normalise(&mut vehicles);
+    let traffic = Traffic {
+        passes: passes(&table)?,
+        per_day: table.optional_quantity("per_day", PER_DAY)?,
+        order,
+    };
+    Ok((vehicles, traffic))
+}
+
+/// The table of axles in place of `[[vehicles]]`; of two that were set at different times the later one stands.
+fn histogram<'d>(root: &Table<'d>, table: &Table<'d>) -> Result<Option<Value<'d>>, SceneError> {
+    let Some(value) = table.optional("histogram") else {
+        let allowed = "no `speed`: every vehicle has its own";
+        table.refuse("speed", "histogram", allowed)?;
+        return Ok(None);
+    };
+    let Some(vehicles) = root.optional("vehicles") else {
+        return Ok(Some(value));
+    };
+    match table.order(&value, &vehicles) {
+        Ordering::Greater => Ok(Some(value)),
+        Ordering::Less => Ok(None),
+        Ordering::Equal => {
+            Err(value.inconsistent("both `traffic.histogram` and [[vehicles]]", "only one of the two"))
+        }
+    }
+}
+
+/// Axles of a histogram come at random.
+fn random_order(table: &Table) -> Result<Order, SceneError> {
+    let [order, sequence] = table.alternatives("order", "sequence")?;
+    let allowed = "order = \"random\", or none: the axles of a histogram come at random";
+    if let Some(sequence) = sequence {
+        return Err(sequence.inconsistent("a sequence of the axles of a histogram", allowed));
+    }
+    if let Some(order) = order {
+        order.word_of(&[("random", ())], allowed)?;
+    }
+    Ok(Order::Random { seed: seed(table)? })
+}
+
+fn seed(table: &Table) -> Result<u64, SceneError> {
+    let seed = table.optional("seed");
+    seed.map_or(Ok(DEFAULT_SEED), |seed| seed.integer(0..=u64::MAX))
+}
+
+/// The vehicles that the file lists.
+fn listed(root: &Table, scaling: Option<PeakScaling>) -> Result<Vec<TrafficVehicle>, SceneError> {
+    let allowed = "one [[vehicles]] or more, or traffic.histogram";
     let items = root.required("vehicles", allowed)?.some_items(allowed)?;
     let mut vehicles: Vec<TrafficVehicle> = Vec::with_capacity(items.len());
     for (index, item) in items.into_iter().enumerate() {
@@ -35,20 +112,44 @@ pub fn traffic(
             ));
         }
         let share = table.optional_quantity("share", SHARE)?.unwrap_or(1.0);
-        vehicles.push(TrafficVehicle { vehicle, share });
+        let lateral_offset = table.optional_quantity("lateral_offset", LANE)?;
+        vehicles.push(TrafficVehicle {
+            vehicle,
+            share,
+            lateral_offset: lateral_offset.unwrap_or(0.0),
+        });
     }
-    let table = root.table("traffic")?;
-    let passes = table
-        .required("passes", &allowed_whole(&PASSES))?
-        .integer(PASSES)?;
-    let order = order(&table, &vehicles)?;
-    if let Order::Sequence(sequence) = &order {
-        for (index, vehicle) in vehicles.iter_mut().enumerate() {
-            vehicle.share = sequence.iter().filter(|&&i| i == index).count() as f64;
-        }
+    Ok(vehicles)
+}
+
+/// The passes: as they stand, or those of so many years, rounded to whole ones.
+fn passes(table: &Table) -> Result<u64, SceneError> {
+    let [passes, years] = table.alternatives("passes", "years")?;
+    let Some(value) = years else {
+        let allowed = format!("{}, or `years` with `per_day`", allowed_whole(&PASSES));
+        return passes
+            .map_or_else(|| table.required("passes", &allowed), Ok)?
+            .integer(PASSES);
+    };
+    let years = value.quantity(YEARS)?;
+    let allowed = format!("vehicles a day beside `years`, {}", PER_DAY.allowed());
+    let per_day = table.required("per_day", &allowed)?.quantity(PER_DAY)?;
+    let passes = (years * DAYS_PER_YEAR * per_day).round();
+    if !(*PASSES.start() as f64..=*PASSES.end() as f64).contains(&passes) {
+        let found = format!(
+            "{} years of {} vehicles a day, {} passes",
+            shown(years),
+            shown(per_day),
+            shown(passes)
+        );
+        let allowed = format!(
+            "so many that there are from {} to {} passes",
+            PASSES.start(),
+            PASSES.end()
+        );
+        return Err(value.inconsistent(found, allowed));
     }
-    normalise(&mut vehicles);
-    Ok((vehicles, Traffic { passes, order }))
+    Ok(passes as u64)
 }
 
 /// Makes the shares sum to 1, whatever their size. Shares that do so but for rounding are kept to the last digit.
@@ -141,10 +242,7 @@ fn order(table: &Table, vehicles: &[TrafficVehicle]) -> Result<Order, SceneError
         None => false,
     };
     if random {
-        let seed = table
-            .optional("seed")
-            .map_or(Ok(DEFAULT_SEED), |seed| seed.integer(0..=u64::MAX))?;
-        return Ok(Order::Random { seed });
+        return Ok(Order::Random { seed: seed(table)? });
     }
     if let Some(seed) = table.optional("seed") {
         seed.integer(0..=u64::MAX)?;

@@ -18,6 +18,10 @@ pub enum Dimension {
     Speed,
     /// Time \[s\].
     Time,
+    /// Difference of temperatures \[K\].
+    Temperature,
+    /// Inverse temperature \[1/K\].
+    InverseTemperature,
     /// A ratio, as a percentage.
     Ratio,
     /// A slope: rise over horizontal distance as a ratio, or an angle, whose tangent it is.
@@ -26,7 +30,7 @@ pub enum Dimension {
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Length,
         Self::Force,
         Self::Pressure,
@@ -34,6 +38,8 @@ impl Dimension {
         Self::InverseLength,
         Self::Speed,
         Self::Time,
+        Self::Temperature,
+        Self::InverseTemperature,
         Self::Ratio,
         Self::Slope,
     ];
@@ -59,6 +65,8 @@ impl Dimension {
             Self::InverseLength => "an inverse length",
             Self::Speed => "a speed",
             Self::Time => "a time",
+            Self::Temperature => "a difference of temperatures",
+            Self::InverseTemperature => "an expansion per degree",
             Self::Ratio => "a ratio",
             Self::Slope => "a slope",
         }
@@ -76,6 +84,9 @@ const STANDARD_GRAVITY: f64 = 9.80665;
 const RIGHT_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
 /// International pound-force \[N\].
 const POUND_FORCE: f64 = 4.4482216152605;
+/// International foot and inch \[m\].
+const FOOT: f64 = 0.3048;
+const INCH: f64 = 0.0254;
 
 /// A unit: one of it is `factor / divisor · 10^exponent` in SI; for a slope that is the angle, and its tangent counts.
 pub struct Unit {
@@ -117,6 +128,8 @@ pub const UNITS: &[Unit] = &[
     unit("um", Dimension::Length, -6, 1.0),
     unit("nm", Dimension::Length, -9, 1.0),
     unit("km", Dimension::Length, 3, 1.0),
+    unit("in", Dimension::Length, 0, INCH),
+    unit("ft", Dimension::Length, 0, FOOT),
     unit("N", Dimension::Force, 0, 1.0),
     unit("kN", Dimension::Force, 3, 1.0),
     unit("MN", Dimension::Force, 6, 1.0),
@@ -124,6 +137,7 @@ pub const UNITS: &[Unit] = &[
     unit("kgf", Dimension::Force, 0, STANDARD_GRAVITY),
     unit("tf", Dimension::Force, 3, STANDARD_GRAVITY),
     unit("lbf", Dimension::Force, 0, POUND_FORCE),
+    unit("kip", Dimension::Force, 3, POUND_FORCE),
     unit("Pa", Dimension::Pressure, 0, 1.0),
     unit("kPa", Dimension::Pressure, 3, 1.0),
     unit("MPa", Dimension::Pressure, 6, 1.0),
@@ -134,6 +148,14 @@ pub const UNITS: &[Unit] = &[
     unit("N/mm2", Dimension::Pressure, 6, 1.0),
     unit("kgf/cm2", Dimension::Pressure, 4, STANDARD_GRAVITY),
     unit("tf/m2", Dimension::Pressure, 3, STANDARD_GRAVITY),
+    Unit {
+        divisor: INCH * INCH,
+        ..unit("psi", Dimension::Pressure, 0, POUND_FORCE)
+    },
+    Unit {
+        divisor: INCH * INCH,
+        ..unit("ksi", Dimension::Pressure, 3, POUND_FORCE)
+    },
     unit("N/m", Dimension::ForcePerLength, 0, 1.0),
     unit("kN/m", Dimension::ForcePerLength, 3, 1.0),
     unit("MN/m", Dimension::ForcePerLength, 6, 1.0),
@@ -142,6 +164,14 @@ pub const UNITS: &[Unit] = &[
     unit("kN/mm", Dimension::ForcePerLength, 6, 1.0),
     unit("kgf/m", Dimension::ForcePerLength, 0, STANDARD_GRAVITY),
     unit("tf/m", Dimension::ForcePerLength, 3, STANDARD_GRAVITY),
+    Unit {
+        divisor: FOOT,
+        ..unit("lbf/ft", Dimension::ForcePerLength, 0, POUND_FORCE)
+    },
+    Unit {
+        divisor: INCH,
+        ..unit("kip/in", Dimension::ForcePerLength, 3, POUND_FORCE)
+    },
     unit("1/m", Dimension::InverseLength, 0, 1.0),
     unit("1/cm", Dimension::InverseLength, 2, 1.0),
     unit("1/mm", Dimension::InverseLength, 3, 1.0),
@@ -159,6 +189,8 @@ pub const UNITS: &[Unit] = &[
     unit("ns", Dimension::Time, -9, 1.0),
     unit("min", Dimension::Time, 0, 60.0),
     unit("h", Dimension::Time, 0, 3600.0),
+    unit("K", Dimension::Temperature, 0, 1.0),
+    unit("1/K", Dimension::InverseTemperature, 0, 1.0),
     unit("%", Dimension::Ratio, -2, 1.0),
     unit("deg", Dimension::Slope, 0, RIGHT_ANGLE / 90.0),
 ];
@@ -182,7 +214,7 @@ pub fn normalised(unit: &str) -> String {
     }
     let inverse = plain.strip_prefix('/').or(plain.strip_suffix("-1"));
     match inverse {
-        Some(length @ ("m" | "cm" | "mm" | "um")) => format!("1/{length}"),
+        Some(unit @ ("m" | "cm" | "mm" | "um" | "K")) => format!("1/{unit}"),
         _ => plain,
     }
 }

@@ -6,7 +6,7 @@
 use ground_field::{Base, Modulus, SoilProfile};
 
 use super::arrangement::may_jam;
-use super::data::{Ground, Scene};
+use super::data::{Ground, PeakScaling, Scene, TrafficVehicle};
 
 /// Moduli \[Pa\] between which soils and pavements lie: peat and granite.
 const SOFTEST: f64 = 1e6;
@@ -34,13 +34,37 @@ pub(crate) fn unusual(scene: &Scene) -> Vec<String> {
             "`friction.dynamic_coefficient` is {coefficient}: that of cables in ducts is below 1"
         ));
     }
-    let offset = scene.duct.lateral_offset.abs();
-    if offset > FARTHEST * scene.duct.depth {
-        warnings.push(format!(
-            "`duct.lateral_offset` is {offset} m, more than {FARTHEST} times the depth: the duct hardly moves there"
-        ));
-    }
+    warnings.extend(far(scene));
+    warnings.extend(lanes_scaled_alike(scene));
     warnings
+}
+
+/// A lane so far away that its vehicles hardly move the duct.
+fn far(scene: &Scene) -> Option<String> {
+    let is_far = |traffic: &&TrafficVehicle| scene.offset_from(traffic).abs() > FARTHEST * scene.duct.depth;
+    let traffic = scene.vehicles.iter().find(is_far)?;
+    let (name, offset) = (traffic.vehicle.name(), scene.offset_from(traffic).abs());
+    let subject = if traffic.lateral_offset == 0.0 {
+        format!("`duct.lateral_offset` is {offset} m")
+    } else {
+        format!("the lane of \"{name}\" is {offset} m from the duct")
+    };
+    Some(format!(
+        "{subject}, more than {FARTHEST} times the depth: the duct hardly moves there"
+    ))
+}
+
+/// Lanes move a duct by different amounts, but a longitudinal peak is that of each vehicle.
+fn lanes_scaled_alike(scene: &Scene) -> Option<String> {
+    let Some(PeakScaling::Longitudinal(_)) = scene.ground.scaling else {
+        return None;
+    };
+    let differs = |traffic: &TrafficVehicle| traffic.lateral_offset != scene.vehicles[0].lateral_offset;
+    scene.vehicles.iter().any(differs).then(|| {
+        "`ground.longitudinal_peak` is the peak under every vehicle, in whatever lane: one in a lane farther away moves the duct as far; \
+         `ground.vertical_peak` keeps the lanes apart"
+            .to_owned()
+    })
 }
 
 /// Rock does not move, and so nothing in it does.

@@ -4,7 +4,9 @@ use std::fmt::{Display, Write};
 
 use ground_field::{Base, Modulus, SoilLayer, Wheel};
 
-use super::data::{End, Ends, FrictionLaw, Ground, Order, PeakScaling, Scene, Solver, TrafficVehicle};
+use super::data::{
+    End, Ends, FrictionLaw, Ground, Heat, Order, PeakScaling, Scene, Solver, TrafficVehicle, Warming,
+};
 
 impl Scene {
     /// The scene as a TOML file, all quantities in SI: [`Scene::from_toml`] reads the same scene from it.
@@ -64,6 +66,9 @@ impl Scene {
             }
         }
         out.traffic(self);
+        if let Some(heat) = &self.heat {
+            out.heat(heat);
+        }
         out.solver(&self.solver);
         out.0
     }
@@ -157,11 +162,15 @@ impl Text {
         }
     }
 
-    fn vehicle(&mut self, TrafficVehicle { vehicle, .. }: &TrafficVehicle) {
+    fn vehicle(&mut self, traffic: &TrafficVehicle) {
+        let vehicle = &traffic.vehicle;
         self.section("[[vehicles]]");
         self.word("name", vehicle.name());
         self.quantity("speed", vehicle.speed(), "m/s");
         self.word("direction", &vehicle.direction().to_string());
+        if traffic.lateral_offset != 0.0 {
+            self.quantity("lateral_offset", traffic.lateral_offset, "m");
+        }
         match vehicle.wheels() {
             [Wheel { x, y, load }] if (*x, *y, load.contact_radius()) == (0.0, 0.0, 0.0) => {
                 self.quantity("load", load.force(), "N");
@@ -176,6 +185,9 @@ impl Text {
     fn traffic(&mut self, scene: &Scene) {
         self.section("[traffic]");
         self.line("passes", scene.traffic.passes);
+        if let Some(per_day) = scene.traffic.per_day {
+            self.number("per_day", per_day);
+        }
         match &scene.traffic.order {
             Order::Interleaved => {}
             Order::Random { seed } => {
@@ -188,6 +200,22 @@ impl Text {
                 self.line("sequence", format_args!("[{}]", names.join(", ")));
             }
         }
+    }
+
+    fn heat(&mut self, heat: &Heat) {
+        self.section("[heat]");
+        self.quantity("expansion", heat.expansion, "1/K");
+        match &heat.warming {
+            Warming::Swing(swing) => self.quantity("daily_swing", *swing, "K"),
+            Warming::Profile(points) => {
+                let point = |(time, kelvin): &(f64, f64)| {
+                    format!("[{}, {}]", in_unit(*time, "s"), in_unit(*kelvin, "K"))
+                };
+                let points: Vec<String> = points.iter().map(point).collect();
+                self.line("profile", format_args!("[{}]", points.join(", ")));
+            }
+        }
+        self.quantity("offset", heat.offset, "K");
     }
 
     fn solver(&mut self, solver: &Solver) {

@@ -1,9 +1,11 @@
 //! Every answer can be true: forces balance, numbers are finite, errors are stated and cover, or there is a typed error.
 
+mod axles;
 mod balance;
 mod common;
-mod long_term;
+pub mod long_term;
 mod meshes;
 mod random;
 mod road;
 mod saturation;
+mod search;

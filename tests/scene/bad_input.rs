@@ -473,18 +473,32 @@ fn what_is_not_toml_is_told_where_it_was_written() {
 }
 
 #[test]
-fn a_spring_by_its_other_name_is_told() {
-    assert_refused(
-        "{ spring = ",
-        "{ stiffness = ",
-        "{ stiffness",
-        &["`ends.downstream.stiffness`", "did you mean `spring`?"],
+fn a_spring_and_a_stiffness_are_understood_as_each_other_but_not_both() {
+    let expected = read(FULL).unwrap();
+    let renamed = FULL
+        .replace("{ spring = ", "{ stiffness = ")
+        .replace("stiffness = \"1 MN/m\"", "spring = \"1 MN/m\"");
+    assert_eq!(read(&renamed).unwrap(), expected);
+    let later = super::read_with(&["ends.downstream.stiffness=5", "restraints.0.spring=7"]).unwrap();
+    assert_eq!(
+        (later.ends.downstream, later.restraints[0].stiffness),
+        (super::End::Spring(5.0), 7.0)
     );
     assert_refused(
-        "stiffness = \"1 MN/m\"",
-        "spring = \"1 MN/m\"",
-        "spring = \"1 MN/m\"",
-        &["`restraints.0.spring`", "did you mean `stiffness`?"],
+        "{ spring = ",
+        "{ stiffness = 1, spring = ",
+        "{ stiffness",
+        &[
+            "`ends.downstream.stiffness`",
+            "both `spring` and `stiffness`",
+            "only one",
+        ],
+    );
+    assert_refused(
+        "{ spring = \"3 MN/m\" }",
+        "{ stiffness = \"3 m\" }",
+        "{ stiffness",
+        &["`ends.downstream.stiffness`", "wrong dimension"],
     );
 }
 
@@ -529,7 +543,7 @@ fn a_message_reads_as_a_whole() {
     assert_eq!(
         message.unwrap_err().to_string(),
         "bad.toml, line 4: `duct.depth`: wrong dimension: found \"1.2 kN\", a force; \
-         allowed: a length greater than 0, from 1 cm to 1 km, such as \"1.2 m\" (units: m, cm, mm, um, nm, km)\n  \
+         allowed: a length greater than 0, from 1 cm to 1 km, such as \"1.2 m\" (units: m, cm, mm, um, nm, km, in, ft)\n  \
            |\n\
          4 | depth = \"1.2 kN\"  # to the cable\n  \
            |         ^^^^^^^^"

@@ -126,7 +126,7 @@ fn a_sequence_names_known_vehicles() {
     let message = |list| read(&sequence(list)).unwrap_err().to_string();
     let unknown = message("[\"truck\", \"vam\"]");
     assert!(
-        unknown.starts_with("bad.toml, line 52: `traffic.sequence.1`: found \"vam\" (did you mean `van`?)"),
+        unknown.starts_with("bad.toml, line 54: `traffic.sequence.1`: found \"vam\" (did you mean `van`?)"),
         "{unknown}"
     );
     assert!(unknown.contains("allowed: \"truck\", \"van\""), "{unknown}");

@@ -38,6 +38,7 @@ fn vehicle(name: &str) -> TrafficVehicle {
     TrafficVehicle {
         vehicle: Vehicle::point(name, 1e5, 10.0).expect("a vehicle"),
         share: 0.5,
+        lateral_offset: 0.0,
     }
 }
 
@@ -143,6 +144,11 @@ fn ground_and_traffic_have_their_ranges_too() {
     assert_refused("vehicles.0.speed", |scene| {
         scene.vehicles[0].vehicle = Vehicle::point("fast", 1e5, 1e9).expect("a vehicle");
     });
+    for lane in [f64::NAN, 2e3] {
+        assert_refused("vehicles.0.lateral_offset", |scene| {
+            scene.vehicles[0].lateral_offset = lane;
+        });
+    }
     assert_refused("vehicles.0.load", |scene| {
         scene.vehicles[0].vehicle = Vehicle::point("heavy", 1e30, 10.0).expect("a vehicle");
     });

@@ -5,8 +5,11 @@ mod arrangement;
 mod bad_input;
 mod contradictions;
 mod edited;
+mod histogram;
+mod keys;
 mod overrides;
 mod presets;
+mod traffic;
 mod unusual;
 mod written;
 
@@ -67,9 +70,11 @@ wheels = [
   { x = "0 m", y = "0.9 m", load = "5 kN", contact_radius = "0.15 m" },
   { x = "-2.5 m", y = "-0.9 m", load = "7 kN" },
 ]
+lateral_offset = "3.5 m"
 direction = "reverse"
 [traffic]
 passes = 60
+per_day = 800
 order = "random"
 seed = 7
 [solver]

@@ -86,6 +86,17 @@ fn each_unusual_value_is_told_with_its_key() {
             "`friction.dynamic_coefficient` is 2.5",
         ),
         (&["duct.lateral_offset=-50 m"], "`duct.lateral_offset` is 50 m"),
+        (
+            &["vehicles.0.lateral_offset=20 m", "duct.lateral_offset=-5 m"],
+            "the lane of \"vehicle 1\" is 25 m from the duct",
+        ),
+        (
+            &[
+                "ground.longitudinal_peak=30 um",
+                "vehicles=[{ preset = \"t-25\" }, { preset = \"t-14\", lateral_offset = \"3.5 m\" }]",
+            ],
+            "`ground.longitudinal_peak` is the peak under every vehicle, in whatever lane",
+        ),
     ];
     for (overrides, wanted) in cases {
         let found = warnings(overrides);
@@ -104,6 +115,7 @@ fn what_is_only_far_from_the_usual_is_not_told() {
         &["ground.layers.0.young_modulus=90 GPa"],
         &["friction.dynamic_coefficient=1.5"],
         &["duct.lateral_offset=15 m"],
+        &["duct.lateral_offset=50 m", "vehicles.0.lateral_offset=50 m"],
         // Soil over rock that is a half-space.
         &[
             "ground.layers.0.young_modulus=60 MPa",

@@ -51,8 +51,9 @@ fn profile() -> impl Strategy<Value = SoilProfile> {
 fn vehicle(index: usize) -> impl Strategy<Value = TrafficVehicle> {
     let wheel = (-5.0..5.0, -1.0..1.0, 1e3..1e5, prop_oneof![Just(0.0), 0.05..0.3]);
     let wheels = prop_oneof![Just(vec![(0.0, 0.0, 2e5, 0.0)]), vec(wheel, 1..4)];
-    (wheels, 1.0..30.0, any::<bool>(), "[a-z\"\\\\\n名ü ]{0,5}").prop_map(
-        move |(wheels, speed, reverse, name)| {
+    let lane = prop_oneof![Just(0.0), -9.0..9.0];
+    (wheels, 1.0..30.0, any::<bool>(), lane, "[a-z\"\\\\\n名ü ]{0,5}").prop_map(
+        move |(wheels, speed, reverse, lateral_offset, name)| {
             let wheels = wheels.into_iter().map(|(x, y, force, radius)| Wheel {
                 x,
                 y,
@@ -67,6 +68,7 @@ fn vehicle(index: usize) -> impl Strategy<Value = TrafficVehicle> {
             TrafficVehicle {
                 vehicle: vehicle.expect("a vehicle"),
                 share: 1.0,
+                lateral_offset,
             }
         },
     )

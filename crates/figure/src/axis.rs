@@ -16,6 +16,8 @@ pub struct Axis {
     pub(crate) centres: Vec<f64>,
     /// Names of these cells, if they have any.
     names: Vec<String>,
+    /// Values that are labelled in place of round numbers, if any.
+    ticks: Vec<(f64, String)>,
 }
 
 impl Axis {
@@ -28,6 +30,7 @@ impl Axis {
             range: None,
             centres: Vec::new(),
             names: Vec::new(),
+            ticks: Vec::new(),
         }
     }
 
@@ -67,6 +70,25 @@ impl Axis {
     /// Labels ticks with SI prefixes of `unit`: "1 µm", "10 ms".
     pub fn prefixes(mut self, unit: impl Into<String>) -> Self {
         self.unit = Some(unit.into());
+        self
+    }
+
+    /// Labels these ascending values in place of round numbers; those beyond the axis are left out.
+    ///
+    /// ```
+    /// use plain_figure::{Axis, Chart, Series};
+    ///
+    /// let time = Axis::logarithmic("time").ticks([(1.0, "1 day"), (365.25, "1 year"), (3652.5, "10 years")]);
+    /// let chart = Chart::new("", time, Axis::linear("force, N")).with(Series::line("", [(0.5, 1.0), (400.0, 2.0)]));
+    /// let svg = chart.to_svg()?;
+    /// assert!(svg.contains("1 day") && svg.contains("1 year") && !svg.contains("10 years"));
+    /// # Ok::<(), plain_figure::FigureError>(())
+    /// ```
+    pub fn ticks<Label: Into<String>>(mut self, ticks: impl IntoIterator<Item = (f64, Label)>) -> Self {
+        self.ticks = ticks
+            .into_iter()
+            .map(|(value, label)| (value, label.into()))
+            .collect();
         self
     }
 
@@ -138,7 +160,12 @@ impl Axis {
         }
         if self.names.is_empty() {
             let unit = self.unit.as_deref();
-            Ok(Scale::new(range, self.logarithmic, ticks, unit))
+            let scale = Scale::new(range, self.logarithmic, ticks, unit);
+            Ok(if self.ticks.is_empty() {
+                scale
+            } else {
+                scale.with_ticks(&self.ticks)
+            })
         } else {
             Ok(Scale::names(&self.names))
         }

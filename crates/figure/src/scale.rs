@@ -50,6 +50,22 @@ impl Scale {
         }
     }
 
+    /// These ticks in place of its own, as far as they lie inside.
+    pub fn with_ticks(self, ticks: &[(f64, String)]) -> Self {
+        let inside = ticks
+            .iter()
+            .filter(|(value, _)| (0.0..=1.0).contains(&self.share(*value)));
+        let ticks = inside.map(|(value, label)| Tick {
+            value: *value,
+            label: label.clone(),
+        });
+        Self {
+            ticks: ticks.collect(),
+            fine: Vec::new(),
+            ..self
+        }
+    }
+
     /// 0 at the start of the axis, 1 at its end; below and above beyond them.
     pub fn share(&self, value: f64) -> f64 {
         let (from, to) = self.range;

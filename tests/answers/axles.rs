@@ -1,0 +1,90 @@
+//! Many passes of an axle histogram: stand-ins beside every axle at random.
+
+use creepage::{Scene, SceneFile};
+
+const SCENE: &str = r#"
+[duct]
+length = "15 m"
+depth = "1.2 m"
+[ground]
+[[ground.layers]]
+young_modulus = "100 MPa"
+poisson_ratio = 0.4
+[cable]
+preset = "xlpe-800-single-core"
+[friction]
+law = "coulomb"
+dynamic_coefficient = 0.25
+[ends]
+upstream = "free"
+downstream = { spring = "3 MN/m" }
+[traffic]
+histogram = "axles.csv"
+passes = 2000
+[solver]
+tolerance = 0.05
+node_spacing = "0.15 m"
+vehicle_step = "0.075 m"
+"#;
+/// Passes after which nothing but the order of the axles changes.
+const SETTLED: usize = 300;
+
+/// Light axles, most of them near 60 kN, and one in a hundred far heavier.
+fn scene(overrides: &[&str]) -> Scene {
+    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("axles");
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let row = |load: i32| {
+        let off = (f64::from(load) - 60.0) / 25.0;
+        format!("{load} kN,{:.3},0.15 m\n", 1000.0 * (-0.5 * off * off).exp())
+    };
+    let rows: Vec<String> = (5..=120).step_by(5).map(row).collect();
+    let heavy = "170 kN,80,0.15 m\n210 kN,40,0.15 m\n";
+    let table = format!("load,count,contact_radius\n{}{heavy}", rows.concat());
+    std::fs::write(folder.join("axles.csv"), table).expect("a table");
+    let name = folder.join("duct.toml");
+    SceneFile::from_toml(&name.display().to_string(), SCENE)
+        .and_then(|file| file.with(overrides)?.scene())
+        .expect("a scene")
+}
+
+/// The stand-ins' force is the mean of all axles', within the stated error, and the stated spread is theirs.
+#[test]
+fn stand_ins_keep_the_mean_force_and_the_spread_of_all_axles() {
+    let jumps = creepage::run(&scene(&["solver.method=pass-law"])).expect("an answer");
+    let every = creepage::run(&scene(&["solver.method=quasi-static", "traffic.seed=5"])).expect("an answer");
+    assert!(
+        jumps.cost.simulated_passes < 400,
+        "{}",
+        jumps.cost.simulated_passes
+    );
+    let mut forces: Vec<f64> = every.passes[SETTLED..]
+        .iter()
+        .map(|pass| pass.downstream_force_n)
+        .collect();
+    let mean = forces.iter().sum::<f64>() / forces.len() as f64;
+    let last = jumps.passes.last().expect("a pass").downstream_force_n;
+    let error = jumps.error_estimate.relative;
+    assert!(
+        (last / mean - 1.0).abs() <= error.max(0.01),
+        "{last} {mean} {error}"
+    );
+
+    forces.sort_by(f64::total_cmp);
+    let at = |share: f64| forces[(share * (forces.len() - 1) as f64) as usize];
+    let spread = jumps.random.expect("a spread").downstream;
+    // Of some hundred passes each.
+    let width = at(0.95) - at(0.05);
+    for (found, wanted) in [
+        (spread.q05_n, at(0.05)),
+        (spread.q50_n, at(0.5)),
+        (spread.q95_n, at(0.95)),
+    ] {
+        assert!(
+            (found - wanted).abs() < 0.25 * width,
+            "{spread:?}, {} {} {}",
+            at(0.05),
+            at(0.5),
+            at(0.95)
+        );
+    }
+}

@@ -1,0 +1,123 @@
+//! Lanes: where a vehicle drives across the road counts by its distance from the duct alone.
+
+use creepage::{Run, Scene, SceneFile};
+
+const ROAD: &str = r#"
+[duct]
+length = "20 m"
+depth = "1.2 m"
+[ground]
+[[ground.layers]]
+thickness = "30 cm"
+young_modulus = "500 MPa"
+poisson_ratio = 0.35
+[[ground.layers]]
+young_modulus = "100 MPa"
+poisson_ratio = 0.4
+[cable]
+preset = "xlpe-800-single-core"
+[friction]
+law = "coulomb"
+dynamic_coefficient = 0.3
+[ends]
+upstream = "free"
+downstream = "fixed"
+[[vehicles]]
+preset = "t-25"
+[traffic]
+passes = 4
+[solver]
+tolerance = 0.1
+node_spacing = "0.2 m"
+vehicle_step = "0.1 m"
+"#;
+/// Of single numbers, where both ways of saying a place round differently.
+const ROUNDING: f64 = 1e-6;
+
+fn road(overrides: &[&str]) -> Scene {
+    SceneFile::from_toml("road.toml", ROAD)
+        .and_then(|file| file.with(overrides)?.scene())
+        .expect("a scene")
+}
+
+fn forces(scene: &Scene) -> Vec<f64> {
+    let run: Run = creepage::run(scene).expect("an answer");
+    run.passes.iter().map(|pass| pass.downstream_force_n).collect()
+}
+
+#[track_caller]
+fn assert_same(one: &Scene, other: &Scene) {
+    let (one, other) = (forces(one), forces(other));
+    for (a, b) in one.iter().zip(&other) {
+        assert!((a - b).abs() <= ROUNDING * a.abs(), "{one:?} {other:?}");
+    }
+}
+
+/// The preset's wheels, shifted by hand.
+#[test]
+fn a_lane_is_a_shift_of_all_wheels() {
+    let wheels = |shift: f64| {
+        let wheel = |x: f64, y: f64, load: f64| {
+            format!(
+                "{{ x = {x}, y = {}, load = {load}, contact_radius = 0.1784 }}",
+                y + shift
+            )
+        };
+        let all = [(4.0, 25e3), (0.0, 100e3)]
+            .map(|(x, load)| [wheel(x, 0.875, load), wheel(x, -0.875, load)].join(","));
+        format!("vehicles.0.wheels=[{}]", all.join(","))
+    };
+    for (direction, lane) in [("forward", 3.5), ("reverse", -1.3)] {
+        let direction = format!("vehicles.0.direction={direction}");
+        let in_lane = road(&[&direction, &format!("vehicles.0.lateral_offset={lane}")]);
+        assert_same(&in_lane, &road(&[&direction, &wheels(lane)]));
+        // And of the duct to the other side.
+        assert_same(
+            &in_lane,
+            &road(&[&direction, &format!("duct.lateral_offset={}", -lane)]),
+        );
+    }
+}
+
+#[test]
+fn a_lane_above_the_duct_is_none() {
+    let both = ["vehicles.0.lateral_offset=3.5", "duct.lateral_offset=3.5"];
+    assert_same(&road(&both), &road(&[]));
+}
+
+#[test]
+fn lanes_as_far_on_either_side_are_alike_and_farther_ones_move_the_cable_less() {
+    let two = |first: f64, second: f64| {
+        let truck = |name: &str, lane: f64| {
+            format!("{{ preset = \"t-25\", name = \"{name}\", lateral_offset = {lane} }}")
+        };
+        road(&[&format!(
+            "vehicles=[{}, {}]",
+            truck("a", first),
+            truck("b", second)
+        )])
+    };
+    assert_same(&two(0.0, 3.5), &two(0.0, -3.5));
+    let last = |scene: &Scene| *forces(scene).last().expect("a pass");
+    let (above, beside, far) = (last(&two(0.0, 0.0)), last(&two(0.0, 3.5)), last(&two(3.5, 7.0)));
+    assert!(above > beside && beside > far.abs(), "{above} {beside} {far}");
+}
+
+#[test]
+fn the_report_tells_each_lane_from_the_duct() {
+    let scene = road(&[
+        "duct.lateral_offset=0.5",
+        "vehicles=[{ preset = \"t-25\", lateral_offset = 0.5 }, { preset = \"t-14\", lateral_offset = \"-3 m\", direction = \"reverse\" }]",
+        "traffic.passes=2",
+    ]);
+    let options = creepage::report::ReportOptions {
+        measures: Some(&[]),
+        ..Default::default()
+    };
+    let page = creepage::report::Report::new(&scene, &options)
+        .expect("a report")
+        .to_html();
+    for words in ["forward, right above the duct", "reverse, 3.5 m beside the duct"] {
+        assert!(page.contains(words), "{words}");
+    }
+}

@@ -1,0 +1,210 @@
+//! `traffic.histogram`: a table of axle loads in place of vehicles.
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use creepage::scene::Order;
+use creepage::{RunOptions, Scene, SceneError, SceneFile};
+use ground_field::{Displacement, GroundError, GroundField, SurfaceLoad};
+
+const SCENE: &str = r#"
+[duct]
+length = "15 m"
+depth = "1.2 m"
+[ground]
+[[ground.layers]]
+young_modulus = "100 MPa"
+poisson_ratio = 0.4
+[cable]
+preset = "xlpe-800-single-core"
+[friction]
+law = "coulomb"
+dynamic_coefficient = 0.25
+[ends]
+upstream = "free"
+downstream = "fixed"
+[traffic]
+histogram = "axles.csv"
+passes = 3
+[solver]
+tolerance = 0.1
+node_spacing = "0.2 m"
+vehicle_step = "0.1 m"
+"#;
+
+/// A folder with a scene and this table.
+fn folder(test: &str, table: &str) -> PathBuf {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"))
+        .join("histogram")
+        .join(test);
+    fs::create_dir_all(&folder).expect("a folder");
+    fs::write(folder.join("axles.csv"), table).expect("a table");
+    fs::write(folder.join("duct.toml"), SCENE).expect("a scene");
+    folder.join("duct.toml")
+}
+
+fn read(test: &str, table: &str, overrides: &[&str]) -> Result<Scene, SceneError> {
+    SceneFile::read(folder(test, table))?.with(overrides)?.scene()
+}
+
+/// Load, contact radius and share of each class.
+fn classes(scene: &Scene) -> Vec<(f64, f64, f64)> {
+    let class = |traffic: &creepage::scene::TrafficVehicle| {
+        let [wheel] = traffic.vehicle.wheels() else {
+            panic!("one wheel");
+        };
+        (wheel.load.force(), wheel.load.contact_radius(), traffic.share)
+    };
+    scene.vehicles.iter().map(class).collect()
+}
+
+#[test]
+fn every_row_is_an_axle_with_its_share() {
+    let expected = [(5e4, 0.15, 0.75), (1e5, 0.2, 0.25)];
+    for table in [
+        "load,count,contact_radius\n50 kN,300,0.15 m\n80 kN,0,0.15 m\n100 kN,100,20 cm\n",
+        "\u{feff}# counted in May\nCount; Load; contact_radius\r\n\"300\"; 50000 ; 150 mm\r\n\r\n100;0.1 MN;0.2\r\n",
+        "site\tload\tcount\tcontact_radius\nA\t50 kN\t3\t0.15\nA\t100 kN\t1\t0.2\n",
+    ] {
+        let scene = read("rows", table, &[]).unwrap();
+        assert_eq!(classes(&scene), expected, "{table}");
+        assert_eq!(scene.traffic.order, Order::Random { seed: 1 });
+        assert_eq!(scene.vehicles[0].vehicle.speed(), 40.0 / 3.6);
+        assert_eq!(Scene::from_toml("duct.toml", &scene.to_toml()).unwrap(), scene);
+        scene.validate().unwrap();
+    }
+    let points = read(
+        "points",
+        "load,count\n1 tf,1\n",
+        &["traffic.speed=5", "traffic.seed=9"],
+    )
+    .unwrap();
+    assert_eq!(classes(&points), [(9806.65, 0.0, 1.0)]);
+    assert_eq!(points.traffic.order, Order::Random { seed: 9 });
+    assert_eq!(points.vehicles[0].vehicle.speed(), 5.0);
+}
+
+#[test]
+fn a_bad_table_is_refused_with_its_line() {
+    for (table, parts) in [
+        ("", &["nothing in line 1", "load, count"][..]),
+        ("load\n50 kN\n", &["found \"load\" in line 1"]),
+        ("load,count\n", &["no row with axles"]),
+        ("load,count\n50 kN,0\n", &["no row with axles"]),
+        (
+            "load,count\n\n50 m,3\n",
+            &["found load \"50 m\" in line 3", "a force"],
+        ),
+        ("load,count\n0,3\n", &["found load \"0\"", "greater than 0"]),
+        ("load,count\n-5 kN,3\n", &["found load \"-5 kN\""]),
+        ("load,count\n5 kN,-3\n", &["found count \"-3\"", "at least 0"]),
+        ("load,count\n5 kN,nan\n", &["found count \"nan\""]),
+        ("load,count\n5 kN\n", &["found count \"\""]),
+        (
+            "load,count,contact_radius\n5 kN,1,1 km\n",
+            &["found contact_radius \"1 km\""],
+        ),
+    ] {
+        let message = read("bad", table, &[]).expect_err("a bad table").to_string();
+        for part in [&["line 18: `traffic.histogram`", "axles.csv"], parts].concat() {
+            assert!(message.contains(part), "{part} is not in {message}");
+        }
+    }
+    let many: Vec<String> = (0..1001).map(|k| format!("{},1\n", 1000 + k)).collect();
+    let many = many.concat();
+    let message = read("bad", &format!("load,count\n{many}"), &[])
+        .unwrap_err()
+        .to_string();
+    assert!(
+        message.contains("1001 classes") && message.contains("at most 1000"),
+        "{message}"
+    );
+}
+
+#[test]
+fn what_contradicts_a_histogram_is_refused() {
+    let table = "load,count\n50 kN,3\n100 kN,1\n";
+    let vehicle = "vehicles=[{ load = \"20 tf\", speed = 10 }]";
+    for (set, part) in [
+        ("traffic.histogram=nowhere.csv", "nowhere.csv"),
+        ("traffic.histogram=3", "the name of a table"),
+        ("traffic.order=interleaved", "come at random"),
+        ("traffic.sequence=['axle 1']", "come at random"),
+        ("ground.longitudinal_peak=30 um", "vertical_peak"),
+    ] {
+        let message = read("contradictions", table, &[set]).expect_err(set).to_string();
+        assert!(
+            message.contains("`traffic.") && message.contains(part),
+            "{message}"
+        );
+    }
+    let both = format!("{SCENE}[[vehicles]]\nload = \"20 tf\"\nspeed = 10\n");
+    let message = Scene::from_toml("both.toml", &both).unwrap_err().to_string();
+    assert!(
+        message.contains("both `traffic.histogram` and [[vehicles]]"),
+        "{message}"
+    );
+    // What was set later counts.
+    let later = read("contradictions", table, &[vehicle]).unwrap();
+    assert_eq!(
+        (later.vehicles.len(), &later.traffic.order),
+        (1, &Order::Interleaved)
+    );
+    let none = ["traffic.histogram=", vehicle, "traffic.speed=3"];
+    let message = read("contradictions", table, &none).unwrap_err().to_string();
+    assert!(
+        message.contains("`traffic.speed`") && message.contains("every vehicle has its own"),
+        "{message}"
+    );
+}
+
+/// Clay under a point load, which counts how often it is asked.
+struct Counted(AtomicUsize);
+
+impl GroundField for Counted {
+    fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
+        self.0.fetch_add(1, Ordering::Relaxed);
+        let distance = radius.hypot(depth);
+        let scale = 3.0 * load.force() / (4.0 * std::f64::consts::PI * 100e6);
+        Ok(Displacement {
+            radial: scale * radius * depth / distance.powi(3),
+            vertical: scale * (depth * depth / distance.powi(3) + 1.0 / distance),
+        })
+    }
+}
+
+#[test]
+fn classes_of_one_radius_share_one_computation_of_the_ground() {
+    let asked = |table: &str| {
+        let scene = read("shared", table, &[]).unwrap();
+        let ground = Counted(AtomicUsize::new(0));
+        let options = RunOptions {
+            ground: Some(&ground),
+            ..RunOptions::default()
+        };
+        let run = creepage::run_with(&scene, &options).unwrap();
+        (ground.0.into_inner(), run.duct_motion.peak_longitudinal_m)
+    };
+    let rows: Vec<String> = (1..=40).map(|k| format!("{k} tf,{k},0.1\n")).collect();
+    let rows = rows.concat();
+    let (one, peak) = asked("load,count,contact_radius\n1 tf,1,0.1\n");
+    let (forty, first) = asked(&format!("load,count,contact_radius\n{rows}"));
+    assert_eq!((forty, first), (one, peak));
+    let (two, _) = asked("load,count,contact_radius\n1 tf,1,0.1\n2 tf,1,0.2\n");
+    assert!(two > one);
+}
+
+/// A class is what the same wheel in `[[vehicles]]` is.
+#[test]
+fn a_table_of_one_class_is_a_vehicle() {
+    let table = read("one", "load,count,contact_radius\n10 tf,5,0.15 m\n", &[]).unwrap();
+    let wheel =
+        "vehicles=[{ speed = \"40 km/h\", wheels = [{ load = \"10 tf\", contact_radius = \"0.15 m\" }] }]";
+    let listed = read("one", "load,count\n1,1\n", &[wheel]).unwrap();
+    let forces = |scene: &Scene| -> Vec<f64> {
+        let run = creepage::run(scene).unwrap();
+        run.passes.iter().map(|pass| pass.downstream_force_n).collect()
+    };
+    assert_eq!(forces(&table), forces(&listed));
+}
