@@ -29,6 +29,7 @@ mod distribution;
 mod error;
 mod grid;
 mod journal;
+mod list;
 #[cfg(feature = "plot")]
 mod map;
 mod numbers;

@@ -14,6 +14,7 @@ use super::bands::Band;
 use super::error::SweepError;
 use super::grid::Sweep;
 use super::journal::Journal;
+use super::list;
 use super::numbers::si;
 use super::row::{Answer, PointError, Row};
 use super::sink::{Cell, Column, Kind};
@@ -177,8 +178,9 @@ impl Sweep {
             name: name.to_owned(),
             kind,
         };
-        let is_number = |value: &String| si(value).is_some();
+        let is_number = |value: &String| value.is_empty() || si(value).is_some();
         let varied = self.axes.iter().map(|axis| match &axis.values {
+            _ if axis.key == list::ID => column(&axis.key, Kind::Text),
             AxisValues::List(list) if !list.iter().all(is_number) => column(&axis.key, Kind::Text),
             _ => column(&axis.key, Kind::Number),
         });
