@@ -137,11 +137,10 @@ fn forces(file: &str) -> Result<Vec<f64>, Failure> {
 }
 
 fn saturated(force: f64) -> Readings {
+    let sigma = Some(FORCE_SIGMA * force);
     [Reading {
-        pass: SATURATED,
-        force,
-        sigma: Some(FORCE_SIGMA * force),
-        line: 1,
+        sigma,
+        ..Reading::force(SATURATED, force)
     }]
     .into_iter()
     .collect()
@@ -172,7 +171,7 @@ fn misses(answer: &Calibrated) -> String {
     let forces: Vec<String> = answer
         .fit
         .iter()
-        .map(|reading| format!("{:.0} N", reading.fitted_n))
+        .map(|reading| format!("{:.0} N", reading.fitted))
         .collect();
     format!("{} ({} runs)", forces.join(" and "), answer.evaluations)
 }

@@ -93,9 +93,9 @@ pub use plain_figure as figure;
 pub use {boussinesq, burmister, cable_dem, cycle_jump, ground_field};
 
 pub use answer::{
-    CableEnd, Cost, DuctMotionSummary, EndLimits, ErrorEstimate, ErrorShares, ForceProfile, ForceRange,
-    FrictionProfile, Limited, Limits, PassRecord, PlanSummary, Quantiles, RandomSpread, Reached,
-    RestraintRecord, Run, Saturation, SlipRecord, Stage, Verdict,
+    CableEnd, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, ErrorEstimate, ErrorShares,
+    ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits, PassRecord, PlanSummary,
+    Quantiles, RandomSpread, Reached, RestraintRecord, Run, Saturation, SlipRecord, Stage, Verdict,
 };
 #[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
@@ -104,8 +104,8 @@ pub use ground::profile::{Profile, profile, profile_at};
 pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
 pub use progress::Progress;
 #[cfg(feature = "calibrate")]
-pub use readings::{DataError, Reading, Readings};
-pub use run::{RunOptions, check, run, run_plan, run_with};
+pub use readings::{DataError, ReadOptions, Reading, Readings};
+pub use run::{Forecast, RunOptions, check, forecast, run, run_plan, run_with};
 pub use scene::{Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.

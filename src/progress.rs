@@ -51,6 +51,15 @@ impl<'a> Progress<'a> {
         }
     }
 
+    /// Parts of it one after the other, each half of what is left: where nobody knows how many there will be.
+    pub(crate) fn halving(mut self) -> impl FnMut() -> Self {
+        move || {
+            let now = self.part(0.0, 0.5);
+            self = self.part(0.5, 1.0);
+            now
+        }
+    }
+
     /// Reports the share done.
     ///
     /// # Errors

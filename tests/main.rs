@@ -13,12 +13,16 @@ mod calibration;
 mod cli;
 #[path = "design.rs"]
 mod design;
+#[path = "faulty_cells.rs"]
+mod faulty_cells;
 #[path = "files/main.rs"]
 mod files;
 #[path = "fuzz/main.rs"]
 mod fuzz;
 #[path = "ground_models/main.rs"]
 mod ground_models;
+#[path = "heat.rs"]
+mod heat;
 #[path = "house.rs"]
 mod house;
 #[path = "lanes.rs"]
@@ -31,6 +35,8 @@ mod occurrence;
 mod paper;
 #[path = "planner/main.rs"]
 mod planner;
+#[path = "reading_shapes.rs"]
+mod reading_shapes;
 #[path = "readings.rs"]
 mod readings;
 #[path = "report.rs"]

@@ -13,7 +13,7 @@ fn comments_blanks_repeats_and_order() {
     let rows: Vec<(u64, f64, Option<f64>, u64)> = data
         .readings()
         .iter()
-        .map(|r| (r.pass, r.force, r.sigma, r.line))
+        .map(|r| (r.pass, r.value, r.sigma, r.line))
         .collect();
     assert_eq!(
         rows,
@@ -34,7 +34,7 @@ fn columns_go_by_the_header_or_by_their_order() {
     let by_order = read("1,113.4\n2,152.5\n").unwrap();
     let marked = read("\u{feff}pass,force_n\r\n1,113.4\r\n2,152.5\r\n").unwrap();
     for data in [&by_name, &by_order, &marked] {
-        assert_eq!(data.forces(), [113.4, 152.5]);
+        assert_eq!(data.values(), [113.4, 152.5]);
         assert_eq!(data.sigmas(), None);
         assert_eq!(data.last_pass(), 2);
     }
@@ -75,7 +75,7 @@ fn errors_name_the_line() {
             "pass,force_n,sigma_n\n1,5,1\n2,6,\n",
             "cell.csv:3: sigma_n is blank",
         ),
-        ("passes,force\n1,5\n", "cell.csv:1: no column pass"),
+        ("number,force\n1,5\n", "cell.csv:1: no column pass"),
         ("# none\npass,newtons\n1,5\n", "cell.csv:2: no column force_n"),
         ("pass,force_n,pass\n1,5,1\n", "cell.csv:1: a second column pass"),
         ("", "cell.csv: no readings"),
@@ -101,7 +101,9 @@ fn errors_name_the_line() {
 #[test]
 fn what_is_no_text_is_an_error() {
     let error = Readings::from_csv("cell.csv", b"pass,force_n\n1,\xff\xfe\n").unwrap_err();
-    assert!(matches!(&error, DataError::Table { line: 2, .. }), "{error}");
+    assert!(matches!(&error, DataError::Line { line: 2, .. }), "{error}");
+    let error = Readings::from_csv("cell.csv", b"pass,force_n\n1,\x01\x00\n").unwrap_err();
+    assert!(matches!(&error, DataError::NoText { .. }), "{error}");
     let missing = Readings::from_file(std::path::Path::new("no/such/file.csv")).unwrap_err();
     assert!(matches!(missing, DataError::Unreadable { .. }));
 }
@@ -138,7 +140,7 @@ proptest::proptest! {
     fn round_trip(rows in proptest::collection::vec((1..1_000_000_u64, -1e6..1e6_f64), 1..30)) {
         let lines: Vec<String> = rows.iter().map(|(pass, force)| format!("{pass},{force}")).collect();
         let data = read(&format!("pass,force_n\n{}", lines.join("\n"))).unwrap();
-        let found: Vec<(u64, f64)> = data.readings().iter().map(|r| (r.pass, r.force)).collect();
+        let found: Vec<(u64, f64)> = data.readings().iter().map(|r| (r.pass, r.value)).collect();
         proptest::prop_assert_eq!(found, rows);
     }
 }

@@ -24,7 +24,7 @@ const MANY: usize = 40;
 /// Weight of the only difference.
 const WEIGHT_ALONE: f64 = 2.0;
 /// What the error is beside the difference to a mesh twice as fine, at second order.
-const VERIFIED: f64 = 4.0 / 3.0;
+pub const VERIFIED: f64 = 4.0 / 3.0;
 /// Forces below this share of the largest one count as nothing when errors are compared, and movements of an end below this
 /// share of the duct's largest.
 const SMALL: f64 = 0.1;
@@ -115,26 +115,43 @@ pub struct ErrorParts {
     pub road: Shares,
     /// Passes that were not simulated.
     pub passes: Shares,
+    /// Days of which few passes were simulated, or none.
+    pub temperature: Shares,
     /// Whether a finer run was made to measure the mesh's part.
     pub measured: bool,
 }
 
 impl ErrorParts {
+    /// The `accuracy` of the ground and what leaving `inertia` out may cost, as yet nothing else.
+    pub fn new(accuracy: f64, inertia: f64) -> Self {
+        Self {
+            mesh: Shares::default(),
+            ground: Shares::both(accuracy),
+            inertia,
+            road: Shares::default(),
+            passes: Shares::default(),
+            temperature: Shares::default(),
+            measured: false,
+        }
+    }
+
     pub fn total(&self) -> Shares {
-        self.mesh + self.ground + self.road + self.passes + Shares::both(self.inertia)
+        self.mesh + self.ground + self.road + self.passes + self.temperature + Shares::both(self.inertia)
     }
 }
 
 impl std::fmt::Display for ErrorParts {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let passes = if self.passes == Shares::default() {
-            String::new()
-        } else {
-            format!(", passes not simulated {}", percent(self.passes.force))
+        let part = |name: &str, share: Shares| {
+            if share == Shares::default() {
+                String::new()
+            } else {
+                format!(", {name} {}", percent(share.force))
+            }
         };
         write!(
             f,
-            "{}: mesh {}, ground {}, inertia {}, road {}{}; movement of the ends {}",
+            "{}: mesh {}, ground {}, inertia {}, road {}{}{}; movement of the ends {}",
             if self.measured {
                 "measured by a run on a mesh twice as fine"
             } else {
@@ -144,7 +161,8 @@ impl std::fmt::Display for ErrorParts {
             percent(self.ground.force),
             percent(self.inertia),
             percent(self.road.force),
-            passes,
+            part("passes not simulated", self.passes),
+            part("days not simulated", self.temperature),
             percent(self.total().movement)
         )
     }
@@ -157,15 +175,20 @@ pub fn of_mesh(levels: &[&[Record]], typical: f64, scale: Scale) -> Shares {
         .rev()
         .map(|pair| difference(pair[1], pair[0], scale))
         .collect();
+    let passes = levels.last().map_or(0, |finest| finest.len());
+    of_differences(&differences, passes, typical)
+}
+
+/// The same from the differences between neighbouring levels, the finest first, of so many `passes`.
+pub fn of_differences(differences: &[Shares], passes: usize, typical: f64) -> Shares {
     let least = Shares::both(typical);
-    if let [only] = differences[..] {
+    if let [only] = differences {
         return only.times(WEIGHT_ALONE).max(least);
     }
-    let passes = levels.last().map_or(0, |finest| finest.len());
     let shares = if passes < MANY { WEIGHTS } else { WEIGHTS_OF_MANY };
     shares
         .iter()
-        .zip(&differences)
+        .zip(differences)
         .map(|(&share, difference)| difference.times(share))
         .fold(least, Shares::max)
 }

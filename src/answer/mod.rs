@@ -1,8 +1,11 @@
 //! What a run gives, whether it can be true, and how wrong it may be.
 
 pub mod balance;
+mod cable_end;
 mod calendar;
 pub mod error_estimate;
+mod force_profile;
+mod heat;
 mod limits;
 mod listed;
 mod record;
@@ -10,7 +13,10 @@ mod saturation;
 #[cfg(any(feature = "cli", feature = "plot"))]
 mod table_rows;
 
+pub use cable_end::CableEnd;
 pub use calendar::after;
+pub use force_profile::ForceProfile;
+pub use heat::{DayExtremes, DayPoint, HeatRecord, largest_range};
 pub use limits::*;
 #[cfg(feature = "plot")]
 pub use listed::listed;
@@ -18,4 +24,4 @@ pub use listed::{beyond, simulated};
 pub use record::*;
 pub use saturation::{larger, saturation};
 #[cfg(any(feature = "cli", feature = "plot"))]
-pub use table_rows::table_rows;
+pub use table_rows::{table_days, table_rows};

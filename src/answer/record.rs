@@ -4,6 +4,8 @@ use cable_dem::{SlipLengths, Statistics};
 use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
+use super::force_profile::ForceProfile;
+use super::heat::{DayExtremes, HeatRecord};
 use crate::scene::Traffic;
 
 /// Answer of a run.
@@ -25,6 +27,12 @@ pub struct Run {
     /// How far forces scatter where vehicles come in random order and not every pass is simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub random: Option<RandomSpread>,
+    /// Where the cable is heated every day, the extremes of days: the first ones, then evenly growing numbers, the last among them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub days: Vec<DayExtremes>,
+    /// What heat does over all days.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub heat: Option<HeatRecord>,
     /// Force along the cable after the last pass.
     pub force_profile: ForceProfile,
     /// What each clamp carries after the last pass.
@@ -95,15 +103,6 @@ pub struct PassRecord {
     /// Whether the pass was not simulated but lies within a jump between simulated ones.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interpolated: bool,
-}
-
-/// Force along the cable after the last pass.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ForceProfile {
-    /// Positions along the duct \[m\], midway between nodes.
-    pub positions_m: Vec<f64>,
-    /// Force in the cable there \[N\], compression positive.
-    pub force_n: Vec<f64>,
 }
 
 /// The cable at one pass.
@@ -241,6 +240,9 @@ pub struct ErrorShares {
     pub road: f64,
     /// Passes that were not simulated.
     pub passes: f64,
+    /// Heat and traffic of days of which few passes were simulated, or none.
+    #[serde(default)]
+    pub temperature: f64,
     /// The same as `passes`, by its older name.
     pub law: f64,
     /// Largest error of an end's movement from all causes, as a share of the largest movement.

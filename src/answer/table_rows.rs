@@ -1,6 +1,7 @@
 //! Which of the listed passes a short table shows.
 
 use super::calendar::calendar;
+use super::heat::DayExtremes;
 use super::listed::ROUND;
 use super::record::PassRecord;
 use crate::scene::Traffic;
@@ -17,11 +18,19 @@ pub fn table_rows<'r>(passes: &'r [PassRecord], traffic: &Traffic) -> Vec<&'r Pa
     let first = times.first().map_or(u64::MAX, |(pass, _)| *pass);
     let is_time = |record: &PassRecord| times.iter().any(|(pass, _)| *pass == record.pass);
     let shown = passes.iter().enumerate().filter(|(index, record)| {
-        let power = 10_u64.pow(record.pass.ilog10());
-        *index == last
-            || is_time(record)
-            || record.pass < first
-                && (record.pass.is_multiple_of(power) && ROUND.contains(&(record.pass / power)))
+        *index == last || is_time(record) || record.pass < first && is_round(record.pass)
     });
     shown.map(|(_, record)| record).collect()
+}
+
+/// Few enough of `days` for a short table: round numbers and the last.
+pub fn table_days(days: &[DayExtremes]) -> Vec<&DayExtremes> {
+    let last = days.last().map_or(0, |day| day.day);
+    let shown = days.iter().filter(|day| day.day == last || is_round(day.day));
+    shown.collect()
+}
+
+fn is_round(number: u64) -> bool {
+    let power = 10_u64.pow(number.ilog10());
+    number.is_multiple_of(power) && ROUND.contains(&(number / power))
 }

@@ -1,31 +1,42 @@
 //! From the final fit to what the user reads.
 
-use calibrate::{Bootstrap, BootstrapOptions, Estimate, Fit, Loss};
+use calibrate::{Bootstrap, BootstrapOptions, Estimate, Fit, Loss, Warning};
 
+use super::ground;
+use super::judgement::judge;
 use super::meshes::{Final, MESH_SHIFT};
 use super::model::SeriesModel;
 use super::problem::Problem;
 use super::result::{
     BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
 };
-use super::unknown::Unknown;
 use crate::Error;
+use crate::readings::Measured;
 
-pub fn answer(problem: &Problem<'_>, found: &Final) -> Result<Calibrated, Error> {
+pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Calibrated, Error> {
     let fit = &found.fit;
     let model_error = model_error(found);
-    let parameters = fit.estimates.iter().zip(problem.unknowns);
+    let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
+    let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
+    let judgement = judge(problem, found, mistakes)?;
+    let suspicious = judgement.lack_of_fit.suspicious;
+    let assumptions = ground::assumption(problem, found)?.into_iter().collect();
     let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());
     Ok(Calibrated {
         titles: problem.series.iter().map(|one| one.scene.title.clone()).collect(),
-        parameters: parameters
-            .map(|(estimate, unknown)| parameter(estimate, *unknown))
+        parameters: fit
+            .estimates
+            .iter()
+            .zip(units)
+            .map(|(estimate, unit)| parameter(estimate, unit, suspicious))
             .collect(),
         correlation: fit.correlation.clone(),
         residual_rms_n: fit.residual_rms,
         r_squared: fit.r_squared,
         evaluations: found.evaluations,
-        warnings: warnings(problem, fit, &model_error),
+        warnings: warnings(problem, fit, &model_error, judgement.warnings),
+        lack_of_fit: judgement.lack_of_fit,
+        assumptions,
         // Where readings have their own sigmas, there is no single noise.
         noise_n: (!own_sigmas).then_some(fit.noise),
         degrees_of_freedom: fit.degrees_of_freedom,
@@ -50,8 +61,19 @@ fn model_error(found: &Final) -> ModelErrorEstimate {
     }
 }
 
-fn warnings(problem: &Problem<'_>, fit: &Fit, error: &ModelErrorEstimate) -> Vec<String> {
-    let mut warnings: Vec<String> = fit.warnings.iter().map(ToString::to_string).collect();
+fn warnings(
+    problem: &Problem<'_>,
+    fit: &Fit,
+    error: &ModelErrorEstimate,
+    judged: Vec<String>,
+) -> Vec<String> {
+    let mut warnings = judged;
+    // Outliers are told by pass and line.
+    let own = fit
+        .warnings
+        .iter()
+        .filter(|warning| !matches!(warning, Warning::Outliers { .. }));
+    warnings.extend(own.map(ToString::to_string));
     for (estimate, error) in fit.estimates.iter().zip(&error.standard_errors) {
         if *error > MESH_SHIFT {
             warnings.push(format!(
@@ -60,22 +82,21 @@ fn warnings(problem: &Problem<'_>, fit: &Fit, error: &ModelErrorEstimate) -> Vec
             ));
         }
     }
-    let skipped: usize = problem.series.iter().map(|one| one.readings.skipped()).sum();
-    if skipped > 0 {
-        warnings.push(format!("{skipped} rows without a force were left out"));
+    for one in problem.series {
+        warnings.extend(one.readings.notes().iter().cloned());
     }
     warnings
 }
 
-fn parameter(estimate: &Estimate, unknown: Unknown) -> FittedParameter {
+fn parameter(estimate: &Estimate, unit: &'static str, suspicious: bool) -> FittedParameter {
     let profile = estimate.profile.iter();
     FittedParameter {
         name: estimate.name.clone(),
-        unit: unknown.quantity.unit(),
+        unit,
         value: estimate.value,
         standard_error: estimate.standard_error,
         interval_95: [estimate.interval.lower, estimate.interval.upper],
-        identifiable: estimate.identifiable,
+        identifiable: estimate.identifiable && !suspicious,
         profile: profile
             .map(|&(value, rise)| ProfilePoint { value, rise })
             .collect(),
@@ -88,7 +109,11 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
     let fit = &found.fit;
     Ok(FitMethod {
         cable: problem.models[0].method().name().into(),
-        load_cell: problem.models.iter().map(|model| model.end.name()).collect(),
+        load_cell: problem
+            .models
+            .iter()
+            .map(|model| model.observed[0].1.place())
+            .collect(),
         node_spacing_m: meshes.iter().map(cable_dem::Mesh::spacing).collect(),
         vehicle_step_m: meshes.iter().map(cable_dem::Mesh::vehicle_step).collect(),
         loss: match problem.options.loss {
@@ -109,20 +134,31 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
 }
 
 fn readings(problem: &Problem<'_>, fit: &Fit) -> Vec<FittedReading> {
-    let series = problem.series.iter().enumerate();
-    let readings = series.flat_map(|(index, one)| {
-        let list = one.readings.readings().iter();
-        list.map(move |reading| (index, reading))
+    let series = problem.series.iter().zip(problem.models).enumerate();
+    let readings = series.flat_map(|(index, (one, model))| {
+        let list = one.readings.readings().iter().zip(&model.observed);
+        list.map(move |(reading, (_, observed))| (index, one.readings, reading, observed))
     });
     readings
         .enumerate()
-        .map(|(row, (index, reading))| FittedReading {
-            series: index + 1,
-            pass: reading.pass,
-            force_n: reading.force,
-            fitted_n: fit.fitted[row],
-            residual_n: fit.residuals[row],
-            weight: fit.weights[row],
+        .map(|(row, (index, readings, reading, observed))| {
+            let force = |value: f64| matches!(reading.measured, Measured::Force(_)).then_some(value);
+            FittedReading {
+                series: index + 1,
+                pass: reading.pass,
+                force_n: force(reading.value),
+                fitted_n: force(fit.fitted[row]),
+                residual_n: force(fit.residuals[row]),
+                weight: fit.weights[row],
+                run: readings.runs()[reading.run].clone(),
+                line: reading.line,
+                measured: reading.measured.name(),
+                at: observed.place(),
+                value: reading.value,
+                fitted: fit.fitted[row],
+                residual: fit.residuals[row],
+                unit: reading.measured.unit(),
+            }
         })
         .collect()
 }

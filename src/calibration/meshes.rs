@@ -3,7 +3,7 @@
 use calibrate::{Bootstrap, BootstrapOptions, Calibration, CalibrationError, Emulator, Fit, Model, Profiles};
 
 use super::model::SeriesModel;
-use super::problem::{Effort, LAST_LEVEL, Problem};
+use super::problem::{Effort, FIRST_LEVEL, LAST_LEVEL, Problem};
 use crate::Error;
 
 /// Shift of a parameter by the mesh, in standard errors, above which a finer one is taken.
@@ -14,6 +14,8 @@ const TOLERANCE: f64 = 0.03;
 
 pub struct Final {
     pub fit: Fit,
+    /// What was learned of the forces on its mesh.
+    pub emulator: Emulator,
     pub mesh: MeshChoice,
     /// Model runs, all levels together.
     pub evaluations: usize,
@@ -34,17 +36,24 @@ pub struct MeshChoice {
     emulator: Emulator,
 }
 
-/// Fits with at most `limit` model runs.
-pub fn fit(problem: &Problem<'_>, limit: usize) -> Result<Final, Error> {
-    let (mesh, mut evaluations) = find_level(problem, limit)?;
-    let model = problem.model(mesh.level, mesh.corrected.then(|| mesh.difference.clone()));
+impl MeshChoice {
+    /// What is added to the predictions on its level.
+    pub fn correction(&self) -> Option<Vec<f64>> {
+        self.corrected.then(|| self.difference.clone())
+    }
+}
+
+/// Fits with at most `limit` model runs, with intervals of this kind.
+pub fn fit(problem: &Problem<'_>, limit: usize, profiles: Profiles) -> Result<Final, Error> {
+    let (mesh, mut evaluations) = find_level(problem, limit, profiles)?;
+    let model = problem.model(mesh.level, mesh.correction());
     let effort = Effort {
-        profiles: Profiles::All,
+        profiles,
         tolerance: TOLERANCE,
         runs: limit.saturating_sub(evaluations),
     };
     let calibration = problem.calibration(&model, Some(mesh.values.clone()), &effort)?;
-    let (fit, _) = emulated(&calibration, Some(&mesh.emulator), limit)?;
+    let (fit, emulator) = emulated(&calibration, Some(&mesh.emulator), limit)?;
     evaluations += fit.evaluations;
     let bootstrap = match &problem.options.bootstrap {
         Some(options) => Some((calibration.bootstrap(&fit, options)?, *options)),
@@ -52,6 +61,7 @@ pub fn fit(problem: &Problem<'_>, limit: usize) -> Result<Final, Error> {
     };
     Ok(Final {
         fit,
+        emulator,
         mesh,
         evaluations,
         bootstrap,
@@ -59,7 +69,7 @@ pub fn fit(problem: &Problem<'_>, limit: usize) -> Result<Final, Error> {
 }
 
 /// The coarsest level that moves the parameters hardly away from those of the level below, and the model runs that it took.
-fn find_level(problem: &Problem<'_>, limit: usize) -> Result<(MeshChoice, usize), Error> {
+fn find_level(problem: &Problem<'_>, limit: usize, wanted: Profiles) -> Result<(MeshChoice, usize), Error> {
     let mut evaluations = 0;
     let mut level = 0;
     let mut start = None;
@@ -67,22 +77,27 @@ fn find_level(problem: &Problem<'_>, limit: usize) -> Result<(MeshChoice, usize)
     loop {
         let model = problem.model(level, None);
         let effort = Effort {
-            // What is learned on the coarsest mesh costs least: there the intervals are explored too.
-            profiles: if level == 0 { Profiles::All } else { Profiles::None },
+            // What is learned on coarse meshes costs least: there the intervals are explored too.
+            profiles: if level < FIRST_LEVEL {
+                wanted
+            } else {
+                Profiles::None
+            },
             tolerance: PILOT_TOLERANCE,
             runs: limit.saturating_sub(evaluations),
         };
         let calibration = problem.calibration(&model, start, &effort)?;
         let (fit, emulator) = emulated(&calibration, coarser.as_ref(), limit)?;
         let values = fit.values();
-        let finer = problem
+        let mut finer = problem
             .model(level + 1, None)
-            .predict(&values)
+            .predict(problem.of_model(&values))
             .map_err(|source| CalibrationError::NoFeasibleStart { starts: 1, source })?;
+        problem.add_terms(&mut finer, &values);
         evaluations += fit.evaluations + 1;
         let difference: Vec<f64> = finer.iter().zip(&fit.fitted).map(|(a, b)| a - b).collect();
         let shift = fit.shift(&difference);
-        let enough = shift.iter().all(|shift| shift.abs() <= MESH_SHIFT);
+        let enough = level + 1 >= FIRST_LEVEL && shift.iter().all(|shift| shift.abs() <= MESH_SHIFT);
         let last = level == LAST_LEVEL || problem.models.iter().any(SeriesModel::is_meshed);
         if enough || last {
             let found = MeshChoice {

@@ -9,26 +9,34 @@
 //!
 //! *Runs.* An emulator learns the forces on each mesh, from what it knows of the coarser one and few runs (`calibrate::Emulator`).
 //!
-//! *Load cell.* At the downstream end if that is held, else at the upstream end; the force after the vehicle has left.
+//! *Readings.* Forces on load cells after the vehicle has left: at the downstream end if that is held, else at the upstream end, or where
+//! the readings say; movements of an end, forces and strains along the cable, the duct's deflection. Before the first pass all are zero.
 //!
 //! *Assumptions.* The cable was at rest before the first pass, and the noise of the readings is independent. What
 //! the model leaves out (the spread of wheels, heat, bends) is not in the intervals.
 
+mod alternatives;
 mod answer;
 mod cell;
+mod ground;
+mod judgement;
 mod meshes;
+mod mistakes;
 mod model;
+mod noise;
 mod options;
 mod problem;
 mod result;
+mod terms;
 mod unknown;
 mod watch;
 
-use ::calibrate::Options;
+use ::calibrate::{Options, Profiles};
 
 pub use ::calibrate::{BootstrapOptions, CalibrationError, Loss};
 #[cfg(feature = "plot")]
-pub(crate) use cell::CellEnd;
+pub(crate) use cell::{CellEnd, force_ends};
+pub use judgement::LackOfFit;
 pub use options::{CalibrateOptions, Deflection, Series};
 pub use result::{
     BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
@@ -70,17 +78,42 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
         0 => Options::default().max_evaluations,
         limit => limit,
     };
+    let (terms, unknowns): (Vec<Unknown>, Vec<Unknown>) = unknowns
+        .into_iter()
+        .partition(|unknown| unknown.quantity.is_of_cell());
+    let terms = terms::terms(series, &models, &terms, options)?;
     let watch = Watch::new(options.progress, limit);
     let problem = Problem {
         series,
         models: &models,
         unknowns: &unknowns,
+        terms: &terms,
         options,
         watch: &watch,
+        memory: &model::Memory::default(),
     };
-    let found = meshes::fit(&problem, limit);
+    let answer = answer(&problem, limit);
     if watch.is_stopped() {
         return Err(Error::Stopped);
     }
-    answer::answer(&problem, &found?)
+    answer
+}
+
+fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, Error> {
+    let mistakes = mistakes::mistakes(problem)?;
+    // What follows from a wrong sign or unit is not worth intervals.
+    let profiles = if mistakes.is_empty() {
+        Profiles::All
+    } else {
+        Profiles::None
+    };
+    match meshes::fit(problem, limit, profiles) {
+        Ok(found) => answer::answer(problem, &found, mistakes),
+        Err(Error::Calibration(_)) if !mistakes.is_empty() => Err(Error::Unfit {
+            key: "data",
+            found: "readings without any fit",
+            reason: mistakes.join("; ").into(),
+        }),
+        Err(error) => Err(error),
+    }
 }

@@ -4,6 +4,8 @@
 //! is chosen by a run's tolerance, it may change from one run to the next.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
+use std::sync::Mutex;
 
 use cable_dem::Mesh;
 use calibrate::{Model, ModelError};
@@ -11,17 +13,17 @@ use cycle_jump::Guide;
 use ground_field::DuctMotion;
 use rayon::prelude::*;
 
-use super::cell::CellEnd;
+use super::cell::Observed;
 use super::options::Series;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
 use crate::ground::{Ground, road};
 use crate::plan::{CableMethod, PassMethod, Period, plan};
 use crate::run::passes::{Jumping, Task};
-use crate::{Error, Progress, Reading, Scene};
+use crate::{Error, Progress, Scene};
 
-/// Nodes per depth of the duct on the coarsest mesh; every further level has twice as many.
-const COARSEST: f64 = 6.0;
+/// Nodes per depth of the duct on the coarsest mesh, which only shows where to look; every further level has twice as many.
+const COARSEST: f64 = 3.0;
 /// Steps of the vehicle per node spacing.
 const STEPS_PER_SPACING: f64 = 2.0;
 /// Most passes that are all simulated. Of more, the same few are in every run of a fit, with the same jumps between them: where
@@ -41,33 +43,40 @@ pub struct SeriesModel {
     method: CableMethod,
     /// The traffic's period and the jumps over it, where not every pass is simulated.
     jumps: Option<(Period, Vec<u64>)>,
-    pub end: CellEnd,
-    /// Passes of the readings, in their order.
-    passes: Vec<u64>,
+    /// Passes of the readings since the cable was at rest and what was measured, in their order.
+    pub observed: Vec<(u64, Observed)>,
+    /// Passes at which the force along the cable is looked at.
+    stages: Vec<u64>,
 }
 
 impl SeriesModel {
     pub fn new(series: &Series<'_>) -> Result<Self, Error> {
         let mut scene = series.scene.clone();
-        let end = CellEnd::of(&scene)?;
+        let observe =
+            |reading: &crate::Reading| Ok((reading.passes, Observed::of(series.scene, reading.measured)?));
+        let observed: Vec<(u64, Observed)> = series
+            .readings
+            .readings()
+            .iter()
+            .map(observe)
+            .collect::<Result<_, Error>>()?;
+        let inside = observed.iter().filter(|(_, observed)| observed.is_inside());
+        let mut stages: Vec<u64> = inside.map(|(pass, _)| *pass).collect();
+        stages.sort_unstable();
+        stages.dedup();
         scene.traffic.passes = series.readings.last_pass();
         let (method, period) = {
             let plan = plan(&scene)?;
             (plan.choice.method.cable_method(), plan.period)
         };
         let motions = Ground::new(&scene, None, road::reach(&scene))?.motions;
-        let passes = series
-            .readings
-            .readings()
-            .iter()
-            .map(|reading: &Reading| reading.pass);
         let mut model = Self {
-            passes: passes.collect(),
+            observed,
+            stages,
             jumps: None,
             scene,
             motions,
             method,
-            end,
         };
         if model.scene.traffic.passes > EVERY_PASS && model.scene.friction.law.has_memory() {
             let task = model.task(&model.scene, &model.motions, 0)?;
@@ -110,7 +119,7 @@ impl SeriesModel {
         Ok(Mesh::new(duct.length, spacing, step)?)
     }
 
-    /// Forces at the load cell after each reading's pass.
+    /// What the instruments should show after each reading's pass.
     fn predict(&self, scene: &Scene, stiffness: f64, level: u32) -> Result<Vec<f64>, Error> {
         let motions: Cow<'_, [DuctMotion]> = if stiffness == 1.0 {
             Cow::Borrowed(&self.motions)
@@ -118,33 +127,46 @@ impl SeriesModel {
             let softer = |motion: &DuctMotion| motion.clone().scaled(1.0 / stiffness);
             self.motions.iter().map(softer).collect::<Result<_, _>>()?
         };
-        let mut wanted = self.passes.clone();
-        wanted.sort_unstable();
-        wanted.dedup();
         let task = self.task(scene, &motions, level)?;
-        let records = match &self.jumps {
-            Some((period, schedule)) => task.with_jumps(&jumping(period, Guide::Obey(schedule)), &wanted)?,
-            None => task.every_pass()?,
-        }
-        .records;
-        let force = |pass: &u64| {
-            let place = records.partition_point(|record| record.pass < *pass);
-            let force = records[place].outcome.force;
-            match self.end {
-                CellEnd::Upstream => force.upstream,
-                CellEnd::Downstream => force.downstream,
+        let passes = match &self.jumps {
+            Some((period, schedule)) => {
+                let mut wanted: Vec<u64> = self
+                    .observed
+                    .iter()
+                    .map(|(pass, _)| *pass)
+                    .filter(|&pass| pass > 0)
+                    .collect();
+                wanted.sort_unstable();
+                wanted.dedup();
+                task.with_jumps(&jumping(period, Guide::Obey(schedule)), &wanted)?
             }
+            None => task.every_pass()?,
         };
-        Ok(self.passes.iter().map(force).collect())
+        let deflection = self.peak_vertical() / stiffness;
+        let value = |&(pass, observed): &(u64, Observed)| {
+            if pass == 0 && observed != Observed::Deflection {
+                // At rest.
+                return 0.0;
+            }
+            let place = passes.records.partition_point(|record| record.pass < pass);
+            let stage = passes.stages.iter().find(|stage| stage.pass == pass);
+            observed.value(scene, &passes.records[place].outcome, stage, deflection)
+        };
+        Ok(self.observed.iter().map(value).collect())
     }
 
-    fn task<'a>(&self, scene: &'a Scene, motions: &'a [DuctMotion], level: u32) -> Result<Task<'a>, Error> {
+    fn task<'a>(
+        &'a self,
+        scene: &'a Scene,
+        motions: &'a [DuctMotion],
+        level: u32,
+    ) -> Result<Task<'a>, Error> {
         Ok(Task {
             scene,
             method: self.method,
             motions,
             mesh: self.mesh(level)?,
-            stages: &[],
+            stages: &self.stages,
             progress: Progress::default(),
         })
     }
@@ -162,25 +184,62 @@ fn jumping<'a>(period: &'a Period, guide: Guide<'a>) -> Jumping<'a> {
     }
 }
 
+/// Runs that were made: level, stiffness and parameters as bits, and what was predicted.
+pub type Memory = Mutex<HashMap<(u32, Vec<u64>), Vec<f64>>>;
+
 /// All series on one level of meshes.
 pub struct CableModel<'a> {
     pub series: &'a [SeriesModel],
     pub unknowns: &'a [Unknown],
     pub level: u32,
+    /// Stiffness of the ground beside the scene's, where it is not fitted.
+    pub stiffness: f64,
     /// Added to what this level predicts: the difference to the next one, near the optimum.
     pub correction: Option<Vec<f64>>,
     pub watch: &'a Watch<'a>,
+    /// A fit on the next level begins where the runs of this one ended: none is made twice.
+    pub memory: &'a Memory,
 }
 
 impl Model for CableModel<'_> {
     fn predict(&self, parameters: &[f64]) -> Result<Vec<f64>, ModelError> {
+        let mut forces = self.remembered(parameters)?;
+        if let Some(correction) = &self.correction {
+            for (force, correction) in forces.iter_mut().zip(correction) {
+                *force += correction;
+            }
+        }
+        Ok(forces)
+    }
+}
+
+impl CableModel<'_> {
+    fn remembered(&self, parameters: &[f64]) -> Result<Vec<f64>, Error> {
+        let values = std::iter::once(&self.stiffness).chain(parameters);
+        // The way through free variables leaves the last bits to chance.
+        let key = (self.level, values.map(|value| value.to_bits() >> 10).collect());
+        let known = self
+            .memory
+            .lock()
+            .map_or(None, |memory| memory.get(&key).cloned());
+        if let Some(known) = known {
+            return Ok(known);
+        }
+        let forces = self.run(parameters)?;
+        if let Ok(mut memory) = self.memory.lock() {
+            memory.insert(key, forces.clone());
+        }
+        Ok(forces)
+    }
+
+    fn run(&self, parameters: &[f64]) -> Result<Vec<f64>, Error> {
         let forces: Vec<Vec<f64>> = self
             .series
             .par_iter()
             .enumerate()
             .map(|(index, series)| {
                 let mut scene = series.scene.clone();
-                let mut stiffness = 1.0;
+                let mut stiffness = self.stiffness;
                 for (unknown, &value) in self.unknowns.iter().zip(parameters) {
                     if unknown.acts_on(index) {
                         unknown.quantity.set(&mut scene, value);
@@ -193,12 +252,6 @@ impl Model for CableModel<'_> {
             })
             .collect::<Result<_, Error>>()?;
         self.watch.run()?;
-        let mut forces = forces.concat();
-        if let Some(correction) = &self.correction {
-            for (force, correction) in forces.iter_mut().zip(correction) {
-                *force += correction;
-            }
-        }
-        Ok(forces)
+        Ok(forces.concat())
     }
 }

@@ -2,26 +2,33 @@
 
 use calibrate::{Calibration, Options, Prior, Profiles};
 
-use super::model::{CableModel, SeriesModel};
+use super::model::{CableModel, Memory, SeriesModel};
+use super::noise;
 use super::options::{CalibrateOptions, Series};
+use super::terms::Term;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
 use crate::Error;
 use crate::readings::Readings;
 use crate::scene::FrictionLaw;
 
-/// Finest level of meshes that is fitted: 24 nodes per depth, corrected by 48.
-pub const LAST_LEVEL: u32 = 2;
+/// Coarsest level of meshes that may answer, with 12 nodes per depth, and finest that is fitted: 24 nodes per depth, corrected by 48.
+pub const FIRST_LEVEL: u32 = 2;
+pub const LAST_LEVEL: u32 = 3;
 /// Ripple of the forces as parameters change on a fixed mesh, as a share of them: as a node more slips, their slope jumps.
 /// Measured on the full-scale scenes; from the coarsest level up.
-const RIPPLE: [f64; 3] = [3e-4, 1e-4, 3e-5];
+const RIPPLE: [f64; 4] = [1e-3, 3e-4, 1e-4, 3e-5];
 
 pub struct Problem<'a> {
     pub series: &'a [Series<'a>],
     pub models: &'a [SeriesModel],
+    /// What is fitted of cable and ground.
     pub unknowns: &'a [Unknown],
+    /// What is fitted of the instruments.
+    pub terms: &'a [Term],
     pub options: &'a CalibrateOptions<'a>,
     pub watch: &'a Watch<'a>,
+    pub memory: &'a Memory,
 }
 
 pub struct Effort {
@@ -39,8 +46,25 @@ impl Problem<'_> {
             series: self.models,
             unknowns: self.unknowns,
             level,
+            stiffness: 1.0,
             correction,
             watch: self.watch,
+            memory: self.memory,
+        }
+    }
+
+    /// What the model takes of the values of all parameters.
+    pub fn of_model<'v>(&self, values: &'v [f64]) -> &'v [f64] {
+        &values[..self.unknowns.len()]
+    }
+
+    /// Adds the terms to what the model predicts.
+    pub fn add_terms(&self, predicted: &mut [f64], values: &[f64]) {
+        for (term, size) in self.terms.iter().zip(&values[self.unknowns.len()..]) {
+            let column = term.parameter.column().unwrap_or_default();
+            for (value, entry) in predicted.iter_mut().zip(column) {
+                *value += size * entry;
+            }
         }
     }
 
@@ -51,17 +75,20 @@ impl Problem<'_> {
         start: Option<Vec<f64>>,
         effort: &Effort,
     ) -> Result<Calibration<'m>, Error> {
-        let parameters = self
+        let mut parameters = self
             .unknowns
             .iter()
             .map(|unknown| unknown.parameter(self.prior(*unknown)))
             .collect::<Result<Vec<_>, _>>()?;
+        parameters.extend(self.terms.iter().map(|term| term.parameter.clone()));
         let readings = || self.series.iter().map(|series| series.readings);
-        let forces = readings().flat_map(Readings::forces).collect();
+        let forces = readings().flat_map(Readings::values).collect();
         let sigmas: Option<Vec<Vec<f64>>> = readings().map(Readings::sigmas).collect();
         let mut calibration = Calibration::new(model, parameters, forces)?;
         if let Some(sigmas) = sigmas {
             calibration = calibration.with_sigmas(sigmas.concat())?;
+        } else if let Some(relative) = noise::relative_sigmas(self.series) {
+            calibration = calibration.with_relative_sigmas(relative)?;
         }
         let mut options = Options::default();
         options.loss = self.options.loss;
@@ -75,15 +102,14 @@ impl Problem<'_> {
     }
 
     /// What the scenes say.
-    fn scene_values(&self) -> Vec<f64> {
-        self.unknowns
-            .iter()
-            .map(|unknown| {
-                let (lower, upper) = unknown.quantity.bounds();
-                let scene = self.series[unknown.series.unwrap_or(0)].scene;
-                unknown.quantity.value(scene).clamp(lower, upper)
-            })
-            .collect()
+    pub fn scene_values(&self) -> Vec<f64> {
+        let value = |unknown: &Unknown| {
+            let (lower, upper) = unknown.quantity.bounds();
+            let scene = self.series[unknown.series.unwrap_or(0)].scene;
+            unknown.quantity.value(scene).clamp(lower, upper)
+        };
+        let terms = self.terms.iter().map(|_| 0.0);
+        self.unknowns.iter().map(value).chain(terms).collect()
     }
 
     /// The ground's stiffness by the deflection: u_z is inversely proportional to it.
@@ -147,7 +173,11 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
         });
     }
     if let [only] = series {
-        let free = unknowns.len() - usize::from(options.deflection.is_some());
+        // What has a prior needs no reading.
+        let has_prior = |unknown: &&Unknown| {
+            unknown.quantity.is_of_cell() || (options.deflection.is_some() && **unknown == ground)
+        };
+        let free = unknowns.len() - unknowns.iter().filter(has_prior).count();
         let needed = match only.readings.sigmas() {
             Some(_) => free.max(1),
             None => (free + 1).max(2),

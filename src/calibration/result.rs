@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::judgement::LackOfFit;
+
 /// A calibrated scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Calibrated {
@@ -19,6 +21,10 @@ pub struct Calibrated {
     pub evaluations: usize,
     /// What the user should know before trusting the answer.
     pub warnings: Vec<String>,
+    /// Whether the residuals are noise.
+    pub lack_of_fit: LackOfFit,
+    /// What the answer takes from the scene that these readings do not show, and what an error of it would do.
+    pub assumptions: Vec<String>,
     /// Standard deviation of the noise \[N\] as estimated; null where every reading has its own.
     pub noise_n: Option<f64>,
     /// Readings less the parameters that they determine.
@@ -46,7 +52,7 @@ pub struct FittedParameter {
     pub standard_error: Option<f64>,
     /// Interval that holds the true value in 95 % of all cases; null is an end that the readings do not close.
     pub interval_95: [Option<f64>; 2],
-    /// Whether the interval is closed on both sides.
+    /// Whether the interval is closed on both sides, and the fit not suspicious.
     pub identifiable: bool,
     /// Likelihood along the parameter.
     pub profile: Vec<ProfilePoint>,
@@ -66,8 +72,8 @@ pub struct ProfilePoint {
 pub struct FitMethod {
     /// Solver of the cable.
     pub cable: String,
-    /// The end at which the forces are compared, of each series.
-    pub load_cell: Vec<&'static str>,
+    /// Where the first reading of each series was taken.
+    pub load_cell: Vec<String>,
     /// Distance between nodes \[m\], of each series.
     pub node_spacing_m: Vec<f64>,
     /// Advance of the vehicle per step \[m\], of each series.
@@ -88,20 +94,36 @@ pub struct ModelErrorEstimate {
 }
 
 /// A reading and what the calibrated model says to it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct FittedReading {
     /// Number of the series, from 1.
     pub series: usize,
-    /// Number of the pass, from 1.
+    /// Number of the pass, as the file has it.
     pub pass: u64,
-    /// Measured force \[N\].
-    pub force_n: f64,
+    /// Measured force \[N\]; null where something else was measured.
+    pub force_n: Option<f64>,
     /// Force of the calibrated model \[N\].
-    pub fitted_n: f64,
+    pub fitted_n: Option<f64>,
     /// Measured less fitted \[N\].
-    pub residual_n: f64,
+    pub residual_n: Option<f64>,
     /// How much the reading counts: 1, less for an outlier in a robust fit.
     pub weight: f64,
+    /// Name of its run; empty where there is one run.
+    pub run: String,
+    /// Line of the file, from 1.
+    pub line: u64,
+    /// What was measured.
+    pub measured: &'static str,
+    /// Where: an end, or metres from the upstream one.
+    pub at: String,
+    /// Measured value, forces included, in `unit`.
+    pub value: f64,
+    /// The calibrated model's.
+    pub fitted: f64,
+    /// Measured less fitted.
+    pub residual: f64,
+    /// Unit of these three; 1 for a number.
+    pub unit: &'static str,
 }
 
 /// Spread of refits to data drawn anew.

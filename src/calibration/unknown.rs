@@ -1,10 +1,11 @@
 //! What can be fitted, and between which bounds.
 
 use std::fmt;
+use std::str::FromStr;
 
 use calibrate::{CalibrationError, Parameter, Prior, Scale};
 
-use crate::scene::{FrictionLaw, Scene, words};
+use crate::scene::{FrictionLaw, Scene, UnknownWord, words};
 
 /// A quantity that can be fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -17,9 +18,14 @@ pub enum Quantity {
     ShapeFactor,
     /// How many times stiffer the ground is than the scene says: the duct's motion is divided by it.
     GroundStiffness,
+    /// What a load cell reads too much of any force \[N\].
+    ZeroOffset,
+    /// How much more it reads too much with every pass \[N\].
+    Drift,
 }
 
-words!(Quantity: DynamicCoefficient "dynamic_coefficient", ShapeFactor "shape_factor", GroundStiffness "ground_stiffness");
+words!(Quantity: DynamicCoefficient "dynamic_coefficient", ShapeFactor "shape_factor", GroundStiffness "ground_stiffness",
+    ZeroOffset "zero_offset", Drift "drift");
 
 impl Quantity {
     /// Its unit; 1 for a number.
@@ -27,15 +33,23 @@ impl Quantity {
         match self {
             Self::ShapeFactor => "1/m",
             Self::DynamicCoefficient | Self::GroundStiffness => "1",
+            Self::ZeroOffset => "N",
+            Self::Drift => "N/pass",
         }
     }
 
-    /// Least and largest value that a fit considers.
+    /// Whether it is an error of a load cell, not a property of cable or ground.
+    pub fn is_of_cell(self) -> bool {
+        matches!(self, Self::ZeroOffset | Self::Drift)
+    }
+
+    /// Least and largest value that a fit considers; those of a cell's errors follow from its readings.
     pub fn bounds(self) -> (f64, f64) {
         match self {
             Self::DynamicCoefficient => (0.03, 1.0),
             Self::ShapeFactor => (1e5, 1e9),
             Self::GroundStiffness => (0.1, 10.0),
+            Self::ZeroOffset | Self::Drift => (f64::NEG_INFINITY, f64::INFINITY),
         }
     }
 
@@ -45,6 +59,7 @@ impl Quantity {
             Self::DynamicCoefficient => scene.friction.dynamic_coefficient,
             Self::ShapeFactor => scene.friction.law.shape_factor(),
             Self::GroundStiffness => 1.0,
+            Self::ZeroOffset | Self::Drift => 0.0,
         }
     }
 
@@ -99,6 +114,20 @@ impl Unknown {
             Some(prior) => parameter.with_prior(prior),
             None => Ok(parameter),
         }
+    }
+}
+
+/// As it is printed: a quantity's name, or one with the number of its series, from 1.
+impl FromStr for Unknown {
+    type Err = UnknownWord;
+
+    fn from_str(text: &str) -> Result<Self, UnknownWord> {
+        if let Some((quantity, number)) = text.rsplit_once('_')
+            && let (Ok(quantity), Ok(number @ 1..)) = (quantity.parse(), number.parse::<usize>())
+        {
+            return Ok(Self::of(quantity, number - 1));
+        }
+        text.parse().map(Self::shared)
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod check;
+mod days;
 mod design;
 mod explain;
 mod failure;
@@ -11,6 +12,7 @@ mod plan;
 mod presets;
 mod profile;
 mod progress;
+mod readings;
 #[cfg(feature = "plot")]
 mod report;
 mod run;

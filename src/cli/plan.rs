@@ -5,9 +5,10 @@ use std::io::Write;
 use super::failure::Failure;
 use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
+use crate::error::with_causes;
 use crate::occurrence::Occurrence;
 use crate::shown::{percent, time};
-use crate::{Part, PlanReport};
+use crate::{Candidate, Part, PlanReport};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -22,9 +23,27 @@ pub struct Arguments {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
-    let mut plan = input.located(crate::plan(&input.scene))?.report();
+    let plan = input.located(crate::plan(&input.scene))?;
+    let forecast = crate::forecast(&plan);
+    let mut plan = plan.report();
+    match forecast {
+        Ok(forecast) => foresee(&mut plan, forecast.seconds),
+        Err(error) => plan.warnings.push(format!(
+            "the time is a rough estimate, and the run may fail: the first passes on a coarse mesh do ({})",
+            with_causes(&error)
+        )),
+    }
     input.warn(&mut plan.warnings);
     arguments.json.print(&plan, || print(&plan))
+}
+
+/// The time of what is chosen is that of the whole run, not of its first mesh.
+fn foresee(plan: &mut PlanReport, seconds: f64) {
+    plan.estimated_seconds = seconds;
+    let chosen = |candidate: &&mut Candidate| candidate.chosen && candidate.part == Part::Cable;
+    if let Some(candidate) = plan.candidates.iter_mut().find(chosen) {
+        candidate.estimated_seconds = Some(seconds);
+    }
 }
 
 /// Every candidate, the chosen ones marked.

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 use super::failure::Failure;
 use super::limits::LimitArguments;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
+use super::readings::ReadArguments;
 use super::shared::{Force, Input, TrafficArguments};
 use super::terminal;
 use crate::output::Kind;
-use crate::readings::Readings;
 use crate::report::{Report, ReportOptions};
 
 #[derive(Debug, clap::Args)]
@@ -27,13 +27,16 @@ pub struct Arguments {
     /// Page to write (HTML); an older page is replaced
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
-    /// Readings to draw over the force: CSV with the columns pass,force_n[,sigma_n], at the held end (the downstream one if both are)
+    /// Readings to draw over the force: a table (text or .xlsx) with columns such as pass,force_n[,sigma_n] or `Pass;Force [kN]`, at the
+    /// held end (the downstream one if both are)
     #[arg(long, value_name = "FILE")]
     data: Option<PathBuf>,
     #[command(flatten)]
     limits: LimitArguments,
     #[command(flatten)]
     force: Force,
+    #[command(flatten)]
+    reading: ReadArguments,
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
@@ -42,9 +45,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let readings = arguments
         .data
         .as_deref()
-        .map(Readings::from_file)
-        .transpose()
-        .map_err(crate::Error::from)?;
+        .map(|file| arguments.reading.read(file))
+        .transpose()?;
+    for note in readings.iter().flat_map(crate::Readings::notes) {
+        terminal::warn(note);
+    }
     let table = input.table();
     let read = [
         Some(&*arguments.scene.file.scene),

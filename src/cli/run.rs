@@ -4,6 +4,7 @@ use std::io::Write;
 
 use serde::Serialize;
 
+use super::days;
 use super::failure::Failure;
 use super::limits::LimitArguments;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
@@ -122,7 +123,11 @@ fn print(run: &Run, traffic: &Traffic) -> Result<(), Failure> {
         1e6 * run.duct_motion.peak_vertical_m
     )?;
     table(&mut out, run, traffic)?;
+    if let Some(heat) = &run.heat {
+        days::print(&mut out, &run.days, heat)?;
+    }
     match &run.saturation {
+        _ if run.heat.is_some() => {}
         Some(saturation) => writeln!(
             out,
             "saturation: {:.1} N, 95 % of it after {} passes{}",

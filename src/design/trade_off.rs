@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::limits::Place;
-use crate::{CableEnd, Limited, Limits, PassRecord, Run};
+use crate::{CableEnd, DayExtremes, Limited, Limits, PassRecord, Run};
 
 /// A scene's answer with one stiffness.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -60,8 +60,19 @@ impl TradeOff {
         let largest = |value: fn(CableEnd, &PassRecord) -> f64, end: CableEnd| {
             run.passes.iter().map(|pass| value(end, pass)).fold(0.0, f64::max)
         };
-        let forces = CableEnd::ALL.map(|end| largest(CableEnd::largest_force, end));
-        let movements = CableEnd::ALL.map(|end| largest(CableEnd::movement, end));
+        // Heat is hardest between passes.
+        let heated = |of: fn(&DayExtremes, CableEnd) -> f64, end: CableEnd| {
+            let days = run.heat.iter().map(|heat| of(&heat.all_days, end));
+            days.fold(0.0, f64::max)
+        };
+        let forces = CableEnd::ALL.map(|end| {
+            let heated = heated(DayExtremes::largest_force, end);
+            largest(CableEnd::largest_force, end).max(heated)
+        });
+        let movements = CableEnd::ALL.map(|end| {
+            let heated = heated(DayExtremes::movement, end);
+            largest(CableEnd::movement, end).max(heated)
+        });
         let clamped = matches!(place, Place::Clamp(_)) && stiffness_n_per_m != Some(0.0);
         let clamp = run.restraints.last().filter(|_| clamped);
         let mut point = Self {

@@ -32,9 +32,21 @@ pub fn farthest(scene: &Scene) -> f64 {
     ahead + far.min(FARTHEST)
 }
 
+/// Vehicles are followed so many times as far as the farthest place where the motion turns.
+const BEYOND_THE_TURN: f64 = 1.5;
+
+/// Length of the cable on which the advance against locked friction is measured where heat makes that necessary \[depths\].
+pub const LAW_LENGTH: f64 = 24.0;
+
 /// How far from a vehicle's origin its motion of the duct has to be known \[m\].
 pub fn reach(scene: &Scene) -> f64 {
-    scene.duct.length + scene.solver.approach.unwrap_or(0.0).max(farthest(scene))
+    let followed = BEYOND_THE_TURN * farthest(scene);
+    let measured = if scene.warming().is_some() {
+        LAW_LENGTH * scene.duct.depth
+    } else {
+        0.0
+    };
+    scene.duct.length.max(measured) + scene.solver.approach.unwrap_or(0.0).max(followed)
 }
 
 /// How far beyond the duct's ends vehicles are followed \[m\]: as the scene says, or as far as they have to be.

@@ -22,6 +22,9 @@ const EXPLICIT_STEPS: f64 = 40.0;
 /// Periods that are simulated at the start, and then for every factor e of periods.
 const FIRST_PERIODS: f64 = 20.0;
 const PERIODS_PER_E: f64 = 8.0;
+/// Periods of a day that are simulated where the cable is heated every day, and days with them until one is like the one before.
+const PERIODS_A_DAY: f64 = 24.0;
+const DAYS: f64 = 9.0;
 /// Jumps are taken where they spare this share of the passes.
 const SPARED: f64 = 0.3;
 /// Where every pass is simulated although jumps are possible, it takes no longer than this \[s\].
@@ -156,7 +159,7 @@ fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
         return (PassMethod::EveryPass(CableMethod::Dynamic), NO_REST.into());
     }
     let inertia = estimates.inertia_in_words();
-    let (method, reason) = if estimates.inertia_matters(tolerance) {
+    let (method, reason) = if estimates.inertia_matters(tolerance) && scene.warming().is_none() {
         (
             CableMethod::Dynamic,
             format!("{inertia}: too much for the tolerance"),
@@ -200,9 +203,13 @@ impl Estimates {
         let passes = scene.traffic.passes as f64;
         let length = period.len() as f64;
         let periods = (passes / length).max(1.0);
+        let simulated = match (scene.warming(), scene.traffic.per_day) {
+            (Some(_), Some(per_day)) => DAYS.min(passes / per_day) * per_day.min(length * PERIODS_A_DAY),
+            _ => length * (FIRST_PERIODS + PERIODS_PER_E * periods.ln()),
+        };
         Ok(Self {
             inertia,
-            simulated: length * (FIRST_PERIODS + PERIODS_PER_E * periods.ln()),
+            simulated,
             passes,
             quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(first, 1),
             dynamic: DYNAMIC_SECONDS * lattice,

@@ -11,6 +11,8 @@ mod report;
 mod stand_ins;
 mod warnings;
 
+use std::time::{Duration, Instant};
+
 use ground_field::GroundField;
 
 use crate::ground::{Ground, road};
@@ -29,6 +31,8 @@ pub struct Plan<'a> {
     pub(crate) choice: MethodChoice,
     pub(crate) levels: Levels,
     pub(crate) warnings: Vec<String>,
+    /// Time that the plan took: above all the ground's motion.
+    pub(crate) took: Duration,
 }
 
 /// Plans how to compute `scene`.
@@ -46,18 +50,23 @@ pub fn plan(scene: &Scene) -> Result<Plan<'_>, Error> {
 ///
 /// As for [`plan`].
 pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Plan<'a>, Error> {
+    let begun = Instant::now();
     scene.validate()?;
     let ground = Ground::new(scene, own, road::reach(scene))?;
     let levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first())?;
     let period = Period::new(scene, &ground.motions)?;
+    let choice = method::choose(scene, &levels, &period)?;
+    let mut warnings = warnings::warnings(scene);
+    warnings.extend(warnings::of_mix(scene, choice.method, &period));
     Ok(Plan {
         scene,
-        choice: method::choose(scene, &levels, &period)?,
-        warnings: warnings::warnings(scene),
-        period,
         ground,
+        period,
+        choice,
         levels,
+        warnings,
+        took: begun.elapsed(),
     })
 }

@@ -1,5 +1,7 @@
 //! What is wrong with a file of readings, and where.
 
+use std::borrow::Cow;
+
 /// What is wrong with a data file, and where.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -15,7 +17,16 @@ pub enum DataError {
         /// Largest size allowed \[bytes\].
         allowed: u64,
     },
-    /// The file is no CSV.
+    /// The bytes are no text.
+    #[error("{file}: found bytes that are no text{}; allowed: a table as text (UTF-8, UTF-16, Latin-1; --encoding chooses) or an Excel workbook (.xlsx)",
+        .named.map_or_else(String::new, |named| format!(" in {named}")))]
+    NoText {
+        /// The file.
+        file: String,
+        /// The encoding that was asked for.
+        named: Option<&'static str>,
+    },
+    /// The file is no table.
     #[error("{file}:{line}: not a table")]
     Table {
         /// The file.
@@ -35,7 +46,7 @@ pub enum DataError {
         /// What was found.
         found: String,
         /// What is allowed.
-        allowed: &'static str,
+        allowed: Cow<'static, str>,
     },
     /// There is nothing in the file of this name.
     #[error("{0}: no readings; allowed: a table with the columns pass,force_n[,sigma_n]")]

@@ -5,18 +5,21 @@ use std::io::Read;
 use std::path::Path;
 
 use super::error::DataError;
-use super::table::{self, Reading};
+use super::grid::Grid;
+use super::options::ReadOptions;
+use super::reading::Reading;
+use super::{table, text, workbook};
 
 /// A file larger than this \[bytes\] holds no readings: it is a million of them many times over.
 const LARGEST_FILE: u64 = 64 << 20;
 
-/// Readings of one load cell, in the order of the file.
+/// Readings of one scene, in the order of the file.
 ///
 /// ```
 /// use creepage::Readings;
 ///
 /// let readings = Readings::from_csv("cell.csv", b"pass,force_n\n1,113.4\n2,152.5\n")?;
-/// assert_eq!(readings.forces(), [113.4, 152.5]);
+/// assert_eq!(readings.values(), [113.4, 152.5]);
 /// assert_eq!(readings.last_pass(), 2);
 /// # Ok::<(), creepage::DataError>(())
 /// ```
@@ -24,52 +27,102 @@ const LARGEST_FILE: u64 = 64 << 20;
 pub struct Readings {
     file: String,
     list: Vec<Reading>,
+    runs: Vec<String>,
     skipped: usize,
+    notes: Vec<String>,
 }
 
 impl Readings {
-    /// Reads the file at `path`.
+    /// Reads the file at `path`, recognising how it is written.
     ///
     /// # Errors
     ///
     /// [`DataError`] with the first thing that is wrong, and its line.
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self, DataError> {
+        Self::from_file_with(path, &ReadOptions::default())
+    }
+
+    /// Reads the file at `path` as `options` say.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Readings::from_file`].
+    pub fn from_file_with(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, DataError> {
         let path = path.as_ref();
         let file = path.display().to_string();
         let mut bytes = Vec::new();
         // One byte more tells a file that is too large, without all of it.
         match File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes)) {
-            Ok(_) => Self::from_csv(&file, &bytes),
+            Ok(_) => Self::from_bytes(&file, &bytes, options),
             Err(source) => Err(DataError::Unreadable(file, source)),
         }
     }
 
-    /// Reads CSV from `bytes`; `file` stands for it in errors.
+    /// Reads a table from `bytes`; `file` stands for it in errors.
     ///
     /// # Errors
     ///
     /// As for [`Readings::from_file`].
     pub fn from_csv(file: &str, bytes: &[u8]) -> Result<Self, DataError> {
+        Self::from_bytes(file, bytes, &ReadOptions::default())
+    }
+
+    /// Reads a table or a workbook from `bytes` as `options` say; `file` stands for it in errors.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Readings::from_file`].
+    pub fn from_bytes(file: &str, bytes: &[u8], options: &ReadOptions) -> Result<Self, DataError> {
         if bytes.len() as u64 > LARGEST_FILE {
             return Err(DataError::TooLarge {
                 file: file.to_owned(),
                 allowed: LARGEST_FILE,
             });
         }
-        let (list, skipped) = table::read(file, bytes)?;
+        let grid = if workbook::is_workbook(bytes) {
+            workbook::read(file, bytes)?
+        } else {
+            let text = text::decoded(bytes, options.encoding).ok_or_else(|| DataError::NoText {
+                file: file.to_owned(),
+                named: options.encoding.map(|encoding| encoding.0.name()),
+            })?;
+            Grid::of(file, &text, options.separator)?
+        };
+        let found = table::read(file, &grid, options)?;
         let file = file.to_owned();
-        if list.is_empty() {
+        if found.readings.is_empty() {
             return Err(DataError::Empty(file));
         }
-        let bare = list.iter().find(|reading| reading.sigma.is_none());
-        match bare.filter(|_| list.iter().any(|reading| reading.sigma.is_some())) {
-            Some(bare) => Err(DataError::Line {
+        let wrong = |line: u64, found: &str, allowed: &'static str| DataError::Line {
+            file: file.clone(),
+            line,
+            found: found.into(),
+            allowed: allowed.into(),
+        };
+        if let (Some(first), true) = (
+            found.readings.first(),
+            found.readings.iter().all(|reading| reading.passes == 0),
+        ) {
+            return Err(wrong(
+                first.line,
+                "pass: found \"0\" alone",
+                "readings after at least one pass",
+            ));
+        }
+        let bare = found.readings.iter().find(|reading| reading.sigma.is_none());
+        match bare.filter(|_| found.readings.iter().any(|reading| reading.sigma.is_some())) {
+            Some(bare) => Err(wrong(
+                bare.line,
+                "sigma_n is blank, but given for other readings",
+                "all or none",
+            )),
+            None => Ok(Self {
                 file,
-                line: bare.line,
-                found: "sigma_n is blank, but given for other readings".into(),
-                allowed: "all or none",
+                list: found.readings,
+                runs: found.runs,
+                skipped: found.skipped,
+                notes: found.notes,
             }),
-            None => Ok(Self { file, list, skipped }),
         }
     }
 
@@ -96,22 +149,37 @@ impl Readings {
         &self.list
     }
 
-    /// Rows without a force.
+    /// The file's name.
+    pub fn file(&self) -> &str {
+        &self.file
+    }
+
+    /// Names of the runs; one without a name where the file tells none apart.
+    pub fn runs(&self) -> &[String] {
+        &self.runs
+    }
+
+    /// Rows or cells without a value.
     pub fn skipped(&self) -> usize {
         self.skipped
     }
 
-    /// The last pass that was read.
+    /// What the user should know of how the file was read.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Passes from a cable at rest to the last reading.
     pub fn last_pass(&self) -> u64 {
-        self.list.iter().map(|reading| reading.pass).max().unwrap_or(0)
+        self.list.iter().map(|reading| reading.passes).max().unwrap_or(0)
     }
 
-    /// The forces \[N\].
-    pub fn forces(&self) -> Vec<f64> {
-        self.list.iter().map(|reading| reading.force).collect()
+    /// The values, forces in newtons.
+    pub fn values(&self) -> Vec<f64> {
+        self.list.iter().map(|reading| reading.value).collect()
     }
 
-    /// The standard deviations \[N\], where the file gives them.
+    /// The standard deviations, where the file gives them.
     pub fn sigmas(&self) -> Option<Vec<f64>> {
         self.list.iter().map(|reading| reading.sigma).collect()
     }
@@ -122,7 +190,8 @@ impl FromIterator<Reading> for Readings {
         Self {
             file: "readings".into(),
             list: readings.into_iter().collect(),
-            skipped: 0,
+            runs: vec![String::new()],
+            ..Self::default()
         }
     }
 }

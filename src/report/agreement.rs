@@ -1,6 +1,6 @@
 //! Computed force against readings of a load cell.
 
-use crate::calibration::CellEnd;
+use crate::calibration::{CellEnd, force_ends};
 use crate::readings::{Reading, Readings};
 use crate::{Error, PassRecord, Run, Scene};
 
@@ -27,14 +27,22 @@ impl Agreement {
     ///
     /// [`Error`] where no end of the cable is held.
     pub fn new(scene: &Scene, run: &Run, readings: &Readings) -> Result<Self, Error> {
+        let ends = force_ends(scene, readings)?;
+        // One cell is drawn: of two, the one that the scene holds.
         let end = CellEnd::of(scene)?;
-        let readings = readings.readings().to_vec();
-        let difference = |reading: &Reading| Some(reading.force - force_at(&run.passes, end, reading.pass)?);
+        let of_end = readings
+            .readings()
+            .iter()
+            .zip(ends)
+            .filter(|(_, cell)| *cell == Some(end));
+        let readings: Vec<Reading> = of_end.map(|(reading, _)| *reading).collect();
+        let difference =
+            |reading: &Reading| Some(reading.value - force_at(&run.passes, end, reading.passes)?);
         let differences: Vec<f64> = readings.iter().filter_map(difference).collect();
         let mean = |of: fn(f64) -> f64| {
             differences.iter().map(|d| of(*d)).sum::<f64>() / differences.len().max(1) as f64
         };
-        let sizes = readings.iter().map(|reading| reading.force.abs());
+        let sizes = readings.iter().map(|reading| reading.value.abs());
         Ok(Self {
             end,
             compared: differences.len(),
@@ -53,6 +61,9 @@ impl Agreement {
 
 /// Force on the end after `pass` \[N\]; between listed passes along a straight line, `None` beyond the last.
 fn force_at(passes: &[PassRecord], end: CellEnd, pass: u64) -> Option<f64> {
+    if pass == 0 {
+        return Some(0.0);
+    }
     let next = passes.partition_point(|record| record.pass < pass);
     let after = passes.get(next)?;
     if after.pass == pass || next == 0 {

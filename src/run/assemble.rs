@@ -71,7 +71,8 @@ impl<'a> RunBuilder<'a> {
         let passes = records(self.plan, &solved.passes);
         let restraints = restraints(&solved.passes)?;
         balance::of_records(self.plan.scene, &passes, &restraints)?;
-        if let Some(first) = passes.iter().find(|record| record.interpolated) {
+        let first = passes.iter().find(|record| record.interpolated);
+        if let Some(first) = first.filter(|_| solved.heat.is_none()) {
             summary.reasons.push(format!(
                 "{} of {} passes were simulated; between them the answer follows jumps, from pass {} on",
                 solved.passes.simulated, self.plan.scene.traffic.passes, first.pass
@@ -79,7 +80,12 @@ impl<'a> RunBuilder<'a> {
         }
         let total = solved.error.total();
         let beyond = solved.passes.beyond.as_ref();
-        let (saturation, range) = saturation(self.plan.scene, &solved.passes.records, beyond);
+        let (days, heat) = solved.heat.clone().unzip();
+        let (saturation, range) = if heat.is_some() {
+            (None, None)
+        } else {
+            saturation(self.plan.scene, &solved.passes.records, beyond)
+        };
         Ok(Run {
             title: self.plan.scene.title.clone(),
             duct_motion: self.duct_motion(),
@@ -88,6 +94,8 @@ impl<'a> RunBuilder<'a> {
             range,
             random: solved.random,
             passes,
+            days: days.unwrap_or_default(),
+            heat,
             force_profile: force_profile(&solved.passes.cable, &solved.passes.state)?,
             restraints,
             slip_lengths: solved.passes.slip,
@@ -101,6 +109,7 @@ impl<'a> RunBuilder<'a> {
                     inertia: solved.error.inertia,
                     road: solved.error.road.force,
                     passes: solved.error.passes.force,
+                    temperature: solved.error.temperature.force,
                     law: solved.error.passes.force,
                     movement: total.movement,
                 },
@@ -160,6 +169,8 @@ impl<'a> RunBuilder<'a> {
             saturation: None,
             range: None,
             random: None,
+            days: Vec::new(),
+            heat: None,
             restraints: restraints(&first)?,
             slip_lengths: None,
             stages: stages

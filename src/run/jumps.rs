@@ -4,25 +4,30 @@
 //! that of the finer is half as large or less. Where only early passes are off, every one of them is simulated; else both are
 //! made smaller.
 
+use std::cell::RefCell;
+
 use cable_dem::{CableError, Order, Statistics};
 use cycle_jump::{Guide, Record};
 
 use super::passes::{Jumping, Passes};
-use crate::Error;
 use crate::answer::error_estimate::{Scale, Shares, difference, differences};
 use crate::plan::{Period, Plan};
+use crate::{Error, Progress};
 
 /// Error of a single jump beside the tolerance to begin with, and length of the first jump beside the periods before it; the largest
 /// such error.
-const FIRST: (f64, f64) = (4.0, 0.5);
-const LARGEST: f64 = 0.04;
+const FIRST: (f64, f64) = (6.0, 0.8);
+const LARGEST: f64 = 0.06;
 /// What both are multiplied by, and how often at most.
-const FINER: (f64, f64) = (0.25, 0.5);
+const FINER: (f64, f64) = (1.0 / 3.0, 0.5);
 const FINEST: usize = 4;
 /// Share of the tolerance that jumps may take.
 const SHARE: f64 = 0.5;
-/// Periods simulated at the start, and at most where only early jumps are off; and passes in them at most.
+/// Periods simulated at the start, of at most so many vehicles and of more; and at most where only early jumps are off; and passes
+/// in them at most.
 const FIRST_PERIODS: u64 = 8;
+const FIRST_LONG_PERIODS: u64 = 5;
+const LONG: usize = 3;
 const MOST_FIRST_PERIODS: u64 = 48;
 const MOST_FIRST_PASSES: u64 = 200;
 /// Jumps are looked for on the level below the first, where they cost a fourth, unless the duct is so many depths short: that costs
@@ -62,12 +67,19 @@ impl Found {
 }
 
 /// Finds jumps for `plan` that take a small share of its tolerance, or the best that are affordable. `simulate` carries out all passes on a
-/// level. Returned with them: the work of all other runs.
-pub fn find(
+/// level and reports how far it is. Returned with them: the work of all other runs.
+pub fn find<'a>(
     plan: &Plan<'_>,
     scale: Scale,
-    simulate: impl Fn(usize, &Jumping<'_>) -> Result<Passes, Error>,
+    progress: Progress<'a>,
+    carry_out: impl Fn(usize, &Jumping<'_>, Progress<'a>) -> Result<Passes, Error>,
 ) -> Result<(Found, Statistics), Error> {
+    // How many runs it takes is not known: each is half of what is left.
+    let parts = RefCell::new(progress.halving());
+    let simulate = |level, jumping: &Jumping<'_>| {
+        let part = parts.borrow_mut()();
+        carry_out(level, jumping, part)
+    };
     let tolerance = plan.scene.solver.tolerance;
     let allowed = Shares::both(SHARE * tolerance);
     let duct = plan.scene.duct;
@@ -77,10 +89,15 @@ pub fn find(
         .checked_sub(1)
         .filter(|&below| !is_short && plan.levels.mesh(below).is_ok());
     let mut level = below.unwrap_or(first);
+    let first_periods = if plan.period.len() < LONG {
+        FIRST_PERIODS
+    } else {
+        FIRST_LONG_PERIODS
+    };
     let mut taken = Jumping {
         period: &plan.period,
         tolerance: (FIRST.0 * tolerance).min(LARGEST),
-        first_periods: FIRST_PERIODS,
+        first_periods,
         first_jump: FIRST.1,
         most_passes: 0,
         guide: Guide::Free,
@@ -117,7 +134,7 @@ pub fn find(
             first_jump: taken.first_jump,
         };
         if let Some(bad) = bad.filter(|_| is_early) {
-            taken.first_periods = periods.max(FIRST_PERIODS);
+            taken.first_periods = periods.max(first_periods);
             found.first_periods = taken.first_periods;
             found.error = errors[bad + 1..]
                 .iter()
@@ -142,7 +159,7 @@ pub fn find(
         best = Some(found);
     }
     let mut found = best.expect("the first pair of runs is an answer");
-    found.error = found.error + mix_error(plan, &found, scale, &simulate, &mut statistics)?;
+    found.error = found.error + mix_error(plan, &found, scale, simulate, &mut statistics)?;
     Ok((found, statistics))
 }
 

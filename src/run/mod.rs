@@ -1,8 +1,12 @@
 //! Carrying a plan out: the passes on ever finer meshes, and the answer.
 
 mod assemble;
+mod days;
+mod forecast;
 mod jumps;
 mod listing;
+mod locked_law;
+mod outlook;
 pub mod passes;
 mod random;
 mod refine;
@@ -13,6 +17,7 @@ use ground_field::GroundField;
 use crate::plan::{PassMethod, Plan, plan, plan_on};
 use crate::{Error, Progress, Run, Scene, finite};
 use assemble::RunBuilder;
+pub use forecast::{Forecast, forecast};
 use refine::Refinement;
 
 /// How to run.
@@ -72,6 +77,9 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
         return answer.without_friction(options.stages);
     }
     let solve = |method, warnings: &mut Vec<String>| {
+        if let Some(heat) = plan.scene.warming() {
+            return days::solve(plan, heat, method, options.progress, options.verify, warnings);
+        }
         let refinement = Refinement {
             plan,
             method,

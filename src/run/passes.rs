@@ -15,7 +15,7 @@ use crate::scene::Scene;
 use crate::{Error, Progress};
 
 /// Periods after which a run with jumps takes no more of them.
-const PATIENCE: u64 = 150;
+const PATIENCE: u64 = 600;
 
 /// The passes of a scene on one mesh.
 #[derive(Clone, Copy)]
@@ -155,6 +155,8 @@ pub struct Simulation<'a> {
     statistics: Statistics,
     /// Whether passes come in leaps.
     jumps: bool,
+    /// The farthest pass so far.
+    reached: u64,
 }
 
 impl<'a> Simulation<'a> {
@@ -167,6 +169,7 @@ impl<'a> Simulation<'a> {
             stages: Vec::new(),
             statistics: Statistics::default(),
             jumps: false,
+            reached: 0,
         })
     }
 
@@ -205,15 +208,19 @@ impl<'a> Simulation<'a> {
         };
         balance::of_state(&self.cable, state, number.unwrap_or(0))?;
         self.statistics += outcome.statistics;
-        if let Some(pass) = number.filter(|&pass| pass <= count) {
-            progress.report(self.share(pass))?;
-        }
+        self.reached = self.reached.max(number.unwrap_or(0).min(count));
+        progress.report(self.share())?;
         Ok(outcome)
     }
 
-    /// The share of the work done with `pass`.
-    fn share(&self, pass: u64) -> f64 {
-        let (pass, count) = (pass as f64, self.task.scene.traffic.passes as f64);
+    /// The work so far.
+    pub fn statistics(&self) -> Statistics {
+        self.statistics
+    }
+
+    /// The share of the work done.
+    fn share(&self) -> f64 {
+        let (pass, count) = (self.reached as f64, self.task.scene.traffic.passes as f64);
         if self.jumps {
             pass.ln_1p() / count.ln_1p()
         } else {
@@ -221,7 +228,7 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    fn passes(self, records: Vec<Record>, state: CableState, simulated: u64) -> Passes {
+    pub fn passes(self, records: Vec<Record>, state: CableState, simulated: u64) -> Passes {
         Passes {
             records,
             state,

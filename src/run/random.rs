@@ -1,9 +1,9 @@
 //! Traffic in random order: how far its forces scatter around their mean.
 //!
 //! Many passes later the cable lies as the mean of the traffic has left it, and only the last few tens of vehicles scatter around
-//! that. So a few short random runs from there show the spread.
+//! that. So a few short random runs from there show the spread, on the mesh that the jumps were found on: it is an estimate.
 
-use cable_dem::{CableState, Order};
+use cable_dem::{CableState, Order, Statistics};
 
 use super::passes::{Simulation, Task};
 use crate::Error;
@@ -14,11 +14,13 @@ use crate::cable::traffic;
 const RUNS: u64 = 8;
 const PASSES: usize = 90;
 const FORGOTTEN: usize = 30;
+/// All of them.
+pub const PASSES_IN_ALL: f64 = RUNS as f64 * PASSES as f64;
 
-/// The spread of the forces around the cable in `state`.
-pub fn spread(task: &Task<'_>, state: &CableState) -> Result<Option<RandomSpread>, Error> {
+/// The spread of the forces around the cable in `state`, and what it cost.
+pub fn spread(task: &Task<'_>, state: &CableState) -> Result<(Option<RandomSpread>, Statistics), Error> {
     let Order::Random { seed } = task.scene.traffic.order else {
-        return Ok(None);
+        return Ok((None, Statistics::default()));
     };
     let mut simulation = Simulation::new(task)?;
     let (mut downstream, mut upstream) = (Vec::new(), Vec::new());
@@ -35,10 +37,11 @@ pub fn spread(task: &Task<'_>, state: &CableState) -> Result<Option<RandomSpread
             }
         }
     }
-    Ok(Some(RandomSpread {
+    let spread = RandomSpread {
         downstream: quantiles(downstream),
         upstream: quantiles(upstream),
-    }))
+    };
+    Ok((Some(spread), simulation.statistics()))
 }
 
 fn quantiles(mut forces: Vec<f64>) -> Quantiles {

@@ -9,18 +9,20 @@ use super::jumps;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
-use crate::answer::{RandomSpread, simulated};
+use crate::answer::{DayExtremes, HeatRecord, RandomSpread, simulated};
 use crate::ground::{peak, road};
 use crate::plan::{Levels, PassMethod, Plan};
 use crate::shown::{exact_percent, percent};
 use crate::{Error, Progress, Scene};
 
 /// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
-const MAX_NODE_UPDATES: usize = 2_000_000_000;
+pub const MAX_NODE_UPDATES: usize = 2_000_000_000;
 /// A mesh twice as fine takes about this many times the node updates.
-const REFINEMENT_COST: usize = 4;
+pub const REFINEMENT_COST: usize = 4;
 /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
-const SHARP: usize = 3;
+pub const SHARP: usize = 3;
+/// Share of the work that finding jumps is taken for.
+const FINDING: f64 = 0.3;
 /// Share of the tolerance that is left to the mesh at least.
 const LEAST_SHARE: f64 = 0.5;
 
@@ -43,6 +45,8 @@ pub struct Solved {
     /// Work on all meshes together.
     pub statistics: Statistics,
     pub random: Option<RandomSpread>,
+    /// Of a cable that is heated every day.
+    pub heat: Option<(Vec<DayExtremes>, HeatRecord)>,
 }
 
 impl Refinement<'_> {
@@ -60,25 +64,28 @@ impl Refinement<'_> {
         let mut level = levels.first();
         let (found, mut statistics) = match self.method {
             PassMethod::Jumps(_) => {
-                let simulate = |level, jumping: &Jumping<'_>| self.simulate(level, Some(jumping), false);
-                let (found, statistics) = jumps::find(self.plan, scale, simulate)?;
+                let simulate = |level, jumping: &Jumping<'_>, progress| {
+                    self.simulate(level, Some(jumping), progress, false)
+                };
+                let (found, statistics) =
+                    jumps::find(self.plan, scale, self.progress.part(0.0, FINDING), simulate)?;
                 (Some(found), statistics)
             }
             PassMethod::EveryPass(_) => (None, Statistics::default()),
         };
+        // How many meshes it takes is not known: each is half of what is left.
+        let left = found.as_ref().map_or(0.0, |_| FINDING);
+        let mut parts = self.progress.part(left, 1.0).halving();
         let mut error = ErrorParts {
-            mesh: Shares::default(),
-            ground: Shares::both(ground.accuracy),
-            inertia: choice.inertia,
-            road: Shares::default(),
             passes: found.as_ref().map_or(Shares::default(), |found| found.error),
-            measured: false,
+            ..ErrorParts::new(ground.accuracy, choice.inertia)
         };
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
         let known = found.as_ref().map(|found| (found.level, &found.passes));
+        let now = parts();
         let (finest, coarser) = both(
-            || self.simulate(level, way, true),
+            || self.simulate(level, way, now, true),
             || self.coarser(level, way, known),
         )?;
         let mut passes = coarser;
@@ -97,15 +104,14 @@ impl Refinement<'_> {
             // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
             let still = last.records.iter().all(|record| record.outcome.dissipated == 0.0);
             let seen = !still || level >= SHARP;
-            // What jumps leave, no finer mesh takes away.
-            let allowed = Shares::both(tolerance)
+            let within = error
+                .total()
                 .less(error.passes)
-                .max(Shares::both(LEAST_SHARE * tolerance));
-            let within = error.total().less(error.passes).is_within(allowed);
+                .is_within(allowed(tolerance, error.passes));
             if (known && seen && within) || costly || level >= levels.finest() {
                 break;
             }
-            match self.simulate(level + 1, way, true) {
+            match self.simulate(level + 1, way, parts(), true) {
                 // What is known of coarser meshes counts.
                 Err(Error::Jumps(_)) if known => break,
                 finer => passes.push(finer?),
@@ -122,23 +128,27 @@ impl Refinement<'_> {
         let finest = passes.pop().expect("the first level was computed");
         error.road = self.road_error(&finest, mesh, way, &mut statistics)?;
         if verify || alone || doubtful {
-            let finer = self.simulate(level + 1, way, true)?;
+            let finer = self.simulate(level + 1, way, parts(), true)?;
             statistics += finer.statistics;
             error.mesh = measured(&finest.records, &finer.records, scale);
             error.measured = true;
         }
-        self.judge(&error, warnings)?;
-        let random = match way {
-            Some(_) => random::spread(&self.task(scene, mesh), &finest.state)?,
-            None => None,
-        };
+        judge(&error, scene, warnings)?;
+        let mut random = None;
+        if let Some(found) = &found {
+            let task = self.task(scene, levels.mesh(found.level)?);
+            let (spread, work) = random::spread(&task, &found.passes.state)?;
+            statistics += work;
+            random = spread;
+        }
         Ok(Solved {
-            reasons: vec![self.mesh_reason(&mesh)],
+            reasons: vec![mesh_reason(self.plan, &mesh)],
             mesh,
             passes: finest,
             error,
             statistics,
             random,
+            heat: None,
         })
     }
 
@@ -185,7 +195,7 @@ impl Refinement<'_> {
                     statistics: Statistics::default(),
                     ..passes.clone()
                 }),
-                _ => self.simulate(coarser, way, false),
+                _ => self.simulate(coarser, way, Progress::default(), false),
             })
             .filter(|passes| !matches!(passes, Err(Error::Cable(CableError::CoarseMesh { .. }))))
             .collect()
@@ -203,11 +213,18 @@ impl Refinement<'_> {
         }
     }
 
-    /// All passes on `level`; `shown` ones report their progress, their stages and where they lead.
-    fn simulate(&self, level: usize, way: Option<&Jumping<'_>>, shown: bool) -> Result<Passes, Error> {
+    /// All passes on `level`; `shown` ones report their stages and where they lead.
+    fn simulate(
+        &self,
+        level: usize,
+        way: Option<&Jumping<'_>>,
+        progress: Progress<'_>,
+        shown: bool,
+    ) -> Result<Passes, Error> {
         let mut task = self.task(self.plan.scene, self.plan.levels.mesh(level)?);
+        task.progress = progress;
         if shown {
-            (task.stages, task.progress) = (self.stages, self.progress);
+            task.stages = self.stages;
         }
         let affordable = MAX_NODE_UPDATES as f64 / self.plan.levels.node_updates(level, 1);
         let way = way.map(|way| Jumping {
@@ -217,40 +234,47 @@ impl Refinement<'_> {
         });
         carry_out(&task, way.as_ref())
     }
+}
 
-    /// Refuses an answer that is none, and warns of one that is not as good as asked.
-    fn judge(&self, error: &ErrorParts, warnings: &mut Vec<String>) -> Result<(), Error> {
-        let scene = self.plan.scene;
-        let tolerance = scene.solver.tolerance;
-        let total = error.total();
-        error_estimate::judge(total.force, tolerance)?;
-        for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
-            if share > tolerance {
-                let (share, tolerance) = (percent(share), percent(tolerance));
-                warnings.push(format!(
-                    "the estimated error{of} of {share} exceeds the tolerance of {tolerance}"
-                ));
-            }
+/// Refuses an answer that is none, and warns of one that is not as good as asked.
+pub(super) fn judge(error: &ErrorParts, scene: &Scene, warnings: &mut Vec<String>) -> Result<(), Error> {
+    let tolerance = scene.solver.tolerance;
+    let total = error.total();
+    error_estimate::judge(total.force, tolerance)?;
+    for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
+        if share > tolerance {
+            let (share, tolerance) = (percent(share), percent(tolerance));
+            warnings.push(format!(
+                "the estimated error{of} of {share} exceeds the tolerance of {tolerance}"
+            ));
         }
-        if !scene.friction.law.has_memory() {
-            warnings.push(
-                "the error is of the node spacing alone: the sigmoid law's result depends on the time step"
-                    .into(),
-            );
-        }
-        Ok(())
     }
+    if !scene.friction.law.has_memory() {
+        warnings.push(
+            "the error is of the node spacing alone: the sigmoid law's result depends on the time step"
+                .into(),
+        );
+    }
+    Ok(())
+}
 
-    fn mesh_reason(&self, mesh: &Mesh) -> String {
-        let Plan { scene, levels, .. } = self.plan;
-        let nodes = scene.duct.depth / mesh.spacing();
-        let why = if levels.named() {
-            "as the scene asks".to_owned()
-        } else {
-            format!("for the requested {}", exact_percent(scene.solver.tolerance))
-        };
-        format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
-    }
+/// Why this mesh.
+pub(super) fn mesh_reason(plan: &Plan<'_>, mesh: &Mesh) -> String {
+    let Plan { scene, levels, .. } = plan;
+    let nodes = scene.duct.depth / mesh.spacing();
+    let why = if levels.named() {
+        "as the scene asks".to_owned()
+    } else {
+        format!("for the requested {}", exact_percent(scene.solver.tolerance))
+    };
+    format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
+}
+
+/// What of the `tolerance` is left to all that is not the error of `passes`: what jumps leave, no finer mesh takes away.
+pub fn allowed(tolerance: f64, passes: Shares) -> Shares {
+    Shares::both(tolerance)
+        .less(passes)
+        .max(Shares::both(LEAST_SHARE * tolerance))
 }
 
 fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
@@ -261,7 +285,7 @@ fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error
 }
 
 /// Runs two computations side by side; the first error wins.
-fn both<A: Send, B: Send>(
+pub(super) fn both<A: Send, B: Send>(
     first: impl FnOnce() -> Result<A, Error> + Send,
     second: impl FnOnce() -> Result<B, Error> + Send,
 ) -> Result<(A, B), Error> {

@@ -69,6 +69,8 @@ pub struct Scene {
     pub vehicles: Vec<TrafficVehicle>,
     /// How many of them drive, in which order.
     pub traffic: Traffic,
+    /// How warm the cable gets every day, where that is known.
+    pub heat: Option<Heat>,
     /// How to compute.
     pub solver: Solver,
 }
@@ -77,6 +79,17 @@ impl Scene {
     /// Largest friction per length of cable, q = μ_d N′ cos θ \[N/m\].
     pub fn friction_limit(&self) -> f64 {
         self.friction.dynamic_coefficient * self.cable.normal_load() * self.duct.cosine()
+    }
+
+    /// The heat of its days, where it makes any force.
+    pub fn warming(&self) -> Option<&Heat> {
+        let heat = self.heat.as_ref()?;
+        let is_flat = match &heat.warming {
+            Warming::Swing(swing) => *swing == 0.0,
+            Warming::Profile(points) => points.iter().all(|(_, kelvin)| *kelvin == 0.0),
+        };
+        let without = heat.expansion == 0.0 || is_flat && heat.offset == 0.0;
+        (!without).then_some(heat)
     }
 
     /// How far the duct's axis lies to the left of this vehicle's axis \[m\], seen in the direction of forward traffic.
@@ -255,6 +268,27 @@ impl Traffic {
         self.per_day
             .map(|per_day| pass as f64 / (DAYS_PER_YEAR * per_day))
     }
+}
+
+/// Heat of the cable: how much it expands, and how warm it is over a day.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Heat {
+    /// Thermal expansion α per length and degree \[1/K\], at least 0.
+    pub expansion: f64,
+    /// Mean temperature of the cable's section over the day.
+    pub warming: Warming,
+    /// What is added to it \[K\]: the day's lowest temperature above that at laying.
+    pub offset: f64,
+}
+
+/// Temperature over a day that repeats.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Warming {
+    /// A cosine from 0 at midnight to this at noon \[K\].
+    Swing(f64),
+    /// Points joined by straight lines, the last one to the first of the next day: time of the day \[s\], ascending,
+    /// and temperature \[K\].
+    Profile(Vec<(f64, f64)>),
 }
 
 /// How to compute. Lengths and times that are `None` are chosen to suit the scene.

@@ -52,6 +52,7 @@ pub(super) const KEYS: &[Key] = keys! {
     "" "restraints": As("any number of [[restraints]]"), NONE, "Clamps along the cable.";
     "" "vehicles": As("one [[vehicles]] or more, or traffic.histogram"), None, "Who drives above the duct.";
     "" "traffic": SECTION, None, "How much traffic, and in which order.";
+    "" "heat": SECTION, NONE, "How warm the cable gets every day; needs `traffic.per_day`.";
     "" "solver": SECTION, Some("all is chosen"), "How to compute.";
     "duct" "length": Q(of::DUCT_LENGTH), None, "Length of the duct, from manhole to manhole.";
     "duct" "depth": Q(of::DEPTH), None, "Depth of the cable below the road surface.";
@@ -103,6 +104,12 @@ pub(super) const KEYS: &[Key] = keys! {
     "traffic" "order": As("\"interleaved\" or \"random\""), Some("\"interleaved\""), "How vehicles follow each other.";
     "traffic" "seed": Whole(0..=u64::MAX), Some("1"), "Seed of a random order.";
     "traffic" "sequence": As("a list of vehicles' names"), NONE, "Vehicles in this order, over and over; shares do not count.";
+    "heat" "expansion": Q(of::EXPANSION), None, "Thermal expansion of the cable per length and degree.";
+    "heat" "daily_swing": Q(of::SWING), Some("`profile` instead"),
+        "From the day's lowest to its highest mean temperature of the cable, a cosine over the day.";
+    "heat" "offset": Q(of::OFFSET), Some("0 K"), "The day's lowest temperature above that at laying; added to a profile.";
+    "heat" "profile": As("points of the day, [[\"0 h\", \"0 K\"], [\"15 h\", \"20 K\"]]"), Some("`daily_swing` instead"),
+        "Temperatures at times of the day, joined by straight lines, every day the same.";
     "solver" "method": Words(|| words(SolverMethod::WORDS)), Some("\"auto\""), "How the passes are computed.";
     "solver" "tolerance": Q(of::TOLERANCE), Some("0.01"), "Error allowed, as a share of the force.";
     "solver" "node_spacing": Q(of::STEP), Some("chosen"), "Distance between points of the cable that are computed.";

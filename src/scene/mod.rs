@@ -1,7 +1,7 @@
 //! The scene: everything a run needs to know, read from one TOML file.
 //!
 //! A scene says what lies where ([`Duct`], [`Ground`], [`Cable`]), what holds the cable ([`Friction`], [`Ends`],
-//! [`Restraint`]), who drives above it ([`TrafficVehicle`], [`Traffic`]) and, if wanted, how to compute ([`Solver`]). It
+//! [`Restraint`]), who drives above it ([`TrafficVehicle`], [`Traffic`]), how warm it gets ([`Heat`]) and, if wanted, how to compute ([`Solver`]). It
 //! is plain data in SI: units are converted here, once, and nowhere else.
 //!
 //! # Rules of the file
@@ -10,7 +10,7 @@
 //!   [`Dimension::units`]. A dimensionless value is a bare number; `tolerance` may also be a percentage, `"1 %"`.
 //! - Young's modulus of a layer may grow with depth: `young_modulus = { top = "60 MPa", bottom = "200 MPa" }`, linear
 //!   from the layer's top to its bottom.
-//! - Every section but `[[restraints]]` and `[solver]` is required. A key that is not known is an error, as is a value
+//! - Every section but `[[restraints]]`, `[heat]` and `[solver]` is required. A key that is not known is an error, as is a value
 //!   out of its range: the first one found is reported with file, line, key, what was found and what is allowed
 //!   ([`SceneError`]).
 //!
@@ -47,6 +47,7 @@ mod document;
 mod error;
 mod file;
 mod ground;
+mod heat;
 mod histogram;
 mod key;
 mod keys;
@@ -71,8 +72,8 @@ pub(crate) use data::DAYS_PER_YEAR;
 #[cfg(feature = "calibrate")]
 pub(crate) use data::words;
 pub use data::{
-    Arrangement, Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Order, PeakScaling,
-    Restraint, Scene, Solver, SolverMethod, Traffic, TrafficVehicle, UnknownWord,
+    Arrangement, Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Heat, Order,
+    PeakScaling, Restraint, Scene, Solver, SolverMethod, Traffic, TrafficVehicle, UnknownWord, Warming,
 };
 pub use error::{SceneError, Wrong, WrongKind};
 pub use file::SceneFile;

@@ -67,6 +67,7 @@ const WEIGHTS: Range = range(1e-3, 1e6, "greater than 0, from 1e-3 N/m to 1 MN/m
 const AXIAL_STIFFNESSES: Range = range(1.0, 1e15, "greater than 0, from 1 N to 1e15 N");
 const SHAPE_FACTORS: Range = range(1.0, 1e18, "greater than 0, from 1 to 1e18 1/m");
 const SPEEDS: Range = range(1e-3, 1e3, "greater than 0, from 1 mm/s to 1 km/s");
+const TEMPERATURES: Range = range(-500.0, 500.0, "of any sign, from -500 to 500 K");
 const TOLERANCES: Range = range(LEAST, 0.5, "greater than 0 and at most 0.5");
 /// Thicknesses of layers, and depths of a rigid base below those above it \[m\].
 pub const THICKNESSES: Range = range(1e-6, 1e4, "greater than 0, from 1 um to 10 km");
@@ -103,6 +104,23 @@ pub const LOAD: Quantity = quantity(Dimension::Force, LOADS, "\"20 tf\"");
 pub const WHEEL_LOAD: Quantity = quantity(Dimension::Force, LOADS, "\"50 kN\"");
 pub const AXLE_LOAD: Quantity = quantity(Dimension::Force, AXLE_LOADS, "\"100 kN\"");
 pub const SPEED: Quantity = quantity(Dimension::Speed, SPEEDS, "\"40 km/h\"");
+pub const EXPANSION: Quantity = quantity(
+    Dimension::InverseTemperature,
+    range(0.0, 1e-3, "of at least 0 and at most 1e-3 1/K"),
+    "\"17e-6 1/K\"",
+);
+pub const SWING: Quantity = quantity(
+    Dimension::Temperature,
+    range(0.0, 500.0, "of at least 0 and at most 500 K"),
+    "\"20 K\"",
+);
+pub const TEMPERATURE: Quantity = quantity(Dimension::Temperature, TEMPERATURES, "\"20 K\"");
+pub const OFFSET: Quantity = quantity(Dimension::Temperature, TEMPERATURES, "\"-5 K\"");
+pub const TIME_OF_DAY: Quantity = quantity(
+    Dimension::Time,
+    range(0.0, 86_400.0_f64.next_down(), "from 0 h on and before 24 h"),
+    "\"15 h\"",
+);
 pub const TIME_STEP: Quantity = quantity(Dimension::Time, POSITIVE, "\"0.1 ms\"");
 pub const TOLERANCE: Quantity = quantity(Dimension::Ratio, TOLERANCES, "0.01 or \"1 %\"");
 

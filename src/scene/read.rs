@@ -15,7 +15,7 @@ use super::range::{
 };
 use super::table::Table;
 use super::value::Value;
-use super::{ground, traffic};
+use super::{ground, heat, traffic};
 
 /// The scene in the file `name`.
 pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
@@ -33,6 +33,7 @@ pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
     let ends = ends(&root)?;
     let restraints = restraints(&root, &duct)?;
     let (vehicles, traffic) = traffic::traffic(name, &root, ground.scaling)?;
+    let heat = heat::heat(&root)?;
     let solver = solver(&root, &duct)?;
     let scene = Scene {
         title,
@@ -44,9 +45,11 @@ pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
         restraints,
         vehicles,
         traffic,
+        heat,
         solver,
     };
     is_held(&root, &scene)?;
+    heat::is_possible(&root, &scene)?;
     Ok(scene)
 }
 

@@ -18,6 +18,10 @@ pub enum Dimension {
     Speed,
     /// Time \[s\].
     Time,
+    /// Difference of temperatures \[K\].
+    Temperature,
+    /// Inverse temperature \[1/K\].
+    InverseTemperature,
     /// A ratio, as a percentage.
     Ratio,
     /// A slope: rise over horizontal distance as a ratio, or an angle, whose tangent it is.
@@ -26,7 +30,7 @@ pub enum Dimension {
 
 impl Dimension {
     /// Every dimension.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Length,
         Self::Force,
         Self::Pressure,
@@ -34,6 +38,8 @@ impl Dimension {
         Self::InverseLength,
         Self::Speed,
         Self::Time,
+        Self::Temperature,
+        Self::InverseTemperature,
         Self::Ratio,
         Self::Slope,
     ];
@@ -59,6 +65,8 @@ impl Dimension {
             Self::InverseLength => "an inverse length",
             Self::Speed => "a speed",
             Self::Time => "a time",
+            Self::Temperature => "a difference of temperatures",
+            Self::InverseTemperature => "an expansion per degree",
             Self::Ratio => "a ratio",
             Self::Slope => "a slope",
         }
@@ -181,6 +189,8 @@ pub const UNITS: &[Unit] = &[
     unit("ns", Dimension::Time, -9, 1.0),
     unit("min", Dimension::Time, 0, 60.0),
     unit("h", Dimension::Time, 0, 3600.0),
+    unit("K", Dimension::Temperature, 0, 1.0),
+    unit("1/K", Dimension::InverseTemperature, 0, 1.0),
     unit("%", Dimension::Ratio, -2, 1.0),
     unit("deg", Dimension::Slope, 0, RIGHT_ANGLE / 90.0),
 ];
@@ -204,7 +214,7 @@ pub fn normalised(unit: &str) -> String {
     }
     let inverse = plain.strip_prefix('/').or(plain.strip_suffix("-1"));
     match inverse {
-        Some(length @ ("m" | "cm" | "mm" | "um")) => format!("1/{length}"),
+        Some(unit @ ("m" | "cm" | "mm" | "um" | "K")) => format!("1/{unit}"),
         _ => plain,
     }
 }

@@ -4,7 +4,9 @@ use std::fmt::{Display, Write};
 
 use ground_field::{Base, Modulus, SoilLayer, Wheel};
 
-use super::data::{End, Ends, FrictionLaw, Ground, Order, PeakScaling, Scene, Solver, TrafficVehicle};
+use super::data::{
+    End, Ends, FrictionLaw, Ground, Heat, Order, PeakScaling, Scene, Solver, TrafficVehicle, Warming,
+};
 
 impl Scene {
     /// The scene as a TOML file, all quantities in SI: [`Scene::from_toml`] reads the same scene from it.
@@ -64,6 +66,9 @@ impl Scene {
             }
         }
         out.traffic(self);
+        if let Some(heat) = &self.heat {
+            out.heat(heat);
+        }
         out.solver(&self.solver);
         out.0
     }
@@ -195,6 +200,22 @@ impl Text {
                 self.line("sequence", format_args!("[{}]", names.join(", ")));
             }
         }
+    }
+
+    fn heat(&mut self, heat: &Heat) {
+        self.section("[heat]");
+        self.quantity("expansion", heat.expansion, "1/K");
+        match &heat.warming {
+            Warming::Swing(swing) => self.quantity("daily_swing", *swing, "K"),
+            Warming::Profile(points) => {
+                let point = |(time, kelvin): &(f64, f64)| {
+                    format!("[{}, {}]", in_unit(*time, "s"), in_unit(*kelvin, "K"))
+                };
+                let points: Vec<String> = points.iter().map(point).collect();
+                self.line("profile", format_args!("[{}]", points.join(", ")));
+            }
+        }
+        self.quantity("offset", heat.offset, "K");
     }
 
     fn solver(&mut self, solver: &Solver) {

@@ -12,7 +12,7 @@ const TOLERANCE: f64 = 0.01;
 const NODES: [f64; 3] = [6.0, 12.0, 24.0];
 
 /// One to three vehicles, in 70 % of the scenes both ways; clamps, springs, layers, rock; 4 to 300 m; 600 to 3000 passes.
-fn random(seed: u64) -> Scene {
+pub fn random(seed: u64) -> Scene {
     let mut rng = Rng::with_seed(seed);
     let mut between = |low: f64, high: f64| low + (high - low) * rng.f64();
     let depth = between(0.6, 2.5);

@@ -3,8 +3,9 @@
 mod axles;
 mod balance;
 mod common;
-mod long_term;
+pub mod long_term;
 mod meshes;
 mod random;
 mod road;
 mod saturation;
+mod search;

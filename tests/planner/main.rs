@@ -2,6 +2,7 @@
 
 mod choices;
 mod cost;
+mod forecast;
 mod honest;
 mod scenes;
 mod statistics;

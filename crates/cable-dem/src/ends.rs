@@ -7,9 +7,9 @@ use crate::{DuctedCable, End, Mesh};
 ///
 /// The half element beyond the middle of the last one balances
 ///
-/// F = k (u_inner − u_end) + w (f + p),  w = h/2,
+/// F = k (u_inner − u_end) + Θ + w (f + p),  w = h/2,
 ///
-/// the chain's force, and friction and body force on that half: what arrives at the end, of second order in the spacing h wherever the
+/// the chain's force with Θ of its heat ([`crate::CableState::thermal_force`]), and friction and body force on that half: what arrives at the end, of second order in the spacing h wherever the
 /// slip near the end is resolved. What of it the end reads depends on what else holds its node:
 ///
 /// | end | reading at rest | while masses move |
@@ -78,10 +78,11 @@ impl EndReader {
         }
     }
 
-    /// Force on each end, from the displacement \[m\] and friction \[N/m\] of any node.
+    /// Force on each end of a cable whose heat has the force `thermal` \[N\], from the displacement \[m\] and friction \[N/m\] of any node.
     pub fn read(
         &self,
         balance: Balance,
+        thermal: f64,
         displacement: impl Fn(usize) -> f64,
         friction: impl Fn(usize) -> f64,
     ) -> EndForces {
@@ -92,7 +93,8 @@ impl EndReader {
                 End::Spring(spring) if balance == Balance::Moving => outward * spring * displacement(node),
                 End::Spring(_) | End::Fixed => {
                     let chain = self.stiffness * (displacement(inner) - displacement(node));
-                    outward * share * (chain + self.tributary * friction(node) + self.body[side])
+                    let inward = chain + self.tributary * friction(node) + self.body[side];
+                    share * (outward * inward + thermal)
                 }
             }
         };

@@ -36,6 +36,31 @@ impl PassOutcome {
         let force = state.end_forces(cable)?;
         Ok(Recorder::new(force).outcome(cable, state, force))
     }
+
+    /// The sum of `parts`, each with its weight: a mean, or what lies between two passes. What they cost is left out.
+    pub fn combined(parts: &[(f64, Self)]) -> Self {
+        let sum = |of: fn(&Self) -> f64| parts.iter().map(|(weight, part)| weight * of(part)).sum();
+        Self {
+            force: EndForces {
+                upstream: sum(|o| o.force.upstream),
+                downstream: sum(|o| o.force.downstream),
+            },
+            peak: EndForces {
+                upstream: sum(|o| o.peak.upstream),
+                downstream: sum(|o| o.peak.downstream),
+            },
+            lowest: EndForces {
+                upstream: sum(|o| o.lowest.upstream),
+                downstream: sum(|o| o.lowest.downstream),
+            },
+            max_compression: sum(|o| o.max_compression),
+            max_tension: sum(|o| o.max_tension),
+            upstream_displacement: sum(|o| o.upstream_displacement),
+            downstream_displacement: sum(|o| o.downstream_displacement),
+            dissipated: sum(|o| o.dissipated),
+            statistics: Statistics::default(),
+        }
+    }
 }
 
 /// Counts of work that do not depend on the machine.

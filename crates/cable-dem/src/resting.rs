@@ -1,5 +1,6 @@
 //! The cable between two passes, when duct and cable are at rest.
 
+use crate::error::checked;
 use crate::step::{Chain, Load, StepSolver, Support, largest};
 use crate::{CableError, CableState, DuctedCable, Mesh};
 
@@ -7,9 +8,10 @@ use crate::{CableError, CableState, DuctedCable, Mesh};
 ///
 /// Where it rests friction balances the chain's force at every node,
 ///
-/// w (f + p) = K u,
+/// w (f + p) + θ = K u,
 ///
-/// with K the stiffness of the chain of springs EA/h with its ends and clamps, w a node's length of cable and p the body force. So the
+/// with K the stiffness of the chain of springs EA/h with its ends and clamps, w a node's length of cable, p the body force and θ what heat
+/// does: the force Θ = EA α T ([`CableState::thermal_force`]) pushes the first node back and the last one forward. So the
 /// displacements alone say how the cable lies; only at a fixed end, whose node does not move, friction is its own.
 ///
 /// ```
@@ -32,8 +34,10 @@ pub struct RestingCable {
     supports: Vec<Support>,
     anchor: Vec<f64>,
     nothing: Vec<f64>,
-    /// Body force w p of every node \[N\].
+    /// Body force w p of every node, and what heat does to the ends \[N\].
     load: Vec<f64>,
+    /// Without heat that of both end nodes.
+    weight: [f64; 2],
     /// What elimination leaves above the diagonal.
     factor: Vec<f64>,
 }
@@ -49,13 +53,15 @@ impl RestingCable {
         cable.friction().check_memory("resting")?;
         mesh.check_length(cable.length())?;
         let zeros = || vec![0.0; mesh.nodes()];
+        let load = cable.body_loads(mesh);
         Ok(Self {
             step: StepSolver::new(Chain::new(cable, mesh, 0.0)),
             cable: cable.clone(),
             supports: Support::of(cable, mesh),
             anchor: zeros(),
             nothing: zeros(),
-            load: cable.body_loads(mesh),
+            weight: [load[0], load[mesh.elements()]],
+            load,
             factor: zeros(),
         })
     }
@@ -70,6 +76,11 @@ impl RestingCable {
         self.step.chain.free.nodes()
     }
 
+    /// Length of cable \[m\] that belongs to `node`.
+    pub fn tributary(&self, node: usize) -> f64 {
+        self.step.chain.tributary[node]
+    }
+
     /// Whether an end spring, a clamp or a fixed end holds the cable: otherwise it may be moved as a whole.
     pub fn is_held(&self) -> bool {
         self.supports.iter().any(|support| support.stiffness != Some(0.0))
@@ -80,6 +91,15 @@ impl RestingCable {
     pub fn balance(&self, u: &[f64], friction: &mut [f64]) {
         for i in self.free() {
             friction[i] = self.step.chain.balancing_friction(u, &self.nothing, i);
+        }
+    }
+
+    /// Friction \[N/m\] that a cable displaced by `u` \[m\] needs to be at rest at the heat `thermal_force` \[N\], at every node that can move; the
+    /// others are left.
+    pub fn needed(&mut self, u: &[f64], thermal_force: f64, friction: &mut [f64]) {
+        self.heat(thermal_force);
+        for i in self.free() {
+            friction[i] = self.step.chain.balancing_friction(u, &self.load, i);
         }
     }
 
@@ -124,24 +144,80 @@ impl RestingCable {
     ///
     /// [`CableError::StateMismatch`] for a state of another mesh; [`CableError::NoConvergence`] where no equilibrium is found.
     pub fn settle(&mut self, state: &mut CableState) -> Result<(), CableError> {
+        self.take(state, state.thermal_force)?;
+        let StepSolver { chain, .. } = &self.step;
+        let mut at_rest = true;
+        for i in chain.free.nodes() {
+            let needed = chain.balancing_friction(&state.displacement, &self.load, i);
+            at_rest &= needed.abs() <= chain.limit;
+            state.friction[i] = needed.clamp(-chain.limit, chain.limit);
+        }
+        if at_rest { Ok(()) } else { self.step(state, 0.0) }
+    }
+
+    /// Brings the cable to another temperature, at which its heat has the force `thermal_force` Θ = EA α T \[N\], in one step with the
+    /// ground at rest,
+    ///
+    /// K u = w (f + p) + θ,  f from the slip −Δu by the [friction law](crate::FrictionLaw).
+    ///
+    /// Any number of steps gives the same answer as long as no node turns back on the way. The ends of a free cable that is long beside
+    /// Θ/q move by Θ²/(2 q EA).
+    ///
+    /// ```
+    /// use cable_dem::{CableState, DuctedCable, Friction, FrictionLaw, Mesh, RestingCable};
+    ///
+    /// let friction = Friction::new(FrictionLaw::Coulomb, 27.2)?;
+    /// let cable = DuctedCable::new(200.0, 8.01e6, friction)?;
+    /// let mesh = Mesh::for_depth(200.0, 1.2, 6.0)?;
+    /// let mut resting = RestingCable::new(&cable, &mesh)?;
+    /// let mut state = CableState::at_rest(&mesh);
+    /// // Copper, warmer by 10 K.
+    /// let thermal_force = 8.01e6 * 17e-6 * 10.0;
+    /// resting.warm(&mut state, thermal_force)?;
+    /// let moved = -state.displacement()[0];
+    /// assert!((moved / (thermal_force * thermal_force / (2.0 * 27.2 * 8.01e6)) - 1.0).abs() < 1e-4);
+    /// # Ok::<(), cable_dem::CableError>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// As for [`RestingCable::settle`], and [`CableError::InvalidParameter`] for a force that is not finite.
+    pub fn warm(&mut self, state: &mut CableState, thermal_force: f64) -> Result<(), CableError> {
+        checked("thermal_force", thermal_force, "finite", |_| true)?;
+        self.take(state, thermal_force)?;
+        let stretch = self.cable.length() / self.cable.axial_stiffness();
+        self.step(state, (thermal_force - state.thermal_force).abs() * stretch)?;
+        state.thermal_force = thermal_force;
+        Ok(())
+    }
+
+    /// Takes on a state whose heat has the force `thermal` \[N\].
+    fn take(&mut self, state: &CableState, thermal: f64) -> Result<(), CableError> {
         let (found, expected) = (state.displacement.len(), self.anchor.len());
         if found != expected {
             return Err(CableError::StateMismatch { found, expected });
         }
+        self.heat(thermal);
+        Ok(())
+    }
+
+    /// Heat pushes the two ends apart and nothing between them.
+    fn heat(&mut self, thermal: f64) {
+        self.load[0] = self.weight[0] - thermal;
+        if let Some(last) = self.load.last_mut() {
+            *last = self.weight[1] + thermal;
+        }
+    }
+
+    /// One step of the whole cable from `state`, by `movement` \[m\] at most.
+    fn step(&mut self, state: &mut CableState, movement: f64) -> Result<(), CableError> {
         let StepSolver { chain, trial, .. } = &mut self.step;
         let free = chain.free;
-        let mut at_rest = true;
         for i in free.nodes() {
-            let needed = chain.balancing_friction(&state.displacement, &self.load, i);
-            at_rest &= needed.abs() <= chain.limit;
-            state.friction[i] = needed.clamp(-chain.limit, chain.limit);
             self.anchor[i] = state.displacement[i] + chain.compliance * state.friction[i];
         }
-        if at_rest {
-            return Ok(());
-        }
         trial.r.copy_from_slice(&state.displacement);
-        self.step.start(largest(&state.displacement, 0.0));
+        self.step.start(largest(&state.displacement, movement));
         let load = Load {
             adhesion: &self.nothing,
             support: &self.load,

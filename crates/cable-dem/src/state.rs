@@ -31,6 +31,8 @@ pub struct CableState {
     pub(crate) displacement: Vec<f64>,
     /// Friction f on the cable per metre \[N/m\], positive toward growing x.
     pub(crate) friction: Vec<f64>,
+    /// Θ = EA α T \[N\].
+    pub(crate) thermal_force: f64,
 }
 
 /// A state as it is stored; checked as it is read.
@@ -40,6 +42,8 @@ struct Stored {
     node_spacing: f64,
     displacement: Vec<f64>,
     friction: Vec<f64>,
+    #[serde(default)]
+    thermal_force: f64,
 }
 
 #[cfg(feature = "serde")]
@@ -49,6 +53,7 @@ impl From<CableState> for Stored {
             node_spacing: state.mesh.spacing(),
             displacement: state.displacement,
             friction: state.friction,
+            thermal_force: state.thermal_force,
         }
     }
 }
@@ -59,7 +64,8 @@ impl TryFrom<Stored> for CableState {
 
     fn try_from(stored: Stored) -> Result<Self, CableError> {
         let mesh = Mesh::of_elements(stored.displacement.len().saturating_sub(1), stored.node_spacing)?;
-        Self::from_parts(&mesh, stored.displacement, stored.friction)
+        Self::from_parts(&mesh, stored.displacement, stored.friction)?
+            .with_thermal_force(stored.thermal_force)
     }
 }
 
@@ -70,6 +76,7 @@ impl CableState {
             mesh: mesh.nodes_alone(),
             displacement: vec![0.0; mesh.nodes()],
             friction: vec![0.0; mesh.nodes()],
+            thermal_force: 0.0,
         }
     }
 
@@ -94,7 +101,24 @@ impl CableState {
             mesh: mesh.nodes_alone(),
             displacement,
             friction,
+            thermal_force: 0.0,
         })
+    }
+
+    /// The same nodes in a cable of which heat has made the force `thermal_force` Θ = EA α T \[N\], positive where it is warmer by T than as
+    /// laid (α its expansion per length and degree). [`crate::RestingCable::warm`] is what heat does to a cable.
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless it is finite.
+    pub fn with_thermal_force(mut self, thermal_force: f64) -> Result<Self, CableError> {
+        self.thermal_force = checked("thermal_force", thermal_force, "finite", |_| true)?;
+        Ok(self)
+    }
+
+    /// Θ = EA α T \[N\]: the compression that heat makes in a cable that cannot move.
+    pub fn thermal_force(&self) -> f64 {
+        self.thermal_force
     }
 
     /// Distance between nodes \[m\].
@@ -112,7 +136,7 @@ impl CableState {
         &self.friction
     }
 
-    /// Force in every element \[N\], compression positive: F = −EA u′.
+    /// Force in every element \[N\], compression positive: F = −EA u′ + Θ.
     ///
     /// # Errors
     ///
@@ -184,8 +208,9 @@ impl CableState {
         let (mesh, f) = (&self.mesh, &self.friction);
         let h = mesh.spacing();
         let stiffness = cable.axial_stiffness() / h;
-        let force =
-            |element: usize| stiffness * (self.displacement[element] - self.displacement[element + 1]);
+        let force = |element: usize| {
+            stiffness * (self.displacement[element] - self.displacement[element + 1]) + self.thermal_force
+        };
         let body = cable.body_loads(mesh);
         let drag = |node: usize| f[node] + body[node] / mesh.tributary_length(node);
         let before = |node: usize| force(node - 1) + 0.5 * h * drag(node);
@@ -223,13 +248,18 @@ impl CableState {
         let stiffness = cable.axial_stiffness() / self.mesh.spacing();
         self.displacement
             .windows(2)
-            .map(move |pair| stiffness * (pair[0] - pair[1]))
+            .map(move |pair| stiffness * (pair[0] - pair[1]) + self.thermal_force)
     }
 
     /// [`CableState::end_forces`] of a cable that is known to be as long as the mesh.
     pub(crate) fn ends(&self, cable: &DuctedCable) -> EndForces {
         let reader = EndReader::new(cable, &self.mesh);
-        reader.read(Balance::AtRest, |i| self.displacement[i], |i| self.friction[i])
+        reader.read(
+            Balance::AtRest,
+            self.thermal_force,
+            |i| self.displacement[i],
+            |i| self.friction[i],
+        )
     }
 
     /// Removes all friction: ends and clamps draw the cable back to zero; held by none, it keeps its mean position.

@@ -94,6 +94,7 @@ impl Calibration<'_> {
                 .zip(&self.sigmas)
                 .map(|(curvature, sigma)| curvature / sigma)
                 .collect(),
+            sigmas: self.sigmas.clone(),
             estimates: solution.estimates,
             free: solution.optimum.point.free,
             jacobian: solution.optimum.jacobian,

@@ -66,6 +66,19 @@ impl<'a> Calibration<'a> {
                 });
             }
         }
+        for parameter in &parameters {
+            if let Some(column) = parameter
+                .column()
+                .filter(|column| column.len() != observations.len())
+            {
+                return Err(CalibrationError::InvalidParameter {
+                    name: parameter.name().to_owned(),
+                    quantity: "length of its column",
+                    value: column.len() as f64,
+                    allowed: "an entry for each observation",
+                });
+            }
+        }
         check_each(&observations, "value", "finite", f64::is_finite)?;
         Ok(Self {
             model,
@@ -93,6 +106,26 @@ impl<'a> Calibration<'a> {
         check_each(&sigmas, "sigma", "finite and positive", positive)?;
         (self.sigmas, self.knows_noise) = (sigmas, true);
         Ok(self)
+    }
+
+    /// The standard deviations of the observations are known but for a factor that all share, which is fitted.
+    ///
+    /// # Errors
+    ///
+    /// As for [`with_sigmas`](Self::with_sigmas).
+    pub fn with_relative_sigmas(self, sigmas: Vec<f64>) -> Result<Self, CalibrationError> {
+        let calibration = self.with_sigmas(sigmas)?;
+        Ok(Self {
+            knows_noise: false,
+            ..calibration
+        })
+    }
+
+    /// The same calibration, scanned all over the range beside its start.
+    #[must_use]
+    pub fn scanned(mut self) -> Self {
+        self.options.scan = None;
+        self
     }
 
     /// How to fit.
@@ -130,7 +163,13 @@ impl<'a> Calibration<'a> {
     }
 
     pub(crate) fn scan(&self) -> usize {
-        self.options.scan.unwrap_or(SCAN * (1 + self.parameters.len()))
+        self.options.scan.unwrap_or(SCAN * (1 + self.of_model().len()))
+    }
+
+    /// Indices of the parameters that the model takes.
+    pub(crate) fn of_model(&self) -> Vec<usize> {
+        let of_model = |&k: &usize| self.parameters[k].column().is_none();
+        (0..self.parameters.len()).filter(of_model).collect()
     }
 
     /// Priors count as observations; noise to be estimated needs one more, and at least two of the data.

@@ -9,6 +9,7 @@
 use nalgebra::DVector;
 use rayon::prelude::*;
 
+use crate::deviance::information;
 use crate::evaluator::Evaluator;
 use crate::interval::{ACCURACY, EXCLUSION, Witness};
 use crate::point::{Point, all_over, score};
@@ -23,6 +24,8 @@ const ANCHORS: usize = 2;
 /// Distance between prediction and run at an end, in standard errors of all readings together. Without a limit, five of 2400 fits took
 /// fewer runs than they needed, and lost the truth (tests/calibration_coverage.rs).
 const FOLLOWED: f64 = 0.5;
+/// Distance from a run, in standard errors, at which an emulator of the difference to a coarser model is taken to know the model.
+const NEAR: f64 = 0.5;
 /// Distance, in the model's own noise, that an optimum may be off where the model has run: three standard deviations.
 const RIPPLE: f64 = 3.0;
 
@@ -80,21 +83,38 @@ impl Calibration<'_> {
         };
         let start = self.start();
         let mut design: Vec<DVector<f64>> = start.clone().into_iter().collect();
-        let score = |free: &DVector<f64>, predicted: &[f64]| {
-            let residuals = runs.standardised(free, predicted);
-            score(&residuals, observations, self.knows_noise)
+        let of_model = self.of_model();
+        let terms: Vec<usize> = (0..dimensions).filter(|k| !of_model.contains(k)).collect();
+        let embedding = emulation.emulator.clone();
+        let all = |of_model: DVector<f64>| embedding.with_terms(&of_model, dimensions);
+        let score = |of_model: &DVector<f64>, predicted: &[f64]| {
+            let point = runs.fitted_terms(all(of_model.clone()), predicted, &terms);
+            score(&point.residuals, observations, self.knows_noise)
         };
-        design.extend(match coarse {
-            // Along the whole valley, so that what the coarse model misses is known where it may matter.
-            Some(coarse) => coarse.low_points(score, (2.0 * EXCLUSION).powi(2), ANCHORS * dimensions),
-            None => all_over(dimensions, self.scan()),
-        });
+        let places = match coarse {
+            // Where intervals of the coarse model end, what it misses matters most.
+            Some(coarse) if !coarse.ends.is_empty() => coarse.ends.clone(),
+            // Along the whole valley.
+            Some(coarse) => coarse.low_points(score, (2.0 * EXCLUSION).powi(2), ANCHORS * of_model.len()),
+            None => all_over(of_model.len(), self.scan()),
+        };
+        design.extend(places.into_iter().map(all));
+        // The best of a coarse model is often the start itself.
+        let twice = |place: usize| {
+            design[..place]
+                .iter()
+                .any(|other| (other - &design[place]).amax() < 1e-9)
+        };
+        let design = (0..design.len())
+            .filter(|&place| !twice(place))
+            .map(|place| design[place].clone())
+            .collect();
         let fit = if let Some(solution) = emulation.converge(design, start)? {
             self.answer(&runs, solution)
         } else {
             let best = emulation.emulator.low_points(score, 0.0, 0);
             // After runs in vain, the best of which is where to begin.
-            self.fit_directly(&runs, best.into_iter().next().or_else(|| self.start()))?
+            self.fit_directly(&runs, best.into_iter().next().map(all).or_else(|| self.start()))?
         };
         Ok((fit, emulation.emulator))
     }
@@ -140,7 +160,7 @@ impl Emulation<'_> {
             let witnesses: Vec<&Witness> = solution
                 .witnesses
                 .iter()
-                .filter(|witness| !self.is_excluded(&solution, witness))
+                .filter(|witness| !self.is_excluded(&solution, witness) && !self.is_known(&solution, witness))
                 .collect();
             let mut places = vec![optimum.clone()];
             places.extend(witnesses.iter().map(|witness| witness.point.free.clone()));
@@ -161,6 +181,7 @@ impl Emulation<'_> {
             if agreed && profiles == wanted {
                 solution.optimum.point.residuals = seen[0].point.residuals.clone();
                 solution.optimum.offset = solution.optimum.offset.max(shift);
+                self.emulator.ends = self.ends(&solution);
                 self.learn(seen);
                 return Ok(Some(solution));
             }
@@ -250,6 +271,44 @@ impl Emulation<'_> {
             .bound
             .is_some_and(|bound| self.emulator.excluded.contains(&bound))
             && rise > EXCLUSION * witness.threshold
+    }
+
+    /// Whether the model ran so close to the end of an interval that the emulator of its difference to a coarser one, which was asked there,
+    /// knows it.
+    fn is_known(&self, solution: &Solution, witness: &Witness) -> bool {
+        let near = || {
+            self.emulator
+                .nearest(&witness.point.free, |change| self.length(solution, change))
+        };
+        self.emulator.coarse.is_some() && witness.bound.is_none() && near() < NEAR
+    }
+
+    /// Length of a change of the model's free variables in standard errors of all of them together.
+    fn length(&self, solution: &Solution, change: &DVector<f64>) -> f64 {
+        let optimum = &solution.optimum;
+        let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
+        let change = self.emulator.with_terms(change, optimum.point.free.len());
+        let information = information(&optimum.jacobian, &curvatures);
+        change.dot(&(information * &change)).max(0.0).sqrt()
+    }
+
+    /// Where the model was asked beside the optimum and the bounds, each at some distance from the others.
+    fn ends(&self, solution: &Solution) -> Vec<DVector<f64>> {
+        let mut ends: Vec<DVector<f64>> = Vec::new();
+        for witness in solution
+            .witnesses
+            .iter()
+            .filter(|witness| witness.bound.is_none())
+        {
+            let free = self.emulator.of_model(&witness.point.free);
+            if ends
+                .iter()
+                .all(|other| self.length(solution, &(other - &free)) >= NEAR)
+            {
+                ends.push(free);
+            }
+        }
+        ends
     }
 
     /// Whether the model found a root of the rise at a witness that means what the emulator's does.

@@ -26,10 +26,13 @@ const NUGGET: f64 = 1e-8;
 /// An emulator of a model, learned from its runs by [`Calibration::fit_emulated`](crate::Calibration::fit_emulated).
 #[derive(Debug, Clone)]
 pub struct Emulator {
+    /// Those of the model.
     parameters: Vec<Parameter>,
+    /// Their indices among all.
+    indices: Vec<usize>,
     /// What the runs are compared with, if not with their mean alone.
     pub(crate) coarse: Option<Arc<Emulator>>,
-    /// Free variables, a run each, and the shares of the parameters' ranges that they are.
+    /// Free variables of these parameters, a run each, and the shares of the parameters' ranges that they are.
     points: Vec<DVector<f64>>,
     places: Vec<DVector<f64>>,
     /// What the model predicted there.
@@ -37,20 +40,26 @@ pub struct Emulator {
     /// Mean of what `coarse` misses, and what each run's neighbourhood adds to it, a row each.
     mean: DVector<f64>,
     weights: DMatrix<f64>,
+    /// Where the intervals of the fit that it was made for end, and a rival of it; no two of them within half a standard error.
+    pub(crate) ends: Vec<DVector<f64>>,
     /// Parameters and their lower and upper bounds that this model, or a coarser one, was seen to exclude by far.
     pub(crate) excluded: Vec<(usize, bool)>,
 }
 
 impl Emulator {
     pub(crate) fn new(parameters: &[Parameter], coarse: Option<&Self>) -> Self {
+        let of_model = |k: &usize| parameters[*k].column().is_none();
+        let indices: Vec<usize> = (0..parameters.len()).filter(of_model).collect();
         Self {
-            parameters: parameters.to_vec(),
+            parameters: indices.iter().map(|&k| parameters[k].clone()).collect(),
+            indices,
             coarse: coarse.cloned().map(Arc::new),
             points: Vec::new(),
             places: Vec::new(),
             predictions: Vec::new(),
             mean: DVector::zeros(0),
             weights: DMatrix::zeros(0, 0),
+            ends: Vec::new(),
             excluded: coarse.map_or_else(Vec::new, |coarse| coarse.excluded.clone()),
         }
     }
@@ -60,8 +69,12 @@ impl Emulator {
         let same = |(a, b): (&Parameter, &Parameter)| {
             (a.lower(), a.upper(), a.scale()) == (b.lower(), b.upper(), b.scale())
         };
-        self.parameters.len() == parameters.len()
-            && self.parameters.iter().zip(parameters).all(same)
+        let of_model: Vec<&Parameter> = parameters
+            .iter()
+            .filter(|parameter| parameter.column().is_none())
+            .collect();
+        self.parameters.len() == of_model.len()
+            && self.parameters.iter().zip(of_model).all(same)
             && self.predictions.iter().all(|run| run.len() == observations)
     }
 
@@ -70,11 +83,25 @@ impl Emulator {
         self.places.len()
     }
 
+    /// The free variables of the model's parameters.
+    pub(crate) fn of_model(&self, free: &DVector<f64>) -> DVector<f64> {
+        DVector::from_fn(self.indices.len(), |k, _| free[self.indices[k]])
+    }
+
+    /// Those of all parameters, terms at the middle of their ranges.
+    pub(crate) fn with_terms(&self, of_model: &DVector<f64>, count: usize) -> DVector<f64> {
+        let mut free = DVector::zeros(count);
+        for (&k, z) in self.indices.iter().zip(of_model.iter()) {
+            free[k] = *z;
+        }
+        free
+    }
+
     /// Shares of the parameters' ranges at free variables.
     fn place(&self, free: &DVector<f64>) -> DVector<f64> {
-        DVector::from_fn(free.len(), |k, _| {
+        DVector::from_fn(self.parameters.len(), |k, _| {
             let parameter = &self.parameters[k];
-            parameter.share(parameter.bounded(free[k]))
+            parameter.share(parameter.bounded(free[self.indices[k]]))
         })
     }
 
@@ -113,6 +140,15 @@ impl Emulator {
         Some(&self.predictions[run])
     }
 
+    /// Distance to the nearest of its runs, which `measure` gives to what separates two places.
+    pub(crate) fn nearest(&self, free: &DVector<f64>, measure: impl Fn(&DVector<f64>) -> f64) -> f64 {
+        let here = self.of_model(free);
+        self.points
+            .iter()
+            .map(|point| measure(&(point - &here)))
+            .fold(f64::INFINITY, f64::min)
+    }
+
     /// Adds runs at free variables.
     pub(crate) fn learn(&mut self, runs: impl IntoIterator<Item = (DVector<f64>, Vec<f64>)>) {
         for (free, predicted) in runs {
@@ -120,7 +156,7 @@ impl Emulator {
                 continue;
             }
             let place = self.place(&free);
-            self.points.push(free);
+            self.points.push(self.of_model(&free));
             self.places.push(place);
             self.predictions.push(predicted);
         }

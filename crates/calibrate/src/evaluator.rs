@@ -10,12 +10,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::parameter::physical;
+use crate::parameter::of_model;
 use crate::point::Point;
 use crate::{Calibration, CalibrationError, Model, ModelError};
 
 /// Smallest and largest step of a derivative, in the free variable: rounding spoils shorter ones, curvature longer ones.
 const STEPS: (f64, f64) = (1e-4, 0.5);
+/// Added to the diagonal of the terms' normal equations, as a share.
+const HELD_BACK: f64 = 1e-9;
 /// Change of the residuals over a step, in their noise.
 const CHANGE_TO_NOISE: f64 = 5.0;
 
@@ -59,19 +61,24 @@ impl<'a> Evaluator<'a> {
 
     /// Standardised residuals; all infinite where the model has no answer.
     pub fn residuals(&self, free: &DVector<f64>) -> Result<DVector<f64>, CalibrationError> {
-        if let Some(predicted) = self.predict(free)? {
-            return Ok(self.standardised(free, &predicted));
-        }
-        let count = self.calibration.observations.len() + self.calibration.priors();
-        Ok(DVector::from_element(count, f64::INFINITY))
+        let predicted = self.predict(free)?;
+        Ok(predicted.map_or_else(
+            || self.no_answer(),
+            |predicted| self.standardised(free, &predicted),
+        ))
     }
 
-    /// Runs the model; nothing where it has no answer.
+    fn no_answer(&self) -> DVector<f64> {
+        let count = self.calibration.observations.len() + self.calibration.priors();
+        DVector::from_element(count, f64::INFINITY)
+    }
+
+    /// Runs the model; nothing where it has no answer. Terms are not in it yet.
     pub fn predict(&self, free: &DVector<f64>) -> Result<Option<Vec<f64>>, CalibrationError> {
         if self.count.fetch_add(1, Ordering::Relaxed) >= self.limit {
             return Err(CalibrationError::EvaluationLimit { limit: self.limit });
         }
-        let predicted = match self.model.predict(&physical(&self.calibration.parameters, free)) {
+        let predicted = match self.model.predict(&of_model(&self.calibration.parameters, free)) {
             Ok(predicted) => predicted,
             Err(error) => {
                 self.remember(error);
@@ -89,12 +96,18 @@ impl<'a> Evaluator<'a> {
         Ok(Some(predicted))
     }
 
-    /// Residuals of predictions, in sigmas, and of the priors.
+    /// Residuals of predictions with their terms, in sigmas, and of the priors.
     pub fn standardised(&self, free: &DVector<f64>, predicted: &[f64]) -> DVector<f64> {
+        let parameters = self.calibration.parameters.iter().zip(free.iter());
+        let terms: Vec<(f64, &[f64])> = parameters
+            .filter_map(|(parameter, &z)| Some((parameter.physical(z), parameter.column()?)))
+            .collect();
+        let added = |row: usize| terms.iter().map(|(size, column)| size * column[row]).sum::<f64>();
         let data = predicted
             .iter()
             .zip(self.data())
-            .map(|(predicted, (observed, sigma))| (predicted - observed) / sigma);
+            .enumerate()
+            .map(|(row, (predicted, (observed, sigma)))| (predicted + added(row) - observed) / sigma);
         let parameters = self.calibration.parameters.iter().zip(free.iter());
         let priors = parameters.filter_map(|(parameter, &z)| parameter.prior_residual(z));
         DVector::from_vec(data.chain(priors).collect())
@@ -113,6 +126,59 @@ impl<'a> Evaluator<'a> {
             Ok(Point { free, residuals })
         };
         places.into_par_iter().map(point).collect()
+    }
+
+    /// As [`points`](Self::points), with the terms that fit best at each place by least squares; `held` stays where it is.
+    pub fn points_with_terms(
+        &self,
+        places: Vec<DVector<f64>>,
+        held: Option<usize>,
+    ) -> Result<Vec<Point>, CalibrationError> {
+        let parameters = &self.calibration.parameters;
+        let is_free = |&k: &usize| parameters[k].column().is_some() && Some(k) != held;
+        let terms: Vec<usize> = (0..parameters.len()).filter(is_free).collect();
+        let point = |free| match self.predict(&free)? {
+            Some(predicted) => Ok(self.fitted_terms(free, &predicted, &terms)),
+            None => Ok(Point {
+                residuals: self.no_answer(),
+                free,
+            }),
+        };
+        places.into_par_iter().map(point).collect()
+    }
+
+    /// The place with these `terms` as they fit best, a little held back so that columns which are nearly one have an answer.
+    pub fn fitted_terms(&self, mut free: DVector<f64>, predicted: &[f64], terms: &[usize]) -> Point {
+        if terms.is_empty() {
+            return Point {
+                residuals: self.standardised(&free, predicted),
+                free,
+            };
+        }
+        let parameters = &self.calibration.parameters;
+        let rows = self.calibration.observations.len();
+        let columns = DMatrix::from_fn(rows, terms.len(), |row, k| {
+            parameters[terms[k]].column().map_or(0.0, |column| column[row]) / self.calibration.sigmas[row]
+        });
+        let left = self.standardised(&free, predicted);
+        let mut square = columns.tr_mul(&columns);
+        for k in 0..terms.len() {
+            square[(k, k)] *= 1.0 + HELD_BACK;
+        }
+        if let Some(change) = square
+            .cholesky()
+            .map(|solved| solved.solve(&columns.tr_mul(&left.rows(0, rows))))
+        {
+            for (&k, change) in terms.iter().zip(change.iter()) {
+                let value = parameters[k].physical(free[k]) - change;
+                let inside = value.clamp(parameters[k].lower(), parameters[k].upper());
+                free[k] = parameters[k].free(parameters[k].coordinate(inside));
+            }
+        }
+        Point {
+            residuals: self.standardised(&free, predicted),
+            free,
+        }
     }
 
     /// Steps of derivatives; where derivatives `near` here are known, so long that the model's noise stays small beside the change.
@@ -145,7 +211,9 @@ impl<'a> Evaluator<'a> {
         steps: &[f64],
         held: Option<usize>,
     ) -> Result<DMatrix<f64>, CalibrationError> {
-        let moving: Vec<usize> = (0..free.len()).filter(|&k| Some(k) != held).collect();
+        let (terms, moving): (Vec<usize>, Vec<usize>) = (0..free.len())
+            .filter(|&k| Some(k) != held)
+            .partition(|&k| self.calibration.parameters[k].column().is_some());
         let places = moving
             .iter()
             .flat_map(|&k| [(k, steps[k]), (k, -steps[k])])
@@ -161,7 +229,7 @@ impl<'a> Evaluator<'a> {
             .map(|point| point.residuals)
             .collect();
         let mut middle = None;
-        let rows = residuals.first().map_or(0, DVector::len);
+        let rows = self.calibration.observations.len() + self.calibration.priors();
         let mut jacobian = DMatrix::zeros(rows, free.len());
         for (pair, &k) in residuals.chunks_exact(2).zip(&moving) {
             let column = match (feasible(&pair[0]), feasible(&pair[1])) {
@@ -187,6 +255,16 @@ impl<'a> Evaluator<'a> {
                 }
             };
             jacobian.set_column(k, &column);
+        }
+        // Terms take no run: whatever the model predicts, they add the same.
+        let nothing = vec![0.0; self.calibration.observations.len()];
+        for k in terms {
+            let [ahead, behind] = [STEPS.0, -STEPS.0].map(|step| {
+                let mut point = free.clone();
+                point[k] += step;
+                self.standardised(&point, &nothing)
+            });
+            jacobian.set_column(k, &((ahead - behind) / (2.0 * STEPS.0)));
         }
         Ok(jacobian)
     }

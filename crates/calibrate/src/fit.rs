@@ -41,6 +41,7 @@ pub struct Fit {
     pub(crate) jacobian: DMatrix<f64>,
     /// Half the second derivative of the deviance by each prediction.
     pub(crate) curvatures: Vec<f64>,
+    pub(crate) sigmas: Vec<f64>,
     /// Covariance of the free variables.
     pub(crate) covariance: DMatrix<f64>,
 }
@@ -49,6 +50,15 @@ impl Fit {
     /// The best values, in the order of the parameters.
     pub fn values(&self) -> Vec<f64> {
         self.estimates.iter().map(|estimate| estimate.value).collect()
+    }
+
+    /// Residuals in units of their sigmas.
+    pub fn standardised_residuals(&self) -> Vec<f64> {
+        self.residuals
+            .iter()
+            .zip(&self.sigmas)
+            .map(|(residual, sigma)| residual / sigma)
+            .collect()
     }
 
     /// By how many standard errors each estimate would move, to first order, if the model predicted `change` more, in the

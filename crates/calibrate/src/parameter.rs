@@ -5,6 +5,8 @@
 //!
 //! s = s_lower + (s_upper − s_lower)/(1 + e^(−z)).
 
+use std::sync::Arc;
+
 use nalgebra::DVector;
 
 use crate::CalibrationError;
@@ -48,6 +50,8 @@ pub struct Parameter {
     upper: f64,
     scale: Scale,
     prior: Option<Prior>,
+    /// What a value of 1 adds to each prediction, where that is all that it does.
+    term: Option<Arc<[f64]>>,
 }
 
 impl Parameter {
@@ -73,12 +77,30 @@ impl Parameter {
             upper,
             scale,
             prior: None,
+            term: None,
         };
         // The logarithms of bounds that nearly touch are the same number.
         if parameter.range().1 <= 0.0 {
             return Err(error("upper bound", upper, "finite and above the lower bound"));
         }
         Ok(parameter)
+    }
+
+    /// A parameter that adds its value times `column` to the predictions, an entry each: an error of the instrument, such as its zero. The
+    /// [`Model`](crate::Model) is not given it, so that it costs no runs.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError::InvalidParameter`] unless the bounds are finite and in order and the column is finite.
+    pub fn term(name: &str, lower: f64, upper: f64, column: &[f64]) -> Result<Self, CalibrationError> {
+        let parameter = Self::new(name, lower, upper, Scale::Linear)?;
+        if let Some(&value) = column.iter().find(|value| !value.is_finite()) {
+            return Err(invalid(name, "entry of its column", value, "finite"));
+        }
+        Ok(Self {
+            term: Some(column.into()),
+            ..parameter
+        })
     }
 
     /// The same parameter with prior knowledge.
@@ -122,6 +144,11 @@ impl Parameter {
     /// What is known beforehand.
     pub fn prior(&self) -> Option<Prior> {
         self.prior
+    }
+
+    /// What a value of 1 adds to each prediction; `None` for a parameter of the model.
+    pub fn column(&self) -> Option<&[f64]> {
+        self.term.as_deref()
     }
 
     /// s of a value.
@@ -203,6 +230,13 @@ fn invalid(name: &str, quantity: &'static str, value: f64, allowed: &'static str
         value,
         allowed,
     }
+}
+
+/// Values of those parameters at free variables that the model takes.
+pub(crate) fn of_model(parameters: &[Parameter], free: &DVector<f64>) -> Vec<f64> {
+    let pairs = parameters.iter().zip(free.iter());
+    let pairs = pairs.filter(|(parameter, _)| parameter.term.is_none());
+    pairs.map(|(parameter, &z)| parameter.physical(z)).collect()
 }
 
 /// Values of `parameters` at free variables.

@@ -154,7 +154,7 @@ impl<'a> Search<'a> {
         let started = places.len();
         let calibration = self.evaluator.calibration;
         places.extend(all_over(calibration.parameters.len(), count));
-        let mut points = self.evaluator.points(places)?;
+        let mut points = self.evaluator.points_with_terms(places, None)?;
         let data = calibration.observations.len();
         let score = |point: &Point| score(&point.residuals, data, self.known_noise);
         points[started..].sort_by(|a, b| score(a).total_cmp(&score(b)));

@@ -71,7 +71,9 @@ impl Profiler<'_> {
         let held = self.parameter(k).free(self.coordinate(k) + sign * distance);
         let (near, jacobian) = self.near(k, held, known);
         let mut found = Optimum {
-            point: self.best_of(near, 1)?.swap_remove(0),
+            point: self
+                .best_of(self.search.evaluator.points(near)?, 1)
+                .swap_remove(0),
             offset: 0.0,
             ..self.optimum.clone()
         };
@@ -84,7 +86,8 @@ impl Profiler<'_> {
                 .into_iter()
                 .map(|place| place.insert_row(k, held))
                 .collect();
-            for start in self.best_of(places, STARTS)? {
+            let points = self.search.evaluator.points_with_terms(places, Some(k))?;
+            for start in self.best_of(points, STARTS) {
                 let other = self.fit_others(k, start, jacobian.clone())?;
                 if other.value() < found.value() {
                     found = other;
@@ -113,12 +116,11 @@ impl Profiler<'_> {
         self.search.brief_descent(deviance, jacobian, Some(k)).run(start)
     }
 
-    /// The `count` best points of `places`.
-    fn best_of(&self, places: Vec<DVector<f64>>, count: usize) -> Result<Vec<Point>, CalibrationError> {
-        let mut points = self.search.evaluator.points(places)?;
+    /// The `count` best of the points.
+    fn best_of(&self, mut points: Vec<Point>, count: usize) -> Vec<Point> {
         points.sort_by(|a, b| self.rise(a).total_cmp(&self.rise(b)));
         points.truncate(count);
-        Ok(points)
+        points
     }
 
     /// Where the others should be by what is known nearby, and J there.

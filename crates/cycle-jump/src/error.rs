@@ -9,6 +9,14 @@ pub enum JumpError {
     /// The cable could not be computed.
     #[error(transparent)]
     Cable(#[from] CableError),
+    /// No day becomes like the one before.
+    #[error(
+        "after {days} days of heat and traffic they still differ from day to day: nothing can be said of later ones"
+    )]
+    NeverPeriodic {
+        /// Days done.
+        days: u64,
+    },
     /// The jumps do not get on.
     #[error(
         "after {periods} of {wanted} periods of the traffic {simulated} passes are simulated, and jumps are no longer than at the start"

@@ -14,6 +14,8 @@ const GROWTH: f64 = 1.5;
 #[derive(Debug, Clone)]
 pub struct Flow<'a> {
     rate: &'a [f64],
+    /// What the rate grows by per period.
+    growth: Vec<f64>,
     slope: &'a [f64],
     /// Where each substep begins \[periods\], and y there; the end of the last is beyond them.
     begins: Vec<(f64, Vec<f64>)>,
@@ -29,8 +31,22 @@ impl<'a> Flow<'a> {
         periods: f64,
         substeps: i32,
     ) -> Self {
+        let growth = vec![0.0; rate.len()];
+        Self::growing(cable, rate, growth, slope, periods, substeps)
+    }
+
+    /// The same with a rate that grows by `growth` \[m\] every period.
+    pub fn growing(
+        cable: &mut RestingCable,
+        rate: &'a [f64],
+        growth: Vec<f64>,
+        slope: &'a [f64],
+        periods: f64,
+        substeps: i32,
+    ) -> Self {
         let mut flow = Self {
             rate,
+            growth,
             slope,
             begins: Vec::with_capacity(substeps as usize),
             end: vec![0.0; rate.len()],
@@ -38,7 +54,7 @@ impl<'a> Flow<'a> {
         let mut length = periods * (GROWTH - 1.0) / (GROWTH.powi(substeps) - 1.0);
         let mut time = 0.0;
         for _ in 0..substeps {
-            let next = flow.substep(cable, &flow.end, length);
+            let next = flow.substep(cable, &flow.end, time, length);
             flow.begins.push((time, std::mem::replace(&mut flow.end, next)));
             time += length;
             length *= GROWTH;
@@ -55,29 +71,34 @@ impl<'a> Flow<'a> {
     pub fn after(&self, cable: &mut RestingCable, periods: f64) -> Vec<f64> {
         let next = self.begins.partition_point(|(time, _)| *time <= periods);
         let (begin, y) = &self.begins[next.max(1) - 1];
-        self.substep(cable, y, periods - begin)
+        self.substep(cable, y, *begin, periods - begin)
     }
 
-    /// c + J y.
-    fn derivative(&self, cable: &RestingCable, y: &[f64]) -> Vec<f64> {
+    /// c + J y, with c at `time`.
+    fn derivative(&self, cable: &RestingCable, y: &[f64], time: f64) -> Vec<f64> {
         let mut k = vec![0.0; y.len()];
         cable.balance(y, &mut k);
-        for ((k, c), g) in k.iter_mut().zip(self.rate).zip(self.slope) {
+        let rate = self
+            .rate
+            .iter()
+            .zip(&self.growth)
+            .map(|(c, growth)| c + growth * time);
+        for ((k, c), g) in k.iter_mut().zip(rate).zip(self.slope) {
             *k = c - g * *k;
         }
         k
     }
 
-    fn substep(&self, cable: &mut RestingCable, y: &[f64], length: f64) -> Vec<f64> {
+    fn substep(&self, cable: &mut RestingCable, y: &[f64], time: f64, length: f64) -> Vec<f64> {
         let implicit = |i: usize| GAMMA * length * self.slope[i];
-        let mut first = self.derivative(cable, y);
+        let mut first = self.derivative(cable, y, time + GAMMA * length);
         cable.diffuse(implicit, &mut first);
         let mut sum: Vec<f64> = y
             .iter()
             .zip(&first)
             .map(|(y, k)| y + (1.0 - GAMMA) * length * k)
             .collect();
-        let mut second = self.derivative(cable, &sum);
+        let mut second = self.derivative(cable, &sum, time + length);
         cable.diffuse(implicit, &mut second);
         for (sum, k) in sum.iter_mut().zip(&second) {
             *sum += GAMMA * length * k;

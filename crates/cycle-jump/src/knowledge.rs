@@ -1,6 +1,6 @@
 //! What simulated periods have shown: the advance, and how it answers to friction.
 
-use cable_dem::{CableState, RestingCable};
+use cable_dem::RestingCable;
 
 use crate::period::{Period, difference, largest};
 use crate::slope::{Change, Slope};
@@ -26,14 +26,27 @@ impl Knowledge {
         largest(&self.period.rate) < AT_REST * motion
     }
 
-    /// Advance per period in `state`, from that of the last period.
-    pub fn rate(&self, state: &CableState, cable: &RestingCable) -> Vec<f64> {
-        // −K (u − ū)/w, with u after and ū in the middle of the period.
-        let mut rate = self.period.friction_from(state.displacement(), cable);
-        for ((f, v), g) in rate.iter_mut().zip(&self.period.rate).zip(self.slope.values()) {
-            *f = v + g * *f;
-        }
+    /// Advance per period at the end of the last period.
+    pub fn rate(&self, cable: &mut RestingCable) -> Vec<f64> {
+        let mut rate = self.period.rate.clone();
+        self.spread(cable, &mut rate);
         rate
+    }
+
+    /// What the slope says of how the advance of the period `next` differs from that of the last.
+    pub fn predict(&self, next: &Period, cable: &mut RestingCable) -> Vec<f64> {
+        let mut change = next.friction_from(&self.period.middle, cable);
+        for (f, g) in change.iter_mut().zip(self.slope.values()) {
+            *f *= -g;
+        }
+        self.spread(cable, &mut change);
+        change
+    }
+
+    /// Spreads `values` along the cable as half a period does.
+    pub fn spread(&self, cable: &mut RestingCable, values: &mut [f64]) {
+        let slope = self.slope.values();
+        cable.diffuse(|i| 0.5 * slope[i], values);
     }
 
     /// Learns from the period `next`, of whose advance the slope had `predicted` the change where there was a jump.

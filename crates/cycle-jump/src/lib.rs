@@ -6,16 +6,13 @@
 //! simulated period from u_a to u_b measures the advance v = u_b − u_a at ū = (u_a + u_b)/2, and two of them the slope g = −∂v/∂f at
 //! every node. Over many periods the cable then follows
 //!
-//! y′ = c + J y,  y(0) = 0,  J = −g K/w,  c = v + J (u − ū),
+//! y′ = c + J y,  y(0) = 0,  J = −g K/w,  c = (I + ½ g K/w)⁻¹ v,
 //!
 //! which is stiff and is integrated by an L-stable method (SDIRK2; R. Alexander, SIAM J. Numer. Anal. 14 (1977) 1006). After every
 //! jump friction is brought back within its limit, and one period is simulated. Its advance differs from what the slope had said
-//! by a defect d. If that grew evenly over M periods, the jump has missed the displacement
-//!
-//! e = (I + (M/2) g K/w)⁻¹ (M/2) d,
-//!
-//! smoothed over one period more. The cable is moved by it; another simulated period heals what that left rough and is the next
-//! measurement.
+//! by a defect. The slope is learned once more, now between both ends of the jump; the flow is computed with it, and with what it still
+//! leaves of the defect as a source that grows evenly. What the jump has missed, e, is the difference of the two flows, smoothed over one
+//! period more. The cable is moved by it; another simulated period heals what that left rough and is the next measurement.
 //! The force and the movement in e decide whether the jump stands and how long the next one is. Ends, springs and clamps are in
 //! K, and the slope is learned where they act, so they need no rule of their own.
 //!
@@ -76,6 +73,7 @@
 //! # Ok::<(), JumpError>(())
 //! ```
 
+pub mod days;
 mod error;
 mod flow;
 mod knowledge;

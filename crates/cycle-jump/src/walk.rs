@@ -182,7 +182,7 @@ where
                 return Ok(false);
             }
             let left = all - self.done;
-            let rate = known.rate(&self.state, &self.cable);
+            let rate = known.rate(&mut self.cable);
             let resting = known.rests(self.jumps.motion);
             let guided = self.guide.length(self.schedule.len());
             let whole = guided.is_none() && left > CHECKED && (resting || self.is_steady(known, &rate, left));
@@ -228,27 +228,32 @@ where
         let tolerance = self.tolerance;
         let (from, offset) = (self.state.clone(), self.offset);
         let slope = known.slope.values().to_vec();
+        let at_end = length + CHECKED;
+        let flow = Flow::new(&mut self.cable, rate, &slope, at_end as f64, SUBSTEPS);
         if !known.rests(self.jumps.motion) {
-            let flow = Flow::new(&mut self.cable, rate, &slope, length as f64, SUBSTEPS);
-            self.advance(flow.end())?;
+            let jump = flow.after(&mut self.cable, length as f64);
+            self.advance(&jump)?;
         }
         let checked = self.period(None)?;
-        // What the slope says of the advance here, and the displacement that it missed: its error grew from nothing.
-        let mut predicted = checked.friction_from(&known.period.middle, &self.cable);
-        for (f, g) in predicted.iter_mut().zip(&slope) {
-            *f *= -g;
-        }
-        let half = 0.5 * (length + 1) as f64;
-        let mut missed = difference(&checked.rate, &known.period.rate);
-        for (missed, predicted) in missed.iter_mut().zip(&predicted) {
-            *missed = half * (*missed - predicted);
-        }
-        self.cable.diffuse(|i| half * slope[i], &mut missed);
+        let predicted = known.predict(&checked, &mut self.cable);
+        known.learn(&checked, Some(&predicted), &self.cable);
+        // The slope between both ends says best how the cable went from one to the other; what that leaves of the advance grew evenly.
+        let measured = (length + 1) as f64;
+        let growth = difference(&checked.rate, &known.period.rate)
+            .iter()
+            .zip(known.predict(&checked, &mut self.cable))
+            .map(|(seen, said)| (seen - said) / measured)
+            .collect();
+        let between = known.slope.values().to_vec();
+        let bent = Flow::growing(&mut self.cable, rate, growth, &between, at_end as f64, SUBSTEPS);
+        let mut missed = difference(
+            &bent.after(&mut self.cable, measured),
+            &flow.after(&mut self.cable, measured),
+        );
         self.cable.diffuse(|i| slope[i], &mut missed);
         let shares = self.scale.shares(&self.cable, &missed);
         let error = shares.force.max(shares.movement);
         let factor = (CAUTION * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt()).clamp(GROWTH.0, GROWTH.1);
-        known.learn(&checked, Some(&predicted), &self.cable);
         let allowed = match self.guide {
             Guide::Free => REJECTED * tolerance,
             Guide::Follow(_) => REJECTED_AS_GUIDED * tolerance,
@@ -269,24 +274,23 @@ where
         // What lies within the jump is recorded before the period at its end.
         let simulated = self.records.split_off(recorded);
         let to = self.state.clone();
-        let length = length + CHECKED;
         let jumped = Jumped {
             mesh: self.mesh,
             begin,
-            length,
+            length: at_end,
             from: &from,
             to: &to,
             offset,
             moved: self.offset - offset,
             before: &known.period.phases,
             after: &next.phases,
-            flow: Flow::new(&mut self.cable, rate, &slope, length as f64, SUBSTEPS),
+            flow: bent,
         };
         self.record(&jumped)?;
         self.records.extend(simulated);
         known.period = next;
-        known.length = factor * length as f64;
-        self.schedule.push(length - CHECKED);
+        known.length = factor * at_end as f64;
+        self.schedule.push(length);
         Ok(true)
     }
 

@@ -13,6 +13,7 @@ pub use view::{SlipLengths, StepView};
 
 use ground_field::{Direction, DuctMotion};
 
+use crate::error::checked;
 use crate::laid::laid;
 use crate::outcome::Recorder;
 use crate::step::check_precision;
@@ -126,7 +127,8 @@ impl QuasiStatic {
     ///
     /// [`CableError::StateMismatch`] for a state of another mesh, [`CableError::PassageMismatch`] for a passage computed for
     /// another mesh, axial stiffness or friction, [`CableError::Precision`] where rounding would blur
-    /// the answer, [`CableError::NoConvergence`] where a step found no equilibrium.
+    /// the answer, [`CableError::NoConvergence`] where a step found no equilibrium, [`CableError::InvalidParameter`] for a cable without friction that
+    /// is not as warm as it was laid.
     pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<PassOutcome, CableError> {
         self.pass_observed(passage, state, |_| {})
     }
@@ -147,6 +149,9 @@ impl QuasiStatic {
             return Err(CableError::PassageMismatch);
         }
         if self.cable.friction().limit() == 0.0 {
+            checked("thermal_force without friction", state.thermal_force, "0", |v| {
+                v == 0.0
+            })?;
             // Nothing drags the cable, and what held it is gone.
             if self.cable.body_force() == 0.0 {
                 state.release(&self.cable);

@@ -27,6 +27,8 @@ pub(super) struct ForwardSolver {
     r: Vec<f64>,
     g: Vec<f64>,
     anchor: Vec<f64>,
+    /// Of the cable in the current pass \[N\].
+    thermal_force: f64,
     windows: Vec<Window>,
     prediction: Prediction,
     /// The last pass of each passage: its windows and contact states. They and `prediction` outlive a pass, so that an answer
@@ -52,6 +54,7 @@ impl ForwardSolver {
             r: vec![0.0; nodes],
             g: vec![0.0; nodes],
             anchor: vec![0.0; nodes],
+            thermal_force: 0.0,
             windows: Vec::new(),
             prediction: Prediction::default(),
             memories: HashMap::new(),
@@ -72,7 +75,8 @@ impl ForwardSolver {
         self.g.copy_from_slice(&state.friction);
         self.step.start(largest(&self.r, passage.peak));
         self.step.trial.r.copy_from_slice(&self.r);
-        self.supports.rest();
+        self.supports.rest(state.thermal_force);
+        self.thermal_force = state.thermal_force;
         let (points, phases) = passage.lattice();
         self.prediction.fit(points, phases);
         self.recorder = Recorder::new(state.ends(&self.cable));
@@ -243,6 +247,7 @@ impl ForwardSolver {
     fn record_ends(&mut self, snapshot: &Snapshot<'_>) {
         self.recorder.record(self.ends.read(
             Balance::AtRest,
+            self.thermal_force,
             |node| self.r[node] + snapshot.adherent_at(node),
             |node| self.g[node] + snapshot.adhesion[node],
         ));

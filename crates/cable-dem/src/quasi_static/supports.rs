@@ -39,8 +39,10 @@ pub(super) struct Supports {
     law: FixedEndFriction,
     /// Loads in the adherent frame \[N\] by node: those of the supports, and the cable's own along the duct.
     pub load: Vec<f64>,
-    /// The latter alone.
+    /// The latter alone, and that of its heat.
     body: Vec<f64>,
+    /// Without heat that of both end nodes.
+    weight: [f64; 2],
     /// Change of a support's force \[N\] from which it is solved again: as much as a window's edge may be off.
     threshold: f64,
     last: usize,
@@ -53,6 +55,7 @@ impl Supports {
         // stiffer than that, what holds the node works against the sheath.
         let held_stiffness = chain.stiffness / screening.sqrt().max(1.0);
         let sheath_stiffness = chain.stiffness / screening.max(screening.sqrt());
+        let body = cable.body_loads(mesh);
         let watched = |support: Support| WatchedSupport {
             stretch: room.widened(
                 Stretch {
@@ -72,15 +75,19 @@ impl Supports {
         Self {
             all: Support::of(cable, mesh).into_iter().map(watched).collect(),
             law: FixedEndFriction::new(cable, mesh),
-            load: cable.body_loads(mesh),
-            body: cable.body_loads(mesh),
+            weight: [body[0], body[mesh.elements()]],
+            load: body.clone(),
+            body,
             threshold: UNBALANCED_SHARE * chain.limit * mesh.spacing(),
             last: mesh.elements(),
         }
     }
 
-    /// The ground at rest, where the adherent frame is that of the ground.
-    pub fn rest(&mut self) {
+    /// The ground at rest, where the adherent frame is that of the ground, and a cable whose heat has the force `thermal` \[N\].
+    pub fn rest(&mut self, thermal: f64) {
+        // Heat pushes the two ends apart and nothing between them.
+        self.body[0] = self.weight[0] - thermal;
+        self.body[self.last] = self.weight[1] + thermal;
         self.load.copy_from_slice(&self.body);
         for watched in &mut self.all {
             watched.solved = Forcing::default();

@@ -114,6 +114,6 @@ impl Lumped {
 
     /// Force on each end \[N\], compression positive, from displacement and friction of a cable that may be moving.
     pub fn end_forces(&self, u: &[f64], f: &[f64]) -> EndForces {
-        self.ends.read(Balance::Moving, |i| u[i], |i| f[i])
+        self.ends.read(Balance::Moving, 0.0, |i| u[i], |i| f[i])
     }
 }

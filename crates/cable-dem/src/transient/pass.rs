@@ -40,6 +40,9 @@ pub(crate) fn pass(
 ) -> Result<TransientOutcome, CableError> {
     state.check(&lumped.mesh)?;
     duct.check(&lumped.mesh)?;
+    if state.thermal_force != 0.0 {
+        return Err(CableError::Heated);
+    }
     let forces = |state: &CableState| lumped.end_forces(&state.displacement, &state.friction);
     let mut recorder = Recorder::new(forces(state));
     if lumped.cable.friction().limit() == 0.0 {

@@ -9,6 +9,7 @@ mod closed_forms;
 mod end_clamps;
 mod friction_symmetry;
 mod full_newton;
+mod heat;
 mod reference;
 mod refusals;
 mod robustness;

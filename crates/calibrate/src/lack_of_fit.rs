@@ -1,0 +1,159 @@
+//! Whether the residuals of a fit are the noise that the fit takes them for.
+//!
+//! *Signs.* Residuals that are noise change their sign from one to the next as coins do; too few changes show a curve that the model does
+//! not follow (A. Wald, J. Wolfowitz, "On a test whether two samples are from the same population", 1940; here with signs that are
+//! positive and negative alike, so that residuals all of one sign count).
+//!
+//! *Terms.* Would a term more in the model, such as a constant, explain them? Its column is freed of what the parameters can do,
+//! which is the score test (N. R. Draper, H. Smith, Applied Regression Analysis, 1998, section 8.1, the extra sum of squares; C. R. Rao, 1948).
+
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{Binomial, ChiSquared, ContinuousCDF, DiscreteCDF, FisherSnedecor};
+
+use crate::Fit;
+
+/// Share of a column that the parameters must leave: with less the term is one of them by another name.
+const LEFT: f64 = 1e-9;
+
+/// Fewest residuals that are judged.
+const FEWEST: f64 = 3.0;
+
+/// What terms more in the model would say of the residuals.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TermTest {
+    /// Sizes of the terms, to first order.
+    pub sizes: Vec<f64>,
+    /// Their standard errors.
+    pub standard_errors: Vec<f64>,
+    /// Probability that noise alone calls for so large terms.
+    pub probability: f64,
+}
+
+impl Fit {
+    /// Tests terms with these columns, an entry for each observation, all at once. `None` where the parameters can do what the terms do, or
+    /// nothing is left to judge by.
+    ///
+    /// ```
+    /// use calibrate::{Calibration, ModelError, Parameter, Scale};
+    ///
+    /// // A line through the origin, measured by an instrument whose zero is off by 2.
+    /// let places = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0];
+    /// let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(places.map(|x| p[0] * x).to_vec()) };
+    /// let slope = Parameter::new("slope", 0.0, 10.0, Scale::Linear)?;
+    /// let fit = Calibration::new(&model, vec![slope], vec![3.01, 3.98, 5.02, 5.99, 7.01, 7.99])?.fit()?;
+    /// let offset = fit.test_terms(&[&[1.0; 6]]).expect("a constant is no line through the origin");
+    /// assert!((offset.sizes[0] - 2.0).abs() < 0.1 && offset.probability < 1e-3);
+    /// # Ok::<(), calibrate::CalibrationError>(())
+    /// ```
+    pub fn test_terms(&self, columns: &[&[f64]]) -> Option<TermTest> {
+        let (rows, count) = (self.residuals.len(), columns.len());
+        if columns.iter().any(|column| column.len() != rows) {
+            return None;
+        }
+        // Half the second derivatives of the deviance; outliers of a robust fit hardly count.
+        let weight = |row: usize| self.curvatures[row] / self.sigmas[row] * self.weights[row];
+        let weighted = DMatrix::from_fn(rows, count, |row, k| columns[k][row] * weight(row));
+        let plain = DMatrix::from_fn(rows, count, |row, k| columns[k][row]);
+        let jacobian = DMatrix::from_fn(rows, self.free.len(), |row, k| {
+            self.jacobian[(row, k)] * self.sigmas[row]
+        });
+        let across = jacobian.tr_mul(&weighted);
+        let full = plain.tr_mul(&weighted);
+        let left = &full - across.tr_mul(&(&self.covariance * &across));
+        if (0..count).any(|k| left[(k, k)].is_nan() || left[(k, k)] <= LEFT * full[(k, k)]) {
+            return None;
+        }
+        let slope = weighted.tr_mul(&DVector::from_column_slice(&self.residuals));
+        let solved = left.cholesky()?;
+        let sizes = solved.solve(&slope);
+        let gain = slope.dot(&sizes);
+        let terms = count as f64;
+        let freedom = self.degrees_of_freedom - terms;
+        let probability = if self.noise_estimated {
+            // The noise without what the terms explain.
+            let rest = (self.degrees_of_freedom - gain).max(f64::MIN_POSITIVE);
+            1.0 - FisherSnedecor::new(terms, freedom)
+                .ok()
+                .filter(|_| freedom >= 1.0)?
+                .cdf(gain / terms * freedom / rest)
+        } else {
+            1.0 - ChiSquared::new(terms).ok()?.cdf(gain)
+        };
+        let inverse = solved.inverse();
+        Some(TermTest {
+            sizes: sizes.iter().copied().collect(),
+            standard_errors: (0..count).map(|k| inverse[(k, k)].sqrt()).collect(),
+            probability,
+        })
+    }
+}
+
+/// Probability of so few changes of sign by chance, of residuals in the order in which they were measured; `series` are independent.
+pub fn probability_of_signs(series: &[Vec<f64>]) -> f64 {
+    let pairs = series.iter().flat_map(|residuals| residuals.windows(2));
+    let (mut changes, mut chances) = (0, 0);
+    for pair in pairs {
+        chances += 1;
+        changes += u64::from((pair[0] < 0.0) != (pair[1] < 0.0));
+    }
+    Binomial::new(0.5, chances).map_or(1.0, |binomial| binomial.cdf(changes))
+}
+
+/// Probability that noise alone gains as much from one parameter more: the sum of squared residuals falls from `before` to `after`, with this
+/// `freedom` left, where the residuals are in units of a noise that is known (`known`) or estimated. `None` of too few.
+pub fn probability_of_gain(before: f64, after: f64, freedom: f64, known: Option<f64>) -> Option<f64> {
+    let gain = (before - after).max(0.0);
+    match known {
+        Some(noise) => Some(1.0 - ChiSquared::new(1.0).ok()?.cdf(gain / (noise * noise))),
+        None if freedom < FEWEST => None,
+        None => {
+            let noise = (after / freedom).max(f64::MIN_POSITIVE);
+            Some(1.0 - FisherSnedecor::new(1.0, freedom).ok()?.cdf(gain / noise))
+        }
+    }
+}
+
+/// Probability that noise like that between neighbours makes residuals so large, of which `used` are determined by parameters: a ratio of
+/// variances, one from all residuals and one from how far each lies off the line between its neighbours, which a curve hardly moves (J. von Neumann,
+/// "Distribution of the ratio of the mean square successive difference to the variance", 1941). `None` of too few.
+pub fn probability_of_size(series: &[Vec<f64>], used: f64) -> Option<f64> {
+    let all = series.iter().flatten();
+    let (count, square) = all.fold((0.0, 0.0), |(count, square), r| (count + 1.0, square + r * r));
+    let off = |three: &[f64]| (three[1] - 0.5 * (three[0] + three[2])).powi(2) / 1.5;
+    let local = series.iter().flat_map(|residuals| residuals.windows(3)).map(off);
+    let (pieces, rough) = local.fold((0.0, 0.0), |(count, sum), off| (count + 1.0, sum + off));
+    // Neighbouring pieces share readings: they count as half as many.
+    let (freedom, half) = (count - used, 0.5 * pieces);
+    if rough <= 0.0 || freedom < FEWEST || half < FEWEST {
+        return None;
+    }
+    let ratio = square / freedom / (rough / pieces);
+    Some(1.0 - FisherSnedecor::new(freedom, half).ok()?.cdf(ratio))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{probability_of_signs, probability_of_size};
+
+    #[test]
+    fn a_curve_is_larger_than_its_neighbours_differ() {
+        let curve: Vec<f64> = (0..40)
+            .map(|k| f64::from(k) * 0.1 + if k % 2 == 0 { 0.2 } else { -0.2 })
+            .collect();
+        assert!(probability_of_size(&[curve], 2.0).unwrap() < 1e-6);
+        let noise: Vec<f64> = (0..40).map(|k| f64::from(k * 7 % 11) - 5.0).collect();
+        assert!(probability_of_size(&[noise], 2.0).unwrap() > 0.3);
+        assert_eq!(probability_of_size(&[vec![1.0, 2.0]], 0.0), None);
+    }
+
+    #[test]
+    fn signs_count_as_coins_do() {
+        // All ten of one sign: nine coins.
+        assert!((probability_of_signs(&[vec![1.0; 10]]) - 0.5_f64.powi(9)).abs() < 1e-12);
+        assert!((probability_of_signs(&[vec![1.0, -1.0, 1.0, -1.0]]) - 1.0).abs() < 1e-12);
+        // Two series of three are four coins.
+        let two = [vec![1.0, 1.0, 1.0], vec![-1.0, -1.0, -1.0]];
+        assert!((probability_of_signs(&two) - 0.0625).abs() < 1e-12);
+        assert_eq!(probability_of_signs(&[vec![1.0]]), 1.0);
+    }
+}

@@ -1,0 +1,143 @@
+//! Terms: what an instrument adds to the predictions.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use calibrate::{Calibration, Fit, ModelError, Parameter, Prior, Scale};
+
+const PASSES: usize = 30;
+
+fn column(value: impl Fn(f64) -> f64) -> Vec<f64> {
+    (1..=PASSES).map(|pass| value(pass as f64)).collect()
+}
+
+/// A force that levels off, read by a cell that is off by 20 N and drifts by 1.5 N a pass.
+fn observations(seed: u64) -> Vec<f64> {
+    let mut random = fastrand::Rng::with_seed(seed);
+    let mut noise = || 4.0 * ((0..12).map(|_| random.f64()).sum::<f64>() - 6.0);
+    column(|pass| 550.0 * (1.0 - (-pass / 6.0).exp()) + 20.0 + 1.5 * pass)
+        .iter()
+        .map(|force| force + noise())
+        .collect()
+}
+
+fn parameters() -> Vec<Parameter> {
+    vec![
+        Parameter::new("force", 100.0, 2000.0, Scale::Logarithmic).unwrap(),
+        Parameter::new("passes", 1.0, 100.0, Scale::Logarithmic).unwrap(),
+    ]
+}
+
+fn instrument() -> Vec<Parameter> {
+    let one = |name, bound: f64, column: Vec<f64>, sigma| {
+        let term = Parameter::term(name, -bound, bound, &column).unwrap();
+        term.with_prior(Prior { value: 0.0, sigma }).unwrap()
+    };
+    vec![
+        one("zero_offset", 500.0, column(|_| 1.0), 100.0),
+        one("drift", 20.0, column(|pass| pass), 5.0),
+    ]
+}
+
+fn assert_near(one: &Fit, other: &Fit, tolerance: f64) {
+    for (a, b) in one.estimates.iter().zip(&other.estimates) {
+        let error = b.standard_error.unwrap();
+        assert!((a.value - b.value).abs() < tolerance * error, "{a:?} {b:?}");
+        for (a, b) in [
+            (a.interval.lower, b.interval.lower),
+            (a.interval.upper, b.interval.upper),
+        ] {
+            assert!(
+                (a.unwrap() - b.unwrap()).abs() < 2.0 * tolerance * error,
+                "{a:?} {b:?}"
+            );
+        }
+    }
+}
+
+/// The same as if the model computed it, with runs for its own parameters alone.
+#[test]
+fn terms_fit_as_a_models_parameters_do() {
+    let runs = AtomicUsize::new(0);
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        runs.fetch_add(1, Ordering::Relaxed);
+        assert_eq!(p.len(), 2);
+        Ok(column(|pass| p[0] * (1.0 - (-pass / p[1]).exp())))
+    };
+    let all = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        Ok(column(|pass| {
+            p[0] * (1.0 - (-pass / p[1]).exp()) + p[2] + p[3] * pass
+        }))
+    };
+    let data = observations(3);
+    let plain: Vec<Parameter> = instrument()
+        .iter()
+        .map(|term| {
+            let own = Parameter::new(term.name(), term.lower(), term.upper(), Scale::Linear).unwrap();
+            own.with_prior(term.prior().unwrap()).unwrap()
+        })
+        .collect();
+    let expected = Calibration::new(&all, [parameters(), plain].concat(), data.clone())
+        .unwrap()
+        .fit()
+        .unwrap();
+    let calibration = Calibration::new(&model, [parameters(), instrument()].concat(), data).unwrap();
+    assert_near(&calibration.fit().unwrap(), &expected, 0.03);
+    runs.store(0, Ordering::Relaxed);
+    let (fit, _) = calibration.fit_emulated(None).unwrap();
+    assert_near(&fit, &expected, 0.03);
+    assert!(runs.into_inner() <= 60, "{}", fit.evaluations);
+}
+
+/// What a fit without the terms says of them is what a fit with them finds.
+#[test]
+fn missing_terms_are_told() {
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        Ok(column(|pass| p[0] * (1.0 - (-pass / p[1]).exp())))
+    };
+    let (one, pass) = (column(|_| 1.0), column(|pass| pass));
+    let fit = |data: Vec<f64>| {
+        Calibration::new(&model, parameters(), data)
+            .unwrap()
+            .fit()
+            .unwrap()
+    };
+    let test = fit(observations(4)).test_terms(&[&one, &pass]).unwrap();
+    assert!(test.probability < 1e-4, "{test:?}");
+    // Not linear: half of its size is what first order sees of the drift.
+    assert!((0.7..2.5).contains(&test.sizes[1]), "{test:?}");
+    // Of clean data one in a hundred calls for them.
+    let called = (0..300)
+        .filter(|&seed| {
+            let own = observations(seed);
+            let clean = (0..)
+                .zip(own)
+                .map(|(k, force)| force - 20.0 - 1.5 * (f64::from(k) + 1.0))
+                .collect();
+            fit(clean).test_terms(&[&one, &pass]).unwrap().probability < 0.05
+        })
+        .count();
+    assert!((5..=28).contains(&called), "{called} of 300, 15 are expected");
+}
+
+#[test]
+fn what_the_parameters_do_themselves_is_no_term() {
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(column(|pass| p[0] + p[1] * pass)) };
+    let of = |name| Parameter::new(name, -1e4, 1e4, Scale::Linear).unwrap();
+    let fit = Calibration::new(&model, vec![of("a"), of("b")], observations(1))
+        .unwrap()
+        .fit()
+        .unwrap();
+    assert!(fit.test_terms(&[&column(|_| 1.0)]).is_none());
+    assert!(fit.test_terms(&[&[1.0]]).is_none());
+}
+
+#[test]
+fn bad_columns_are_named() {
+    assert!(Parameter::term("zero", -1.0, 1.0, &[1.0, f64::NAN]).is_err());
+    let model = |_: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(vec![0.0; 3]) };
+    let short = Parameter::term("zero", -1.0, 1.0, &[1.0, 1.0]).unwrap();
+    let error = Calibration::new(&model, vec![short], vec![1.0, 2.0, 3.0])
+        .err()
+        .unwrap();
+    assert!(error.to_string().contains("length of its column"), "{error}");
+}

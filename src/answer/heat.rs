@@ -1,0 +1,125 @@
+//! What heat and traffic do to the cable, day by day. The names of the fields are those of the JSON document, units included.
+
+use cycle_jump::days::Extremes;
+use serde::{Deserialize, Serialize};
+
+use super::cable_end::CableEnd;
+use super::force_profile::ForceProfile;
+
+/// Largest and least forces and movements over a day, with the cable at rest: after every pass and every change of temperature.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DayExtremes {
+    /// Number of the day, from 1.
+    pub day: u64,
+    /// Largest force on the downstream end \[N\].
+    pub downstream_max_n: f64,
+    /// Least force on the downstream end \[N\]: the largest tension where it is negative.
+    pub downstream_min_n: f64,
+    /// Largest force on the upstream end \[N\].
+    pub upstream_max_n: f64,
+    /// Least force on the upstream end \[N\].
+    pub upstream_min_n: f64,
+    /// Largest compression along the cable \[N\].
+    pub max_compression_n: f64,
+    /// Largest tension along the cable \[N\].
+    pub max_tension_n: f64,
+    /// Farthest place of the upstream end toward growing x \[m\].
+    pub upstream_displacement_max_m: f64,
+    /// Farthest place of the upstream end toward falling x \[m\].
+    pub upstream_displacement_min_m: f64,
+    /// Farthest place of the downstream end toward growing x \[m\].
+    pub downstream_displacement_max_m: f64,
+    /// Farthest place of the downstream end toward falling x \[m\].
+    pub downstream_displacement_min_m: f64,
+}
+
+/// The cable at one time of a day, after a pass.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct DayPoint {
+    /// Time since the day began \[h\].
+    pub hour: f64,
+    /// Temperature of the cable above that at laying \[K\].
+    pub warming_k: f64,
+    /// Force on the upstream end \[N\].
+    pub upstream_force_n: f64,
+    /// Force on the downstream end \[N\].
+    pub downstream_force_n: f64,
+    /// Displacement at the upstream end \[m\].
+    pub upstream_displacement_m: f64,
+    /// Displacement at the downstream end \[m\].
+    pub downstream_displacement_m: f64,
+}
+
+/// The cable over all days.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct HeatRecord {
+    /// Largest and least values of all days; its `day` is their number.
+    pub all_days: DayExtremes,
+    /// Passes of a day.
+    pub passes_per_day: u64,
+    /// The day from which on every day is like the one before but for a drift, where there is one.
+    pub periodic_from_day: Option<u64>,
+    /// How far the cable moves from one such day to the next \[m\].
+    pub drift_per_day_m: Option<f64>,
+    /// The last day, hour by hour.
+    pub cycle: Vec<DayPoint>,
+    /// Force along the cable when that day is hottest.
+    pub hot_profile: ForceProfile,
+    /// Force along the cable when it is coldest.
+    pub cold_profile: ForceProfile,
+}
+
+impl DayExtremes {
+    /// Largest force on the end in size \[N\].
+    pub fn largest_force(&self, end: CableEnd) -> f64 {
+        let [least, most] = match end {
+            CableEnd::Upstream => [self.upstream_min_n, self.upstream_max_n],
+            CableEnd::Downstream => [self.downstream_min_n, self.downstream_max_n],
+        };
+        least.abs().max(most.abs())
+    }
+
+    /// How far the end is from where it was laid, whichever way \[m\].
+    pub fn movement(&self, end: CableEnd) -> f64 {
+        let [least, most] = match end {
+            CableEnd::Upstream => [self.upstream_displacement_min_m, self.upstream_displacement_max_m],
+            CableEnd::Downstream => [
+                self.downstream_displacement_min_m,
+                self.downstream_displacement_max_m,
+            ],
+        };
+        least.abs().max(most.abs())
+    }
+
+    pub(crate) fn new(day: u64, extremes: &Extremes) -> Self {
+        let Extremes {
+            most,
+            least,
+            compression,
+            tension,
+            forward,
+            backward,
+        } = *extremes;
+        Self {
+            day,
+            downstream_max_n: most.downstream,
+            downstream_min_n: least.downstream,
+            upstream_max_n: most.upstream,
+            upstream_min_n: least.upstream,
+            max_compression_n: compression,
+            max_tension_n: tension,
+            upstream_displacement_max_m: forward[0],
+            upstream_displacement_min_m: backward[0],
+            downstream_displacement_max_m: forward[1],
+            downstream_displacement_min_m: backward[1],
+        }
+    }
+}
+
+/// By how much the force on an end changes at most over `day` \[N\], and how far an end moves \[m\]: the cyclic load of joints.
+pub fn largest_range(day: &DayExtremes) -> (f64, f64) {
+    let force = (day.upstream_max_n - day.upstream_min_n).max(day.downstream_max_n - day.downstream_min_n);
+    let upstream = day.upstream_displacement_max_m - day.upstream_displacement_min_m;
+    let downstream = day.downstream_displacement_max_m - day.downstream_displacement_min_m;
+    (force, upstream.max(downstream))
+}

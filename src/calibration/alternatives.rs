@@ -1,0 +1,173 @@
+//! Would an error of a load cell explain the readings better?
+//!
+//! The score test looks from the optimum; where an error of the cell has led the fit far away, only a fit with the error shows what it
+//! explains. These fits run on the coarsest mesh, corrected by what the final one says more at the optimum, where most runs are known. What
+//! they find is looked at on the final mesh.
+
+use calibrate::{Fit, Model, Profiles, probability_of_gain};
+
+use super::meshes::Final;
+use super::problem::{Effort, Problem};
+use super::terms::{Cell, Term, term};
+use super::unknown::Quantity;
+use crate::Error;
+
+/// Distance to the minimum, in standard errors, at which these fits are good enough.
+const TOLERANCE: f64 = 0.1;
+/// Probability on the coarsest mesh below which the final one is asked.
+const WORTH_ASKING: f64 = 0.3;
+/// Model runs that each may take.
+const RUNS: usize = 400;
+
+/// An error of a cell that would explain readings.
+pub struct Alternative<'a> {
+    pub cell: &'a Cell,
+    pub quantity: Quantity,
+    /// Its size.
+    pub size: f64,
+    /// What the first parameter would then be.
+    pub first_value: f64,
+    /// Probability that noise alone gains so much by it.
+    pub probability: f64,
+}
+
+/// The most striking error of each kind, of all cells; `rows` are judged.
+pub fn alternatives<'a>(
+    problem: &Problem<'_>,
+    found: &Final,
+    cells: &'a [Cell],
+    rows: &[usize],
+) -> Result<[Option<Alternative<'a>>; 2], Error> {
+    let values = found.fit.values();
+    let Ok(coarse) = problem.model(0, None).predict(problem.of_model(&values)) else {
+        return Ok([None, None]);
+    };
+    let mut correction = coarse;
+    problem.add_terms(&mut correction, &values);
+    for (correction, fitted) in correction.iter_mut().zip(&found.fit.fitted) {
+        *correction = fitted - *correction;
+    }
+    let fits = Fits {
+        problem,
+        found,
+        correction,
+        values,
+        rows,
+    };
+    let Some(plain) = fits.coarsely(None)? else {
+        return Ok([None, None]);
+    };
+    // The final fit is one without the error as well; scatter between meshes must not count for the error.
+    let last = fits.square(&found.fit);
+    let before = fits.square(&plain).min(last);
+    let known = (!found.fit.noise_estimated).then_some(1.0);
+    // Where an interval is open, what fits as well may lie so far away that the correction does not hold there.
+    let is_open = found.fit.estimates.iter().any(|estimate| !estimate.identifiable);
+    let freedom = found.fit.degrees_of_freedom - 1.0 - (found.fit.residuals.len() - rows.len()) as f64;
+    let mut best = [None, None];
+    for (place, quantity) in [Quantity::Drift, Quantity::ZeroOffset].into_iter().enumerate() {
+        let name = |cell: &Cell| cell.name(quantity, problem.series.len());
+        let open: Vec<&Cell> = cells
+            .iter()
+            .filter(|cell| {
+                problem
+                    .terms
+                    .iter()
+                    .all(|term| term.parameter.name() != name(cell))
+            })
+            .collect();
+        for cell in &open {
+            let error = term(cell, quantity, &name(cell), problem.options)?;
+            let Some(mut fit) = fits.coarsely(Some(error.clone()))? else {
+                continue;
+            };
+            let probability =
+                |before, fit: &Fit| probability_of_gain(before, fits.square(fit), freedom, known);
+            let Some(mut chance) = probability(before, &fit) else {
+                continue;
+            };
+            if (chance < WORTH_ASKING || is_open)
+                && let Some(finer) = fits.finally(error, fit.values())?
+                && let Some(finer_chance) = probability(last, &finer)
+            {
+                (fit, chance) = (finer, finer_chance);
+            }
+            let one = Alternative {
+                cell,
+                quantity,
+                size: fit.values().last().copied().unwrap_or(0.0),
+                first_value: fit.values()[0],
+                // Of several cells the most striking one is so by chance, too.
+                probability: (chance * open.len() as f64).min(1.0),
+            };
+            let old: &Option<Alternative<'_>> = &best[place];
+            if old.as_ref().is_none_or(|old| one.probability < old.probability) {
+                best[place] = Some(one);
+            }
+        }
+    }
+    Ok(best)
+}
+
+struct Fits<'a> {
+    problem: &'a Problem<'a>,
+    found: &'a Final,
+    correction: Vec<f64>,
+    values: Vec<f64>,
+    rows: &'a [usize],
+}
+
+impl Fits<'_> {
+    /// A fit on the coarsest mesh, with a term more or without; nothing where it does not converge.
+    fn coarsely(&self, more: Option<Term>) -> Result<Option<Fit>, Error> {
+        let start = self
+            .values
+            .iter()
+            .copied()
+            .chain(more.iter().map(|_| 0.0))
+            .collect();
+        self.fit(more, start, 0)
+    }
+
+    /// A fit on the final mesh from `start`.
+    fn finally(&self, more: Term, start: Vec<f64>) -> Result<Option<Fit>, Error> {
+        self.fit(Some(more), start, self.found.mesh.level)
+    }
+
+    fn fit(&self, more: Option<Term>, start: Vec<f64>, level: u32) -> Result<Option<Fit>, Error> {
+        let terms: Vec<Term> = self.problem.terms.iter().cloned().chain(more).collect();
+        let problem = Problem {
+            terms: &terms,
+            ..*self.problem
+        };
+        let is_final = level == self.found.mesh.level;
+        let correction = if is_final {
+            self.found.mesh.correction()
+        } else {
+            Some(self.correction.clone())
+        };
+        let model = problem.model(level, correction);
+        let effort = Effort {
+            profiles: Profiles::None,
+            tolerance: TOLERANCE,
+            runs: RUNS,
+        };
+        let calibration = problem.calibration(&model, Some(start), &effort)?;
+        let found = if is_final {
+            calibration.fit_emulated(Some(&self.found.emulator))
+        } else {
+            calibration.scanned().fit_emulated(None)
+        };
+        match found {
+            Ok((fit, _)) => Ok(Some(fit)),
+            Err(_) if problem.watch.is_stopped() => Err(Error::Stopped),
+            Err(_) => Ok(None),
+        }
+    }
+
+    /// Sum of the squared residuals in units of the sigmas.
+    fn square(&self, fit: &Fit) -> f64 {
+        let residuals = fit.standardised_residuals();
+        self.rows.iter().map(|&row| residuals[row].powi(2)).sum()
+    }
+}

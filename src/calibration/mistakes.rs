@@ -1,0 +1,70 @@
+//! Mistakes of sign and unit: forces that no friction explains, but a sign or a thousand would.
+
+use calibrate::{CalibrationError, Model};
+
+use super::cell::Observed;
+use super::problem::Problem;
+use super::terms::cells;
+use crate::Error;
+
+/// Share of the forces of one sign that makes it the sign of all: a few near zero may have either by noise.
+const NEARLY_ALL: f64 = 0.9;
+/// Ratios of measured to expected force that mean a thousand: from 0.03 to 1, friction moves the force by less than 30.
+const THOUSAND: (f64, f64) = (1e3 / 12.0, 12e3);
+
+/// What the scenes' own values predict, on the coarsest mesh.
+fn predicted_by_scene(problem: &Problem<'_>) -> Result<Vec<f64>, Error> {
+    let values = problem.scene_values();
+    let predicted = problem.model(0, None).predict(problem.of_model(&values));
+    Ok(predicted.map_err(|source| CalibrationError::NoFeasibleStart { starts: 1, source })?)
+}
+
+/// What looks mistaken beside what the scenes' own values predict.
+pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
+    let expected = &predicted_by_scene(problem)?;
+    let measured: Vec<f64> = problem
+        .series
+        .iter()
+        .flat_map(|one| one.readings.values())
+        .collect();
+    let mut mistakes = Vec::new();
+    for cell in cells(problem.series, problem.models) {
+        if !matches!(cell.observed, Observed::Force(_)) {
+            continue;
+        }
+        // The zero reading has no sign and no size.
+        let rows: Vec<usize> = (0..measured.len())
+            .filter(|&row| cell.offset[row] != 0.0 && cell.drift[row] > 0.0)
+            .collect();
+        let negative = |values: &[f64]| {
+            rows.iter().filter(|&&row| values[row] < 0.0).count() as f64 / rows.len().max(1) as f64
+        };
+        let middle = |values: &[f64]| {
+            let mut sizes: Vec<f64> = rows.iter().map(|&row| values[row].abs()).collect();
+            sizes.sort_by(f64::total_cmp);
+            sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
+        };
+        let place = cell.observed.place();
+        let (found, wanted) = (negative(&measured), negative(expected));
+        let all = if found == 1.0 { "all" } else { "nearly all" };
+        if rows.len() > 2 && found >= NEARLY_ALL && wanted <= 1.0 - NEARLY_ALL {
+            mistakes.push(format!(
+                "{all} forces at the {place} end are negative where the scene presses on the cell: does the cell count tension as positive? \
+                 --tension-positive turns the sign"
+            ));
+        } else if rows.len() > 2 && found <= 1.0 - NEARLY_ALL && wanted >= NEARLY_ALL {
+            mistakes.push(format!("{all} forces at the {place} end are positive where the scene pulls at the cell: tension is negative here"));
+        }
+        let ratio = middle(&measured) / middle(expected);
+        if (THOUSAND.0..THOUSAND.1).contains(&ratio.recip()) {
+            mistakes.push(format!(
+                "the forces at the {place} end are about a thousand times too small for this scene: are they kN? --unit kN reads them so"
+            ));
+        } else if (THOUSAND.0..THOUSAND.1).contains(&ratio) {
+            mistakes.push(format!(
+                "the forces at the {place} end are about a thousand times too large for this scene: are they N? --unit N reads them so"
+            ));
+        }
+    }
+    Ok(mistakes)
+}

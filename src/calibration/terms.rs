@@ -1,0 +1,140 @@
+//! What load cells read beside the force: a zero that is off, and a drift.
+//!
+//! A cell's error is the same in all runs, its drift grows with the passes from the beginning of each.
+
+use calibrate::{Parameter, Prior};
+
+use super::cell::Observed;
+use super::model::SeriesModel;
+use super::options::{CalibrateOptions, Series};
+use super::unknown::{Quantity, Unknown};
+use crate::Error;
+
+/// Standard deviation of a cell's error before the readings, as a share of its largest force: any more would be seen at a glance.
+const ERROR: f64 = 0.25;
+/// Bounds, in these standard deviations.
+const FARTHEST: f64 = 8.0;
+
+/// An error of a cell that is fitted.
+#[derive(Clone)]
+pub struct Term {
+    pub quantity: Quantity,
+    pub parameter: Parameter,
+}
+
+/// A load cell.
+pub struct Cell {
+    pub series: usize,
+    pub observed: Observed,
+    /// Whether its series has other cells.
+    shares: bool,
+    /// What a zero off by 1 N adds to each reading of all series, and what a drift of 1 N a pass does.
+    pub offset: Vec<f64>,
+    pub drift: Vec<f64>,
+    /// Its largest force \[N\], and passes.
+    largest: f64,
+    last: f64,
+}
+
+/// The load cells of all series.
+pub fn cells(series: &[Series<'_>], models: &[SeriesModel]) -> Vec<Cell> {
+    let mut cells: Vec<Cell> = Vec::new();
+    let rows: usize = models.iter().map(|model| model.observed.len()).sum();
+    let mut row = 0;
+    for (index, (one, model)) in series.iter().zip(models).enumerate() {
+        for (reading, &(_, observed)) in one.readings.readings().iter().zip(&model.observed) {
+            if matches!(observed, Observed::Force(_) | Observed::ForceAt(_)) {
+                let same = |cell: &Cell| cell.series == index && cell.observed == observed;
+                let place = cells.iter().position(same).unwrap_or_else(|| {
+                    cells.push(Cell {
+                        series: index,
+                        observed,
+                        shares: false,
+                        offset: vec![0.0; rows],
+                        drift: vec![0.0; rows],
+                        largest: 0.0,
+                        last: 1.0,
+                    });
+                    cells.len() - 1
+                });
+                let cell = &mut cells[place];
+                let pass = reading.passes as f64;
+                (cell.offset[row], cell.drift[row]) = (1.0, pass);
+                (cell.largest, cell.last) = (cell.largest.max(reading.value.abs()), cell.last.max(pass));
+            }
+            row += 1;
+        }
+    }
+    for k in 0..cells.len() {
+        cells[k].shares = cells
+            .iter()
+            .filter(|other| other.series == cells[k].series)
+            .count()
+            > 1;
+    }
+    cells
+}
+
+impl Cell {
+    /// The name of its error, with the series and the place where there are several.
+    pub fn name(&self, quantity: Quantity, series: usize) -> String {
+        let series = if series > 1 {
+            format!("_{}", self.series + 1)
+        } else {
+            String::new()
+        };
+        let place = if self.shares {
+            format!("_{}", self.observed.place().replace(' ', ""))
+        } else {
+            String::new()
+        };
+        format!("{quantity}{series}{place}")
+    }
+}
+
+/// The terms that are asked for: an error of each cell.
+pub fn terms(
+    series: &[Series<'_>],
+    models: &[SeriesModel],
+    asked: &[Unknown],
+    options: &CalibrateOptions<'_>,
+) -> Result<Vec<Term>, Error> {
+    let cells = cells(series, models);
+    let mut terms = Vec::new();
+    for unknown in asked {
+        let own: Vec<&Cell> = cells.iter().filter(|cell| unknown.acts_on(cell.series)).collect();
+        if own.is_empty() {
+            return Err(Error::Unfit {
+                key: "fit",
+                found: "an error of a load cell",
+                reason: "there are no forces among the readings".into(),
+            });
+        }
+        for cell in own {
+            let name = cell.name(unknown.quantity, series.len());
+            terms.push(term(cell, unknown.quantity, &name, options)?);
+        }
+    }
+    Ok(terms)
+}
+
+/// An error of `cell` with its prior.
+pub fn term(
+    cell: &Cell,
+    quantity: Quantity,
+    name: &str,
+    options: &CalibrateOptions<'_>,
+) -> Result<Term, Error> {
+    let largest = cell.largest.max(f64::MIN_POSITIVE);
+    let (column, told, natural) = match quantity {
+        Quantity::Drift => (&cell.drift, options.drift_sigma, ERROR * largest / cell.last),
+        _ => (&cell.offset, options.zero_offset_sigma, ERROR * largest),
+    };
+    let sigma = told.unwrap_or(natural);
+    let bound = FARTHEST * sigma;
+    let parameter = Parameter::term(name, -bound, bound, column)?;
+    Ok(Term {
+        quantity,
+        parameter: parameter.with_prior(Prior { value: 0.0, sigma })?,
+    })
+}

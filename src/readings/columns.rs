@@ -1,0 +1,454 @@
+//! Which column holds what.
+
+use super::error::DataError;
+use super::grid::{Grid, Row};
+use super::header::{EndWord, Name, Role, factor, strain_factor};
+use super::number::number;
+use super::options::{ColumnNames, Decimal, ReadOptions};
+use super::reading::{Measured, Place};
+use crate::scene::Dimension;
+use crate::shown::shortened;
+
+/// Rows above the header: what a data logger says of itself.
+const PREAMBLE: usize = 40;
+/// Longest text of a cell that a message repeats \[characters\].
+pub const LONGEST_CELL: usize = 80;
+const ALLOWED: &str = "a header `pass,force_n` or `pass,force_n,sigma_n`, names such as `Force [kN]`, or names chosen by --column-pass, \
+                       --column-vehicles, --column-force";
+
+/// A column of values.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Values {
+    pub place: usize,
+    pub name: String,
+    pub measured: Measured,
+    /// SI value of 1.
+    pub factor: f64,
+    /// Whether header or options name the unit.
+    pub has_unit: bool,
+    pub sigma: Option<(usize, f64)>,
+}
+
+/// The columns of a table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Columns {
+    pub pass: Option<usize>,
+    pub vehicles: Option<usize>,
+    /// Whether the column of vehicles was named by the caller.
+    pub sure_of_vehicles: bool,
+    pub run: Option<usize>,
+    pub time: Option<usize>,
+    pub position: Option<usize>,
+    pub values: Vec<Values>,
+    /// Cells of a row.
+    pub width: usize,
+    /// Rows before the first reading.
+    pub skip: usize,
+    /// Whether a header names them.
+    pub named: bool,
+}
+
+struct Header<'a> {
+    file: &'a str,
+    grid: &'a Grid,
+    line: u64,
+    names: Vec<Name>,
+    options: &'a ReadOptions,
+}
+
+/// Finds the header and what its columns hold.
+pub fn columns(file: &str, grid: &Grid, options: &ReadOptions) -> Result<Columns, DataError> {
+    let Some(first) = grid.rows.first() else {
+        return Err(DataError::Empty(file.to_owned()));
+    };
+    if options.columns == ColumnNames::default() && is_numeric(first) {
+        return by_order(file, first, options);
+    }
+    let header = |row: &Row| Header {
+        file,
+        grid,
+        line: row.line,
+        names: row.cells.iter().map(|cell| Name::of(cell)).collect(),
+        options,
+    };
+    let found = grid
+        .rows
+        .iter()
+        .take(PREAMBLE)
+        .position(|row| header(row).is_header());
+    let place = found.unwrap_or(0);
+    let mut columns = header(&grid.rows[place]).columns()?;
+    columns.skip = place + 1;
+    if let Some(units) = grid.rows.get(place + 1) {
+        columns.skip += usize::from(take_units(&mut columns, units));
+    }
+    Ok(columns)
+}
+
+/// Whether the row holds readings, not names.
+fn is_numeric(row: &Row) -> bool {
+    let is_number = |cell: &String| {
+        [Decimal::Point, Decimal::Comma]
+            .iter()
+            .any(|&decimal| number(cell, decimal).is_some_and(|(_, unit)| unit.is_empty()))
+    };
+    row.cells.len() > 1 && row.cells.iter().take(2).all(is_number)
+}
+
+fn by_order(file: &str, row: &Row, options: &ReadOptions) -> Result<Columns, DataError> {
+    Ok(Columns {
+        pass: Some(0),
+        vehicles: None,
+        sure_of_vehicles: false,
+        run: None,
+        time: None,
+        position: None,
+        values: vec![Values {
+            place: 1,
+            name: "force_n".into(),
+            measured: Measured::Force(Place::Natural),
+            factor: option_factor(file, row.line, options)?.unwrap_or(1.0),
+            has_unit: options.unit.is_some(),
+            sigma: (row.cells.len() > 2)
+                .then_some((2, option_factor(file, row.line, options)?.unwrap_or(1.0))),
+        }],
+        width: row.cells.len(),
+        skip: 0,
+        named: false,
+    })
+}
+
+/// SI value of the unit that the caller names.
+fn option_factor(file: &str, line: u64, options: &ReadOptions) -> Result<Option<f64>, DataError> {
+    let Some(unit) = &options.unit else {
+        return Ok(None);
+    };
+    match factor(Dimension::Force, unit) {
+        Some(factor) => Ok(Some(factor)),
+        None => Err(unknown_unit(file, line, "--unit", unit)),
+    }
+}
+
+fn unknown_unit(file: &str, line: u64, of: &str, unit: &str) -> DataError {
+    DataError::Line {
+        file: file.to_owned(),
+        line,
+        found: format!("{of}: the unit `{}`", shortened(unit, LONGEST_CELL)),
+        allowed: "N, kN, daN, kgf, lbf and so on for forces, m, mm, um for movements; --unit names that of the forces".into(),
+    }
+}
+
+/// Takes the units from a row below the names, if that is what it is.
+fn take_units(columns: &mut Columns, row: &Row) -> bool {
+    let bare = |cell: &str| cell.trim_matches(|c| "[]()".contains(c)).trim().to_owned();
+    let unit_of = |value: &Values| unit_factor(value.measured, &bare(row.cell(value.place)));
+    let factors: Vec<Option<f64>> = columns.values.iter().map(unit_of).collect();
+    let is_row = !row
+        .cells
+        .iter()
+        .any(|cell| cell.starts_with(|c: char| c.is_ascii_digit()))
+        && columns
+            .values
+            .iter()
+            .zip(&factors)
+            .all(|(value, factor)| factor.is_some() && !row.cell(value.place).is_empty());
+    if is_row {
+        for (value, factor) in columns.values.iter_mut().zip(factors) {
+            if !value.has_unit {
+                value.factor = factor.unwrap_or(1.0);
+                value.sigma = value.sigma.map(|(place, _)| (place, value.factor));
+                value.has_unit = true;
+            }
+        }
+    }
+    is_row
+}
+
+fn unit_factor(measured: Measured, unit: &str) -> Option<f64> {
+    match measured {
+        Measured::Force(_) => factor(Dimension::Force, unit),
+        Measured::Strain(_) => strain_factor(unit),
+        Measured::Movement(_) | Measured::Deflection => factor(Dimension::Length, unit),
+    }
+}
+
+impl Header<'_> {
+    fn is_header(&self) -> bool {
+        let chosen = &self.options.columns;
+        let named = |name: &Option<String>, role| match name {
+            Some(name) => self.named(name).is_some(),
+            None => self.names.iter().any(|name| name.role() == Some(role)),
+        };
+        let value = |role: &Role| self.names.iter().any(|name| name.role() == Some(*role));
+        let listed = |names: &[String]| names.iter().any(|name| self.named(split_end(name).1).is_some());
+        (named(&chosen.pass, Role::Pass) || named(&chosen.vehicles, Role::Vehicles))
+            && (listed(&chosen.force)
+                || listed(&chosen.movement)
+                || [Role::Force, Role::Movement, Role::Strain, Role::Deflection]
+                    .iter()
+                    .any(value))
+    }
+
+    fn named(&self, name: &str) -> Option<usize> {
+        let same = |other: &Name| other.text.trim().to_lowercase() == name.trim().to_lowercase();
+        self.names.iter().position(same)
+    }
+
+    fn wrong(&self, found: String) -> DataError {
+        DataError::Line {
+            file: self.file.to_owned(),
+            line: self.line,
+            found,
+            allowed: ALLOWED.into(),
+        }
+    }
+
+    /// That a column is missing, what there is, and what may be the cause.
+    fn missing(&self, column: &str) -> DataError {
+        let names: Vec<&str> = self
+            .names
+            .iter()
+            .map(|name| &*name.text)
+            .filter(|name| !name.is_empty())
+            .collect();
+        let separated = self
+            .grid
+            .separator
+            .map_or("a workbook", |separator| separator.name());
+        let cause = match &names[..] {
+            [only] => {
+                let other = [
+                    (';', "semicolons"),
+                    ('\t', "tabs"),
+                    (',', "commas"),
+                    (' ', "spaces"),
+                ];
+                let other = other.into_iter().find(|(sign, _)| only.contains(*sign));
+                other.map_or_else(String::new, |(_, name)| format!("; it looks separated by {name}"))
+            }
+            _ => String::new(),
+        };
+        let names = shortened(&names.join(" | "), LONGEST_CELL);
+        self.wrong(format!(
+            "no column {column} in \"{names}\" (read as separated by {separated}{cause})"
+        ))
+    }
+
+    /// The column that the caller named, or the only one of its role.
+    fn one(&self, chosen: Option<&String>, role: Role, option: &str) -> Result<Option<usize>, DataError> {
+        if let Some(name) = chosen {
+            return self.named(name).map(Some).ok_or_else(|| self.missing(name));
+        }
+        let of = |holds: &dyn Fn(&Name) -> bool| -> Vec<usize> {
+            (0..self.names.len())
+                .filter(|&place| holds(&self.names[place]))
+                .collect()
+        };
+        let own = of(&|name| name.is_own(role));
+        let found = if own.is_empty() {
+            of(&|name| name.role() == Some(role))
+        } else {
+            own
+        };
+        match &found[..] {
+            [] => Ok(None),
+            [only] => Ok(Some(*only)),
+            [_, second, ..] => Err(self.wrong(format!(
+                "a second column {} ({option} chooses)",
+                self.names[*second].text
+            ))),
+        }
+    }
+
+    fn columns(&self) -> Result<Columns, DataError> {
+        let chosen = &self.options.columns;
+        let pass = self.one(chosen.pass.as_ref(), Role::Pass, "--column-pass")?;
+        let vehicles = match (pass, &chosen.vehicles) {
+            (Some(_), None) => None,
+            (_, named) => self.one(named.as_ref(), Role::Vehicles, "--column-vehicles")?,
+        };
+        let time = self.names.iter().position(|name| name.role() == Some(Role::Time));
+        if pass.is_none() && vehicles.is_none() {
+            let error = self.missing("pass");
+            return Err(match (time, error) {
+                (Some(_), DataError::Line { file, line, found, .. }) => DataError::Line {
+                    file,
+                    line,
+                    found: found + "; there are times",
+                    allowed: "the vehicles counted since the row before as well (--column-vehicles): times alone say nothing of passes".into(),
+                },
+                (_, error) => error,
+            });
+        }
+        let mut values = self.values(&chosen.force, Role::Force)?;
+        let has_force = !values.is_empty();
+        for role in [Role::Movement, Role::Strain, Role::Deflection] {
+            let named: &[String] = if role == Role::Movement {
+                &chosen.movement
+            } else {
+                &[]
+            };
+            // Tables of this program's own runs hold displacements beside forces.
+            let own = |value: &Values| Name::of(&value.name).is_own(role);
+            let found = self.values(named, role)?;
+            values.extend(
+                found
+                    .into_iter()
+                    .filter(|value| !named.is_empty() || !has_force || own(value)),
+            );
+        }
+        if values.is_empty() {
+            return Err(self.missing("force_n"));
+        }
+        self.add_sigmas(&mut values)?;
+        Ok(Columns {
+            pass,
+            vehicles,
+            sure_of_vehicles: chosen.vehicles.is_some(),
+            run: self.one(chosen.run.as_ref(), Role::Run, "--column-run")?,
+            time,
+            position: self.one(chosen.position.as_ref(), Role::Position, "--column-position")?,
+            values,
+            width: self.names.len(),
+            skip: 0,
+            named: true,
+        })
+    }
+
+    /// Columns of one kind of value.
+    fn values(&self, chosen: &[String], role: Role) -> Result<Vec<Values>, DataError> {
+        let places: Vec<(usize, Option<EndWord>)> = if chosen.is_empty() {
+            let of = |own: bool| -> Vec<usize> {
+                let fits = |name: &Name| {
+                    if own {
+                        name.is_own(role)
+                    } else {
+                        name.role() == Some(role)
+                    }
+                };
+                (0..self.names.len())
+                    .filter(|&place| fits(&self.names[place]))
+                    .collect()
+            };
+            let own = of(true);
+            let found = if own.is_empty() { of(false) } else { own };
+            found
+                .into_iter()
+                .map(|place| (place, self.names[place].end()))
+                .collect()
+        } else {
+            let find = |name: &String| {
+                let (end, name) = split_end(name);
+                let place = self.named(name).ok_or_else(|| self.missing(name))?;
+                Ok((place, end.or_else(|| self.names[place].end())))
+            };
+            chosen.iter().map(find).collect::<Result<_, _>>()?
+        };
+        for (index, (place, end)) in places.iter().enumerate() {
+            if places[..index].iter().any(|(_, other)| other == end) {
+                let names: Vec<&str> = places
+                    .iter()
+                    .map(|(place, _)| &*self.names[*place].text)
+                    .collect();
+                let place = &self.names[*place].text;
+                let word = if role == Role::Movement {
+                    "movement"
+                } else {
+                    "force"
+                };
+                return Err(self.wrong(format!(
+                    "a second column {place} in \"{}\"; --column-{word} chooses one, or names the end of each: upstream=NAME",
+                    shortened(&names.join(" | "), LONGEST_CELL)
+                )));
+            }
+        }
+        places
+            .into_iter()
+            .map(|(place, end)| self.value(role, place, end))
+            .collect()
+    }
+
+    fn value(&self, role: Role, place: usize, end: Option<EndWord>) -> Result<Values, DataError> {
+        let name = &self.names[place];
+        let at = match end {
+            None => Place::Natural,
+            Some(EndWord::Upstream) => Place::Upstream,
+            Some(EndWord::Downstream) => Place::Downstream,
+        };
+        let measured = match role {
+            Role::Movement => Measured::Movement(at),
+            Role::Strain => Measured::Strain(at),
+            Role::Deflection => Measured::Deflection,
+            _ => Measured::Force(at),
+        };
+        let told = if role == Role::Force {
+            option_factor(self.file, self.line, self.options)?
+        } else {
+            None
+        };
+        let factor = match (told, &name.unit) {
+            (Some(told), _) => Some(told),
+            (None, Some(unit)) => Some(
+                unit_factor(measured, unit)
+                    .ok_or_else(|| unknown_unit(self.file, self.line, &name.text, unit))?,
+            ),
+            (None, None) => None,
+        };
+        Ok(Values {
+            place,
+            name: name.text.clone(),
+            measured,
+            factor: factor.unwrap_or(1.0),
+            has_unit: factor.is_some(),
+            sigma: None,
+        })
+    }
+
+    /// Gives each column of standard deviations to the values of its unit.
+    fn add_sigmas(&self, values: &mut [Values]) -> Result<(), DataError> {
+        let mut taken: Option<usize> = None;
+        for place in (0..self.names.len()).filter(|&place| self.names[place].role() == Some(Role::Sigma)) {
+            let name = &self.names[place];
+            let fits = |value: &Values| {
+                name.unit
+                    .as_ref()
+                    .is_none_or(|unit| unit_factor(value.measured, unit).is_some())
+            };
+            let mut found = false;
+            for value in values.iter_mut().filter(|value| fits(value)) {
+                if value.sigma.is_some() {
+                    let first = taken.map_or("", |first| &*self.names[first].text);
+                    return Err(self.wrong(format!("a second column {} beside {first}", name.text)));
+                }
+                let told = if self.options.unit.is_some() && matches!(value.measured, Measured::Force(_)) {
+                    Some(value.factor)
+                } else {
+                    name.unit
+                        .as_ref()
+                        .and_then(|unit| unit_factor(value.measured, unit))
+                };
+                value.sigma = Some((place, told.unwrap_or(value.factor)));
+                found = true;
+            }
+            if !found {
+                return Err(unknown_unit(
+                    self.file,
+                    self.line,
+                    &name.text,
+                    name.unit.as_deref().unwrap_or(""),
+                ));
+            }
+            taken = Some(place);
+        }
+        Ok(())
+    }
+}
+
+/// An end and a column's name: `upstream=NAME`.
+fn split_end(name: &str) -> (Option<EndWord>, &str) {
+    match name.split_once('=') {
+        Some(("upstream", name)) => (Some(EndWord::Upstream), name),
+        Some(("downstream", name)) => (Some(EndWord::Downstream), name),
+        _ => (None, name),
+    }
+}

@@ -1,0 +1,52 @@
+//! How far a period of the traffic advances the cable against friction that is locked in, measured on a short piece of it.
+
+use cable_dem::{CableState, DuctedCable, Mesh, QuasiStatic};
+use cycle_jump::days::LockedLaw;
+
+use super::passes::Task;
+use crate::Error;
+use crate::cable::cable;
+use crate::ground::road;
+use crate::plan::Period;
+
+/// Periods that it takes: the first one brings the cable into the state that lasts.
+const PERIODS: usize = 2;
+
+/// The law for `passes` of `traffic` on the mesh of `task`: both ends free, a body force that balances the locked friction.
+pub fn locked_law(task: &Task<'_>, traffic: &Period, passes: usize) -> Result<LockedLaw, Error> {
+    let Task {
+        scene, motions, mesh, ..
+    } = task;
+    let limit = scene.friction_limit();
+    let spacing = mesh.spacing();
+    let elements = (road::LAW_LENGTH * scene.duct.depth / spacing).floor();
+    let length = elements * spacing;
+    let mesh = Mesh::new(length, spacing, mesh.vehicle_step())?;
+    let whole = cable(scene)?;
+    let short = |body_force: f64| {
+        DuctedCable::new(length, whole.axial_stiffness(), whole.friction())
+            .and_then(|cable| cable.with_body_force(body_force))
+    };
+    let approach = road::needed(scene, motions)?;
+    let solver = QuasiStatic::new(short(0.0)?, mesh)?;
+    let passages = motions
+        .iter()
+        .map(|motion| solver.passage(motion, approach))
+        .collect::<Result<Vec<_>, _>>()?;
+    let (nodes, middle) = (mesh.nodes(), mesh.nodes() / 2);
+    let mut advances = Vec::with_capacity(LockedLaw::SHARES.len());
+    for share in LockedLaw::SHARES {
+        let mut solver = QuasiStatic::new(short(-share * limit)?, mesh)?;
+        let mut state = CableState::from_parts(&mesh, vec![0.0; nodes], vec![share * limit; nodes])?;
+        let mut before = 0.0;
+        for _ in 0..PERIODS {
+            before = state.displacement()[middle];
+            for &vehicle in &traffic.vehicles {
+                solver.pass(&passages[vehicle], &mut state)?;
+            }
+        }
+        let moved = state.displacement()[middle] - before;
+        advances.push(moved * passes as f64 / traffic.len() as f64);
+    }
+    Ok(LockedLaw::new(&advances, limit))
+}

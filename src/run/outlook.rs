@@ -1,0 +1,399 @@
+//! With which mesh a run ends and what it costs, from what is known of coarser ones.
+//!
+//! The difference between neighbouring meshes falls by 3.4 a level in the middle, and by 1.5 to 6.7 in two of three scenes; where the
+//! first passes have been made on the finer mesh too, theirs tells more than half of that. Each level costs about five times the one before.
+//! So the levels with which the run may end are weighed by how likely they are.
+//!
+//! All constants were fitted to the traces of 120 random scenes with 10⁴, 10⁶ and 10⁸ passes; `forecasts_on_many_scenes` in
+//! `tests/planner/forecast.rs` measures what they are worth.
+
+use std::ops::{Add, AddAssign, Div, Mul};
+
+use cable_dem::Statistics;
+use cycle_jump::Record;
+
+use super::refine::{MAX_NODE_UPDATES, REFINEMENT_COST, SHARP, allowed};
+use crate::answer::error_estimate::{Scale, Shares, difference, of_differences};
+use crate::plan::{CableMethod, Levels, Plan};
+
+/// Time of a node's update, a window, a corner, and a node's part in one jump \[s\] without inertia; of a node's update with it, and of an
+/// explicit one.
+const SECONDS: Work = Work([9.0e-9, 1.4e-7, 5e-9, 1.4e-6]);
+const DYNAMIC: Work = Work([6e-8, 0.0, 0.0, 1.4e-6]);
+const EXPLICIT: Work = Work([1e-9, 0.0, 0.0, 1.4e-6]);
+/// What they multiply by from one level to the next, where that is not measured; and the bounds of what is believed.
+const GROWTH: Work = Work([4.6, 2.1, 4.6, 2.0]);
+const BELIEVED: (f64, f64) = (0.8, 1.3);
+/// ln of what the differences between meshes are multiplied by from one level to the next; the part of it that the first passes tell.
+const FALL: f64 = -1.23;
+const TOLD: f64 = 0.65;
+/// ln of a difference beside that of the first passes, where only these are known.
+const BESIDE_EARLY: f64 = 0.7;
+/// Standard deviation of ln of a difference: with the first passes known, without, and where nothing else is.
+const SPREAD_TOLD: f64 = 0.6;
+const SPREAD: f64 = 0.8;
+const SPREAD_ALONE: f64 = 1.0;
+/// Standard deviation of ln of the work on a level that is not known.
+const SPREAD_OF_WORK: f64 = 0.25;
+/// What is told is most likely within a factor of two of the truth, where a truth of less than twice of it counts so much besides; the
+/// standard deviation of ln of the work for a given last level; and what is tried to find it.
+const WORTH_OF_ENOUGH: f64 = 0.6;
+const TWICE: f64 = std::f64::consts::LN_2;
+const SPREAD_OF_END: f64 = 0.15;
+const MARGIN: f64 = 0.3;
+const TRIED: u32 = 200;
+/// Smallest difference that counts.
+const LEAST: f64 = 1e-5;
+
+/// Counts of work: node updates, windows, corners, and nodes times periods.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Work(pub [f64; 4]);
+
+impl Work {
+    /// Of `simulated` periods on a mesh of so many `nodes`, with jumps.
+    pub fn new(statistics: &Statistics, nodes: usize, periods: f64) -> Self {
+        Self([
+            statistics.node_updates as f64,
+            statistics.windows as f64,
+            statistics.corners as f64,
+            nodes as f64 * periods,
+        ])
+    }
+
+    /// Processor time \[s\].
+    pub fn seconds(self, method: CableMethod) -> f64 {
+        let cost = match method {
+            CableMethod::QuasiStatic => SECONDS,
+            CableMethod::Dynamic => DYNAMIC,
+            CableMethod::Explicit => EXPLICIT,
+        };
+        (self * cost).0.iter().sum()
+    }
+
+    /// On a mesh so many levels finer.
+    pub fn refined(self, levels: usize) -> Self {
+        (0..levels).fold(self, |work, _| work * GROWTH)
+    }
+
+    pub fn times(self, factor: f64) -> Self {
+        Self(self.0.map(|count| factor * count))
+    }
+
+    /// What a run compares with the most that it refines for.
+    fn updates(self) -> f64 {
+        self.0[0] + self.0[2]
+    }
+
+    fn map(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
+    }
+
+    /// Growth from `coarser` to this, as far as it is believed.
+    fn growth(self, coarser: Self) -> Self {
+        (self / coarser).map(GROWTH, |growth, usual| {
+            if growth.is_finite() {
+                growth.clamp(BELIEVED.0 * usual, BELIEVED.1 * usual)
+            } else {
+                usual
+            }
+        })
+    }
+}
+
+impl Add for Work {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        self.map(other, |a, b| a + b)
+    }
+}
+
+impl AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Mul for Work {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        self.map(other, |a, b| a * b)
+    }
+}
+
+impl Div for Work {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        self.map(other, |a, b| a / b)
+    }
+}
+
+/// Passes on one level, and their work.
+pub struct Level {
+    pub records: Vec<Record>,
+    pub work: Work,
+}
+
+/// What is known of a run.
+pub struct Known<'a> {
+    pub plan: &'a Plan<'a>,
+    pub scale: Scale,
+    /// The coarsest level.
+    pub coarsest: usize,
+    /// The first passes on it and on finer levels, and all passes.
+    pub early: Vec<Level>,
+    pub full: Vec<Level>,
+    /// Work on no level's account: that of finding jumps.
+    pub besides: Work,
+    /// Error of the jumps.
+    pub passes: Shares,
+    /// About how many passes are simulated on a level.
+    pub simulated: f64,
+    /// Work in which jumps on the next level do not get on.
+    pub stuck: Option<Work>,
+}
+
+/// One way in which the run may end.
+#[derive(Debug, Clone, Copy)]
+struct End {
+    level: usize,
+    likely: f64,
+    work: Work,
+}
+
+impl Known<'_> {
+    /// All passes on the next level are known.
+    pub fn add(&mut self, records: Vec<Record>, work: Work) {
+        if self.early.len() == self.full.len() {
+            let first = &records[..self.early[0].records.len().min(records.len())];
+            let mut statistics = Statistics::default();
+            for record in first {
+                statistics += record.outcome.statistics;
+            }
+            self.early.push(Level {
+                work: Work::new(&statistics, 0, 0.0),
+                records: first.to_vec(),
+            });
+        }
+        self.full.push(Level { records, work });
+    }
+
+    /// The next level to be known.
+    pub fn next(&self) -> usize {
+        self.coarsest + self.full.len()
+    }
+
+    pub fn next_early(&self) -> usize {
+        self.coarsest + self.early.len()
+    }
+
+    /// Work of all passes on `level`.
+    pub fn level_work(&self, level: usize) -> Work {
+        if let Some(known) = self.full.get(level - self.coarsest) {
+            return known.work;
+        }
+        let Some(coarser) = level.checked_sub(1).filter(|_| level > self.coarsest) else {
+            let early = &self.early[0];
+            return early.work.times(self.simulated / early.records.len() as f64);
+        };
+        self.level_work(coarser) * self.growth(level)
+    }
+
+    /// Work of the first passes on `level`.
+    pub fn early_work(&self, level: usize) -> Work {
+        match self.early.get(level - self.coarsest) {
+            Some(known) => known.work,
+            None => self.early_work(level - 1) * self.growth(level),
+        }
+    }
+
+    /// Growth of the work from the level below to `level`, or as far as known.
+    fn growth(&self, level: usize) -> Work {
+        let known = |levels: &[Level], place: usize| {
+            (1..levels.len())
+                .contains(&place)
+                .then(|| levels[place].work.growth(levels[place - 1].work))
+        };
+        let place = level - self.coarsest;
+        known(&self.early, place)
+            .or_else(|| known(&self.full, self.full.len().wrapping_sub(1)))
+            .or_else(|| known(&self.early, self.early.len() - 1))
+            .unwrap_or(GROWTH)
+    }
+
+    /// Difference between `level` and the one below, and the standard deviation of its ln.
+    fn difference(&self, level: usize) -> (Shares, f64) {
+        let place = level - self.coarsest;
+        if place < self.full.len() {
+            return (between(&self.full, place, self.scale), 0.0);
+        }
+        let early = |place: usize| {
+            (1..self.early.len())
+                .contains(&place)
+                .then(|| between(&self.early, place, self.scale))
+        };
+        let last = self.full.len().saturating_sub(1);
+        match early(place) {
+            Some(now) if last >= 1 => {
+                let (whole, _) = self.difference(self.coarsest + last);
+                let then = early(last).expect("known wherever all passes are");
+                let steps = (place - last) as f64;
+                let change = |whole: f64, then: f64, now: f64| {
+                    let told = (now.max(LEAST) / then.max(LEAST)).ln();
+                    whole.max(LEAST) * (TOLD * told + (1.0 - TOLD) * FALL * steps).exp()
+                };
+                let all = Shares {
+                    force: change(whole.force, then.force, now.force),
+                    movement: change(whole.movement, then.movement, now.movement),
+                };
+                (all, SPREAD_TOLD)
+            }
+            Some(now) => (now.times(BESIDE_EARLY.exp()), SPREAD_ALONE),
+            None if place > 1 => {
+                let (coarser, spread) = self.difference(level - 1);
+                (coarser.times(FALL.exp()), spread.hypot(SPREAD))
+            }
+            None => (Shares::both(Levels::typical_error(self.coarsest)), SPREAD_ALONE),
+        }
+    }
+
+    /// How likely a run that has come to `level` ends there.
+    fn ends_at(&self, level: usize) -> f64 {
+        let Plan { scene, levels, .. } = self.plan;
+        if level >= levels.finest() || levels.mesh(level + 1).is_err() {
+            return 1.0;
+        }
+        let still = self.early[0]
+            .records
+            .iter()
+            .all(|record| record.outcome.dissipated == 0.0);
+        if level == self.coarsest || still && level < SHARP {
+            return 0.0;
+        }
+        let (error, spread) = self.error(level);
+        let others = Shares::both(self.plan.ground.accuracy + self.plan.choice.inertia);
+        let allowed = allowed(scene.solver.tolerance, self.passes).less(others);
+        let excess = (error.force / allowed.force).max(error.movement / allowed.movement);
+        let within = below(
+            if allowed.force > 0.0 {
+                excess.ln()
+            } else {
+                f64::INFINITY
+            },
+            spread,
+        );
+        let work = REFINEMENT_COST as f64 * self.level_work(level).updates();
+        let spread = if level < self.next() { 0.0 } else { SPREAD_OF_WORK };
+        let affordable = below((work / MAX_NODE_UPDATES as f64).ln(), spread);
+        1.0 - (1.0 - within) * affordable
+    }
+
+    /// Error of the mesh on `level`, and the standard deviation of its ln.
+    pub fn error(&self, level: usize) -> (Shares, f64) {
+        let mut spread = 0.0;
+        let differences: Vec<Shares> = (self.coarsest + 1..=level)
+            .rev()
+            .map(|level| {
+                let (difference, its) = self.difference(level);
+                spread = its.max(spread);
+                difference
+            })
+            .collect();
+        let listed = self.early[0].records.len().max(self.simulated as usize);
+        (
+            of_differences(&differences, listed, Levels::typical_error(level)),
+            spread,
+        )
+    }
+
+    /// The ways in which the run may end.
+    fn ends(&self) -> Vec<End> {
+        let levels = &self.plan.levels;
+        let mut work = self.besides;
+        for level in self.coarsest..levels.first() {
+            work += self.level_work(level);
+        }
+        let mut ends = Vec::new();
+        let mut left = 1.0;
+        for level in levels.first().max(self.coarsest)..=levels.finest() {
+            work += self.level_work(level);
+            let ends_here = match self.stuck {
+                Some(stuck) if level + 1 == self.next() => {
+                    work += stuck;
+                    1.0
+                }
+                _ => self.ends_at(level),
+            };
+            ends.push(End {
+                level,
+                likely: left * ends_here,
+                work,
+            });
+            left *= 1.0 - ends_here;
+            if left <= 0.0 {
+                break;
+            }
+        }
+        ends
+    }
+}
+
+/// What is to be expected of a run.
+#[derive(Clone, Copy)]
+pub struct Outlook {
+    /// The most likely last level.
+    pub level: usize,
+    pub work: Work,
+    pub mean: Work,
+    /// Whether nothing is left to guess.
+    pub certain: bool,
+}
+
+impl Outlook {
+    pub fn new(known: &Known<'_>) -> Self {
+        let ends = known.ends();
+        let updates = |end: &End| end.work.updates().max(1.0).ln();
+        let last = ends[ends.len() - 1];
+        let (low, high) = (updates(&ends[0]) - MARGIN, updates(&last) + MARGIN);
+        let worth = |told: f64| -> f64 {
+            let of_end = |end: &End| {
+                let more = updates(end) - told;
+                let within = below(more.abs() - TWICE, SPREAD_OF_END);
+                let enough = below(more - TWICE, SPREAD_OF_END);
+                end.likely * (within + WORTH_OF_ENOUGH * enough)
+            };
+            ends.iter().map(of_end).sum()
+        };
+        let told = (0..=TRIED)
+            .map(|k| low + (high - low) * f64::from(k) / f64::from(TRIED))
+            .max_by(|&a, &b| worth(a).total_cmp(&worth(b)))
+            .unwrap_or(high);
+        // In proportion to the end whose work is nearest.
+        let distance = |end: &&End| (updates(end) - told).abs();
+        let nearest = ends.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let nearest = nearest.unwrap_or(&last);
+        let likeliest = ends.iter().max_by(|a, b| a.likely.total_cmp(&b.likely));
+        Self {
+            level: likeliest.unwrap_or(&last).level,
+            mean: ends
+                .iter()
+                .fold(Work::default(), |mean, end| mean + end.work.times(end.likely)),
+            work: nearest.work.times((told - updates(nearest)).exp()),
+            certain: ends
+                .iter()
+                .all(|end| end.level < known.next() || end.likely == 0.0),
+        }
+    }
+}
+
+/// How likely a number with the given `mean` and standard deviation is below zero: the logistic distribution.
+fn below(mean: f64, spread: f64) -> f64 {
+    1.0 / (1.0 + (1.7 * mean / spread.max(f64::MIN_POSITIVE)).exp())
+}
+
+fn between(levels: &[Level], place: usize, scale: Scale) -> Shares {
+    let [coarse, fine] = [&levels[place - 1].records, &levels[place].records];
+    difference(fine, coarse, scale)
+}

@@ -1,0 +1,83 @@
+//! The search for jumps: it reports how far it is and may be stopped, and says what it stands on.
+
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+
+use creepage::{Error, Progress, RunOptions};
+
+use super::common::upper;
+
+/// Shares that a run of a million passes reports, until `last` of them.
+fn reported(last: usize) -> (Vec<f64>, Result<creepage::Run, Error>) {
+    let shares = Mutex::new(Vec::new());
+    let callback = |share| {
+        let mut shares = shares.lock().expect("no panic");
+        shares.push(share);
+        if shares.len() < last {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
+    };
+    let options = RunOptions {
+        progress: Progress::new(&callback),
+        ..RunOptions::default()
+    };
+    let run = creepage::run_with(
+        &upper(&[
+            "duct = { length = 20, depth = 1.2 }",
+            "traffic = { passes = 1000000 }",
+        ]),
+        &options,
+    );
+    (shares.into_inner().expect("no panic"), run)
+}
+
+#[test]
+fn the_progress_of_jumps_never_falls() {
+    let (shares, run) = reported(usize::MAX);
+    run.expect("an answer");
+    assert!(shares.windows(2).all(|pair| pair[0] <= pair[1]));
+    assert!(shares.first().is_some_and(|&first| first < 0.05));
+    assert!(shares.last().is_some_and(|&last| last > 0.5 && last <= 1.0));
+}
+
+#[test]
+fn the_search_for_jumps_may_be_stopped_at_its_first_pass() {
+    let (shares, run) = reported(1);
+    assert!(matches!(run, Err(Error::Stopped)));
+    assert_eq!(shares.len(), 1);
+}
+
+#[test]
+fn a_sequence_that_is_treated_as_its_mix_is_told_of() {
+    let vehicles =
+        "vehicles = [{ name = \"a\", speed = 11.1, load = 1e5 }, { name = \"b\", speed = 11.1, load = 5e4 }]";
+    let of_length = |length: usize| {
+        let sequence: Vec<&str> = (0..length)
+            .map(|place| if place % 3 == 0 { "b" } else { "a" })
+            .collect();
+        let traffic = format!("traffic = {{ passes = 10000, sequence = {sequence:?} }}");
+        let scene = upper(&["duct = { length = 10, depth = 1.2 }", vehicles, &traffic]);
+        let run = creepage::run(&scene).expect("an answer");
+        run.warnings
+            .iter()
+            .any(|warning| warning.contains("stands in for it"))
+    };
+    assert!(of_length(300));
+    assert!(!of_length(3));
+}
+
+/// The motion turns far out on the road here, so far that the vehicle is followed beyond where it was once known.
+#[test]
+fn the_motion_is_known_as_far_as_vehicles_are_followed() {
+    let scene = upper(&[
+        "duct = { length = 84.6, depth = 3.25 }",
+        "ground = { layers = [{ thickness = 0.465, young_modulus = 58e6, poisson_ratio = 0.35 }, \
+         { thickness = 0.073, young_modulus = 1610e6, poisson_ratio = 0.35 }, { young_modulus = 993e6, poisson_ratio = 0.49 }] }",
+        "vehicles = [{ speed = 11.1, load = 37265 }]",
+        "traffic = { passes = 2 }",
+        "solver = { tolerance = 0.05 }",
+    ]);
+    creepage::run(&scene).expect("an answer");
+}

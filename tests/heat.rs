@@ -1,0 +1,385 @@
+//! Daily heat, through scenes: keys, days of traffic, every end, and what is said of them.
+
+use creepage::{DayExtremes, Run, Scene};
+
+/// The full-scale experiment's upper cable on a half-space, heated by 20 K every day, with few vehicles a day.
+const WARM: [&str; 9] = [
+    "duct = { length = 30, depth = 1.2 }",
+    "ground = { layers = [{ young_modulus = \"800 MPa\", poisson_ratio = 0.4 }] }",
+    "cable = { weight = 108.8, axial_stiffness = 8.01e6 }",
+    "friction = { dynamic_coefficient = 0.25, shape_factor = 7352941.0 }",
+    "ends = { upstream = \"free\", downstream = \"fixed\" }",
+    "vehicles = [{ speed = \"40 km/h\", load = \"20 tf\" }]",
+    "traffic = { passes = 48, per_day = 24 }",
+    "heat = { expansion = \"17e-6 1/K\", daily_swing = \"20 K\" }",
+    "solver = { node_spacing = 0.1, vehicle_step = 0.05 }",
+];
+/// EA α \[N/K\].
+const PER_KELVIN: f64 = 8.01e6 * 17e-6;
+
+fn text(lines: &[&str]) -> String {
+    let key = |line: &str| line.split_once(" = ").map(|(key, _)| key.to_owned());
+    let mut text: Vec<&str> = WARM.to_vec();
+    for line in lines {
+        text.retain(|other| key(other) != key(line));
+        text.push(line);
+    }
+    text.join("\n")
+}
+
+/// [`WARM`] with other lines.
+fn scene(lines: &[&str]) -> Scene {
+    Scene::from_toml("warm.toml", &text(lines)).expect("a valid scene")
+}
+
+fn run(lines: &[&str]) -> Run {
+    creepage::run(&scene(lines)).unwrap_or_else(|error| panic!("{lines:?}: {error}"))
+}
+
+fn refused(lines: &[&str]) -> String {
+    let error = Scene::from_toml("warm.toml", &text(lines)).expect_err("a wrong scene");
+    error.to_string()
+}
+
+fn day(run: &Run, day: u64) -> &DayExtremes {
+    let found = run.days.iter().find(|record| record.day == day);
+    found.expect("a listed day")
+}
+
+/// Force downstream at most and at least \[N\], upstream end at most and at least \[mm\], on the first and the last day.
+type Days = [[f64; 4]; 2];
+
+/// An independent full-chain program.
+#[test]
+fn days_are_those_of_an_independent_program() {
+    let few = "traffic = { passes = 144, per_day = 24 }";
+    let many = "traffic = { passes = 192, per_day = 48 }";
+    let long = "duct = { length = 100, depth = 1.2 }";
+    let free = "ends = { upstream = \"free\", downstream = \"free\" }";
+    let springs = "ends = { upstream = { spring = 1e6 }, downstream = { spring = 1e6 } }";
+    let hot = "heat = { expansion = 17e-6, daily_swing = 40 }";
+    let coarse = "solver = { node_spacing = 0.2, vehicle_step = 0.1 }";
+    let cases: [(&[&str], u64, Days); 5] = [
+        (
+            &[few],
+            6,
+            [[814.1, -815.2, 0.009, -8.899], [814.1, -815.2, -1.324, -8.899]],
+        ),
+        (
+            &[few, hot],
+            6,
+            [[814.1, -815.2, 0.003, -19.055], [814.1, -815.2, -1.378, -19.055]],
+        ),
+        (
+            &[many, long, coarse],
+            4,
+            [
+                [2612.5, -460.3, 0.025, -18.250],
+                [2275.2, -535.7, -9.786, -19.001],
+            ],
+        ),
+        (
+            &[many, long, coarse, free],
+            4,
+            [[0.0, 0.0, 0.025, -13.310], [0.0, 0.0, 0.166, -9.908]],
+        ),
+        (
+            &["traffic = { passes = 96, per_day = 24 }", springs],
+            4,
+            [[1768.5, 0.4, 0.008, -1.671], [1787.7, 188.7, 0.040, -1.653]],
+        ),
+    ];
+    for (lines, last, expected) in cases {
+        let run = run(lines);
+        for (number, expected) in [1, last].into_iter().zip(expected) {
+            let found = day(&run, number);
+            let found = [
+                found.downstream_max_n,
+                found.downstream_min_n,
+                1e3 * found.upstream_displacement_max_m,
+                1e3 * found.upstream_displacement_min_m,
+            ];
+            let force = expected[0].abs().max(expected[1].abs()).max(1.0);
+            let range = expected[2] - expected[3];
+            for (k, (found, expected)) in found.into_iter().zip(expected).enumerate() {
+                let apart = (found - expected).abs() / if k < 2 { force } else { range };
+                assert!(apart < 0.01, "{lines:?}, day {number}: {found}, {expected}");
+            }
+        }
+    }
+}
+
+/// Nothing moves as a cable warms between fixed ends: its force comes on top of that of the traffic, below zero where it is colder than laid.
+#[test]
+fn between_fixed_ends_heat_and_traffic_add_up() {
+    let fixed = "ends = { upstream = \"fixed\", downstream = \"fixed\" }";
+    let every = "solver = { method = \"quasi-static\", node_spacing = 0.1, vehicle_step = 0.05 }";
+    let cold = run(&[fixed, every, "heat = { expansion = 0, daily_swing = 20 }"]);
+    let warm = run(&[
+        fixed,
+        every,
+        "heat = { expansion = 17e-6, daily_swing = 20, offset = \"-25 K\" }",
+    ]);
+    assert_eq!(cold.passes.len(), warm.passes.len());
+    for (cold, warm) in cold.passes.iter().zip(&warm.passes) {
+        let time = ((cold.pass - 1) % 24) as f64 + 0.5;
+        let kelvin = 10.0 * (1.0 - (std::f64::consts::TAU * time / 24.0).cos()) - 25.0;
+        for (cold, warm) in [
+            (cold.upstream_force_n, warm.upstream_force_n),
+            (cold.downstream_force_n, warm.downstream_force_n),
+        ] {
+            let apart = warm - cold - PER_KELVIN * kelvin;
+            assert!(
+                apart.abs() < 1e-6 * PER_KELVIN,
+                "{cold} N cold, {warm} N warm by {kelvin} K"
+            );
+        }
+    }
+    // Noon lies between two passes.
+    let noon = day(&warm, 2).downstream_max_n;
+    assert!((noon - cold.passes[35].downstream_force_n + 5.0 * PER_KELVIN).abs() < 1e-6 * noon.abs());
+}
+
+/// Without heat nothing is different in any bit.
+#[test]
+fn a_cable_that_does_not_expand_is_computed_as_without_heat() {
+    let answer = |text: &str| {
+        let scene = Scene::from_toml("warm.toml", text).expect("a valid scene");
+        serde_json::to_string(&creepage::run(&scene).expect("an answer")).expect("a document")
+    };
+    let short = "traffic = { passes = 30, per_day = 24 }";
+    let without: String = text(&[short])
+        .lines()
+        .filter(|line| !line.starts_with("heat"))
+        .map(|line| format!("{line}\n"))
+        .collect();
+    let without = answer(&without);
+    for heat in [
+        "heat = { expansion = 0, daily_swing = 20 }",
+        "heat = { expansion = 1e-5, daily_swing = 0 }",
+    ] {
+        assert_eq!(answer(&text(&[short, heat])), without, "{heat}");
+    }
+}
+
+/// Seen in a mirror ends, slope and traffic change places, and so does the answer.
+#[test]
+fn heat_in_the_mirror_mirrors_the_answer() {
+    let common = [
+        "traffic = { passes = 600, per_day = 120 }",
+        "heat = { expansion = 17e-6, profile = [[\"2 h\", \"-3 K\"], [\"15 h\", \"22 K\"]], offset = 4 }",
+        "solver = { tolerance = 0.03 }",
+    ];
+    let one = run(&[
+        &common[..],
+        &[
+            "duct = { length = 30, depth = 1.2, slope = 0.04 }",
+            "ends = { upstream = { spring = 3e5 }, downstream = { spring = 2e6 } }",
+        ],
+    ]
+    .concat());
+    let other = run(&[
+        &common[..],
+        &[
+            "duct = { length = 30, depth = 1.2, slope = -0.04 }",
+            "ends = { upstream = { spring = 2e6 }, downstream = { spring = 3e5 } }",
+            "vehicles = [{ speed = \"40 km/h\", load = \"20 tf\", direction = \"reverse\" }]",
+        ],
+    ]
+    .concat());
+    assert_eq!(one.days.len(), 5);
+    for (a, b) in one.days.iter().zip(&other.days) {
+        let pairs = [
+            (a.upstream_max_n, b.downstream_max_n),
+            (a.upstream_min_n, b.downstream_min_n),
+            (a.downstream_max_n, b.upstream_max_n),
+            (
+                1e6 * a.upstream_displacement_max_m,
+                -1e6 * b.downstream_displacement_min_m,
+            ),
+            (
+                1e6 * a.downstream_displacement_min_m,
+                -1e6 * b.upstream_displacement_max_m,
+            ),
+        ];
+        for (a, b) in pairs {
+            assert!((a - b).abs() < 1e-6 * a.abs().max(1.0), "{a} {b}");
+        }
+    }
+}
+
+/// Days of which few passes are simulated, or none, against every pass on the same mesh; the last day is cut short.
+#[test]
+fn few_real_passes_are_enough_within_the_stated_error() {
+    let cases: [&[&str]; 3] = [
+        &[],
+        &[
+            "ends = { upstream = \"free\", downstream = \"free\" }",
+            "duct = { length = 25, depth = 1, slope = 0.03 }",
+        ],
+        &[
+            "vehicles = [{ speed = 10, load = \"20 tf\", share = 2 }, { name = \"back\", speed = 10, load = \"12 tf\", direction = \"reverse\" }]",
+            "restraints = [{ position = 20, stiffness = 1e6 }]",
+        ],
+    ];
+    for lines in cases {
+        let answer = |method: &str| {
+            let solver = format!(
+                "solver = {{ method = \"{method}\", node_spacing = 0.2, vehicle_step = 0.1, tolerance = 0.02 }}"
+            );
+            run(&[lines, &["traffic = { passes = 4300, per_day = 800 }", &solver]].concat())
+        };
+        let (every, few) = (answer("quasi-static"), answer("auto"));
+        assert_eq!(
+            (every.cost.simulated_passes, every.days.len(), few.days.len()),
+            (4300, 6, 6)
+        );
+        assert!(few.cost.simulated_passes < 1500, "{}", few.cost.simulated_passes);
+        let stated = few.error_estimate.parts.temperature;
+        assert!(stated > 0.0 && stated < 0.02, "{stated}");
+        for (right, found) in every.days.iter().zip(&few.days) {
+            assert_eq!(right.day, found.day);
+            let forces = |day: &DayExtremes| {
+                [
+                    day.upstream_max_n,
+                    day.upstream_min_n,
+                    day.downstream_max_n,
+                    day.downstream_min_n,
+                    day.max_compression_n,
+                    day.max_tension_n,
+                ]
+            };
+            let largest = forces(right)
+                .into_iter()
+                .fold(0.0_f64, |most, force| most.max(force.abs()));
+            for (right_force, found_force) in forces(right).into_iter().zip(forces(found)) {
+                let apart = (right_force - found_force).abs() / largest;
+                assert!(
+                    apart < stated,
+                    "{lines:?}, day {}: {right_force} {found_force}, {stated}",
+                    right.day
+                );
+            }
+        }
+        let last = [&every, &few].map(|run| run.passes[run.passes.len() - 1]);
+        assert_eq!(last.map(|record| record.pass), [4300, 4300]);
+        // The end of the cable is where its last row says it is, and the day stops there.
+        assert_eq!(few.heat.as_ref().map(|heat| heat.all_days.day), Some(6));
+    }
+}
+
+/// A slope and no end that holds: traffic takes friction away, and the cable walks down day after day.
+#[test]
+fn a_cable_walks_down_its_slope_for_twenty_years() {
+    let run = run(&[
+        "duct = { length = 30, depth = 1.2, slope = \"3 %\" }",
+        "ends = { upstream = \"free\", downstream = \"free\" }",
+        "traffic = { years = 20, per_day = 800 }",
+        "solver = { tolerance = 0.03 }",
+    ]);
+    let heat = run.heat.expect("a heated cable");
+    let drift = heat.drift_per_day_m.expect("days that repeat");
+    // Measured by an independent program: 19.73 mm a day toward growing x, where vehicles drive.
+    assert!((1e3 * drift / 19.73 - 1.0).abs() < 0.02, "{drift} m");
+    let last = run.days[run.days.len() - 1];
+    assert_eq!((last.day, heat.all_days.day), (7305, 7305));
+    assert!((last.upstream_displacement_max_m / (7305.0 * drift) - 1.0).abs() < 1e-2);
+    assert!(
+        run.warnings
+            .iter()
+            .any(|warning| warning.contains("upper bounds"))
+    );
+    assert!(run.saturation.is_none() && run.range.is_none());
+    // A day as it goes, in order.
+    assert!(heat.cycle.len() > 20 && heat.cycle.windows(2).all(|pair| pair[0].hour < pair[1].hour));
+    let warmest = heat.cycle.iter().map(|point| point.warming_k).fold(0.0, f64::max);
+    assert!((warmest - 20.0).abs() < 0.1, "{warmest} K");
+    // Traffic draws a cable together that is warmest at noon before that, and cold it is pulled apart.
+    let mean = |profile: &creepage::ForceProfile| profile.force_n.iter().sum::<f64>();
+    assert!(mean(&heat.hot_profile) > mean(&heat.cold_profile));
+}
+
+#[test]
+fn what_heat_needs_is_told() {
+    for (lines, told) in [
+        (
+            &["traffic = { passes = 48 }"][..],
+            &["no `traffic.per_day`", "`per_day` in [traffic]"][..],
+        ),
+        (
+            &["heat = { expansion = 17e-6 }"],
+            &["neither `daily_swing` nor `profile`"],
+        ),
+        (&["heat = { daily_swing = 20 }"], &["`heat.expansion`"]),
+        (
+            &["heat = { expansion = \"17e-6 K\", daily_swing = 20 }"],
+            &["a difference of temperatures; allowed: an expansion per degree"],
+        ),
+        (
+            &["heat = { expansion = 17e-6, daily_swing = 20, profile = [[0, 0], [3600, 5]] }"],
+            &["both `daily_swing` and `profile`"],
+        ),
+        (
+            &["heat = { expansion = 17e-6, profile = [[\"8 h\", \"5 K\"], [\"6 h\", \"0 K\"]] }"],
+            &["heat.profile.1.0", "after that of the point before"],
+        ),
+        (
+            &["heat = { expansion = 17e-6, profile = [[\"24 h\", \"5 K\"]] }"],
+            &["before 24 h"],
+        ),
+        (
+            &["heat = { expansion = 17e-6, profile = [[\"8 h\", \"5 K\"]] }"],
+            &["one point", "two points of the day or more"],
+        ),
+        (
+            &["heat = { expansion = 17e-6, daily_swings = 20 }"],
+            &["did you mean `daily_swing`?"],
+        ),
+        (
+            &["solver = { method = \"dynamic\" }"],
+            &["`solver.method` = \"dynamic\"", "without inertia"],
+        ),
+        (
+            &["friction = { law = \"sigmoid\", dynamic_coefficient = 0.25, shape_factor = 7e6 }"],
+            &["`friction.law` = \"sigmoid\"", "state of rest"],
+        ),
+        (
+            &["friction = { law = \"coulomb\", dynamic_coefficient = 0 }"],
+            &["without friction"],
+        ),
+    ] {
+        let message = refused(lines);
+        for told in told {
+            assert!(message.contains(told), "{lines:?}: {message}");
+        }
+    }
+}
+
+#[test]
+fn a_warm_scene_is_written_as_it_was_read() {
+    for heat in [
+        "heat = { expansion = 17e-6, daily_swing = \"20 K\", offset = \"-3.5 K\" }",
+        "heat = { expansion = \"1.2e-5 /K\", profile = [[\"1 h\", \"0.1 K\"], [\"50000 s\", \"13 K\"]] }",
+    ] {
+        let scene = scene(&[heat]);
+        let written = scene.to_toml();
+        assert_eq!(
+            Scene::from_toml("warm.toml", &written).expect("a scene"),
+            scene,
+            "{written}"
+        );
+    }
+}
+
+/// What a day's vehicles are taken to be is said.
+#[test]
+fn a_day_of_heat_has_whole_passes() {
+    let run = run(&["traffic = { passes = 50, per_day = 24.4, order = \"random\" }"]);
+    for told in ["`traffic.per_day` is 24.4", "the same order"] {
+        assert!(
+            run.warnings.iter().any(|warning| warning.contains(told)),
+            "{:?}",
+            run.warnings
+        );
+    }
+}
