@@ -72,6 +72,7 @@ where
             knots.retain(|knot| *knot + 1 < whole);
             knots.push(whole - 1);
         }
+        let is_first = self.defects.is_empty();
         let mut measured: Defects = Vec::new();
         let mut shapes = Vec::new();
         let mut advances = Vec::new();
@@ -98,6 +99,11 @@ where
         let last = self.state.clone();
         if passes == day.passes {
             self.end(&mut diary)?;
+        }
+        if is_first && !day.is_simulated() {
+            // No other morning is like that of a cable as just laid: the next one is between the evening and noon.
+            let morning = day.time(day.periods()) / day.knots as f64;
+            measured.retain(|(ended, _)| *ended > morning);
         }
         (self.defects, self.shapes, self.advances) = (measured, shapes, advances);
         Ok(diary.close(last))
