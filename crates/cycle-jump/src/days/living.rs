@@ -67,7 +67,8 @@ where
         let day = self.day;
         let mut diary = self.open()?;
         let whole = passes.div_ceil(day.period as u64).min(day.periods());
-        let mut knots = day.simulated(self.defects.is_empty());
+        let is_first = self.defects.is_empty();
+        let mut knots = day.simulated(is_first);
         if is_last {
             knots.retain(|knot| *knot + 1 < whole);
             knots.push(whole - 1);
