@@ -73,7 +73,6 @@ where
             knots.retain(|knot| *knot + 1 < whole);
             knots.push(whole - 1);
         }
-        let is_first = self.defects.is_empty();
         let mut measured: Defects = Vec::new();
         let mut shapes = Vec::new();
         let mut advances = Vec::new();
