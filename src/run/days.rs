@@ -6,8 +6,9 @@
 
 use cable_dem::{CableError, CableState, Statistics};
 use cycle_jump::Next;
-use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, live};
+use cycle_jump::days::{Day, Days, DaysRequest, live};
 
+use super::day;
 use super::locked_law::locked_law;
 use super::outlook::Work;
 use super::passes::{Passes, Simulation, Task, force_profile};
@@ -17,7 +18,7 @@ use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed, simulated};
 use crate::cable::{cable, traffic};
 use crate::ground::peak;
 use crate::plan::{PassMethod, Plan};
-use crate::scene::{Heat, Scene, Warming};
+use crate::scene::Heat;
 use crate::{Error, Progress};
 
 /// Real periods a day to begin with.
@@ -29,15 +30,12 @@ const CAUTION: f64 = 2.0;
 /// Share of the tolerance that days with few real periods may take, and that of days without any.
 const SHARE: f64 = 0.5;
 const FROZEN_SHARE: f64 = 0.5;
-/// Up to so many passes a day all are simulated on a day with real ones.
-const FEW: u64 = 100;
 /// Typical errors of the forces on the levels of a mesh, below which none is stated, and what is left of the difference to the level
 /// below: measured on nine scenes up to level 3. From level 2 on, 12 nodes a depth, differences fall by a factor of 4 to 14.
 const TYPICAL: [f64; 4] = [5e-2, 1.2e-2, 1.5e-3, 4e-4];
 const RESOLVED: usize = 2;
 const LEFT: f64 = 0.4;
 const LEFT_UNRESOLVED: f64 = 2.0;
-const SECONDS_A_DAY: f64 = 86_400.0;
 
 /// Passes and days on one mesh.
 struct Lived {
@@ -149,6 +147,9 @@ impl Living<'_> {
                 movement: finest.days.surprise.1,
             };
         judge(&error, scene, warnings)?;
+        if !self.every_pass {
+            warnings.extend(day::broken_sequence(self.plan));
+        }
         let mesh = levels.mesh(level)?;
         Ok(Solved {
             reasons: vec![mesh_reason(self.plan, &mesh), self.reason(&finest, knots)],
@@ -225,30 +226,7 @@ impl Living<'_> {
 
     /// A day of the plan with `knots` real periods.
     fn day(&self, knots: u64) -> Day {
-        let scene = self.plan.scene;
-        let passes = a_day(scene);
-        let per_kelvin = scene.cable.axial_stiffness * self.heat.expansion;
-        let force = |kelvin: f64| per_kelvin * (self.heat.offset + kelvin);
-        let heat = match &self.heat.warming {
-            Warming::Swing(swing) => DailyHeat::Cosine {
-                lowest: force(0.0),
-                highest: force(*swing),
-            },
-            Warming::Profile(points) => DailyHeat::Profile(
-                points
-                    .iter()
-                    .map(|(seconds, kelvin)| (seconds / SECONDS_A_DAY, force(*kelvin)))
-                    .collect(),
-            ),
-        };
-        let few = passes <= FEW || self.every_pass;
-        let period = if few { 1 } else { self.plan.period.len() };
-        Day {
-            passes,
-            period,
-            heat,
-            knots: if few { passes } else { knots },
-        }
+        day::of(self.plan, self.heat, knots, self.every_pass)
     }
 
     /// All days on `level`, of which `knots` periods are real on some.
@@ -390,12 +368,4 @@ impl Living<'_> {
         };
         Ok((days, record))
     }
-}
-
-/// Whole passes of a day.
-fn a_day(scene: &Scene) -> u64 {
-    scene
-        .traffic
-        .per_day
-        .map_or(1, |per_day| per_day.round().max(1.0) as u64)
 }

@@ -1,6 +1,7 @@
 //! Carrying a plan out: the passes on ever finer meshes, and the answer.
 
 mod assemble;
+mod day;
 mod days;
 mod forecast;
 mod jumps;
