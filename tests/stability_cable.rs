@@ -74,7 +74,7 @@ fn jumps_over_passes_are_right_or_say_that_they_are_not() -> Tested {
 fn days_of_heat_are_right_or_say_that_they_are_not() -> Tested {
     let (mut few, mut all) = (0, 0);
     for case in heat::CASES {
-        let map = case.map(3, 2, 4)?;
+        let map = case.map(2, 2, 4)?;
         let right = map.count(heat::Outcome::Right);
         let whole = map.count(heat::Outcome::RightWhole);
         assert_eq!(right + whole, map.cells.len(), "{}", map.csv(case.name));

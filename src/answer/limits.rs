@@ -81,6 +81,22 @@ impl CableEnd {
 }
 
 impl Limited {
+    /// What is limited at an end, in words.
+    pub(crate) fn at(self, end: CableEnd) -> String {
+        match self {
+            Self::Force => format!("force on the {} end", end.name()),
+            Self::Movement => format!("movement of the {} end", end.name()),
+        }
+    }
+
+    /// A value of it with its unit.
+    pub(crate) fn shown(self, value: f64) -> String {
+        match self {
+            Self::Force => format!("{} N", rounded(value, 1)),
+            Self::Movement => format!("{} mm", rounded(1e3 * value, 4)),
+        }
+    }
+
     /// The largest of it in a pass, in size.
     fn of(self, end: CableEnd, record: &PassRecord) -> f64 {
         match self {
@@ -91,6 +107,15 @@ impl Limited {
 }
 
 impl Limits {
+    /// The same limits of both ends.
+    pub fn both(force_n: Option<f64>, movement_m: Option<f64>) -> Self {
+        let end = EndLimits { force_n, movement_m };
+        Self {
+            upstream: end,
+            downstream: end,
+        }
+    }
+
     /// The limits of one end.
     pub fn of(&self, end: CableEnd) -> &EndLimits {
         match end {
@@ -170,21 +195,17 @@ impl Limits {
 
 impl std::fmt::Display for Verdict {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let end = self.end.name();
-        let (what, shown): (_, fn(f64) -> String) = match self.quantity {
-            Limited::Force => ("force on", |force| format!("{} N", rounded(force, 1))),
-            Limited::Movement => ("movement of", |moved| format!("{} mm", rounded(1e3 * moved, 4))),
-        };
-        let (limit, largest) = (shown(self.limit), shown(self.largest));
+        let (limit, largest) = (self.quantity.shown(self.limit), self.quantity.shown(self.largest));
+        let what = self.quantity.at(self.end);
         match self.reached_after {
             Some(Reached { pass, years }) => {
                 let time = years.map_or_else(String::new, |years| format!(", {}", super::after(years)));
                 write!(
                     f,
-                    "limit exceeded: {what} the {end} end above {limit} from pass {pass} on{time}; largest {largest}"
+                    "limit exceeded: {what} above {limit} from pass {pass} on{time}; largest {largest}"
                 )?;
             }
-            None => write!(f, "limit kept: {what} the {end} end at most {largest} of {limit}")?,
+            None => write!(f, "limit kept: {what} at most {largest} of {limit}")?,
         }
         if self.doubtful {
             write!(f, "; nearer to the limit than the estimated error")?;

@@ -199,38 +199,7 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
             }
         }
     }
-    writeln!(
-        out,
-        "\n{:>9} {:>13} {:>11} {:>13}",
-        "pass", "measured, N", "fitted, N", "residual, N"
-    )?;
-    let stride = answer.fit.len().div_ceil(ROWS);
-    for row in answer.fit.iter().step_by(stride.max(1)) {
-        let [measured, fitted, residual] =
-            [row.value, row.fitted, row.residual].map(|value| match row.unit {
-                "N" => format!("{value:.1}"),
-                _ => format!("{value:.3e}"),
-            });
-        write!(out, "{:>9} {measured:>13} {fitted:>11} {residual:>13}", row.pass)?;
-        match row.measured {
-            "force" => {}
-            other => write!(out, "  {other}, {}", row.unit)?,
-        }
-        if answer.titles.len() > 1 {
-            write!(out, "  scene {}", row.series)?;
-        }
-        if !row.run.is_empty() {
-            write!(out, "  run {}", terminal::line(&row.run))?;
-        }
-        writeln!(out)?;
-    }
-    if stride > 1 {
-        writeln!(
-            out,
-            "(every {stride} of {} readings; --csv writes all)",
-            answer.fit.len()
-        )?;
-    }
+    print_readings(&mut out, answer)?;
     writeln!(out)?;
     let explained = answer
         .r_squared
@@ -270,6 +239,42 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         answer.evaluations,
         answer.method.intervals
     )?;
+    Ok(())
+}
+
+fn print_readings(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failure> {
+    writeln!(
+        out,
+        "\n{:>9} {:>13} {:>11} {:>13}",
+        "pass", "measured, N", "fitted, N", "residual, N"
+    )?;
+    let stride = answer.fit.len().div_ceil(ROWS);
+    for row in answer.fit.iter().step_by(stride.max(1)) {
+        let [measured, fitted, residual] =
+            [row.value, row.fitted, row.residual].map(|value| match row.unit {
+                "N" => format!("{value:.1}"),
+                _ => format!("{value:.3e}"),
+            });
+        write!(out, "{:>9} {measured:>13} {fitted:>11} {residual:>13}", row.pass)?;
+        match row.measured {
+            "force" => {}
+            other => write!(out, "  {other}, {}", row.unit)?,
+        }
+        if answer.titles.len() > 1 {
+            write!(out, "  scene {}", row.series)?;
+        }
+        if !row.run.is_empty() {
+            write!(out, "  run {}", terminal::line(&row.run))?;
+        }
+        writeln!(out)?;
+    }
+    if stride > 1 {
+        writeln!(
+            out,
+            "(every {stride} of {} readings; --csv writes all)",
+            answer.fit.len()
+        )?;
+    }
     Ok(())
 }
 

@@ -154,27 +154,25 @@ fn over_days(report: &Report, record: &HeatRecord) -> [Chart; 2] {
     }
     if ends.downstream != End::Free {
         force = force
-            .with(line("downstream end, most", 0, |day| day.downstream_max_n))
-            .with(line("downstream end, least", 0, |day| day.downstream_min_n));
+            .with(line("downstream end, most and least", 0, |day| {
+                day.downstream_max_n
+            }))
+            .with(line("", 0, |day| day.downstream_min_n));
     }
     if ends.upstream != End::Free {
         force = force
-            .with(line("upstream end, most", 1, |day| day.upstream_max_n))
-            .with(line("upstream end, least", 1, |day| day.upstream_min_n));
+            .with(line("upstream end, most and least", 1, |day| day.upstream_max_n))
+            .with(line("", 1, |day| day.upstream_min_n));
     }
     let movement = Chart::new("Movement day by day", along.axis(), Axis::linear("movement, mm"))
-        .with(line("downstream end, most", 0, |day| {
+        .with(line("downstream end, most and least", 0, |day| {
             MILLI * day.downstream_displacement_max_m
         }))
-        .with(line("downstream end, least", 0, |day| {
-            MILLI * day.downstream_displacement_min_m
-        }))
-        .with(line("upstream end, most", 1, |day| {
+        .with(line("", 0, |day| MILLI * day.downstream_displacement_min_m))
+        .with(line("upstream end, most and least", 1, |day| {
             MILLI * day.upstream_displacement_max_m
         }))
-        .with(line("upstream end, least", 1, |day| {
-            MILLI * day.upstream_displacement_min_m
-        }));
+        .with(line("", 1, |day| MILLI * day.upstream_displacement_min_m));
     [force, movement]
 }
 

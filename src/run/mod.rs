@@ -1,11 +1,11 @@
 //! Carrying a plan out: the passes on ever finer meshes, and the answer.
 
 mod assemble;
-mod day;
 mod days;
 mod forecast;
 mod jumps;
 mod listing;
+mod lived;
 mod locked_law;
 mod outlook;
 pub mod passes;
