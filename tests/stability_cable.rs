@@ -90,8 +90,8 @@ fn days_of_heat_are_right_or_say_that_they_are_not() -> Tested {
 #[test]
 fn days_that_break_a_sequence_are_announced() -> Tested {
     for (per_day, broken) in [(51, false), (50, true)] {
-        let [.., case] = heat::CASES;
-        let case = case.with_per_day(per_day);
+        let [.., mut case] = heat::CASES;
+        case.per_day = per_day;
         let mut scene = case.scene(0.1, 5.0, 4)?;
         let mut said = |method| -> Result<bool, creepage::Error> {
             scene.solver.method = method;

@@ -44,7 +44,7 @@ pub struct Case {
     /// Vehicles forward and backward, in their order.
     sequence: &'static str,
     /// Whole numbers of times the sequence: days that follow from each other begin it anew.
-    per_day: u64,
+    pub per_day: u64,
 }
 
 /// The rows of the figure.
@@ -104,11 +104,6 @@ pub struct Map {
 }
 
 impl Case {
-    /// The same with other traffic.
-    pub fn with_per_day(self, per_day: u64) -> Self {
-        Self { per_day, ..self }
-    }
-
     /// The scene of one cell.
     ///
     /// # Errors
