@@ -5,7 +5,9 @@ use cable_dem::{End, PassOutcome};
 #[cfg(feature = "plot")]
 use crate::PassRecord;
 use crate::answer::{ForceProfile, Stage};
-use crate::readings::{Measured, Place, Readings};
+#[cfg(feature = "plot")]
+use crate::readings::Readings;
+use crate::readings::{Measured, Place};
 use crate::{Error, Scene};
 
 /// An end of the cable.

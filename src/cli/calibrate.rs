@@ -209,20 +209,20 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         "residuals: {:.2} N rms{explained}, {:.1} degrees of freedom",
         answer.residual_rms_n, answer.degrees_of_freedom
     )?;
-    for assumption in &answer.assumptions {
-        writeln!(out, "assumed: {assumption}")?;
-    }
     let lack = &answer.lack_of_fit;
     let chance = |p: Option<f64>| p.map_or_else(|| "-".into(), |p| format!("{p:.2}"));
     writeln!(
         out,
-        "are they noise? by chance signs {:.2}, drift {}, zero {}, size {}: {}",
+        "whether they are noise: by chance signs {:.2}, drift {}, zero {}, size {}: {}",
         lack.p_runs,
         chance(lack.p_trend),
         chance(lack.p_offset),
         chance(lack.p_noise),
         if lack.suspicious { "SUSPICIOUS" } else { "yes" }
     )?;
+    for assumption in &answer.assumptions {
+        writeln!(out, "assumed: {assumption}")?;
+    }
     let shifts = answer.model_error.standard_errors.iter();
     writeln!(
         out,
