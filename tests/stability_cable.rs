@@ -6,6 +6,9 @@ mod cable_map;
 #[path = "../examples/stability/explicit.rs"]
 #[allow(dead_code, reason = "the example draws what the test only counts")]
 mod explicit;
+#[path = "../examples/stability/heat.rs"]
+#[allow(dead_code, reason = "the example draws what the test only counts")]
+mod heat;
 #[path = "../examples/stability/implicit.rs"]
 #[allow(dead_code, reason = "the example draws what the test only counts")]
 mod implicit;
@@ -14,6 +17,7 @@ mod implicit;
 mod long_term;
 
 use cable_map::{Grid, Outcome};
+use creepage::scene::SolverMethod;
 
 type Tested = Result<(), Box<dyn std::error::Error>>;
 
@@ -61,6 +65,44 @@ fn jumps_over_passes_are_right_or_say_that_they_are_not() -> Tested {
         // Near shakedown what is left depends on the way to it: one cell may say so.
         let right = guarded.count(Outcome::Right);
         assert!(right + 1 >= guarded.cells.len(), "{name}: {}", guarded.csv(name));
+    }
+    Ok(())
+}
+
+/// Mesh and passes are the same, so that only what days not simulated leave counts.
+#[test]
+fn days_of_heat_are_right_or_say_that_they_are_not() -> Tested {
+    let (mut few, mut all) = (0, 0);
+    for case in heat::CASES {
+        let map = case.map(2, 2, 4)?;
+        let right = map.count(heat::Outcome::Right);
+        let whole = map.count(heat::Outcome::RightWhole);
+        assert_eq!(right + whole, map.cells.len(), "{}", map.csv(case.name));
+        few += right;
+        all += map.cells.len();
+    }
+    // Not by simulating every pass.
+    assert!(4 * few >= all, "{few} of {all}");
+    Ok(())
+}
+
+/// The sequence of three vehicles goes on over midnight where every pass is simulated, and begins anew in days that follow from each other.
+#[test]
+fn days_that_break_a_sequence_are_announced() -> Tested {
+    for (per_day, broken) in [(51, false), (50, true)] {
+        let [.., mut case] = heat::CASES;
+        case.per_day = per_day;
+        let mut scene = case.scene(0.1, 5.0, 4)?;
+        let mut said = |method| -> Result<bool, creepage::Error> {
+            scene.solver.method = method;
+            let run = creepage::run(&scene)?;
+            Ok(run
+                .warnings
+                .iter()
+                .any(|warning| warning.contains("whole number")))
+        };
+        assert_eq!(said(SolverMethod::PassLaw)?, broken, "{per_day} a day");
+        assert!(!said(SolverMethod::QuasiStatic)?, "{per_day} a day");
     }
     Ok(())
 }

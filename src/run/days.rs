@@ -136,6 +136,7 @@ impl Living<'_> {
             };
         error.road = self.road_error(level, knots, &mut statistics)?;
         judge(&error, scene, warnings)?;
+        warnings.extend(self.broken_sequence());
         let mesh = levels.mesh(level)?;
         Ok(Solved {
             reasons: vec![mesh_reason(self.plan, &mesh), self.reason(&finest, knots)],

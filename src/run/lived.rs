@@ -63,6 +63,22 @@ impl Living<'_> {
         }
     }
 
+    /// A warning where days that follow from each other all begin with the same vehicle, and the traffic's sequence does not.
+    pub fn broken_sequence(&self) -> Option<String> {
+        let traffic = &self.plan.scene.traffic;
+        let (passes, period) = (a_day(self.plan.scene), self.plan.period.len() as u64);
+        let whole = passes / period * period;
+        let is_broken = whole < passes && !self.plan.period.reordered && traffic.passes > passes;
+        (is_broken && !self.every_pass).then(|| {
+            format!(
+                "{passes} vehicles a day are no whole number of times the {period} of the sequence: each day is computed as if it \
+                 began the sequence anew, and around midnight forces may be others than with the sequence unbroken; a \
+                 `traffic.per_day` of {} has none of that",
+                whole.max(period)
+            )
+        })
+    }
+
     /// All days on `level`, of which `knots` periods are real on some.
     pub fn live(&self, level: usize, knots: u64, progress: Progress<'_>) -> Result<Lived, Error> {
         self.live_in(self.plan.scene, level, knots, progress)

@@ -53,6 +53,11 @@ impl Diary {
         }
     }
 
+    /// Adds `beside` to the extremes so far.
+    pub fn add(&mut self, beside: &Extremes) {
+        self.extremes = self.extremes.plus(beside);
+    }
+
     pub fn close(self, last: CableState) -> Lived {
         Lived {
             rows: self.rows,

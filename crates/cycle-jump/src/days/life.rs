@@ -175,9 +175,9 @@ where
             Some(Settled {
                 beside: Some(beside), ..
             }) if passes == a_day => {
-                let lived = self.living.last(self.done * a_day, passes)?;
+                let lived = self.living.last(self.done * a_day, passes, &beside)?;
                 self.done += 1;
-                self.book(&lived, &lived.extremes.plus(&beside), passes);
+                self.book(&lived, &lived.extremes, passes);
                 lived
             }
             _ => self.corrected(passes, true)?,

@@ -4,6 +4,7 @@ use cable_dem::{CableState, Mesh, PassOutcome, RestingCable};
 
 use super::day::Day;
 use super::diary::{Diary, Lived};
+use super::extremes::Extremes;
 use super::rate::{Drive, RateStep};
 use super::rows::{Row, Shape};
 use crate::record::take_whole;
@@ -118,12 +119,14 @@ where
         Ok(diary.close(last))
     }
 
-    /// The last day of all, of which `passes` are lived after `after` others: its last period is real.
-    pub fn last(&mut self, after: u64, passes: u64) -> Result<Lived, E> {
+    /// The last day of all, of which `passes` are lived after `after` others: its last period is real, the others lack what real ones show
+    /// `beside` them.
+    pub fn last(&mut self, after: u64, passes: u64, beside: &Extremes) -> Result<Lived, E> {
         let day = self.day;
         let last = passes.div_ceil(day.period as u64).min(day.periods()) - 1;
         let mut diary = self.open()?;
         self.replay_to(last, &mut diary)?;
+        diary.add(beside);
         self.period(last, Some(after), passes, &mut diary)?;
         let state = self.state.clone();
         if passes == day.passes {
