@@ -10,6 +10,9 @@ use super::rows::{Row, Shape};
 use crate::record::take_whole;
 use crate::{JumpError, Next};
 
+/// Share of the first day whose defects are those of a cable as just laid: a hundred passes, and two knots at least.
+const VIRGIN: f64 = 0.125;
+
 /// What real periods measured over a day: the friction that the law misses, by the time at which each ended \[periods\].
 pub type Defects = Vec<(f64, Vec<f64>)>;
 
@@ -103,7 +106,7 @@ where
         }
         if is_first && !day.is_simulated() {
             // No other morning is like that of a cable as just laid: the next one is between the evening and noon.
-            let morning = day.time(day.periods()) / day.knots as f64;
+            let morning = VIRGIN * day.time(day.periods());
             measured.retain(|(ended, _)| *ended > morning);
         }
         (self.defects, self.shapes, self.advances) = (measured, shapes, advances);
