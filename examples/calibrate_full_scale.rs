@@ -171,7 +171,7 @@ fn misses(answer: &Calibrated) -> String {
     let forces: Vec<String> = answer
         .fit
         .iter()
-        .map(|reading| format!("{:.0} N", reading.fitted_n))
+        .map(|reading| format!("{:.0} N", reading.fitted))
         .collect();
     format!("{} ({} runs)", forces.join(" and "), answer.evaluations)
 }

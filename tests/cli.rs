@@ -966,8 +966,29 @@ fn design_answers_in_words_and_as_json() {
 
     let fixed = printed(&design(&["--limit-force", "10 kN"]));
     assert!(fixed.contains("answer: fixed"), "{fixed}");
-    let none = printed(&design(&["--limit-force", "1 N", "--limit-movement", "0.1 mm"]));
-    assert!(none.contains("no stiffness stays within the limits"), "{none}");
+    // Nothing keeps these limits: the nearest is the answer, with status 1.
+    let hard = design(&["--limit-force", "1 N", "--limit-movement", "0.1 mm"]);
+    let none = output(&hard);
+    let said = String::from_utf8(none.stdout).expect("UTF-8");
+    assert_eq!(none.status.code(), Some(1));
+    assert!(
+        said.contains("no stiffness stays within the limits; nearest: a spring of ")
+            && said.contains(" times its limit"),
+        "{said}"
+    );
+    let document = output(&[&hard[..], &["--json"]].concat());
+    assert_eq!(document.status.code(), Some(1));
+    let document: Value = serde_json::from_slice(&document.stdout).expect("JSON and nothing else");
+    assert!(document["answer"].is_null() && number(&document["nearest"]["downstream_force_n"]) > 1.0);
+    // The free end moves farther than that, which counts only by its name.
+    let free = ["--limit-movement", "1 um", "--limit-force", "10 kN"];
+    let fixed = printed(&design(&free));
+    assert!(
+        fixed.contains("answer: fixed; force on the downstream end"),
+        "{fixed}"
+    );
+    let named = output(&design(&["--limit-movement", "upstream=1 um"]));
+    assert_eq!(named.status.code(), Some(1));
     for (more, part) in [
         (&["--limit-force", "3 m"][..], "force"),
         (&["--limit-force", "-3"], "limit-force"),

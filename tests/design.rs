@@ -26,7 +26,7 @@ fn designed(
     force_n: f64,
     movement_m: Option<f64>,
 ) -> Result<Design, DesignError> {
-    let limits = Limits { force_n, movement_m };
+    let limits = Limits::both(Some(force_n), movement_m);
     design(scene, &DesignOptions::new(place, limits))
 }
 
@@ -117,6 +117,54 @@ fn both_limits_leave_a_range_or_none() {
 }
 
 #[test]
+fn each_end_has_its_own_limits() {
+    let scene = scene();
+    let mut limits = Limits::default();
+    limits.downstream.force_n = Some(200.0);
+    let force = design(&scene, &DesignOptions::new(Place::Downstream, limits)).unwrap();
+    let spring = force.answer.unwrap();
+    // The upstream end is free: it moves farther, which counts only where it is limited.
+    assert!(spring.upstream_movement_m > spring.downstream_movement_m);
+    limits.downstream.movement_m = Some(1.1 * spring.downstream_movement_m);
+    let own = design(&scene, &DesignOptions::new(Place::Downstream, limits)).unwrap();
+    let answer = own.answer.unwrap();
+    assert!(
+        answer.downstream_movement_m <= 1.1 * spring.downstream_movement_m
+            && answer.downstream_force_n <= 200.0
+    );
+    assert_eq!(own.nearest, None);
+    limits.upstream.movement_m = Some(0.5 * answer.upstream_movement_m);
+    let all = design(&scene, &DesignOptions::new(Place::Downstream, limits)).unwrap();
+    assert_eq!(all.answer, None);
+}
+
+#[test]
+fn the_nearest_exceeds_its_worst_limit_by_the_smallest_factor() {
+    let scene = scene();
+    let fixed = largest_force(&creepage::run(&scene).unwrap());
+    let (force, movement) = (0.2 * fixed, 0.2e-3);
+    let mut limits = Limits::default();
+    (limits.downstream.force_n, limits.downstream.movement_m) = (Some(force), Some(movement));
+    let design = design(&scene, &DesignOptions::new(Place::Downstream, limits)).unwrap();
+    assert_eq!(design.answer, None);
+    let nearest = design.nearest.unwrap();
+    let excess = |force_n: f64, moved: f64| (force_n / force).max(moved / movement);
+    let found = excess(nearest.downstream_force_n, nearest.downstream_movement_m);
+    assert!(found > 1.0);
+    // Force and movement weigh the same there, and no stiffness of a scan is better.
+    let own = scene.cable.axial_stiffness / scene.duct.length;
+    for k in -8..=8 {
+        let run = held(&scene, own * 10_f64.powf(f64::from(k) / 6.0));
+        let moved = run
+            .passes
+            .iter()
+            .map(|p| p.downstream_displacement_m.abs())
+            .fold(0.0, f64::max);
+        assert!(excess(largest_force(&run), moved) > 0.98 * found, "{k}");
+    }
+}
+
+#[test]
 fn an_end_that_may_be_fixed_is_fixed() {
     let design = designed(&scene(), Place::Downstream, 1e4, None).unwrap();
     assert_eq!(design.range_n_per_m, Some((0.0, None)));
@@ -176,6 +224,8 @@ fn what_has_no_meaning_is_refused() {
     ] {
         assert!(designed(&scene, place, force, movement).is_err_and(|error| error.is_bad_input()));
     }
+    let none = DesignOptions::new(Place::Downstream, Limits::default());
+    assert!(design(&scene, &none).is_err_and(|error| error.is_bad_input()));
 }
 
 #[test]
@@ -214,13 +264,7 @@ fn ways_are_compared_by_runs_of_their_own() {
 
 #[test]
 fn the_progress_grows_and_may_stop_the_search() {
-    let mut options = DesignOptions::new(
-        Place::Downstream,
-        Limits {
-            force_n: 150.0,
-            movement_m: None,
-        },
-    );
+    let mut options = DesignOptions::new(Place::Downstream, Limits::both(Some(150.0), None));
     let calls = AtomicUsize::new(0);
     let stop = |share: f64| {
         assert!((0.0..=1.0).contains(&share), "{share}");
@@ -245,10 +289,7 @@ fn the_progress_grows_and_may_stop_the_search() {
 
 #[test]
 fn answers_are_read_as_they_were_written() {
-    let limits = Limits {
-        force_n: 150.0,
-        movement_m: None,
-    };
+    let limits = Limits::both(Some(150.0), None);
     let design = design(&scene(), &DesignOptions::new(Place::Clamp(7.5), limits)).unwrap();
     let text = serde_json::to_string(&design).unwrap();
     assert_eq!(serde_json::from_str::<Design>(&text).unwrap(), design);

@@ -1,8 +1,9 @@
 //! Series as faulty cells and wrong settings make them: no parameter is called identifiable where its interval misses the truth, and the
 //! fault is told.
 //!
-//! Readings are those of a run on a mesh twice as fine, 40 passes with Gaussian noise of 4 N. A fault is so large that the fitted friction
-//! leaves its interval on average, which each kind states.
+//! Readings are those of a run on a mesh twice as fine, 40 passes up to 480 N with Gaussian noise of 4 N. A drift of 0.8 N a pass makes the
+//! fitted friction 0.3 to 0.5 where 0.25 is true, one of -1.2 N a pass 0.2, ground of 0.8 times the stiffness 0.33; outliers and a zero that is off by
+//! 20 N widen the interval more than they move it.
 
 use std::fmt::Write;
 use std::sync::OnceLock;
@@ -10,6 +11,7 @@ use std::sync::OnceLock;
 use creepage::readings::ReadOptions;
 use creepage::scene::FrictionLaw;
 use creepage::{CalibrateOptions, Calibrated, Readings, Scene, SceneFile};
+use rayon::prelude::*;
 
 const FRICTION: f64 = 0.25;
 const SHAPE_FACTOR: f64 = 2e6;
@@ -40,9 +42,9 @@ fn scene(stiffness: f64) -> Scene {
     let modulus = format!("ground.layers.0.young_modulus={} MPa", 800.0 * stiffness);
     let file = SceneFile::read("examples/scenes/full-scale-upper.toml").unwrap();
     let mut scene = file.with(&[modulus]).unwrap().scene().unwrap();
-    if let Ok(d) = std::env::var("DUCT") {
-        scene.duct.length = d.parse().unwrap();
-    }
+    // Coarse, for the mesh is not what is tried: what the next one says more is added, and the readings are of that one.
+    scene.solver.node_spacing = Some(0.4);
+    scene.solver.vehicle_step = Some(0.2);
     scene
 }
 
@@ -53,7 +55,7 @@ fn forces(stiffness: f64) -> Vec<f64> {
     scene.friction.law = FrictionLaw::ElasticPlastic {
         shape_factor: SHAPE_FACTOR,
     };
-    (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(0.05), Some(0.025));
+    (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(0.2), Some(0.1));
     scene.traffic.passes = 2 * PASSES as u64;
     let run = creepage::run(&scene).unwrap();
     run.passes.iter().map(|pass| pass.downstream_force_n).collect()
@@ -75,11 +77,7 @@ fn file(fault: Fault, seed: u64) -> String {
     };
     let mut readings: Vec<f64> = forces[..count]
         .iter()
-        .map(|force| {
-            force
-                + std::env::var("NOISE").map_or(NOISE, |d| d.parse().unwrap())
-                    * testkit::gaussian(&mut random)
-        })
+        .map(|force| force + NOISE * testkit::gaussian(&mut random))
         .collect();
     if let Fault::Outliers(count, share) = fault {
         for k in 0..count {
@@ -111,107 +109,67 @@ fn fit(text: &str) -> Calibrated {
 #[derive(Debug, Default)]
 struct Count {
     draws: usize,
-    /// The fitted friction's interval misses the truth, and one that is called identifiable does.
+    /// Draws whose interval misses the true friction, and those of them that are called identifiable.
     missed: usize,
-    claimed_and_missed: usize,
+    claimed: usize,
+    /// Draws in which a warning holds one of the words.
     warned: usize,
-    /// The report says that the data cannot show it.
+    /// Draws that call a parameter not identifiable, or say what the readings do not show.
     told: usize,
+    /// Mean error of the friction, as a share.
     off: f64,
 }
 
-/// Faults, and words of the warning that names each.
-const KINDS: [(Fault, &[&str]); 8] = [
+/// Faults, and words of the warning that names each. The last is one that forces alone cannot show.
+const KINDS: [(Fault, &[&str]); 10] = [
     (Fault::None, &[]),
-    (Fault::ZeroOffset(20.0), &["zero offset", "follow"]),
-    (Fault::Drift(1.0), &["drift", "follow"]),
+    (Fault::ZeroOffset(20.0), &["a zero offset"]),
+    (Fault::ZeroOffset(-20.0), &["a zero offset"]),
+    (Fault::Drift(0.8), &["a drift", "a zero offset"]),
+    (Fault::Drift(-1.2), &["a drift", "a zero offset"]),
     (Fault::Outliers(3, 0.3), &["--robust"]),
     (Fault::Unit, &["--unit kN"]),
     (Fault::Sign, &["--tension-positive"]),
     (Fault::TwoRuns, &["--run-start continue"]),
-    (Fault::Ground(0.8), &["ground"]),
+    (Fault::Ground(0.8), &["does not follow"]),
 ];
 
 fn count(fault: Fault, words: &[&str], draws: u64) -> Count {
+    let answers: Vec<Calibrated> = (0..draws)
+        .into_par_iter()
+        .map(|seed| fit(&file(fault, seed)))
+        .collect();
     let mut count = Count::default();
-    for seed in 0..draws {
-        let seed = seed + 1000;
-        let answer = fit(&file(fault, seed));
+    for answer in answers {
         let friction = &answer.parameters[0];
         let [lower, upper] = friction.interval_95;
         let covers =
             lower.is_none_or(|lower| lower <= FRICTION) && upper.is_none_or(|upper| FRICTION <= upper);
-        count.draws += 1;
-        count.off += friction.value / FRICTION - 1.0;
-        count.missed += usize::from(!covers);
-        count.claimed_and_missed += usize::from(friction.identifiable && !covers);
         let warned = |word: &&str| answer.warnings.iter().any(|warning| warning.contains(word));
+        count.draws += 1;
+        count.off += (friction.value / FRICTION - 1.0) / draws as f64;
+        count.missed += usize::from(!covers);
+        count.claimed += usize::from(friction.identifiable && !covers);
         count.warned += usize::from(words.iter().any(warned));
-        count.told += usize::from(
-            answer
-                .assumptions
-                .iter()
-                .any(|assumption| assumption.contains("cannot show")),
-        );
-        if std::env::var("SHOW").is_ok() && seed < 1002 {
-            println!(
-                "{fault:?} {:?} {:?} {:?} rms {} {}",
-                answer.parameters[0].value,
-                answer.parameters[0].standard_error,
-                friction.interval_95,
-                answer.residual_rms_n,
-                answer.evaluations
-            );
-            println!(
-                "{:#?} {:#?} {:?}",
-                answer.warnings, answer.assumptions, answer.lack_of_fit
-            );
-        }
+        let assumed = answer
+            .assumptions
+            .iter()
+            .any(|assumption| assumption.contains("the ground is that of the scene"));
+        count.told += usize::from(assumed);
     }
     count
 }
 
-fn judge(draws: u64) {
+/// Of so many draws of each kind at most 7 % claim a wrong interval, and at least 90 % are warned of; `spare` draws more may fail by chance.
+fn judge(draws: u64, spare: f64) {
     let mut wrong = Vec::new();
-    let draws: u64 = std::env::var("DRAWS").map_or(draws, |d| d.parse().unwrap());
-    let kinds: Vec<(Fault, &[&str])> = match std::env::var("KIND") {
-        Ok(text) => text
-            .split(',')
-            .map(|one| {
-                let (k, v) = one.split_once('=').unwrap();
-                let v: f64 = v.parse().unwrap();
-                (
-                    match k {
-                        "none" => Fault::None,
-                        "zero" => Fault::ZeroOffset(v),
-                        "drift" => Fault::Drift(v),
-                        "out" => Fault::Outliers(3, v),
-                        "ground" => Fault::Ground(v),
-                        _ => panic!(),
-                    },
-                    &["follow", "ground", "--robust"] as &[&str],
-                )
-            })
-            .collect(),
-        _ => KINDS.to_vec(),
-    };
-    for (fault, words) in kinds {
-        let begun = std::time::Instant::now();
+    for (fault, words) in KINDS {
         let found = count(fault, words, draws);
-        println!(
-            "{fault:?}: {found:?}; {:.2} s each",
-            begun.elapsed().as_secs_f64() / draws as f64
-        );
-        let share = |part: usize| part as f64 / found.draws as f64;
-        // A few draws may miss by chance: three standard deviations of the binomial.
-        let chance = 3.0 * (0.07 * 0.93 / found.draws as f64).sqrt();
-        let shown = !matches!(fault, Fault::Ground(_));
-        let fails = match fault {
-            Fault::None => share(found.claimed_and_missed) > 0.07 + chance || share(found.warned) > 0.0,
-            _ if shown => share(found.claimed_and_missed) > 0.07 || share(found.warned) < 0.9,
-            _ => share(found.told) < 1.0,
-        };
-        if fails {
+        println!("{fault:?}: {found:?}");
+        let all = found.draws as f64;
+        let claims = found.claimed as f64 > 0.07 * all + spare;
+        let silent = fault != Fault::None && (found.warned as f64) < 0.9 * all - spare;
+        if claims || silent || found.told < found.draws {
             wrong.push(format!("{fault:?}: {found:?}"));
         }
     }
@@ -220,11 +178,11 @@ fn judge(draws: u64) {
 
 #[test]
 fn faults_are_told_and_never_called_identifiable() {
-    judge(6);
+    judge(4, 1.0);
 }
 
 #[test]
-#[ignore = "400 fits"]
+#[ignore = "400 fits: see CONTRIBUTING.md for the command"]
 fn faults_are_told_in_four_hundred_series() {
-    judge(57);
+    judge(40, 0.0);
 }

@@ -203,7 +203,8 @@ fn heat_in_the_mirror_mirrors_the_answer() {
             ),
         ];
         for (a, b) in pairs {
-            assert!((a - b).abs() < 1e-6 * a.abs().max(1.0), "{a} {b}");
+            // Solvers of both ways remember other windows.
+            assert!((a - b).abs() < 2e-4 * a.abs().max(1.0), "{a} {b}");
         }
     }
 }

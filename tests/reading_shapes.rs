@@ -62,6 +62,7 @@ fn options(words: &str) -> ReadOptions {
 }
 
 /// Shapes of the series: name, bytes, options.
+#[allow(clippy::too_many_lines, reason = "a table")]
 fn shapes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
     let plain = rows("pass,force_n\n", |n, f| format!("{n},{f}"));
     let german = rows("Überfahrt;Kraft [N]\n", |n, f| format!("{n};{}", comma(f)));
@@ -285,7 +286,7 @@ fn every_shape_of_the_series_is_read_right() {
             .iter()
             .map(|reading| (reading.pass, reading.value))
             .collect();
-        found.sort_by(|a, b| a.0.cmp(&b.0));
+        found.sort_by_key(|reading| reading.0);
         assert_eq!(found.len(), PASSES.len(), "{name}: {found:?}");
         for ((pass, force), (&n, f)) in found.iter().zip(PASSES.iter().zip(FORCES)) {
             assert!(
@@ -309,6 +310,7 @@ fn every_shape_of_the_series_is_read_right() {
 
 /// What is wrong is named: the file, words that the message holds.
 #[test]
+#[allow(clippy::too_many_lines, reason = "a table")]
 fn what_cannot_be_read_is_refused_with_its_cause() {
     let cases: [(&str, &str, &[&str]); 22] = [
         (

@@ -616,3 +616,134 @@ fn a_sweep_that_is_stopped_goes_on_where_it_was() {
     assert_eq!((summary.points, summary.resumed), (5, 3));
     assert!(output.exists() && !journal(&output).exists());
 }
+
+// rows
+
+fn rows(name: &str, table: &str) -> (PathBuf, Result<Sweep, SweepError>) {
+    let output = output(name);
+    let ducts = output.with_file_name("ducts.csv");
+    fs::write(&ducts, table).unwrap();
+    let file = SceneFile::read(UPPER)
+        .unwrap()
+        .with(&["traffic.passes=1"])
+        .unwrap();
+    (output, Sweep::of_rows(file, &ducts))
+}
+
+#[test]
+fn a_row_is_a_duct_with_its_own_values_and_the_scenes_where_it_has_none() {
+    for (name, table) in [
+        (
+            "rows",
+            "id,duct.length,duct.depth,ends.downstream\nA-007,40 m,1.5,\n\"B, north\",,90 cm,free\n",
+        ),
+        (
+            "rows semicolons",
+            "\u{feff}# from the office\nid; duct.length; duct.depth; ends.downstream\nA-007;0.04 km;1500 mm;\nB, north;;0.9;free\n",
+        ),
+    ] {
+        let (output, sweep) = rows(name, table);
+        let sweep = sweep.unwrap();
+        assert_eq!(sweep.count(), 2);
+        let (first, second) = (sweep.scene(0).unwrap(), sweep.scene(1).unwrap());
+        assert_eq!((first.duct.length, first.duct.depth), (40.0, 1.5));
+        assert_eq!((second.duct.length, second.duct.depth), (30.0, 0.9));
+        assert_eq!(
+            (first.ends.downstream, second.ends.downstream),
+            (creepage::scene::End::Fixed, creepage::scene::End::Free)
+        );
+
+        let evaluate = formula(|scene| scene.duct.length + scene.duct.depth);
+        let options = SweepOptions {
+            evaluate: Some(&evaluate),
+            ..SweepOptions::default()
+        };
+        let summary = sweep.run(&output, &options).unwrap();
+        assert_eq!((summary.points, summary.failed), (2, 0));
+        let text = fs::read_to_string(&output).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(
+            lines[0].starts_with("id,duct.length,duct.depth,ends.downstream,downstream_force_n,"),
+            "{text}"
+        );
+        assert!(lines[1].starts_with("A-007,40,1.5,,41.5,"), "{text}");
+        assert!(lines[2].starts_with("\"B, north\",,0.9,free,30.9,"), "{text}");
+    }
+}
+
+#[test]
+fn bad_rows_are_told() {
+    for (table, part) in [
+        ("id,duct.depht\nA,1\n", "depht"),
+        ("duct.lenght,duct.depth\n,1\n40,1\n", "lenght"),
+        ("id\nA\n", "no column that is named as a key"),
+        ("duct.depth,duct.depth\n1,2\n", "two columns `duct.depth`"),
+        ("duct.depth\n", "0 rows"),
+        ("", "no column"),
+        ("duct.depth,duct.length\n1\n", "found no table of ducts"),
+    ] {
+        let (_, sweep) = rows("bad rows", table);
+        let error = sweep.expect_err(table);
+        assert!(
+            error.is_bad_input() && error.to_string().contains(part),
+            "{table}: {error}"
+        );
+    }
+    // A value that is wrong is its row's.
+    let (output, sweep) = rows("one bad row", "duct.depth\n1 m\n1 kN\n");
+    let summary = sweep.unwrap().run(&output, &SweepOptions::default()).unwrap();
+    assert_eq!((summary.points, summary.failed), (2, 1));
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn rows_in_parquet_are_those_in_csv() {
+    use std::sync::Arc;
+
+    use parquet::basic::Compression;
+    use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
+    use parquet::file::properties::WriterProperties;
+    use parquet::file::writer::SerializedFileWriter;
+    use parquet::schema::parser::parse_message_type;
+
+    let (output, csv) = rows("rows parquet", "id,duct.depth,ends.downstream\nA,1.5,free\nB,,\n");
+    let ducts = output.with_file_name("ducts.parquet");
+    let schema = "message ducts { optional binary id (UTF8); optional double duct.depth; optional binary ends.downstream (UTF8); }";
+    let schema = Arc::new(parse_message_type(schema).unwrap());
+    // As most programs write it.
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .build();
+    let mut writer =
+        SerializedFileWriter::new(fs::File::create(&ducts).unwrap(), schema, Arc::new(properties)).unwrap();
+    let mut group = writer.next_row_group().unwrap();
+    let texts: [&[&str]; 2] = [&["A", "B"], &["free"]];
+    for (index, levels) in [[1, 1], [1, 0], [1, 0]].iter().enumerate() {
+        let mut column = group.next_column().unwrap().unwrap();
+        if index == 1 {
+            column
+                .typed::<DoubleType>()
+                .write_batch(&[1.5], Some(levels), None)
+                .unwrap();
+        } else {
+            let values: Vec<ByteArray> = texts[index / 2].iter().map(|text| (*text).into()).collect();
+            column
+                .typed::<ByteArrayType>()
+                .write_batch(&values, Some(levels), None)
+                .unwrap();
+        }
+        column.close().unwrap();
+    }
+    group.close().unwrap();
+    writer.close().unwrap();
+    let file = SceneFile::read(UPPER)
+        .unwrap()
+        .with(&["traffic.passes=1"])
+        .unwrap();
+    let parquet = Sweep::of_rows(file, &ducts).unwrap();
+    let csv = csv.unwrap();
+    assert_eq!(parquet.axes(), csv.axes());
+    for index in 0..2 {
+        assert_eq!(parquet.scene(index).unwrap(), csv.scene(index).unwrap());
+    }
+}

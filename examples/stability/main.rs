@@ -15,6 +15,7 @@ mod burmister;
 mod calibration;
 mod explicit;
 mod fem;
+mod heat;
 mod implicit;
 mod long_term;
 
@@ -30,6 +31,7 @@ const MAPS: &[Entry] = &[
     ("fem", fem::run),
     ("burmister", burmister::run),
     ("long-term", long_term::run),
+    ("heat", heat::run),
     ("calibration", calibration::run),
 ];
 

@@ -3,6 +3,7 @@
 use cycle_jump::days::Extremes;
 use serde::{Deserialize, Serialize};
 
+use super::cable_end::CableEnd;
 use super::force_profile::ForceProfile;
 
 /// Largest and least forces and movements over a day, with the cable at rest: after every pass and every change of temperature.
@@ -54,6 +55,8 @@ pub struct DayPoint {
 pub struct HeatRecord {
     /// Largest and least values of all days; its `day` is their number.
     pub all_days: DayExtremes,
+    /// Passes of a day.
+    pub passes_per_day: u64,
     /// The day from which on every day is like the one before but for a drift, where there is one.
     pub periodic_from_day: Option<u64>,
     /// How far the cable moves from one such day to the next \[m\].
@@ -67,6 +70,27 @@ pub struct HeatRecord {
 }
 
 impl DayExtremes {
+    /// Largest force on the end in size \[N\].
+    pub fn largest_force(&self, end: CableEnd) -> f64 {
+        let [least, most] = match end {
+            CableEnd::Upstream => [self.upstream_min_n, self.upstream_max_n],
+            CableEnd::Downstream => [self.downstream_min_n, self.downstream_max_n],
+        };
+        least.abs().max(most.abs())
+    }
+
+    /// How far the end is from where it was laid, whichever way \[m\].
+    pub fn movement(&self, end: CableEnd) -> f64 {
+        let [least, most] = match end {
+            CableEnd::Upstream => [self.upstream_displacement_min_m, self.upstream_displacement_max_m],
+            CableEnd::Downstream => [
+                self.downstream_displacement_min_m,
+                self.downstream_displacement_max_m,
+            ],
+        };
+        least.abs().max(most.abs())
+    }
+
     pub(crate) fn new(day: u64, extremes: &Extremes) -> Self {
         let Extremes {
             most,

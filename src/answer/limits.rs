@@ -2,18 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::cable_end::CableEnd;
+use super::heat::DayExtremes;
 use super::record::{PassRecord, Run};
 use crate::shown::rounded;
-
-/// An end of the cable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum CableEnd {
-    /// x = 0.
-    Upstream,
-    /// x = length.
-    Downstream,
-}
 
 /// What is limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -70,17 +62,6 @@ pub struct Verdict {
 }
 
 impl CableEnd {
-    /// Both.
-    pub const ALL: [Self; 2] = [Self::Upstream, Self::Downstream];
-
-    /// Its name in scenes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Upstream => "upstream",
-            Self::Downstream => "downstream",
-        }
-    }
-
     /// Largest force on it after a pass and during it, in size \[N\].
     pub fn largest_force(self, record: &PassRecord) -> f64 {
         let [after, during] = match self {
@@ -100,6 +81,22 @@ impl CableEnd {
 }
 
 impl Limited {
+    /// What is limited at an end, in words.
+    pub(crate) fn at(self, end: CableEnd) -> String {
+        match self {
+            Self::Force => format!("force on the {} end", end.name()),
+            Self::Movement => format!("movement of the {} end", end.name()),
+        }
+    }
+
+    /// A value of it with its unit.
+    pub(crate) fn shown(self, value: f64) -> String {
+        match self {
+            Self::Force => format!("{} N", rounded(value, 1)),
+            Self::Movement => format!("{} mm", rounded(1e3 * value, 4)),
+        }
+    }
+
     /// The largest of it in a pass, in size.
     fn of(self, end: CableEnd, record: &PassRecord) -> f64 {
         match self {
@@ -110,6 +107,15 @@ impl Limited {
 }
 
 impl Limits {
+    /// The same limits of both ends.
+    pub fn both(force_n: Option<f64>, movement_m: Option<f64>) -> Self {
+        let end = EndLimits { force_n, movement_m };
+        Self {
+            upstream: end,
+            downstream: end,
+        }
+    }
+
     /// The limits of one end.
     pub fn of(&self, end: CableEnd) -> &EndLimits {
         match end {
@@ -141,8 +147,32 @@ impl Limits {
     pub fn verdicts(&self, run: &Run) -> Vec<Verdict> {
         let verdict = |(end, quantity, limit): (CableEnd, Limited, f64)| {
             let of = |record: &PassRecord| quantity.of(end, record);
-            let largest = run.passes.iter().map(of).fold(0.0, f64::max);
-            let first = run.passes.iter().find(|record| of(record) > limit);
+            let passes = run.passes.iter().map(of).fold(0.0, f64::max);
+            // Heat is hardest between passes.
+            let of_day = |day: &DayExtremes| match quantity {
+                Limited::Force => day.largest_force(end),
+                Limited::Movement => day.movement(end),
+            };
+            let largest = run
+                .heat
+                .as_ref()
+                .map_or(passes, |heat| passes.max(of_day(&heat.all_days)));
+            let pass = run
+                .passes
+                .iter()
+                .find(|record| of(record) > limit)
+                .map(|record| record.pass);
+            let day = run
+                .days
+                .iter()
+                .find(|day| of_day(day) > limit)
+                .zip(run.heat.as_ref());
+            let day = day.map(|(day, heat)| day.day * heat.passes_per_day);
+            let first = pass.into_iter().chain(day).min();
+            let years = |pass| {
+                let listed = run.passes.iter().rfind(|record| record.pass <= pass)?;
+                Some(listed.years? * pass as f64 / listed.pass as f64)
+            };
             let error = match quantity {
                 Limited::Force => run.error_estimate.relative,
                 Limited::Movement => run.error_estimate.parts.movement,
@@ -152,9 +182,9 @@ impl Limits {
                 quantity,
                 limit,
                 largest,
-                reached_after: first.map(|record| Reached {
-                    pass: record.pass,
-                    years: record.years,
+                reached_after: first.map(|pass| Reached {
+                    pass,
+                    years: years(pass),
                 }),
                 doubtful: (largest - limit).abs() <= error * largest,
             }
@@ -165,21 +195,17 @@ impl Limits {
 
 impl std::fmt::Display for Verdict {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let end = self.end.name();
-        let (what, shown): (_, fn(f64) -> String) = match self.quantity {
-            Limited::Force => ("force on", |force| format!("{} N", rounded(force, 1))),
-            Limited::Movement => ("movement of", |moved| format!("{} mm", rounded(1e3 * moved, 4))),
-        };
-        let (limit, largest) = (shown(self.limit), shown(self.largest));
+        let (limit, largest) = (self.quantity.shown(self.limit), self.quantity.shown(self.largest));
+        let what = self.quantity.at(self.end);
         match self.reached_after {
             Some(Reached { pass, years }) => {
                 let time = years.map_or_else(String::new, |years| format!(", {}", super::after(years)));
                 write!(
                     f,
-                    "limit exceeded: {what} the {end} end above {limit} from pass {pass} on{time}; largest {largest}"
+                    "limit exceeded: {what} above {limit} from pass {pass} on{time}; largest {largest}"
                 )?;
             }
-            None => write!(f, "limit kept: {what} the {end} end at most {largest} of {limit}")?,
+            None => write!(f, "limit kept: {what} at most {largest} of {limit}")?,
         }
         if self.doubtful {
             write!(f, "; nearer to the limit than the estimated error")?;

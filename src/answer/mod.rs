@@ -1,6 +1,7 @@
 //! What a run gives, whether it can be true, and how wrong it may be.
 
 pub mod balance;
+mod cable_end;
 mod calendar;
 pub mod error_estimate;
 mod force_profile;
@@ -12,6 +13,7 @@ mod saturation;
 #[cfg(any(feature = "cli", feature = "plot"))]
 mod table_rows;
 
+pub use cable_end::CableEnd;
 pub use calendar::after;
 pub use force_profile::ForceProfile;
 pub use heat::{DayExtremes, DayPoint, HeatRecord, largest_range};

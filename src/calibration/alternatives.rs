@@ -61,6 +61,8 @@ pub fn alternatives<'a>(
     let last = fits.square(&found.fit);
     let before = fits.square(&plain).min(last);
     let known = (!found.fit.noise_estimated).then_some(1.0);
+    // Where an interval is open, what fits as well may lie so far away that the correction does not hold there.
+    let is_open = found.fit.estimates.iter().any(|estimate| !estimate.identifiable);
     let freedom = found.fit.degrees_of_freedom - 1.0 - (found.fit.residuals.len() - rows.len()) as f64;
     let mut best = [None, None];
     for (place, quantity) in [Quantity::Drift, Quantity::ZeroOffset].into_iter().enumerate() {
@@ -84,7 +86,7 @@ pub fn alternatives<'a>(
             let Some(mut chance) = probability(before, &fit) else {
                 continue;
             };
-            if chance < WORTH_ASKING
+            if (chance < WORTH_ASKING || is_open)
                 && let Some(finer) = fits.finally(error, fit.values())?
                 && let Some(finer_chance) = probability(last, &finer)
             {

@@ -1,11 +1,10 @@
 //! From the final fit to what the user reads.
 
-use calibrate::{Bootstrap, BootstrapOptions, CalibrationError, Estimate, Fit, Loss, Model, Warning};
+use calibrate::{Bootstrap, BootstrapOptions, Estimate, Fit, Loss, Warning};
 
 use super::ground;
 use super::judgement::judge;
 use super::meshes::{Final, MESH_SHIFT};
-use super::mistakes::mistakes;
 use super::model::SeriesModel;
 use super::problem::Problem;
 use super::result::{
@@ -14,12 +13,12 @@ use super::result::{
 use crate::Error;
 use crate::readings::Measured;
 
-pub fn answer(problem: &Problem<'_>, found: &Final) -> Result<Calibrated, Error> {
+pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Calibrated, Error> {
     let fit = &found.fit;
     let model_error = model_error(found);
     let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
     let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
-    let judgement = judge(problem, found, mistakes(problem, &predicted_by_scene(problem)?))?;
+    let judgement = judge(problem, found, mistakes)?;
     let suspicious = judgement.lack_of_fit.suspicious;
     let assumptions = ground::assumption(problem, found)?.into_iter().collect();
     let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());
@@ -60,13 +59,6 @@ fn model_error(found: &Final) -> ModelErrorEstimate {
         },
         standard_errors: found.mesh.shift.iter().map(|shift| 0.5 * shift.abs()).collect(),
     }
-}
-
-/// What the scenes' own values predict, on the coarsest mesh.
-fn predicted_by_scene(problem: &Problem<'_>) -> Result<Vec<f64>, Error> {
-    let values = problem.scene_values();
-    let predicted = problem.model(0, None).predict(problem.of_model(&values));
-    Ok(predicted.map_err(|source| CalibrationError::NoFeasibleStart { starts: 1, source })?)
 }
 
 fn warnings(

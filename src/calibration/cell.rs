@@ -5,7 +5,9 @@ use cable_dem::{End, PassOutcome};
 #[cfg(feature = "plot")]
 use crate::PassRecord;
 use crate::answer::{ForceProfile, Stage};
-use crate::readings::{Measured, Place, Readings};
+#[cfg(feature = "plot")]
+use crate::readings::Readings;
+use crate::readings::{Measured, Place};
 use crate::{Error, Scene};
 
 /// An end of the cable.
@@ -123,15 +125,15 @@ impl Observed {
             Measured::Movement(Place::Natural) => Ok(Self::Movement(CellEnd::moving(scene)?)),
             Measured::Movement(Place::Upstream) => Ok(Self::Movement(CellEnd::Upstream)),
             Measured::Movement(Place::Downstream) => Ok(Self::Movement(CellEnd::Downstream)),
-            Measured::Movement(Place::At(place)) if place == 0.0 => Ok(Self::Movement(CellEnd::Upstream)),
-            Measured::Movement(Place::At(place)) if place == length => {
-                Ok(Self::Movement(CellEnd::Downstream))
+            Measured::Movement(Place::At(place)) => {
+                let ends = [(0.0, CellEnd::Upstream), (length, CellEnd::Downstream)];
+                let end = ends.into_iter().find(|(x, _)| *x == place);
+                end.map(|(_, end)| Self::Movement(end)).ok_or(Error::Unfit {
+                    key: "data",
+                    found: "a movement between the ends",
+                    reason: "movements are those of an end".into(),
+                })
             }
-            Measured::Movement(Place::At(_)) => Err(Error::Unfit {
-                key: "data",
-                found: "a movement between the ends",
-                reason: "movements are those of an end".into(),
-            }),
             Measured::Strain(Place::At(place)) => Ok(Self::StrainAt(at(place)?)),
             Measured::Strain(Place::Upstream) => Ok(Self::StrainAt(0.0)),
             Measured::Strain(Place::Downstream) => Ok(Self::StrainAt(length)),

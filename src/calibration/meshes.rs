@@ -43,12 +43,12 @@ impl MeshChoice {
     }
 }
 
-/// Fits with at most `limit` model runs.
-pub fn fit(problem: &Problem<'_>, limit: usize) -> Result<Final, Error> {
-    let (mesh, mut evaluations) = find_level(problem, limit)?;
+/// Fits with at most `limit` model runs, with intervals of this kind.
+pub fn fit(problem: &Problem<'_>, limit: usize, profiles: Profiles) -> Result<Final, Error> {
+    let (mesh, mut evaluations) = find_level(problem, limit, profiles)?;
     let model = problem.model(mesh.level, mesh.correction());
     let effort = Effort {
-        profiles: Profiles::All,
+        profiles,
         tolerance: TOLERANCE,
         runs: limit.saturating_sub(evaluations),
     };
@@ -69,7 +69,7 @@ pub fn fit(problem: &Problem<'_>, limit: usize) -> Result<Final, Error> {
 }
 
 /// The coarsest level that moves the parameters hardly away from those of the level below, and the model runs that it took.
-fn find_level(problem: &Problem<'_>, limit: usize) -> Result<(MeshChoice, usize), Error> {
+fn find_level(problem: &Problem<'_>, limit: usize, wanted: Profiles) -> Result<(MeshChoice, usize), Error> {
     let mut evaluations = 0;
     let mut level = 0;
     let mut start = None;
@@ -79,7 +79,7 @@ fn find_level(problem: &Problem<'_>, limit: usize) -> Result<(MeshChoice, usize)
         let effort = Effort {
             // What is learned on coarse meshes costs least: there the intervals are explored too.
             profiles: if level < FIRST_LEVEL {
-                Profiles::All
+                wanted
             } else {
                 Profiles::None
             },

@@ -1,16 +1,27 @@
 //! Mistakes of sign and unit: forces that no friction explains, but a sign or a thousand would.
 
+use calibrate::{CalibrationError, Model};
+
 use super::cell::Observed;
 use super::problem::Problem;
 use super::terms::cells;
+use crate::Error;
 
 /// Share of the forces of one sign that makes it the sign of all: a few near zero may have either by noise.
 const NEARLY_ALL: f64 = 0.9;
 /// Ratios of measured to expected force that mean a thousand: from 0.03 to 1, friction moves the force by less than 30.
 const THOUSAND: (f64, f64) = (1e3 / 12.0, 12e3);
 
-/// What looks mistaken, where the scenes' own values predict `expected`.
-pub fn mistakes(problem: &Problem<'_>, expected: &[f64]) -> Vec<String> {
+/// What the scenes' own values predict, on the coarsest mesh.
+fn predicted_by_scene(problem: &Problem<'_>) -> Result<Vec<f64>, Error> {
+    let values = problem.scene_values();
+    let predicted = problem.model(0, None).predict(problem.of_model(&values));
+    Ok(predicted.map_err(|source| CalibrationError::NoFeasibleStart { starts: 1, source })?)
+}
+
+/// What looks mistaken beside what the scenes' own values predict.
+pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
+    let expected = &predicted_by_scene(problem)?;
     let measured: Vec<f64> = problem
         .series
         .iter()
@@ -55,5 +66,5 @@ pub fn mistakes(problem: &Problem<'_>, expected: &[f64]) -> Vec<String> {
             ));
         }
     }
-    mistakes
+    Ok(mistakes)
 }

@@ -31,7 +31,7 @@ mod terms;
 mod unknown;
 mod watch;
 
-use ::calibrate::Options;
+use ::calibrate::{Options, Profiles};
 
 pub use ::calibrate::{BootstrapOptions, CalibrationError, Loss};
 #[cfg(feature = "plot")]
@@ -92,9 +92,28 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
         watch: &watch,
         memory: &model::Memory::default(),
     };
-    let found = meshes::fit(&problem, limit).and_then(|found| answer::answer(&problem, &found));
+    let answer = answer(&problem, limit);
     if watch.is_stopped() {
         return Err(Error::Stopped);
     }
-    found
+    answer
+}
+
+fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, Error> {
+    let mistakes = mistakes::mistakes(problem)?;
+    // What follows from a wrong sign or unit is not worth intervals.
+    let profiles = if mistakes.is_empty() {
+        Profiles::All
+    } else {
+        Profiles::None
+    };
+    match meshes::fit(problem, limit, profiles) {
+        Ok(found) => answer::answer(problem, &found, mistakes),
+        Err(Error::Calibration(_)) if !mistakes.is_empty() => Err(Error::Unfit {
+            key: "data",
+            found: "readings without any fit",
+            reason: mistakes.join("; ").into(),
+        }),
+        Err(error) => Err(error),
+    }
 }

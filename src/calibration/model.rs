@@ -51,6 +51,13 @@ pub struct SeriesModel {
 
 impl SeriesModel {
     pub fn new(series: &Series<'_>) -> Result<Self, Error> {
+        if series.scene.warming().is_some() {
+            return Err(Error::Unfit {
+                key: "heat",
+                found: "a heated cable",
+                reason: "a fit follows passes, not days of heat: leave [heat] out, and readings at which the cable was warm".into(),
+            });
+        }
         let mut scene = series.scene.clone();
         let observe =
             |reading: &crate::Reading| Ok((reading.passes, Observed::of(series.scene, reading.measured)?));

@@ -78,14 +78,17 @@ pub fn cells(series: &[Series<'_>], models: &[SeriesModel]) -> Vec<Cell> {
 impl Cell {
     /// The name of its error, with the series and the place where there are several.
     pub fn name(&self, quantity: Quantity, series: usize) -> String {
-        let mut name = quantity.to_string();
-        if series > 1 {
-            name += &format!("_{}", self.series + 1);
-        }
-        if self.shares {
-            name += &format!("_{}", self.observed.place().replace(' ', ""));
-        }
-        name
+        let series = if series > 1 {
+            format!("_{}", self.series + 1)
+        } else {
+            String::new()
+        };
+        let place = if self.shares {
+            format!("_{}", self.observed.place().replace(' ', ""))
+        } else {
+            String::new()
+        };
+        format!("{quantity}{series}{place}")
     }
 }
 

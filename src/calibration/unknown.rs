@@ -1,10 +1,11 @@
 //! What can be fitted, and between which bounds.
 
 use std::fmt;
+use std::str::FromStr;
 
 use calibrate::{CalibrationError, Parameter, Prior, Scale};
 
-use crate::scene::{FrictionLaw, Scene, words};
+use crate::scene::{FrictionLaw, Scene, UnknownWord, words};
 
 /// A quantity that can be fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -113,6 +114,20 @@ impl Unknown {
             Some(prior) => parameter.with_prior(prior),
             None => Ok(parameter),
         }
+    }
+}
+
+/// As it is printed: a quantity's name, or one with the number of its series, from 1.
+impl FromStr for Unknown {
+    type Err = UnknownWord;
+
+    fn from_str(text: &str) -> Result<Self, UnknownWord> {
+        if let Some((quantity, number)) = text.rsplit_once('_')
+            && let (Ok(quantity), Ok(number @ 1..)) = (quantity.parse(), number.parse::<usize>())
+        {
+            return Ok(Self::of(quantity, number - 1));
+        }
+        text.parse().map(Self::shared)
     }
 }
 

@@ -9,7 +9,7 @@ use super::readings::ReadArguments;
 use super::shared::{Input, OutputArguments, SceneArguments};
 use super::terminal;
 use crate::calibration::{
-    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Quantity, Unknown,
+    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Series, Unknown,
 };
 use crate::output::Kind;
 use crate::scene::{Dimension, FrictionLaw};
@@ -18,18 +18,34 @@ use crate::shown::{ROWS, percent};
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
   creepage calibrate my-duct.toml --data forces.csv
-  creepage calibrate my-duct.toml --data forces.csv --fit dynamic_coefficient,shape_factor --json")]
+  creepage calibrate my-duct.toml --data cell.csv --unit kN --fit dynamic_coefficient,shape_factor,drift --json
+  creepage calibrate --scene-data upper.toml=upper.csv --scene-data lower.toml=lower.csv \\
+    --fit dynamic_coefficient_1,dynamic_coefficient_2,ground_stiffness")]
 pub struct Arguments {
-    #[command(flatten)]
-    scene: SceneArguments,
+    /// Scene file (TOML)
+    #[arg(required_unless_present = "scene_data", requires = "data")]
+    scene: Option<PathBuf>,
+    /// Override a key of every scene, such as friction.dynamic_coefficient=0.3; a number without a unit is SI; may be repeated
+    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    set: Vec<String>,
     /// Readings after passes: a table (text or .xlsx) with columns such as pass,force_n[,sigma_n] or `Pass;Force [kN]`. Forces are those on
     /// the held end (the downstream one if both are), unless a column says its end
-    #[arg(long, value_name = "FILE")]
-    data: PathBuf,
-    /// What to fit: dynamic_coefficient, shape_factor, ground_stiffness (how many times stiffer than in the scene). Default:
+    #[arg(long, value_name = "FILE", requires = "scene")]
+    data: Option<PathBuf>,
+    /// A scene and its readings, fitted jointly with the others; may be repeated
+    #[arg(long, value_name = "SCENE=FILE", value_parser = scene_and_data)]
+    scene_data: Vec<(PathBuf, PathBuf)>,
+    /// What to fit: dynamic_coefficient, shape_factor, ground_stiffness (how many times stiffer than in the scene); of every load cell
+    /// zero_offset, drift. Scenes share what has no number: shape_factor_2 is that of the second. Default:
     /// dynamic_coefficient,shape_factor (only the first with Coulomb's law)
-    #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = |text: &str| text.trim().parse::<Quantity>())]
-    fit: Vec<Quantity>,
+    #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = |text: &str| text.trim().parse::<Unknown>())]
+    fit: Vec<Unknown>,
+    /// Standard deviation of a load cell's zero, where it is fitted. Default: a quarter of the largest force
+    #[arg(long, value_name = "FORCE", value_parser = positive_force)]
+    zero_offset_sigma: Option<f64>,
+    /// Standard deviation of its drift per pass, where it is fitted. Default: a quarter of the largest force over all passes
+    #[arg(long, value_name = "FORCE", value_parser = positive_force)]
+    drift_sigma: Option<f64>,
     /// Measured deflection under the first vehicle, "115 um"; also fits ground_stiffness
     #[arg(long, value_name = "LENGTH", requires = "deflection_sigma", value_parser = positive_length)]
     deflection: Option<f64>,
@@ -55,25 +71,51 @@ pub struct Arguments {
 }
 
 fn positive_length(text: &str) -> Result<f64, String> {
-    match Dimension::Length.parse_argument(text) {
+    positive(text, Dimension::Length, "length such as \"115 um\"")
+}
+
+fn positive_force(text: &str) -> Result<f64, String> {
+    positive(text, Dimension::Force, "force such as \"20 N\"")
+}
+
+fn positive(text: &str, dimension: Dimension, allowed: &str) -> Result<f64, String> {
+    match dimension.parse_argument(text) {
         Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
-        Ok(_) => Err(format!(
-            "found \"{text}\"; allowed: a finite, positive length such as \"115 um\""
-        )),
-        Err(error) => Err(format!(
-            "found \"{text}\": {error}; allowed: a length such as \"115 um\""
+        Ok(_) => Err(format!("found \"{text}\"; allowed: a finite, positive {allowed}")),
+        Err(error) => Err(format!("found \"{text}\": {error}; allowed: a {allowed}")),
+    }
+}
+
+fn scene_and_data(text: &str) -> Result<(PathBuf, PathBuf), String> {
+    match text.split_once('=') {
+        Some((scene, data)) if !scene.is_empty() && !data.is_empty() => Ok((scene.into(), data.into())),
+        _ => Err(format!(
+            "found `{text}`; allowed: SCENE=FILE, such as upper.toml=upper.csv"
         )),
     }
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
-    let input = Input::read(&arguments.scene)?;
-    let readings = arguments.reading.read(&arguments.data)?;
-    let read = [&*arguments.scene.scene, &arguments.data];
+    let first = arguments.scene.clone().zip(arguments.data.clone());
+    let files: Vec<(PathBuf, PathBuf)> = first.into_iter().chain(arguments.scene_data.clone()).collect();
+    let input = |(scene, _): &(PathBuf, PathBuf)| {
+        Input::read(&SceneArguments {
+            scene: scene.clone(),
+            set: arguments.set.clone(),
+        })
+    };
+    let inputs = files.iter().map(input).collect::<Result<Vec<_>, _>>()?;
+    let readings = files
+        .iter()
+        .map(|(_, data)| arguments.reading.read(data))
+        .collect::<Result<Vec<_>, _>>()?;
+    let read = files.iter().flat_map(|(scene, data)| [&**scene, &**data]);
     let destination = arguments.output.destination(Kind::Fit, read)?;
     let deflection = arguments.deflection.zip(arguments.deflection_sigma);
     let options = CalibrateOptions {
-        unknowns: arguments.fit.iter().copied().map(Unknown::shared).collect(),
+        unknowns: arguments.fit.clone(),
+        zero_offset_sigma: arguments.zero_offset_sigma,
+        drift_sigma: arguments.drift_sigma,
         deflection: deflection.map(|(value, sigma)| Deflection { value, sigma }),
         loss: if arguments.robust {
             Loss::TUKEY
@@ -88,11 +130,24 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         ..CalibrateOptions::default()
     };
     let answer = with_bar(MODEL_RUNS, arguments.max_evaluations, |progress| {
-        crate::calibrate(&input.scene, &readings, &CalibrateOptions { progress, ..options })
+        let pairs = inputs.iter().zip(&readings);
+        let series: Vec<Series<'_>> = pairs
+            .map(|(input, readings)| Series {
+                scene: &input.scene,
+                readings,
+            })
+            .collect();
+        crate::calibrate_jointly(&series, &CalibrateOptions { progress, ..options })
     });
-    let mut answer = input.located(answer)?;
-    let law = input.scene.friction.law;
-    input.warn(&mut answer.warnings);
+    let mut answer = match &inputs[..] {
+        [only] => only.located(answer)?,
+        // Which of the files is at fault is not known.
+        _ => answer?,
+    };
+    let law = inputs[0].scene.friction.law;
+    terminal::warn_all(&answer.warnings);
+    let slips: Vec<String> = inputs.into_iter().flat_map(|input| input.warnings).collect();
+    answer.warnings.splice(0..0, slips);
     destination.write(&answer, &answer.fit, || print(&answer, law))
 }
 
@@ -144,32 +199,7 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
             }
         }
     }
-    writeln!(
-        out,
-        "\n{:>9} {:>13} {:>11} {:>13}",
-        "pass", "measured, N", "fitted, N", "residual, N"
-    )?;
-    let stride = answer.fit.len().div_ceil(ROWS);
-    for row in answer.fit.iter().step_by(stride.max(1)) {
-        let [measured, fitted, residual] =
-            [row.value, row.fitted, row.residual].map(|value| match row.unit {
-                "N" => format!("{value:.1}"),
-                _ => format!("{value:.3e}"),
-            });
-        write!(out, "{:>9} {measured:>13} {fitted:>11} {residual:>13}", row.pass)?;
-        match row.measured {
-            "force" if !row.run.is_empty() => writeln!(out, "  run {}", row.run)?,
-            "force" => writeln!(out)?,
-            other => writeln!(out, "  {other}, {}", row.unit)?,
-        }
-    }
-    if stride > 1 {
-        writeln!(
-            out,
-            "(every {stride} of {} readings; --csv writes all)",
-            answer.fit.len()
-        )?;
-    }
+    print_readings(&mut out, answer)?;
     writeln!(out)?;
     let explained = answer
         .r_squared
@@ -179,20 +209,20 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         "residuals: {:.2} N rms{explained}, {:.1} degrees of freedom",
         answer.residual_rms_n, answer.degrees_of_freedom
     )?;
-    for assumption in &answer.assumptions {
-        writeln!(out, "assumed: {assumption}")?;
-    }
     let lack = &answer.lack_of_fit;
     let chance = |p: Option<f64>| p.map_or_else(|| "-".into(), |p| format!("{p:.2}"));
     writeln!(
         out,
-        "are they noise? by chance signs {:.2}, drift {}, zero {}, size {}: {}",
+        "whether they are noise: by chance signs {:.2}, drift {}, zero {}, size {}: {}",
         lack.p_runs,
         chance(lack.p_trend),
         chance(lack.p_offset),
         chance(lack.p_noise),
         if lack.suspicious { "SUSPICIOUS" } else { "yes" }
     )?;
+    for assumption in &answer.assumptions {
+        writeln!(out, "assumed: {assumption}")?;
+    }
     let shifts = answer.model_error.standard_errors.iter();
     writeln!(
         out,
@@ -209,6 +239,42 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         answer.evaluations,
         answer.method.intervals
     )?;
+    Ok(())
+}
+
+fn print_readings(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failure> {
+    writeln!(
+        out,
+        "\n{:>9} {:>13} {:>11} {:>13}",
+        "pass", "measured, N", "fitted, N", "residual, N"
+    )?;
+    let stride = answer.fit.len().div_ceil(ROWS);
+    for row in answer.fit.iter().step_by(stride.max(1)) {
+        let [measured, fitted, residual] =
+            [row.value, row.fitted, row.residual].map(|value| match row.unit {
+                "N" => format!("{value:.1}"),
+                _ => format!("{value:.3e}"),
+            });
+        write!(out, "{:>9} {measured:>13} {fitted:>11} {residual:>13}", row.pass)?;
+        match row.measured {
+            "force" => {}
+            other => write!(out, "  {other}, {}", row.unit)?,
+        }
+        if answer.titles.len() > 1 {
+            write!(out, "  scene {}", row.series)?;
+        }
+        if !row.run.is_empty() {
+            write!(out, "  run {}", terminal::line(&row.run))?;
+        }
+        writeln!(out)?;
+    }
+    if stride > 1 {
+        writeln!(
+            out,
+            "(every {stride} of {} readings; --csv writes all)",
+            answer.fit.len()
+        )?;
+    }
     Ok(())
 }
 

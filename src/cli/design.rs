@@ -3,33 +3,33 @@
 use std::io::Write;
 
 use super::failure::Failure;
+use super::limits::LimitArguments;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
-use crate::design::{Design, DesignError, DesignOptions, Limits, Place, design};
-use crate::scene::Dimension;
+use crate::design::{Design, DesignError, DesignOptions, Place, TradeOff, design};
+use crate::scene::{Dimension, End};
 use crate::shown::percent;
+use crate::{CableEnd, Limited};
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The answer is found by runs of the scene; the force is the largest on either end, during and after the passes, the movement \
-the largest of either end. A number without a unit is SI.
+    after_help = "The answer is found by runs of the scene; the force is the largest on an end, during and after the passes, the movement the \
+largest of an end. A free end's movement is limited only by its name. A number without a unit is SI. Where no stiffness keeps the limits, the \
+nearest is printed, with exit status 1.
 
 Examples:
   creepage design my-duct.toml --limit-force \"3 kN\"
   creepage design my-duct.toml --limit-force 300N --limit-movement 2mm --at upstream
+  creepage design my-duct.toml --limit-force downstream=2kN --limit-movement downstream=10mm
   creepage design my-duct.toml --limit-force \"3 kN\" --years 20 --trucks-per-day 800
   creepage design my-duct.toml --limit-force \"3 kN\" --at \"95 m\" --json"
 )]
 pub struct Arguments {
     #[command(flatten)]
     scene: TrafficArguments,
-    /// Largest force allowed on either end
-    #[arg(long, value_name = "FORCE", value_parser = |text: &str| Dimension::Force.parse_argument(text))]
-    limit_force: f64,
-    /// Largest movement allowed of either end
-    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| Dimension::Length.parse_argument(text))]
-    limit_movement: Option<f64>,
+    #[command(flatten)]
+    limits: LimitArguments,
     /// Where the spring is: upstream, downstream (at these ends), or a position for a clamp
     #[arg(long, value_name = "PLACE", default_value = "downstream", value_parser = place)]
     at: Place,
@@ -50,10 +50,22 @@ fn place(text: &str) -> Result<Place, String> {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
-    let limits = Limits {
-        force_n: arguments.limit_force,
-        movement_m: arguments.limit_movement,
-    };
+    // The end that is designed is held.
+    let mut ends = input.scene.ends;
+    match arguments.at {
+        Place::Upstream => ends.upstream = End::Fixed,
+        Place::Downstream => ends.downstream = End::Fixed,
+        Place::Clamp(_) => {}
+    }
+    let limits = arguments.limits.limits(ends)?;
+    if limits.all().next().is_none() {
+        return Err(Failure::Usage {
+            argument: "--limit-force",
+            found: "no limit of an end that is held".into(),
+            allowed: "a force or a movement, such as --limit-force 2kN or --limit-movement upstream=10mm"
+                .into(),
+        });
+    }
     let answer = with_bar(PERCENT, PER_MILLE, |progress| {
         let mut options = DesignOptions::new(arguments.at, limits);
         options.progress = progress;
@@ -63,7 +75,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Err(DesignError::Analysis(error)) => input.located(Err(error))?,
         answer => answer?,
     };
-    arguments.json.print(&answer, || print(&answer))
+    arguments.json.print(&answer, || print(&answer))?;
+    match answer.answer {
+        Some(_) => Ok(()),
+        None => Err(Failure::NotKept),
+    }
 }
 
 fn print(design: &Design) -> Result<(), Failure> {
@@ -79,44 +95,25 @@ fn print(design: &Design) -> Result<(), Failure> {
         terminal::line(&design.title),
         design.passes
     )?;
-    write!(out, "limits: {} N", design.limits.force_n)?;
-    if let Some(movement) = design.limits.movement_m {
-        write!(out, ", {} mm", 1e3 * movement)?;
-    }
-    writeln!(out, "\n")?;
-    writeln!(
-        out,
-        "{:>16} {:>14} {:>16} {:>14}",
-        "stiffness, N/m", "force, N", "movement, mm", "within limits"
-    )?;
-    for point in &design.curve {
+    let limit = |(end, quantity, limit): (CableEnd, Limited, f64)| {
+        format!("{} {}", quantity.at(end), quantity.shown(limit))
+    };
+    let limits: Vec<String> = design.limits.all().map(limit).collect();
+    writeln!(out, "limits: {}\n", limits.join("; "))?;
+    table(&mut out, design)?;
+    if let Some(nearest) = &design.nearest {
         writeln!(
             out,
-            "{:>16} {:>14.1} {:>16.4} {:>14}",
-            stiffness(design.place, point.stiffness_n_per_m),
-            point.force_n,
-            1e3 * point.movement_m,
-            if point.within_limits { "yes" } else { "no" }
+            "no stiffness stays within the limits; nearest: {}",
+            reached(design, nearest)
         )?;
     }
-    writeln!(out)?;
-    let (Some(answer), Some((from, to))) = (&design.answer, design.range_n_per_m) else {
-        writeln!(out, "no stiffness stays within the limits")?;
+    if let Some(answer) = &design.answer {
+        writeln!(out, "answer: {}", reached(design, answer))?;
+    }
+    let Some((from, to)) = design.range_n_per_m.filter(|_| design.answer.is_some()) else {
         return Ok(());
     };
-    let taken = stiffness(design.place, answer.stiffness_n_per_m);
-    let taken = match design.place {
-        _ if taken.parse::<f64>().is_err() => taken,
-        Place::Clamp(_) => format!("a clamp of {taken} N/m"),
-        _ => format!("a spring of {taken} N/m"),
-    };
-    writeln!(
-        out,
-        "answer: {taken}; force {:.1} N, movement {:.4} mm, estimated error {}",
-        answer.force_n,
-        1e3 * answer.movement_m,
-        percent(answer.error_estimate)
-    )?;
     let softest = stiffness(design.place, Some(from));
     match to {
         None => writeln!(out, "within the limits: {softest} and everything stiffer")?,
@@ -137,4 +134,48 @@ fn stiffness(place: Place, value: Option<f64>) -> String {
         (Some(0.0), _) => "free".to_owned(),
         (Some(value), _) => format!("{value:.3e}"),
     }
+}
+
+/// Every stiffness that was computed.
+fn table(out: &mut impl Write, design: &Design) -> std::io::Result<()> {
+    writeln!(out, "{:>16} {:>23} {:>23}", "", "force, N", "movement, mm")?;
+    writeln!(
+        out,
+        "{:>16} {:>11} {:>11} {:>11} {:>11} {:>14}",
+        "stiffness, N/m", "upstream", "downstream", "upstream", "downstream", "within limits"
+    )?;
+    for point in &design.curve {
+        writeln!(
+            out,
+            "{:>16} {:>11.1} {:>11.1} {:>11.4} {:>11.4} {:>14}",
+            stiffness(design.place, point.stiffness_n_per_m),
+            point.upstream_force_n,
+            point.downstream_force_n,
+            1e3 * point.upstream_movement_m,
+            1e3 * point.downstream_movement_m,
+            if point.within_limits { "yes" } else { "no" }
+        )?;
+    }
+    writeln!(out)
+}
+
+/// A spring or a clamp, and what it makes of the limits.
+fn reached(design: &Design, point: &TradeOff) -> String {
+    let taken = stiffness(design.place, point.stiffness_n_per_m);
+    let taken = match design.place {
+        _ if taken.parse::<f64>().is_err() => taken,
+        Place::Clamp(_) => format!("a clamp of {taken} N/m"),
+        _ => format!("a spring of {taken} N/m"),
+    };
+    let of = |(end, quantity, limit): (CableEnd, Limited, f64)| {
+        let value = point.value(end, quantity);
+        let beside = match value / limit {
+            times if times > 1.0 => format!(", {times:.2} times its limit"),
+            _ => String::new(),
+        };
+        format!("{} {}{beside}", quantity.at(end), quantity.shown(value))
+    };
+    let all: Vec<String> = design.limits.all().map(of).collect();
+    let error = percent(point.error_estimate);
+    format!("{taken}; {}; estimated error {error}", all.join("; "))
 }

@@ -22,6 +22,7 @@ Examples:
   creepage sweep my-duct.toml --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out friction.csv
   creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary vehicles.0.load=10tf,15tf,20tf --out grid.parquet
   creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out map.csv --map map.svg
+  creepage sweep my-duct.toml --rows ducts.csv --out answers.csv
   creepage sweep my-duct.toml --vary \"friction.dynamic_coefficient=normal(0.25, 0.03)\" --samples 500 --out bands.csv"
 )]
 pub struct Arguments {
@@ -37,10 +38,14 @@ pub struct Arguments {
         long,
         verbatim_doc_comment,
         value_name = "KEY=VALUES",
-        required = true,
+        required_unless_present = "rows",
         allow_hyphen_values = true
     )]
     vary: Vec<String>,
+    /// A table with one row a duct (CSV or Parquet), its columns named as keys, with units or in SI; an empty cell leaves the scene's own
+    /// value, and a column `id` is carried over
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "samples"])]
+    rows: Option<PathBuf>,
     /// Table to write, FILE.csv or FILE.parquet
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
@@ -55,7 +60,7 @@ pub struct Arguments {
     threads: Option<u16>,
     /// Draw a map over two varied keys to this file (SVG)
     #[cfg(feature = "plot")]
-    #[arg(long, value_name = "FILE.svg")]
+    #[arg(long, value_name = "FILE.svg", conflicts_with = "rows")]
     map: Option<PathBuf>,
     /// Quantity shown by the map's colour
     #[cfg(feature = "plot")]
@@ -69,15 +74,19 @@ pub struct Arguments {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let file = arguments.scene.read()?;
+    let rows = arguments.rows.as_deref();
     let axes = arguments.vary.iter().map(|text| Axis::parse(text));
     let samples = Samples {
         count: arguments.samples.unwrap_or(0),
         seed: arguments.seed,
     };
-    let sweep = Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?;
+    let sweep = match rows {
+        Some(rows) => Sweep::of_rows(file, rows)?,
+        None => Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?,
+    };
     warn_of_slips(&sweep.file_at(0)?);
     let table = sweep.file_at(0)?.histogram();
-    let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
+    let read = [Some(&*arguments.scene.file.scene), table.as_deref(), rows];
     let mut files = arguments.force.files(read.into_iter().flatten());
     files.output(&arguments.out, Format::of(&arguments.out)?.kind())?;
     #[cfg(feature = "plot")]

@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::limits::{DesignError, Limits, Place};
+use super::limits::{DesignError, Place};
 use super::search::on_one_mesh;
 use super::trade_off::TradeOff;
-use crate::{Progress, Scene};
+use crate::{Limits, Progress, Scene};
 
 /// One way to hold the cable.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,7 +37,7 @@ pub fn compare(
         measure.check(&scene)?;
         let run = crate::run(&measure.place.held(&scene, measure.stiffness))?;
         let stated = measure.stiffness.is_finite().then_some(measure.stiffness);
-        Ok(TradeOff::of(&run, measure.place, stated, NO_LIMITS))
+        Ok(TradeOff::of(&run, measure.place, stated, &Limits::default()))
     };
     measures
         .par_iter()
@@ -49,11 +49,6 @@ pub fn compare(
         })
         .collect()
 }
-
-const NO_LIMITS: Limits = Limits {
-    force_n: f64::INFINITY,
-    movement_m: None,
-};
 
 impl Measure {
     fn check(&self, scene: &Scene) -> Result<(), DesignError> {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::scene::{End, Restraint};
-use crate::{Error, Progress, Scene};
+use crate::{Error, Limited, Limits, Progress, Scene};
 
 /// Where a spring is put.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -15,15 +15,6 @@ pub enum Place {
     Downstream,
     /// A clamp at this position along the duct \[m\], beside what is in the scene.
     Clamp(f64),
-}
-
-/// What must not be exceeded.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct Limits {
-    /// Largest force on an end \[N\], positive.
-    pub force_n: f64,
-    /// Largest displacement of an end \[m\], positive, if it is limited.
-    pub movement_m: Option<f64>,
 }
 
 /// How to design.
@@ -71,14 +62,14 @@ pub enum DesignError {
         "the {what} crosses its limit {crossings} times as the stiffness grows: there is no single range of stiffness"
     )]
     NotMonotone {
-        /// Force or movement.
-        what: &'static str,
+        /// What is limited.
+        what: String,
         /// How often.
         crossings: usize,
     },
     /// The stiffness at the limit of force or movement was not found, and why.
     #[error("the stiffness at the limit of {0} was not found")]
-    Search(&'static str, #[source] Box<dyn std::error::Error + Send + Sync>),
+    Search(String, #[source] Box<dyn std::error::Error + Send + Sync>),
 }
 
 impl DesignError {
@@ -91,12 +82,27 @@ impl DesignError {
     }
 }
 
-impl Limits {
-    pub(super) fn check(&self) -> Result<(), DesignError> {
-        positive("limit of force", self.force_n)?;
-        self.movement_m
-            .map_or(Ok(()), |movement| positive("limit of movement", movement))
+/// Refuses limits that have no meaning, and none at all.
+pub(super) fn check(limits: &Limits) -> Result<(), DesignError> {
+    let mut none = true;
+    for (_, quantity, limit) in limits.all() {
+        none = false;
+        positive(
+            match quantity {
+                Limited::Force => "limit of force",
+                Limited::Movement => "limit of movement",
+            },
+            limit,
+        )?;
     }
+    if none {
+        return Err(DesignError::Invalid {
+            name: "number of limits",
+            found: 0.0,
+            allowed: "one or more",
+        });
+    }
+    Ok(())
 }
 
 fn positive(name: &'static str, found: f64) -> Result<(), DesignError> {

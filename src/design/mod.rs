@@ -5,8 +5,9 @@
 //! crossed the stiffness is found by Brent's method on its logarithm, each step a run of the scene (R. P. Brent, Algorithms for
 //! Minimization without Derivatives, 1973, chapter 4). Every point of the answer is a run.
 //!
-//! Force is the largest on either end, during and after the passes; movement is the largest displacement of either end after a
-//! pass. Both follow from all listed passes.
+//! Force is the largest on an end, during and after the passes; movement is the largest displacement of an end after a pass. Both follow
+//! from all listed passes, and each may be limited at either end. Where no stiffness keeps the limits, the nearest is that whose worst limit
+//! is exceeded by the smallest factor.
 //!
 //! All runs are made on one mesh, that which the stiffest end needs; the error that it leaves is stated at every point.
 //!
@@ -20,7 +21,8 @@ mod limits;
 mod search;
 mod trade_off;
 
+pub use crate::Limits;
 pub use compare::{Measure, compare};
-pub use limits::{DesignError, DesignOptions, Limits, Place};
+pub use limits::{DesignError, DesignOptions, Place};
 pub use search::design;
 pub use trade_off::{Design, TradeOff};

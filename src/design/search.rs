@@ -7,7 +7,7 @@ use argmin::core::{CostFunction, Executor};
 use argmin::solver::brent::BrentRoot;
 use rayon::prelude::*;
 
-use super::limits::{DesignError, DesignOptions, Place};
+use super::limits::{self, DesignError, DesignOptions, Place};
 use super::trade_off::{Design, Limit, TradeOff, limited};
 use crate::{Error, Progress, RunOptions, Scene};
 
@@ -19,6 +19,9 @@ const ACCURACY: f64 = 0.01;
 const MOST_STEPS: u64 = 40;
 /// Runs that finding the stiffness at a limit takes, about: only the progress depends on it.
 const USUAL_STEPS: usize = 8;
+/// Steps to the stiffness nearest to limits that none keeps, to 8 % of it; and the golden section.
+const NEAREST_STEPS: usize = 7;
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Stiffnesses that differ by less than this share are the same: a logarithm there and back.
 const SAME: f64 = 1e-9;
 
@@ -30,7 +33,7 @@ const SAME: f64 = 1e-9;
 ///
 /// let mut scene = Scene::from_file("examples/scenes/full-scale-upper.toml")?;
 /// scene.traffic.passes = 2;
-/// let limits = Limits { force_n: 100.0, movement_m: None };
+/// let limits = Limits::both(Some(100.0), None);
 /// let design = design(&scene, &DesignOptions::new(Place::Downstream, limits))?;
 /// assert!(design.answer.is_some_and(|answer| answer.force_n <= 100.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -40,7 +43,7 @@ const SAME: f64 = 1e-9;
 ///
 /// [`DesignError`] where limits or place have no meaning, a run fails, or a limit is crossed more than once.
 pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, DesignError> {
-    options.limits.check()?;
+    limits::check(&options.limits)?;
     options.place.check(scene)?;
     let scene = on_one_mesh(scene, options.place, options.progress)?;
     let own = scene.cable.axial_stiffness / scene.duct.length;
@@ -51,7 +54,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         _ => Some(f64::INFINITY),
     };
     let stiffnesses: Vec<f64> = [0.0].into_iter().chain(grid).chain(last).collect();
-    let limits = limited(options.limits);
+    let limits = limited(&options.limits);
     let search = Search {
         scene: &scene,
         options,
@@ -75,6 +78,12 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     let answer = range
         .map(|range| search.run(choice(options.place, range)))
         .transpose()?;
+    // Between two stiffnesses that keep a limit every other does; the run has the last word.
+    let answer = answer.filter(|answer| answer.within_limits);
+    let nearest = match answer {
+        Some(_) => None,
+        None => Some(search.nearest(&stiffnesses, &curve)?),
+    };
     let mut points = search.points.into_inner().unwrap_or_default();
     let key = |point: &TradeOff| point.stiffness_n_per_m.unwrap_or(f64::INFINITY);
     points.sort_by(|a, b| key(a).total_cmp(&key(b)));
@@ -83,9 +92,11 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         place: options.place,
         passes: scene.traffic.passes,
         limits: options.limits,
-        range_n_per_m: range.map(|(from, to)| (from, to.is_finite().then_some(to))),
-        // Between two stiffnesses that keep a limit every other does; the run has the last word.
-        answer: answer.filter(|answer| answer.within_limits),
+        range_n_per_m: range
+            .filter(|(from, _)| from.is_finite())
+            .map(|(from, to)| (from, to.is_finite().then_some(to))),
+        answer,
+        nearest,
         curve: points,
     })
 }
@@ -144,12 +155,40 @@ impl Search<'_> {
         }
         let DesignOptions { place, limits, .. } = *self.options;
         let run = crate::run(&place.held(self.scene, stiffness))?;
-        let point = TradeOff::of(&run, place, stated, limits);
+        let point = TradeOff::of(&run, place, stated, &limits);
         self.points().push(point.clone());
         let runs = self.runs.fetch_add(1, Ordering::Relaxed) + 1;
         let share = runs as f64 / self.expected_runs as f64;
         self.options.progress.report(share.min(1.0))?;
         Ok(point)
+    }
+
+    /// The stiffness whose worst limit is exceeded by the smallest factor: by golden section between the neighbours of the best one.
+    fn nearest(&self, stiffnesses: &[f64], curve: &[TradeOff]) -> Result<TradeOff, Error> {
+        let excess = |point: &TradeOff| point.excess(&self.options.limits);
+        let nearer = |a: &TradeOff, b: &TradeOff| excess(a).total_cmp(&excess(b));
+        let best = (0..curve.len())
+            .min_by(|&a, &b| nearer(&curve[a], &curve[b]))
+            .unwrap_or(0);
+        let last = curve.len() - 1;
+        let (below, above) = (
+            stiffnesses[best.saturating_sub(1)],
+            stiffnesses[(best + 1).min(last)],
+        );
+        if below > 0.0 && above.is_finite() {
+            let (mut from, mut to) = (below.ln(), above.ln());
+            for _ in 0..NEAREST_STEPS {
+                let (a, b) = (to - GOLDEN * (to - from), from + GOLDEN * (to - from));
+                if excess(&self.run(a.exp())?) < excess(&self.run(b.exp())?) {
+                    to = b;
+                } else {
+                    from = a;
+                }
+            }
+        }
+        let points = self.points();
+        let nearest = points.iter().min_by(|a, b| nearer(a, b));
+        Ok(nearest.unwrap_or(&curve[best]).clone())
     }
 
     /// The least and the largest stiffness within one limit; `None` where there is none.
@@ -172,7 +211,7 @@ impl Search<'_> {
                 }))
             }
             _ => Err(DesignError::NotMonotone {
-                what: limit.0,
+                what: limit.name(),
                 crossings: crossings.len(),
             }),
         }
@@ -185,7 +224,7 @@ impl Search<'_> {
             // Beyond the ends of the curve a stiffness means as little as none, or as much as a fixed end.
             return Ok(safe);
         }
-        let failed = |error: argmin::core::Error| DesignError::Search(limit.0, error.to_string().into());
+        let failed = |error: argmin::core::Error| DesignError::Search(limit.name(), error.to_string().into());
         let solver = BrentRoot::new(low.ln(), high.ln(), ACCURACY);
         Executor::new(Excess(self, limit), solver)
             .configure(|state| state.param(low.ln()).max_iters(MOST_STEPS))

@@ -14,6 +14,7 @@ mod columns;
 mod error;
 mod grid;
 mod header;
+mod layout;
 mod list;
 mod number;
 mod options;

@@ -1,9 +1,10 @@
 //! Rows as readings, each with its line.
 
-use super::columns::{Columns, LONGEST_CELL, Values, columns};
+use super::columns::columns;
 use super::error::DataError;
 use super::grid::{Grid, Row};
 use super::header::{factor, strain_factor};
+use super::layout::{Columns, LONGEST_CELL, Values};
 use super::number::{Sign, decimal_sign, is_unusable, number};
 use super::options::{Decimal, ReadOptions};
 use super::reading::{Measured, Place, Reading};

@@ -4,7 +4,7 @@ use super::error::DataError;
 use super::grid::Row;
 use crate::shown::shortened;
 
-use super::columns::LONGEST_CELL;
+use super::layout::LONGEST_CELL;
 
 /// Refuses rows that are not in the order of their times: vehicles are counted from row to row.
 pub fn check_order(file: &str, rows: &[Row], place: usize, run: Option<usize>) -> Result<(), DataError> {

@@ -17,12 +17,20 @@ const READINGS: usize = 300;
 pub fn force(html: &mut Html, report: &Report) {
     html.raw("<div class=\"figures\">");
     let measured = report.agreement.as_ref().map_or(String::new(), measured);
-    let caption = format!("Force after each pass, compression positive. A free end carries none.{measured}");
+    let when = if report.run.heat.is_some() {
+        ", on the first day"
+    } else {
+        ""
+    };
+    let caption =
+        format!("Force after each pass{when}, compression positive. A free end carries none.{measured}");
     figure(html, [over_passes(report)], &caption);
     let caption = "Force along the cable after the passes named, compression positive.";
-    figure(html, [along(report)], caption);
-    let caption = "Displacement of the cable’s ends, positive toward growing x, downstream.";
-    figure(html, [movement(report)], caption);
+    if !report.run.stages.is_empty() {
+        figure(html, [along(report)], caption);
+    }
+    let caption = format!("Displacement of the cable’s ends{when}, positive toward growing x, downstream.");
+    figure(html, [movement(report)], &caption);
     passes(html, report);
     html.raw("</div>");
     for clamp in &report.run.restraints {
@@ -51,14 +59,15 @@ fn measured(agreement: &Agreement) -> String {
 fn over_passes(report: &Report) -> Chart {
     let run = &report.run;
     let readings = report.agreement.as_ref().map_or(&[][..], |a| &a.readings);
-    let computed = run.passes.iter().map(|record| record.pass);
+    let drawn = drawn(report);
+    let computed = drawn.iter().map(|record| record.pass);
     let last = computed
         .chain(readings.iter().map(|reading| reading.passes))
         .max();
     let along = Passes::new(&report.scene.traffic, last.unwrap_or(1));
     let mut chart = Chart::new(along.title("Force"), along.axis(), Axis::linear("force, N"));
     let line = |name: &str, look, value: fn(&PassRecord) -> f64| {
-        Series::line(name, along.series(&run.passes, value)).look(look)
+        Series::line(name, along.series(drawn, value)).look(look)
     };
     let ends = &report.scene.ends;
     if ends.downstream != End::Free {
@@ -104,8 +113,18 @@ fn along(report: &Report) -> Chart {
     })
 }
 
-fn movement(report: &Report) -> Chart {
+/// The passes that a line can follow: of a heated cable those of the first day.
+fn drawn(report: &Report) -> &[PassRecord] {
     let passes = &report.run.passes;
+    let heat = report.run.heat.as_ref();
+    let count = heat.map_or(passes.len(), |heat| {
+        passes.partition_point(|record| record.pass <= heat.passes_per_day)
+    });
+    &passes[..count]
+}
+
+fn movement(report: &Report) -> Chart {
+    let passes = drawn(report);
     let last = passes.last().map_or(1, |record| record.pass);
     let along = Passes::new(&report.scene.traffic, last);
     let upstream = along.series(passes, |record| MILLI * record.upstream_displacement_m);

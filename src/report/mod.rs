@@ -25,6 +25,7 @@ mod content;
 mod figure;
 mod force;
 mod friction;
+mod heat;
 mod holding;
 mod html;
 mod measures;

@@ -4,6 +4,7 @@ use super::cause::cause;
 use super::content::Report;
 use super::figure::{MICRO, MILLI};
 use super::force::force;
+use super::heat::heat;
 use super::holding::holding;
 use super::html::{Html, escaped};
 use super::measures::pressed_end;
@@ -11,19 +12,23 @@ use super::plan::plan;
 use super::quantity::count;
 use super::words;
 use crate::PassRecord;
-use crate::answer::after;
+use crate::answer::{CableEnd, DayExtremes, after};
 use crate::design::Place;
 use crate::figure::dark_style;
 use crate::shown::{percent, rounded};
 
 const STYLE: &str = include_str!("style.css");
 
+/// Only of a cable that is heated.
+const HEAT: &str = "Heat, day by day";
+
 type Section = (&'static str, fn(&mut Html, &Report));
 
-const SECTIONS: [Section; 7] = [
+const SECTIONS: [Section; 8] = [
     ("Warnings", warnings),
     ("Scene", scene),
     ("Force and movement", force),
+    (HEAT, heat),
     ("Why the cable creeps", cause),
     ("Ways to hold the cable", holding),
     ("How it was computed", plan),
@@ -54,6 +59,9 @@ impl Report {
         html.raw("</head>\n<body>\n<main>");
         headline(&mut html, self);
         for (title, write) in SECTIONS {
+            if title == HEAT && self.run.heat.is_none() {
+                continue;
+            }
             html.raw("<section>");
             html.element("h2", title);
             write(&mut html, self);
@@ -96,11 +104,23 @@ fn headline(html: &mut Html, report: &Report) {
             &reached,
             &format!("{time}of {passes} computed"),
         );
+    } else if let Some(heat) = &run.heat {
+        let (force, place) = hardest(&heat.all_days);
+        let note = format!("{place}, on all {} days", count(heat.all_days.day));
+        html.headline("Largest force with heat", &newtons(force), &note);
     } else {
         let note = format!("{}, not levelled off after {passes} passes", place(force));
         html.headline("Force after the last pass", &newtons(force), &note);
     }
-    let (upstream, downstream) = (last.upstream_displacement_m, last.downstream_displacement_m);
+    let (upstream, downstream) = run.heat.as_ref().map_or(
+        (last.upstream_displacement_m, last.downstream_displacement_m),
+        |heat| {
+            (
+                heat.all_days.movement(CableEnd::Upstream),
+                heat.all_days.movement(CableEnd::Downstream),
+            )
+        },
+    );
     let (end, moved) = if upstream.abs() > downstream.abs() {
         ("upstream", upstream)
     } else {
@@ -131,6 +151,14 @@ fn answer(report: &Report, last: &PassRecord) -> String {
         };
         time.map_or(words.clone(), |time| format!("{words} ({time})"))
     };
+    if let Some(heat) = &report.run.heat {
+        let (force, place) = hardest(&heat.all_days);
+        return format!(
+            "Heat and traffic press with up to {} N {place} in {}.",
+            rounded(force, 1),
+            passes(last.pass)
+        );
+    }
     let (force, what) = pressed(report, last);
     match &report.run.saturation {
         Some(saturation) => format!(
@@ -144,6 +172,20 @@ fn answer(report: &Report, last: &PassRecord) -> String {
             rounded(force, 1)
         ),
     }
+}
+
+/// The force of days that is largest in size, and where it acts.
+fn hardest(days: &DayExtremes) -> (f64, &'static str) {
+    let forces = [
+        (days.downstream_max_n, "on the downstream end"),
+        (days.downstream_min_n, "on the downstream end, tension,"),
+        (days.upstream_max_n, "on the upstream end"),
+        (days.upstream_min_n, "on the upstream end, tension,"),
+    ];
+    let inside = (days.max_compression_n, "in the cable");
+    let none = forces.iter().all(|(force, _)| *force == 0.0);
+    let largest = forces.into_iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
+    largest.filter(|_| !none).unwrap_or(inside)
 }
 
 /// The force that matters most after a pass, and where it acts.
@@ -171,11 +213,16 @@ fn scene(html: &mut Html, report: &Report) {
     words::vehicles(html, &report.scene);
 }
 
-fn limits(html: &mut Html, _: &Report) {
-    html.paragraph(
-        "Heat (a loaded cable expands every day, and may press on its ends harder than creepage does), bends and slopes of the route, \
-         vehicles near the speed of the ground’s waves, and any change of the ground with time.",
-    );
+fn limits(html: &mut Html, report: &Report) {
+    let heat = if report.run.heat.is_some() {
+        "A swing of temperature over the seasons"
+    } else {
+        "Heat (a loaded cable expands every day, and may press on its ends harder than creepage does; the scene has no [heat])"
+    };
+    html.paragraph(&format!(
+        "{heat}, bends and changes of slope of the route, vehicles near the speed of the ground’s waves, and any change of the ground with \
+         time."
+    ));
     html.paragraph(
         "Method: K. Kashiro, K. Iwamura, T. Kamibayashi, T. Nagayama, H. Nishikubo, “Development of an Analysis Method for Power \
          Cable Creepage Phenomenon in the Duct”, Furukawa Review.",

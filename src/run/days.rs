@@ -4,20 +4,15 @@
 //! passes are not for it, and crate `cycle-jump` lives its days otherwise ([`cycle_jump::days`]). The number of real periods a day is
 //! doubled on a coarse mesh until twice as many change little; then meshes are refined as for every run.
 
-use cable_dem::{CableError, CableState, Statistics};
-use cycle_jump::Next;
-use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, live};
+use cable_dem::{CableError, Statistics};
 
-use super::locked_law::locked_law;
+use super::lived::{Lived, Living};
 use super::outlook::Work;
-use super::passes::{Passes, Simulation, Task, force_profile};
-use super::refine::{MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both, judge, mesh_reason};
-use crate::answer::error_estimate::{ErrorParts, Scale, Shares, VERIFIED};
-use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed, simulated};
-use crate::cable::{cable, traffic};
-use crate::ground::peak;
+use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both, judge, mesh_reason};
+use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED};
+use crate::ground::road;
 use crate::plan::{PassMethod, Plan};
-use crate::scene::{Heat, Scene, Warming};
+use crate::scene::{Heat, Scene};
 use crate::{Error, Progress};
 
 /// Real periods a day to begin with.
@@ -26,32 +21,15 @@ const FIRST_KNOTS: u64 = 24;
 const COARSER: usize = 2;
 /// What twice as many real periods a day change, times this, is the error of as many: it halves, or falls faster.
 const CAUTION: f64 = 2.0;
-/// Share of the tolerance that days with few real periods may take, and that of days without any.
+/// Share of the tolerance that days with few real periods may take.
 const SHARE: f64 = 0.5;
-const FROZEN_SHARE: f64 = 0.5;
-/// Up to so many passes a day all are simulated on a day with real ones.
-const FEW: u64 = 100;
-/// Typical errors of the forces on the levels of a mesh, below which none is stated, and what is left of the difference to the level
-/// below: measured on nine scenes up to level 3. From level 2 on, 12 nodes a depth, differences fall by a factor of 4 to 14.
+/// Typical errors of the forces with 3, 6, 12, … nodes a depth, below which none is stated, and what is left of the difference to a mesh
+/// half as fine: measured on nine scenes up to 24 nodes. From 12 on differences fall by a factor of 4 to 14.
 const TYPICAL: [f64; 4] = [5e-2, 1.2e-2, 1.5e-3, 4e-4];
+const COARSEST: f64 = 3.0;
 const RESOLVED: usize = 2;
 const LEFT: f64 = 0.4;
 const LEFT_UNRESOLVED: f64 = 2.0;
-const SECONDS_A_DAY: f64 = 86_400.0;
-
-/// Passes and days on one mesh.
-struct Lived {
-    passes: Passes,
-    days: Days,
-}
-
-/// How the days of a plan are lived.
-struct Living<'a> {
-    plan: &'a Plan<'a>,
-    heat: &'a Heat,
-    progress: Progress<'a>,
-    every_pass: bool,
-}
 
 /// Carries `plan`, whose scene has `heat`, out.
 pub fn solve(
@@ -111,20 +89,28 @@ impl Living<'_> {
         let mut level = self.first_level();
         let (knots, left) = self.knots(level, &mut statistics)?;
         error.temperature = left;
+        // How many meshes it takes is not known: each is half of what is left.
+        let mut parts = self.progress.part(FINDING, 1.0).halving();
+        let now = parts();
         let (mut below, mut finest) = both(
             || {
                 level
                     .checked_sub(1)
                     .map_or(Ok(None), |below| self.on_coarse(below, knots))
             },
-            || self.live(level, knots, true),
+            || self.live(level, knots, now),
         )?;
         loop {
             statistics += finest.passes.statistics;
             if let Some(coarse) = &below {
                 statistics += coarse.passes.statistics;
-                let share = if level < RESOLVED { LEFT_UNRESOLVED } else { LEFT };
-                let typical = Shares::both(TYPICAL[level.min(TYPICAL.len() - 1)]);
+                let fineness = self.fineness(level);
+                let share = if fineness < RESOLVED {
+                    LEFT_UNRESOLVED
+                } else {
+                    LEFT
+                };
+                let typical = Shares::both(TYPICAL[fineness]);
                 error.mesh = self.difference(&finest, coarse).times(share).max(typical);
             }
             let costly =
@@ -134,11 +120,11 @@ impl Living<'_> {
                 break;
             }
             level += 1;
-            let finer = self.live(level, knots, true)?;
+            let finer = self.live(level, knots, parts())?;
             below = Some(std::mem::replace(&mut finest, finer));
         }
         if below.is_none() || verify {
-            let finer = self.live(level + 1, knots, true)?;
+            let finer = self.live(level + 1, knots, parts())?;
             statistics += finer.passes.statistics;
             error.mesh = self.difference(&finest, &finer).times(VERIFIED);
             error.measured = true;
@@ -148,6 +134,7 @@ impl Living<'_> {
                 force: finest.days.surprise.0,
                 movement: finest.days.surprise.1,
             };
+        error.road = self.road_error(level, knots, &mut statistics)?;
         judge(&error, scene, warnings)?;
         let mesh = levels.mesh(level)?;
         Ok(Solved {
@@ -159,6 +146,29 @@ impl Living<'_> {
             statistics,
             random: None,
         })
+    }
+
+    /// Place in [`TYPICAL`] of the mesh of `level`.
+    fn fineness(&self, level: usize) -> usize {
+        let (spacing, _) = self.plan.levels.spacing(level);
+        let nodes = 1.001 * self.plan.scene.duct.depth / spacing;
+        ((nodes / COARSEST).log2() as usize).min(TYPICAL.len() - 1)
+    }
+
+    /// What an approach that the scene names leaves out, on `level`: the days once more with vehicles followed far enough.
+    fn road_error(&self, level: usize, knots: u64, statistics: &mut Statistics) -> Result<Shares, Error> {
+        let Plan { scene, ground, .. } = self.plan;
+        let enough = road::needed(scene, &ground.motions)?;
+        if scene.solver.approach.is_none_or(|approach| approach >= enough) {
+            return Ok(Shares::default());
+        }
+        let near = self.coarse(level, knots)?;
+        let mut scene: Scene = (*scene).clone();
+        scene.solver.approach = None;
+        let far = self.live_in(&scene, near.0, knots, Progress::default())?;
+        *statistics += near.1.passes.statistics;
+        *statistics += far.passes.statistics;
+        Ok(self.difference(&far, &near.1))
     }
 
     /// The level to begin with: the first whose typical error leaves room for the other parts.
@@ -177,7 +187,7 @@ impl Living<'_> {
         if self.plan.levels.mesh(level).is_err() {
             return Ok(None);
         }
-        match self.live(level, knots, false) {
+        match self.live(level, knots, Progress::default()) {
             Err(Error::Cable(CableError::CoarseMesh { .. })) => Ok(None),
             lived => lived.map(Some),
         }
@@ -190,7 +200,7 @@ impl Living<'_> {
                 return Ok((coarser, lived));
             }
         }
-        Ok((level, self.live(level, knots, false)?))
+        Ok((level, self.live(level, knots, Progress::default())?))
     }
 
     /// Real periods a day that are enough for `level`, found on a coarser one, and what they leave wrong.
@@ -202,9 +212,10 @@ impl Living<'_> {
         let allowed = Shares::both(SHARE * self.plan.scene.solver.tolerance);
         let mut knots = FIRST_KNOTS;
         let (level, mut fewer) = self.coarse(level, knots)?;
+        let mut parts = self.progress.part(0.0, FINDING).halving();
         *statistics += fewer.passes.statistics;
         loop {
-            let more = self.live(level, 2 * knots, false)?;
+            let more = self.live(level, 2 * knots, parts())?;
             *statistics += more.passes.statistics;
             let difference = self.difference(&more, &fewer);
             if difference.times(CAUTION).is_within(allowed) {
@@ -222,179 +233,4 @@ impl Living<'_> {
             fewer = more;
         }
     }
-
-    /// A day of the plan with `knots` real periods.
-    fn day(&self, knots: u64) -> Day {
-        let scene = self.plan.scene;
-        let passes = a_day(scene);
-        let per_kelvin = scene.cable.axial_stiffness * self.heat.expansion;
-        let force = |kelvin: f64| per_kelvin * (self.heat.offset + kelvin);
-        let heat = match &self.heat.warming {
-            Warming::Swing(swing) => DailyHeat::Cosine {
-                lowest: force(0.0),
-                highest: force(*swing),
-            },
-            Warming::Profile(points) => DailyHeat::Profile(
-                points
-                    .iter()
-                    .map(|(seconds, kelvin)| (seconds / SECONDS_A_DAY, force(*kelvin)))
-                    .collect(),
-            ),
-        };
-        let few = passes <= FEW || self.every_pass;
-        let period = if few { 1 } else { self.plan.period.len() };
-        Day {
-            passes,
-            period,
-            heat,
-            knots: if few { passes } else { knots },
-        }
-    }
-
-    /// All days on `level`, of which `knots` periods are real on some.
-    fn live(&self, level: usize, knots: u64, shown: bool) -> Result<Lived, Error> {
-        let Plan {
-            scene,
-            ground,
-            period,
-            levels,
-            ..
-        } = self.plan;
-        let mesh = levels.mesh(level)?;
-        let task = Task {
-            scene,
-            method: self.plan.choice.method.cable_method(),
-            motions: &ground.motions,
-            mesh,
-            stages: &[],
-            progress: if shown { self.progress } else { Progress::default() },
-        };
-        let mut simulation = Simulation::new(&task)?;
-        let day = self.day(knots);
-        let law = locked_law(&task, period, day.period)?;
-        let count = scene.traffic.passes;
-        let scale = Scale::new(scene.friction_limit(), peak(&ground.motions));
-        let days = count.div_ceil(day.passes);
-        let request = DaysRequest {
-            passes: count,
-            wanted: &simulated(&scene.traffic),
-            wanted_days: &listed(days),
-            tolerance: FROZEN_SHARE * scene.solver.tolerance,
-            least: (scale.force, scale.movement),
-            every_day: self.every_pass,
-        };
-        let vehicles = &period.vehicles;
-        // Where every pass is simulated the vehicles come in their own order.
-        let mut order = traffic(scene, scene.traffic.order.clone())?;
-        let cable = cable(scene)?;
-        let lived = live(
-            &cable,
-            &mesh,
-            &day,
-            law,
-            &request,
-            |next: Next, state: &mut CableState| {
-                let own = if self.every_pass { order.next() } else { None };
-                let of_day = next
-                    .number
-                    .map_or(next.phase as u64, |number| (number - 1) % day.passes);
-                let vehicle = own.unwrap_or(vehicles[(of_day % vehicles.len() as u64) as usize]);
-                simulation.pass(vehicle, next.number, state)
-            },
-        )?;
-        let mut passes = simulation.passes(lived.records.clone(), lived.state.clone(), lived.simulated);
-        passes.statistics.sweeps += lived.sweeps as usize;
-        passes.statistics.node_updates += lived.sweeps as usize * mesh.nodes();
-        Ok(Lived { passes, days: lived })
-    }
-
-    /// Largest difference on any listed day or pass: of a force as a share of the largest that day, of a movement as a share of the day's range or,
-    /// where that is larger, of the movement since laying.
-    fn difference(&self, one: &Lived, other: &Lived) -> Shares {
-        let scale = Scale::new(self.plan.scene.friction_limit(), peak(&self.plan.ground.motions));
-        let mut worst = Shares::default();
-        for (a, b) in one.days.days.iter().zip(&other.days.days) {
-            let places = a.extremes.forward.into_iter().chain(a.extremes.backward);
-            let moved = places.fold(scale.movement, |most, place| most.max(place.abs()));
-            let (force, movement) = a.extremes.difference(&b.extremes, (scale.force, moved));
-            worst = worst.max(Shares { force, movement });
-        }
-        let largest = one.days.extremes.largest_force().max(scale.force);
-        for (a, b) in one.passes.records.iter().zip(&other.passes.records) {
-            let (a, b) = (a.outcome.force, b.outcome.force);
-            let apart = (a.upstream - b.upstream)
-                .abs()
-                .max((a.downstream - b.downstream).abs());
-            worst.force = worst.force.max(apart / largest);
-        }
-        worst
-    }
-
-    fn reason(&self, lived: &Lived, knots: u64) -> String {
-        let day = self.day(knots);
-        let Days {
-            corrected,
-            periodic_from,
-            ..
-        } = lived.days;
-        let days = self.plan.scene.traffic.passes.div_ceil(day.passes);
-        let real = if day.is_simulated() {
-            "all passes".to_owned()
-        } else {
-            format!("{knots} periods of the traffic")
-        };
-        let lasting = periodic_from.map_or_else(String::new, |day| {
-            format!("; from day {day} on every day is like the one before")
-        });
-        format!(
-            "days: {corrected} of {days} were simulated with {real} each, the others follow from them{lasting}"
-        )
-    }
-
-    fn record(&self, lived: &Lived) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {
-        let Days {
-            days,
-            extremes,
-            drift,
-            periodic_from,
-            hot,
-            cold,
-            ..
-        } = &lived.days;
-        let count = self.plan.scene.traffic.passes.div_ceil(self.day(1).passes);
-        let days = days
-            .iter()
-            .map(|record| DayExtremes::new(record.day, &record.extremes))
-            .collect();
-        let day = self.day(1);
-        let per_kelvin = self.plan.scene.cable.axial_stiffness * self.heat.expansion;
-        let cycle = lived.days.last_day.iter().filter(|row| !row.heat).map(|row| {
-            let outcome = &row.outcome;
-            DayPoint {
-                hour: 24.0 * (row.passes - 0.5) / day.passes as f64,
-                warming_k: row.thermal_force / per_kelvin,
-                upstream_force_n: outcome.force.upstream,
-                downstream_force_n: outcome.force.downstream,
-                upstream_displacement_m: outcome.upstream_displacement,
-                downstream_displacement_m: outcome.downstream_displacement,
-            }
-        });
-        let record = HeatRecord {
-            cycle: cycle.collect(),
-            all_days: DayExtremes::new(count, extremes),
-            periodic_from_day: *periodic_from,
-            drift_per_day_m: periodic_from.map(|_| *drift),
-            hot_profile: force_profile(&lived.passes.cable, hot)?,
-            cold_profile: force_profile(&lived.passes.cable, cold)?,
-        };
-        Ok((days, record))
-    }
-}
-
-/// Whole passes of a day.
-fn a_day(scene: &Scene) -> u64 {
-    scene
-        .traffic
-        .per_day
-        .map_or(1, |per_day| per_day.round().max(1.0) as u64)
 }

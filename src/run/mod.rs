@@ -5,6 +5,7 @@ mod days;
 mod forecast;
 mod jumps;
 mod listing;
+mod lived;
 mod locked_law;
 mod outlook;
 pub mod passes;

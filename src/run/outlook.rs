@@ -341,6 +341,7 @@ impl Known<'_> {
 }
 
 /// What is to be expected of a run.
+#[derive(Clone, Copy)]
 pub struct Outlook {
     /// The most likely last level.
     pub level: usize,
@@ -389,10 +390,7 @@ impl Outlook {
 
 /// How likely a number with the given `mean` and standard deviation is below zero: the logistic distribution.
 fn below(mean: f64, spread: f64) -> f64 {
-    match spread {
-        0.0 => f64::from(mean <= 0.0),
-        _ => 1.0 / (1.0 + (1.7 * mean / spread).exp()),
-    }
+    1.0 / (1.0 + (1.7 * mean / spread.max(f64::MIN_POSITIVE)).exp())
 }
 
 fn between(levels: &[Level], place: usize, scale: Scale) -> Shares {

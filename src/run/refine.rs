@@ -22,7 +22,7 @@ pub const REFINEMENT_COST: usize = 4;
 /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
 pub const SHARP: usize = 3;
 /// Share of the work that finding jumps is taken for.
-const FINDING: f64 = 0.3;
+pub const FINDING: f64 = 0.3;
 /// Share of the tolerance that is left to the mesh at least.
 const LEAST_SHARE: f64 = 0.5;
 

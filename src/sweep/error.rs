@@ -20,6 +20,11 @@ pub enum SweepError {
         /// What is allowed.
         allowed: String,
     },
+    /// The table of rows of this name cannot be read, and why.
+    #[error(
+        "{0}: found no table of ducts; allowed: CSV or Parquet, a row a duct, its columns named as scene keys"
+    )]
+    Rows(String, #[source] std::io::Error),
     /// Keys, samples or output do not fit together.
     #[error("found {found}; allowed: {allowed}")]
     Unfit {

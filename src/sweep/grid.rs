@@ -1,7 +1,10 @@
 //! The points of a sweep: every combination of the values of its keys.
 
+use std::path::Path;
+
 use super::axis::{Axis, AxisValues};
 use super::error::SweepError;
+use super::list;
 use super::row::checksum;
 use crate::scene::{SceneError, WrongKind};
 use crate::{Scene, SceneFile};
@@ -25,6 +28,8 @@ pub struct Sweep {
     pub(super) axes: Vec<Axis>,
     pub(super) samples: Samples,
     count: usize,
+    /// Whether a point takes one value of each key, those of a row, in place of every combination.
+    by_row: bool,
 }
 
 impl Sweep {
@@ -72,15 +77,63 @@ impl Sweep {
             axes,
             samples,
             count,
+            by_row: false,
         };
-        // An unknown key fails everywhere; what fails at some points only is recorded there.
-        match sweep.scene(0) {
+        sweep.knows_keys(0)?;
+        Ok(sweep)
+    }
+
+    /// The ducts of a table, `.csv` or `.parquet`: a row is the scene in `file` with the values of its columns, which are named as keys. An
+    /// empty cell leaves the scene's own value; a column `id` is carried over.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError::Rows`] where there is no such table; [`SweepError::Unfit`] where it has no key, no row, a column twice or more than ten
+    /// million rows; [`SweepError::Scene`] where a scene has no such key.
+    pub fn of_rows(file: SceneFile, table: &Path) -> Result<Self, SweepError> {
+        let axes = list::read(table)?;
+        let unfit = |found: String, allowed| Err(SweepError::Unfit { found, allowed });
+        for (index, axis) in axes.iter().enumerate() {
+            if axes[..index].iter().any(|other| other.key == axis.key) {
+                return unfit(format!("two columns `{}`", axis.key), "every key once");
+            }
+        }
+        if axes.iter().all(|axis| axis.key == list::ID) {
+            return unfit(
+                "no column that is named as a key".into(),
+                "one or more, such as duct.depth",
+            );
+        }
+        let count = axes[0].count();
+        if !(1..=MOST_POINTS).contains(&count) {
+            return unfit(format!("{count} rows"), "from one to ten million rows");
+        }
+        let sweep = Self {
+            file,
+            axes,
+            samples: Samples::default(),
+            count,
+            by_row: true,
+        };
+        for axis in &sweep.axes {
+            if let AxisValues::List(list) = &axis.values
+                && let Some(given) = list.iter().position(|value| !value.is_empty())
+            {
+                sweep.knows_keys(given)?;
+            }
+        }
+        Ok(sweep)
+    }
+
+    /// An unknown key fails everywhere; what fails at some points only is recorded there.
+    fn knows_keys(&self, index: usize) -> Result<(), SweepError> {
+        match self.scene(index) {
             Err(SceneError::Wrong(wrong))
                 if matches!(wrong.kind, WrongKind::UnknownKey { .. } | WrongKind::Override) =>
             {
                 Err(SceneError::Wrong(wrong).into())
             }
-            _ => Ok(sweep),
+            _ => Ok(()),
         }
     }
 
@@ -96,6 +149,13 @@ impl Sweep {
 
     /// The value of each varied key at a point.
     pub fn values(&self, index: usize) -> Vec<String> {
+        if self.by_row {
+            let of = |axis: &Axis| match &axis.values {
+                AxisValues::List(list) => list[index].clone(),
+                AxisValues::Drawn(_) => String::new(),
+            };
+            return self.axes.iter().map(of).collect();
+        }
         let samples = self.samples.count.max(1);
         let (mut group, sample) = (index / samples, index % samples);
         let mut values: Vec<String> = self
@@ -137,6 +197,8 @@ impl Sweep {
             .axes
             .iter()
             .zip(self.values(index))
+            // What a row leaves out is the scene's own.
+            .filter(|(axis, value)| !self.by_row || !(value.is_empty() || axis.key == list::ID))
             .map(|(axis, value)| format!("{}={value}", axis.key))
             .collect();
         self.file.with(&overrides)
@@ -146,7 +208,10 @@ impl Sweep {
     pub(super) fn name(&self) -> u64 {
         let version = env!("CARGO_PKG_VERSION");
         let scene = self.file.values();
-        let text = format!("{version}\0{scene}\0{:?}\0{:?}", self.axes, self.samples);
+        let text = format!(
+            "{version}\0{scene}\0{:?}\0{:?}\0{}",
+            self.axes, self.samples, self.by_row
+        );
         checksum(text.as_bytes())
     }
 }

@@ -29,6 +29,7 @@ mod distribution;
 mod error;
 mod grid;
 mod journal;
+mod list;
 #[cfg(feature = "plot")]
 mod map;
 mod numbers;
@@ -46,7 +47,7 @@ pub use error::SweepError;
 pub use grid::{Samples, Sweep};
 #[cfg(feature = "plot")]
 pub use map::{MapValue, SweepMap};
-pub use row::{Answer, PointError, Row};
+pub use row::{Answer, HeatAnswer, PointError, Row};
 pub use run::{Evaluate, SweepOptions, SweepSummary};
 #[cfg(feature = "cli")]
 pub(crate) use table::Format;

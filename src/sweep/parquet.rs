@@ -1,16 +1,20 @@
 //! The table as Apache Parquet: one optional column of doubles, 64-bit counts or text for each column of the table.
 
+use std::fs::File;
 use std::io;
+use std::path::Path;
 use std::sync::Arc;
 
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::properties::WriterProperties;
+use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::record::Field;
 use parquet::schema::types::Type;
 
-use super::sink::{Cell, Column, Kind, Sink};
+use super::sink::{Cell, Cells, Column, Kind, Sink};
 use crate::output::Draft;
 
 /// Rows that are kept in memory before they are written.
@@ -128,4 +132,36 @@ fn next<T: DataType>(
 
 fn other(error: ParquetError) -> io::Error {
     io::Error::other(error)
+}
+
+/// The columns of a file and its rows, each cell as it would be typed.
+pub fn read(file: &Path) -> io::Result<Cells> {
+    let reader = SerializedFileReader::new(File::open(file)?).map_err(other)?;
+    let schema = reader.metadata().file_metadata().schema();
+    let keys: Vec<String> = schema
+        .get_fields()
+        .iter()
+        .map(|field| field.name().to_owned())
+        .collect();
+    let rows = reader.get_row_iter(None).map_err(other)?;
+    let cells = |row: parquet::record::Row| -> Vec<String> {
+        row.get_column_iter().map(|(_, cell)| typed(cell)).collect()
+    };
+    let rows = rows
+        .map(|row| row.map(cells))
+        .collect::<Result<_, _>>()
+        .map_err(other)?;
+    Ok((keys, rows))
+}
+
+fn typed(cell: &Field) -> String {
+    match cell {
+        Field::Null => String::new(),
+        Field::Str(text) => text.trim().to_owned(),
+        // Others show themselves with their types' marks.
+        Field::Double(value) if value.is_nan() => String::new(),
+        Field::Double(value) => value.to_string(),
+        Field::Float(value) => value.to_string(),
+        cell => cell.to_string(),
+    }
 }

@@ -25,6 +25,24 @@ pub struct Answer {
     pub downstream_displacement_m: f64,
     /// Estimated relative error of the forces.
     pub error_estimate: f64,
+    /// What heat adds, over all days.
+    #[serde(flatten, default)]
+    pub heat: Option<HeatAnswer>,
+}
+
+/// What a cable that is heated every day shows over all days.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct HeatAnswer {
+    /// Largest force on the downstream end \[N\].
+    pub downstream_max_n: f64,
+    /// Least force on the downstream end \[N\].
+    pub downstream_min_n: f64,
+    /// Largest force on the upstream end \[N\].
+    pub upstream_max_n: f64,
+    /// Least force on the upstream end \[N\].
+    pub upstream_min_n: f64,
+    /// Movement of the cable from day to day in the end \[m\], where days repeat but for that.
+    pub drift_per_day_m: Option<f64>,
 }
 
 /// Why a point has no answer. The message is one line, as it stands in the table.
@@ -61,6 +79,13 @@ impl Answer {
             upstream_displacement_m: last.upstream_displacement_m,
             downstream_displacement_m: last.downstream_displacement_m,
             error_estimate: run.error_estimate.relative,
+            heat: run.heat.as_ref().map(|heat| HeatAnswer {
+                downstream_max_n: heat.all_days.downstream_max_n,
+                downstream_min_n: heat.all_days.downstream_min_n,
+                upstream_max_n: heat.all_days.upstream_max_n,
+                upstream_min_n: heat.all_days.upstream_min_n,
+                drift_per_day_m: heat.drift_per_day_m,
+            }),
         })
     }
 }
@@ -124,6 +149,7 @@ mod tests {
             upstream_displacement_m: 0.1 + 0.2,
             downstream_displacement_m: -5e-324,
             error_estimate: f64::MAX,
+            heat: None,
         };
         let saturated = Answer {
             saturation_force_n: Some(1.0 / 3.0),

@@ -14,6 +14,7 @@ use super::bands::Band;
 use super::error::SweepError;
 use super::grid::Sweep;
 use super::journal::Journal;
+use super::list;
 use super::numbers::si;
 use super::row::{Answer, PointError, Row};
 use super::sink::{Cell, Column, Kind};
@@ -37,6 +38,14 @@ const COLUMNS: [(&str, Kind); 8] = [
     ("upstream_displacement_m", Kind::Number),
     ("downstream_displacement_m", Kind::Number),
     ("error_estimate", Kind::Number),
+];
+/// Those of a cable that is heated, where the file says so.
+const HEAT_COLUMNS: [(&str, Kind); 5] = [
+    ("downstream_max_n", Kind::Number),
+    ("downstream_min_n", Kind::Number),
+    ("upstream_max_n", Kind::Number),
+    ("upstream_min_n", Kind::Number),
+    ("drift_per_day_m", Kind::Number),
 ];
 
 /// How to sweep.
@@ -157,18 +166,26 @@ impl Sweep {
         Row { index, outcome }
     }
 
+    /// The columns of an answer.
+    fn answers(&self) -> impl Iterator<Item = (&'static str, Kind)> {
+        let is_heated = self.scene(0).is_ok_and(|scene| scene.heat.is_some());
+        let heat = HEAT_COLUMNS.into_iter().filter(move |_| is_heated);
+        COLUMNS.into_iter().chain(heat)
+    }
+
     fn columns(&self) -> Vec<Column> {
         let column = |name: &str, kind| Column {
             name: name.to_owned(),
             kind,
         };
-        let is_number = |value: &String| si(value).is_some();
+        let is_number = |value: &String| value.is_empty() || si(value).is_some();
         let varied = self.axes.iter().map(|axis| match &axis.values {
+            _ if axis.key == list::ID => column(&axis.key, Kind::Text),
             AxisValues::List(list) if !list.iter().all(is_number) => column(&axis.key, Kind::Text),
             _ => column(&axis.key, Kind::Number),
         });
         let sample = (self.samples.count > 0).then(|| column("sample", Kind::Count));
-        let answer = COLUMNS.map(|(name, kind)| column(name, kind));
+        let answer = self.answers().map(|(name, kind)| column(name, kind));
         let end = ["status", "error"].map(|name| column(name, Kind::Text));
         varied.chain(sample).chain(answer).chain(end).collect()
     }
@@ -182,6 +199,7 @@ impl Sweep {
         each: Option<&dyn Fn(&Row)>,
     ) -> Result<SweepSummary, SweepError> {
         let columns = self.columns();
+        let answers: Vec<(&str, Kind)> = self.answers().collect();
         let mut summary = SweepSummary {
             points: self.count(),
             resumed,
@@ -209,7 +227,9 @@ impl Sweep {
                     samples.clear();
                 }
             }
-            table.row(self.cells(values, &columns, row)).map_err(failed)?;
+            table
+                .row(self.cells(values, &columns, &answers, row))
+                .map_err(failed)?;
         }
         table.finish().map_err(failed)?.finish()?;
         Ok(summary)
@@ -224,7 +244,13 @@ impl Sweep {
             .collect()
     }
 
-    fn cells(&self, values: Vec<String>, columns: &[Column], row: &Row) -> Vec<Cell> {
+    fn cells(
+        &self,
+        values: Vec<String>,
+        columns: &[Column],
+        answers: &[(&str, Kind)],
+        row: &Row,
+    ) -> Vec<Cell> {
         let varied = values
             .into_iter()
             .zip(columns)
@@ -235,7 +261,7 @@ impl Sweep {
         let samples = self.samples.count;
         let sample = (samples > 0).then(|| Cell::Count((row.index % samples) as u64));
         let fields = serde_json::json!(row.outcome.as_ref().ok());
-        let answer = COLUMNS.map(|(name, kind)| match kind {
+        let answer = answers.iter().map(|&(name, kind)| match kind {
             Kind::Count => fields[name].as_u64().map_or(Cell::Absent, Cell::Count),
             _ => fields[name].as_f64().map_or(Cell::Absent, Cell::Number),
         });

@@ -175,10 +175,7 @@ fn ground_and_traffic_have_their_ranges_too() {
 fn designs_fits_and_reports_refuse_an_edited_scene_too() {
     let mut scene = example();
     scene.vehicles.clear();
-    let limits = Limits {
-        force_n: 1e3,
-        movement_m: None,
-    };
+    let limits = Limits::both(Some(1e3), None);
     let place = Place::Downstream;
     let options = DesignOptions::new(place, limits);
     assert!(design(&scene, &options).expect_err("no vehicles").is_bad_input());

@@ -22,9 +22,12 @@ fn every_key_with_a_unit_or_a_range_is_read() {
             continue;
         }
         let path = numbered(&key.key);
-        let message = read_with(&[&format!("{path}=\"1 parsec\"")])
-            .expect_err(&path)
-            .to_string();
+        let set = format!("{path}=\"1 parsec\"");
+        // A cable is heated by both of these.
+        let mut overrides = vec!["heat.expansion=1e-5", "heat.daily_swing=20"];
+        overrides.truncate(if path.starts_with("heat.") { 2 } else { 0 });
+        overrides.push(&set);
+        let message = read_with(&overrides).expect_err(&path).to_string();
         assert!(
             message.contains(&format!("`{path}`")) && message.contains(&key.allowed),
             "{path}: {message}"

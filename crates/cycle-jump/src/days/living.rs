@@ -67,11 +67,13 @@ where
         let day = self.day;
         let mut diary = self.open()?;
         let whole = passes.div_ceil(day.period as u64).min(day.periods());
-        let mut knots = day.simulated(self.defects.is_empty());
+        let is_first = self.defects.is_empty();
+        let mut knots = day.simulated(is_first);
         if is_last {
             knots.retain(|knot| *knot + 1 < whole);
             knots.push(whole - 1);
         }
+        let is_first = self.defects.is_empty();
         let mut measured: Defects = Vec::new();
         let mut shapes = Vec::new();
         let mut advances = Vec::new();
@@ -98,6 +100,11 @@ where
         let last = self.state.clone();
         if passes == day.passes {
             self.end(&mut diary)?;
+        }
+        if is_first && !day.is_simulated() {
+            // No other morning is like that of a cable as just laid: the next one is between the evening and noon.
+            let morning = day.time(day.periods()) / day.knots as f64;
+            measured.retain(|(ended, _)| *ended > morning);
         }
         (self.defects, self.shapes, self.advances) = (measured, shapes, advances);
         Ok(diary.close(last))

@@ -1,0 +1,277 @@
+//! Map 6: days of heat and traffic, over the friction number Q = q z²/(EA D) and the daily swing of the temperature.
+//!
+//! Above Q ≈ 3 the traffic moves no cable and heat is alone; the smaller Q, the more of friction's hold the traffic takes away. From a swing of
+//! q L/(EA α) on heat slides the whole cable. Right is the simulation of every pass of every day, on the same mesh. The worst of a day's extreme
+//! forces counts, as a share of the largest force of that day. The program has all its guards on.
+
+use std::error::Error;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use creepage::figure::{Axis, Chart, Panels};
+use creepage::scene::SolverMethod;
+use creepage::{DayExtremes, Run, Scene};
+use rayon::prelude::*;
+
+use crate::cable_map::{DEPTH, EA, LIMIT, decades};
+
+/// Asked of every run.
+const TOLERANCE: f64 = 0.01;
+const DAYS: u64 = 6;
+/// Thermal expansion of copper \[1/K\].
+const EXPANSION: f64 = 17e-6;
+/// Nodes a depth: both ways leave the same error of the mesh.
+const NODES: f64 = 6.0;
+/// What becomes of a cell, in the order of [`Outcome`]; the legend's colours are those of the other maps.
+const CLASSES: [&str; 5] = [
+    "within 1 %",
+    "off by more than 1 % and than stated",
+    "refused",
+    "failed with an error",
+    "off by more than 1 %, as stated",
+];
+
+/// A duct, what holds the cable in it, and its traffic.
+pub struct Case {
+    pub name: &'static str,
+    length: f64,
+    slope: &'static str,
+    ends: [&'static str; 2],
+    /// Vehicles forward and backward, in their order.
+    sequence: &'static str,
+    per_day: u64,
+}
+
+/// The rows of the figure.
+pub const CASES: [Case; 3] = [
+    Case {
+        name: "30 m, free/fixed",
+        length: 30.0,
+        slope: "0 %",
+        ends: ["\"free\"", "\"fixed\""],
+        sequence: "0",
+        per_day: 300,
+    },
+    Case {
+        name: "36 m, free/free, 3 % slope",
+        length: 36.0,
+        slope: "3 %",
+        ends: ["\"free\"", "\"free\""],
+        sequence: "0",
+        per_day: 240,
+    },
+    Case {
+        name: "24 m, springs, two ways",
+        length: 24.0,
+        slope: "0 %",
+        ends: ["{ spring = 1e6 }", "{ spring = 1e5 }"],
+        sequence: "0, 1, 0",
+        per_day: 399,
+    },
+];
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    Right,
+    Wrong,
+    Refused,
+    Failed,
+    Stated,
+}
+
+/// One scene.
+#[derive(Debug, Clone, Copy)]
+pub struct Cell {
+    pub outcome: Outcome,
+    /// True difference, and what the run says that days not simulated leave.
+    pub error: f64,
+    pub stated: f64,
+    /// Share of the passes that were simulated.
+    pub simulated: f64,
+}
+
+/// Cells over friction numbers and swings \[K\], the latter running slowest.
+pub struct Map {
+    pub numbers: Vec<f64>,
+    pub swings: Vec<f64>,
+    pub cells: Vec<Cell>,
+}
+
+impl Case {
+    fn scene(&self, number: f64, swing: f64) -> Result<Scene, creepage::SceneError> {
+        let Self {
+            length,
+            slope,
+            ends: [upstream, downstream],
+            sequence,
+            per_day,
+            ..
+        } = self;
+        let backward = if sequence.contains('1') {
+            ", { name = \"1\", speed = 10, load = 196133, direction = \"reverse\" }"
+        } else {
+            ""
+        };
+        let names = sequence.replace('0', "\"0\"").replace('1', "\"1\"");
+        let text = format!(
+            "duct = {{ length = {length}, depth = {DEPTH}, slope = \"{slope}\" }}
+ground = {{ longitudinal_peak = {}, layers = [{{ young_modulus = 8e8, poisson_ratio = 0.4 }}] }}
+cable = {{ weight = {}, axial_stiffness = {EA} }}
+friction = {{ dynamic_coefficient = 0.25, shape_factor = {} }}
+ends = {{ upstream = {upstream}, downstream = {downstream} }}
+vehicles = [{{ name = \"0\", speed = 10, load = 196133 }}{backward}]
+traffic = {{ passes = {}, per_day = {per_day}, sequence = [{names}] }}
+heat = {{ expansion = {EXPANSION}, daily_swing = {swing} }}
+solver = {{ node_spacing = {}, vehicle_step = {}, tolerance = {TOLERANCE} }}",
+            LIMIT * DEPTH * DEPTH / EA / number,
+            LIMIT / 0.25,
+            2e8 / LIMIT,
+            DAYS * per_day,
+            DEPTH / NODES,
+            0.5 * DEPTH / NODES,
+        );
+        Scene::from_toml("cell", &text)
+    }
+
+    fn cell(&self, number: f64, swing: f64) -> Result<Cell, creepage::SceneError> {
+        let mut scene = self.scene(number, swing)?;
+        let mut run = |method| {
+            scene.solver.method = method;
+            creepage::run(&scene)
+        };
+        let (found, right) = match (run(SolverMethod::PassLaw), run(SolverMethod::QuasiStatic)) {
+            (Ok(found), Ok(right)) => (found, right),
+            (Err(creepage::Error::Inaccurate { .. } | creepage::Error::Jumps(_)), _) => {
+                return Ok(unanswered(Outcome::Refused));
+            }
+            _ => return Ok(unanswered(Outcome::Failed)),
+        };
+        let (error, stated) = (worst(&found, &right), found.error_estimate.parts.temperature);
+        Ok(Cell {
+            outcome: if error <= TOLERANCE {
+                Outcome::Right
+            } else if error <= stated {
+                Outcome::Stated
+            } else {
+                Outcome::Wrong
+            },
+            error,
+            stated,
+            simulated: found.cost.simulated_passes as f64 / right.cost.simulated_passes as f64,
+        })
+    }
+
+    /// A map of `numbers` × `swings` cells.
+    ///
+    /// # Errors
+    ///
+    /// None for these scenes.
+    pub fn map(&self, numbers: usize, swings: usize) -> Result<Map, creepage::SceneError> {
+        let (numbers, swings) = (decades(-1.5, 0.7, numbers), decades(-0.3, 1.8, swings));
+        let places: Vec<(f64, f64)> = swings
+            .iter()
+            .flat_map(|&swing| numbers.iter().map(move |&number| (number, swing)))
+            .collect();
+        let cells = places
+            .par_iter()
+            .map(|&(number, swing)| self.cell(number, swing))
+            .collect::<Result<_, _>>()?;
+        Ok(Map {
+            numbers,
+            swings,
+            cells,
+        })
+    }
+}
+
+fn unanswered(outcome: Outcome) -> Cell {
+    Cell {
+        outcome,
+        error: f64::NAN,
+        stated: f64::NAN,
+        simulated: f64::NAN,
+    }
+}
+
+/// Largest difference of an extreme force on any day, as a share of the largest force of that day.
+fn worst(found: &Run, right: &Run) -> f64 {
+    let forces = |day: &DayExtremes| {
+        [
+            day.downstream_max_n,
+            day.downstream_min_n,
+            day.upstream_max_n,
+            day.upstream_min_n,
+            day.max_compression_n,
+            day.max_tension_n,
+        ]
+    };
+    let largest = |forces: &[f64]| forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+    let days = found.days.iter().zip(&right.days);
+    days.fold(0.0, |worst, (found, right)| {
+        let apart = forces(found).into_iter().zip(forces(right)).map(|(a, b)| a - b);
+        worst.max(largest(&apart.collect::<Vec<_>>()) / largest(&forces(right)).max(0.01 * LIMIT))
+    })
+}
+
+impl Map {
+    /// How many cells came out so.
+    pub fn count(&self, outcome: Outcome) -> usize {
+        self.cells.iter().filter(|cell| cell.outcome == outcome).count()
+    }
+
+    /// Lines of a table, each begun by `name`.
+    pub fn csv(&self, name: &str) -> String {
+        let mut text = String::new();
+        for (index, cell) in self.cells.iter().enumerate() {
+            let columns = self.numbers.len();
+            let (number, swing) = (self.numbers[index % columns], self.swings[index / columns]);
+            let _ = writeln!(
+                text,
+                "{name:?},{number:.5e},{swing:.5e},{:?},{:.5},{:.5},{:.4}",
+                CLASSES[cell.outcome as usize], cell.error, cell.stated, cell.simulated
+            );
+        }
+        text
+    }
+
+    fn chart(&self, name: &str) -> Chart {
+        Chart::of_classes(
+            name,
+            Axis::logarithmic("Q = q z²/(EA D)").cells(self.numbers.clone()),
+            Axis::logarithmic("daily swing, K").cells(self.swings.clone()),
+            CLASSES,
+            self.cells.iter().map(|cell| cell.outcome as usize),
+        )
+    }
+}
+
+/// Draws the map.
+///
+/// # Errors
+///
+/// As for writing files and for [`creepage::figure::Chart`].
+pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
+    let mut figure =
+        Panels::new("Heat and traffic: extreme forces of six days, against the simulation of every pass")
+            .columns(3)
+            .panel_size(520.0, 460.0);
+    let mut table = String::from("map,friction_number,daily_swing_k,outcome,error,stated,simulated_share\n");
+    for case in CASES {
+        let map = case.map(7, 7)?;
+        let worst = map
+            .cells
+            .iter()
+            .fold(0.0_f64, |worst, cell| worst.max(cell.error));
+        println!(
+            "{}: {} of {} cells right, at most {worst:.4} off",
+            case.name,
+            map.count(Outcome::Right),
+            map.cells.len()
+        );
+        figure = figure.with(map.chart(case.name));
+        table += &map.csv(case.name);
+    }
+    std::fs::write(out.join("stability-heat.csv"), table)?;
+    std::fs::write(out.join("stability-heat.svg"), figure.to_svg()?)?;
+    Ok(())
+}

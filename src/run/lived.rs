@@ -1,0 +1,222 @@
+//! All days of a scene with heat on one mesh, and what two such runs differ in.
+
+use cable_dem::CableState;
+use cycle_jump::Next;
+use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, live};
+
+use super::locked_law::locked_law;
+use super::passes::{Passes, Simulation, Task, force_profile};
+use crate::answer::error_estimate::{Scale, Shares};
+use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed, simulated};
+use crate::cable::{cable, traffic};
+use crate::ground::peak;
+use crate::plan::Plan;
+use crate::scene::{Heat, Scene, Warming};
+use crate::{Error, Progress};
+
+/// Share of the tolerance that days without real passes may take.
+const FROZEN_SHARE: f64 = 0.5;
+/// Up to so many passes a day all are simulated on a day with real ones.
+const FEW: u64 = 100;
+const SECONDS_A_DAY: f64 = 86_400.0;
+
+/// Passes and days on one mesh.
+pub struct Lived {
+    pub passes: Passes,
+    pub days: Days,
+}
+
+/// How the days of a plan are lived.
+pub struct Living<'a> {
+    pub plan: &'a Plan<'a>,
+    pub heat: &'a Heat,
+    pub progress: Progress<'a>,
+    pub every_pass: bool,
+}
+
+impl Living<'_> {
+    /// A day of the plan with `knots` real periods.
+    pub fn day(&self, knots: u64) -> Day {
+        let scene = self.plan.scene;
+        let passes = a_day(scene);
+        let per_kelvin = scene.cable.axial_stiffness * self.heat.expansion;
+        let force = |kelvin: f64| per_kelvin * (self.heat.offset + kelvin);
+        let heat = match &self.heat.warming {
+            Warming::Swing(swing) => DailyHeat::Cosine {
+                lowest: force(0.0),
+                highest: force(*swing),
+            },
+            Warming::Profile(points) => DailyHeat::Profile(
+                points
+                    .iter()
+                    .map(|(seconds, kelvin)| (seconds / SECONDS_A_DAY, force(*kelvin)))
+                    .collect(),
+            ),
+        };
+        let few = passes <= FEW || self.every_pass;
+        let period = if few { 1 } else { self.plan.period.len() };
+        Day {
+            passes,
+            period,
+            heat,
+            knots: if few { passes } else { knots },
+        }
+    }
+
+    /// All days on `level`, of which `knots` periods are real on some.
+    pub fn live(&self, level: usize, knots: u64, progress: Progress<'_>) -> Result<Lived, Error> {
+        self.live_in(self.plan.scene, level, knots, progress)
+    }
+
+    pub fn live_in(
+        &self,
+        scene: &Scene,
+        level: usize,
+        knots: u64,
+        progress: Progress<'_>,
+    ) -> Result<Lived, Error> {
+        let Plan {
+            ground,
+            period,
+            levels,
+            ..
+        } = self.plan;
+        let mesh = levels.mesh(level)?;
+        let task = Task {
+            scene,
+            method: self.plan.choice.method.cable_method(),
+            motions: &ground.motions,
+            mesh,
+            stages: &[],
+            progress,
+        };
+        let mut simulation = Simulation::new(&task)?;
+        let day = self.day(knots);
+        let law = locked_law(&task, period, day.period)?;
+        let count = scene.traffic.passes;
+        let scale = Scale::new(scene.friction_limit(), peak(&ground.motions));
+        let days = count.div_ceil(day.passes);
+        let request = DaysRequest {
+            passes: count,
+            wanted: &simulated(&scene.traffic),
+            wanted_days: &listed(days),
+            tolerance: FROZEN_SHARE * scene.solver.tolerance,
+            least: (scale.force, scale.movement),
+            every_day: self.every_pass,
+        };
+        let vehicles = &period.vehicles;
+        // Where every pass is simulated the vehicles come in their own order.
+        let mut order = traffic(scene, scene.traffic.order.clone())?;
+        let cable = cable(scene)?;
+        let lived = live(
+            &cable,
+            &mesh,
+            &day,
+            law,
+            &request,
+            |next: Next, state: &mut CableState| {
+                let own = if self.every_pass { order.next() } else { None };
+                let of_day = next
+                    .number
+                    .map_or(next.phase as u64, |number| (number - 1) % day.passes);
+                let vehicle = own.unwrap_or(vehicles[(of_day % vehicles.len() as u64) as usize]);
+                simulation.pass(vehicle, next.number, state)
+            },
+        )?;
+        let mut passes = simulation.passes(lived.records.clone(), lived.state.clone(), lived.simulated);
+        passes.statistics.sweeps += lived.sweeps as usize;
+        passes.statistics.node_updates += lived.sweeps as usize * mesh.nodes();
+        Ok(Lived { passes, days: lived })
+    }
+
+    /// Largest difference on any listed day or pass: of a force as a share of the largest that day, of a movement as a share of the day's range or,
+    /// where that is larger, of the movement since laying.
+    pub fn difference(&self, one: &Lived, other: &Lived) -> Shares {
+        let scale = Scale::new(self.plan.scene.friction_limit(), peak(&self.plan.ground.motions));
+        let mut worst = Shares::default();
+        for (a, b) in one.days.days.iter().zip(&other.days.days) {
+            let places = a.extremes.forward.into_iter().chain(a.extremes.backward);
+            let moved = places.fold(scale.movement, |most, place| most.max(place.abs()));
+            let (force, movement) = a.extremes.difference(&b.extremes, (scale.force, moved));
+            worst = worst.max(Shares { force, movement });
+        }
+        let largest = one.days.extremes.largest_force().max(scale.force);
+        for (a, b) in one.passes.records.iter().zip(&other.passes.records) {
+            let (a, b) = (a.outcome.force, b.outcome.force);
+            let apart = (a.upstream - b.upstream)
+                .abs()
+                .max((a.downstream - b.downstream).abs());
+            worst.force = worst.force.max(apart / largest);
+        }
+        worst
+    }
+
+    pub fn reason(&self, lived: &Lived, knots: u64) -> String {
+        let day = self.day(knots);
+        let Days {
+            corrected,
+            periodic_from,
+            ..
+        } = lived.days;
+        let days = self.plan.scene.traffic.passes.div_ceil(day.passes);
+        let real = if day.is_simulated() {
+            "all passes".to_owned()
+        } else {
+            format!("{knots} periods of the traffic")
+        };
+        let lasting = periodic_from.map_or_else(String::new, |day| {
+            format!("; from day {day} on every day is like the one before")
+        });
+        format!(
+            "days: {corrected} of {days} were simulated with {real} each, the others follow from them{lasting}"
+        )
+    }
+
+    pub fn record(&self, lived: &Lived) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {
+        let Days {
+            days,
+            extremes,
+            drift,
+            periodic_from,
+            hot,
+            cold,
+            ..
+        } = &lived.days;
+        let count = self.plan.scene.traffic.passes.div_ceil(self.day(1).passes);
+        let days = days
+            .iter()
+            .map(|record| DayExtremes::new(record.day, &record.extremes))
+            .collect();
+        let day = self.day(1);
+        let per_kelvin = self.plan.scene.cable.axial_stiffness * self.heat.expansion;
+        let cycle = lived.days.last_day.iter().filter(|row| !row.heat).map(|row| {
+            let outcome = &row.outcome;
+            DayPoint {
+                hour: 24.0 * (row.passes - 0.5) / day.passes as f64,
+                warming_k: row.thermal_force / per_kelvin,
+                upstream_force_n: outcome.force.upstream,
+                downstream_force_n: outcome.force.downstream,
+                upstream_displacement_m: outcome.upstream_displacement,
+                downstream_displacement_m: outcome.downstream_displacement,
+            }
+        });
+        let record = HeatRecord {
+            cycle: cycle.collect(),
+            passes_per_day: day.passes,
+            all_days: DayExtremes::new(count, extremes),
+            periodic_from_day: *periodic_from,
+            drift_per_day_m: periodic_from.map(|_| *drift),
+            hot_profile: force_profile(&lived.passes.cable, hot)?,
+            cold_profile: force_profile(&lived.passes.cable, cold)?,
+        };
+        Ok((days, record))
+    }
+}
+
+/// Whole passes of a day.
+fn a_day(scene: &Scene) -> u64 {
+    scene
+        .traffic
+        .per_day
+        .map_or(1, |per_day| per_day.round().max(1.0) as u64)
+}
