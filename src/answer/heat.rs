@@ -70,6 +70,15 @@ pub struct HeatRecord {
 }
 
 impl DayExtremes {
+    /// By how much the force on an end changes at most over the day \[N\], and how far an end moves \[m\]: the cyclic load of joints.
+    pub fn largest_range(&self) -> (f64, f64) {
+        let force =
+            (self.upstream_max_n - self.upstream_min_n).max(self.downstream_max_n - self.downstream_min_n);
+        let upstream = self.upstream_displacement_max_m - self.upstream_displacement_min_m;
+        let downstream = self.downstream_displacement_max_m - self.downstream_displacement_min_m;
+        (force, upstream.max(downstream))
+    }
+
     /// Largest force on the end in size \[N\].
     pub fn largest_force(&self, end: CableEnd) -> f64 {
         let [least, most] = match end {
@@ -114,12 +123,4 @@ impl DayExtremes {
             downstream_displacement_min_m: backward[1],
         }
     }
-}
-
-/// By how much the force on an end changes at most over `day` \[N\], and how far an end moves \[m\]: the cyclic load of joints.
-pub fn largest_range(day: &DayExtremes) -> (f64, f64) {
-    let force = (day.upstream_max_n - day.upstream_min_n).max(day.downstream_max_n - day.downstream_min_n);
-    let upstream = day.upstream_displacement_max_m - day.upstream_displacement_min_m;
-    let downstream = day.downstream_displacement_max_m - day.downstream_displacement_min_m;
-    (force, upstream.max(downstream))
 }

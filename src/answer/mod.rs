@@ -16,11 +16,9 @@ mod table_rows;
 pub use cable_end::CableEnd;
 pub use calendar::after;
 pub use force_profile::ForceProfile;
-pub use heat::{DayExtremes, DayPoint, HeatRecord, largest_range};
+pub use heat::{DayExtremes, DayPoint, HeatRecord};
 pub use limits::*;
-#[cfg(feature = "plot")]
-pub use listed::listed;
-pub use listed::{beyond, simulated};
+pub use listed::{beyond, listed, simulated};
 pub use record::*;
 pub use saturation::{larger, saturation};
 #[cfg(any(feature = "cli", feature = "plot"))]

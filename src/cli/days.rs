@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use crate::answer::{DayExtremes, HeatRecord, largest_range, table_days};
+use crate::answer::{DayExtremes, HeatRecord, table_days};
 use crate::scene::DAYS_PER_YEAR;
 use crate::shown::rounded;
 
@@ -69,7 +69,7 @@ pub fn print(out: &mut impl Write, days: &[DayExtremes], heat: &HeatRecord) -> s
         (Some(day), _) => writeln!(out, "from day {day} on every day is like the one before")?,
         _ => writeln!(out, "days still differ from the ones before")?,
     }
-    let (force, movement) = largest_range(last);
+    let (force, movement) = last.largest_range();
     writeln!(
         out,
         "on the last day the force on an end changes by up to {force:.1} N and an end moves by up to {:.3} mm, to and fro",

@@ -4,7 +4,7 @@ use super::content::Report;
 use super::figure::{MILLI, Passes, figure};
 use super::html::Html;
 use super::quantity::{count, length, significant};
-use crate::answer::{DayExtremes, DayPoint, HeatRecord, largest_range, table_days};
+use crate::answer::{DayExtremes, DayPoint, HeatRecord, table_days};
 use crate::figure::{Axis, Chart, Series};
 use crate::scene::{DAYS_PER_YEAR, End, Heat, Warming};
 use crate::shown::rounded;
@@ -66,7 +66,7 @@ fn course(heat: &Heat) -> String {
 
 /// What comes of it.
 fn outcome(record: &HeatRecord, last: &DayExtremes) -> String {
-    let (force, movement) = largest_range(last);
+    let (force, movement) = last.largest_range();
     let lasting = match (record.periodic_from_day, record.drift_per_day_m) {
         (Some(day), Some(drift)) if drift != 0.0 => format!(
             "From day {} on every day is like the one before, but the cable moves on by {} mm a day, {} a year.",
