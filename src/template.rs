@@ -216,7 +216,18 @@ mod tests {
             .filter(|line| line.contains(" = "));
         let mut count = 0;
         for option in options {
-            let text = text.replace(&format!("# {option}"), option);
+            // A section that is commented out comes with its keys, but for those that exclude each other.
+            let heat = text
+                .split_once("# [heat]")
+                .map_or("", |(_, heat)| heat)
+                .contains(option);
+            let text = if heat {
+                let (before, section) = text.split_once("# [heat]").expect("a section");
+                let with_rate = before.replace("# per_day = ", "per_day = ");
+                format!("{with_rate}[heat]{}", section.replace("\n# ", "\n"))
+            } else {
+                text.replace(&format!("# {option}"), option)
+            };
             Scene::from_toml("new.toml", &text).unwrap_or_else(|error| panic!("{error}"));
             count += 1;
         }

@@ -58,14 +58,17 @@ fn the_quasi_static_solver_is_right_where_plain_newton_cycles() -> Tested {
 
 #[test]
 fn jumps_over_passes_are_right_or_say_that_they_are_not() -> Tested {
+    let mut unguarded = 0;
     for (name, mix) in long_term::MIXES {
-        let grids = long_term::maps(mix, 3, 4, true)?;
-        assert_guarded(name, &grids);
-        let [_, guarded] = grids;
+        let [bare, guarded] = long_term::maps(mix, 3, 4, true)?;
+        unguarded += bare.count(Outcome::Wrong);
+        assert_eq!(guarded.count(Outcome::Wrong), 0, "{name}: {}", guarded.csv(name));
         // Near shakedown what is left depends on the way to it: one cell may say so.
         let right = guarded.count(Outcome::Right);
         assert!(right + 1 >= guarded.cells.len(), "{name}: {}", guarded.csv(name));
     }
+    // Without guards some traffic is computed wrong.
+    assert!(unguarded > 0);
     Ok(())
 }
 

@@ -9,18 +9,18 @@ use cable_dem::{CableError, Statistics};
 use super::lived::{Lived, Living};
 use super::outlook::Work;
 use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both, judge, mesh_reason};
-use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED};
+use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
 use crate::plan::{PassMethod, Plan};
 use crate::scene::{Heat, Scene};
 use crate::{Error, Progress};
 
 /// Real periods a day to begin with.
-const FIRST_KNOTS: u64 = 24;
+const FIRST_KNOTS: u64 = 16;
 /// They are looked for so many levels below the first, where a pass costs a sixteenth.
 const COARSER: usize = 2;
-/// What twice as many real periods a day change, times this, is the error of as many: it halves, or falls faster.
-const CAUTION: f64 = 2.0;
+/// What twice as many real periods a day change, times this, is the error of as many: it halves, or nearly so.
+const CAUTION: f64 = 3.0;
 /// Share of the tolerance that days with few real periods may take.
 const SHARE: f64 = 0.5;
 /// Typical errors of the forces with 3, 6, 12, … nodes a depth, below which none is stated, and what is left of the difference to a mesh
@@ -30,6 +30,24 @@ const COARSEST: f64 = 3.0;
 const RESOLVED: usize = 2;
 const LEFT: f64 = 0.4;
 const LEFT_UNRESOLVED: f64 = 2.0;
+
+/// Real periods a day that are enough, what they leave wrong, and the days they were found on, with their level.
+struct Found {
+    knots: u64,
+    left: Shares,
+    coarse: Option<(usize, Lived)>,
+}
+
+impl Found {
+    /// Every period of a day.
+    fn exact(knots: u64) -> Self {
+        Self {
+            knots,
+            left: Shares::default(),
+            coarse: None,
+        }
+    }
+}
 
 /// Carries `plan`, whose scene has `heat`, out.
 pub fn solve(
@@ -87,23 +105,28 @@ impl Living<'_> {
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
         let mut statistics = Statistics::default();
         let mut level = self.first_level();
-        let (knots, left) = self.knots(level, &mut statistics)?;
+        let Found { knots, left, coarse } = self.knots(level, &mut statistics)?;
         error.temperature = left;
+        let coarse = coarse
+            .filter(|(coarse, _)| coarse + 1 == level)
+            .map(|(_, lived)| lived);
+        let known = coarse.is_some();
         // How many meshes it takes is not known: each is half of what is left.
         let mut parts = self.progress.part(FINDING, 1.0).halving();
         let now = parts();
         let (mut below, mut finest) = both(
-            || {
-                level
-                    .checked_sub(1)
-                    .map_or(Ok(None), |below| self.on_coarse(below, knots))
+            || match (coarse, level.checked_sub(1)) {
+                (None, Some(below)) => self.on_coarse(below, knots),
+                (coarse, _) => Ok(coarse),
             },
             || self.live(level, knots, now),
         )?;
+        if let Some(below) = below.as_ref().filter(|_| !known) {
+            statistics += below.passes.statistics;
+        }
         loop {
             statistics += finest.passes.statistics;
             if let Some(coarse) = &below {
-                statistics += coarse.passes.statistics;
                 let fineness = self.fineness(level);
                 let share = if fineness < RESOLVED {
                     LEFT_UNRESOLVED
@@ -123,7 +146,9 @@ impl Living<'_> {
             let finer = self.live(level, knots, parts())?;
             below = Some(std::mem::replace(&mut finest, finer));
         }
-        if below.is_none() || verify {
+        // No mesh that the scene names is refused for what coarser ones show.
+        let doubtful = levels.named() && is_doubtful(error.total().force, tolerance);
+        if below.is_none() || verify || doubtful {
             let finer = self.live(level + 1, knots, parts())?;
             statistics += finer.passes.statistics;
             error.mesh = self.difference(&finest, &finer).times(VERIFIED);
@@ -205,10 +230,10 @@ impl Living<'_> {
     }
 
     /// Real periods a day that are enough for `level`, found on a coarser one, and what they leave wrong.
-    fn knots(&self, level: usize, statistics: &mut Statistics) -> Result<(u64, Shares), Error> {
+    fn knots(&self, level: usize, statistics: &mut Statistics) -> Result<Found, Error> {
         let all = self.day(u64::MAX).periods();
         if self.every_pass || self.day(FIRST_KNOTS).is_simulated() {
-            return Ok((all, Shares::default()));
+            return Ok(Found::exact(all));
         }
         let allowed = Shares::both(SHARE * self.plan.scene.solver.tolerance);
         let mut knots = FIRST_KNOTS;
@@ -220,16 +245,24 @@ impl Living<'_> {
             *statistics += more.passes.statistics;
             let difference = self.difference(&more, &fewer);
             if difference.times(CAUTION).is_within(allowed) {
-                return Ok((knots, difference.times(CAUTION)));
+                return Ok(Found {
+                    knots,
+                    left: difference.times(CAUTION),
+                    coarse: Some((level, fewer)),
+                });
             }
             knots *= 2;
             if self.day(knots).is_simulated() {
-                return Ok((knots, Shares::default()));
+                return Ok(Found::exact(knots));
             }
             let costly =
                 4 * REFINEMENT_COST.saturating_mul(more.passes.statistics.node_updates) > MAX_NODE_UPDATES;
             if difference.is_within(allowed) || costly {
-                return Ok((knots, difference));
+                return Ok(Found {
+                    knots,
+                    left: difference,
+                    coarse: Some((level, more)),
+                });
             }
             fewer = more;
         }
