@@ -253,6 +253,10 @@ where
             let steady = is_known && change < STEADY * tolerance && surprise < EXPECTED * tolerance;
             if calm == SHOWN || steady && self.is_steady(tolerance)? {
                 let day = self.done;
+                // What the days to come are taken not to differ by.
+                for before in [&expected, &yesterday.moved(drift)] {
+                    self.surprise = largest(self.surprise, today.difference(before, least));
+                }
                 self.repeat(count, drift, &lived);
                 return Ok(Some(Settled {
                     day,
