@@ -61,6 +61,8 @@ pub struct HeatRecord {
     pub periodic_from_day: Option<u64>,
     /// How far the cable moves from one such day to the next \[m\].
     pub drift_per_day_m: Option<f64>,
+    /// The same in a year of 365.25 days \[m\].
+    pub drift_per_year_m: Option<f64>,
     /// The last day, hour by hour.
     pub cycle: Vec<DayPoint>,
     /// Force along the cable when that day is hottest.

@@ -63,6 +63,7 @@ pub fn solve(
         heat,
         progress,
         every_pass: matches!(method, PassMethod::EveryPass(_)),
+        begin: 0,
     };
     living.solve(verify, warnings)
 }
@@ -74,6 +75,7 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<(Work
         heat,
         progress: Progress::default(),
         every_pass: false,
+        begin: 0,
     };
     let level = living.first_level();
     let (coarse, lived) = living.coarse(level, FIRST_KNOTS)?;
@@ -159,6 +161,7 @@ impl Living<'_> {
                 force: finest.days.surprise.0,
                 movement: finest.days.surprise.1,
             };
+        error.temperature = error.temperature + self.sequence_error(level, knots, &mut statistics)?;
         error.road = self.road_error(level, knots, &mut statistics)?;
         judge(&error, scene, warnings)?;
         warnings.extend(self.broken_sequence());
@@ -179,6 +182,18 @@ impl Living<'_> {
         let (spacing, _) = self.plan.levels.spacing(level);
         let nodes = 1.001 * self.plan.scene.duct.depth / spacing;
         ((nodes / COARSEST).log2() as usize).min(TYPICAL.len() - 1)
+    }
+
+    /// What days change that begin the sequence of vehicles where another has left it, on a level that is coarse beside `level`.
+    fn sequence_error(&self, level: usize, knots: u64, statistics: &mut Statistics) -> Result<Shares, Error> {
+        if !self.breaks_sequence() {
+            return Ok(Shares::default());
+        }
+        let (level, own) = self.coarse(level, knots)?;
+        let other = self.begun_later().live(level, knots, Progress::default())?;
+        *statistics += own.passes.statistics;
+        *statistics += other.passes.statistics;
+        Ok(self.difference_of_days(&own, &other))
     }
 
     /// What an approach that the scene names leaves out, on `level`: the days once more with vehicles followed far enough.

@@ -2,7 +2,7 @@
 
 use cable_dem::CableState;
 use cycle_jump::Next;
-use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, live};
+use cycle_jump::days::{DailyHeat, Day, DayRecord, Days, DaysRequest, live};
 
 use super::locked_law::locked_law;
 use super::passes::{Passes, Simulation, Task, force_profile};
@@ -11,7 +11,7 @@ use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed, simulated};
 use crate::cable::{cable, traffic};
 use crate::ground::peak;
 use crate::plan::Plan;
-use crate::scene::{Heat, Scene, Warming};
+use crate::scene::{DAYS_PER_YEAR, Heat, Scene, Warming};
 use crate::{Error, Progress};
 
 /// Share of the tolerance that days without real passes may take.
@@ -27,11 +27,14 @@ pub struct Lived {
 }
 
 /// How the days of a plan are lived.
+#[derive(Clone, Copy)]
 pub struct Living<'a> {
     pub plan: &'a Plan<'a>,
     pub heat: &'a Heat,
     pub progress: Progress<'a>,
     pub every_pass: bool,
+    /// Place in the period of the traffic with which days begin.
+    pub begin: usize,
 }
 
 impl Living<'_> {
@@ -63,20 +66,36 @@ impl Living<'_> {
         }
     }
 
-    /// A warning where days that follow from each other all begin with the same vehicle, and the traffic's sequence does not.
-    pub fn broken_sequence(&self) -> Option<String> {
+    /// Vehicles of the sequence that a day leaves over: where the next day goes on in it, and every day here begins anew.
+    fn left_over(&self) -> usize {
+        (a_day(self.plan.scene) % self.plan.period.len() as u64) as usize
+    }
+
+    /// Whether days that follow from each other all begin with the same vehicle, and the traffic's sequence does not.
+    pub fn breaks_sequence(&self) -> bool {
         let traffic = &self.plan.scene.traffic;
+        let several = traffic.passes > a_day(self.plan.scene);
+        several && !self.every_pass && !self.plan.period.reordered && self.left_over() > 0
+    }
+
+    /// The warning of that.
+    pub fn broken_sequence(&self) -> Option<String> {
         let (passes, period) = (a_day(self.plan.scene), self.plan.period.len() as u64);
-        let whole = passes / period * period;
-        let is_broken = whole < passes && !self.plan.period.reordered && traffic.passes > passes;
-        (is_broken && !self.every_pass).then(|| {
+        self.breaks_sequence().then(|| {
             format!(
                 "{passes} vehicles a day are no whole number of times the {period} of the sequence: each day is computed as if it \
-                 began the sequence anew, and around midnight forces may be others than with the sequence unbroken; a \
-                 `traffic.per_day` of {} has none of that",
-                whole.max(period)
+                 began the sequence anew, and the error has what another beginning changes; a `traffic.per_day` of {} has none of that",
+                (passes / period * period).max(period)
             )
         })
+    }
+
+    /// The same days, which begin in the sequence where the first day has left it.
+    pub fn begun_later(&self) -> Self {
+        Self {
+            begin: self.left_over(),
+            ..*self
+        }
     }
 
     /// All days on `level`, of which `knots` periods are real on some.
@@ -135,7 +154,8 @@ impl Living<'_> {
                 let of_day = next
                     .number
                     .map_or(next.phase as u64, |number| (number - 1) % day.passes);
-                let vehicle = own.unwrap_or(vehicles[(of_day % vehicles.len() as u64) as usize]);
+                let place = (of_day + self.begin as u64) % vehicles.len() as u64;
+                let vehicle = own.unwrap_or(vehicles[place as usize]);
                 simulation.pass(vehicle, next.number, state)
             },
         )?;
@@ -149,14 +169,8 @@ impl Living<'_> {
     /// where that is larger, of the movement since laying.
     pub fn difference(&self, one: &Lived, other: &Lived) -> Shares {
         let scale = Scale::new(self.plan.scene.friction_limit(), peak(&self.plan.ground.motions));
-        let mut worst = Shares::default();
-        for (a, b) in one.days.days.iter().zip(&other.days.days) {
-            let places = a.extremes.forward.into_iter().chain(a.extremes.backward);
-            let moved = places.fold(scale.movement, |most, place| most.max(place.abs()));
-            let (force, movement) = a.extremes.difference(&b.extremes, (scale.force, moved));
-            worst = worst.max(Shares { force, movement });
-        }
         let largest = one.days.extremes.largest_force().max(scale.force);
+        let mut worst = self.difference_of_days(one, other);
         for (a, b) in one.passes.records.iter().zip(&other.passes.records) {
             let (a, b) = (a.outcome.force, b.outcome.force);
             let apart = (a.upstream - b.upstream)
@@ -165,6 +179,19 @@ impl Living<'_> {
             worst.force = worst.force.max(apart / largest);
         }
         worst
+    }
+
+    /// The same of days alone.
+    pub fn difference_of_days(&self, one: &Lived, other: &Lived) -> Shares {
+        let scale = Scale::new(self.plan.scene.friction_limit(), peak(&self.plan.ground.motions));
+        let of_day = |(a, b): (&DayRecord, &DayRecord)| {
+            let places = a.extremes.forward.into_iter().chain(a.extremes.backward);
+            let moved = places.fold(scale.movement, |most, place| most.max(place.abs()));
+            let (force, movement) = a.extremes.difference(&b.extremes, (scale.force, moved));
+            Shares { force, movement }
+        };
+        let days = one.days.days.iter().zip(&other.days.days);
+        days.map(of_day).fold(Shares::default(), Shares::max)
     }
 
     pub fn reason(&self, lived: &Lived, knots: u64) -> String {
@@ -222,6 +249,7 @@ impl Living<'_> {
             all_days: DayExtremes::new(count, extremes),
             periodic_from_day: *periodic_from,
             drift_per_day_m: periodic_from.map(|_| *drift),
+            drift_per_year_m: periodic_from.map(|_| DAYS_PER_YEAR * drift),
             hot_profile: force_profile(&lived.passes.cable, hot)?,
             cold_profile: force_profile(&lived.passes.cable, cold)?,
         };
