@@ -6,6 +6,7 @@
 //! [`super::exact`] takes over.
 
 use super::chain::{Chain, Contact, Load, Stretch, Trial};
+use super::elimination::Rows;
 use super::tolerance::Tolerance;
 
 /// Linear solves after which the iteration counts as cycling.
@@ -20,187 +21,96 @@ pub(crate) fn iterate(
     tolerance: Tolerance,
     trial: &mut Trial,
 ) -> (Result<(), f64>, usize) {
-    let mut outcome = Err(f64::INFINITY);
+    let rows = Rows::new(chain, load, stretch, &trial.r);
+    let eliminated = &mut trial.eliminated;
+    let r = &mut trial.r[stretch.nodes()];
+    let g = &mut trial.g[stretch.nodes()];
+    let contact = &mut trial.contact[stretch.nodes()];
+    let mut changed = (0, r.len() - 1);
+    let mut worst = f64::INFINITY;
     for sweep in 1..=MAX_SWEEPS {
-        if !solve(chain, load, stretch, trial) {
+        if !rows.solve(contact, changed, eliminated, r) {
             return (Err(f64::INFINITY), sweep);
         }
-        outcome = correct(chain, load, stretch, tolerance, trial);
-        if outcome.is_ok() {
-            return (outcome, sweep);
+        (worst, changed) = correct(&rows, tolerance, r, g, contact);
+        if worst == 0.0 {
+            return (Ok(()), sweep);
+        }
+        if changed.0 > changed.1 {
+            // Rounding alone: the same rows give the same answer.
+            return (Err(worst / chain.limit), sweep);
         }
     }
-    (outcome, MAX_SWEEPS)
+    (Err(worst / chain.limit), MAX_SWEEPS)
 }
 
-/// Solves the linear system of the given contact states; false if it is singular.
-///
-/// A stuck row reads r + γ g = anchor, a slipping one k⁻¹ times equilibrium with g at its bound. Both are diagonally
-/// dominant, so that elimination needs no pivoting. It comes from both ends and meets in the middle: a row waits for the
-/// division of the row before, and two rows can wait at once.
-fn solve(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) -> bool {
-    let Stretch { lo, hi } = stretch;
-    let Trial {
-        r, contact, factors, ..
-    } = trial;
-    let per_stiffness = 1.0 / chain.stiffness;
-    let row = |i: usize| Row::new(chain, load, contact[i], per_stiffness, i);
-    // A held neighbour enters as a known value, a missing one not at all.
-    let held = |value: Option<&f64>| Eliminated {
-        value: value.copied().unwrap_or(0.0),
-        factor: 0.0,
-    };
-    let mut below = held(lo.checked_sub(1).map(|i| &r[i]));
-    let mut above = held(r.get(hi + 1));
-    let middle = lo + stretch.len() / 2;
-    let pairs = hi - middle;
-    for k in 0..pairs {
-        let (i, j) = (lo + k, hi - k);
-        let (Some(from_below), Some(from_above)) = (row(i).eliminate(below), row(j).eliminate(above)) else {
-            return false;
-        };
-        (below, above) = (from_below, from_above);
-        (r[i], factors[i]) = (below.value, below.factor);
-        (r[j], factors[j]) = (above.value, above.factor);
-    }
-    if lo + pairs < middle {
-        let Some(last) = row(middle - 1).eliminate(below) else {
-            return false;
-        };
-        below = last;
-        (r[middle - 1], factors[middle - 1]) = (below.value, below.factor);
-    }
-    let Some(met) = row(middle).between(below, above) else {
-        return false;
-    };
-    r[middle] = met;
-    let (mut right, mut left) = (met, met);
-    for k in 1..=pairs {
-        let (i, j) = (middle - k, middle + k);
-        left = r[i] + factors[i] * left;
-        right = r[j] + factors[j] * right;
-        (r[i], r[j]) = (left, right);
-    }
-    if lo + pairs < middle {
-        r[lo] += factors[lo] * left;
-    }
-    true
-}
-
-/// One row: diagonal · r_i − off · (r_{i−1} + r_{i+1}) = right.
-struct Row {
-    diagonal: f64,
-    off: f64,
-    right: f64,
-}
-
-/// A row without one of its neighbours: r_i = value + factor · r of the other one.
-#[derive(Clone, Copy)]
-struct Eliminated {
-    value: f64,
-    factor: f64,
-}
-
-#[allow(clippy::inline_always, reason = "a call a row costs a tenth of the time")]
-impl Row {
-    #[inline(always)]
-    fn new(chain: &Chain, load: &Load<'_>, contact: Contact, per_stiffness: f64, i: usize) -> Self {
-        match contact {
-            Contact::Stuck => {
-                let soft = chain.softness[i];
-                Self {
-                    diagonal: 1.0 + soft * chain.diagonal[i],
-                    off: soft,
-                    right: load.anchor[i] + soft * per_stiffness * load.support[i],
-                }
-            }
-            slipping => Self {
-                diagonal: chain.diagonal[i],
-                off: 1.0,
-                right: per_stiffness
-                    * (chain.tributary[i] * chain.bound(slipping, load.adhesion[i]) + load.support[i]),
-            },
-        }
-    }
-
-    /// Puts the eliminated neighbour in; none where nothing is left to hold the node.
-    #[inline(always)]
-    fn eliminate(&self, neighbour: Eliminated) -> Option<Eliminated> {
-        let inverse = self.inverse(neighbour.factor)?;
-        Some(Eliminated {
-            value: (self.right + self.off * neighbour.value) * inverse,
-            factor: self.off * inverse,
-        })
-    }
-
-    /// The answer where both neighbours are eliminated.
-    fn between(&self, below: Eliminated, above: Eliminated) -> Option<f64> {
-        let inverse = self.inverse(below.factor + above.factor)?;
-        Some((self.right + self.off * (below.value + above.value)) * inverse)
-    }
-
-    /// 1/pivot. Rows add up to the supports' share alone: without any, and all slipping, nothing holds the stretch.
-    #[inline(always)]
-    fn inverse(&self, factor: f64) -> Option<f64> {
-        let pivot = self.diagonal - self.off * factor;
-        (pivot > 1e-14 * self.diagonal).then(|| 1.0 / pivot)
-    }
-}
-
-/// Sets g from the solved r and corrects contact states that do not hold.
+/// Sets g from the solved r and corrects contact states that do not hold. Returned: the largest violation \[N/m\], and the first
+/// and last node whose states were corrected.
 fn correct(
-    chain: &Chain,
-    load: &Load<'_>,
-    stretch: Stretch,
+    rows: &Rows<'_>,
     tolerance: Tolerance,
-    trial: &mut Trial,
-) -> Result<(), f64> {
-    let Trial { r, g, contact, .. } = trial;
+    r: &[f64],
+    g: &mut [f64],
+    contact: &mut [Contact],
+) -> (f64, (usize, usize)) {
+    let chain = rows.chain;
+    let count = r.len();
+    // Of one length, so that no access is checked in the loop.
+    let (diagonal, per_tributary) = (&rows.diagonal[..count], &rows.per_tributary[..count]);
+    let (adhesion, support, anchor) = (
+        &rows.adhesion[..count],
+        &rows.support[..count],
+        &rows.anchor[..count],
+    );
+    let (g, contact) = (&mut g[..count], &mut contact[..count]);
     let mut worst = 0.0_f64;
-    for i in stretch.lo..=stretch.hi {
-        let balancing = chain.balancing_friction(r, load.support, i);
-        match contact[i] {
-            Contact::Stuck => {
-                let total = balancing + load.adhesion[i];
-                let excess = total.abs() - chain.limit;
-                g[i] = balancing;
-                // A comparison that NaN fails: it counts as a violation.
-                let within = excess <= tolerance.friction;
-                if !within {
+    let (mut first, mut last) = (count - 1, 0);
+    let (mut left, mut here) = (rows.held.0, r[0]);
+    for k in 0..count {
+        let right = if k + 1 < count { r[k + 1] } else { rows.held.1 };
+        let force = chain.stiffness * (diagonal[k] * here - left - right) - support[k];
+        let balancing = force * per_tributary[k];
+        let state = contact[k];
+        if state == Contact::Stuck {
+            let total = balancing + adhesion[k];
+            let excess = total.abs() - chain.limit;
+            g[k] = balancing;
+            // A comparison that NaN fails: it counts as a violation.
+            let within = excess <= 0.0;
+            if !within {
+                if excess <= tolerance.friction {
+                    g[k] = chain.limit.copysign(total) - adhesion[k];
+                } else {
                     worst = worst.max(nan_is_infinite(excess));
-                    contact[i] = if total > 0.0 {
+                    contact[k] = if total > 0.0 {
                         Contact::Forward
                     } else {
                         Contact::Backward
                     };
-                } else if excess > 0.0 {
-                    g[i] = chain.limit.copysign(total) - load.adhesion[i];
+                    (first, last) = (first.min(k), k);
                 }
             }
-            slipping => {
-                let bound = chain.bound(slipping, load.adhesion[i]);
-                g[i] = bound;
-                let slip = load.anchor[i] - r[i] - chain.compliance * bound;
-                let along = if slipping == Contact::Forward { slip } else { -slip };
-                // The linear solve itself: equilibrium with the bound.
-                let residual = (balancing - bound).abs();
-                let balanced = residual <= tolerance.friction;
-                if !balanced {
-                    worst = worst.max(nan_is_infinite(residual));
-                }
-                let slips_along = along >= -tolerance.slip;
-                if !slips_along {
-                    contact[i] = Contact::Stuck;
-                    worst = worst.max(chain.limit.max(f64::MIN_POSITIVE));
-                }
+        } else {
+            let bound = chain.bound(state, adhesion[k]);
+            g[k] = bound;
+            // The linear solve itself: equilibrium with the bound.
+            let residual = (balancing - bound).abs();
+            let balanced = residual <= tolerance.friction;
+            if !balanced {
+                worst = worst.max(nan_is_infinite(residual));
+            }
+            let slip = anchor[k] - here - chain.compliance * bound;
+            let along = if state == Contact::Forward { slip } else { -slip };
+            let slips_along = along >= -tolerance.slip;
+            if !slips_along {
+                contact[k] = Contact::Stuck;
+                worst = worst.max(chain.limit.max(f64::MIN_POSITIVE));
+                (first, last) = (first.min(k), k);
             }
         }
+        (left, here) = (here, right);
     }
-    if worst == 0.0 {
-        Ok(())
-    } else {
-        Err(worst / chain.limit)
-    }
+    (worst, (first, last))
 }
 
 fn nan_is_infinite(value: f64) -> f64 {

@@ -9,6 +9,7 @@
 //! and once these are known r follows from a linear system. An answer is right exactly when every stuck node's friction
 //! lies within its bounds and every slipping node has slipped the way its friction points.
 
+use super::elimination::Eliminated;
 use super::support::Support;
 use crate::{DuctedCable, Mesh};
 
@@ -32,8 +33,13 @@ pub(crate) struct Chain {
     pub diagonal: Vec<f64>,
     /// Tributary lengths w \[m\].
     pub tributary: Vec<f64>,
-    /// γ k / w: shear compliance of a node's contact beside the chain's.
-    pub softness: Vec<f64>,
+    /// 1/w \[1/m\].
+    pub per_tributary: Vec<f64>,
+    /// 1/diagonal: the share of each neighbour in the row of a slipping node.
+    pub per_diagonal: Vec<f64>,
+    /// Shares of each neighbour and of the anchor in the row of a stuck node: s/(1 + s · diagonal) and 1/(1 + s · diagonal) with the
+    /// contact's softness s = γ k/w beside the chain's.
+    pub stuck: Vec<(f64, f64)>,
     /// Shear compliance γ \[m²/N\]; 0 for Coulomb's law.
     pub compliance: f64,
     /// Friction limit q \[N/m\].
@@ -75,8 +81,8 @@ pub(crate) struct Trial {
     pub g: Vec<f64>,
     /// Contact states.
     pub contact: Vec<Contact>,
-    /// Storage of the elimination: r_i = value + factor · r_{i+1}.
-    pub factors: Vec<f64>,
+    /// Storage of the elimination.
+    pub eliminated: Vec<Eliminated>,
 }
 
 impl Stretch {
@@ -96,7 +102,7 @@ impl Trial {
             r: vec![0.0; nodes],
             g: vec![0.0; nodes],
             contact: vec![Contact::Stuck; nodes],
-            factors: vec![0.0; nodes],
+            eliminated: vec![Eliminated::default(); nodes],
         }
     }
 }
@@ -127,8 +133,10 @@ impl Chain {
                 None => free.hi = last - 1,
             }
         }
-        Self {
-            softness: tributary.iter().map(|w| compliance * stiffness / w).collect(),
+        let mut chain = Self {
+            per_tributary: tributary.iter().map(|w| 1.0 / w).collect(),
+            per_diagonal: diagonal.iter().map(|diagonal| 1.0 / diagonal).collect(),
+            stuck: Vec::new(),
             rounding: rounding(stiffness, mesh.spacing()) + stiffest,
             stiffness,
             diagonal,
@@ -137,15 +145,20 @@ impl Chain {
             limit: cable.friction().limit(),
             has_inertia: inertia > 0.0,
             free,
-        }
+        };
+        chain.soften(compliance);
+        chain
     }
 
     /// Gives the contact another shear compliance \[m²/N\].
     pub fn soften(&mut self, compliance: f64) {
         self.compliance = compliance;
-        for (softness, tributary) in self.softness.iter_mut().zip(&self.tributary) {
-            *softness = compliance * self.stiffness / tributary;
-        }
+        let stuck = |(diagonal, per_tributary): (&f64, &f64)| {
+            let softness = compliance * self.stiffness * per_tributary;
+            let share = 1.0 / (1.0 + softness * diagonal);
+            (softness * share, share)
+        };
+        self.stuck = self.diagonal.iter().zip(&self.per_tributary).map(stuck).collect();
     }
 
     /// Bound of the friction g in the slipping state `contact` \[N/m\].
@@ -162,7 +175,7 @@ impl Chain {
     pub fn balancing_friction(&self, r: &[f64], support: &[f64], i: usize) -> f64 {
         let left = if i > 0 { r[i - 1] } else { 0.0 };
         let right = r.get(i + 1).copied().unwrap_or(0.0);
-        (self.stiffness * (self.diagonal[i] * r[i] - left - right) - support[i]) / self.tributary[i]
+        (self.stiffness * (self.diagonal[i] * r[i] - left - right) - support[i]) * self.per_tributary[i]
     }
 }
 

@@ -128,19 +128,24 @@ mod tests {
             let n = self.nodes.len();
             let end = |i: usize| i == 0 || i + 1 == n;
             let tributary: Vec<f64> = (0..n).map(|i| if end(i) { 0.5 } else { 1.0 }).collect();
-            Chain {
+            let diagonal: Vec<f64> = (0..n)
+                .map(|i| self.nodes[i].2 + if end(i) { 1.0 } else { 2.0 })
+                .collect();
+            let mut chain = Chain {
                 stiffness: 1.0,
-                diagonal: (0..n)
-                    .map(|i| self.nodes[i].2 + if end(i) { 1.0 } else { 2.0 })
-                    .collect(),
-                softness: tributary.iter().map(|w| self.compliance / w).collect(),
+                per_diagonal: diagonal.iter().map(|diagonal| 1.0 / diagonal).collect(),
+                per_tributary: tributary.iter().map(|w| 1.0 / w).collect(),
+                diagonal,
+                stuck: Vec::new(),
                 tributary,
                 compliance: self.compliance,
                 limit: 1.0,
                 free: self.stretch(),
                 has_inertia: false,
                 rounding: 0.0,
-            }
+            };
+            chain.soften(self.compliance);
+            chain
         }
 
         fn stretch(&self) -> Stretch {

@@ -6,6 +6,7 @@
 
 mod active_set;
 mod chain;
+mod elimination;
 mod exact;
 mod fixed_end_friction;
 mod graph;

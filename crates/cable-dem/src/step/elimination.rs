@@ -1,0 +1,284 @@
+//! The linear system of a stretch whose contact states are given, eliminated from both ends at once.
+//!
+//! With K the chain's stiffness and supports, a stuck node reads r + γ g = anchor, a slipping one equilibrium with g at its bound. Divided
+//! by its diagonal each is a row
+//!
+//! r_i − a_i (r_{i−1} + r_{i+1}) = b_i,  0 ≤ a_i ≤ ½, or up to 1 for an end without a neighbour,
+//!
+//! so that elimination needs no pivoting. It comes from both ends and meets in the middle: each row waits for the one before it, and
+//! two can wait at once. What is carried from row to row are determinants, d_i = d_{i−1} − a_i a_{i−1} d_{i−2}: two products, where pivots
+//! d_i/d_{i−1} would have every row wait for a division. Rounding changes them as if it had changed the rows by a few units in the
+//! last place.
+
+use super::chain::{Chain, Contact, Load, Stretch};
+
+/// Rows after which determinants are made of size 1 again: each is at least half the one before.
+const RESCALED: usize = 256;
+/// A pivot below this is none: rows add up to the supports' share alone; without any, and all slipping, nothing holds the stretch.
+const SINGULAR: f64 = 1e-14;
+
+/// The nodes of a stretch, as slices of one length.
+pub(super) struct Rows<'a> {
+    pub chain: &'a Chain,
+    pub diagonal: &'a [f64],
+    pub per_tributary: &'a [f64],
+    pub adhesion: &'a [f64],
+    pub support: &'a [f64],
+    pub anchor: &'a [f64],
+    /// Neighbours beyond the ends: a held one enters as a known value, a missing one as none at all.
+    pub held: (f64, f64),
+    stuck: &'a [(f64, f64)],
+    slipping: &'a [f64],
+    weight: &'a [f64],
+    per_stiffness: f64,
+}
+
+/// r_i − a (r_{i−1} + r_{i+1}) = b.
+struct Row {
+    a: f64,
+    b: f64,
+}
+
+/// A row once it is eliminated: r_i = value + factor · r of the neighbour towards the middle.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Eliminated {
+    value: f64,
+    factor: f64,
+}
+
+/// What the rows on one side leave to the next: the last one's value, d_{i−1}, a_{i−1} d_{i−2}.
+#[derive(Clone, Copy)]
+struct Side {
+    value: f64,
+    determinant: f64,
+    minor: f64,
+}
+
+impl Side {
+    /// Beside a row that is eliminated, or a neighbour that is held: only the ratio of determinants counts.
+    fn beside(row: Eliminated) -> Self {
+        Self {
+            value: row.value,
+            determinant: 1.0,
+            minor: row.factor,
+        }
+    }
+
+    /// The same with a determinant of 1.
+    fn rescaled(self) -> Self {
+        Self {
+            determinant: 1.0,
+            minor: self.minor / self.determinant,
+            ..self
+        }
+    }
+
+    #[allow(clippy::inline_always, reason = "a call a row costs half of the time")]
+    #[inline(always)]
+    fn eliminate(self, row: &Row) -> (Self, Eliminated) {
+        let determinant = self.determinant - row.a * self.minor;
+        let inverse = self.determinant / determinant;
+        let factor = row.a * inverse;
+        let value = row.b * inverse + factor * self.value;
+        let next = Self {
+            value,
+            determinant,
+            minor: row.a * self.determinant,
+        };
+        (next, Eliminated { value, factor })
+    }
+}
+
+impl<'a> Rows<'a> {
+    pub fn new(chain: &'a Chain, load: &Load<'a>, stretch: Stretch, r: &[f64]) -> Self {
+        let nodes = stretch.nodes();
+        Self {
+            chain,
+            diagonal: &chain.diagonal[nodes.clone()],
+            per_tributary: &chain.per_tributary[nodes.clone()],
+            adhesion: &load.adhesion[nodes.clone()],
+            support: &load.support[nodes.clone()],
+            anchor: &load.anchor[nodes.clone()],
+            held: (
+                stretch.lo.checked_sub(1).map_or(0.0, |i| r[i]),
+                r.get(stretch.hi + 1).copied().unwrap_or(0.0),
+            ),
+            stuck: &chain.stuck[nodes.clone()],
+            slipping: &chain.per_diagonal[nodes.clone()],
+            weight: &chain.tributary[nodes],
+            per_stiffness: 1.0 / chain.stiffness,
+        }
+    }
+
+    #[allow(clippy::inline_always, reason = "a call a row costs half of the time")]
+    #[inline(always)]
+    fn row(&self, contact: &[Contact], k: usize) -> Row {
+        let support = self.per_stiffness * self.support[k];
+        match contact[k] {
+            Contact::Stuck => {
+                let (a, share) = self.stuck[k];
+                Row {
+                    a,
+                    b: share * self.anchor[k] + a * support,
+                }
+            }
+            slipping => {
+                let a = self.slipping[k];
+                let bound = self.chain.bound(slipping, self.adhesion[k]);
+                Row {
+                    a,
+                    b: a * (self.per_stiffness * self.weight[k] * bound + support),
+                }
+            }
+        }
+    }
+
+    /// Solves for `r`; only nodes between the `changed` two are in other contact states than when `eliminated` was last written. False
+    /// where the system is singular.
+    pub fn solve(
+        &self,
+        contact: &[Contact],
+        changed: (usize, usize),
+        eliminated: &mut [Eliminated],
+        r: &mut [f64],
+    ) -> bool {
+        let count = r.len();
+        let (contact, eliminated) = (&contact[..count], &mut eliminated[..count]);
+        let (middle, last) = (count / 2, count - 1);
+        let held = |value| Eliminated { value, factor: 0.0 };
+        // Rows that stay as they were eliminated, on both sides.
+        let (mut i, mut j) = (changed.0.min(middle), changed.1.max(middle));
+        let from = i.checked_sub(1).map_or(held(self.held.0), |i| eliminated[i]);
+        let mut below = Side::beside(from);
+        let from = eliminated.get(j + 1).copied().unwrap_or(held(self.held.1));
+        let mut above = Side::beside(from);
+        while i < middle && j > middle {
+            let pairs = (middle - i).min(j - middle).min(RESCALED);
+            for _ in 0..pairs {
+                let (low, high) = (self.row(contact, i), self.row(contact, j));
+                (below, eliminated[i]) = below.eliminate(&low);
+                (above, eliminated[j]) = above.eliminate(&high);
+                i += 1;
+                j -= 1;
+            }
+            (below, above) = (below.rescaled(), above.rescaled());
+        }
+        while i < middle {
+            let end = middle.min(i + RESCALED);
+            for (i, done) in eliminated.iter_mut().enumerate().take(end).skip(i) {
+                (below, *done) = below.eliminate(&self.row(contact, i));
+            }
+            (i, below) = (end, below.rescaled());
+        }
+        while j > middle {
+            let end = middle.max(j.saturating_sub(RESCALED));
+            for j in (end + 1..=j).rev() {
+                (above, eliminated[j]) = above.eliminate(&self.row(contact, j));
+            }
+            (j, above) = (end, above.rescaled());
+        }
+        let met = self.row(contact, middle);
+        let pivot = 1.0 - met.a * (below.minor + above.minor);
+        // A comparison that NaN fails.
+        let is_regular = pivot > SINGULAR;
+        let solved = (met.b + met.a * (below.value + above.value)) / pivot;
+        r[middle] = solved;
+        let (mut left, mut right) = (solved, solved);
+        let pairs = last - middle;
+        for k in 1..=pairs {
+            let (low, high) = (eliminated[middle - k], eliminated[middle + k]);
+            left = low.value + low.factor * left;
+            right = high.value + high.factor * right;
+            (r[middle - k], r[middle + k]) = (left, right);
+        }
+        if pairs < middle {
+            r[0] = eliminated[0].value + eliminated[0].factor * left;
+        }
+        is_regular && solved.is_finite()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{DuctedCable, End, Friction, FrictionLaw, Mesh};
+
+    /// Nodes on either side are more than determinants are carried over without being rescaled.
+    const NODES: usize = 1302;
+
+    fn chain(law: FrictionLaw) -> Chain {
+        let length = 0.1 * (NODES - 1) as f64;
+        let friction = Friction::new(law, 30.0).expect("friction");
+        let cable = DuctedCable::new(length, 8e6, friction)
+            .and_then(|cable| cable.with_ends(End::Free, End::Spring(2e6)))
+            .expect("a cable");
+        Chain::new(&cable, &Mesh::new(length, 0.1, 0.05).expect("a mesh"), 0.0)
+    }
+
+    #[test]
+    fn every_row_holds_and_rows_that_stay_need_not_be_eliminated_again() {
+        let sheath = FrictionLaw::ElasticPlastic { shape_factor: 3e6 };
+        for law in [FrictionLaw::Coulomb, sheath] {
+            let chain = chain(law);
+            // Any numbers.
+            let noise = |i: usize| ((i * 7919 + 13) % 1009) as f64 / 1009.0 - 0.5;
+            let [adhesion, support, anchor] =
+                [3.0, 50.0, 1e-4].map(|size| (0..NODES).map(|i| size * noise(i)).collect::<Vec<_>>());
+            let friction = vec![0.0; NODES];
+            let load = Load {
+                adhesion: &adhesion,
+                support: &support,
+                anchor: &anchor,
+                friction: &friction,
+            };
+            let stretch = Stretch { lo: 0, hi: NODES - 1 };
+            let state = |i: usize| match (i / 40) % 3 {
+                0 => Contact::Stuck,
+                1 => Contact::Forward,
+                _ => Contact::Backward,
+            };
+            let mut contact: Vec<Contact> = (0..NODES).map(state).collect();
+            let rows = Rows::new(&chain, &load, stretch, &[0.0; NODES]);
+            let mut eliminated = vec![Eliminated::default(); NODES];
+            let mut r = vec![0.0; NODES];
+            assert!(rows.solve(&contact, (0, NODES - 1), &mut eliminated, &mut r));
+            for changed in [(30, 35), (900, 1290), (640, 660), (0, 0), (NODES - 1, NODES - 1)] {
+                for state in &mut contact[changed.0..=changed.1] {
+                    *state = match state {
+                        Contact::Stuck => Contact::Forward,
+                        _ => Contact::Stuck,
+                    };
+                }
+                assert!(rows.solve(&contact, changed, &mut eliminated, &mut r));
+                let size = r.iter().fold(0.0_f64, |most, r| most.max(r.abs()));
+                for i in 0..NODES {
+                    let Row { a, b } = rows.row(&contact, i);
+                    let left = if i > 0 { r[i - 1] } else { 0.0 };
+                    let right = r.get(i + 1).copied().unwrap_or(0.0);
+                    let missed = r[i] - a * (left + right) - b;
+                    assert!(missed.abs() < 1e-13 * size, "row {i}: {missed:e} of {size:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_nothing_holds_is_refused() {
+        let friction = Friction::new(FrictionLaw::Coulomb, 30.0).expect("friction");
+        let cable = DuctedCable::new(2.0, 8e6, friction).expect("a cable");
+        let chain = Chain::new(&cable, &Mesh::new(2.0, 0.1, 0.05).expect("a mesh"), 0.0);
+        let zeros = [0.0; 21];
+        let load = Load {
+            adhesion: &zeros,
+            support: &zeros,
+            anchor: &zeros,
+            friction: &zeros,
+        };
+        let rows = Rows::new(&chain, &load, Stretch { lo: 0, hi: 20 }, &zeros);
+        let mut eliminated = [Eliminated::default(); 21];
+        let mut contact = [Contact::Forward; 21];
+        assert!(!rows.solve(&contact, (0, 20), &mut eliminated, &mut [0.0; 21]));
+        contact[3] = Contact::Stuck;
+        assert!(rows.solve(&contact, (3, 3), &mut eliminated, &mut [0.0; 21]));
+    }
+}
