@@ -193,6 +193,8 @@ impl<'a> Probe<'a> {
         let (found, _) = jumps::find(
             self.plan,
             known.scale,
+            jumps::SHARE,
+            None,
             Progress::default(),
             |level, jumping: &Jumping<'_>, _| {
                 let lower = level.saturating_sub(lowered).max(known.coarsest);

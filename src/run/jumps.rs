@@ -21,8 +21,9 @@ const LARGEST: f64 = 0.06;
 /// What both are multiplied by, and how often at most.
 const FINER: (f64, f64) = (1.0 / 3.0, 0.5);
 const FINEST: usize = 4;
-/// Share of the tolerance that jumps may take.
-const SHARE: f64 = 0.5;
+/// Share of the tolerance that jumps may take; and where a mesh would keep the tolerance with smaller ones.
+pub const SHARE: f64 = 0.5;
+pub const SMALLER_SHARE: f64 = 0.35;
 /// Periods simulated at the start, of at most so many vehicles and of more; and at most where only early jumps are off; and passes
 /// in them at most.
 const FIRST_PERIODS: u64 = 8;
@@ -66,11 +67,13 @@ impl Found {
     }
 }
 
-/// Finds jumps for `plan` that take a small share of its tolerance, or the best that are affordable. `simulate` carries out all passes on a
-/// level and reports how far it is. Returned with them: the work of all other runs.
+/// Finds jumps for `plan` that take at most the `share` of its tolerance, or the best that are affordable; smaller ones than those found
+/// `before`. `simulate` carries out all passes on a level and reports how far it is. Returned with them: the work of all other runs.
 pub fn find<'a>(
     plan: &Plan<'_>,
     scale: Scale,
+    share: f64,
+    before: Option<Found>,
     progress: Progress<'a>,
     carry_out: impl Fn(usize, &Jumping<'_>, Progress<'a>) -> Result<Passes, Error>,
 ) -> Result<(Found, Statistics), Error> {
@@ -81,7 +84,7 @@ pub fn find<'a>(
         carry_out(level, jumping, part)
     };
     let tolerance = plan.scene.solver.tolerance;
-    let allowed = Shares::both(SHARE * tolerance);
+    let allowed = Shares::both(share * tolerance);
     let duct = plan.scene.duct;
     let first = plan.levels.first();
     let is_short = duct.length <= SHORT * duct.depth;
@@ -103,15 +106,25 @@ pub fn find<'a>(
         guide: Guide::Free,
         beyond: false,
     };
-    let mut coarse = match simulate(level, &taken) {
-        Err(Error::Cable(CableError::CoarseMesh { .. })) if below.is_some() => {
-            level = first;
-            simulate(level, &taken)?
-        }
-        coarse => coarse?,
+    let mut statistics = Statistics::default();
+    let mut coarse = if let Some(found) = &before {
+        level = found.level;
+        taken.tolerance = found.tolerance;
+        taken.first_periods = found.first_periods;
+        taken.first_jump = found.first_jump;
+        found.passes.clone()
+    } else {
+        let coarse = match simulate(level, &taken) {
+            Err(Error::Cable(CableError::CoarseMesh { .. })) if below.is_some() => {
+                level = first;
+                simulate(level, &taken)?
+            }
+            coarse => coarse?,
+        };
+        statistics += coarse.statistics;
+        coarse
     };
-    let mut statistics = coarse.statistics;
-    let mut best = None;
+    let mut best = before;
     for finer in 1..=FINEST {
         taken.tolerance *= FINER.0;
         taken.first_jump *= FINER.1;
@@ -134,7 +147,7 @@ pub fn find<'a>(
             first_jump: taken.first_jump,
         };
         if let Some(bad) = bad.filter(|_| is_early) {
-            taken.first_periods = periods.max(first_periods);
+            taken.first_periods = periods.max(taken.first_periods);
             found.first_periods = taken.first_periods;
             found.error = errors[bad + 1..]
                 .iter()

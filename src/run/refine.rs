@@ -5,7 +5,7 @@ use std::thread;
 use cable_dem::{CableError, Mesh, Statistics};
 use cycle_jump::Record;
 
-use super::jumps;
+use super::jumps::{self, Found};
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
@@ -62,65 +62,77 @@ impl Refinement<'_> {
         let tolerance = scene.solver.tolerance;
         let scale = self.scale();
         let mut level = levels.first();
-        let (found, mut statistics) = match self.method {
-            PassMethod::Jumps(_) => {
-                let simulate = |level, jumping: &Jumping<'_>, progress| {
-                    self.simulate(level, Some(jumping), progress, false)
-                };
-                let (found, statistics) =
-                    jumps::find(self.plan, scale, self.progress.part(0.0, FINDING), simulate)?;
-                (Some(found), statistics)
-            }
-            PassMethod::EveryPass(_) => (None, Statistics::default()),
+        let mut statistics = Statistics::default();
+        let mut found = match self.method {
+            PassMethod::Jumps(_) => Some(self.jumps(jumps::SHARE, None, &mut statistics)?),
+            PassMethod::EveryPass(_) => None,
         };
+        let mut may_be_smaller = true;
         // How many meshes it takes is not known: each is half of what is left.
         let left = found.as_ref().map_or(0.0, |_| FINDING);
         let mut parts = self.progress.part(left, 1.0).halving();
-        let mut error = ErrorParts {
-            passes: found.as_ref().map_or(Shares::default(), |found| found.error),
-            ..ErrorParts::new(ground.accuracy, choice.inertia)
-        };
+        let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
+        let mut passes;
+        'meshes: loop {
+            error.passes = found.as_ref().map_or(Shares::default(), |found| found.error);
+            let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
+            let way = way.as_ref();
+            let known = found.as_ref().map(|found| (found.level, &found.passes));
+            let now = parts();
+            let (finest, coarser) = both(
+                || self.simulate(level, way, now, true),
+                || self.coarser(level, way, known),
+            )?;
+            passes = coarser;
+            passes.push(finest);
+            loop {
+                if passes.len() > 1 {
+                    let records: Vec<&[Record]> = passes.iter().map(|p| &p.records[..]).collect();
+                    error.mesh = of_mesh(&records, Levels::typical_error(level), scale);
+                }
+                let last = &passes[passes.len() - 1];
+                // A corner of an exact step is about as much work as a node.
+                let work = last.statistics.node_updates + last.statistics.corners;
+                let costly = REFINEMENT_COST.saturating_mul(work) > MAX_NODE_UPDATES;
+                // One mesh alone does not show its error.
+                let known = passes.len() > 1 || levels.named();
+                // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
+                let still = last.records.iter().all(|record| record.outcome.dissipated == 0.0);
+                let seen = !still || level >= SHARP;
+                let others = error.total().less(error.passes);
+                let within = others.is_within(allowed(tolerance, error.passes));
+                if known && seen && within {
+                    break 'meshes;
+                }
+                // Smaller jumps cost less than a finer mesh.
+                let smaller = Shares::both((1.0 - jumps::SMALLER_SHARE) * tolerance);
+                if known && seen && others.is_within(smaller) && std::mem::take(&mut may_be_smaller) {
+                    if let Some(before) = found.take() {
+                        let was = before.error;
+                        let now = self.jumps(jumps::SMALLER_SHARE, Some(before), &mut statistics)?;
+                        let is_smaller = now.error != was;
+                        found = Some(now);
+                        if is_smaller {
+                            statistics += work_of(&passes);
+                            continue 'meshes;
+                        }
+                    }
+                }
+                if costly || level >= levels.finest() {
+                    break 'meshes;
+                }
+                let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
+                match self.simulate(level + 1, way.as_ref(), parts(), true) {
+                    // What is known of coarser meshes counts.
+                    Err(Error::Jumps(_)) if known => break 'meshes,
+                    finer => passes.push(finer?),
+                }
+                level += 1;
+            }
+        }
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
-        let known = found.as_ref().map(|found| (found.level, &found.passes));
-        let now = parts();
-        let (finest, coarser) = both(
-            || self.simulate(level, way, now, true),
-            || self.coarser(level, way, known),
-        )?;
-        let mut passes = coarser;
-        passes.push(finest);
-        loop {
-            if passes.len() > 1 {
-                let records: Vec<&[Record]> = passes.iter().map(|p| &p.records[..]).collect();
-                error.mesh = of_mesh(&records, Levels::typical_error(level), scale);
-            }
-            let last = &passes[passes.len() - 1];
-            // A corner of an exact step is about as much work as a node.
-            let work = last.statistics.node_updates + last.statistics.corners;
-            let costly = REFINEMENT_COST.saturating_mul(work) > MAX_NODE_UPDATES;
-            // One mesh alone does not show its error.
-            let known = passes.len() > 1 || levels.named();
-            // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
-            let still = last.records.iter().all(|record| record.outcome.dissipated == 0.0);
-            let seen = !still || level >= SHARP;
-            let within = error
-                .total()
-                .less(error.passes)
-                .is_within(allowed(tolerance, error.passes));
-            if (known && seen && within) || costly || level >= levels.finest() {
-                break;
-            }
-            match self.simulate(level + 1, way, parts(), true) {
-                // What is known of coarser meshes counts.
-                Err(Error::Jumps(_)) if known => break,
-                finer => passes.push(finer?),
-            }
-            level += 1;
-        }
-        for passes in &passes {
-            statistics += passes.statistics;
-        }
+        statistics += work_of(&passes);
         // One mesh alone does not show its error; and no mesh that the scene names is refused for what coarser ones show.
         let alone = passes.len() == 1;
         let doubtful = levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
@@ -150,6 +162,20 @@ impl Refinement<'_> {
             random,
             heat: None,
         })
+    }
+
+    /// Jumps that take at most the `share` of the tolerance; smaller ones than those found `before`.
+    fn jumps(&self, share: f64, before: Option<Found>, statistics: &mut Statistics) -> Result<Found, Error> {
+        let progress = if before.is_none() {
+            self.progress.part(0.0, FINDING)
+        } else {
+            Progress::default()
+        };
+        let simulate =
+            |level, jumping: &Jumping<'_>, progress| self.simulate(level, Some(jumping), progress, false);
+        let (found, work) = jumps::find(self.plan, self.scale(), share, before, progress, simulate)?;
+        *statistics += work;
+        Ok(found)
     }
 
     /// What counts as nothing in this scene.
@@ -256,6 +282,14 @@ pub(super) fn judge(error: &ErrorParts, scene: &Scene, warnings: &mut Vec<String
         );
     }
     Ok(())
+}
+
+fn work_of(passes: &[Passes]) -> Statistics {
+    let mut work = Statistics::default();
+    for passes in passes {
+        work += passes.statistics;
+    }
+    work
 }
 
 /// Why this mesh.
