@@ -15,14 +15,15 @@ use crate::sweep::{MapValue, Row, SweepMap};
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Rerun the same command to resume an interrupted sweep. A point that fails is a row with its error. Numbers in the table are SI. In CSV an apostrophe \
+    after_help = "Rerun the same command to resume an interrupted sweep. A point that fails is a row with its error. Numbers in the table are SI, in a workbook \
+in the units that were typed. In CSV an apostrophe \
 stands before a text that a spreadsheet would take for a formula.
 
 Examples:
   creepage sweep my-duct.toml --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out friction.csv
   creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary vehicles.0.load=10tf,15tf,20tf --out grid.parquet
   creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out map.csv --map map.svg
-  creepage sweep my-duct.toml --rows ducts.csv --out answers.csv
+  creepage sweep my-duct.toml --rows ducts.csv --out answers.xlsx
   creepage sweep my-duct.toml --vary \"friction.dynamic_coefficient=normal(0.25, 0.03)\" --samples 500 --out bands.csv"
 )]
 pub struct Arguments {
@@ -42,11 +43,11 @@ pub struct Arguments {
         allow_hyphen_values = true
     )]
     vary: Vec<String>,
-    /// A table with one row a duct (CSV or Parquet), its columns named as keys, with units or in SI; an empty cell leaves the scene's own
+    /// A table with one row a duct (CSV, Parquet or Excel), its columns named as keys, with units or in SI; an empty cell leaves the scene's own
     /// value, and a column `id` is carried over
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "samples"])]
     rows: Option<PathBuf>,
-    /// Table to write, FILE.csv or FILE.parquet
+    /// Table to write, FILE.csv, FILE.parquet or FILE.xlsx
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Number of samples of the keys that have a distribution
