@@ -11,7 +11,7 @@ use crate::output::{Files, Kind, Output};
 use crate::{Error, Scene, SceneFile, finite};
 
 /// What stands for standard output in place of a file.
-const STDOUT: &str = "-";
+pub const STDOUT: &str = "-";
 
 #[derive(Debug, clap::Args)]
 pub struct SceneArguments {

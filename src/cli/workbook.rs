@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
+use super::shared::STDOUT;
 use crate::output::{Files, Kind, Output};
 use crate::{Run, SceneFile, Units, Verdict, finite, workbook};
 
@@ -22,25 +23,16 @@ impl WorkbookArguments {
         let Some(path) = &self.xlsx else {
             return Ok(Destination(None));
         };
-        let wrong = |what: &str| Failure::Usage {
-            argument: "--xlsx",
-            found: format!("`{}`{what}", path.display()),
-            allowed: "a file that ends in .xlsx".into(),
-        };
-        if !is_named_so(path) {
-            return Err(wrong(""));
-        }
         let output = files.output(path, Kind::RunBook)?;
-        if output.is_standard_output() {
-            return Err(wrong(", standard output"));
+        if path == Path::new(STDOUT) || output.is_standard_output() {
+            return Err(Failure::Usage {
+                argument: "--xlsx",
+                found: format!("`{}`, standard output", path.display()),
+                allowed: "a file: a workbook is no text".into(),
+            });
         }
         Ok(Destination(Some(output)))
     }
-}
-
-fn is_named_so(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|end| end.eq_ignore_ascii_case("xlsx"))
 }
 
 impl Destination {

@@ -40,6 +40,9 @@ pub const GENERATOR: &str = "<meta name=\"generator\" content=\"creepage";
 /// What stands at the beginning of a script of ours.
 #[cfg(feature = "cli")]
 pub const COMPLETIONS: &str = "# Written by `creepage completions`, which may replace it.";
+/// Where the name of a ZIP archive's first part stands.
+#[cfg(feature = "xlsx")]
+const NAME: usize = 30;
 /// Bytes at the beginning of most files that show their kind.
 const HEAD: u64 = 1 << 16;
 
@@ -135,14 +138,15 @@ pub fn described(head: &[u8]) -> String {
     }
 }
 
-/// Whether a workbook holds our name, and its parts lie as we write them: a spreadsheet program puts them in another order, and what it
-/// has saved is somebody's work.
+/// Whether a workbook holds our name, and its parts lie as we write them: programs that save it put them in another order, and what they
+/// have saved is somebody's work.
 #[cfg(feature = "xlsx")]
 fn is_own_book(bytes: &[u8], mark: &str) -> bool {
     use calamine::{Reader, Xlsx};
 
-    let [theme, workbook] = ["xl/theme/theme1.xml", "xl/workbook.xml"].map(|part| place(bytes, part));
-    let is_as_written = theme.is_some() && theme < workbook;
+    let order = ["[Content_Types].xml", "xl/theme/theme1.xml", "xl/workbook.xml"];
+    let places = order.map(|part| place(bytes, part).unwrap_or(usize::MAX));
+    let is_as_written = places[0] == NAME && places.is_sorted();
     let names = || Xlsx::new(std::io::Cursor::new(bytes)).map(|book| book.defined_names().to_vec());
     is_as_written && names().is_ok_and(|names| names.iter().any(|(name, _)| name == mark))
 }

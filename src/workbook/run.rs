@@ -3,7 +3,7 @@
 use std::io;
 
 use rust_xlsxwriter::XlsxError;
-use serde_json::{Map, Value};
+use serde_json::Value;
 
 use super::scene::scene;
 use super::sheet::{Book, Cell};
@@ -138,34 +138,58 @@ fn leaves(book: &mut Book, path: &str, field: &str, value: &Value, units: &Units
     }
 }
 
+/// A value of a record: the name of its column, its field, and itself.
+type Entry<'d> = (String, &'d str, &'d Value);
+
+/// The values of a record, those of records inside it too. Lists of numbers are no part of a row.
+fn entries<'d>(before: &str, record: &'d Value, units: &Units) -> Vec<Entry<'d>> {
+    let inside = |(field, value): (&'d String, &'d Value)| -> Vec<Entry<'d>> {
+        let name = format!("{before}{}", named(field, units).0);
+        match value {
+            Value::Array(items) => (1..)
+                .zip(items)
+                .flat_map(|(number, item)| entries(&format!("{name} {number}: "), item, units))
+                .collect(),
+            Value::Object(_) => entries(&format!("{name}: "), value, units),
+            value => vec![(name, field, value)],
+        }
+    };
+    record
+        .as_object()
+        .into_iter()
+        .flatten()
+        .flat_map(inside)
+        .collect()
+}
+
 /// A sheet with a row for each record; none where there are no records.
 fn table(book: &mut Book, name: &str, records: &Value, units: &Units) -> Result<(), XlsxError> {
-    let records: Vec<&Map<String, Value>> = records
+    let records: Vec<Vec<Entry>> = records
         .as_array()
         .into_iter()
         .flatten()
-        .filter_map(Value::as_object)
+        .map(|record| entries("", record, units))
         .collect();
-    // Fields that only some records have come last.
-    let mut fields: Vec<&str> = Vec::new();
-    for field in records.iter().flat_map(|record| record.keys()) {
-        if !fields.contains(&field.as_str()) {
-            fields.push(field);
+    // What only some records have comes last.
+    let mut columns: Vec<(&str, &str)> = Vec::new();
+    for (name, field, _) in records.iter().flatten() {
+        if !columns.iter().any(|(known, _)| known == name) {
+            columns.push((name, named(field, units).1));
         }
     }
-    if fields.is_empty() {
+    if columns.is_empty() {
         return Ok(());
     }
-    let columns: Vec<(&str, &str)> = fields.iter().map(|field| named(field, units)).collect();
     book.sheet(name, &columns)?;
-    for record in records {
-        let of = |field: &&str| {
-            record
-                .get(*field)
-                .map_or(Cell::Absent, |value| cell(field, value, units))
+    for record in &records {
+        let of = |(column, _): &(&str, &str)| {
+            let entry = record.iter().find(|(name, ..)| name == column);
+            entry.map_or(Cell::Absent, |(_, field, value)| cell(field, value, units))
         };
-        let is_marked = record.get("interpolated") == Some(&Value::Bool(true));
-        book.row(fields.iter().map(of), is_marked)?;
+        let is_marked = record
+            .iter()
+            .any(|(_, field, value)| *field == "interpolated" && **value == Value::Bool(true));
+        book.row(columns.iter().map(of), is_marked)?;
     }
     Ok(())
 }
