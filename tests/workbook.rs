@@ -47,10 +47,7 @@ impl Book {
     #[track_caller]
     fn answer(&mut self, quantity: &str) -> (Data, String) {
         let sheet = self.sheet("answer");
-        let row = sheet
-            .rows()
-            .find(|row| row[0].to_string() == quantity)
-            .expect(quantity);
+        let row = sheet.rows().find(|row| row[0] == *quantity).expect(quantity);
         (row[1].clone(), row[2].to_string())
     }
 }
@@ -202,7 +199,7 @@ fn a_run_is_its_document_in_the_units_that_were_typed() {
     // `law` is another name of `passes`.
     assert_eq!(errors.height() - 2, parts.len() - 1);
     let scene = book.sheet("scene");
-    let row = |key: &str| scene.rows().find(|row| row[0].to_string() == key).expect(key);
+    let row = |key: &str| scene.rows().find(|row| row[0] == *key).expect(key);
     assert_eq!(
         row("duct.length")[1..].to_vec(),
         ["98 ft", "--set duct.length=98 ft"].map(|text| Data::String(text.into()))

@@ -90,6 +90,7 @@ impl Limited {
     }
 
     /// A value of it with its unit.
+    #[cfg(feature = "cli")]
     pub(crate) fn shown(self, value: f64) -> String {
         self.shown_in(&Units::default(), value)
     }

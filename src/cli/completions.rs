@@ -48,11 +48,11 @@ pub fn execute(arguments: &Arguments, command: &mut clap::Command) -> Result<(),
     let file = arguments.force.files([]).output(&path, Kind::Completions)?;
     file.write(|out| out.write_all(&script))?;
     let mut out = terminal::out();
-    writeln!(out, "{} is written; new shells complete creepage", path.display())?;
+    writeln!(out, "{} is written", path.display())?;
     if let (Shell::Zsh, Some(folder)) = (arguments.shell, path.parent()) {
         writeln!(
             out,
-            "if zsh does not: put this line into ~/.zshrc, before compinit\n  fpath=({} $fpath)",
+            "unless its folder is in fpath already, put this line into ~/.zshrc, before compinit:\n  fpath=({} $fpath)",
             folder.display()
         )?;
     }

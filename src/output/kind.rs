@@ -95,11 +95,11 @@ impl Kind {
 
     /// Bytes at the beginning of a file that show its kind: of a workbook, all.
     pub fn head(self) -> u64 {
-        #[cfg(feature = "xlsx")]
-        if self.mark().is_some() {
-            return u64::MAX;
+        match self {
+            #[cfg(feature = "xlsx")]
+            Self::RunBook | Self::SweepBook => u64::MAX,
+            _ => HEAD,
         }
-        HEAD
     }
 
     /// Whether a file that begins with `head` is of this kind.

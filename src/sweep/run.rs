@@ -105,7 +105,12 @@ impl Sweep {
     /// a row of the table.
     pub fn run(&self, output: &Path, options: &SweepOptions<'_>) -> Result<SweepSummary, SweepError> {
         let format = Format::of(output)?;
-        format.check(self.count())?;
+        if self.count() > format.most_rows() {
+            return Err(SweepError::Unfit {
+                found: format!("{} points for {}", self.count(), output.display()),
+                allowed: "at most 1048574, as many as Excel has rows; more in .csv or .parquet",
+            });
+        }
         let output = Files::reading([], options.force).output(output, format.kind())?;
         let mut beside = output.path().as_os_str().to_owned();
         beside.push(".journal");

@@ -55,17 +55,13 @@ impl Format {
         }
     }
 
-    /// Refuses more rows than a table of this format holds.
-    pub fn check(self, rows: usize) -> Result<(), SweepError> {
-        #[cfg(feature = "xlsx")]
-        if self == Self::Xlsx && rows > super::xlsx::MOST_ROWS {
-            return Err(SweepError::Unfit {
-                found: format!("{rows} points for a workbook"),
-                allowed: "at most 1048574, as many as Excel has rows; more in .csv or .parquet",
-            });
+    /// Most rows that a table of this format holds.
+    pub fn most_rows(self) -> usize {
+        match self {
+            #[cfg(feature = "xlsx")]
+            Self::Xlsx => super::xlsx::MOST_ROWS,
+            _ => usize::MAX,
         }
-        let _ = rows;
-        Ok(())
     }
 
     #[cfg_attr(

@@ -28,7 +28,7 @@ pub enum Cell {
 
 /// A workbook whose last sheet is being written.
 pub struct Book {
-    book: Workbook,
+    workbook: Workbook,
     row: u32,
     name: Format,
     unit: Format,
@@ -40,20 +40,20 @@ pub struct Book {
 impl Book {
     /// An empty workbook of this kind.
     pub fn new(title: &str, kind: Kind) -> Result<Self, XlsxError> {
-        let mut book = Workbook::new();
+        let mut workbook = Workbook::new();
         let begun = ExcelDateTime::from_ymd(2000, 1, 1)?;
         let author = concat!("creepage ", env!("CARGO_PKG_VERSION"));
         let properties = DocProperties::new()
             .set_title(shortened(title, 200))
             .set_author(author)
             .set_creation_datetime(&begun);
-        book.set_properties(&properties);
+        workbook.set_properties(&properties);
         // This identifies our own workbooks.
         if let Some(mark) = kind.mark() {
-            book.define_name(mark, "=TRUE")?;
+            workbook.define_name(mark, "=TRUE")?;
         }
         Ok(Self {
-            book,
+            workbook,
             row: 0,
             name: Format::new().set_bold(),
             unit: Format::new().set_border_bottom(FormatBorder::Thin),
@@ -66,7 +66,7 @@ impl Book {
     /// Begins a sheet with the names of its columns, below them their units where there are any.
     pub fn sheet(&mut self, name: &str, columns: &[(&str, &str)]) -> Result<(), XlsxError> {
         let has_units = columns.iter().any(|(_, unit)| !unit.is_empty());
-        let sheet = self.book.add_worksheet().set_name(name)?;
+        let sheet = self.workbook.add_worksheet().set_name(name)?;
         for (place, (name, unit)) in (0..).zip(columns) {
             let width = name.chars().count().clamp(NARROW, WIDE) + 2;
             sheet.set_column_width(place, width as f64)?;
@@ -83,7 +83,7 @@ impl Book {
     /// The next row of the sheet; a marked one is grey and slanted.
     pub fn row(&mut self, cells: impl IntoIterator<Item = Cell>, is_marked: bool) -> Result<(), XlsxError> {
         let format = if is_marked { &self.marked } else { &self.plain };
-        let Some(sheet) = self.book.worksheets_mut().last_mut() else {
+        let Some(sheet) = self.workbook.worksheets_mut().last_mut() else {
             return Ok(());
         };
         for (place, cell) in (0..).zip(cells) {
@@ -95,7 +95,7 @@ impl Book {
 
     /// Widens columns of the sheet \[letters\].
     pub fn widths(&mut self, widths: &[f64]) -> Result<(), XlsxError> {
-        if let Some(sheet) = self.book.worksheets_mut().last_mut() {
+        if let Some(sheet) = self.workbook.worksheets_mut().last_mut() {
             for (place, width) in (0..).zip(widths) {
                 sheet.set_column_width(place, *width)?;
             }
@@ -105,7 +105,7 @@ impl Book {
 
     /// The bytes of the file.
     pub fn finish(mut self) -> Result<Vec<u8>, XlsxError> {
-        self.book.save_to_buffer()
+        self.workbook.save_to_buffer()
     }
 }
 

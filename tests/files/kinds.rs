@@ -91,6 +91,9 @@ fn a_workbook_that_somebody_has_saved_is_theirs() {
     folder.refused(&run, "found an Excel workbook, which would be lost");
 }
 
+/// Variables of the environment.
+type Variables<'a> = &'a [(&'a str, &'a str)];
+
 #[test]
 fn completions_come_where_the_shell_looks_and_replace_nothing_else() {
     let folder = Folder::new("completions");
@@ -105,7 +108,7 @@ fn completions_come_where_the_shell_looks_and_replace_nothing_else() {
     };
     let data = folder.path("data").to_str().expect("UTF-8").to_owned();
     let data_home = [("XDG_DATA_HOME", &*data)];
-    let places: [(&str, &[(&str, &str)], &str); 5] = [
+    let places: [(&str, Variables<'_>, &str); 5] = [
         (
             "bash",
             &[],
