@@ -7,6 +7,7 @@ use super::failure::Failure;
 use super::progress::{POINTS, with_bar};
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
+use crate::Units;
 #[cfg(feature = "plot")]
 use crate::output::Kind;
 use crate::sweep::{Axis, Band, Format, Samples, Sweep, SweepOptions, SweepSummary};
@@ -125,10 +126,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let svg = map.to_svg()?;
         file.write(|out| out.write_all(svg.as_bytes()))?;
     }
-    arguments.json.print(&summary, || print(&summary, arguments))
+    let units = Units::typed(&sweep.file_at(0)?, None, None);
+    arguments
+        .json
+        .print(&summary, || print(&summary, arguments, &units))
 }
 
-fn print(summary: &SweepSummary, arguments: &Arguments) -> Result<(), Failure> {
+fn print(summary: &SweepSummary, arguments: &Arguments, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
     write!(out, "{}: {} points", arguments.out.display(), summary.points)?;
     if summary.resumed > 0 {
@@ -136,12 +140,12 @@ fn print(summary: &SweepSummary, arguments: &Arguments) -> Result<(), Failure> {
     }
     writeln!(out)?;
     for band in &summary.bands {
-        bands(&mut out, band)?;
+        bands(&mut out, band, units)?;
     }
     Ok(())
 }
 
-fn bands(out: &mut impl Write, band: &Band) -> Result<(), Failure> {
+fn bands(out: &mut impl Write, band: &Band, units: &Units) -> Result<(), Failure> {
     let at: Vec<String> = band
         .at
         .iter()
@@ -151,7 +155,14 @@ fn bands(out: &mut impl Write, band: &Band) -> Result<(), Failure> {
     writeln!(
         out,
         "{:<12} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}",
-        "force, N", "mean", "deviation", "5 %", "25 %", "50 %", "75 %", "95 %"
+        format!("force, {}", units.force.symbol()),
+        "mean",
+        "deviation",
+        "5 %",
+        "25 %",
+        "50 %",
+        "75 %",
+        "95 %"
     )?;
     let forces = [
         ("downstream", band.downstream_force_n),
@@ -162,7 +173,7 @@ fn bands(out: &mut impl Write, band: &Band) -> Result<(), Failure> {
         if let Some(q) = quantiles {
             write!(out, "{name:<12}")?;
             for force in [q.mean, q.standard_deviation, q.p05, q.p25, q.p50, q.p75, q.p95] {
-                write!(out, " {force:>10.1}")?;
+                write!(out, " {:>10}", units.force(force))?;
             }
             writeln!(out)?;
         }

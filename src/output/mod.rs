@@ -24,5 +24,5 @@ pub(crate) use files::Files;
 pub(crate) use kind::COMPLETIONS;
 pub(crate) use kind::Kind;
 pub(crate) use target::{Draft, Output};
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", unix))]
 pub(crate) use temporary::remove_all;
