@@ -164,8 +164,8 @@ mod tests {
         assert_eq!(shown("N", "mm"), pair("1234.6", "-1.2346"));
         assert_eq!(shown("kN", "cm"), pair("1.2346", "-0.12346"));
         // 1 lbf = 4.4482216 N, 1 in = 25.4 mm.
-        assert_eq!(shown("lbf", "in"), pair("277.5", "-0.04860"));
-        assert_eq!(shown("kip", "um"), pair("0.2775", "-1234.6"));
+        assert_eq!(shown("lbf", "in"), pair("277.54", "-0.04860"));
+        assert_eq!(shown("kip", "um"), pair("0.27754", "-1234.6"));
     }
 
     #[test]

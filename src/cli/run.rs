@@ -19,13 +19,17 @@ use crate::shown::{exact, percent};
 use crate::{Limits, PassRecord, Reached, Run, RunOptions, Units, Verdict};
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples:
+#[command(
+    after_help = "What is printed, and a workbook, is in the units that were typed in limits and scene, where they suit; CSV and JSON are SI.
+
+Examples:
   creepage run my-duct.toml
   creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --set vehicles.0.load=15tf
   creepage run my-duct.toml --json > answer.json
   creepage run my-duct.toml --csv forces.csv --verify
   creepage run my-duct.toml --xlsx forces.xlsx
-  creepage run my-duct.toml --years 20 --trucks-per-day 800 --limit-force downstream=2kN --limit-movement 10mm")]
+  creepage run my-duct.toml --years 20 --trucks-per-day 800 --limit-force downstream=2kN --limit-movement 10mm"
+)]
 pub struct Arguments {
     #[command(flatten)]
     scene: TrafficArguments,
