@@ -49,8 +49,8 @@
 //!
 //! # Features
 //!
-//! All are on unless `default-features = false`: `calibrate`, `design`, `fem`, `parquet`, `plot` (figures and the report), `sweep`, and
-//! `cli`, the command. Without them a scene is read, planned and run, with 28 crates in all.
+//! All are on unless `default-features = false`: `calibrate`, `design`, `fem`, `parquet`, `plot` (figures and the report), `sweep`, `xlsx`
+//! (workbooks), and `cli`, the command. Without them a scene is read, planned and run, with 28 crates in all.
 
 mod answer;
 mod cable;
@@ -83,6 +83,8 @@ mod shown;
 #[cfg(feature = "sweep")]
 pub mod sweep;
 pub mod template;
+#[cfg(feature = "xlsx")]
+pub mod workbook;
 
 #[cfg(feature = "calibrate")]
 pub use ::calibrate as fitting;
@@ -95,7 +97,7 @@ pub use {boussinesq, burmister, cable_dem, cycle_jump, ground_field};
 pub use answer::{
     CableEnd, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, ErrorEstimate, ErrorShares,
     ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits, PassRecord, PlanSummary,
-    Quantiles, RandomSpread, Reached, RestraintRecord, Run, Saturation, SlipRecord, Stage, Verdict,
+    Quantiles, RandomSpread, Reached, RestraintRecord, Run, Saturation, SlipRecord, Stage, Units, Verdict,
 };
 #[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};

@@ -21,9 +21,14 @@ pub fn percent(share: f64) -> String {
     }
 }
 
-/// A given share as the percentage that was meant, without the binary digits of the product.
+/// A given share as the percentage that was meant.
 pub fn exact_percent(share: f64) -> String {
-    format!("{} %", (1e12 * (100.0 * share)).round() / 1e12)
+    format!("{} %", exact(100.0 * share))
+}
+
+/// A given number in another unit as it was meant, without the binary digits of the product.
+pub fn exact(number: f64) -> String {
+    format!("{}", (1e12 * number).round() / 1e12)
 }
 
 /// The beginning of the text, and how long it is where that is not all.

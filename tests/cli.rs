@@ -318,7 +318,7 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
     // The free end counts only by its name.
     let kept = printed(&run(&["--limit-movement", "1 um"]));
     assert!(
-        kept.contains("limit kept: movement of the downstream end at most 0.0000 mm"),
+        kept.contains("limit kept: movement of the downstream end at most 0.0 µm of 1.0 µm"),
         "{kept}"
     );
     let named = printed(&run(&[
@@ -328,8 +328,8 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
         "upstream=2 um",
     ]));
     for line in [
-        "limit exceeded: movement of the upstream end above 0.0020 mm from pass 1 on, 6 h; largest ",
-        "limit kept: movement of the downstream end at most 0.0000 mm of 0.0010 mm",
+        "limit exceeded: movement of the upstream end above 2.0 µm from pass 1 on, 6 h; largest ",
+        "limit kept: movement of the downstream end at most 0.0 µm of 1.0 µm",
     ] {
         assert!(named.contains(line), "{named}");
     }
@@ -1565,8 +1565,12 @@ fn run_in(folder: &Path, line: &str) -> String {
             _ => vec![part],
         })
         .collect();
+    // Completions are installed below a home.
     let output = command(&arguments)
         .current_dir(folder)
+        .env("HOME", folder)
+        .env_remove("XDG_DATA_HOME")
+        .env_remove("XDG_CONFIG_HOME")
         .output()
         .expect("the command");
     let errors = String::from_utf8_lossy(&output.stderr);

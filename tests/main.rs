@@ -47,5 +47,7 @@ mod scene;
 mod slope;
 #[path = "sweep.rs"]
 mod sweep;
+#[path = "workbook.rs"]
+mod workbook;
 #[path = "../crates/figure/tests/xml/mod.rs"]
 mod xml;

@@ -544,6 +544,23 @@ fn parquet_holds_what_csv_holds() {
     let (header, rows) = table(&csv);
     let reader = SerializedFileReader::new(fs::File::open(&file).unwrap()).unwrap();
     assert!(reader.metadata().num_row_groups() > 1);
+    let metadata = reader.metadata().file_metadata().key_value_metadata().unwrap();
+    let units = metadata.iter().find(|pair| pair.key == "units").unwrap();
+    let units: serde_json::Value = serde_json::from_str(units.value.as_ref().unwrap()).unwrap();
+    for (column, unit) in [
+        ("duct.depth", "m"),
+        ("downstream_force_n", "N"),
+        ("downstream_displacement_m", "m"),
+    ] {
+        assert_eq!(units[column], unit);
+    }
+    for column in [
+        "friction.dynamic_coefficient",
+        "ends.upstream",
+        "passes_to_95_percent",
+    ] {
+        assert!(units.get(column).is_none(), "{column}");
+    }
     let mut count = 0;
     for (row, expected) in reader.get_row_iter(None).unwrap().zip(&rows) {
         let row = row.unwrap();

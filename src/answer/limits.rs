@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::cable_end::CableEnd;
 use super::heat::DayExtremes;
 use super::record::{PassRecord, Run};
-use crate::shown::rounded;
+use super::units::Units;
 
 /// What is limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -90,10 +90,16 @@ impl Limited {
     }
 
     /// A value of it with its unit.
+    #[cfg(feature = "cli")]
     pub(crate) fn shown(self, value: f64) -> String {
+        self.shown_in(&Units::default(), value)
+    }
+
+    /// The same in units of a reader.
+    pub(crate) fn shown_in(self, units: &Units, value: f64) -> String {
         match self {
-            Self::Force => format!("{} N", rounded(value, 1)),
-            Self::Movement => format!("{} mm", rounded(1e3 * value, 4)),
+            Self::Force => format!("{} {}", units.force(value), units.force.symbol()),
+            Self::Movement => format!("{} {}", units.movement(value), units.movement.symbol()),
         }
     }
 
@@ -193,23 +199,27 @@ impl Limits {
     }
 }
 
-impl std::fmt::Display for Verdict {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let (limit, largest) = (self.quantity.shown(self.limit), self.quantity.shown(self.largest));
+impl Verdict {
+    /// In words, in units of a reader.
+    pub fn shown(&self, units: &Units) -> String {
+        let [limit, largest] = [self.limit, self.largest].map(|value| self.quantity.shown_in(units, value));
         let what = self.quantity.at(self.end);
-        match self.reached_after {
+        let verdict = match self.reached_after {
             Some(Reached { pass, years }) => {
                 let time = years.map_or_else(String::new, |years| format!(", {}", super::after(years)));
-                write!(
-                    f,
-                    "limit exceeded: {what} above {limit} from pass {pass} on{time}; largest {largest}"
-                )?;
+                format!("limit exceeded: {what} above {limit} from pass {pass} on{time}; largest {largest}")
             }
-            None => write!(f, "limit kept: {what} at most {largest} of {limit}")?,
-        }
+            None => format!("limit kept: {what} at most {largest} of {limit}"),
+        };
         if self.doubtful {
-            write!(f, "; nearer to the limit than the estimated error")?;
+            return format!("{verdict}; nearer to the limit than the estimated error");
         }
-        Ok(())
+        verdict
+    }
+}
+
+impl std::fmt::Display for Verdict {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.shown(&Units::default()))
     }
 }

@@ -12,6 +12,7 @@ mod record;
 mod saturation;
 #[cfg(any(feature = "cli", feature = "plot"))]
 mod table_rows;
+mod units;
 
 pub use cable_end::CableEnd;
 pub use calendar::after;
@@ -23,3 +24,8 @@ pub use record::*;
 pub use saturation::{larger, saturation};
 #[cfg(any(feature = "cli", feature = "plot"))]
 pub use table_rows::{table_days, table_rows};
+pub use units::Units;
+#[cfg(feature = "cli")]
+pub use units::in_unit;
+#[cfg(feature = "sweep")]
+pub use units::si_of_field;

@@ -110,7 +110,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         .map(|(_, data)| arguments.reading.read(data))
         .collect::<Result<Vec<_>, _>>()?;
     let read = files.iter().flat_map(|(scene, data)| [&**scene, &**data]);
-    let destination = arguments.output.destination(Kind::Fit, read)?;
+    let mut files = arguments.output.files(read);
+    let destination = arguments.output.destination(Kind::Fit, &mut files)?;
     let deflection = arguments.deflection.zip(arguments.deflection_sigma);
     let options = CalibrateOptions {
         unknowns: arguments.fit.clone(),

@@ -2,15 +2,24 @@
 
 use std::io::Write;
 
-use crate::answer::{DayExtremes, HeatRecord, table_days};
+use crate::Units;
+use crate::answer::{DayExtremes, HeatRecord, in_unit, table_days};
 use crate::scene::DAYS_PER_YEAR;
-use crate::shown::rounded;
+
+/// The last digit that is shown of movements, which are large \[m\].
+const DIGIT: f64 = 1e-6;
 
 /// The extremes of days, and what heat does over all of them.
-pub fn print(out: &mut impl Write, days: &[DayExtremes], heat: &HeatRecord) -> std::io::Result<()> {
+pub fn print(
+    out: &mut impl Write,
+    days: &[DayExtremes],
+    heat: &HeatRecord,
+    units: &Units,
+) -> std::io::Result<()> {
     let Some(last) = days.last() else {
         return Ok(());
     };
+    let Units { force, movement, .. } = units;
     let heading = |out: &mut dyn Write, texts: [&str; 5]| {
         let [day, rest @ ..] = texts;
         writeln!(
@@ -23,10 +32,10 @@ pub fn print(out: &mut impl Write, days: &[DayExtremes], heat: &HeatRecord) -> s
         out,
         [
             "",
-            "upstream force, N",
-            "downstream force, N",
-            "upstream end, mm",
-            "downstream end, mm",
+            &format!("upstream force, {}", force.symbol()),
+            &format!("downstream force, {}", force.symbol()),
+            &format!("upstream end, {}", movement.symbol()),
+            &format!("downstream end, {}", movement.symbol()),
         ],
     )?;
     heading(
@@ -34,15 +43,15 @@ pub fn print(out: &mut impl Write, days: &[DayExtremes], heat: &HeatRecord) -> s
         ["day", "least to most", "least to most", "from to", "from to"],
     )?;
     let row = |out: &mut dyn Write, name: &str, day: &DayExtremes| {
-        let force = |value: f64| rounded(value, 1);
-        let place = |value: f64| rounded(1e3 * value, 3);
+        let shown = |value: f64| units.force(value);
+        let place = |value: f64| in_unit(value, *movement, DIGIT);
         writeln!(
             out,
             "{name:>8} {:>9} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10} {:>10}",
-            force(day.upstream_min_n),
-            force(day.upstream_max_n),
-            force(day.downstream_min_n),
-            force(day.downstream_max_n),
+            shown(day.upstream_min_n),
+            shown(day.upstream_max_n),
+            shown(day.downstream_min_n),
+            shown(day.downstream_max_n),
             place(day.upstream_displacement_min_m),
             place(day.upstream_displacement_max_m),
             place(day.downstream_displacement_min_m),
@@ -57,17 +66,22 @@ pub fn print(out: &mut impl Write, days: &[DayExtremes], heat: &HeatRecord) -> s
     match (heat.periodic_from_day, heat.drift_per_day_m) {
         (Some(day), Some(drift)) if drift != 0.0 => writeln!(
             out,
-            "from day {day} on every day is like the one before, but the cable moves on by {:.3} mm a day, {:.3} m a year",
-            1e3 * drift,
-            DAYS_PER_YEAR * drift
+            "from day {day} on every day is like the one before, but the cable moves on by {} {} a day, {:.3} {} a year",
+            in_unit(drift, *movement, DIGIT),
+            movement.symbol(),
+            units.length.of_si(DAYS_PER_YEAR * drift),
+            units.length.symbol()
         )?,
         (Some(day), _) => writeln!(out, "from day {day} on every day is like the one before")?,
         _ => writeln!(out, "days still differ from the ones before")?,
     }
-    let (force, movement) = last.largest_range();
+    let (cyclic_force, cyclic_movement) = last.largest_range();
     writeln!(
         out,
-        "on the last day the force on an end changes by up to {force:.1} N and an end moves by up to {:.3} mm, to and fro",
-        1e3 * movement
+        "on the last day the force on an end changes by up to {} {} and an end moves by up to {} {}, to and fro",
+        units.force(cyclic_force),
+        force.symbol(),
+        in_unit(cyclic_movement, *movement, DIGIT),
+        movement.symbol()
     )
 }

@@ -1,8 +1,8 @@
 //! Limits of force and movement on the command line.
 
 use super::failure::Failure;
-use crate::scene::{Dimension, End, Ends};
-use crate::{CableEnd, EndLimits, Limits};
+use crate::scene::{Dimension, End, Ends, Unit};
+use crate::{CableEnd, EndLimits, Limits, SceneFile, Units};
 
 #[derive(Debug, clap::Args)]
 pub struct LimitArguments {
@@ -14,11 +14,12 @@ pub struct LimitArguments {
     limit_movement: Vec<Limit>,
 }
 
-/// A limit and the end it is for; for both where none is named.
+/// A limit, the unit that was typed, and the end it is for; for both where none is named.
 #[derive(Debug, Clone, Copy)]
 struct Limit {
     end: Option<CableEnd>,
     value: f64,
+    unit: Option<Unit>,
 }
 
 fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
@@ -30,11 +31,12 @@ fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
             (Some(end), value)
         }
     };
+    let unit = dimension.unit_of(value);
     let value = dimension
         .parse_argument(value)
         .map_err(|error| error.to_string())?;
     if value > 0.0 && value.is_finite() {
-        return Ok(Limit { end, value });
+        return Ok(Limit { end, value, unit });
     }
     Err("allowed: a finite value greater than 0".to_owned())
 }
@@ -42,6 +44,12 @@ fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
 impl LimitArguments {
     pub fn are_given(&self) -> bool {
         !self.limit_force.is_empty() || !self.limit_movement.is_empty()
+    }
+
+    /// The units that were typed here and in the scene.
+    pub fn units(&self, file: &SceneFile) -> Units {
+        let first = |given: &[Limit]| given.iter().find_map(|limit| limit.unit);
+        Units::typed(file, first(&self.limit_force), first(&self.limit_movement))
     }
 
     /// The limits of a cable with these ends. Without a name a limit is that of the ends that are not free; what is named counts before what

@@ -2,6 +2,7 @@
 
 mod calibrate;
 mod check;
+mod completions;
 mod days;
 mod design;
 mod explain;
@@ -20,8 +21,9 @@ mod shared;
 mod signals;
 mod sweep;
 mod terminal;
+#[cfg(feature = "xlsx")]
+mod workbook;
 
-use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -72,14 +74,8 @@ enum Command {
     Presets(presets::Arguments),
     /// Explain the keys of a scene: meaning, units, range, default
     Explain(explain::Arguments),
-    /// Print a script that completes commands and flags in a shell
-    #[command(after_help = "Examples:
-  creepage completions bash > ~/.local/share/bash-completion/completions/creepage
-  creepage completions fish > ~/.config/fish/completions/creepage.fish")]
-    Completions {
-        /// The shell
-        shell: clap_complete::Shell,
-    },
+    /// Print a script that completes commands and flags in a shell, or put it where the shell finds it
+    Completions(completions::Arguments),
 }
 
 /// Stands at the end of every help.
@@ -126,10 +122,6 @@ fn execute(command: &Command) -> Result<(), Failure> {
         Command::New(arguments) => new::execute(arguments),
         Command::Presets(arguments) => presets::execute(arguments),
         Command::Explain(arguments) => explain::execute(arguments),
-        Command::Completions { shell } => {
-            let mut script = Vec::new();
-            clap_complete::generate(*shell, &mut Arguments::command(), "creepage", &mut script);
-            Ok(std::io::stdout().lock().write_all(&script)?)
-        }
+        Command::Completions(arguments) => completions::execute(arguments, &mut Arguments::command()),
     }
 }

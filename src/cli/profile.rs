@@ -44,9 +44,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::read(&arguments.scene)?;
     let table = input.table();
     let read = [Some(&*arguments.scene.scene), table.as_deref()];
-    let destination = arguments
-        .output
-        .destination(Kind::Motion, read.into_iter().flatten())?;
+    let mut files = arguments.output.files(read.into_iter().flatten());
+    let destination = arguments.output.destination(Kind::Motion, &mut files)?;
     let answer = input.located(match &arguments.positions {
         Some(positions) => crate::profile_at(&input.scene, positions),
         None => crate::profile(&input.scene),

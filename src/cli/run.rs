@@ -10,19 +10,26 @@ use super::limits::LimitArguments;
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::shared::{Input, OutputArguments, TrafficArguments};
 use super::terminal;
+#[cfg(feature = "xlsx")]
+use super::workbook::WorkbookArguments;
 use crate::answer::{after, table_rows};
 use crate::output::Kind;
 use crate::scene::Traffic;
-use crate::shown::{percent, rounded};
-use crate::{Limits, PassRecord, Reached, Run, RunOptions, Verdict};
+use crate::shown::{exact, percent};
+use crate::{Limits, PassRecord, Reached, Run, RunOptions, Units, Verdict};
 
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Examples:
+#[command(
+    after_help = "What is printed, and a workbook, is in the units that were typed in limits and scene, where they suit; CSV and JSON are SI.
+
+Examples:
   creepage run my-duct.toml
   creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --set vehicles.0.load=15tf
   creepage run my-duct.toml --json > answer.json
   creepage run my-duct.toml --csv forces.csv --verify
-  creepage run my-duct.toml --years 20 --trucks-per-day 800 --limit-force downstream=2kN --limit-movement 10mm")]
+  creepage run my-duct.toml --xlsx forces.xlsx
+  creepage run my-duct.toml --years 20 --trucks-per-day 800 --limit-force downstream=2kN --limit-movement 10mm"
+)]
 pub struct Arguments {
     #[command(flatten)]
     scene: TrafficArguments,
@@ -31,6 +38,9 @@ pub struct Arguments {
     verify: bool,
     #[command(flatten)]
     limits: LimitArguments,
+    #[cfg(feature = "xlsx")]
+    #[command(flatten)]
+    workbook: WorkbookArguments,
     #[command(flatten)]
     output: OutputArguments,
 }
@@ -67,9 +77,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let limits = arguments.limits.limits(input.scene.ends)?;
     let table = input.table();
     let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
-    let destination = arguments
-        .output
-        .destination(Kind::Passes, read.into_iter().flatten())?;
+    let mut files = arguments.output.files(read.into_iter().flatten());
+    let destination = arguments.output.destination(Kind::Passes, &mut files)?;
+    #[cfg(feature = "xlsx")]
+    let workbook = arguments.workbook.destination(&mut files)?;
     let answer = with_bar(PERCENT, PER_MILLE, |progress| {
         let options = RunOptions {
             verify: arguments.verify,
@@ -80,6 +91,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     });
     let mut answer = input.located(answer)?;
     let traffic = input.scene.traffic.clone();
+    #[cfg(feature = "xlsx")]
+    let file = input.file().clone();
+    let units = arguments.limits.units(input.file());
     input.warn(&mut answer.warnings);
     let judgement = arguments
         .limits
@@ -89,16 +103,24 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         run: &answer,
         judgement,
     };
+    #[cfg(feature = "xlsx")]
+    {
+        let verdicts = judged
+            .judgement
+            .as_ref()
+            .map_or(&[][..], |judgement| &judgement.limits);
+        workbook.write(&answer, verdicts, &file, &units)?;
+    }
     // A column that only some rows have is none of a table.
     let rows = answer.passes.iter().map(|record| PassRecord {
         interpolated: false,
         ..*record
     });
     destination.write(&judged, rows, || {
-        print(&answer, &traffic)?;
+        print(&answer, &traffic, &units)?;
         let mut out = terminal::out();
         for verdict in judged.judgement.iter().flat_map(|judgement| &judgement.limits) {
-            writeln!(out, "{verdict}")?;
+            writeln!(out, "{}", verdict.shown(&units))?;
         }
         Ok(())
     })
@@ -113,8 +135,10 @@ fn in_time(traffic: &Traffic, pass: u64) -> String {
 /// Forces that differ by a smaller share are the same to a reader.
 const NOTICEABLE: f64 = 0.01;
 
-fn print(run: &Run, traffic: &Traffic) -> Result<(), Failure> {
+fn print(run: &Run, traffic: &Traffic, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
+    let (force, metres) = (|value| units.force(value), units.length.symbol());
+    let length = |value| units.length.of_si(value);
     writeln!(out, "{}", terminal::line(&run.title))?;
     writeln!(
         out,
@@ -122,16 +146,17 @@ fn print(run: &Run, traffic: &Traffic) -> Result<(), Failure> {
         1e6 * run.duct_motion.peak_longitudinal_m,
         1e6 * run.duct_motion.peak_vertical_m
     )?;
-    table(&mut out, run, traffic)?;
+    table(&mut out, run, traffic, units)?;
     if let Some(heat) = &run.heat {
-        days::print(&mut out, &run.days, heat)?;
+        days::print(&mut out, &run.days, heat, units)?;
     }
     match &run.saturation {
         _ if run.heat.is_some() => {}
         Some(saturation) => writeln!(
             out,
-            "saturation: {:.1} N, 95 % of it after {} passes{}",
-            saturation.force_n,
+            "saturation: {} {}, 95 % of it after {} passes{}",
+            force(saturation.force_n),
+            units.force.symbol(),
             saturation.passes_to_95_percent,
             in_time(traffic, saturation.passes_to_95_percent)
         )?,
@@ -147,7 +172,10 @@ fn print(run: &Run, traffic: &Traffic) -> Result<(), Failure> {
             if most - least > NOTICEABLE * most.abs().max(least.abs()) {
                 writeln!(
                     out,
-                    "in the end the {end} end shows {least:.1} to {most:.1} N by turns"
+                    "in the end the {end} end shows {} to {} {} by turns",
+                    force(least),
+                    force(most),
+                    units.force.symbol()
                 )?;
             }
         }
@@ -155,17 +183,20 @@ fn print(run: &Run, traffic: &Traffic) -> Result<(), Failure> {
     for restraint in &run.restraints {
         writeln!(
             out,
-            "clamp at {} m: {:.1} N, moved {:.4} mm",
-            restraint.position_m,
-            restraint.force_n,
-            1e3 * restraint.force_n / restraint.stiffness_n_per_m
+            "clamp at {} {metres}: {} {}, moved {} {}",
+            exact(length(restraint.position_m)),
+            force(restraint.force_n),
+            units.force.symbol(),
+            units.movement(restraint.force_n / restraint.stiffness_n_per_m),
+            units.movement.symbol()
         )?;
     }
     if let Some(slip) = &run.slip_lengths {
         writeln!(
             out,
-            "length slipping with the vehicle at mid-duct: {:.2} m forward, {:.2} m backward",
-            slip.forward_m, slip.backward_m
+            "length slipping with the vehicle at mid-duct: {:.2} {metres} forward, {:.2} {metres} backward",
+            length(slip.forward_m),
+            length(slip.backward_m)
         )?;
     }
     writeln!(
@@ -176,8 +207,11 @@ fn print(run: &Run, traffic: &Traffic) -> Result<(), Failure> {
     )?;
     writeln!(
         out,
-        "plan: ground {}, cable {}, node spacing {:.3} m, vehicle step {:.3} m",
-        run.plan.ground, run.plan.cable, run.plan.node_spacing_m, run.plan.vehicle_step_m
+        "plan: ground {}, cable {}, node spacing {:.3} {metres}, vehicle step {:.3} {metres}",
+        run.plan.ground,
+        run.plan.cable,
+        length(run.plan.node_spacing_m),
+        length(run.plan.vehicle_step_m)
     )?;
     for reason in &run.plan.reasons {
         writeln!(out, "  {}", terminal::sentence(reason))?;
@@ -186,7 +220,7 @@ fn print(run: &Run, traffic: &Traffic) -> Result<(), Failure> {
 }
 
 /// Forces and movements after some passes.
-fn table(out: &mut impl Write, run: &Run, traffic: &Traffic) -> std::io::Result<()> {
+fn table(out: &mut impl Write, run: &Run, traffic: &Traffic, units: &Units) -> std::io::Result<()> {
     // A column of times where they are known.
     let time = |text: &str| {
         traffic
@@ -198,8 +232,8 @@ fn table(out: &mut impl Write, run: &Run, traffic: &Traffic) -> std::io::Result<
         "\n{:>9}{} {:>23} {:>23} {:>12}",
         "",
         time(""),
-        "force after pass, N",
-        "end moved, mm",
+        format!("force after pass, {}", units.force.symbol()),
+        format!("end moved, {}", units.movement.symbol()),
         "largest"
     )?;
     writeln!(
@@ -211,7 +245,7 @@ fn table(out: &mut impl Write, run: &Run, traffic: &Traffic) -> std::io::Result<
         "downstream",
         "upstream",
         "downstream",
-        "in cable, N"
+        format!("in cable, {}", units.force.symbol())
     )?;
     for record in table_rows(&run.passes, traffic) {
         writeln!(
@@ -219,11 +253,11 @@ fn table(out: &mut impl Write, run: &Run, traffic: &Traffic) -> std::io::Result<
             "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}",
             record.pass,
             time(&record.years.map_or_else(String::new, after)),
-            rounded(record.upstream_force_n, 1),
-            rounded(record.downstream_force_n, 1),
-            rounded(1e3 * record.upstream_displacement_m, 4),
-            rounded(1e3 * record.downstream_displacement_m, 4),
-            rounded(record.max_compression_n, 1)
+            units.force(record.upstream_force_n),
+            units.force(record.downstream_force_n),
+            units.movement(record.upstream_displacement_m),
+            units.movement(record.downstream_displacement_m),
+            units.force(record.max_compression_n)
         )?;
     }
     writeln!(out)

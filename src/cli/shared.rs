@@ -11,7 +11,7 @@ use crate::output::{Files, Kind, Output};
 use crate::{Error, Scene, SceneFile, finite};
 
 /// What stands for standard output in place of a file.
-const STDOUT: &str = "-";
+pub const STDOUT: &str = "-";
 
 #[derive(Debug, clap::Args)]
 pub struct SceneArguments {
@@ -98,6 +98,11 @@ impl Input {
         })
     }
 
+    /// The scene's file.
+    pub fn file(&self) -> &SceneFile {
+        &self.file
+    }
+
     /// The table that the scene reads beside its file, which no output may replace.
     pub fn table(&self) -> Option<PathBuf> {
         self.file.histogram()
@@ -161,16 +166,17 @@ enum Table {
 }
 
 impl OutputArguments {
+    /// What a command reads and writes.
+    pub fn files<'p>(&self, read: impl IntoIterator<Item = &'p Path>) -> Files {
+        self.force.files(read)
+    }
+
     /// Makes sure before hours of computing that the table can be written; an older one stays as it is till then.
-    pub fn destination<'p>(
-        &self,
-        kind: Kind,
-        read: impl IntoIterator<Item = &'p Path>,
-    ) -> Result<Destination, Failure> {
+    pub fn destination(&self, kind: Kind, files: &mut Files) -> Result<Destination, Failure> {
         let table = match &self.csv {
             None => Table::None,
             Some(file) if file == Path::new(STDOUT) => Table::StandardOutput,
-            Some(file) => Table::File(self.force.files(read).output(file, kind)?),
+            Some(file) => Table::File(files.output(file, kind)?),
         };
         let on_stdout = match &table {
             Table::None => false,

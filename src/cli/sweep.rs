@@ -7,6 +7,7 @@ use super::failure::Failure;
 use super::progress::{POINTS, with_bar};
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
+use crate::Units;
 #[cfg(feature = "plot")]
 use crate::output::Kind;
 use crate::sweep::{Axis, Band, Format, Samples, Sweep, SweepOptions, SweepSummary};
@@ -15,14 +16,15 @@ use crate::sweep::{MapValue, Row, SweepMap};
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Rerun the same command to resume an interrupted sweep. A point that fails is a row with its error. Numbers in the table are SI. In CSV an apostrophe \
+    after_help = "Rerun the same command to resume an interrupted sweep. A point that fails is a row with its error. Numbers in the table are SI, in a workbook \
+in the units that were typed. In CSV an apostrophe \
 stands before a text that a spreadsheet would take for a formula.
 
 Examples:
   creepage sweep my-duct.toml --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out friction.csv
   creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary vehicles.0.load=10tf,15tf,20tf --out grid.parquet
   creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out map.csv --map map.svg
-  creepage sweep my-duct.toml --rows ducts.csv --out answers.csv
+  creepage sweep my-duct.toml --rows ducts.csv --out answers.xlsx
   creepage sweep my-duct.toml --vary \"friction.dynamic_coefficient=normal(0.25, 0.03)\" --samples 500 --out bands.csv"
 )]
 pub struct Arguments {
@@ -42,11 +44,11 @@ pub struct Arguments {
         allow_hyphen_values = true
     )]
     vary: Vec<String>,
-    /// A table with one row a duct (CSV or Parquet), its columns named as keys, with units or in SI; an empty cell leaves the scene's own
+    /// A table with one row a duct (CSV, Parquet or Excel), its columns named as keys, with units or in SI; an empty cell leaves the scene's own
     /// value, and a column `id` is carried over
     #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "samples"])]
     rows: Option<PathBuf>,
-    /// Table to write, FILE.csv or FILE.parquet
+    /// Table to write, FILE.csv, FILE.parquet or FILE.xlsx
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Number of samples of the keys that have a distribution
@@ -124,10 +126,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         let svg = map.to_svg()?;
         file.write(|out| out.write_all(svg.as_bytes()))?;
     }
-    arguments.json.print(&summary, || print(&summary, arguments))
+    let units = Units::typed(&sweep.file_at(0)?, None, None);
+    arguments
+        .json
+        .print(&summary, || print(&summary, arguments, &units))
 }
 
-fn print(summary: &SweepSummary, arguments: &Arguments) -> Result<(), Failure> {
+fn print(summary: &SweepSummary, arguments: &Arguments, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
     write!(out, "{}: {} points", arguments.out.display(), summary.points)?;
     if summary.resumed > 0 {
@@ -135,12 +140,12 @@ fn print(summary: &SweepSummary, arguments: &Arguments) -> Result<(), Failure> {
     }
     writeln!(out)?;
     for band in &summary.bands {
-        bands(&mut out, band)?;
+        bands(&mut out, band, units)?;
     }
     Ok(())
 }
 
-fn bands(out: &mut impl Write, band: &Band) -> Result<(), Failure> {
+fn bands(out: &mut impl Write, band: &Band, units: &Units) -> Result<(), Failure> {
     let at: Vec<String> = band
         .at
         .iter()
@@ -150,7 +155,14 @@ fn bands(out: &mut impl Write, band: &Band) -> Result<(), Failure> {
     writeln!(
         out,
         "{:<12} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}",
-        "force, N", "mean", "deviation", "5 %", "25 %", "50 %", "75 %", "95 %"
+        format!("force, {}", units.force.symbol()),
+        "mean",
+        "deviation",
+        "5 %",
+        "25 %",
+        "50 %",
+        "75 %",
+        "95 %"
     )?;
     let forces = [
         ("downstream", band.downstream_force_n),
@@ -161,7 +173,7 @@ fn bands(out: &mut impl Write, band: &Band) -> Result<(), Failure> {
         if let Some(q) = quantiles {
             write!(out, "{name:<12}")?;
             for force in [q.mean, q.standard_deviation, q.p05, q.p25, q.p50, q.p75, q.p95] {
-                write!(out, " {force:>10.1}")?;
+                write!(out, " {:>10}", units.force(force))?;
             }
             writeln!(out)?;
         }

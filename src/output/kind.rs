@@ -13,6 +13,14 @@ pub enum Kind {
     Parquet,
     Figure,
     Page,
+    /// Workbooks of Excel.
+    #[cfg(feature = "xlsx")]
+    RunBook,
+    #[cfg(feature = "xlsx")]
+    SweepBook,
+    /// What completes commands in a shell.
+    #[cfg(feature = "cli")]
+    Completions,
     /// A new scene: never replaced but by force, for it is its author's work.
     Scene,
 }
@@ -29,6 +37,15 @@ const RECOGNISED: [Kind; 6] = [
 /// What the head of a page of ours holds.
 pub const GENERATOR: &str = "<meta name=\"generator\" content=\"creepage";
 
+/// What stands at the beginning of a script of ours.
+#[cfg(feature = "cli")]
+pub const COMPLETIONS: &str = "# Written by `creepage completions`, which may replace it.";
+/// Where the name of a ZIP archive's first part stands.
+#[cfg(feature = "xlsx")]
+const NAME: usize = 30;
+/// Bytes at the beginning of most files that show their kind.
+const HEAD: u64 = 1 << 16;
+
 impl Kind {
     fn noun(self) -> &'static str {
         match self {
@@ -39,6 +56,12 @@ impl Kind {
             Self::Parquet => "Parquet file",
             Self::Figure => "SVG figure",
             Self::Page => "page of `creepage report`",
+            #[cfg(feature = "xlsx")]
+            Self::RunBook => "workbook of `creepage run` as it wrote it",
+            #[cfg(feature = "xlsx")]
+            Self::SweepBook => "workbook of `creepage sweep` as it wrote it",
+            #[cfg(feature = "cli")]
+            Self::Completions => "script of `creepage completions`",
             Self::Scene => "empty file",
         }
     }
@@ -60,6 +83,25 @@ impl Kind {
         }
     }
 
+    /// The name by which a workbook of this kind is known.
+    #[cfg(feature = "xlsx")]
+    pub fn mark(self) -> Option<&'static str> {
+        match self {
+            Self::RunBook => Some("creepage_run"),
+            Self::SweepBook => Some("creepage_sweep"),
+            _ => None,
+        }
+    }
+
+    /// Bytes at the beginning of a file that show its kind: of a workbook, all.
+    pub fn head(self) -> u64 {
+        match self {
+            #[cfg(feature = "xlsx")]
+            Self::RunBook | Self::SweepBook => u64::MAX,
+            _ => HEAD,
+        }
+    }
+
     /// Whether a file that begins with `head` is of this kind.
     pub fn is_kind_of(self, head: &[u8]) -> bool {
         match self {
@@ -67,6 +109,14 @@ impl Kind {
             Self::Figure => begins(head, b"<svg"),
             Self::Page => {
                 begins(head, b"<!doctype html") && String::from_utf8_lossy(head).contains(GENERATOR)
+            }
+            #[cfg(feature = "xlsx")]
+            Self::RunBook | Self::SweepBook => self.mark().is_some_and(|mark| is_own_book(head, mark)),
+            #[cfg(feature = "cli")]
+            Self::Completions => {
+                // Zsh wants a line of its own before.
+                let lines = head.split(|&byte| byte == b'\n').take(2);
+                lines.into_iter().any(|line| line == COMPLETIONS.as_bytes())
             }
             Self::Scene => false,
             Self::Passes | Self::Motion | Self::Fit | Self::Sweep => {
@@ -88,7 +138,35 @@ pub fn described(head: &[u8]) -> String {
     }
 }
 
+/// Whether a workbook holds our name, and its parts lie as we write them: programs that save it put them in another order, and what they
+/// have saved is somebody's work.
+#[cfg(feature = "xlsx")]
+fn is_own_book(bytes: &[u8], mark: &str) -> bool {
+    use calamine::{Reader, Xlsx};
+
+    let order = ["[Content_Types].xml", "xl/theme/theme1.xml", "xl/workbook.xml"];
+    let places = order.map(|part| place(bytes, part).unwrap_or(usize::MAX));
+    let is_as_written = places[0] == NAME && places.is_sorted();
+    let names = || Xlsx::new(std::io::Cursor::new(bytes)).map(|book| book.defined_names().to_vec());
+    is_as_written && names().is_ok_and(|names| names.iter().any(|(name, _)| name == mark))
+}
+
+/// Where a text stands for the first time.
+fn place(bytes: &[u8], text: &str) -> Option<usize> {
+    bytes
+        .windows(text.len())
+        .position(|window| window == text.as_bytes())
+}
+
 fn something_else(head: &[u8]) -> &'static str {
+    if head.starts_with(b"PK\x03\x04") {
+        let is_workbook = place(head, "xl/").is_some();
+        return if is_workbook {
+            "an Excel workbook"
+        } else {
+            "a ZIP archive"
+        };
+    }
     if begins(head, b"<!doctype html") || begins(head, b"<html") {
         return "a page of HTML";
     }

@@ -20,7 +20,9 @@ mod temporary;
 
 pub use error::OutputError;
 pub(crate) use files::Files;
+#[cfg(feature = "cli")]
+pub(crate) use kind::COMPLETIONS;
 pub(crate) use kind::Kind;
 pub(crate) use target::{Draft, Output};
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", unix))]
 pub(crate) use temporary::remove_all;

@@ -9,9 +9,6 @@ use super::kind::{Kind, described};
 use super::place::Place;
 use super::temporary::Temporary;
 
-/// Bytes at the beginning of a file that show its kind.
-const HEAD: u64 = 1 << 16;
-
 #[derive(Debug, Clone)]
 pub struct Output {
     /// As the user calls it.
@@ -42,7 +39,8 @@ impl Output {
             return Ok(());
         }
         let mut head = Vec::new();
-        let found = match File::open(file).and_then(|open| open.take(HEAD).read_to_end(&mut head)) {
+        let found = match File::open(file).and_then(|open| open.take(self.kind.head()).read_to_end(&mut head))
+        {
             Ok(_) if head.is_empty() || self.kind.is_kind_of(&head) => return Ok(()),
             Ok(_) => described(&head),
             // It was there a moment ago, or never was.

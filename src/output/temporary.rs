@@ -15,7 +15,7 @@ fn living() -> MutexGuard<'static, Vec<PathBuf>> {
 }
 
 /// Removes the temporary files of this process. While the answer is kept there are no new ones, and none takes its place.
-#[cfg(feature = "cli")]
+#[cfg(all(feature = "cli", unix))]
 #[must_use]
 pub fn remove_all() -> impl Sized {
     let living = living();

@@ -143,6 +143,11 @@ impl Document {
         self.sources[place.source].rank
     }
 
+    /// The name of what a place is in: the file, an override or a preset.
+    pub fn source(&self, place: &Place) -> &str {
+        &self.sources[place.source].name
+    }
+
     /// Where in its source a place is.
     pub fn locate(&self, place: &Place) -> Location {
         let source = &self.sources[place.source];

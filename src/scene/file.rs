@@ -34,7 +34,7 @@ const ROUNDING: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub struct SceneFile {
     name: String,
-    document: Document,
+    pub(super) document: Document,
 }
 
 impl SceneFile {
@@ -202,7 +202,7 @@ impl Scene {
     }
 }
 
-fn child<'n>(node: &'n Node, segment: &str) -> Option<&'n Node> {
+pub(super) fn child<'n>(node: &'n Node, segment: &str) -> Option<&'n Node> {
     match &node.content {
         Content::Table(entries) => Some(&entries.iter().find(|entry| entry.key == segment)?.value),
         Content::Array(items) => items.get(segment.parse::<usize>().ok()?),

@@ -30,6 +30,17 @@ pub(super) struct Key {
     default: Option<&'static str>,
 }
 
+impl Key {
+    /// The SI unit of its value; none for what is no number or has no unit.
+    #[cfg(feature = "sweep")]
+    pub fn si_unit(&self) -> Option<&'static str> {
+        match &self.allowed {
+            Q(quantity) => quantity.dimension?.si(),
+            _ => None,
+        }
+    }
+}
+
 /// Rows of a table that is read as one.
 macro_rules! keys {
     ($($section:literal $name:literal: $allowed:expr, $default:expr, $meaning:literal;)+) => {

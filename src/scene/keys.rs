@@ -22,6 +22,18 @@ pub fn of(path: &str) -> &'static str {
     found.map_or("", |(_, keys)| keys)
 }
 
+/// The SI unit of a key, `vehicles.0.speed`; none for what is no number or has no unit.
+#[cfg(feature = "sweep")]
+pub fn si_unit(key: &str) -> Option<&'static str> {
+    let path = without_numbers(key);
+    let (section, name) = path.rsplit_once('.')?;
+    let other = OTHER_NAMES.iter().find(|(other, _)| *other == name);
+    let is_name = |known: &str| known == name || other.is_some_and(|(_, meant)| *meant == known);
+    KEYS.iter()
+        .find(|key| key.section == section && is_name(key.name))?
+        .si_unit()
+}
+
 /// A key without the numbers of list items.
 pub fn without_numbers(path: &str) -> String {
     let is_name = |part: &&str| part.parse::<usize>().is_err();

@@ -63,6 +63,7 @@ mod slips;
 mod syntax;
 mod table;
 mod traffic;
+mod typed;
 mod units;
 mod unusual;
 mod value;
@@ -80,11 +81,14 @@ pub use file::SceneFile;
 #[cfg(feature = "cli")]
 pub(crate) use key::nearest_key;
 pub use key::{KeyMeaning, key_meanings};
+#[cfg(feature = "sweep")]
+pub(crate) use keys::si_unit;
 pub use location::Location;
 pub use quantity::QuantityError;
 #[cfg(feature = "sweep")]
 pub(crate) use quantity::leading_number;
 pub use slips::UnitSlip;
-pub use units::Dimension;
+pub use typed::{Typed, TypedValue};
+pub use units::{Dimension, Unit};
 pub(crate) use unusual::unusual;
 pub(crate) use write::quoted;

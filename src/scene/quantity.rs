@@ -5,7 +5,7 @@
 
 use super::nearest::nearest;
 use super::syntax::with_point;
-use super::units::{Dimension, UNITS, normalised};
+use super::units::{Dimension, UNITS, Unit, normalised};
 
 /// Why a text is not a quantity of the wanted dimension.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -77,6 +77,12 @@ impl Dimension {
         }
         let value = number.shifted(unit.exponent).ok_or(QuantityError::NotANumber)?;
         Ok(unit.in_si(value))
+    }
+
+    /// The unit in `text`, a number followed by one of this dimension's units; `None` for anything else.
+    pub fn unit_of(self, text: &str) -> Option<Unit> {
+        let (_, rest) = split(text.trim())?;
+        Unit::of(self, rest.trim())
     }
 
     /// As [`Dimension::parse`], but a number without a unit is taken as SI: for values typed on a command line.
@@ -307,6 +313,25 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn values_in_si_go_back_to_every_unit() {
+        for known in UNITS {
+            for number in [0.0, 1.0, -0.25, 12.5] {
+                let text = format!("{number} {}", known.symbol());
+                let found = known.dimension.unit_of(&text).expect("a unit");
+                assert_eq!(found, *known);
+                let back = found.of_si(known.dimension.parse(&text).expect("a quantity"));
+                assert!(
+                    (back - number).abs() <= 1e-15 * f64::abs(number),
+                    "{text}: {back}"
+                );
+            }
+        }
+        assert_eq!(Dimension::Length.unit_of("1.2"), None);
+        assert_eq!(Dimension::Length.unit_of("1 N"), None);
+        assert_eq!(Dimension::Length.unit_of("free"), None);
     }
 
     #[test]

@@ -55,6 +55,12 @@ impl Dimension {
             .map(|unit| unit.symbol)
     }
 
+    /// The symbol of its SI unit; ratios and slopes have none.
+    #[cfg(feature = "sweep")]
+    pub(super) fn si(self) -> Option<&'static str> {
+        self.units().next().filter(|unit| *unit != "%")
+    }
+
     /// The dimension in words, with its article: "a length".
     pub fn noun(self) -> &'static str {
         match self {
@@ -88,18 +94,90 @@ const POUND_FORCE: f64 = 4.4482216152605;
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 0.0254;
 
-/// A unit: one of it is `factor / divisor · 10^exponent` in SI; for a slope that is the angle, and its tangent counts.
+/// A unit of a scene file: one of it is `factor / divisor · 10^exponent` in SI; for a slope that is the angle, and its tangent counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Unit {
-    pub symbol: &'static str,
-    pub dimension: Dimension,
-    pub exponent: i32,
-    pub factor: f64,
-    pub divisor: f64,
+    pub(super) symbol: &'static str,
+    pub(super) dimension: Dimension,
+    pub(super) exponent: i32,
+    factor: f64,
+    divisor: f64,
 }
 
 impl Unit {
+    /// Newton.
+    pub const NEWTON: Self = unit("N", Dimension::Force, 0, 1.0);
+    /// Metre.
+    pub const METRE: Self = unit("m", Dimension::Length, 0, 1.0);
+    /// Millimetre.
+    pub const MILLIMETRE: Self = unit("mm", Dimension::Length, -3, 1.0);
+    /// Micrometre.
+    pub const MICROMETRE: Self = unit("um", Dimension::Length, -6, 1.0);
+    /// Foot.
+    pub const FOOT: Self = unit("ft", Dimension::Length, 0, FOOT);
+    /// Inch.
+    pub const INCH: Self = unit("in", Dimension::Length, 0, INCH);
+    /// Newton per metre.
+    pub const NEWTON_PER_METRE: Self = unit("N/m", Dimension::ForcePerLength, 0, 1.0);
+
+    /// The unit of this dimension that is written so.
+    pub fn of(dimension: Dimension, symbol: &str) -> Option<Self> {
+        let symbol = normalised(symbol);
+        let is_meant = |unit: &&Self| unit.symbol == symbol && dimension.takes(unit.dimension);
+        UNITS.iter().find(is_meant).copied()
+    }
+
+    /// The stiffness that is this force per length: N/m, kN/m, tf/m, kip/in.
+    pub(crate) fn per_length(&self) -> Option<Self> {
+        let begins = |unit: &&Self| {
+            unit.symbol
+                .split_once('/')
+                .is_some_and(|(force, _)| force == self.symbol)
+        };
+        let stiffnesses = UNITS
+            .iter()
+            .filter(|unit| unit.dimension == Dimension::ForcePerLength);
+        stiffnesses.into_iter().find(begins).copied()
+    }
+
+    /// Of a force per length, the force.
+    pub(crate) fn force(&self) -> Option<Self> {
+        let (force, _) = self.symbol.split_once('/')?;
+        Self::of(Dimension::Force, force)
+    }
+
+    /// Its symbol.
+    pub fn symbol(&self) -> &'static str {
+        match self.symbol {
+            "um" => "µm",
+            symbol => symbol,
+        }
+    }
+
+    /// How many of it `si` is, a value in SI.
+    ///
+    /// ```
+    /// use creepage::scene::{Dimension, Unit};
+    ///
+    /// let kip = Unit::of(Dimension::Force, "kip").unwrap();
+    /// assert_eq!(kip.of_si(2.0 * 4448.2216152605), 2.0);
+    /// ```
+    pub fn of_si(&self, si: f64) -> f64 {
+        let value = match self.dimension {
+            Dimension::Slope => si.atan(),
+            _ => si,
+        };
+        let value = value / self.factor * self.divisor;
+        let power = 10_f64.powi(self.exponent.abs());
+        if self.exponent < 0 {
+            value * power
+        } else {
+            value / power
+        }
+    }
+
     /// The value in SI of `number`, from which the power of ten is already taken out.
-    pub fn in_si(&self, number: f64) -> f64 {
+    pub(super) fn in_si(&self, number: f64) -> f64 {
         let value = number * self.factor / self.divisor;
         match self.dimension {
             // Steeper than upright is no slope.

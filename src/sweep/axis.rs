@@ -2,7 +2,8 @@
 
 use super::distribution::Distribution;
 use super::error::SweepError;
-use super::numbers::{number, numbers};
+use super::numbers::{number, numbers, unit};
+use crate::scene::Unit;
 
 /// Most values of one key.
 const MOST_VALUES: f64 = 1e6;
@@ -64,6 +65,21 @@ impl Axis {
             key: key.to_owned(),
             values,
         })
+    }
+
+    /// The unit of all its values, where they have one.
+    pub(super) fn unit(&self) -> Option<Unit> {
+        match &self.values {
+            AxisValues::List(list) => {
+                let mut units = list
+                    .iter()
+                    .filter(|value| !value.is_empty())
+                    .map(|value| unit(value));
+                let first = units.next()?;
+                first.filter(|_| units.all(|unit| unit == first))
+            }
+            AxisValues::Drawn(distribution) => unit(&distribution.quantile(0.5).1),
+        }
     }
 
     /// How many values the key takes; those of a distribution are counted as samples.

@@ -24,7 +24,7 @@ pub struct Samples {
 /// A scene and the values of its varied keys.
 #[derive(Debug, Clone)]
 pub struct Sweep {
-    file: SceneFile,
+    pub(super) file: SceneFile,
     pub(super) axes: Vec<Axis>,
     pub(super) samples: Samples,
     count: usize,
@@ -83,7 +83,7 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// The ducts of a table, `.csv` or `.parquet`: a row is the scene in `file` with the values of its columns, which are named as keys. An
+    /// The ducts of a table, `.csv`, `.parquet` or `.xlsx`: a row is the scene in `file` with the values of its columns, which are named as keys. An
     /// empty cell leaves the scene's own value; a column `id` is carried over.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use super::table::Format;
 /// The column that is carried over: it names a row and is no key of a scene.
 pub const ID: &str = "id";
 
-/// The columns of the table in `file`, `.csv` or `.parquet`, each with a value a row; empty where the row has none.
+/// The columns of the table in `file`, `.csv`, `.parquet` or `.xlsx`, each with a value a row; empty where the row has none.
 pub fn read(file: &Path) -> Result<Vec<Axis>, SweepError> {
     let name = file.display().to_string();
     let unreadable = |source| SweepError::Rows(name.clone(), source);
@@ -19,6 +19,8 @@ pub fn read(file: &Path) -> Result<Vec<Axis>, SweepError> {
         Format::Csv => csv(file),
         #[cfg(feature = "parquet")]
         Format::Parquet => super::parquet::read(file),
+        #[cfg(feature = "xlsx")]
+        Format::Xlsx => super::xlsx::read(file),
     }
     .map_err(unreadable)?;
     let column = |(index, key): (usize, String)| Axis {

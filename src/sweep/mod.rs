@@ -39,6 +39,8 @@ mod row;
 mod run;
 mod sink;
 mod table;
+#[cfg(feature = "xlsx")]
+mod xlsx;
 
 pub use axis::{Axis, AxisValues};
 pub use bands::{Band, Quantiles};

@@ -1,7 +1,7 @@
 //! Numbers with units, as they are varied.
 
-use crate::scene::Dimension;
 pub(super) use crate::scene::leading_number as number;
+use crate::scene::{Dimension, Unit};
 
 /// The SI value of a number with or without a unit; `None` for any other text.
 pub fn si(text: &str) -> Option<f64> {
@@ -11,6 +11,13 @@ pub fn si(text: &str) -> Option<f64> {
         .iter()
         .find_map(|dimension| dimension.parse_argument(text).ok())?;
     value.is_finite().then_some(value)
+}
+
+/// The unit of a number with a unit.
+pub fn unit(text: &str) -> Option<Unit> {
+    let text = text.trim().trim_matches(['"', '\'']);
+    let mut dimensions = Dimension::ALL.iter();
+    dimensions.find_map(|dimension| dimension.unit_of(text))
 }
 
 /// The SI unit of a number with a unit.

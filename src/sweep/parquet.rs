@@ -8,6 +8,7 @@ use std::sync::Arc;
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
@@ -36,7 +37,8 @@ impl Parquet {
             .map_err(other)?;
         let schema = Type::group_type_builder("sweep").with_fields(fields).build();
         let schema = Arc::new(schema.map_err(other)?);
-        let properties = Arc::new(WriterProperties::builder().build());
+        let properties = WriterProperties::builder().set_key_value_metadata(Some(vec![units(columns)]));
+        let properties = Arc::new(properties.build());
         Ok(Self {
             writer: SerializedFileWriter::new(file, schema, properties).map_err(other)?,
             kinds: columns.iter().map(|column| column.kind).collect(),
@@ -76,6 +78,13 @@ impl Sink for Parquet {
         self.flush().map_err(other)?;
         self.writer.into_inner().map_err(other)
     }
+}
+
+/// The units of columns as metadata of the file: `units`, a JSON object.
+fn units(columns: &[Column]) -> KeyValue {
+    let unit = |column: &Column| Some((column.name.clone(), column.unit?.into()));
+    let units: serde_json::Map<_, _> = columns.iter().filter_map(unit).collect();
+    KeyValue::new("units".into(), serde_json::Value::Object(units).to_string())
 }
 
 fn number(cell: &Cell) -> Option<f64> {

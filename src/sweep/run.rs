@@ -19,8 +19,10 @@ use super::numbers::si;
 use super::row::{Answer, PointError, Row};
 use super::sink::{Cell, Column, Kind};
 use super::table::Format;
+use crate::answer::si_of_field;
 use crate::output::{Files, Output};
-use crate::{Error, Progress, Run, Scene, finite};
+use crate::scene::si_unit;
+use crate::{Error, Progress, Run, Scene, Units, finite};
 
 /// Rows that may wait for the journal.
 const WAITING: usize = 64;
@@ -91,7 +93,8 @@ impl fmt::Debug for SweepOptions<'_> {
 }
 
 impl Sweep {
-    /// Computes all points that are not done yet and writes the table to `output`, whose name ends in `.csv` or `.parquet`.
+    /// Computes all points that are not done yet and writes the table to `output`, whose name ends in `.csv`,
+    /// `.parquet` or `.xlsx`. Numbers are in SI, but in a workbook in the units that were typed, which stand below the names of its columns.
     ///
     /// The journal stands beside it, as `output.journal`, until the table is in place. Where `output` is a link, it stands beside
     /// what that points to.
@@ -102,6 +105,12 @@ impl Sweep {
     /// a row of the table.
     pub fn run(&self, output: &Path, options: &SweepOptions<'_>) -> Result<SweepSummary, SweepError> {
         let format = Format::of(output)?;
+        if self.count() > format.most_rows() {
+            return Err(SweepError::Unfit {
+                found: format!("{} points for {}", self.count(), output.display()),
+                allowed: "at most 1048574, as many as Excel has rows; more in .csv or .parquet",
+            });
+        }
         let output = Files::reading([], options.force).output(output, format.kind())?;
         let mut beside = output.path().as_os_str().to_owned();
         beside.push(".journal");
@@ -174,7 +183,11 @@ impl Sweep {
     }
 
     fn columns(&self) -> Vec<Column> {
+        let units = self.file_at(0).map(|file| Units::typed(&file, None, None));
+        let units = units.unwrap_or_default();
         let column = |name: &str, kind| Column {
+            unit: si_unit(name).or(si_of_field(name).map(|(_, unit)| unit)),
+            shown: units.of_field(name).map(|(name, unit)| (name.to_owned(), unit)),
             name: name.to_owned(),
             kind,
         };
@@ -182,7 +195,10 @@ impl Sweep {
         let varied = self.axes.iter().map(|axis| match &axis.values {
             _ if axis.key == list::ID => column(&axis.key, Kind::Text),
             AxisValues::List(list) if !list.iter().all(is_number) => column(&axis.key, Kind::Text),
-            _ => column(&axis.key, Kind::Number),
+            _ => Column {
+                shown: axis.unit().map(|unit| (axis.key.clone(), unit)),
+                ..column(&axis.key, Kind::Number)
+            },
         });
         let sample = (self.samples.count > 0).then(|| column("sample", Kind::Count));
         let answer = self.answers().map(|(name, kind)| column(name, kind));
@@ -210,7 +226,9 @@ impl Sweep {
         let mut samples = Vec::new();
         let failed = |source| SweepError::File(output.path().display().to_string(), source);
         // It comes into its place when it is whole.
-        let mut table = format.sink(output.begin()?, &columns).map_err(failed)?;
+        let mut table = format
+            .sink(output.begin()?, &columns, &self.file)
+            .map_err(failed)?;
         for row in journal.rows() {
             if let Some(each) = each {
                 each(row);

@@ -3,11 +3,20 @@
 use std::io;
 
 use crate::output::Draft;
+use crate::scene::Unit;
 
 /// A column and what it holds.
+#[cfg_attr(
+    not(all(feature = "parquet", feature = "xlsx")),
+    allow(dead_code, reason = "CSV shows no units")
+)]
 pub struct Column {
     pub name: String,
     pub kind: Kind,
+    /// The SI unit of its numbers.
+    pub unit: Option<&'static str>,
+    /// Name and unit for a reader, where they differ.
+    pub shown: Option<(String, Unit)>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

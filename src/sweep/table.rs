@@ -1,4 +1,4 @@
-//! The finished table, as CSV or Parquet.
+//! The finished table, as CSV, Parquet or a workbook.
 
 use std::io;
 use std::path::Path;
@@ -6,6 +6,7 @@ use std::path::Path;
 use super::error::SweepError;
 use super::numbers::si;
 use super::sink::{Cell, Column, Sink};
+use crate::SceneFile;
 use crate::output::{self, Draft};
 
 /// Kind of the table file.
@@ -14,7 +15,17 @@ pub enum Format {
     Csv,
     #[cfg(feature = "parquet")]
     Parquet,
+    #[cfg(feature = "xlsx")]
+    Xlsx,
 }
+
+/// Formats of this program, by the ends of their names.
+const ALLOWED: &str = match (cfg!(feature = "parquet"), cfg!(feature = "xlsx")) {
+    (true, true) => "a file that ends in .csv, .parquet or .xlsx",
+    (true, false) => "a file that ends in .csv or .parquet: this program was built without workbooks",
+    (false, true) => "a file that ends in .csv or .xlsx: this program was built without Parquet",
+    (false, false) => "a file that ends in .csv: this program was built without Parquet and workbooks",
+};
 
 impl Format {
     /// The format that the file's name asks for.
@@ -24,13 +35,11 @@ impl Format {
             Some("csv") => Ok(Self::Csv),
             #[cfg(feature = "parquet")]
             Some("parquet") => Ok(Self::Parquet),
+            #[cfg(feature = "xlsx")]
+            Some("xlsx") => Ok(Self::Xlsx),
             _ => Err(SweepError::Unfit {
-                found: format!("the output {}", file.display()),
-                allowed: if cfg!(feature = "parquet") {
-                    "a file that ends in .csv or .parquet"
-                } else {
-                    "a file that ends in .csv: this program was built without Parquet"
-                },
+                found: format!("the table {}", file.display()),
+                allowed: ALLOWED,
             }),
         }
     }
@@ -41,10 +50,25 @@ impl Format {
             Self::Csv => output::Kind::Sweep,
             #[cfg(feature = "parquet")]
             Self::Parquet => output::Kind::Parquet,
+            #[cfg(feature = "xlsx")]
+            Self::Xlsx => output::Kind::SweepBook,
         }
     }
 
-    pub fn sink(self, file: Draft, columns: &[Column]) -> io::Result<Box<dyn Sink>> {
+    /// Most rows that a table of this format holds.
+    pub fn most_rows(self) -> usize {
+        match self {
+            #[cfg(feature = "xlsx")]
+            Self::Xlsx => super::xlsx::MOST_ROWS,
+            _ => usize::MAX,
+        }
+    }
+
+    #[cfg_attr(
+        not(feature = "xlsx"),
+        allow(unused_variables, reason = "only a workbook holds the scene")
+    )]
+    pub fn sink(self, file: Draft, columns: &[Column], scene: &SceneFile) -> io::Result<Box<dyn Sink>> {
         Ok(match self {
             Self::Csv => {
                 let mut writer = csv::Writer::from_writer(file);
@@ -53,6 +77,8 @@ impl Format {
             }
             #[cfg(feature = "parquet")]
             Self::Parquet => Box::new(super::parquet::Parquet::new(file, columns)?),
+            #[cfg(feature = "xlsx")]
+            Self::Xlsx => Box::new(super::xlsx::Xlsx::new(file, columns, scene)?),
         })
     }
 }

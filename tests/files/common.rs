@@ -6,6 +6,8 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
+use calamine::{Reader, Xlsx};
+
 /// A scene that is computed within milliseconds.
 pub const SCENE: &str = "title = \"Small\"
 [duct]
@@ -39,7 +41,12 @@ pub const READINGS: &str = "pass,force_n\n1,110\n2,160\n3,200\n4,220\n5,240\n";
 /// What nobody wants to lose.
 pub const PRECIOUS: &str = "notes of a whole year\n";
 /// What reads a scene and writes: each command without its output's flag, which is the last word, and the output's ending.
-pub const WRITERS: [(&[&str], &str); 7] = [
+pub const WRITERS: [(&[&str], &str); 9] = [
+    (&["run", "scene.toml", "--xlsx"], "xlsx"),
+    (
+        &["sweep", "scene.toml", "--vary", "duct.depth=1,2", "--out"],
+        "xlsx",
+    ),
     (&["run", "scene.toml", "--csv"], "csv"),
     (&["profile", "scene.toml", "--positions", "0,1", "--csv"], "csv"),
     (
@@ -202,6 +209,14 @@ pub fn assert_complete(content: &[u8], ending: &str) {
             assert!(rows.len() >= 2 && content.ends_with(b"\n"), "{}", text());
         }
         "parquet" => assert!(content.starts_with(b"PAR1") && content.ends_with(b"PAR1")),
+        "xlsx" => {
+            let book = Xlsx::new(std::io::Cursor::new(content));
+            let mut book = book.expect("a workbook");
+            assert_eq!(book.sheet_names().last().map(String::as_str), Some("scene"));
+            for (name, sheet) in book.worksheets() {
+                assert!(sheet.height() >= 2, "{name}");
+            }
+        }
         "svg" => assert!(text().starts_with("<svg") && text().trim_end().ends_with("</svg>")),
         "html" => assert!(text().starts_with("<!DOCTYPE html>") && text().trim_end().ends_with("</html>")),
         "toml" => drop(creepage::Scene::from_toml("new", text()).expect("a scene")),

@@ -121,7 +121,8 @@ impl Place {
     }
 
     /// Whether an output may go there.
-    fn is_allowed(self, command: &str, is_table_of_sweep: bool, force: bool) -> bool {
+    fn is_allowed(self, command: &str, ending: &str, force: bool) -> bool {
+        let is_table_of_sweep = command == "sweep" && ending != "svg";
         match self {
             Self::Fresh | Self::Empty | Self::Dangling | Self::Pipe => true,
             // Whoever made a scene keeps it.
@@ -130,6 +131,8 @@ impl Place {
             // A new scene reads none.
             Self::Input | Self::HardLinkToInput | Self::LinkToInput => command == "new" && force,
             Self::Folder | Self::Nowhere => false,
+            // A workbook is no text.
+            Self::StandardOutput if ending == "xlsx" => false,
             // These names do not tell a format.
             Self::Null | Self::StandardOutput => !is_table_of_sweep,
         }
@@ -206,7 +209,7 @@ fn try_cases(count: usize, seed: u64) {
             let is_table_of_sweep = command == "sweep" && *ending != "svg";
             // The scene's own name asks for no format of a table.
             let named = !is_table_of_sweep || name.ends_with(ending);
-            named && place.is_allowed(command, is_table_of_sweep, force)
+            named && place.is_allowed(command, ending, force)
         });
         let before = folder.contents();
         let modes: Vec<Option<u32>> = outputs

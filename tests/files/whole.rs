@@ -8,7 +8,12 @@ fn on_a_full_disk_the_older_file_stays() {
     // Each writes more than the half kilobyte that is left to it.
     let positions = "0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16";
     let friction = "friction.dynamic_coefficient=0.1:0.3:0.01";
-    let commands: [(&[&str], &str); 5] = [
+    let commands: [(&[&str], &str); 7] = [
+        (&["run", "scene.toml", "--xlsx"], "run.xlsx"),
+        (
+            &["sweep", "scene.toml", "--vary", friction, "--out"],
+            "table.xlsx",
+        ),
         (
             &["run", "scene.toml", "--set", "traffic.passes=40", "--csv"],
             "run.csv",

@@ -1,0 +1,54 @@
+//! Workbooks on the command line.
+
+use std::path::{Path, PathBuf};
+
+use super::failure::Failure;
+use super::shared::STDOUT;
+use crate::output::{Files, Kind, Output};
+use crate::{Run, SceneFile, Units, Verdict, finite, workbook};
+
+#[derive(Debug, clap::Args)]
+pub struct WorkbookArguments {
+    /// Write an Excel workbook to this file: answer, passes, force along the cable, clamps, days of heat, parts of the error, scene
+    #[arg(long, value_name = "FILE.xlsx")]
+    xlsx: Option<PathBuf>,
+}
+
+/// Where the workbook goes, if there is to be one.
+pub struct Destination(Option<Output>);
+
+impl WorkbookArguments {
+    /// Makes sure before hours of computing that the workbook can be written.
+    pub fn destination(&self, files: &mut Files) -> Result<Destination, Failure> {
+        let Some(path) = &self.xlsx else {
+            return Ok(Destination(None));
+        };
+        let output = files.output(path, Kind::RunBook)?;
+        if path == Path::new(STDOUT) || output.is_standard_output() {
+            return Err(Failure::Usage {
+                argument: "--xlsx",
+                found: format!("`{}`, standard output", path.display()),
+                allowed: "a file: a workbook is no text".into(),
+            });
+        }
+        Ok(Destination(Some(output)))
+    }
+}
+
+impl Destination {
+    /// Writes a run, all of whose numbers are finite.
+    pub fn write(
+        &self,
+        run: &Run,
+        verdicts: &[Verdict],
+        file: &SceneFile,
+        units: &Units,
+    ) -> Result<(), Failure> {
+        let Some(output) = &self.0 else { return Ok(()) };
+        finite::check(run)?;
+        finite::check(verdicts)?;
+        let bytes = workbook::of_run(run, verdicts, file, units);
+        let bytes = bytes.map_err(|source| output.failed(source))?;
+        Ok(output.write(|out| out.write_all(&bytes))?)
+    }
+}

@@ -1,0 +1,387 @@
+//! Workbooks: every number is that of the JSON document or the CSV table, in the unit below its name.
+
+#![cfg(all(feature = "cli", feature = "xlsx"))]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use calamine::{Data, Range, Reader, Xlsx, open_workbook};
+use creepage::scene::Dimension;
+use serde_json::Value;
+
+const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+/// Ends of the names of fields, by which JSON says its units.
+const ENDS: [&str; 6] = ["", "_n", "_m", "_n_per_m", "_j", "_k"];
+
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("workbook").join(test);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).expect("a folder");
+    folder
+}
+
+#[track_caller]
+fn printed(arguments: &[&str]) -> String {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_creepage"));
+    let command = command.current_dir(env!("CARGO_MANIFEST_DIR")).args(arguments);
+    let output = command.output().expect("the command");
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{arguments:?}: {errors}");
+    String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+struct Book(Xlsx<std::io::BufReader<fs::File>>);
+
+impl Book {
+    fn open(file: &Path) -> Self {
+        Self(open_workbook(file).expect("a workbook"))
+    }
+
+    #[track_caller]
+    fn sheet(&mut self, name: &str) -> Range<Data> {
+        self.0.worksheet_range(name).expect(name)
+    }
+
+    /// The value beside a name on the first sheet.
+    #[track_caller]
+    fn answer(&mut self, quantity: &str) -> (Data, String) {
+        let sheet = self.sheet("answer");
+        let row = sheet.rows().find(|row| row[0] == *quantity).expect(quantity);
+        (row[1].clone(), row[2].to_string())
+    }
+}
+
+/// The SI value of a number and its unit.
+fn si(number: f64, unit: &str) -> f64 {
+    if ["", "years", "J", "h"].contains(&unit) {
+        return number;
+    }
+    let text = format!("{number:e} {unit}");
+    let mut dimensions = Dimension::ALL.iter();
+    dimensions
+        .find_map(|dimension| dimension.parse(&text).ok())
+        .unwrap_or_else(|| panic!("{text}"))
+}
+
+#[track_caller]
+fn assert_same(cell: &Data, unit: &str, value: &Value) {
+    match (cell, value) {
+        (Data::Float(number), Value::Number(expected)) => {
+            let expected = expected.as_f64().expect("a number");
+            let found = si(*number, unit);
+            assert!(
+                (found - expected).abs() <= 1e-14 * expected.abs(),
+                "{found} {expected}"
+            );
+        }
+        (Data::String(text), Value::String(expected)) => assert_eq!(text, expected),
+        (Data::Bool(truth), Value::Bool(expected)) => assert_eq!(truth, expected),
+        (Data::Empty, Value::Null) => {}
+        other => panic!("{other:?}"),
+    }
+}
+
+/// Every cell of a sheet below two rows of heads is what the records of the document hold, and every field has its column.
+#[track_caller]
+fn assert_records(sheet: &Range<Data>, records: &[Value], units: &[(&str, &str)]) {
+    let rows: Vec<&[Data]> = sheet.rows().collect();
+    let heads: Vec<(String, String)> = rows[0]
+        .iter()
+        .zip(rows[1])
+        .map(|(name, unit)| (name.to_string(), unit.to_string()))
+        .collect();
+    for (name, unit) in units {
+        let found = heads.iter().find(|(found, _)| found == name);
+        assert_eq!(found.map(|(_, unit)| &**unit), Some(*unit), "{name}");
+    }
+    assert_eq!(rows.len() - 2, records.len());
+    for (row, record) in rows[2..].iter().zip(records) {
+        let record = record.as_object().expect("a record");
+        let mut known = 0;
+        for ((name, unit), cell) in heads.iter().zip(*row) {
+            let field = ENDS.iter().find_map(|end| record.get(&format!("{name}{end}")));
+            known += usize::from(field.is_some());
+            assert_same(cell, unit, field.unwrap_or(&Value::Null));
+        }
+        assert_eq!(known, record.len(), "{record:?}");
+    }
+}
+
+#[test]
+fn a_run_is_its_document_in_the_units_that_were_typed() {
+    let folder = folder("run");
+    let file = folder.join("run.xlsx");
+    let arguments = [
+        "run",
+        UPPER,
+        "--set",
+        "duct.length=98 ft",
+        "--set",
+        "traffic.passes=20000",
+        "--trucks-per-day",
+        "100",
+        "--set",
+        "restraints=[{ position = \"40 ft\", stiffness = \"2 kip/in\" }]",
+        "--set",
+        "title==1+1",
+        "--limit-force",
+        "0.2 lbf",
+    ];
+    let document = printed(&[&arguments[..], &["--json", "--xlsx", file.to_str().unwrap()]].concat());
+    let document: Value = serde_json::from_str(&document).expect("JSON");
+    let mut book = Book::open(&file);
+    let names = ["answer", "passes", "force along", "clamps", "error", "scene"];
+    assert_eq!(book.0.sheet_names(), names);
+
+    let passes = document["passes"].as_array().expect("passes");
+    let is_marked = |pass: &Value| pass["interpolated"] == Value::Bool(true);
+    assert!(passes.iter().any(is_marked) && !passes.iter().all(is_marked));
+    let units = [
+        ("downstream_force", "lbf"),
+        ("upstream_displacement", "in"),
+        ("years", "years"),
+        ("dissipated_energy", "J"),
+        ("pass", ""),
+    ];
+    assert_records(&book.sheet("passes"), passes, &units);
+    let clamps = document["restraints"].as_array().expect("clamps");
+    let units = [("position", "ft"), ("stiffness", "kip/in"), ("force", "lbf")];
+    assert_records(&book.sheet("clamps"), clamps, &units);
+
+    let along = book.sheet("force along");
+    let profile = &document["force_profile"];
+    let list = |name: &str| profile[name].as_array().expect("a list").clone();
+    let (places, forces) = (list("positions_m"), list("force_n"));
+    assert_eq!(along.height() - 2, places.len());
+    for (row, (place, force)) in along.rows().skip(2).zip(places.iter().zip(&forces)) {
+        assert_same(&row[0], "ft", place);
+        assert_same(&row[1], "lbf", force);
+    }
+
+    // A text is no formula.
+    assert_eq!(book.answer("title").0, Data::String("=1+1".into()));
+    for (quantity, value) in [
+        ("saturation: force", &document["saturation"]["force_n"]),
+        (
+            "saturation: passes_to_95_percent",
+            &document["saturation"]["passes_to_95_percent"],
+        ),
+        (
+            "duct_motion: peak_vertical",
+            &document["duct_motion"]["peak_vertical_m"],
+        ),
+        (
+            "error_estimate: relative",
+            &document["error_estimate"]["relative"],
+        ),
+        ("plan: node_spacing", &document["plan"]["node_spacing_m"]),
+        ("plan: ground", &document["plan"]["ground"]),
+        (
+            "last pass: downstream_force",
+            &passes[passes.len() - 1]["downstream_force_n"],
+        ),
+    ] {
+        let (cell, unit) = book.answer(quantity);
+        assert_same(&cell, &unit, value);
+    }
+    let (verdict, _) = book.answer("limits");
+    assert!(
+        verdict.to_string().contains("above 0.20 lbf from pass 1 on"),
+        "{verdict}"
+    );
+
+    let parts = document["error_estimate"]["parts"].as_object().expect("parts");
+    let errors = book.sheet("error");
+    for row in errors.rows().skip(2) {
+        assert_same(&row[1], "", &parts[&row[0].to_string()]);
+    }
+    // `law` is another name of `passes`.
+    assert_eq!(errors.height() - 2, parts.len() - 1);
+    let scene = book.sheet("scene");
+    let row = |key: &str| scene.rows().find(|row| row[0] == *key).expect(key);
+    assert_eq!(
+        row("duct.length")[1..].to_vec(),
+        ["98 ft", "--set duct.length=98 ft"].map(|text| Data::String(text.into()))
+    );
+    assert_eq!(row("ground.layers.0.poisson_ratio")[1], Data::Float(0.4));
+
+    // What is said at the terminal is in the same units.
+    let said = printed(&arguments);
+    for part in ["force after pass, lbf", "end moved, in", "clamp at 40 ft: "] {
+        assert!(said.contains(part), "{said}");
+    }
+}
+
+#[test]
+fn days_of_heat_have_sheets_and_the_same_run_is_the_same_file() {
+    let folder = folder("heat");
+    let files = ["one.xlsx", "two.xlsx"].map(|name| folder.join(name));
+    let arguments = [
+        "run",
+        UPPER,
+        "--set",
+        "heat={ expansion = \"17e-6 1/K\", daily_swing = \"10 K\" }",
+        "--trucks-per-day",
+        "6",
+        "--set",
+        "traffic.passes=18",
+        "--set",
+        "solver.tolerance=0.1",
+        "--set",
+        "ends.downstream={ spring = \"500 kN/m\" }",
+        "--json",
+        "--xlsx",
+    ];
+    let run = |file: &Path| printed(&[&arguments[..], &[file.to_str().unwrap()]].concat());
+    let document: Value = serde_json::from_str(&run(&files[0])).expect("JSON");
+    run(&files[1]);
+    let read = |file: &PathBuf| fs::read(file).expect("a file");
+    assert!(read(&files[0]) == read(&files[1]), "byte for byte");
+    let mut book = Book::open(&files[0]);
+    let units = [("downstream_max", "kN"), ("upstream_displacement_min", "mm")];
+    let days = document["days"].as_array().expect("days");
+    assert_eq!(days.len(), 3);
+    assert_records(&book.sheet("days"), days, &units);
+    let cycle = document["heat"]["cycle"].as_array().expect("a day");
+    let units = [("hour", "h"), ("warming", "K"), ("downstream_force", "kN")];
+    assert_records(&book.sheet("last day"), cycle, &units);
+    for name in ["hottest", "coldest"] {
+        assert!(book.sheet(name).height() > 10, "{name}");
+    }
+    let (most, unit) = book.answer("heat: all_days: downstream_max");
+    assert_same(&most, &unit, &document["heat"]["all_days"]["downstream_max_n"]);
+}
+
+/// The names, units and rows of a sheet of a sweep.
+fn sweep(file: &Path) -> (Vec<String>, Vec<String>, Vec<Vec<Data>>) {
+    let sheet = Book::open(file).sheet("sweep");
+    let mut rows = sheet.rows().map(<[Data]>::to_vec);
+    let mut head = || {
+        rows.next()
+            .expect("a head")
+            .iter()
+            .map(ToString::to_string)
+            .collect()
+    };
+    (head(), head(), rows.collect())
+}
+
+#[test]
+fn a_sweep_is_its_table_in_the_units_that_were_typed() {
+    let folder = folder("sweep");
+    let [csv, xlsx] = ["out.csv", "out.xlsx"].map(|name| folder.join(name));
+    fs::write(
+        folder.join("ducts.csv"),
+        "id,duct.depth,ends.downstream.spring,friction.dynamic_coefficient\n007,90 cm,3 kN/m,0.2\n=1+1,120 cm,,\n-,1 m,2 kN/m,-1\n",
+    )
+    .expect("a list");
+    let ducts = folder.join("ducts.csv");
+    for out in [&csv, &xlsx] {
+        let arguments = ["sweep", UPPER, "--set", "traffic.passes=2", "--rows"];
+        let files = [ducts.to_str().unwrap(), "--out", out.to_str().unwrap()];
+        printed(&[&arguments[..], &files].concat());
+    }
+    let (names, units, rows) = sweep(&xlsx);
+    let mut reader = csv::Reader::from_path(&csv).expect("a table");
+    let headers: Vec<String> = reader
+        .headers()
+        .expect("a head")
+        .iter()
+        .map(String::from)
+        .collect();
+    let expected: Vec<csv::StringRecord> = reader.records().map(|row| row.expect("a row")).collect();
+    assert_eq!((names.len(), rows.len()), (headers.len(), expected.len()));
+    assert_eq!(rows.len(), 3);
+    for (name, unit) in [
+        // The depth has two units.
+        ("duct.depth", "m"),
+        ("ends.downstream.spring", "kN/m"),
+        ("downstream_force", "kN"),
+        ("upstream_displacement", "mm"),
+        ("error_estimate", ""),
+    ] {
+        let place = names.iter().position(|found| found == name).expect(name);
+        assert_eq!(units[place], unit, "{name}");
+    }
+    for (row, expected) in rows.iter().zip(&expected) {
+        for (place, text) in expected.iter().enumerate() {
+            assert!(
+                ENDS.iter()
+                    .any(|end| format!("{}{end}", names[place]) == headers[place]),
+                "{} {}",
+                names[place],
+                headers[place]
+            );
+            match (&row[place], text.parse::<f64>()) {
+                (Data::Float(number), Ok(value)) => {
+                    let found = si(*number, &units[place]);
+                    assert!((found - value).abs() <= 1e-14 * value.abs(), "{found} {value}");
+                }
+                // CSV alone keeps spreadsheets from taking it for a formula.
+                (Data::String(found), _) => assert_eq!(found, text.strip_prefix('\'').unwrap_or(text)),
+                (Data::Empty, _) => assert_eq!(text, ""),
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+    // An id is a text, whatever it looks like.
+    let ids: Vec<&Data> = rows.iter().map(|row| &row[0]).collect();
+    assert_eq!(
+        ids,
+        ["007", "=1+1", "-"]
+            .map(|id| Data::String(id.into()))
+            .iter()
+            .collect::<Vec<_>>()
+    );
+    let failed = rows[2].last().expect("an error").to_string();
+    assert!(failed.contains("friction.dynamic_coefficient"), "{failed}");
+}
+
+#[test]
+fn a_list_of_ducts_may_be_a_workbook_with_units_below_its_names() {
+    let folder = folder("rows");
+    let ducts = folder.join("ducts.xlsx");
+    let mut book = rust_xlsxwriter::Workbook::new();
+    let sheet = book.add_worksheet();
+    let head = [["id", "duct.depth", "ends.downstream"], ["", "ft", ""]];
+    for (row, texts) in (0..).zip(head) {
+        for (place, text) in (0..).zip(texts) {
+            sheet.write_string(row, place, text).expect("a text");
+        }
+    }
+    sheet.write_string(2, 0, "A").expect("a text");
+    sheet.write_number(2, 1, 4.0).expect("a number");
+    sheet.write_string(2, 2, "free").expect("a text");
+    sheet.write_number(3, 0, 7.0).expect("a number");
+    sheet.write_string(3, 1, "1.5 m").expect("a text");
+    book.save(&ducts).expect("a file");
+    let file = creepage::SceneFile::read(UPPER).expect("a scene");
+    let sweep = creepage::sweep::Sweep::of_rows(file.clone(), &ducts).expect("a list");
+    assert_eq!(sweep.count(), 2);
+    let depth = |index| sweep.scene(index).expect("a scene").duct.depth;
+    assert!((depth(0) - 4.0 * 0.3048).abs() < 1e-15 && depth(1) == 1.5);
+    assert_eq!(sweep.values(1), ["7", "1.5 m", ""]);
+    assert_eq!(
+        sweep.scene(0).expect("a scene").ends.downstream,
+        creepage::scene::End::Free
+    );
+    assert_eq!(
+        sweep.scene(1).expect("a scene").ends,
+        file.scene().expect("a scene").ends
+    );
+
+    // Without units numbers are SI; what is no workbook is told.
+    let mut book = rust_xlsxwriter::Workbook::new();
+    let sheet = book.add_worksheet();
+    sheet.write_string(0, 0, "duct.depth").expect("a text");
+    sheet.write_number(1, 0, 2.0).expect("a number");
+    book.save(&ducts).expect("a file");
+    let bare = creepage::sweep::Sweep::of_rows(file.clone(), &ducts).expect("a list");
+    assert_eq!(bare.scene(0).expect("a scene").duct.depth, 2.0);
+    fs::write(&ducts, "duct.depth\n2\n").expect("a file");
+    let error = creepage::sweep::Sweep::of_rows(file, &ducts)
+        .expect_err("no workbook")
+        .to_string();
+    assert!(error.contains("ducts.xlsx: found no table of ducts"), "{error}");
+}
