@@ -138,7 +138,7 @@ pub fn find<'a>(
             found.first_periods = taken.first_periods;
             found.error = errors[bad + 1..]
                 .iter()
-                .copied()
+                .cloned()
                 .fold(Shares::default(), Shares::max);
             found.passes = simulate(level, &taken)?;
             statistics += found.passes.statistics;
@@ -193,7 +193,7 @@ fn mix_error(
         records
             .iter()
             .filter(|record| record.pass > drawn)
-            .copied()
+            .cloned()
             .collect()
     };
     let (own, other) = (later(&found.passes.records), later(&other.records));

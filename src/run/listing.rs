@@ -98,7 +98,7 @@ impl Listing {
         let of = |pass: u64| {
             known
                 .binary_search_by_key(&pass, |record| record.pass)
-                .map(|place| known[place])
+                .map(|place| known[place].clone())
         };
         let row = |(pass, shown): &(u64, RangeInclusive<u64>)| {
             let shown: Vec<Record> = shown.clone().filter_map(|pass| of(pass).ok()).collect();
@@ -137,23 +137,12 @@ fn alike(period: &Period, recent: &[usize], pass: u64, count: u64) -> u64 {
 
 /// Mean of what passes did.
 fn mean(records: &[Record]) -> PassOutcome {
-    let mut mean = records[0].outcome;
-    if let [_] = records {
-        return mean;
+    if let [one] = records {
+        return one.outcome.clone();
     }
-    let of = |value: fn(&PassOutcome) -> f64| {
-        records.iter().map(|record| value(&record.outcome)).sum::<f64>() / records.len() as f64
-    };
-    mean.force.upstream = of(|o| o.force.upstream);
-    mean.force.downstream = of(|o| o.force.downstream);
-    mean.peak.upstream = of(|o| o.peak.upstream);
-    mean.peak.downstream = of(|o| o.peak.downstream);
-    mean.lowest.upstream = of(|o| o.lowest.upstream);
-    mean.lowest.downstream = of(|o| o.lowest.downstream);
-    mean.max_compression = of(|o| o.max_compression);
-    mean.max_tension = of(|o| o.max_tension);
-    mean.upstream_displacement = of(|o| o.upstream_displacement);
-    mean.downstream_displacement = of(|o| o.downstream_displacement);
-    mean.dissipated = of(|o| o.dissipated);
+    let share = 1.0 / records.len() as f64;
+    let parts: Vec<_> = records.iter().map(|record| (share, &record.outcome)).collect();
+    let mut mean = PassOutcome::combined(&parts);
+    mean.statistics = records[0].outcome.statistics;
     mean
 }
