@@ -401,3 +401,23 @@ fn a_sequence_that_does_not_fit_into_a_day_is_an_error_of_its_own() {
     assert!(!whole.0 && broken.0);
     assert!(broken.1 > whole.1, "{broken:?} {whole:?}");
 }
+
+/// A sequence that takes longer than a day: all passes of a day are simulated.
+#[test]
+fn a_sequence_longer_than_a_day_is_answered() {
+    let sequence = vec!["\"v\""; 149].join(", ");
+    let run = run(&[
+        "vehicles = [{ name = \"v\", speed = 10, load = \"20 tf\" }, { name = \"back\", speed = 10, load = \"12 tf\", direction = \"reverse\" }]",
+        &format!("traffic = {{ passes = 3000, per_day = 120, sequence = [{sequence}, \"back\"] }}"),
+    ]);
+    assert!(
+        run.passes
+            .last()
+            .is_some_and(|last| last.downstream_force_n.is_finite())
+    );
+    assert!(
+        run.warnings
+            .iter()
+            .any(|warning| warning.contains("began the sequence anew"))
+    );
+}

@@ -634,7 +634,7 @@ fn rows(name: &str, table: &str) -> (PathBuf, Result<Sweep, SweepError>) {
 fn a_row_is_a_duct_with_its_own_values_and_the_scenes_where_it_has_none() {
     for (name, table) in [
         (
-            "rows",
+            "rows commas",
             "id,duct.length,duct.depth,ends.downstream\nA-007,40 m,1.5,\n\"B, north\",,90 cm,free\n",
         ),
         (

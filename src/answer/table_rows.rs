@@ -23,11 +23,13 @@ pub fn table_rows<'r>(passes: &'r [PassRecord], traffic: &Traffic) -> Vec<&'r Pa
     shown.map(|(_, record)| record).collect()
 }
 
-/// Few enough of `days` for a short table: round numbers and the last.
-pub fn table_days(days: &[DayExtremes]) -> Vec<&DayExtremes> {
+/// Few enough of `days` for a short table: round numbers and the last, which stands for all from the day `periodic_from` on.
+pub fn table_days(days: &[DayExtremes], periodic_from: Option<u64>) -> Vec<&DayExtremes> {
     let last = days.last().map_or(0, |day| day.day);
-    let shown = days.iter().filter(|day| day.day == last || is_round(day.day));
-    shown.collect()
+    let is_shown = |day: u64| is_round(day) && periodic_from.is_none_or(|from| day <= from);
+    days.iter()
+        .filter(|day| day.day == last || is_shown(day.day))
+        .collect()
 }
 
 fn is_round(number: u64) -> bool {

@@ -49,12 +49,7 @@ pub fn print(out: &mut impl Write, days: &[DayExtremes], heat: &HeatRecord) -> s
             place(day.downstream_displacement_max_m),
         )
     };
-    // Once every day is alike the last one stands for all.
-    let differs = |day: &&DayExtremes| heat.periodic_from_day.is_none_or(|from| day.day <= from);
-    for day in table_days(days)
-        .into_iter()
-        .filter(|day| differs(day) || day.day == last.day)
-    {
+    for day in table_days(days, heat.periodic_from_day) {
         row(out, &day.day.to_string(), day)?;
     }
     row(out, "all days", &heat.all_days)?;

@@ -208,17 +208,14 @@ fn days(html: &mut Html, report: &Report, record: &HeatRecord) {
         .collect();
     let mut shown = is_shown.into_iter();
     columns.retain(|_| shown.next().unwrap_or(true));
-    let last = all.last().map_or(0, |day| day.day);
-    let differs = |day: u64| record.periodic_from_day.is_none_or(|from| day <= from) || day == last;
     let row = |name: String, day: &DayExtremes| {
         let values = columns
             .iter()
             .map(|(_, value, decimals)| rounded(value(day), *decimals));
         std::iter::once(name).chain(values).collect()
     };
-    let mut rows: Vec<Vec<String>> = table_days(all)
+    let mut rows: Vec<Vec<String>> = table_days(all, record.periodic_from_day)
         .into_iter()
-        .filter(|day| differs(day.day))
         .map(|day| row(count(day.day), day))
         .collect();
     rows.push(row("all days".into(), &record.all_days));

@@ -58,25 +58,13 @@ pub fn solve(
     verify: bool,
     warnings: &mut Vec<String>,
 ) -> Result<Solved, Error> {
-    let living = Living {
-        plan,
-        heat,
-        progress,
-        every_pass: matches!(method, PassMethod::EveryPass(_)),
-        begin: 0,
-    };
-    living.solve(verify, warnings)
+    let every_pass = matches!(method, PassMethod::EveryPass(_));
+    Living::new(plan, heat, every_pass, progress).solve(verify, warnings)
 }
 
 /// Work that a run of `plan` is expected to take, and the level that it ends on: one run on a coarse mesh tells.
 pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<(Work, usize), Error> {
-    let living = Living {
-        plan,
-        heat,
-        progress: Progress::default(),
-        every_pass: false,
-        begin: 0,
-    };
+    let living = Living::new(plan, heat, false, Progress::default());
     let level = living.first_level();
     let (coarse, lived) = living.coarse(level, FIRST_KNOTS)?;
     let periods = lived.passes.simulated as f64;

@@ -142,7 +142,5 @@ fn mean(records: &[Record]) -> PassOutcome {
     }
     let share = 1.0 / records.len() as f64;
     let parts: Vec<_> = records.iter().map(|record| (share, &record.outcome)).collect();
-    let mut mean = PassOutcome::combined(&parts);
-    mean.statistics = records[0].outcome.statistics;
-    mean
+    PassOutcome::combined(&parts)
 }

@@ -16,7 +16,7 @@ use crate::{Error, Progress};
 
 /// Share of the tolerance that days without real passes may take.
 const FROZEN_SHARE: f64 = 0.5;
-/// Up to so many passes a day all are simulated on a day with real ones.
+/// Up to so many passes a day all are simulated on a day with real ones; and where a day has no whole sequence.
 const FEW: u64 = 100;
 const SECONDS_A_DAY: f64 = 86_400.0;
 
@@ -37,12 +37,28 @@ pub struct Living<'a> {
     pub begin: usize,
 }
 
-impl Living<'_> {
+impl<'a> Living<'a> {
+    /// The days of `plan`, whose scene has `heat`.
+    pub fn new(plan: &'a Plan<'a>, heat: &'a Heat, every_pass: bool, progress: Progress<'a>) -> Self {
+        Self {
+            plan,
+            heat,
+            progress,
+            every_pass,
+            begin: 0,
+        }
+    }
+
+    /// Force that a kelvin makes in a cable which cannot move \[N/K\].
+    fn per_kelvin(&self) -> f64 {
+        self.plan.scene.cable.axial_stiffness * self.heat.expansion
+    }
+
     /// A day of the plan with `knots` real periods.
     pub fn day(&self, knots: u64) -> Day {
         let scene = self.plan.scene;
         let passes = a_day(scene);
-        let per_kelvin = scene.cable.axial_stiffness * self.heat.expansion;
+        let per_kelvin = self.per_kelvin();
         let force = |kelvin: f64| per_kelvin * (self.heat.offset + kelvin);
         let heat = match &self.heat.warming {
             Warming::Swing(swing) => DailyHeat::Cosine {
@@ -56,8 +72,9 @@ impl Living<'_> {
                     .collect(),
             ),
         };
-        let few = passes <= FEW || self.every_pass;
-        let period = if few { 1 } else { self.plan.period.len() };
+        let sequence = self.plan.period.len();
+        let few = passes <= FEW.max(sequence as u64) || self.every_pass;
+        let period = if few { 1 } else { sequence };
         Day {
             passes,
             period,
@@ -225,17 +242,17 @@ impl Living<'_> {
             cold,
             ..
         } = &lived.days;
-        let count = self.plan.scene.traffic.passes.div_ceil(self.day(1).passes);
+        let passes_per_day = a_day(self.plan.scene);
+        let count = self.plan.scene.traffic.passes.div_ceil(passes_per_day);
         let days = days
             .iter()
             .map(|record| DayExtremes::new(record.day, &record.extremes))
             .collect();
-        let day = self.day(1);
-        let per_kelvin = self.plan.scene.cable.axial_stiffness * self.heat.expansion;
+        let per_kelvin = self.per_kelvin();
         let cycle = lived.days.last_day.iter().filter(|row| !row.heat).map(|row| {
             let outcome = &row.outcome;
             DayPoint {
-                hour: 24.0 * (row.passes - 0.5) / day.passes as f64,
+                hour: 24.0 * (row.passes as f64 - 0.5) / passes_per_day as f64,
                 warming_k: row.thermal_force / per_kelvin,
                 upstream_force_n: outcome.force.upstream,
                 downstream_force_n: outcome.force.downstream,
@@ -245,7 +262,7 @@ impl Living<'_> {
         });
         let record = HeatRecord {
             cycle: cycle.collect(),
-            passes_per_day: day.passes,
+            passes_per_day,
             all_days: DayExtremes::new(count, extremes),
             periodic_from_day: *periodic_from,
             drift_per_day_m: periodic_from.map(|_| *drift),

@@ -34,8 +34,8 @@ pub fn locked_law(task: &Task<'_>, traffic: &Period, passes: usize) -> Result<Lo
         .map(|motion| solver.passage(motion, approach))
         .collect::<Result<Vec<_>, _>>()?;
     let (nodes, middle) = (mesh.nodes(), mesh.nodes() / 2);
-    let mut advances = Vec::with_capacity(LockedLaw::SHARES.len());
-    for share in LockedLaw::SHARES {
+    let mut advances = [0.0; LockedLaw::SHARES.len()];
+    for (advance, share) in advances.iter_mut().zip(LockedLaw::SHARES) {
         let mut solver = QuasiStatic::new(short(-share * limit)?, mesh)?;
         let mut state = CableState::from_parts(&mesh, vec![0.0; nodes], vec![share * limit; nodes])?;
         let mut before = 0.0;
@@ -46,7 +46,7 @@ pub fn locked_law(task: &Task<'_>, traffic: &Period, passes: usize) -> Result<Lo
             }
         }
         let moved = state.displacement()[middle] - before;
-        advances.push(moved * passes as f64 / traffic.len() as f64);
+        *advance = moved * passes as f64 / traffic.len() as f64;
     }
-    Ok(LockedLaw::new(&advances, limit))
+    Ok(LockedLaw::new(advances, limit))
 }

@@ -139,7 +139,7 @@ pub fn checksum(bytes: &[u8]) -> u64 {
 mod tests {
     use super::*;
 
-    fn rows() -> [Row; 3] {
+    fn rows() -> [Row; 4] {
         let answer = Answer {
             downstream_force_n: 542.312_345_678_901_2,
             upstream_force_n: -0.0,
@@ -156,9 +156,24 @@ mod tests {
             passes_to_95_percent: Some(u64::MAX),
             ..answer
         };
+        let warm = Answer {
+            heat: Some(HeatAnswer {
+                downstream_max_n: 2.0 / 3.0,
+                downstream_min_n: -1e-17,
+                upstream_max_n: 0.0,
+                upstream_min_n: f64::MIN,
+                drift_per_day_m: None,
+            }),
+            ..answer
+        };
         let refused = PointError::BadInput("out of range: found -1".into());
-        [(7, Ok(answer)), (0, Ok(saturated)), (123, Err(refused))]
-            .map(|(index, outcome)| Row { index, outcome })
+        [
+            (7, Ok(answer)),
+            (0, Ok(saturated)),
+            (8, Ok(warm)),
+            (123, Err(refused)),
+        ]
+        .map(|(index, outcome)| Row { index, outcome })
     }
 
     #[test]

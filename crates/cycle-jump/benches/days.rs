@@ -42,7 +42,8 @@ fn motion() -> Made<DuctMotion> {
 fn law(motion: &DuctMotion) -> Made<LockedLaw> {
     let (free, mesh) = bar(24.0)?;
     let (nodes, middle) = (mesh.nodes(), mesh.nodes() / 2);
-    let advances = LockedLaw::SHARES.map(|share| -> Made<f64> {
+    let mut advances = [0.0; LockedLaw::SHARES.len()];
+    for (advance, share) in advances.iter_mut().zip(LockedLaw::SHARES) {
         let cable = free.clone().with_body_force(-share * LIMIT)?;
         let passage = Passage::new(&cable, &mesh, motion, APPROACH)?;
         let mut solver = QuasiStatic::new(cable, mesh)?;
@@ -50,10 +51,9 @@ fn law(motion: &DuctMotion) -> Made<LockedLaw> {
         solver.pass(&passage, &mut state)?;
         let before = state.displacement()[middle];
         solver.pass(&passage, &mut state)?;
-        Ok(state.displacement()[middle] - before)
-    });
-    let advances = advances.into_iter().collect::<Made<Vec<_>>>()?;
-    Ok(LockedLaw::new(&advances, LIMIT))
+        *advance = state.displacement()[middle] - before;
+    }
+    Ok(LockedLaw::new(advances, LIMIT))
 }
 
 fn days(criterion: &mut Criterion) {

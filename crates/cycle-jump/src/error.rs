@@ -29,4 +29,15 @@ pub enum JumpError {
         /// Passes simulated.
         simulated: u64,
     },
+    /// A wanted pass lies on no day that was lived.
+    #[error("pass {pass} follows from no pass that was simulated")]
+    UnknownPass {
+        /// Number of the pass.
+        pass: u64,
+    },
+}
+
+/// The cable's error as that of a caller.
+pub(crate) fn wrap<E: From<JumpError>>(error: CableError) -> E {
+    JumpError::from(error).into()
 }

@@ -6,7 +6,7 @@
 use cable_dem::RestingCable;
 
 /// γ = 1 − 1/√2 makes the method L-stable.
-const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
+pub(crate) const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 /// Length of each substep beside the one before.
 const GROWTH: f64 = 1.5;
 

@@ -1,8 +1,9 @@
 //! The walk along the passes: simulated periods at the start, then jumps, each held to two simulated periods.
 
-use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable, laid};
+use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, RestingCable, laid};
 
 use crate::JumpError;
+use crate::error::wrap;
 use crate::flow::Flow;
 use crate::knowledge::Knowledge;
 use crate::period::{Period, difference};
@@ -87,10 +88,6 @@ pub fn evolve<E: From<JumpError>>(
         schedule: Vec::new(),
     };
     walk.run()
-}
-
-fn wrap<E: From<JumpError>>(error: CableError) -> E {
-    JumpError::from(error).into()
 }
 
 impl<E, P> Walk<'_, P>

@@ -1,7 +1,10 @@
 //! Days with few real passes against the simulation of every pass, on the same mesh.
 
 use boussinesq::HalfSpace;
-use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic, Restraint};
+use cable_dem::{
+    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic,
+    Restraint,
+};
 use cycle_jump::days::{DailyHeat, Day, DayRecord, Days, DaysRequest, LockedLaw, live};
 use cycle_jump::{JumpError, Next};
 use ground_field::{Direction, DuctLine, DuctMotion, Soil, SurfaceLoad, Vehicle, Wheel};
@@ -140,8 +143,8 @@ impl Scene {
 fn measured_law(motions: &[DuctMotion], friction: Friction) -> Outcome<LockedLaw> {
     let mesh = Mesh::new(27.0, 0.3, 0.15)?;
     let q = friction.limit();
-    let mut advances = Vec::new();
-    for share in LockedLaw::SHARES {
+    let mut advances = [0.0; LockedLaw::SHARES.len()];
+    for (advance, share) in advances.iter_mut().zip(LockedLaw::SHARES) {
         let cable = DuctedCable::new(27.0, STIFFNESS, friction)?.with_body_force(-share * q)?;
         let mut solver = QuasiStatic::new(cable, mesh)?;
         let nodes = mesh.nodes();
@@ -157,9 +160,9 @@ fn measured_law(motions: &[DuctMotion], friction: Friction) -> Outcome<LockedLaw
                 solver.pass(passage, &mut state)?;
             }
         }
-        advances.push(state.displacement()[nodes / 2] - before);
+        *advance = state.displacement()[nodes / 2] - before;
     }
-    Ok(LockedLaw::new(&advances, q))
+    Ok(LockedLaw::new(advances, q))
 }
 
 /// Largest error of a force, as a share of the largest that day, and of a movement, as a share of its range, on any day.
@@ -338,6 +341,66 @@ fn without_traffic_only_heat_moves_the_cable() -> Outcome {
             (extremes.backward[1] / moved - stays).abs() < 1e-2,
             "day {day}: {} m",
             extremes.backward[1]
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_no_day_is_refused() -> Outcome {
+    let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * WEIGHT)?;
+    let mesh = Mesh::new(6.0, 0.3, 0.15)?;
+    let cable = DuctedCable::new(6.0, STIFFNESS, friction)?;
+    let good = Day {
+        passes: 10,
+        period: 2,
+        heat: DailyHeat::Cosine {
+            lowest: 0.0,
+            highest: 1.0,
+        },
+        knots: 2,
+    };
+    let request = DaysRequest {
+        passes: 20,
+        wanted: &[20],
+        wanted_days: &[1, 2],
+        tolerance: 5e-3,
+        least: (1.0, 1e-6),
+        every_day: false,
+    };
+    let lived = |day: &Day| {
+        let law = LockedLaw::new([0.0; LockedLaw::SHARES.len()], friction.limit());
+        // No vehicle moves this cable.
+        let pass =
+            |_: Next, state: &mut CableState| PassOutcome::at_rest(&cable, state).map_err(JumpError::from);
+        live(&cable, &mesh, day, law, &request, pass)
+    };
+    assert!(lived(&good).is_ok());
+    for bad in [
+        Day {
+            passes: 1,
+            ..good.clone()
+        },
+        Day {
+            period: 0,
+            ..good.clone()
+        },
+        Day {
+            knots: 0,
+            ..good.clone()
+        },
+        Day {
+            heat: DailyHeat::Profile(Vec::new()),
+            ..good.clone()
+        },
+    ] {
+        let refused = lived(&bad);
+        assert!(
+            matches!(
+                refused,
+                Err(JumpError::Cable(CableError::InvalidParameter { .. }))
+            ),
+            "{bad:?}"
         );
     }
     Ok(())

@@ -1,5 +1,7 @@
 //! A day of traffic and heat: when vehicles come, how warm the cable is then, which periods are simulated.
 
+use cable_dem::CableError;
+
 use super::heat::DailyHeat;
 
 /// Periods that are simulated one by one on the first morning, and growth of the steps after them.
@@ -25,6 +27,24 @@ pub struct Day {
 }
 
 impl Day {
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] where it has no whole period, no knot, or a profile without points or whose times are not those
+    /// of one day in their order.
+    pub(super) fn check(&self) -> Result<(), CableError> {
+        let invalid = |name, value, allowed| Err(CableError::InvalidParameter { name, value, allowed });
+        if self.period == 0 {
+            return invalid("period of the traffic", 0.0, "at least one vehicle");
+        }
+        if self.passes < self.period as u64 {
+            return invalid("passes a day", self.passes as f64, "at least those of a period");
+        }
+        if self.knots == 0 {
+            return invalid("real periods a day", 0.0, "at least one");
+        }
+        self.heat.check()
+    }
+
     /// Periods of a day.
     pub fn periods(&self) -> u64 {
         self.passes / self.period as u64
@@ -48,7 +68,7 @@ impl Day {
         }
     }
 
-    /// Θ as the cable has it when `passes` of the day are done, `half` a pass later or earlier \[N\].
+    /// Θ when `passes` of the day are done, which need not be whole \[N\].
     pub(super) fn thermal_force(&self, passes: f64) -> f64 {
         self.heat.at(passes / self.passes as f64)
     }

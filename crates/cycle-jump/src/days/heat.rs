@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use cable_dem::CableError;
+
 /// The force Θ = EA α T \[N\] that heat would make in a cable which cannot move, over a day that repeats; times are shares of the day.
 #[derive(Debug, Clone, PartialEq)]
 pub enum DailyHeat {
@@ -17,6 +19,35 @@ pub enum DailyHeat {
 }
 
 impl DailyHeat {
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] where a force is not finite, or a profile has no points or none in the order of one day.
+    pub(super) fn check(&self) -> Result<(), CableError> {
+        let points = match self {
+            Self::Cosine { lowest, highest } => &vec![(0.0, *lowest), (0.5, *highest)],
+            Self::Profile(points) => points,
+        };
+        let invalid = |name, value, allowed| Err(CableError::InvalidParameter { name, value, allowed });
+        if points.is_empty() {
+            return invalid("points of the day", 0.0, "at least one");
+        }
+        let mut before = None;
+        for (time, force) in points {
+            if !(0.0..1.0).contains(time) || before.is_some_and(|before| before >= time) {
+                return invalid(
+                    "time of the day",
+                    *time,
+                    "from 0 to below 1 and after the one before",
+                );
+            }
+            if !force.is_finite() {
+                return invalid("thermal force", *force, "finite");
+            }
+            before = Some(time);
+        }
+        Ok(())
+    }
+
     /// Θ at `time`.
     pub fn at(&self, time: f64) -> f64 {
         match self {
@@ -26,15 +57,16 @@ impl DailyHeat {
             Self::Profile(points) => {
                 let time = time.rem_euclid(1.0);
                 let next = points.partition_point(|point| point.0 <= time);
-                let (Some(&first), Some(&last)) = (points.first(), points.last()) else {
-                    return 0.0;
-                };
                 let before = if next == 0 {
+                    let last = points[points.len() - 1];
                     (last.0 - 1.0, last.1)
                 } else {
                     points[next - 1]
                 };
-                let after = points.get(next).copied().unwrap_or((first.0 + 1.0, first.1));
+                let after = points
+                    .get(next)
+                    .copied()
+                    .unwrap_or((points[0].0 + 1.0, points[0].1));
                 before.1 + (after.1 - before.1) * (time - before.0) / (after.0 - before.0)
             }
         }
@@ -86,6 +118,26 @@ mod tests {
             assert!((profile.at(time) - expected).abs() < 1e-12, "{time}");
         }
         assert_eq!(profile.extremes(), (0.75, 0.25));
+    }
+
+    #[test]
+    fn what_is_no_day_is_refused() {
+        let is_refused = |heat: DailyHeat| heat.check().is_err();
+        for points in [
+            vec![],
+            vec![(0.5, 1.0), (0.25, 2.0)],
+            vec![(0.5, 1.0), (0.5, 2.0)],
+            vec![(1.0, 1.0)],
+            vec![(f64::NAN, 1.0)],
+            vec![(0.5, f64::INFINITY)],
+        ] {
+            assert!(is_refused(DailyHeat::Profile(points.clone())), "{points:?}");
+        }
+        assert!(is_refused(DailyHeat::Cosine {
+            lowest: f64::NAN,
+            highest: 1.0
+        }));
+        assert!(!is_refused(DailyHeat::Profile(vec![(0.0, 1.0), (0.5, 2.0)])));
     }
 
     #[test]

@@ -30,9 +30,9 @@ impl LockedLaw {
 
     /// The law with friction limit `limit` q \[N/m\] through `advances` \[m\], one for each of [`LockedLaw::SHARES`]: how far the middle of a
     /// cable advances in a period on which a body force −share · q acts.
-    pub fn new(advances: &[f64], limit: f64) -> Self {
+    pub fn new(advances: [f64; Self::SHARES.len()], limit: f64) -> Self {
         let is_still = advances.iter().all(|advance| advance.abs() < STILL);
-        let mut falling = advances.to_vec();
+        let mut falling = advances;
         for k in 1..falling.len() {
             falling[k] = falling[k].min(falling[k - 1] - LEAST);
         }
@@ -94,7 +94,7 @@ mod tests {
     #[test]
     fn the_law_falls_from_limit_to_limit_through_its_table() {
         let advances = LockedLaw::SHARES.map(|share| 10e-6 * (0.7 - share));
-        let law = LockedLaw::new(&advances, 30.0);
+        let law = LockedLaw::new(advances, 30.0);
         for (share, advance) in LockedLaw::SHARES.iter().zip(advances) {
             assert!((law.friction(advance) - 30.0 * share).abs() < 1e-9);
         }
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn where_no_vehicle_moves_the_cable_the_law_is_that_of_friction() {
-        let law = LockedLaw::new(&[0.0; LockedLaw::SHARES.len()], 30.0);
+        let law = LockedLaw::new([0.0; LockedLaw::SHARES.len()], 30.0);
         assert!((law.friction(-1e-7) - 30.0).abs() < 1e-9 && (law.friction(1e-7) + 30.0).abs() < 1e-9);
     }
 }

@@ -6,9 +6,10 @@ use super::day::Day;
 use super::diary::Lived;
 use super::extremes::Extremes;
 use super::law::LockedLaw;
-use super::living::{Living, wrap};
+use super::living::Living;
 use super::rate::RateStep;
 use super::rows::{Row, of_pass};
+use crate::error::wrap;
 use crate::record::Record;
 use crate::{JumpError, Next};
 
@@ -102,7 +103,7 @@ pub struct Days {
 ///
 /// # Errors
 ///
-/// Those of `pass`; [`JumpError`] where the cable finds no rest, or no day becomes like the one before.
+/// Those of `pass`; [`JumpError`] where `day` is none, the cable finds no rest, or no day becomes like the one before.
 pub fn live<E: From<JumpError>>(
     cable: &DuctedCable,
     mesh: &Mesh,
@@ -111,6 +112,7 @@ pub fn live<E: From<JumpError>>(
     request: &DaysRequest<'_>,
     pass: impl FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 ) -> Result<Days, E> {
+    day.check().map_err(wrap)?;
     let rate = RateStep::new(law, cable.friction().limit(), mesh.nodes());
     let resting = RestingCable::new(cable, mesh).map_err(wrap)?;
     let laid = laid(cable, mesh).map_err(wrap)?;
@@ -177,7 +179,7 @@ where
             }) if passes == a_day => {
                 let lived = self.living.last(self.done * a_day, passes, beside)?;
                 self.done += 1;
-                self.book(&lived, &lived.extremes, passes);
+                self.book(&lived, &lived.extremes, passes)?;
                 lived
             }
             _ => self.corrected(passes, true)?,
@@ -257,7 +259,7 @@ where
                 for before in [&expected, &yesterday.moved(drift)] {
                     self.surprise = largest(self.surprise, today.difference(before, least));
                 }
-                self.repeat(count, drift, &lived);
+                self.repeat(count, drift, &lived)?;
                 return Ok(Some(Settled {
                     day,
                     drift,
@@ -312,7 +314,7 @@ where
         let lived = self.living.corrected(after, passes, is_last)?;
         self.corrected += 1;
         self.done += 1;
-        self.book(&lived, &lived.extremes, passes);
+        self.book(&lived, &lived.extremes, passes)?;
         Ok(lived)
     }
 
@@ -321,12 +323,12 @@ where
         let lived = self.living.frozen()?;
         self.done += 1;
         let extremes = lived.extremes.plus(beside);
-        self.book(&lived, &extremes, self.living.day.passes);
+        self.book(&lived, &extremes, self.living.day.passes)?;
         Ok(extremes)
     }
 
     /// All days up to `count` are like `today` but for a drift.
-    fn repeat(&mut self, count: u64, drift: f64, today: &Lived) {
+    fn repeat(&mut self, count: u64, drift: f64, today: &Lived) -> Result<(), JumpError> {
         let first = self.done;
         for day in first + 1..=count {
             self.done = day;
@@ -339,10 +341,11 @@ where
                     row.outcome.upstream_displacement += moved;
                     row.outcome.downstream_displacement += moved;
                 }
-                self.book(&lived, &today.extremes.moved(moved), self.living.day.passes);
+                self.book(&lived, &today.extremes.moved(moved), self.living.day.passes)?;
             }
         }
         self.living.offset += drift * (count - first) as f64;
+        Ok(())
     }
 
     fn has_wanted_pass(&self, day: u64) -> bool {
@@ -353,7 +356,7 @@ where
     }
 
     /// Records what is wanted of the day just done, of which `passes` were lived.
-    fn book(&mut self, lived: &Lived, extremes: &Extremes, passes: u64) {
+    fn book(&mut self, lived: &Lived, extremes: &Extremes, passes: u64) -> Result<(), JumpError> {
         let (day, plan) = (self.done, self.living.day);
         self.extremes.join(extremes);
         if self.request.wanted_days.binary_search(&day).is_ok() {
@@ -367,13 +370,13 @@ where
         let from = wanted.partition_point(|pass| *pass <= before);
         for &pass in wanted[from..].iter().take_while(|pass| **pass <= before + passes) {
             let known = of_pass(&lived.rows, &self.living.shapes, pass - before, plan.period);
-            if let Some((outcome, interpolated)) = known {
-                self.records.push(Record {
-                    pass,
-                    outcome,
-                    interpolated,
-                });
-            }
+            let (outcome, interpolated) = known.ok_or(JumpError::UnknownPass { pass })?;
+            self.records.push(Record {
+                pass,
+                outcome,
+                interpolated,
+            });
         }
+        Ok(())
     }
 }

@@ -7,6 +7,7 @@ use super::diary::{Diary, Lived};
 use super::extremes::Extremes;
 use super::rate::{Drive, RateStep};
 use super::rows::{Row, Shape};
+use crate::error::wrap;
 use crate::record::take_whole;
 use crate::{JumpError, Next};
 
@@ -84,7 +85,7 @@ where
             let end = knots.get(k + 1).copied().unwrap_or(whole);
             let from = self.state.displacement().to_vec();
             let noted = diary.rows.len();
-            self.period(knot, Some(after), passes, &mut diary)?;
+            self.period(knot, after, passes, &mut diary)?;
             shapes.push(Shape::of(&diary.rows, noted));
             // Per period, also where the day's last one is longer.
             let per_period = 1.0 / (day.time(knot + 1) - day.time(knot));
@@ -130,7 +131,7 @@ where
         let mut diary = self.open()?;
         self.replay_to(last, &mut diary)?;
         diary.add(beside);
-        self.period(last, Some(after), passes, &mut diary)?;
+        self.period(last, after, passes, &mut diary)?;
         let state = self.state.clone();
         if passes == day.passes {
             self.end(&mut diary)?;
@@ -157,7 +158,7 @@ where
         self.offset += take_whole(&self.cable, &mut displacement);
         self.place(displacement, self.state.thermal_force())?;
         let mut diary = Diary::new();
-        self.warm(self.day.heat.at(0.0), 0.0, false, &mut diary)?;
+        self.warm(self.day.heat.at(0.0), 0, false, &mut diary)?;
         Ok(diary)
     }
 
@@ -170,7 +171,7 @@ where
             .into_iter()
             .chain([self.day.heat.at(1.0)])
         {
-            self.warm(thermal, passes as f64, false, diary)?;
+            self.warm(thermal, passes, false, diary)?;
         }
         Ok(())
     }
@@ -193,55 +194,45 @@ where
         self.cable.settle(&mut self.state).map_err(wrap)
     }
 
-    fn warm(&mut self, thermal_force: f64, passes: f64, simulated: bool, diary: &mut Diary) -> Result<(), E> {
+    fn warm(&mut self, thermal_force: f64, passes: u64, simulated: bool, diary: &mut Diary) -> Result<(), E> {
         self.cable.warm(&mut self.state, thermal_force).map_err(wrap)?;
         self.note(passes, simulated, true, diary)
     }
 
     /// Notes the cable at rest.
-    fn note(&mut self, passes: f64, simulated: bool, heat: bool, diary: &mut Diary) -> Result<(), E> {
-        let mut outcome = PassOutcome::at_rest(self.cable.cable(), &self.state).map_err(wrap)?;
-        outcome.upstream_displacement += self.offset;
-        outcome.downstream_displacement += self.offset;
-        diary.note(
-            Row {
-                passes,
-                thermal_force: self.state.thermal_force(),
-                outcome,
-                simulated,
-                heat,
-            },
-            &self.state,
-        );
+    fn note(&mut self, passes: u64, simulated: bool, heat: bool, diary: &mut Diary) -> Result<(), E> {
+        let outcome = PassOutcome::at_rest(self.cable.cable(), &self.state).map_err(wrap)?;
+        diary.note(self.row(passes, outcome, simulated, heat), &self.state);
         Ok(())
     }
 
-    /// Simulates the `period` of the day, up to the pass `most` of the day. Its passes follow `after` others where they have numbers.
-    fn period(&mut self, period: u64, after: Option<u64>, most: u64, diary: &mut Diary) -> Result<(), E> {
+    /// What the cable does when `passes` of the day are done, with what it has moved as a whole.
+    fn row(&self, passes: u64, mut outcome: PassOutcome, simulated: bool, heat: bool) -> Row {
+        outcome.upstream_displacement += self.offset;
+        outcome.downstream_displacement += self.offset;
+        Row {
+            passes,
+            thermal_force: self.state.thermal_force(),
+            outcome,
+            simulated,
+            heat,
+        }
+    }
+
+    /// Simulates the `period` of the day, up to the pass `most` of the day. The day follows `after` passes.
+    fn period(&mut self, period: u64, after: u64, most: u64, diary: &mut Diary) -> Result<(), E> {
         let day = self.day;
         let passes = period * day.period as u64..day.passes_of(period + 1).min(most);
         for pass in passes {
             let phase = (pass % day.period as u64) as usize;
             for thermal in day.turns_before(pass) {
-                self.warm(thermal, pass as f64, true, diary)?;
+                self.warm(thermal, pass, true, diary)?;
             }
-            self.warm(day.thermal_force(pass as f64 + 0.5), pass as f64, true, diary)?;
-            let number = after.map(|after| after + pass + 1);
-            let mut outcome = (self.pass)(Next { phase, number }, &mut self.state)?;
+            self.warm(day.thermal_force(pass as f64 + 0.5), pass, true, diary)?;
+            let number = Some(after + pass + 1);
+            let outcome = (self.pass)(Next { phase, number }, &mut self.state)?;
             self.simulated += 1;
-            outcome.upstream_displacement += self.offset;
-            outcome.downstream_displacement += self.offset;
-            let passes = (pass + 1) as f64;
-            diary.note(
-                Row {
-                    passes,
-                    thermal_force: self.state.thermal_force(),
-                    outcome,
-                    simulated: true,
-                    heat: false,
-                },
-                &self.state,
-            );
+            diary.note(self.row(pass + 1, outcome, true, false), &self.state);
         }
         Ok(())
     }
@@ -275,7 +266,7 @@ where
             let turns = (self.day.passes_of(from)..self.day.passes_of(to))
                 .flat_map(|pass| self.day.turns_before(pass));
             for thermal in turns.collect::<Vec<_>>() {
-                self.warm(thermal, self.day.passes_of(from) as f64, false, diary)?;
+                self.warm(thermal, self.day.passes_of(from), false, diary)?;
             }
             let thermal = self.day.before(self.day.time(to));
             self.cable.warm(&mut self.state, thermal).map_err(wrap)?;
@@ -318,12 +309,12 @@ where
     /// Notes the cable when `periods` of the day are done, and as the temperature changes before the next pass.
     fn look(&mut self, periods: u64, diary: &mut Diary) -> Result<(), E> {
         let passes = self.day.passes_of(periods);
-        self.note(passes as f64, false, false, diary)?;
+        self.note(passes, false, false, diary)?;
         if passes < self.day.passes {
             let state = self.state.clone();
             let next = self.day.thermal_force(passes as f64 + 0.5);
             for thermal in self.day.turns_before(passes).into_iter().chain([next]) {
-                self.warm(thermal, passes as f64, false, diary)?;
+                self.warm(thermal, passes, false, diary)?;
             }
             self.state = state;
         }
@@ -369,8 +360,4 @@ where
             .map(|(a, b)| a + share * (b - a))
             .collect()
     }
-}
-
-pub(super) fn wrap<E: From<JumpError>>(error: cable_dem::CableError) -> E {
-    JumpError::from(error).into()
 }

@@ -8,9 +8,8 @@
 use cable_dem::{CableError, RestingCable};
 
 use super::law::LockedLaw;
+use crate::flow::GAMMA;
 
-/// γ = 1 − 1/√2 makes two stages L-stable and of second order (SDIRK2; R. Alexander, SIAM J. Numer. Anal. 14 (1977) 1006).
-const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
 /// Newton steps and line searches at most; what may be left of the balance, as a share of q.
 const MOST_STEPS: usize = 200;
 const MOST_TRIALS: usize = 40;

@@ -6,7 +6,7 @@ use cable_dem::PassOutcome;
 #[derive(Debug, Clone)]
 pub struct Row {
     /// Passes of the day done.
-    pub passes: f64,
+    pub passes: u64,
     /// Θ \[N\].
     pub thermal_force: f64,
     /// The cable then.
@@ -21,7 +21,7 @@ pub struct Row {
 #[derive(Debug, Clone)]
 pub struct Shape {
     /// Passes of the day before it.
-    begin: f64,
+    begin: u64,
     passes: Vec<PassOutcome>,
 }
 
@@ -49,24 +49,23 @@ impl Shape {
 /// What the pass did that is the `pass`-th of the day, from 1, and whether it was not simulated: from the day's `rows`, and from the `shapes` of
 /// periods of `period` passes.
 pub fn of_pass(rows: &[Row], shapes: &[Shape], pass: u64, period: usize) -> Option<(PassOutcome, bool)> {
-    let time = pass as f64;
     let passes = || rows.iter().filter(|row| !row.heat);
-    if let Some(row) = passes().find(|row| row.simulated && row.passes == time) {
+    if let Some(row) = passes().find(|row| row.simulated && row.passes == pass) {
         return Some((row.outcome.clone(), false));
     }
     // Ends of periods on both sides.
     let last = rows.last()?.passes;
-    let ends = |row: &&Row| row.passes % period as f64 == 0.0 || row.passes == last;
-    let after = passes().filter(ends).find(|row| row.passes >= time)?;
+    let ends = |row: &&Row| row.passes % period as u64 == 0 || row.passes == last;
+    let after = passes().filter(ends).find(|row| row.passes >= pass)?;
     let before = passes()
         .filter(ends)
-        .rfind(|row| row.passes < time)
+        .rfind(|row| row.passes < pass)
         .or(rows.first())?;
-    let share = (time - before.passes) / (after.passes - before.passes);
+    let share = (pass - before.passes) as f64 / (after.passes - before.passes) as f64;
     let phase = ((pass - 1) % period as u64) as usize;
-    let distance = |shape: &&Shape| (shape.begin - time).abs();
+    let distance = |shape: &&Shape| shape.begin.abs_diff(pass);
     let complete = shapes.iter().filter(|shape| shape.passes.len() >= period);
-    let shape = complete.min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let shape = complete.min_by_key(distance)?;
     let outcome = PassOutcome::combined(&[
         (1.0 - share, &at_rest(&before.outcome)),
         (share, &at_rest(&after.outcome)),
