@@ -8,6 +8,7 @@ mod force_profile;
 mod heat;
 mod limits;
 mod listed;
+mod place;
 mod record;
 mod saturation;
 #[cfg(any(feature = "cli", feature = "plot"))]
@@ -19,6 +20,7 @@ pub use force_profile::ForceProfile;
 pub use heat::{DayExtremes, DayPoint, HeatRecord};
 pub use limits::*;
 pub use listed::{beyond, listed, simulated};
+pub use place::Place;
 pub use record::*;
 pub use saturation::{larger, saturation};
 #[cfg(any(feature = "cli", feature = "plot"))]

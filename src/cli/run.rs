@@ -22,7 +22,8 @@ use crate::{Limits, PassRecord, Reached, Run, RunOptions, Verdict};
   creepage run my-duct.toml --set friction.dynamic_coefficient=0.3 --set vehicles.0.load=15tf
   creepage run my-duct.toml --json > answer.json
   creepage run my-duct.toml --csv forces.csv --verify
-  creepage run my-duct.toml --years 20 --trucks-per-day 800 --limit-force downstream=2kN --limit-movement 10mm")]
+  creepage run my-duct.toml --years 20 --trucks-per-day 800 --limit-force downstream=2kN --limit-movement 10mm
+  creepage run my-duct.toml --limit-force \"20 m=3kN\"   # of the clamp at 20 m; clamp=3kN for all clamps")]
 pub struct Arguments {
     #[command(flatten)]
     scene: TrafficArguments,
@@ -64,7 +65,7 @@ impl Judgement {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
-    let limits = arguments.limits.limits(input.scene.ends)?;
+    let limits = arguments.limits.limits(&input.scene)?;
     let table = input.table();
     let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
     let destination = arguments

@@ -103,6 +103,11 @@ impl Input {
         self.file.histogram()
     }
 
+    /// The text that the scene's file has at `key`, with its unit.
+    pub fn written(&self, key: &str) -> Option<&str> {
+        self.file.written(key)
+    }
+
     /// The answer, or the error with the line of the key at fault.
     pub fn located<T>(&self, answer: Result<T, Error>) -> Result<T, Failure> {
         answer.map_err(|error| Failure::Analysis(error.located(&self.file)))

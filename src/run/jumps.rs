@@ -138,7 +138,7 @@ pub fn find<'a>(
             found.first_periods = taken.first_periods;
             found.error = errors[bad + 1..]
                 .iter()
-                .cloned()
+                .copied()
                 .fold(Shares::default(), Shares::max);
             found.passes = simulate(level, &taken)?;
             statistics += found.passes.statistics;

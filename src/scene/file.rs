@@ -110,6 +110,16 @@ impl SceneFile {
         found.map(|place| self.document.locate(place))
     }
 
+    /// The text that the file has at `key`, with its unit.
+    #[cfg(feature = "cli")]
+    pub(crate) fn written(&self, key: &str) -> Option<&str> {
+        let inner = |node, segment| child(node, segment);
+        match &key.split('.').try_fold(&self.document.root, inner)?.content {
+            Content::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
     /// Numbers without a unit that someone may have meant in another one.
     pub fn unit_slips(&self) -> Vec<UnitSlip> {
         slips::unit_slips(&self.document)

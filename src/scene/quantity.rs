@@ -92,6 +92,18 @@ impl Dimension {
     }
 }
 
+impl Dimension {
+    /// The symbol of the unit of this dimension in which `text` gives a number, and one of it in SI.
+    #[cfg(feature = "cli")]
+    pub(crate) fn unit_of(self, text: &str) -> Option<(&'static str, f64)> {
+        let (_, rest) = split(text.trim())?;
+        let symbol = normalised(rest.trim());
+        let unit = UNITS.iter().find(|unit| unit.symbol == symbol)?;
+        let one = self.parse(&format!("1 {}", unit.symbol)).ok()?;
+        Some((unit.symbol, one))
+    }
+}
+
 /// The number that a text begins with, and its unit, which may be empty. `None` where digits or points follow the number.
 #[cfg(feature = "sweep")]
 pub(crate) fn leading_number(text: &str) -> Option<(f64, &str)> {
