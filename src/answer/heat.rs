@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use super::cable_end::CableEnd;
 use super::force_profile::ForceProfile;
-use super::record::RestraintRange;
 
 /// Largest and least forces and movements over a day, with the cable at rest: after every pass and every change of temperature.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -35,6 +34,15 @@ pub struct DayExtremes {
     /// Force on each clamp, in the order of [`Run::restraints`](crate::Run::restraints).
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub restraints: Vec<RestraintRange>,
+}
+
+/// The largest and the least force of the cable on a clamp \[N\], positive toward growing x.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RestraintRange {
+    /// The largest.
+    pub max_n: f64,
+    /// The least.
+    pub min_n: f64,
 }
 
 /// The cable at one time of a day, after a pass.

@@ -3,19 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::cable_end::CableEnd;
-use super::place::Place;
+use super::place::{Limited, Place};
 use super::record::{PassRecord, Run};
 use crate::shown::rounded;
-
-/// What is limited.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Limited {
-    /// Force on an end after passes and during them, on a clamp after passes \[N\].
-    Force,
-    /// Displacement of the end, or of the cable at the clamp, after passes \[m\].
-    Movement,
-}
 
 /// What must not be exceeded at one place; of either sign.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]

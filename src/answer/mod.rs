@@ -17,10 +17,10 @@ mod table_rows;
 pub use cable_end::CableEnd;
 pub use calendar::after;
 pub use force_profile::ForceProfile;
-pub use heat::{DayExtremes, DayPoint, HeatRecord};
+pub use heat::{DayExtremes, DayPoint, HeatRecord, RestraintRange};
 pub use limits::*;
 pub use listed::{beyond, listed, simulated};
-pub use place::Place;
+pub use place::{Limited, Place};
 pub use record::*;
 pub use saturation::{larger, saturation};
 #[cfg(any(feature = "cli", feature = "plot"))]

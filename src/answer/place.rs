@@ -1,10 +1,9 @@
-//! Places where a cable is held, and what a run reaches there.
+//! Places where a cable is held, what may be limited there, and what a run reaches.
 
 use serde::{Deserialize, Serialize};
 
 use super::cable_end::CableEnd;
 use super::heat::DayExtremes;
-use super::limits::Limited;
 use super::record::{RestraintRecord, Run};
 
 /// Clamps nearer to each other than this are at one place \[m\].
@@ -20,6 +19,16 @@ pub enum Place {
     Downstream,
     /// A clamp at this position along the duct \[m\], beside what is in the scene.
     Clamp(f64),
+}
+
+/// What is limited.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Limited {
+    /// Force on an end after passes and during them, on a clamp after passes \[N\].
+    Force,
+    /// Displacement of the end, or of the cable at the clamp, after passes \[m\].
+    Movement,
 }
 
 impl Place {

@@ -145,15 +145,6 @@ pub struct RestraintRecord {
     pub after_passes_n: Vec<f64>,
 }
 
-/// The largest and the least force of the cable on a clamp \[N\], positive toward growing x.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct RestraintRange {
-    /// The largest.
-    pub max_n: f64,
-    /// The least.
-    pub min_n: f64,
-}
-
 /// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct SlipRecord {

@@ -21,12 +21,12 @@ pub struct Units {
 }
 
 impl Units {
-    /// Those that were typed, if they were.
+    /// Those that were typed, or else usual ones.
     pub fn new(force: Option<Unit>, movement: Option<Unit>, stiffness: Option<Unit>) -> Self {
         Self {
             force: force.unwrap_or(("N", 1.0)),
             movement: movement.unwrap_or(("mm", 1e-3)),
-            stiffness: stiffness.unwrap_or(("N/m", 1.0)),
+            stiffness: stiffness.unwrap_or(("kN/m", 1e3)),
         }
     }
 
@@ -128,7 +128,7 @@ pub fn compared(best: &Design, all: &[Design], units: &Units) -> Result<(), Fail
             places(&design.places),
             stiffnesses.join(" and "),
             percent(design.excess()),
-            of.join(" and "),
+            of.join(", "),
             within(found),
         ]);
     }
@@ -265,7 +265,7 @@ fn conclusion(out: &mut impl Write, design: &Design, units: &Units) -> Result<()
 fn deciding(design: &Design, answer: &TradeOff, units: &Units) -> Vec<String> {
     let named = |limits: &mut dyn Iterator<Item = &Binding>| {
         let names: Vec<String> = limits.map(|limit| limit.quantity.at(limit.end)).collect();
-        names.join(" and ")
+        names.join(", ")
     };
     let mut lines = Vec::new();
     if let (Some((from, to)), [spring]) = (design.range_n_per_m, &answer.springs[..]) {
@@ -297,13 +297,13 @@ fn deciding(design: &Design, answer: &TradeOff, units: &Units) -> Vec<String> {
         let mut limits = design.binding.iter();
         let exceeded = named(&mut limits.by_ref().filter(|limit| limit.exceeded_by == Some(side)));
         if !exceeded.is_empty() {
-            lines.push(format!("a {name} one exceeds the limit of the {exceeded}"));
+            lines.push(format!("a {name} one exceeds: {exceeded}"));
         }
     }
     let tightest = named(&mut design.binding.iter().filter(|limit| limit.exceeded_by.is_none()));
     if !tightest.is_empty() {
         lines.push(format!(
-            "least room: {tightest}, {} of its limit",
+            "least room: {tightest}: {} of the limit",
             percent(design.excess())
         ));
     }

@@ -148,15 +148,15 @@ impl LimitArguments {
     /// Refuses limits of clamps that are not there.
     fn check_clamps(&self, scene: &Scene, elsewhere: &[Place]) -> Result<(), Failure> {
         let positions = || scene.restraints.iter().map(|clamp| clamp.position);
+        let is_clamp = |place: &Place| matches!(place, Place::Clamp(_));
+        let none = positions().next().is_none() && !elsewhere.iter().any(is_clamp);
         for (argument, given) in [
             ("--limit-force", &self.limit_force),
             ("--limit-movement", &self.limit_movement),
         ] {
             for limit in given {
                 let found = match limit.of {
-                    Named::Clamps if positions().next().is_none() && elsewhere.is_empty() => {
-                        "clamp, where there is none".to_owned()
-                    }
+                    Named::Clamps if none => "clamp, where there is none".to_owned(),
                     Named::One(Place::Clamp(position)) => {
                         let mut all = positions().map(Place::Clamp).chain(elsewhere.iter().copied());
                         if all.any(|clamp| clamp.is_clamp_at(position)) {
