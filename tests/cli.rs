@@ -1076,7 +1076,7 @@ fn design_takes_pairs_several_places_and_limits_of_clamps() {
     // A clamp of the scene has its verdict.
     let run = [
         &["run", UPPER][..],
-        &set,
+        &set[..4],
         &["--set", "restraints=[{ position = 13, stiffness = 1e5 }]"],
     ]
     .concat();

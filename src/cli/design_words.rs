@@ -256,6 +256,9 @@ fn conclusion(out: &mut impl Write, design: &Design, units: &Units) -> Result<()
         for line in deciding(design, answer, units) {
             writeln!(out, "{line}")?;
         }
+        if design.excess() * (1.0 + answer.error_estimate) > 1.0 {
+            writeln!(out, "nearer to a limit than the estimated error: leave a margin")?;
+        }
     }
     writeln!(out, "{} runs of the scene", design.runs)?;
     Ok(())
