@@ -16,7 +16,7 @@ use crate::{CableEnd, Error, Limited, Limits, Place, Progress, Scene};
 
 /// Points of the grid, and of the map, in a decade of stiffness.
 const POINTS_PER_DECADE: i32 = 1;
-const FINE_PER_DECADE: i32 = 16;
+const FINE_PER_DECADE: i32 = 48;
 /// Tolerance of the rough runs, if the scene's own is not looser, and their share of the progress.
 const ROUGH: f64 = 0.05;
 const ROUGH_SHARE: f64 = 0.7;
