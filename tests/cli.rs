@@ -342,7 +342,7 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
     for (bad, part) in [
         ("-3", "greater than 0"),
         ("3 m", "a length"),
-        ("left=3kN", "upstream or downstream"),
+        ("left=3kN", "upstream, downstream, clamp"),
         ("nan N", "finite"),
     ] {
         assert_fails(&run(&["--limit-force", bad]), 2, &["--limit-force", part]);
@@ -956,8 +956,8 @@ fn design_answers_in_words_and_as_json() {
     assert!(number(&answer["force_n"]) <= 150.0 && number(&answer["stiffness_n_per_m"]) > 0.0);
     assert!(
         said.contains(&format!(
-            "answer: a spring of {:.3e} N/m",
-            number(&answer["stiffness_n_per_m"])
+            "answer: a spring of {:.0} kN/m",
+            1e-3 * number(&answer["stiffness_n_per_m"])
         )),
         "{said}"
     );
@@ -1000,6 +1000,101 @@ fn design_answers_in_words_and_as_json() {
     ] {
         assert_fails(&design(more), 2, &[part]);
     }
+}
+
+#[test]
+fn design_takes_pairs_several_places_and_limits_of_clamps() {
+    let set = [
+        "--set",
+        "traffic.passes=4",
+        "--set",
+        "duct.length=15 m",
+        "--set",
+        "solver.node_spacing=0.3 m",
+    ];
+    let design = |more: &[&'static str]| [&["design", UPPER][..], &set, more].concat();
+    let tight = design(&[
+        "--at",
+        "upstream + downstream",
+        "--limit-force",
+        "10N",
+        "--limit-movement",
+        "0.01mm",
+    ]);
+    let none = output(&tight);
+    let (said, failed) = (
+        String::from_utf8(none.stdout).expect("UTF-8"),
+        String::from_utf8(none.stderr).expect("UTF-8"),
+    );
+    assert_eq!(none.status.code(), Some(1));
+    assert!(
+        said.contains("kN/m at the upstream end and a spring of "),
+        "{said}"
+    );
+    for part in ["exceeds its limit by ", "force on the downstream end", "; try "] {
+        assert!(failed.contains(part), "{failed}");
+    }
+    let clamps = design(&[
+        "--at",
+        "5m",
+        "--at",
+        "13m",
+        "--limit-force",
+        "0.1kN",
+        "--limit-force",
+        "clamp=0.15kN",
+        "--limit-movement",
+        "13m=1mm",
+    ]);
+    let said = printed(&clamps);
+    assert!(
+        said.contains("2 ways to hold the cable") && said.contains("best: clamp at 13 m"),
+        "{said}"
+    );
+    assert!(
+        said.contains("force on the clamp at 13 m") && said.contains(" kN"),
+        "{said}"
+    );
+    let document = json(&clamps);
+    let candidates = document["candidates"].as_array().expect("a list");
+    assert_eq!(candidates.len(), 2);
+    assert_eq!(document["place"]["clamp"], 13.0);
+    assert_eq!(document["limits"]["clamps"][0]["position_m"], 13.0);
+    assert_eq!(document["answer"], candidates[1]["answer"]);
+    for (more, part) in [
+        (
+            &["--limit-force", "7m=1kN"][..],
+            "a clamp at 7 m, where there is none",
+        ),
+        (&["--limit-force", "clamp=1kN"], "as the scene has no clamps"),
+        (&["--limit-force", "middle=1kN"], "the position of a clamp"),
+        (&["--limit-force", "1kN", "--at", "5m+6m+7m"], "two of these"),
+        (&["--limit-force", "1kN", "--at", "5m+5m"], "two different places"),
+    ] {
+        assert_fails(&design(more), 2, &[part]);
+    }
+    // A clamp of the scene has its verdict.
+    let run = [
+        &["run", UPPER][..],
+        &set[..4],
+        &["--set", "restraints=[{ position = 13, stiffness = 1e5 }]"],
+    ]
+    .concat();
+    let clamp = ["--limit-force", "13m=1N", "--limit-movement", "clamp=1m"];
+    let said = printed(&[&run[..], &clamp].concat());
+    assert!(
+        said.contains("limit exceeded: force on the clamp at 13 m above 1.0 N from pass "),
+        "{said}"
+    );
+    assert!(
+        said.contains("limit kept: movement at the clamp at 13 m at most "),
+        "{said}"
+    );
+    assert_fails(
+        &[&run[..], &["--limit-force", "5m=1N"]].concat(),
+        2,
+        &["the position of a clamp: 13 m"],
+    );
 }
 
 // new, completions

@@ -121,12 +121,12 @@ fn each_end_has_its_own_limits() {
     let scene = scene();
     let mut limits = Limits::default();
     limits.downstream.force_n = Some(200.0);
-    let force = design(&scene, &DesignOptions::new(Place::Downstream, limits)).unwrap();
+    let force = design(&scene, &DesignOptions::new(Place::Downstream, limits.clone())).unwrap();
     let spring = force.answer.unwrap();
     // The upstream end is free: it moves farther, which counts only where it is limited.
     assert!(spring.upstream_movement_m > spring.downstream_movement_m);
     limits.downstream.movement_m = Some(1.1 * spring.downstream_movement_m);
-    let own = design(&scene, &DesignOptions::new(Place::Downstream, limits)).unwrap();
+    let own = design(&scene, &DesignOptions::new(Place::Downstream, limits.clone())).unwrap();
     let answer = own.answer.unwrap();
     assert!(
         answer.downstream_movement_m <= 1.1 * spring.downstream_movement_m

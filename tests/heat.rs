@@ -280,7 +280,7 @@ fn a_cable_walks_down_its_slope_for_twenty_years() {
     let drift = heat.drift_per_day_m.expect("days that repeat");
     // Measured by an independent program: 19.73 mm a day toward growing x, where vehicles drive.
     assert!((1e3 * drift / 19.73 - 1.0).abs() < 0.02, "{drift} m");
-    let last = run.days[run.days.len() - 1];
+    let last = &run.days[run.days.len() - 1];
     assert_eq!((last.day, heat.all_days.day), (7305, 7305));
     assert!((last.upstream_displacement_max_m / (7305.0 * drift) - 1.0).abs() < 1e-2);
     assert!(

@@ -13,6 +13,8 @@ mod calibration;
 mod cli;
 #[path = "design.rs"]
 mod design;
+#[path = "design_pairs/main.rs"]
+mod design_pairs;
 #[path = "faulty_cells.rs"]
 mod faulty_cells;
 #[path = "files/main.rs"]

@@ -44,8 +44,10 @@ pub fn of_records(
 ) -> Result<(), Error> {
     let limit = scene.friction_limit();
     let friction = carried(scene);
-    let clamps: f64 = restraints.iter().map(|clamp| clamp.force_n.abs()).sum();
-    for record in records {
+    for (index, record) in records.iter().enumerate() {
+        // Of this pass: where it is warm, others find other forces on the clamps.
+        let clamps = restraints.iter().map(|clamp| clamp.after_passes_n[index].abs());
+        let clamps: f64 = clamps.sum();
         let (upstream, downstream) = (record.upstream_force_n, record.downstream_force_n);
         let carried = (downstream - upstream).abs();
         if carried > (1.0 + MARGIN) * friction + clamps {

@@ -224,8 +224,9 @@ pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
 
 /// The same of every pass.
 pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
-    let outcomes =
-        |records: &[Record]| -> Vec<PassOutcome> { records.iter().map(|record| record.outcome).collect() };
+    fn outcomes(records: &[Record]) -> Vec<&PassOutcome> {
+        records.iter().map(|record| &record.outcome).collect()
+    }
     let (a, b) = (outcomes(a), outcomes(b));
     let forces = |outcome: &PassOutcome| {
         [
@@ -248,9 +249,10 @@ pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
         .map(f64::abs)
         .fold(0.0, f64::max)
     };
-    let floor = (SMALL * a.iter().map(largest).fold(0.0, f64::max)).max(scale.force);
+    let floor = (SMALL * a.iter().copied().map(largest).fold(0.0, f64::max)).max(scale.force);
     let moved = a
         .iter()
+        .copied()
         .flat_map(movements)
         .fold(scale.movement, |largest, u| largest.max(u.abs()));
     let of_pass = |(a, b): (&PassOutcome, &PassOutcome)| {
@@ -269,7 +271,7 @@ pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
             movement: largest(&movements(a), &movements(b), moved),
         }
     };
-    a.iter().zip(&b).map(of_pass).collect()
+    a.into_iter().zip(b).map(of_pass).collect()
 }
 
 /// part/whole; nothing of nothing is nothing.

@@ -7,7 +7,7 @@ use super::cable_end::CableEnd;
 use super::force_profile::ForceProfile;
 
 /// Largest and least forces and movements over a day, with the cable at rest: after every pass and every change of temperature.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DayExtremes {
     /// Number of the day, from 1.
     pub day: u64,
@@ -31,6 +31,18 @@ pub struct DayExtremes {
     pub downstream_displacement_max_m: f64,
     /// Farthest place of the downstream end toward falling x \[m\].
     pub downstream_displacement_min_m: f64,
+    /// Force on each clamp, in the order of [`Run::restraints`](crate::Run::restraints).
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub restraints: Vec<RestraintRange>,
+}
+
+/// The largest and the least force of the cable on a clamp \[N\], positive toward growing x.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct RestraintRange {
+    /// The largest.
+    pub max_n: f64,
+    /// The least.
+    pub min_n: f64,
 }
 
 /// The cable at one time of a day, after a pass.
@@ -110,6 +122,7 @@ impl DayExtremes {
             tension,
             forward,
             backward,
+            ref restraints,
         } = *extremes;
         Self {
             day,
@@ -123,6 +136,10 @@ impl DayExtremes {
             upstream_displacement_min_m: backward[0],
             downstream_displacement_max_m: forward[1],
             downstream_displacement_min_m: backward[1],
+            restraints: restraints
+                .iter()
+                .map(|&[min_n, max_n]| RestraintRange { max_n, min_n })
+                .collect(),
         }
     }
 }

@@ -1,23 +1,13 @@
-//! Limits of force and movement at the ends, and what a run makes of them.
+//! Limits of force and movement at ends and clamps, and what a run makes of them.
 
 use serde::{Deserialize, Serialize};
 
 use super::cable_end::CableEnd;
-use super::heat::DayExtremes;
+use super::place::{Limited, Place};
 use super::record::{PassRecord, Run};
 use super::units::Units;
 
-/// What is limited.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Limited {
-    /// Force on the end, after passes and during them \[N\].
-    Force,
-    /// Displacement of the end after passes \[m\].
-    Movement,
-}
-
-/// What must not be exceeded at one end; of either sign.
+/// What must not be exceeded at one place; of either sign.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct EndLimits {
     /// Largest force \[N\], positive, if it is limited.
@@ -26,13 +16,26 @@ pub struct EndLimits {
     pub movement_m: Option<f64>,
 }
 
-/// What must not be exceeded at the two ends.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+/// What must not be exceeded at one clamp.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct ClampLimits {
+    /// Its position along the duct \[m\].
+    pub position_m: f64,
+    /// Its limits.
+    #[serde(flatten)]
+    pub limits: EndLimits,
+}
+
+/// What must not be exceeded at the two ends and at clamps.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Limits {
     /// At x = 0.
     pub upstream: EndLimits,
     /// At x = length.
     pub downstream: EndLimits,
+    /// At clamps.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub clamps: Vec<ClampLimits>,
 }
 
 /// When something happened.
@@ -47,8 +50,8 @@ pub struct Reached {
 /// One limit beside what a run reaches.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Verdict {
-    /// The end.
-    pub end: CableEnd,
+    /// The end or clamp.
+    pub end: Place,
     /// What is limited there.
     pub quantity: Limited,
     /// The limit \[N or m\].
@@ -81,11 +84,13 @@ impl CableEnd {
 }
 
 impl Limited {
-    /// What is limited at an end, in words.
-    pub(crate) fn at(self, end: CableEnd) -> String {
-        match self {
-            Self::Force => format!("force on the {} end", end.name()),
-            Self::Movement => format!("movement of the {} end", end.name()),
+    /// What is limited at a place, in words.
+    pub(crate) fn at(self, place: impl Into<Place>) -> String {
+        let place = place.into();
+        match (self, place) {
+            (Self::Force, _) => format!("force on the {place}"),
+            (Self::Movement, Place::Clamp(_)) => format!("movement at the {place}"),
+            (Self::Movement, _) => format!("movement of the {place}"),
         }
     }
 
@@ -102,14 +107,6 @@ impl Limited {
             Self::Movement => format!("{} {}", units.movement(value), units.movement.symbol()),
         }
     }
-
-    /// The largest of it in a pass, in size.
-    fn of(self, end: CableEnd, record: &PassRecord) -> f64 {
-        match self {
-            Self::Force => end.largest_force(record),
-            Self::Movement => end.movement(record),
-        }
-    }
 }
 
 impl Limits {
@@ -119,6 +116,7 @@ impl Limits {
         Self {
             upstream: end,
             downstream: end,
+            clamps: Vec::new(),
         }
     }
 
@@ -139,40 +137,30 @@ impl Limits {
     }
 
     /// Every limit that is given.
-    pub fn all(&self) -> impl Iterator<Item = (CableEnd, Limited, f64)> {
-        let of = |end: CableEnd| {
-            let EndLimits { force_n, movement_m } = *self.of(end);
+    pub fn all(&self) -> impl Iterator<Item = (Place, Limited, f64)> {
+        let of = |(place, limits): (Place, EndLimits)| {
+            let EndLimits { force_n, movement_m } = limits;
             [(Limited::Force, force_n), (Limited::Movement, movement_m)]
                 .into_iter()
-                .filter_map(move |(quantity, limit)| Some((end, quantity, limit?)))
+                .filter_map(move |(quantity, limit)| Some((place, quantity, limit?)))
         };
-        CableEnd::ALL.into_iter().flat_map(of)
+        let ends = CableEnd::ALL.map(|end| (end.into(), *self.of(end)));
+        let clamps = self.clamps.iter();
+        let clamps = clamps.map(|clamp| (Place::Clamp(clamp.position_m), clamp.limits));
+        ends.into_iter().chain(clamps).flat_map(of)
     }
 
     /// What `run` makes of each limit.
     pub fn verdicts(&self, run: &Run) -> Vec<Verdict> {
-        let verdict = |(end, quantity, limit): (CableEnd, Limited, f64)| {
-            let of = |record: &PassRecord| quantity.of(end, record);
-            let passes = run.passes.iter().map(of).fold(0.0, f64::max);
-            // Heat is hardest between passes.
-            let of_day = |day: &DayExtremes| match quantity {
-                Limited::Force => day.largest_force(end),
-                Limited::Movement => day.movement(end),
-            };
-            let largest = run
-                .heat
-                .as_ref()
-                .map_or(passes, |heat| passes.max(of_day(&heat.all_days)));
-            let pass = run
-                .passes
-                .iter()
-                .find(|record| of(record) > limit)
-                .map(|record| record.pass);
-            let day = run
-                .days
-                .iter()
-                .find(|day| of_day(day) > limit)
-                .zip(run.heat.as_ref());
+        let verdict = |(end, quantity, limit): (Place, Limited, f64)| {
+            let largest = run.largest(end, quantity);
+            let mut passes = run.passes.iter().enumerate();
+            let pass = passes
+                .find(|(index, _)| run.in_pass(end, quantity, *index) > limit)
+                .map(|(_, record)| record.pass);
+            let mut days = run.days.iter();
+            let day = days.find(|day| run.on_day(end, quantity, day) > limit);
+            let day = day.zip(run.heat.as_ref());
             let day = day.map(|(day, heat)| day.day * heat.passes_per_day);
             let first = pass.into_iter().chain(day).min();
             let years = |pass| {

@@ -8,6 +8,7 @@ mod force_profile;
 mod heat;
 mod limits;
 mod listed;
+mod place;
 mod record;
 mod saturation;
 #[cfg(any(feature = "cli", feature = "plot"))]
@@ -17,9 +18,10 @@ mod units;
 pub use cable_end::CableEnd;
 pub use calendar::after;
 pub use force_profile::ForceProfile;
-pub use heat::{DayExtremes, DayPoint, HeatRecord};
+pub use heat::{DayExtremes, DayPoint, HeatRecord, RestraintRange};
 pub use limits::*;
 pub use listed::{beyond, listed, simulated};
+pub use place::{Limited, Place};
 pub use record::*;
 pub use saturation::{larger, saturation};
 #[cfg(any(feature = "cli", feature = "plot"))]

@@ -35,7 +35,7 @@ pub struct Run {
     pub heat: Option<HeatRecord>,
     /// Force along the cable after the last pass.
     pub force_profile: ForceProfile,
-    /// What each clamp carries after the last pass.
+    /// What each clamp carries.
     pub restraints: Vec<RestraintRecord>,
     /// The cable after the passes that [`RunOptions::stages`](crate::RunOptions::stages) names; not in the JSON document
     /// where none are.
@@ -131,15 +131,18 @@ pub struct FrictionProfile {
     pub slip_lengths: SlipRecord,
 }
 
-/// What a clamp carries after the last pass.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// What a clamp carries.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RestraintRecord {
     /// Position along the duct \[m\].
     pub position_m: f64,
     /// Stiffness \[N/m\].
     pub stiffness_n_per_m: f64,
-    /// Force of the cable on it \[N\], positive toward growing x.
+    /// Force of the cable on it after the last pass \[N\], positive toward growing x.
     pub force_n: f64,
+    /// The same after each of [`Run::passes`] \[N\].
+    #[serde(default)]
+    pub after_passes_n: Vec<f64>,
 }
 
 /// Lengths over which the duct slips past the cable, with the vehicle over the duct's middle.

@@ -1,27 +1,31 @@
-//! `creepage design`: the end spring or clamp that stays within limits of force and movement.
+//! `creepage design`: the springs or the clamp that stay within limits of force and movement.
 
-use std::io::Write;
+use serde::Serialize;
 
+use super::design_words::{Shown, advice, compared, print};
 use super::failure::Failure;
-use super::limits::LimitArguments;
+use super::limits::{LimitArguments, place};
 use super::progress::{PER_MILLE, PERCENT, with_bar};
 use super::shared::{Input, Json, TrafficArguments};
-use super::terminal;
-use crate::design::{Design, DesignError, DesignOptions, Place, TradeOff, design};
-use crate::scene::{Dimension, End};
-use crate::shown::percent;
-use crate::{CableEnd, Limited};
+use crate::design::{Design, DesignError, DesignOptions, Place, best, design};
+use crate::scene::{End, Restraint};
+use crate::{Limits, Progress, Scene};
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The answer is found by runs of the scene; the force is the largest on an end, during and after the passes, the movement the \
-largest of an end. A free end's movement is limited only by its name. A number without a unit is SI. Where no stiffness keeps the limits, the \
-nearest is printed, with exit status 1.
+    after_help = "The answer is found by runs of the scene; force and movement are the largest of all passes and, where the cable is heated, of all \
+hours of all days. A free end's movement is limited only by its name. A number without a unit is SI.
+
+One spring is as stiff as the force allows, or in the middle of its range where movement is limited too; a clamp is as soft as may be. Two \
+springs at once have the largest margin: the largest share of a limit is the smallest. Where only forces are limited, the ends move least. \
+Where nothing stays within the limits, what comes nearest is printed, with exit status 1.
 
 Examples:
   creepage design my-duct.toml --limit-force \"3 kN\"
   creepage design my-duct.toml --limit-force 300N --limit-movement 2mm --at upstream
   creepage design my-duct.toml --limit-force downstream=2kN --limit-movement downstream=10mm
+  creepage design my-duct.toml --limit-force 2kN --limit-movement 10mm --at upstream+downstream
+  creepage design my-duct.toml --limit-force 3kN --limit-force clamp=2kN --at \"95 m\" --at \"120 m\"
   creepage design my-duct.toml --limit-force \"3 kN\" --years 20 --trucks-per-day 800
   creepage design my-duct.toml --limit-force \"3 kN\" --at \"95 m\" --json"
 )]
@@ -30,152 +34,111 @@ pub struct Arguments {
     scene: TrafficArguments,
     #[command(flatten)]
     limits: LimitArguments,
-    /// Where the spring is: upstream, downstream (at these ends), or a position for a clamp
-    #[arg(long, value_name = "PLACE", default_value = "downstream", value_parser = place)]
-    at: Place,
+    /// Where the spring is: upstream, downstream (at these ends), or a position for a clamp, "95 m"; two at once with + between them,
+    /// upstream+downstream. Repeated, each is designed by itself, and they are compared
+    #[arg(long, value_name = "PLACE[+PLACE]", default_value = "downstream", value_parser = places)]
+    at: Vec<Places>,
     #[command(flatten)]
     json: Json,
 }
 
-fn place(text: &str) -> Result<Place, String> {
-    match text {
-        "upstream" => Ok(Place::Upstream),
-        "downstream" => Ok(Place::Downstream),
-        _ => Dimension::Length
-            .parse_argument(text)
-            .map(Place::Clamp)
-            .map_err(|_| "allowed: upstream, downstream or a position such as \"20 m\"".to_owned()),
+/// Where springs are put at once: at one place or two.
+#[derive(Debug, Clone, Copy)]
+struct Places(Place, Option<Place>);
+
+fn places(text: &str) -> Result<Places, String> {
+    let one = |text: &str| place(text.trim());
+    let two = || {
+        // A number may have a plus of its own.
+        let mut pluses = text.match_indices('+');
+        pluses.find_map(|(at, _)| Some(Places(one(&text[..at])?, Some(one(&text[at + 1..])?))))
+    };
+    let alone = one(text).map(|place| Places(place, None));
+    alone.or_else(two).ok_or_else(|| {
+        "allowed: upstream, downstream or a position such as \"20 m\", or two of these with + between them".to_owned()
+    })
+}
+
+impl Places {
+    fn all(self) -> impl Iterator<Item = Place> {
+        std::iter::once(self.0).chain(self.1)
     }
+
+    /// `scene` with these places held somehow: what is limited there counts.
+    fn held(self, scene: &Scene) -> Scene {
+        let mut scene = scene.clone();
+        for place in self.all() {
+            match place {
+                Place::Upstream => scene.ends.upstream = End::Fixed,
+                Place::Downstream => scene.ends.downstream = End::Fixed,
+                Place::Clamp(position) => scene.restraints.push(Restraint {
+                    position,
+                    stiffness: 1.0,
+                }),
+            }
+        }
+        scene
+    }
+}
+
+/// The best design, and all that were compared.
+#[derive(Serialize)]
+struct Compared<'a> {
+    #[serde(flatten)]
+    best: &'a Design,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    candidates: &'a [Design],
 }
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
-    // The end that is designed is held.
-    let mut ends = input.scene.ends;
-    match arguments.at {
-        Place::Upstream => ends.upstream = End::Fixed,
-        Place::Downstream => ends.downstream = End::Fixed,
-        Place::Clamp(_) => {}
-    }
-    let limits = arguments.limits.limits(ends)?;
-    if limits.all().next().is_none() {
-        return Err(Failure::Usage {
+    let units = arguments.limits.units(input.file());
+    let ways = &arguments.at;
+    let everywhere: Vec<Place> = ways.iter().flat_map(|way| way.all()).collect();
+    let limits = |way: &Places| -> Result<Limits, Failure> {
+        let limits = arguments
+            .limits
+            .limits_beside(&way.held(&input.scene), &everywhere)?;
+        if limits.all().next().is_some() {
+            return Ok(limits);
+        }
+        Err(Failure::Usage {
             argument: "--limit-force",
             found: "no limit of an end that is held".into(),
             allowed: "a force or a movement, such as --limit-force 2kN or --limit-movement upstream=10mm"
                 .into(),
-        });
-    }
-    let answer = with_bar(PERCENT, PER_MILLE, |progress| {
-        let mut options = DesignOptions::new(arguments.at, limits);
-        options.progress = progress;
-        design(&input.scene, &options)
+        })
+    };
+    let limits = ways.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
+    let designs = with_bar(PERCENT, PER_MILLE, |progress: Progress<'_>| {
+        let all = ways.len() as f64;
+        let each = ways.iter().zip(limits).enumerate();
+        each.map(|(index, (way, limits))| {
+            let mut options = DesignOptions::new(way.0, limits);
+            options.second = way.1;
+            options.progress = progress.part(index as f64 / all, (index + 1) as f64 / all);
+            design(&input.scene, &options)
+        })
+        .collect::<Result<Vec<_>, _>>()
     });
-    let answer = match answer {
+    let designs = match designs {
         Err(DesignError::Analysis(error)) => input.located(Err(error))?,
-        answer => answer?,
+        designs => designs?,
     };
-    arguments.json.print(&answer, || print(&answer))?;
-    match answer.answer {
-        Some(_) => Ok(()),
-        None => Err(Failure::NotKept),
-    }
-}
-
-fn print(design: &Design) -> Result<(), Failure> {
-    let mut out = terminal::out();
-    let place = match design.place {
-        Place::Upstream => "spring at the upstream end".to_owned(),
-        Place::Downstream => "spring at the downstream end".to_owned(),
-        Place::Clamp(position) => format!("clamp at {position} m"),
-    };
-    writeln!(
-        out,
-        "{}: {place}, {} passes",
-        terminal::line(&design.title),
-        design.passes
-    )?;
-    let limit = |(end, quantity, limit): (CableEnd, Limited, f64)| {
-        format!("{} {}", quantity.at(end), quantity.shown(limit))
-    };
-    let limits: Vec<String> = design.limits.all().map(limit).collect();
-    writeln!(out, "limits: {}\n", limits.join("; "))?;
-    table(&mut out, design)?;
-    if let Some(nearest) = &design.nearest {
-        writeln!(
-            out,
-            "no stiffness stays within the limits; nearest: {}",
-            reached(design, nearest)
-        )?;
-    }
-    if let Some(answer) = &design.answer {
-        writeln!(out, "answer: {}", reached(design, answer))?;
-    }
-    let Some((from, to)) = design.range_n_per_m.filter(|_| design.answer.is_some()) else {
+    let Some(best) = best(&designs) else {
         return Ok(());
     };
-    let softest = stiffness(design.place, Some(from));
-    match to {
-        None => writeln!(out, "within the limits: {softest} and everything stiffer")?,
-        Some(to) if to > from => writeln!(
-            out,
-            "within the limits: {softest} to {} N/m",
-            stiffness(design.place, Some(to))
-        )?,
-        Some(_) => {}
+    let candidates: &[Design] = if designs.len() > 1 { &designs } else { &[] };
+    let units = Shown::new(units);
+    arguments.json.print(&Compared { best, candidates }, || {
+        if candidates.is_empty() {
+            print(best, &input.scene, &units)
+        } else {
+            compared(best, candidates, &units)
+        }
+    })?;
+    match best.answer {
+        Some(_) => Ok(()),
+        None => Err(Failure::NotKept(advice(best, &input.scene, &units))),
     }
-    Ok(())
-}
-
-fn stiffness(place: Place, value: Option<f64>) -> String {
-    match (value, place) {
-        (None, _) => "fixed".to_owned(),
-        (Some(0.0), Place::Clamp(_)) => "no clamp".to_owned(),
-        (Some(0.0), _) => "free".to_owned(),
-        (Some(value), _) => format!("{value:.3e}"),
-    }
-}
-
-/// Every stiffness that was computed.
-fn table(out: &mut impl Write, design: &Design) -> std::io::Result<()> {
-    writeln!(out, "{:>16} {:>23} {:>23}", "", "force, N", "movement, mm")?;
-    writeln!(
-        out,
-        "{:>16} {:>11} {:>11} {:>11} {:>11} {:>14}",
-        "stiffness, N/m", "upstream", "downstream", "upstream", "downstream", "within limits"
-    )?;
-    for point in &design.curve {
-        writeln!(
-            out,
-            "{:>16} {:>11.1} {:>11.1} {:>11.4} {:>11.4} {:>14}",
-            stiffness(design.place, point.stiffness_n_per_m),
-            point.upstream_force_n,
-            point.downstream_force_n,
-            1e3 * point.upstream_movement_m,
-            1e3 * point.downstream_movement_m,
-            if point.within_limits { "yes" } else { "no" }
-        )?;
-    }
-    writeln!(out)
-}
-
-/// A spring or a clamp, and what it makes of the limits.
-fn reached(design: &Design, point: &TradeOff) -> String {
-    let taken = stiffness(design.place, point.stiffness_n_per_m);
-    let taken = match design.place {
-        _ if taken.parse::<f64>().is_err() => taken,
-        Place::Clamp(_) => format!("a clamp of {taken} N/m"),
-        _ => format!("a spring of {taken} N/m"),
-    };
-    let of = |(end, quantity, limit): (CableEnd, Limited, f64)| {
-        let value = point.value(end, quantity);
-        let beside = match value / limit {
-            times if times > 1.0 => format!(", {times:.2} times its limit"),
-            _ => String::new(),
-        };
-        format!("{} {}{beside}", quantity.at(end), quantity.shown(value))
-    };
-    let all: Vec<String> = design.limits.all().map(of).collect();
-    let error = percent(point.error_estimate);
-    format!("{taken}; {}; estimated error {error}", all.join("; "))
 }

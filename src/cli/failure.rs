@@ -18,8 +18,8 @@ pub enum Failure {
     Figure(#[from] crate::figure::FigureError),
     #[error(transparent)]
     Design(#[from] crate::design::DesignError),
-    #[error("no stiffness stays within the limits; the nearest is on standard output")]
-    NotKept,
+    #[error("{0}")]
+    NotKept(String),
     #[error("no point of the sweep has an answer")]
     Nothing,
     #[error("bad usage, already printed")]

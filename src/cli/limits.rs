@@ -1,44 +1,70 @@
 //! Limits of force and movement on the command line.
 
 use super::failure::Failure;
-use crate::scene::{Dimension, End, Ends, Unit};
-use crate::{CableEnd, EndLimits, Limits, SceneFile, Units};
+use crate::scene::{Dimension, End, Unit};
+use crate::{CableEnd, ClampLimits, EndLimits, Limits, Place, Scene, SceneFile, Units};
 
 #[derive(Debug, clap::Args)]
 pub struct LimitArguments {
-    /// Largest force allowed on both ends, 2kN, or on one, downstream=2kN; may be repeated
-    #[arg(long, value_name = "[END=]FORCE", allow_negative_numbers = true, value_parser = |text: &str| limit(text, Dimension::Force))]
+    /// Largest force allowed on both ends, 2kN, on one end, downstream=2kN, on the clamp at a position, "20 m=2kN", or on every clamp,
+    /// clamp=2kN; may be repeated
+    #[arg(long, value_name = "[PLACE=]FORCE", allow_negative_numbers = true, value_parser = |text: &str| limit(text, Dimension::Force))]
     limit_force: Vec<Limit>,
-    /// Largest movement allowed of the ends that are not free, 10mm, or of any one, upstream=10mm; may be repeated
-    #[arg(long, value_name = "[END=]LENGTH", allow_negative_numbers = true, value_parser = |text: &str| limit(text, Dimension::Length))]
+    /// Largest movement allowed of the ends that are not free, 10mm, or at a place as above, upstream=10mm; may be repeated
+    #[arg(long, value_name = "[PLACE=]LENGTH", allow_negative_numbers = true, value_parser = |text: &str| limit(text, Dimension::Length))]
     limit_movement: Vec<Limit>,
 }
 
-/// A limit, the unit that was typed, and the end it is for; for both where none is named.
+/// A limit, what it is for, and the unit it was typed in.
 #[derive(Debug, Clone, Copy)]
 struct Limit {
-    end: Option<CableEnd>,
+    of: Named,
     value: f64,
     unit: Option<Unit>,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Named {
+    /// The ends, where nothing is named.
+    Ends,
+    /// Every clamp.
+    Clamps,
+    One(Place),
+}
+
 fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
-    let (end, value) = match text.split_once('=') {
-        None => (None, text),
-        Some((name, value)) => {
-            let end = CableEnd::ALL.into_iter().find(|end| end.name() == name.trim());
-            let end = end.ok_or("allowed before `=`: upstream or downstream")?;
-            (Some(end), value)
-        }
+    let (of, value) = match text.split_once('=') {
+        None => (Named::Ends, text),
+        Some((name, value)) => (named(name.trim())?, value),
     };
     let unit = dimension.unit_of(value);
     let value = dimension
         .parse_argument(value)
         .map_err(|error| error.to_string())?;
     if value > 0.0 && value.is_finite() {
-        return Ok(Limit { end, value, unit });
+        return Ok(Limit { of, value, unit });
     }
     Err("allowed: a finite value greater than 0".to_owned())
+}
+
+fn named(name: &str) -> Result<Named, String> {
+    if name == "clamp" {
+        return Ok(Named::Clamps);
+    }
+    let place = place(name).map(Named::One);
+    place.ok_or_else(|| {
+        "allowed before `=`: upstream, downstream, clamp, or the position of a clamp such as \"20 m\""
+            .to_owned()
+    })
+}
+
+/// An end by its name, or a clamp by its position.
+pub fn place(text: &str) -> Option<Place> {
+    match text {
+        "upstream" => Some(Place::Upstream),
+        "downstream" => Some(Place::Downstream),
+        _ => Dimension::Length.parse_argument(text).ok().map(Place::Clamp),
+    }
 }
 
 impl LimitArguments {
@@ -52,34 +78,106 @@ impl LimitArguments {
         Units::typed(file, first(&self.limit_force), first(&self.limit_movement))
     }
 
-    /// The limits of a cable with these ends. Without a name a limit is that of the ends that are not free; what is named counts before what
-    /// is not.
-    pub fn limits(&self, ends: Ends) -> Result<Limits, Failure> {
+    /// The limits of the cable of `scene`. Without a name a limit is that of the ends that are not free; what is named counts before what
+    /// is not, and a clamp's own limit before that of all clamps.
+    pub fn limits(&self, scene: &Scene) -> Result<Limits, Failure> {
+        self.limits_beside(scene, &[])
+    }
+
+    /// The same; there may also be limits of clamps `elsewhere`, which are left out.
+    pub fn limits_beside(&self, scene: &Scene, elsewhere: &[Place]) -> Result<Limits, Failure> {
         let held = |end: CableEnd| match end {
-            CableEnd::Upstream => ends.upstream != End::Free,
-            CableEnd::Downstream => ends.downstream != End::Free,
+            CableEnd::Upstream => scene.ends.upstream != End::Free,
+            CableEnd::Downstream => scene.ends.downstream != End::Free,
         };
         let none = !CableEnd::ALL.into_iter().any(held);
+        let of = |given: &[Limit], wanted: Named| {
+            let limit = given.iter().rfind(|limit| limit.of == wanted);
+            limit.map(|limit| limit.value)
+        };
         let mut limits = Limits::default();
         for end in CableEnd::ALL {
             let of = |given: &[Limit]| {
-                let named = given.iter().rfind(|limit| limit.end == Some(end));
+                let named = of(given, Named::One(end.into()));
                 // A free end carries nothing, and moves as far as it does.
-                let both = given.iter().rfind(|limit| limit.end.is_none() && held(end));
-                named.or(both).map(|limit| limit.value)
+                named.or_else(|| of(given, Named::Ends).filter(|_| held(end)))
             };
             *limits.of_mut(end) = EndLimits {
                 force_n: of(&self.limit_force),
                 movement_m: of(&self.limit_movement),
             };
         }
-        if none && self.limit_movement.iter().any(|limit| limit.end.is_none()) {
+        if none && self.limit_movement.iter().any(|limit| limit.of == Named::Ends) {
             return Err(Failure::Usage {
                 argument: "--limit-movement",
                 found: "no end by its name, where both are free".into(),
                 allowed: "the end that must not move farther, such as downstream=10mm".into(),
             });
         }
+        limits.clamps = self.of_clamps(scene);
+        self.check_clamps(scene, elsewhere)?;
         Ok(limits)
+    }
+
+    fn of_clamps(&self, scene: &Scene) -> Vec<ClampLimits> {
+        let mut clamps: Vec<ClampLimits> = Vec::new();
+        for position_m in scene.restraints.iter().map(|clamp| clamp.position) {
+            let own = |limit: &&Limit| matches!(limit.of, Named::One(place) if place.is_clamp_at(position_m));
+            let of = |given: &[Limit]| {
+                let all = |limit: &&Limit| limit.of == Named::Clamps;
+                let limit = given.iter().rfind(own).or_else(|| given.iter().rfind(all));
+                limit.map(|limit| limit.value)
+            };
+            let limits = EndLimits {
+                force_n: of(&self.limit_force),
+                movement_m: of(&self.limit_movement),
+            };
+            let known = clamps.iter();
+            let is_known = known
+                .map(|clamp| Place::Clamp(clamp.position_m))
+                .any(|clamp| clamp.is_clamp_at(position_m));
+            if limits != EndLimits::default() && !is_known {
+                clamps.push(ClampLimits { position_m, limits });
+            }
+        }
+        clamps
+    }
+
+    /// Refuses limits of clamps that are not there.
+    fn check_clamps(&self, scene: &Scene, elsewhere: &[Place]) -> Result<(), Failure> {
+        let positions = || scene.restraints.iter().map(|clamp| clamp.position);
+        let is_clamp = |place: &Place| matches!(place, Place::Clamp(_));
+        let none = positions().next().is_none() && !elsewhere.iter().any(is_clamp);
+        for (argument, given) in [
+            ("--limit-force", &self.limit_force),
+            ("--limit-movement", &self.limit_movement),
+        ] {
+            for limit in given {
+                let found = match limit.of {
+                    Named::Clamps if none => "clamp, where there is none".to_owned(),
+                    Named::One(Place::Clamp(position)) => {
+                        let mut all = positions().map(Place::Clamp).chain(elsewhere.iter().copied());
+                        if all.any(|clamp| clamp.is_clamp_at(position)) {
+                            continue;
+                        }
+                        format!("a clamp at {position} m, where there is none")
+                    }
+                    _ => continue,
+                };
+                let clamps: Vec<String> = positions().map(|position| format!("{position} m")).collect();
+                let allowed = match clamps.join(", ") {
+                    none if none.is_empty() => {
+                        "upstream or downstream, as the scene has no clamps".to_owned()
+                    }
+                    clamps => format!("upstream, downstream, or the position of a clamp: {clamps}"),
+                };
+                return Err(Failure::Usage {
+                    argument,
+                    found,
+                    allowed,
+                });
+            }
+        }
+        Ok(())
     }
 }

@@ -5,6 +5,7 @@ mod check;
 mod completions;
 mod days;
 mod design;
+mod design_words;
 mod explain;
 mod failure;
 mod limits;
@@ -63,7 +64,7 @@ enum Command {
     Check(check::Arguments),
     /// Compute a scene with many values of some keys, on all cores
     Sweep(Box<sweep::Arguments>),
-    /// Find the end spring or clamp that stays within limits of force and movement
+    /// Find the springs or the clamp that stay within limits of force and movement
     Design(Box<design::Arguments>),
     /// Write a self-contained HTML report with figures
     #[cfg(feature = "plot")]

@@ -41,7 +41,7 @@ pub struct Arguments {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
-    let limits = arguments.limits.limits(input.scene.ends)?;
+    let limits = arguments.limits.limits(&input.scene)?;
     let readings = arguments
         .data
         .as_deref()

@@ -28,7 +28,8 @@ Examples:
   creepage run my-duct.toml --json > answer.json
   creepage run my-duct.toml --csv forces.csv --verify
   creepage run my-duct.toml --xlsx forces.xlsx
-  creepage run my-duct.toml --years 20 --trucks-per-day 800 --limit-force downstream=2kN --limit-movement 10mm"
+  creepage run my-duct.toml --years 20 --trucks-per-day 800 --limit-force downstream=2kN --limit-movement 10mm
+  creepage run my-duct.toml --limit-force \"20 m=3kN\"   # of the clamp at 20 m; clamp=3kN for all clamps"
 )]
 pub struct Arguments {
     #[command(flatten)]
@@ -74,7 +75,7 @@ impl Judgement {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
-    let limits = arguments.limits.limits(input.scene.ends)?;
+    let limits = arguments.limits.limits(&input.scene)?;
     let table = input.table();
     let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
     let mut files = arguments.output.files(read.into_iter().flatten());

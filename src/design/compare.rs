@@ -4,10 +4,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::limits::{DesignError, Place};
-use super::search::on_one_mesh;
-use super::trade_off::TradeOff;
-use crate::{Limits, Progress, Scene};
+use super::limits::{DesignError, held};
+use super::runs::on_one_mesh;
+use super::trade_off::{Spring, TradeOff};
+use crate::{Limits, Place, Progress, Scene};
 
 /// One way to hold the cable.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,13 +31,13 @@ pub fn compare(
 ) -> Result<Vec<Result<TradeOff, DesignError>>, DesignError> {
     let mut places = measures.iter().map(|measure| measure.place);
     let end = places.find(|place| !matches!(place, Place::Clamp(_)));
-    let scene = on_one_mesh(scene, end.unwrap_or(Place::Clamp(0.0)), progress)?;
+    let scene = on_one_mesh(scene, end.as_slice(), progress)?;
     let done = AtomicUsize::new(0);
     let answer = |measure: &Measure| {
         measure.check(&scene)?;
-        let run = crate::run(&measure.place.held(&scene, measure.stiffness))?;
-        let stated = measure.stiffness.is_finite().then_some(measure.stiffness);
-        Ok(TradeOff::of(&run, measure.place, stated, &Limits::default()))
+        let springs = [Spring::new(measure.place, measure.stiffness)];
+        let run = crate::run(&held(&scene, &springs))?;
+        Ok(TradeOff::of(&scene, &run, &springs, &Limits::default()))
     };
     measures
         .par_iter()

@@ -1,29 +1,18 @@
 //! What is asked of a design, and what can be wrong with that.
 
-use serde::{Deserialize, Serialize};
-
+use super::trade_off::Spring;
 use crate::scene::{End, Restraint};
-use crate::{Error, Limited, Limits, Progress, Scene};
-
-/// Where a spring is put.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Place {
-    /// At the upstream end, in place of what holds it in the scene.
-    Upstream,
-    /// At the downstream end, in place of what holds it in the scene.
-    Downstream,
-    /// A clamp at this position along the duct \[m\], beside what is in the scene.
-    Clamp(f64),
-}
+use crate::{Error, Limited, Limits, Place, Progress, Scene};
 
 /// How to design.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct DesignOptions<'a> {
     /// Where the spring is.
     pub place: Place,
-    /// What it has to stay within.
+    /// Where a second one is, if two are wanted at once.
+    pub second: Option<Place>,
+    /// What they have to stay within.
     pub limits: Limits,
     /// Called after each run of the scene; it may stop the search.
     pub progress: Progress<'a>,
@@ -34,9 +23,15 @@ impl DesignOptions<'_> {
     pub fn new(place: Place, limits: Limits) -> Self {
         Self {
             place,
+            second: None,
             limits,
             progress: Progress::default(),
         }
+    }
+
+    /// Where springs are.
+    pub(super) fn places(&self) -> Vec<Place> {
+        std::iter::once(self.place).chain(self.second).collect()
     }
 }
 
@@ -82,10 +77,21 @@ impl DesignError {
     }
 }
 
-/// Refuses limits that have no meaning, and none at all.
-pub(super) fn check(limits: &Limits) -> Result<(), DesignError> {
+/// Refuses places and limits that have no meaning, and no limits at all.
+pub(super) fn check(scene: &Scene, options: &DesignOptions<'_>) -> Result<(), DesignError> {
+    let places = options.places();
+    for place in &places {
+        place.check(scene)?;
+    }
+    if options.second == Some(options.place) {
+        return Err(DesignError::Invalid {
+            name: "number of places",
+            found: 1.0,
+            allowed: "two different places for two springs",
+        });
+    }
     let mut none = true;
-    for (_, quantity, limit) in limits.all() {
+    for (place, quantity, limit) in options.limits.all() {
         none = false;
         positive(
             match quantity {
@@ -94,6 +100,19 @@ pub(super) fn check(limits: &Limits) -> Result<(), DesignError> {
             },
             limit,
         )?;
+        let Place::Clamp(position) = place else {
+            continue;
+        };
+        let mut clamps = scene.restraints.iter();
+        let is_there = clamps.any(|clamp| place.is_clamp_at(clamp.position))
+            || places.iter().any(|place| place.is_clamp_at(position));
+        if !is_there {
+            return Err(DesignError::Invalid {
+                name: "position of a limited clamp",
+                found: position,
+                allowed: "that of a clamp of the scene or of the design",
+            });
+        }
     }
     if none {
         return Err(DesignError::Invalid {
@@ -103,6 +122,15 @@ pub(super) fn check(limits: &Limits) -> Result<(), DesignError> {
         });
     }
     Ok(())
+}
+
+/// The scene with these springs.
+pub(super) fn held(scene: &Scene, springs: &[Spring]) -> Scene {
+    let mut scene = scene.clone();
+    for spring in springs {
+        spring.place.hold(&mut scene, spring.stiffness());
+    }
+    scene
 }
 
 fn positive(name: &'static str, found: f64) -> Result<(), DesignError> {
@@ -130,9 +158,8 @@ impl Place {
         }
     }
 
-    /// The scene with a spring of this stiffness \[N/m\] here: none at 0, and a fixed end at infinity.
-    pub(super) fn held(self, scene: &Scene, stiffness: f64) -> Scene {
-        let mut scene = scene.clone();
+    /// Puts a spring of this stiffness \[N/m\] here: none at 0, and a fixed end at infinity.
+    fn hold(self, scene: &mut Scene, stiffness: f64) {
         let end = match stiffness {
             0.0 => End::Free,
             f64::INFINITY => End::Fixed,
@@ -144,6 +171,5 @@ impl Place {
             Self::Clamp(_) if stiffness == 0.0 => {}
             Self::Clamp(position) => scene.restraints.push(Restraint { position, stiffness }),
         }
-        scene
     }
 }

@@ -5,24 +5,29 @@
 //! crossed the stiffness is found by Brent's method on its logarithm, each step a run of the scene (R. P. Brent, Algorithms for
 //! Minimization without Derivatives, 1973, chapter 4). Every point of the answer is a run.
 //!
-//! Force is the largest on an end, during and after the passes; movement is the largest displacement of an end after a pass. Both follow
-//! from all listed passes, and each may be limited at either end. Where no stiffness keeps the limits, the nearest is that whose worst limit
-//! is exceeded by the smallest factor.
+//! Force is the largest on an end, during and after the passes, and on a clamp after them; movement is the largest displacement of an end, or
+//! at a clamp, after a pass. Where the cable is heated, both count at all hours of all days: the force of the hottest, the movement of the
+//! coldest. Where nothing keeps the limits, the nearest is that whose worst limit is exceeded by the smallest factor.
 //!
-//! All runs are made on one mesh, that which the stiffest end needs; the error that it leaves is stated at every point.
+//! Two springs at once are looked for on a map of both stiffnesses (module `pair`). Of all pairs within the limits that with the largest
+//! margin is taken: its largest share of a limit is the smallest. Where no movement is limited, it is that with which the ends move
+//! least.
+//!
+//! All runs that are answers are made on one mesh, that which the stiffest end needs; the error that it leaves is stated at every point.
 //!
 //! # Limits
 //!
-//! A limit that is crossed more than once as the stiffness grows is an error, since there is no single range then. Heat, which presses
-//! on the ends too, is left out.
+//! A limit of one spring that is crossed more than once as the stiffness grows is an error, since there is no single range then.
 
 mod compare;
 mod limits;
+mod pair;
+mod runs;
 mod search;
 mod trade_off;
 
-pub use crate::Limits;
+pub use crate::{ClampLimits, Limits, Place};
 pub use compare::{Measure, compare};
-pub use limits::{DesignError, DesignOptions, Place};
+pub use limits::{DesignError, DesignOptions};
 pub use search::design;
-pub use trade_off::{Design, TradeOff};
+pub use trade_off::{Binding, ClampPeak, Design, Side, Spring, TradeOff, best, largest_shown};

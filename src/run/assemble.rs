@@ -68,8 +68,13 @@ impl<'a> RunBuilder<'a> {
             (solved.mesh.spacing(), solved.mesh.vehicle_step());
         summary.reasons.extend(solved.reasons.iter().cloned());
         summary.reasons.extend(solved.passes.step_limits.clone());
-        let passes = records(self.plan, &solved.passes);
-        let restraints = restraints(&solved.passes)?;
+        let shown = shown(self.plan, &solved.passes);
+        let restraints = restraints(&solved.passes, &shown)?;
+        let traffic = &self.plan.scene.traffic;
+        let passes: Vec<PassRecord> = shown
+            .into_iter()
+            .map(|record| PassRecord::new(record, traffic))
+            .collect();
         balance::of_records(self.plan.scene, &passes, &restraints)?;
         let first = passes.iter().find(|record| record.interpolated);
         if let Some(first) = first.filter(|_| solved.heat.is_none()) {
@@ -150,28 +155,27 @@ impl<'a> RunBuilder<'a> {
             .reasons
             .push("without friction nothing drags the cable: every pass is like the first".into());
         let stages = stages.iter().filter(|pass| (1..=count).contains(*pass));
+        let all: Vec<Record> = simulated(traffic)
+            .into_iter()
+            .map(|pass| Record {
+                pass,
+                ..first.records[0].clone()
+            })
+            .collect();
         Ok(Run {
             title: self.plan.scene.title.clone(),
             duct_motion: self.duct_motion(),
             plan: self.summary,
-            passes: simulated(traffic)
-                .into_iter()
-                .map(|pass| {
-                    PassRecord::new(
-                        &Record {
-                            pass,
-                            ..first.records[0]
-                        },
-                        traffic,
-                    )
-                })
+            passes: all
+                .iter()
+                .map(|record| PassRecord::new(record, traffic))
                 .collect(),
             saturation: None,
             range: None,
             random: None,
             days: Vec::new(),
             heat: None,
-            restraints: restraints(&first)?,
+            restraints: restraints(&first, &all.iter().collect::<Vec<_>>())?,
             slip_lengths: None,
             stages: stages
                 .map(|&pass| Stage {
@@ -192,27 +196,26 @@ impl<'a> RunBuilder<'a> {
     }
 }
 
-fn restraints(passes: &Passes) -> Result<Vec<RestraintRecord>, Error> {
+fn restraints(passes: &Passes, records: &[&Record]) -> Result<Vec<RestraintRecord>, Error> {
     let Passes { state, cable, .. } = passes;
     let forces = state.restraint_forces(cable)?;
-    let restraints = cable.restraints().iter().zip(forces);
+    let restraints = cable.restraints().iter().zip(forces).enumerate();
     Ok(restraints
-        .map(|(restraint, force_n)| RestraintRecord {
+        .map(|(i, (restraint, force_n))| RestraintRecord {
             position_m: restraint.position,
             stiffness_n_per_m: restraint.stiffness,
             force_n,
+            after_passes_n: records
+                .iter()
+                .map(|record| record.outcome.restraints[i])
+                .collect(),
         })
         .collect())
 }
 
 /// The passes that are listed.
-fn records(plan: &Plan<'_>, passes: &Passes) -> Vec<PassRecord> {
+fn shown<'p>(plan: &Plan<'_>, passes: &'p Passes) -> Vec<&'p Record> {
     let listed = simulated(&plan.scene.traffic);
-    let known = passes
-        .records
-        .iter()
-        .filter(|record| listed.binary_search(&record.pass).is_ok());
-    known
-        .map(|record| PassRecord::new(record, &plan.scene.traffic))
-        .collect()
+    let is_listed = |record: &&Record| listed.binary_search(&record.pass).is_ok();
+    passes.records.iter().filter(is_listed).collect()
 }

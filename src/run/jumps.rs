@@ -206,7 +206,7 @@ fn mix_error(
         records
             .iter()
             .filter(|record| record.pass > drawn)
-            .copied()
+            .cloned()
             .collect()
     };
     let (own, other) = (later(&found.passes.records), later(&other.records));

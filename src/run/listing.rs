@@ -98,7 +98,7 @@ impl Listing {
         let of = |pass: u64| {
             known
                 .binary_search_by_key(&pass, |record| record.pass)
-                .map(|place| known[place])
+                .map(|place| known[place].clone())
         };
         let row = |(pass, shown): &(u64, RangeInclusive<u64>)| {
             let shown: Vec<Record> = shown.clone().filter_map(|pass| of(pass).ok()).collect();
@@ -138,9 +138,9 @@ fn alike(period: &Period, recent: &[usize], pass: u64, count: u64) -> u64 {
 /// Mean of what passes did.
 fn mean(records: &[Record]) -> PassOutcome {
     if let [one] = records {
-        return one.outcome;
+        return one.outcome.clone();
     }
     let share = 1.0 / records.len() as f64;
-    let parts: Vec<_> = records.iter().map(|record| (share, record.outcome)).collect();
+    let parts: Vec<_> = records.iter().map(|record| (share, &record.outcome)).collect();
     PassOutcome::combined(&parts)
 }

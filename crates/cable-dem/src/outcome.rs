@@ -3,7 +3,7 @@
 use crate::{CableError, CableState, DuctedCable, EndForces};
 
 /// What one pass did.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct PassOutcome {
     /// Force on each end after the pass \[N\], compression positive.
@@ -20,6 +20,9 @@ pub struct PassOutcome {
     pub upstream_displacement: f64,
     /// Displacement at x = length after the pass \[m\].
     pub downstream_displacement: f64,
+    /// Force of the cable on each of its clamps after the pass \[N\], positive toward growing x, in the order of
+    /// [`DuctedCable::restraints`].
+    pub restraints: Vec<f64>,
     /// Work that slip has turned into heat \[J\].
     pub dissipated: f64,
     /// What the pass cost.
@@ -38,7 +41,7 @@ impl PassOutcome {
     }
 
     /// The sum of `parts`, each with its weight: a mean, or what lies between two passes. What they cost is left out.
-    pub fn combined(parts: &[(f64, Self)]) -> Self {
+    pub fn combined(parts: &[(f64, &Self)]) -> Self {
         let sum = |of: fn(&Self) -> f64| parts.iter().map(|(weight, part)| weight * of(part)).sum();
         Self {
             force: EndForces {
@@ -57,6 +60,16 @@ impl PassOutcome {
             max_tension: sum(|o| o.max_tension),
             upstream_displacement: sum(|o| o.upstream_displacement),
             downstream_displacement: sum(|o| o.downstream_displacement),
+            restraints: parts.first().map_or_else(Vec::new, |(_, first)| {
+                let clamps = 0..first.restraints.len();
+                let of = |i: usize| {
+                    parts
+                        .iter()
+                        .map(|(weight, part)| weight * part.restraints[i])
+                        .sum()
+                };
+                clamps.map(of).collect()
+            }),
             dissipated: sum(|o| o.dissipated),
             statistics: Statistics::default(),
         }
@@ -143,6 +156,7 @@ impl Recorder {
             max_tension: -least,
             upstream_displacement: state.displacement()[0],
             downstream_displacement: state.displacement()[state.displacement().len() - 1],
+            restraints: state.clamps(cable),
             dissipated: self.dissipated,
             statistics: self.statistics,
         }

@@ -168,13 +168,7 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
         self.mesh.check_length(cable.length())?;
-        let on = |restraint: &Restraint| {
-            let springs = restraint.by_node(&self.mesh).into_iter();
-            springs
-                .map(|(node, stiffness)| stiffness * self.displacement[node])
-                .sum()
-        };
-        Ok(cable.restraints().iter().map(on).collect())
+        Ok(self.clamps(cable))
     }
 
     /// Largest friction per metre \[N/m\] that equilibrium needs at any node: the difference of the forces in both elements, less what
@@ -260,6 +254,17 @@ impl CableState {
             |i| self.displacement[i],
             |i| self.friction[i],
         )
+    }
+
+    /// [`CableState::restraint_forces`] of a cable that is known to be as long as the mesh.
+    pub(crate) fn clamps(&self, cable: &DuctedCable) -> Vec<f64> {
+        let on = |restraint: &Restraint| {
+            let springs = restraint.by_node(&self.mesh).into_iter();
+            springs
+                .map(|(node, stiffness)| stiffness * self.displacement[node])
+                .sum()
+        };
+        cable.restraints().iter().map(on).collect()
     }
 
     /// Removes all friction: ends and clamps draw the cable back to zero; held by none, it keeps its mean position.

@@ -37,7 +37,7 @@ impl Period {
                     .map(|((u, start), v)| u - start - done / count * v)
                     .collect(),
                 friction: state.friction().to_vec(),
-                outcome: *outcome,
+                outcome: outcome.clone(),
             }
         };
         Self {

@@ -6,7 +6,7 @@ use crate::flow::Flow;
 use crate::period::Phase;
 
 /// The cable after one pass.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Record {
     /// Number of the pass, from 1.
     pub pass: u64,

@@ -132,7 +132,12 @@ where
                     records: self
                         .records
                         .split_off(self.records.partition_point(|record| record.pass <= passes)),
-                    period: known.period.phases.iter().map(|phase| phase.outcome).collect(),
+                    period: known
+                        .period
+                        .phases
+                        .iter()
+                        .map(|phase| phase.outcome.clone())
+                        .collect(),
                 });
             }
             evolution.simulated = self.simulated;
@@ -367,7 +372,7 @@ where
         if let Some(pass) = next.number.filter(is_wanted) {
             self.records.push(Record {
                 pass,
-                outcome,
+                outcome: outcome.clone(),
                 interpolated: false,
             });
         }

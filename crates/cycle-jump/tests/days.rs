@@ -294,7 +294,7 @@ fn days_repeat_in_the_end_but_for_a_drift() -> Outcome {
         .collect();
     scene.days = 7305;
     let years = scene.live(scene.knots, false)?;
-    let last = years.days[years.days.len() - 1];
+    let last = &years.days[years.days.len() - 1];
     assert!(years.simulated < 400 && years.periodic_from.is_some_and(|day| day < 40));
     assert!(
         (years.drift / (places[3] - places[2]) - 1.0).abs() < 5e-3,

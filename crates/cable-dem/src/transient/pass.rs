@@ -11,7 +11,7 @@ use crate::step::check_precision;
 use crate::{CableError, CableState, EndForces, PassOutcome};
 
 /// What one pass with inertia did.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct TransientOutcome {
     /// Forces, peaks and displacements as a quasi-static pass reports them. Peaks include vibration.

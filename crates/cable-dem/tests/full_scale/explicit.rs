@@ -15,7 +15,7 @@ fn all_three_solvers_agree_at_40_km_per_hour() -> Outcome {
         let expected = scene.quasi_static(10)?;
         let dynamic = scene.dynamic(10)?;
         let explicit = scene.explicit(10, ExplicitOptions::default())?;
-        for found in [dynamic.pass, explicit.pass] {
+        for found in [&dynamic.pass, &explicit.pass] {
             for (found, expected) in [
                 (found.force.downstream, expected.force.downstream),
                 (found.peak.downstream, expected.peak.downstream),
@@ -205,7 +205,7 @@ fn reverse_traffic_is_the_mirror_image() -> Outcome {
             dynamic.pass(&duct, &mut CableState::at_rest(&mesh))?.pass,
         ));
     }
-    for (forward, reverse) in [(outcomes[0].0, outcomes[1].0), (outcomes[0].1, outcomes[1].1)] {
+    for (forward, reverse) in [(&outcomes[0].0, &outcomes[1].0), (&outcomes[0].1, &outcomes[1].1)] {
         assert!(forward.force.downstream > 10.0);
         assert_relative_eq!(
             forward.force.downstream,

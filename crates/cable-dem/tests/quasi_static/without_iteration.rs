@@ -25,7 +25,7 @@ fn every_step_by_dynamic_programming_gives_the_same_cable() {
         exact.solver = exact.solver.without_iteration();
         for passage in [&forward, &forward, &reverse, &forward] {
             let outcomes: [PassOutcome; 2] = [iterated.pass(passage), exact.pass(passage)];
-            let [force, by_exact] = outcomes.map(|outcome| outcome.force.downstream);
+            let [force, by_exact] = outcomes.clone().map(|outcome| outcome.force.downstream);
             assert!(
                 (force - by_exact).abs() <= AGREEMENT * force.abs(),
                 "{force} and {by_exact}"

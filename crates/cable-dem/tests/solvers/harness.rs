@@ -132,7 +132,7 @@ enum Solver {
 }
 
 /// What one pass did.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Pass {
     pub outcome: PassOutcome,
     /// Force on each end \[N\] at the vehicle's last position, before the ground returns to rest.

@@ -3,7 +3,7 @@
 use cable_dem::{EndForces, PassOutcome};
 
 /// Extremes of the cable at rest over a day: after every pass and every change of temperature.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Extremes {
     /// Largest force on each end \[N\].
     pub most: EndForces,
@@ -17,6 +17,8 @@ pub struct Extremes {
     pub forward: [f64; 2],
     /// Each end's farthest place toward falling x \[m\].
     pub backward: [f64; 2],
+    /// Least and largest force on each clamp \[N\].
+    pub restraints: Vec<[f64; 2]>,
 }
 
 impl Extremes {
@@ -30,6 +32,7 @@ impl Extremes {
             tension: most,
             forward: [most; 2],
             backward: [least; 2],
+            restraints: Vec::new(),
         }
     }
 
@@ -43,6 +46,7 @@ impl Extremes {
             tension: seen.max_tension,
             forward: displacement,
             backward: displacement,
+            restraints: seen.restraints.iter().map(|force| [*force; 2]).collect(),
         });
     }
 
@@ -53,20 +57,13 @@ impl Extremes {
 
     /// Largest force in size \[N\].
     pub fn largest_force(&self) -> f64 {
-        let Self {
-            most,
-            least,
-            compression,
-            tension,
-            ..
-        } = *self;
         [
-            most.upstream,
-            most.downstream,
-            least.upstream,
-            least.downstream,
-            compression,
-            tension,
+            self.most.upstream,
+            self.most.downstream,
+            self.least.upstream,
+            self.least.downstream,
+            self.compression,
+            self.tension,
         ]
         .into_iter()
         .fold(0.0, |largest, force| largest.max(force.abs()))
@@ -91,11 +88,12 @@ impl Extremes {
 
     /// The same day with the cable moved as a whole by `distance` \[m\].
     #[must_use]
-    pub fn moved(mut self, distance: f64) -> Self {
-        for place in self.forward.iter_mut().chain(&mut self.backward) {
+    pub fn moved(&self, distance: f64) -> Self {
+        let mut moved = self.clone();
+        for place in moved.forward.iter_mut().chain(&mut moved.backward) {
             *place += distance;
         }
-        self
+        moved
     }
 
     /// Largest difference to `other`: of a force as a share of the largest, or of `least.0` \[N\], of a movement as a share of the range,
@@ -114,7 +112,17 @@ impl Extremes {
         let of = |a: EndForces, b: EndForces, f: &dyn Fn(f64, f64) -> f64| {
             ends(f(a.upstream, b.upstream), f(a.downstream, b.downstream))
         };
+        // Nothing yet has no clamps either.
+        let restraints = match &self.restraints[..] {
+            [] => other.restraints.clone(),
+            own => own
+                .iter()
+                .zip(&other.restraints)
+                .map(|(a, b)| [lower(a[0], b[0]), upper(a[1], b[1])])
+                .collect(),
+        };
         Self {
+            restraints,
             most: of(self.most, other.most, &upper),
             least: of(self.least, other.least, &lower),
             compression: upper(self.compression, other.compression),

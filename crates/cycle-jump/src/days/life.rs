@@ -56,7 +56,7 @@ pub struct DaysRequest<'a> {
 }
 
 /// A day's extremes.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct DayRecord {
     /// Number of the day, from 1.
     pub day: u64,
@@ -146,7 +146,7 @@ struct Life<'a, P> {
 }
 
 /// Days that are all like the one before.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 struct Settled {
     /// The first of them.
     day: u64,
@@ -171,13 +171,13 @@ where
         let (whole, rest) = (passes / a_day, passes % a_day);
         let all = whole + u64::from(rest > 0);
         let settled = self.until(all - 1)?;
-        let drift = settled.map_or(0.0, |settled| settled.drift);
+        let drift = settled.as_ref().map_or(0.0, |settled| settled.drift);
         let passes = if rest > 0 { rest } else { a_day };
-        let last = match settled {
+        let last = match &settled {
             Some(Settled {
                 beside: Some(beside), ..
             }) if passes == a_day => {
-                let lived = self.living.last(self.done * a_day, passes, &beside)?;
+                let lived = self.living.last(self.done * a_day, passes, beside)?;
                 self.done += 1;
                 self.book(&lived, &lived.extremes, passes)?;
                 lived
@@ -236,7 +236,7 @@ where
             let from = self.living.whole();
             let yesterday = today;
             let lived = self.corrected(self.living.day.passes, false)?;
-            today = lived.extremes;
+            today = lived.extremes.clone();
             let drift = self.living.whole() - from;
             beside = today.less(&self.again(start)?);
             if block > 0 {
@@ -362,7 +362,7 @@ where
         if self.request.wanted_days.binary_search(&day).is_ok() {
             self.days.push(DayRecord {
                 day,
-                extremes: *extremes,
+                extremes: extremes.clone(),
             });
         }
         let before = (day - 1) * plan.passes;

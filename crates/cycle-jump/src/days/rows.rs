@@ -31,14 +31,13 @@ impl Shape {
         let before = &rows[first.max(1) - 1];
         let passes: Vec<&Row> = rows[first..].iter().filter(|row| !row.heat).collect();
         let count = passes.len() as f64;
-        let last = passes.last().map_or(before.outcome, |row| at_rest(&row.outcome));
+        let before_them = at_rest(&before.outcome);
+        let last = passes
+            .last()
+            .map_or_else(|| before.outcome.clone(), |row| at_rest(&row.outcome));
         let shape = |(done, row): (usize, &&Row)| {
             let share = (done + 1) as f64 / count;
-            PassOutcome::combined(&[
-                (1.0, row.outcome),
-                (share - 1.0, at_rest(&before.outcome)),
-                (-share, last),
-            ])
+            PassOutcome::combined(&[(1.0, &row.outcome), (share - 1.0, &before_them), (-share, &last)])
         };
         Self {
             begin: before.passes,
@@ -52,7 +51,7 @@ impl Shape {
 pub fn of_pass(rows: &[Row], shapes: &[Shape], pass: u64, period: usize) -> Option<(PassOutcome, bool)> {
     let passes = || rows.iter().filter(|row| !row.heat);
     if let Some(row) = passes().find(|row| row.simulated && row.passes == pass) {
-        return Some((row.outcome, false));
+        return Some((row.outcome.clone(), false));
     }
     // Ends of periods on both sides.
     let last = rows.last()?.passes;
@@ -68,16 +67,16 @@ pub fn of_pass(rows: &[Row], shapes: &[Shape], pass: u64, period: usize) -> Opti
     let complete = shapes.iter().filter(|shape| shape.passes.len() >= period);
     let shape = complete.min_by_key(distance)?;
     let outcome = PassOutcome::combined(&[
-        (1.0 - share, at_rest(&before.outcome)),
-        (share, at_rest(&after.outcome)),
-        (1.0, shape.passes[phase]),
+        (1.0 - share, &at_rest(&before.outcome)),
+        (share, &at_rest(&after.outcome)),
+        (1.0, &shape.passes[phase]),
     ]);
     Some((outcome, true))
 }
 
 /// The same cable after the pass: without its peaks and its heat.
 fn at_rest(outcome: &PassOutcome) -> PassOutcome {
-    let mut rest = *outcome;
+    let mut rest = outcome.clone();
     (rest.peak, rest.lowest, rest.dissipated) = (rest.force, rest.force, 0.0);
     rest
 }

@@ -1,0 +1,119 @@
+//! Places where a cable is held, what may be limited there, and what a run reaches.
+
+use serde::{Deserialize, Serialize};
+
+use super::cable_end::CableEnd;
+use super::heat::DayExtremes;
+use super::record::{RestraintRecord, Run};
+
+/// Clamps nearer to each other than this are at one place \[m\].
+const SAME_PLACE: f64 = 1e-6;
+
+/// Where a cable is held.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Place {
+    /// At the upstream end, in place of what holds it in the scene.
+    Upstream,
+    /// At the downstream end, in place of what holds it in the scene.
+    Downstream,
+    /// A clamp at this position along the duct \[m\], beside what is in the scene.
+    Clamp(f64),
+}
+
+/// What is limited.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Limited {
+    /// Force on an end after passes and during them, on a clamp after passes \[N\].
+    Force,
+    /// Displacement of the end, or of the cable at the clamp, after passes \[m\].
+    Movement,
+}
+
+impl Place {
+    /// Whether it is the clamp at `position` \[m\].
+    pub fn is_clamp_at(self, position: f64) -> bool {
+        matches!(self, Self::Clamp(own) if (own - position).abs() <= SAME_PLACE)
+    }
+}
+
+impl From<CableEnd> for Place {
+    fn from(end: CableEnd) -> Self {
+        match end {
+            CableEnd::Upstream => Self::Upstream,
+            CableEnd::Downstream => Self::Downstream,
+        }
+    }
+}
+
+impl std::fmt::Display for Place {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Upstream => f.write_str("upstream end"),
+            Self::Downstream => f.write_str("downstream end"),
+            Self::Clamp(position) => write!(f, "clamp at {position} m"),
+        }
+    }
+}
+
+impl Run {
+    /// The largest force \[N\] or movement \[m\] at `place` in size, of all listed passes and all days: of an end also the force during
+    /// passes, of a clamp that after them. Zero where there is no such clamp.
+    pub fn largest(&self, place: impl Into<Place>, quantity: Limited) -> f64 {
+        let place = place.into();
+        let passes = (0..self.passes.len()).map(|index| self.in_pass(place, quantity, index));
+        let days = self
+            .heat
+            .iter()
+            .map(|heat| self.on_day(place, quantity, &heat.all_days));
+        passes.chain(days).fold(0.0, f64::max)
+    }
+
+    /// The same in the pass at `index` of the listed ones.
+    pub(super) fn in_pass(&self, place: Place, quantity: Limited, index: usize) -> f64 {
+        let record = &self.passes[index];
+        let at_end = |end: CableEnd| match quantity {
+            Limited::Force => end.largest_force(record),
+            Limited::Movement => end.movement(record),
+        };
+        match place {
+            Place::Upstream => at_end(CableEnd::Upstream),
+            Place::Downstream => at_end(CableEnd::Downstream),
+            Place::Clamp(_) => self.on_clamps(place, quantity, |_, clamp| clamp.after_passes_n[index].abs()),
+        }
+    }
+
+    /// The same over one of its days, when heat is hardest between passes.
+    pub(super) fn on_day(&self, place: Place, quantity: Limited, day: &DayExtremes) -> f64 {
+        let at_end = |end: CableEnd| match quantity {
+            Limited::Force => day.largest_force(end),
+            Limited::Movement => day.movement(end),
+        };
+        match place {
+            Place::Upstream => at_end(CableEnd::Upstream),
+            Place::Downstream => at_end(CableEnd::Downstream),
+            Place::Clamp(_) => self.on_clamps(place, quantity, |clamp, _| {
+                let range = day.restraints[clamp];
+                range.max_n.abs().max(range.min_n.abs())
+            }),
+        }
+    }
+
+    /// The largest of the clamps at `place`, from the force on each.
+    fn on_clamps(
+        &self,
+        place: Place,
+        quantity: Limited,
+        force: impl Fn(usize, &RestraintRecord) -> f64,
+    ) -> f64 {
+        let clamps = self.restraints.iter().enumerate();
+        clamps
+            .filter(|(_, clamp)| place.is_clamp_at(clamp.position_m))
+            .map(|(index, clamp)| match quantity {
+                Limited::Force => force(index, clamp),
+                Limited::Movement => force(index, clamp) / clamp.stiffness_n_per_m,
+            })
+            .fold(0.0, f64::max)
+    }
+}

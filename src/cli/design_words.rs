@@ -1,0 +1,398 @@
+//! What `creepage design` says.
+
+use std::io::Write;
+
+use super::failure::Failure;
+use super::terminal;
+use crate::design::{Binding, Design, Place, Side, Spring, TradeOff, largest_shown};
+use crate::scene::Unit;
+use crate::shown::percent;
+use crate::{Limited, Scene, Units};
+
+/// How the words about a design show numbers.
+pub struct Shown {
+    units: Units,
+}
+
+impl Shown {
+    /// In the units that were typed; a stiffness in kN/m where none was, for springs are stiff.
+    pub fn new(mut units: Units) -> Self {
+        if units.stiffness == Unit::NEWTON_PER_METRE {
+            units.stiffness = Unit::KILONEWTON_PER_METRE;
+        }
+        Self { units }
+    }
+
+    fn symbol(&self, quantity: Limited) -> &'static str {
+        match quantity {
+            Limited::Force => self.units.force.symbol(),
+            Limited::Movement => self.units.movement.symbol(),
+        }
+    }
+
+    fn stiffness_symbol(&self) -> &'static str {
+        self.units.stiffness.symbol()
+    }
+
+    /// A force or a movement without its unit.
+    fn number(&self, quantity: Limited, value: f64) -> String {
+        match quantity {
+            Limited::Force => self.units.force(value),
+            Limited::Movement => self.units.movement(value),
+        }
+    }
+
+    /// The same with its unit.
+    fn shown(&self, quantity: Limited, value: f64) -> String {
+        quantity.shown_in(&self.units, value)
+    }
+
+    /// The same as it was given.
+    fn given(&self, quantity: Limited, value: f64) -> String {
+        let number = self.number(quantity, value);
+        let number = if number.contains('.') {
+            number.trim_end_matches('0').trim_end_matches('.')
+        } else {
+            &number
+        };
+        format!("{number} {}", self.symbol(quantity))
+    }
+
+    /// A stiffness without its unit, to four digits.
+    fn stiffness(&self, spring: &Spring) -> String {
+        match (spring.stiffness_n_per_m, spring.place) {
+            (None, _) => "fixed".to_owned(),
+            (Some(0.0), Place::Clamp(_)) => "no clamp".to_owned(),
+            (Some(0.0), _) => "free".to_owned(),
+            (Some(value), _) => {
+                let value = self.units.stiffness.of_si(value);
+                let whole = value.log10().floor();
+                if (-3.0..5.0).contains(&whole) {
+                    format!("{value:.*}", (3.0 - whole).max(0.0) as usize)
+                } else {
+                    format!("{value:.3e}")
+                }
+            }
+        }
+    }
+}
+
+/// One design in full.
+pub fn print(design: &Design, scene: &Scene, units: &Shown) -> Result<(), Failure> {
+    let mut out = terminal::out();
+    head(&mut out, design)?;
+    let limit = |(place, quantity, limit): (Place, Limited, f64)| {
+        format!("{} {}", quantity.at(place), units.given(quantity, limit))
+    };
+    let limits: Vec<String> = design.limits.all().map(limit).collect();
+    writeln!(out, "limits: {}\n", limits.join("; "))?;
+    table(&mut out, &curve(design, scene, units))?;
+    conclusion(&mut out, design, units)
+}
+
+/// Several beside each other, and the best.
+pub fn compared(best: &Design, all: &[Design], units: &Shown) -> Result<(), Failure> {
+    let mut out = terminal::out();
+    writeln!(
+        out,
+        "{}: {} ways to hold the cable, {} passes\n",
+        terminal::line(&best.title),
+        all.len(),
+        best.passes
+    )?;
+    let mut rows = vec![
+        [
+            "held by",
+            "stiffness",
+            "largest share of a limit",
+            "of",
+            "within limits",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
+    ];
+    for design in all {
+        let Some(found) = design.found() else { continue };
+        let stiffnesses: Vec<String> = found
+            .springs
+            .iter()
+            .map(|spring| stiffness(units, spring))
+            .collect();
+        let tightest = found.tightest(&design.limits);
+        let of: Vec<String> = tightest
+            .iter()
+            .map(|limit| limit.quantity.at(limit.end))
+            .collect();
+        rows.push(vec![
+            places(&design.places),
+            stiffnesses.join(" and "),
+            percent(design.excess()),
+            of.join(", "),
+            within(found),
+        ]);
+    }
+    table(&mut out, &rows)?;
+    if best.answer.is_some() {
+        writeln!(out, "best: {}", places(&best.places))?;
+    }
+    conclusion(&mut out, best, units)
+}
+
+fn head(out: &mut impl Write, design: &Design) -> std::io::Result<()> {
+    let places = places(&design.places);
+    writeln!(
+        out,
+        "{}: {places}, {} passes",
+        terminal::line(&design.title),
+        design.passes
+    )
+}
+
+fn places(places: &[Place]) -> String {
+    let name = |place: &Place| match place {
+        Place::Clamp(_) => place.to_string(),
+        _ => format!("spring at the {place}"),
+    };
+    let names: Vec<String> = places.iter().map(name).collect();
+    names.join(" and ")
+}
+
+/// Every run with the scene's own tolerance.
+fn curve(design: &Design, scene: &Scene, units: &Shown) -> Vec<Vec<String>> {
+    let one = design.places.len() == 1;
+    let stiffness = units.stiffness_symbol();
+    let of_springs = design.places.iter().map(|place| match place {
+        _ if one => format!("stiffness, {stiffness}"),
+        Place::Clamp(position) => format!("{position} m, {stiffness}"),
+        Place::Upstream => format!("upstream, {stiffness}"),
+        Place::Downstream => format!("downstream, {stiffness}"),
+    });
+    let clamped = design.places.iter().copied().chain(
+        design
+            .limits
+            .clamps
+            .iter()
+            .map(|clamp| Place::Clamp(clamp.position_m)),
+    );
+    let mut places = vec![Place::Upstream, Place::Downstream];
+    for place in clamped {
+        if !places.contains(&place) {
+            places.push(place);
+        }
+    }
+    let columns: Vec<(Place, Limited)> = [Limited::Force, Limited::Movement]
+        .into_iter()
+        .flat_map(|quantity| places.iter().map(move |place| (*place, quantity)))
+        .collect();
+    let name = |&(place, quantity): &(Place, Limited)| {
+        let unit = units.symbol(quantity);
+        match place {
+            Place::Upstream => format!("upstream, {unit}"),
+            Place::Downstream => format!("downstream, {unit}"),
+            Place::Clamp(position) => format!("at {position} m, {unit}"),
+        }
+    };
+    let last = std::iter::once("within limits".to_owned());
+    let mut rows = vec![of_springs.chain(columns.iter().map(name)).chain(last).collect()];
+    let most = largest_shown(scene);
+    for point in &design.curve {
+        let value = |&(place, quantity): &(Place, Limited)| match point.value(place, quantity) {
+            _ if matches!(place, Place::Clamp(_)) && !has(point, place) => "–".to_owned(),
+            value if quantity == Limited::Movement && value > most => {
+                format!("> {}", units.number(quantity, most))
+            }
+            value => units.number(quantity, value),
+        };
+        let springs = point.springs.iter().map(|spring| units.stiffness(spring));
+        let last = std::iter::once(within(point));
+        rows.push(springs.chain(columns.iter().map(value)).chain(last).collect());
+    }
+    rows
+}
+
+fn has(point: &TradeOff, place: Place) -> bool {
+    let mut clamps = point.clamps.iter();
+    clamps.any(|clamp| place.is_clamp_at(clamp.position_m))
+}
+
+fn within(point: &TradeOff) -> String {
+    let within = if point.within_limits { "yes" } else { "no" };
+    let leaves = if point.leaves_duct {
+        ", leaves the duct"
+    } else {
+        ""
+    };
+    format!("{within}{leaves}")
+}
+
+/// Columns as wide as they have to be.
+fn table(out: &mut impl Write, rows: &[Vec<String>]) -> std::io::Result<()> {
+    let width = |column: usize| {
+        let cells = rows.iter().map(|row| row[column].chars().count());
+        cells.max().unwrap_or(0)
+    };
+    for row in rows {
+        let cells = row.iter().enumerate();
+        let cells: Vec<String> = cells
+            .map(|(column, cell)| format!("{cell:>0$}", width(column)))
+            .collect();
+        writeln!(out, "{}", cells.join("  "))?;
+    }
+    writeln!(out)
+}
+
+/// The answer or what comes nearest, and which limits decide.
+fn conclusion(out: &mut impl Write, design: &Design, units: &Shown) -> Result<(), Failure> {
+    if let Some(nearest) = &design.nearest {
+        writeln!(
+            out,
+            "no stiffness stays within the limits; nearest: {}",
+            reached(design, nearest, units)
+        )?;
+    }
+    if let Some(answer) = &design.answer {
+        writeln!(out, "answer: {}", reached(design, answer, units))?;
+        for line in deciding(design, answer, units) {
+            writeln!(out, "{line}")?;
+        }
+        if design.excess() * (1.0 + answer.error_estimate) > 1.0 {
+            writeln!(out, "nearer to a limit than the estimated error: leave a margin")?;
+        }
+    }
+    writeln!(out, "{} runs of the scene", design.runs)?;
+    Ok(())
+}
+
+/// Where the range of stiffness ends and why, or what leaves least room.
+fn deciding(design: &Design, answer: &TradeOff, units: &Shown) -> Vec<String> {
+    let named = |limits: &mut dyn Iterator<Item = &Binding>| {
+        let names: Vec<String> = limits.map(|limit| limit.quantity.at(limit.end)).collect();
+        names.join(", ")
+    };
+    let mut lines = Vec::new();
+    if let (Some((from, to)), [spring]) = (design.range_n_per_m, &answer.springs[..]) {
+        let stiffness = |value: f64| {
+            stiffness(
+                units,
+                &Spring {
+                    place: spring.place,
+                    stiffness_n_per_m: Some(value),
+                },
+            )
+        };
+        match to {
+            None => lines.push(format!(
+                "within the limits: {} and everything stiffer",
+                stiffness(from)
+            )),
+            Some(to) if to > from => {
+                lines.push(format!(
+                    "within the limits: {} to {}",
+                    stiffness(from),
+                    stiffness(to)
+                ));
+            }
+            Some(_) => {}
+        }
+    }
+    for (side, name) in [(Side::Softer, "softer"), (Side::Stiffer, "stiffer")] {
+        let mut limits = design.binding.iter();
+        let exceeded = named(&mut limits.by_ref().filter(|limit| limit.exceeded_by == Some(side)));
+        if !exceeded.is_empty() {
+            lines.push(format!("a {name} one exceeds: {exceeded}"));
+        }
+    }
+    let tightest = named(&mut design.binding.iter().filter(|limit| limit.exceeded_by.is_none()));
+    if !tightest.is_empty() {
+        lines.push(format!(
+            "least room: {tightest}: {} of the limit",
+            percent(design.excess())
+        ));
+    }
+    lines
+}
+
+/// A stiffness with its unit, or in a word.
+fn stiffness(units: &Shown, spring: &Spring) -> String {
+    let taken = units.stiffness(spring);
+    match spring.stiffness_n_per_m {
+        Some(value) if value > 0.0 => format!("{taken} {}", units.stiffness_symbol()),
+        _ => taken,
+    }
+}
+
+/// Springs, and what they make of the limits.
+fn reached(design: &Design, point: &TradeOff, units: &Shown) -> String {
+    let several = point.springs.len() > 1;
+    let spring = |spring: &Spring| {
+        let taken = stiffness(units, spring);
+        let at = match spring.place {
+            Place::Clamp(position) if several => format!(" at {position} m"),
+            place if several => format!(" at the {place}"),
+            _ => String::new(),
+        };
+        match (spring.stiffness_n_per_m, spring.place) {
+            (None | Some(0.0), _) => taken + &at,
+            (_, Place::Clamp(_)) => format!("a clamp of {taken}{at}"),
+            _ => format!("a spring of {taken}{at}"),
+        }
+    };
+    let springs: Vec<String> = point.springs.iter().map(spring).collect();
+    let of = |(place, quantity, limit): (Place, Limited, f64)| {
+        let value = point.value(place, quantity);
+        let beside = match value / limit {
+            times if times > 1.0 => {
+                format!(", {times:.2} times its limit of {}", units.given(quantity, limit))
+            }
+            _ => String::new(),
+        };
+        format!("{} {}{beside}", quantity.at(place), units.shown(quantity, value))
+    };
+    let all: Vec<String> = design.limits.all().map(of).collect();
+    let leaves = if point.leaves_duct {
+        "; the cable leaves the duct"
+    } else {
+        ""
+    };
+    let error = percent(point.error_estimate);
+    format!(
+        "{}; {}{leaves}; estimated error {error}",
+        springs.join(" and "),
+        all.join("; ")
+    )
+}
+
+/// Which limits nothing keeps, by how much the nearest exceeds them, and what to try.
+pub fn advice(design: &Design, scene: &Scene, units: &Shown) -> String {
+    let Some(nearest) = &design.nearest else {
+        return String::new();
+    };
+    let fails = |(place, quantity, limit): (Place, Limited, f64)| {
+        let value = nearest.value(place, quantity);
+        (value > limit).then(|| {
+            format!(
+                "the {} exceeds its limit by {} ({})",
+                quantity.at(place),
+                units.shown(quantity, value - limit),
+                percent(value / limit - 1.0)
+            )
+        })
+    };
+    let fails: Vec<String> = design.limits.all().filter_map(fails).collect();
+    let middle = 0.5 * scene.duct.length;
+    let is_clamp = |place: &Place| matches!(place, Place::Clamp(_));
+    let try_next = match &design.places[..] {
+        [place] if is_clamp(place) => format!(
+            "a clamp elsewhere (--at more than once compares), a spring with it (--at \"downstream+{middle} m\")"
+        ),
+        [_] => format!(
+            "springs at both ends (--at upstream+downstream), a clamp (--at \"{middle} m\", or with a spring: --at \"downstream+{middle} m\")"
+        ),
+        _ => "other places (--at), further clamps in the scene".to_owned(),
+    };
+    format!(
+        "no stiffness stays within the limits: at the nearest, which is on standard output, {}; try {try_next}, a larger limit, or less \
+         friction or load on the duct",
+        fails.join(" and ")
+    )
+}

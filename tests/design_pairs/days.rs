@@ -1,0 +1,68 @@
+//! Heat and slopes count, and a cable that leaves its duct is told.
+
+use creepage::design::{Measure, compare};
+use creepage::{Limited, Place, Progress, Scene};
+
+use super::grid::{WARM, check, designed, excess, held, reached, scene};
+
+#[test]
+fn heat_counts_with_its_hottest_force_and_its_coldest_movement() {
+    let (warm, cold) = (scene(&WARM), scene(&WARM[..2]));
+    let places = [Place::Downstream];
+    let fixed = |scene: &Scene| reached(&held(scene, &[]), places[0], Limited::Force);
+    assert!(fixed(&warm) > 1.5 * fixed(&cold));
+    // The limit that traffic alone keeps with a fixed end asks for a spring where the cable is heated.
+    let limit = [(places[0], Limited::Force, 1.2 * fixed(&cold))];
+    let without = designed(&cold, &places, &limit).answer.expect("kept");
+    assert_eq!(without.stiffness_n_per_m, None);
+    let with = designed(&warm, &places, &limit).answer.expect("kept");
+    let stiffness = with.stiffness_n_per_m.expect("a spring");
+    let run = held(&warm, &[(places[0], stiffness)]);
+    let days = &run.heat.as_ref().expect("heat").all_days;
+    // It is the force of the day, not that after passes.
+    assert!(with.force_n <= limit[0].2 && with.force_n >= days.downstream_max_n);
+    // A movement is that of the coldest hour where it is the larger one: the end is drawn in.
+    let moved = reached(&run, places[0], Limited::Movement);
+    assert_eq!(with.downstream_movement_m, moved);
+    let both = [limit[0], (places[0], Limited::Movement, 0.6 * moved)];
+    check(&warm, &places, &both, false);
+}
+
+#[test]
+fn a_slope_counts() {
+    let (level, steep) = (scene(&[]), scene(&["duct.slope=-12 deg"]));
+    let places = [Place::Downstream];
+    let fixed = |scene: &Scene| reached(&held(scene, &[]), places[0], Limited::Force);
+    assert!(
+        fixed(&steep) > 1.1 * fixed(&level),
+        "{} {}",
+        fixed(&steep),
+        fixed(&level)
+    );
+    let limit = [(places[0], Limited::Force, fixed(&level))];
+    assert_eq!(
+        designed(&level, &places, &limit)
+            .answer
+            .expect("kept")
+            .stiffness_n_per_m,
+        None
+    );
+    let spring = designed(&steep, &places, &limit).answer.expect("kept");
+    let stiffness = spring.stiffness_n_per_m.expect("a spring");
+    assert!(excess(&held(&steep, &[(places[0], stiffness)]), &limit) <= 1.0);
+    assert!(excess(&held(&steep, &[(places[0], 1.05 * stiffness)]), &limit) > 1.0);
+}
+
+#[test]
+fn a_cable_that_leaves_the_duct_is_called_so() {
+    // Steeper than friction holds, with the upper end free: the lower end carries what friction does not, and moves by force over stiffness.
+    let scene = scene(&["duct.slope=-30 deg"]);
+    let ways = [1e3, 1e6].map(|stiffness| Measure {
+        place: Place::Downstream,
+        stiffness,
+    });
+    let ways = compare(&scene, &ways, Progress::default()).expect("runs");
+    let [soft, stiff] = [0, 1].map(|way| ways[way].as_ref().expect("an answer"));
+    assert!(soft.downstream_movement_m > 0.01 * scene.duct.length && soft.leaves_duct);
+    assert!(stiff.movement_m < 0.01 * scene.duct.length && !stiff.leaves_duct);
+}

@@ -1,0 +1,194 @@
+//! Runs that know nothing of the search: a grid of them, against which a design is held.
+
+use creepage::design::{Design, DesignOptions, design};
+use creepage::scene::{End, Restraint};
+use creepage::{Limited, Limits, Place, Run, Scene, SceneFile};
+
+/// A short scene on a mesh that is good enough: limits are kept and broken on the same one.
+pub fn scene(more: &[&str]) -> Scene {
+    let short = [
+        "traffic.passes=6",
+        "duct.length=15 m",
+        "solver.node_spacing=0.3 m",
+    ];
+    let overrides = [&short, more].concat();
+    SceneFile::read("examples/scenes/full-scale-upper.toml")
+        .and_then(|file| file.with(&overrides)?.scene())
+        .expect("a valid scene")
+}
+
+/// A limit: where, of what, how much.
+pub type Given = (Place, Limited, f64);
+
+pub fn limits(all: &[Given]) -> Limits {
+    let mut limits = Limits::default();
+    for &(place, quantity, limit) in all {
+        let of = match place {
+            Place::Upstream => &mut limits.upstream,
+            Place::Downstream => &mut limits.downstream,
+            Place::Clamp(position_m) => {
+                limits.clamps.push(creepage::ClampLimits {
+                    position_m,
+                    limits: creepage::EndLimits::default(),
+                });
+                &mut limits.clamps.last_mut().expect("just pushed").limits
+            }
+        };
+        match quantity {
+            Limited::Force => of.force_n = Some(limit),
+            Limited::Movement => of.movement_m = Some(limit),
+        }
+    }
+    limits
+}
+
+pub fn designed(scene: &Scene, places: &[Place], all: &[Given]) -> Design {
+    let mut options = DesignOptions::new(places[0], limits(all));
+    options.second = places.get(1).copied();
+    design(scene, &options).unwrap_or_else(|error| panic!("{places:?}, {all:?}: {error}"))
+}
+
+/// The scene with a spring at each place, run.
+pub fn held(scene: &Scene, springs: &[(Place, f64)]) -> Run {
+    let mut scene = scene.clone();
+    for &(place, stiffness) in springs {
+        let end = match stiffness {
+            0.0 => End::Free,
+            f64::INFINITY => End::Fixed,
+            _ => End::Spring(stiffness),
+        };
+        match place {
+            Place::Upstream => scene.ends.upstream = end,
+            Place::Downstream => scene.ends.downstream = end,
+            Place::Clamp(position) if stiffness > 0.0 => {
+                scene.restraints.push(Restraint { position, stiffness });
+            }
+            Place::Clamp(_) => {}
+        }
+    }
+    creepage::run(&scene).expect("an answer")
+}
+
+/// What `run` has at a place, from its tables and not by what the search calls.
+pub fn reached(run: &Run, place: Place, quantity: Limited) -> f64 {
+    let most =
+        |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, value| most.max(value.abs()));
+    let days = || run.heat.iter().map(|heat| &heat.all_days);
+    match (place, quantity) {
+        (Place::Upstream, Limited::Force) => most(
+            &mut run
+                .passes
+                .iter()
+                .flat_map(|pass| [pass.upstream_force_n, pass.upstream_peak_n])
+                .chain(days().flat_map(|day| [day.upstream_max_n, day.upstream_min_n])),
+        ),
+        (Place::Downstream, Limited::Force) => most(
+            &mut run
+                .passes
+                .iter()
+                .flat_map(|pass| [pass.downstream_force_n, pass.downstream_peak_n])
+                .chain(days().flat_map(|day| [day.downstream_max_n, day.downstream_min_n])),
+        ),
+        (Place::Upstream, Limited::Movement) => most(
+            &mut run.passes.iter().map(|pass| pass.upstream_displacement_m).chain(
+                days().flat_map(|day| [day.upstream_displacement_max_m, day.upstream_displacement_min_m]),
+            ),
+        ),
+        (Place::Downstream, Limited::Movement) => most(
+            &mut run
+                .passes
+                .iter()
+                .map(|pass| pass.downstream_displacement_m)
+                .chain(days().flat_map(|day| {
+                    [
+                        day.downstream_displacement_max_m,
+                        day.downstream_displacement_min_m,
+                    ]
+                })),
+        ),
+        (Place::Clamp(position), _) => {
+            let mut clamps = run.restraints.iter();
+            let clamp = clamps.find(|clamp| clamp.position_m == position);
+            clamp.map_or(0.0, |clamp| {
+                let force = most(&mut clamp.after_passes_n.iter().copied());
+                match quantity {
+                    Limited::Force => force,
+                    Limited::Movement => force / clamp.stiffness_n_per_m,
+                }
+            })
+        }
+    }
+}
+
+pub fn excess(run: &Run, all: &[Given]) -> f64 {
+    let shares = all
+        .iter()
+        .map(|&(place, quantity, limit)| reached(run, place, quantity) / limit);
+    shares.fold(0.0, f64::max)
+}
+
+/// Stiffnesses of a grid, with none and, at ends, a fixed one.
+pub fn grid(scene: &Scene, place: Place) -> Vec<f64> {
+    let own = scene.cable.axial_stiffness / scene.duct.length;
+    let powers = (-4..=3).map(|i| own * 10_f64.powf(0.5 * f64::from(i) + 0.13));
+    let fixed = (!matches!(place, Place::Clamp(_))).then_some(f64::INFINITY);
+    std::iter::once(0.0).chain(powers).chain(fixed).collect()
+}
+
+/// The least of the largest shares of a limit over a grid of all springs.
+pub fn best_of_grid(scene: &Scene, places: &[Place], all: &[Given]) -> f64 {
+    let mut least = f64::INFINITY;
+    for first in grid(scene, places[0]) {
+        let seconds = places.get(1).map_or(vec![None], |place| {
+            grid(scene, *place)
+                .into_iter()
+                .map(|k| Some((*place, k)))
+                .collect()
+        });
+        for second in seconds {
+            let springs: Vec<_> = [(places[0], first)].into_iter().chain(second).collect();
+            least = least.min(excess(&held(scene, &springs), all));
+        }
+    }
+    least
+}
+
+/// Checks a design against a grid: an answer keeps the limits in a run of its own and is among the best, and where there is none no point
+/// of the grid keeps them either.
+pub fn check(scene: &Scene, places: &[Place], all: &[Given], kept: bool) -> Design {
+    let design = designed(scene, places, all);
+    assert!(design.runs < 90, "{} runs", design.runs);
+    let found = design.found().expect("an answer or the nearest");
+    let springs: Vec<_> = found
+        .springs
+        .iter()
+        .map(|spring| (spring.place, spring.stiffness()))
+        .collect();
+    let own = excess(&held(scene, &springs), all);
+    assert!(
+        (own - design.excess()).abs() < 1e-9 * own,
+        "{own} {}",
+        design.excess()
+    );
+    let grid = best_of_grid(scene, places, all);
+    assert_eq!(design.answer.is_some(), kept, "{own} {grid}");
+    assert_eq!(own <= 1.0, kept);
+    assert!(own <= 1.03 * grid, "{own} against {grid}");
+    assert!(kept || grid > 1.0);
+    assert!(!design.binding.is_empty());
+    for limit in &design.binding {
+        assert!(limit.value / limit.limit >= 0.95 * own, "{limit:?}");
+    }
+    design
+}
+
+/// Few vehicles a day and 20 K of heat.
+pub const WARM: [&str; 5] = [
+    "traffic.passes=16",
+    "traffic.per_day=8",
+    "heat.expansion=17e-6 1/K",
+    "heat.daily_swing=20 K",
+    "solver.node_spacing=0.3 m",
+];
+
+pub const BOTH: [Place; 2] = [Place::Upstream, Place::Downstream];

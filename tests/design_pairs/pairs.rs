@@ -1,0 +1,110 @@
+//! Two springs, or a spring and a clamp.
+
+use creepage::design::{DesignOptions, design};
+use creepage::{Limited, Place, Run, Scene};
+
+use super::grid::{BOTH, Given, check, designed, excess, grid, held, limits, reached, scene};
+
+/// Limits of force and movement at both ends, `tight` times those that are not hard to keep.
+fn of_both(scene: &Scene, tight: f64) -> [Given; 4] {
+    let fixed = held(scene, &BOTH.map(|place| (place, f64::INFINITY)));
+    let free = held(scene, &[(BOTH[0], 0.0), (BOTH[1], 0.0)]);
+    let force = |place| 0.6 * tight * reached(&fixed, place, Limited::Force);
+    let movement = |place| 0.6 * tight * reached(&free, place, Limited::Movement);
+    [
+        (BOTH[0], Limited::Force, force(BOTH[0])),
+        (BOTH[1], Limited::Force, force(BOTH[1])),
+        (BOTH[0], Limited::Movement, movement(BOTH[0])),
+        (BOTH[1], Limited::Movement, movement(BOTH[1])),
+    ]
+}
+
+#[test]
+fn two_springs_have_the_largest_margin_or_come_nearest() {
+    let scene = scene(&[]);
+    check(&scene, &BOTH, &of_both(&scene, 1.0), true);
+    let none = check(&scene, &BOTH, &of_both(&scene, 0.2), false);
+    assert!(
+        none.binding.len() > 1,
+        "a change of either spring makes it worse: {:?}",
+        none.binding
+    );
+    assert_eq!(none.range_n_per_m, None);
+}
+
+#[test]
+fn a_spring_and_a_clamp_are_found_together() {
+    let scene = scene(&[]);
+    let clamp = Place::Clamp(12.0);
+    let fixed = held(&scene, &[]);
+    let force = reached(&fixed, Place::Downstream, Limited::Force);
+    for (share, kept) in [(0.6, true), (0.1, false)] {
+        let limits = [
+            (Place::Downstream, Limited::Force, share * force),
+            (Place::Downstream, Limited::Movement, share * 1e-3),
+            (clamp, Limited::Force, share * force),
+        ];
+        check(&scene, &[Place::Downstream, clamp], &limits, kept);
+    }
+}
+
+#[test]
+fn where_only_forces_are_limited_two_springs_let_the_ends_move_least() {
+    let scene = scene(&[]);
+    let fixed = held(&scene, &BOTH.map(|place| (place, f64::INFINITY)));
+    let limits = BOTH.map(|place| {
+        (
+            place,
+            Limited::Force,
+            0.5 * reached(&fixed, place, Limited::Force),
+        )
+    });
+    let found = designed(&scene, &BOTH, &limits)
+        .answer
+        .expect("free ends keep any force");
+    let moved = |run: &Run| {
+        BOTH.map(|place| reached(run, place, Limited::Movement))
+            .into_iter()
+            .fold(0.0, f64::max)
+    };
+    for first in grid(&scene, BOTH[0]) {
+        for second in grid(&scene, BOTH[1]) {
+            let run = held(&scene, &[(BOTH[0], first), (BOTH[1], second)]);
+            let keeps = excess(&run, &limits) <= 1.0;
+            assert!(
+                !keeps || moved(&run) > 0.97 * found.movement_m,
+                "{first} {second}"
+            );
+        }
+    }
+    // And where the limits are wide, both are fixed.
+    let wide = BOTH.map(|place| (place, Limited::Force, 1e5));
+    let answer = designed(&scene, &BOTH, &wide).answer.expect("kept");
+    assert!(
+        answer
+            .springs
+            .iter()
+            .all(|spring| spring.stiffness_n_per_m.is_none())
+    );
+}
+
+#[test]
+fn limits_and_places_that_have_no_meaning_are_refused() {
+    let scene = scene(&[]);
+    let end = (Place::Downstream, Limited::Force, 100.0);
+    for (places, all) in [
+        (&BOTH[..], &[][..]),
+        (&[Place::Upstream, Place::Upstream], &[end]),
+        (&[Place::Upstream, Place::Clamp(16.0)], &[end]),
+        (&[Place::Upstream], &[(Place::Clamp(3.0), Limited::Force, 1.0)]),
+        (&[Place::Clamp(3.0)], &[(Place::Clamp(3.0), Limited::Force, -1.0)]),
+    ] {
+        let mut options = DesignOptions::new(places[0], limits(all));
+        options.second = places.get(1).copied();
+        let refused = design(&scene, &options);
+        assert!(
+            refused.is_err_and(|error| error.is_bad_input()),
+            "{places:?} {all:?}"
+        );
+    }
+}
