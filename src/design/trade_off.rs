@@ -56,7 +56,7 @@ pub struct Design {
 
 impl TradeOff {
     /// What `run` gives for a spring of this stiffness at `place`.
-    pub(super) fn of(run: &Run, place: Place, stiffness_n_per_m: Option<f64>, limits: &Limits) -> Self {
+    pub(crate) fn of(run: &Run, place: Place, stiffness_n_per_m: Option<f64>, limits: &Limits) -> Self {
         let largest = |value: fn(CableEnd, &PassRecord) -> f64, end: CableEnd| {
             run.passes.iter().map(|pass| value(end, pass)).fold(0.0, f64::max)
         };

@@ -1,7 +1,7 @@
 //! The cable under heat and traffic: a day as it goes, the days one after the other, the cable when it is hottest and coldest.
 
 use super::content::Report;
-use super::figure::{MILLI, Passes, figure};
+use super::figure::{MILLI, Passes, along_duct, figure};
 use super::html::Html;
 use super::quantity::{count, length, significant};
 use crate::answer::{DayExtremes, DayPoint, HeatRecord, table_days};
@@ -23,7 +23,7 @@ pub fn heat(html: &mut Html, report: &Report) {
     );
     figure(html, day(report, record), &caption);
     let caption = "Force along the cable when that day is hottest and coldest.";
-    figure(html, [along(record)], caption);
+    figure(html, [along(report, record)], caption);
     let caption = "Largest and least force and farthest places of the ends on each day.";
     figure(html, over_days(report, record), caption);
     days(html, report, record);
@@ -120,14 +120,17 @@ fn day(report: &Report, record: &HeatRecord) -> [Chart; 3] {
     ]
 }
 
-fn along(record: &HeatRecord) -> Chart {
-    let axes = (Axis::linear("place along the duct, m"), Axis::linear("force, N"));
+fn along(report: &Report, record: &HeatRecord) -> Chart {
     let profiles = [
         ("hottest", &record.hot_profile),
         ("coldest", &record.cold_profile),
     ];
     profiles.into_iter().fold(
-        Chart::new("Hot and cold force along the cable", axes.0, axes.1),
+        Chart::new(
+            "Hot and cold force along the cable",
+            along_duct(&report.scene),
+            Axis::linear("force, N"),
+        ),
         |chart, (name, profile)| {
             let points = profile.positions_m.iter().zip(&profile.force_n);
             chart.with(Series::line(name, points.map(|(x, force)| (*x, *force))))
