@@ -19,7 +19,7 @@ const EPOCH: &str = "SOURCE_DATE_EPOCH";
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The page holds scene, numbers, figures and ways to hold the cable; it needs no network and nothing beside it.
+    after_help = "The page holds scene, numbers, figures and ways to hold the cable; it needs no network and nothing beside it. It names the files it was made from with their SHA-256, and the date: that of SOURCE_DATE_EPOCH (seconds since 1970) where the environment has it.
 
 Examples:
   creepage report my-duct.toml -o my-duct.html

@@ -7,10 +7,11 @@ use crate::figure::{Axis, Chart, Panels};
 use crate::scene::{DAYS_PER_YEAR, Traffic};
 use crate::{PassRecord, Scene};
 
-/// Width of a figure, and height of a chart alone and of one of several \[px\].
+/// Width of a figure, and height of a chart alone, of one of several, and of one of several with legends \[px\].
 pub const WIDTH: f64 = 440.0;
 const ALONE: f64 = 330.0;
 const STACKED: f64 = 250.0;
+const WITH_LEGENDS: f64 = 300.0;
 /// Passes beyond which their axis is logarithmic.
 const MANY: u64 = 2000;
 /// Passes that are all drawn; of more, those that a run with jumps would list.
@@ -40,6 +41,15 @@ pub const MICRO: f64 = 1e6;
 pub fn figure(html: &mut Html, charts: impl IntoIterator<Item = Chart>, caption: &str) {
     let charts: Vec<Chart> = charts.into_iter().collect();
     let height = if charts.len() == 1 { ALONE } else { STACKED };
+    of_height(html, charts, height, caption);
+}
+
+/// The same of charts with legends, which take room.
+pub fn with_legends(html: &mut Html, charts: impl IntoIterator<Item = Chart>, caption: &str) {
+    of_height(html, charts.into_iter().collect(), WITH_LEGENDS, caption);
+}
+
+fn of_height(html: &mut Html, charts: Vec<Chart>, height: f64, caption: &str) {
     let panels = Panels::new("").panel_size(WIDTH, height);
     match charts.into_iter().fold(panels, Panels::with).to_svg() {
         Ok(svg) => html.figure(&svg, caption),
@@ -49,7 +59,7 @@ pub fn figure(html: &mut Html, charts: impl IntoIterator<Item = Chart>, caption:
 
 /// How many parts an axis along the duct may have, and the leading digits of a round one.
 const PARTS: [f64; 3] = [5.0, 4.0, 3.0];
-const ROUND: [f64; 10] = [1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
+const ROUND: [f64; 9] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
 /// Least part beside the end of the duct, as a share of the others.
 const LEAST_PART: f64 = 0.7;
 

@@ -30,8 +30,9 @@ pub fn headline(html: &mut Html, report: &Report) {
     html.paragraph(&answer(report, last));
     html.raw("</div>");
     html.verdicts(report.verdicts.iter().map(|verdict| {
-        let kept = verdict.reached_after.is_none();
-        (kept, format!("{verdict}{}", later(&report.run, verdict)))
+        let later = later(&report.run, verdict);
+        let kept = verdict.reached_after.is_none() && later.is_empty();
+        (kept, format!("{verdict}{later}"))
     }));
     html.raw("<dl class=\"headlines\">");
     forces(html, report, last);
@@ -61,9 +62,8 @@ fn forces(html: &mut Html, report: &Report, last: &PassRecord) {
         });
         html.headline("Passes computed", &count(last.pass), &note);
     };
-    let note = format!("{}{}, as vehicles pass", on(place), tension(largest));
+    let note = format!("{}{}, during all passes", on(place), tension(largest));
     if run.heat.is_some() {
-        let note = format!("{}, {}", note, over(report, last.pass));
         html.headline("Largest force with heat", &newtons(largest), &note);
         let swing = run.days.last().map_or(0.0, |day| day.largest_range().0);
         html.headline(
@@ -88,7 +88,6 @@ fn forces(html: &mut Html, report: &Report, last: &PassRecord) {
         html.headline("Force after the last pass", &newtons(force), &note);
         traffic(html);
     }
-    let note = format!("{note}, {}", over(report, last.pass));
     html.headline("Largest force computed", &newtons(largest), &note);
 }
 
@@ -117,10 +116,11 @@ fn answer(report: &Report, last: &PassRecord) -> String {
     }
     let (force, place) = pressed(scene, last);
     let now = format!(
-        "After {} the {} is {}",
+        "After {} the {} is {}{}",
         passes(last.pass),
         force_of(place),
-        newtons(force)
+        newtons(force),
+        tension(force)
     );
     let Some(saturation) = &report.run.saturation else {
         return format!("{now}; it has not levelled off.{moved}");
@@ -140,20 +140,26 @@ fn answer(report: &Report, last: &PassRecord) -> String {
 
 /// How far both ends have moved.
 fn moved(report: &Report, last: &PassRecord) -> String {
-    let [upstream, downstream] = CableEnd::ALL.map(|end| {
-        let held = match end {
-            CableEnd::Upstream => report.scene.ends.upstream,
-            CableEnd::Downstream => report.scene.ends.downstream,
-        };
+    let ends = &report.scene.ends;
+    let (moves, when) = if report.run.heat.is_some() {
+        ("moves by up to", "Over all days")
+    } else {
+        ("has moved", "After the last pass computed")
+    };
+    let of = |(end, held): (CableEnd, End)| {
         let free = if held == End::Free { "free " } else { "" };
         let moved = millimetres(movement(&report.run, last, end).abs());
-        (format!("{free}{} end", end.name()), moved)
-    });
-    let ((one, first), (other, second)) = (upstream, downstream);
-    if report.run.heat.is_some() {
-        return format!("The {one} moves by up to {first}, the {other} by up to {second}.");
+        (held != End::Fixed).then(|| format!("the {free}{} end {moves} {moved}", end.name()))
+    };
+    let both = [
+        (CableEnd::Upstream, ends.upstream),
+        (CableEnd::Downstream, ends.downstream),
+    ];
+    let moved: Vec<String> = both.into_iter().filter_map(of).collect();
+    if moved.is_empty() {
+        return "Both ends are fixed.".to_owned();
     }
-    format!("After the last pass computed the {one} has moved {first}, the {other} {second}.")
+    format!("{when} {}.", moved.join(" and "))
 }
 
 /// Displacement after the last pass; of a heated cable the farthest of all days \[m\].

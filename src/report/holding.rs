@@ -122,8 +122,8 @@ fn chart(comparison: &Comparison) -> Option<Chart> {
     let name = end.name();
     let chart = Chart::new(
         "Force against movement",
-        Axis::linear(format!("largest movement of the {name} end, mm")),
-        Axis::linear(format!("force on the {name} end, N")),
+        Axis::linear(format!("movement of the {name} end, mm")),
+        Axis::linear("force on it, N"),
     );
     let springs = points(|way| !way.is_clamp());
     let (clamps, own) = (points(Way::is_clamp), points(|way| way.is_scene));

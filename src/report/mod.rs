@@ -30,6 +30,7 @@ mod headline;
 mod heat;
 mod holding;
 mod html;
+mod labels;
 mod lanes;
 mod measures;
 mod page;

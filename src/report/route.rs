@@ -89,7 +89,7 @@ fn caption(scene: &Scene, steeper: f64) -> String {
         } else {
             format!("drawn {} times as steep", significant(steeper))
         };
-        format!("It {way} by {percent} % toward growing x, {drawn}.")
+        format!("The duct {way} by {percent} % toward growing x, {drawn}.")
     };
     format!(
         "The cable in its duct from the side, {} deep. The length is to scale, the depth is not. {slope}",

@@ -4,15 +4,15 @@ use ground_field::{Base, Direction, Modulus};
 
 use super::depths::Depths;
 use super::figure::WIDTH;
+use super::labels::{Label, labels, spread};
 use super::lanes::{Lane, lanes};
-use super::quantity::{length, metres, moduli, significant};
+use super::quantity::{length, significant};
 use crate::Scene;
 use crate::figure::{Anchor, Drawing, Ink};
 
-/// The ground's left and right edge, and where its labels begin \[px\].
+/// The ground's left and right edge \[px\].
 const LEFT: f64 = 12.0;
 const RIGHT: f64 = 214.0;
-const LABELS: f64 = 232.0;
 /// Height of the title, of a row of vehicles, and of a wheel \[px\].
 const TITLE: f64 = 36.0;
 const ROW: f64 = 46.0;
@@ -68,10 +68,7 @@ pub fn section(scene: &Scene) -> (String, String) {
     let inner = 0.5 * across.scale * scene.duct.inner_diameter.unwrap_or(0.0);
     drawing.area(&circle(duct, inner.max(SMALLEST)), Ink::Series(0), 1.0);
     for label in &labels {
-        label.draw(
-            &mut drawing,
-            if label.is_duct { duct.0 + SMALLEST } else { RIGHT },
-        );
+        label.draw(&mut drawing, duct.0 + SMALLEST, RIGHT);
     }
     across.bar(&mut drawing, scale);
     for (k, name) in names.iter().enumerate() {
@@ -88,9 +85,14 @@ pub fn section(scene: &Scene) -> (String, String) {
     } else {
         ""
     };
+    let darker = if scene.ground.profile.layers().is_empty() {
+        ""
+    } else {
+        " Stiffer layers are darker."
+    };
     let caption = format!(
         "The road seen along the duct toward growing x. A cross marks vehicles that drive away, a dot those that come. To scale but for \
-         the height of wheels{cut}.{enlarged} The darker, the stiffer."
+         the height of wheels{cut}.{enlarged}{darker}"
     );
     (drawing.to_svg(), caption)
 }
@@ -275,8 +277,8 @@ fn ground(drawing: &mut Drawing, scene: &Scene, depths: &Depths, surface: f64) {
         rock(drawing, surface + below.0, surface + below.1);
     }
     if let Some(cut) = depths.cut() {
-        let step = 12.0;
-        let count = ((RIGHT - LEFT) / step).floor() as u32;
+        let count = 16;
+        let step = (RIGHT - LEFT) / f64::from(count);
         let zigzag = |y: f64| -> Vec<(f64, f64)> {
             let point = |k: u32| {
                 (
@@ -301,103 +303,6 @@ fn rock(drawing: &mut Drawing, top: f64, bottom: f64) {
     for k in 0..=count {
         let x = LEFT + high + step * f64::from(k);
         drawing.line(&[(x, top), (x - high, bottom)], Ink::Dark, 0.8);
-    }
-}
-
-/// A text beside the ground, and the height that it is about.
-struct Label {
-    lines: Vec<String>,
-    /// \[px\] below the surface, then from the top.
-    about: f64,
-    top: f64,
-    is_duct: bool,
-}
-
-impl Label {
-    fn new(text: &str, about: f64, is_duct: bool) -> Self {
-        let fits = Drawing::text_width(text) <= WIDTH - LABELS;
-        let lines = match text.split_once(", ") {
-            Some((first, rest)) if !fits => vec![format!("{first},"), rest.to_owned()],
-            _ => vec![text.to_owned()],
-        };
-        Self {
-            lines,
-            about,
-            top: 0.0,
-            is_duct,
-        }
-    }
-
-    fn height(&self) -> f64 {
-        Drawing::LINE * self.lines.len() as f64
-    }
-
-    fn bottom(&self) -> f64 {
-        self.top + self.height()
-    }
-
-    fn draw(&self, drawing: &mut Drawing, from: f64) {
-        let middle = self.top + 0.5 * Drawing::LINE;
-        let leader = [(from, self.about), (RIGHT, self.about), (LABELS - 4.0, middle)];
-        if self.is_duct {
-            drawing.dashed(&leader, Ink::Dark);
-        } else {
-            drawing.line(&leader[1..], Ink::Grey, 0.8);
-        }
-        for (k, line) in self.lines.iter().enumerate() {
-            let y = middle + Drawing::LINE * k as f64;
-            drawing.text(line, (LABELS, y), Anchor::Start);
-        }
-    }
-}
-
-/// Thickness and modulus of each layer, the base, and the depth of the duct, from above to below.
-fn labels(scene: &Scene, depths: &Depths) -> Vec<Label> {
-    let profile = &scene.ground.profile;
-    let mut labels = Vec::new();
-    let mut top = 0.0;
-    let between = |from: f64, to: f64| 0.5 * (from + to);
-    for layer in profile.layers() {
-        let bottom = top + layer.thickness();
-        let text = format!("{}, {}", metres(layer.thickness()), moduli(layer.modulus()));
-        let about = between(depths.place(top), depths.place(bottom));
-        labels.push(Label::new(&text, about, false));
-        top = bottom;
-    }
-    let text = match profile.base() {
-        Base::HalfSpace(soil) => format!("below, {}", moduli(Modulus::Uniform(soil.young_modulus()))),
-        Base::Rigid => format!("rock from {} on", metres(top)),
-    };
-    let about = between(depths.place(top), depths.height());
-    labels.push(Label::new(
-        if top == 0.0 {
-            text.trim_start_matches("below, ")
-        } else {
-            &text
-        },
-        about,
-        false,
-    ));
-    let text = format!("duct, {} deep", metres(scene.duct.depth));
-    labels.push(Label::new(&text, depths.place(scene.duct.depth), true));
-    labels.sort_by(|a, b| a.about.total_cmp(&b.about));
-    labels
-}
-
-/// Moves labels apart, each as near to what it is about as it can be.
-fn spread(labels: &mut [Label], surface: f64, bottom: f64) {
-    let mut next = surface - 0.5 * Drawing::LINE;
-    for label in labels.iter_mut() {
-        label.about += surface;
-        label.top = next.max(label.about - 0.5 * Drawing::LINE);
-        next = label.bottom();
-    }
-    // What was moved beyond the ground goes up again as far as there is room.
-    let total: f64 = labels.iter().map(Label::height).sum();
-    let mut last = bottom.max(surface - 0.5 * Drawing::LINE + total);
-    for label in labels.iter_mut().rev() {
-        label.top = label.top.min(last - label.height());
-        last = label.top;
     }
 }
 

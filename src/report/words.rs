@@ -49,9 +49,9 @@ fn slope(scene: &Scene) -> String {
     }
     let way = if slope > 0.0 { "rises" } else { "falls" };
     format!(
-        "; it {way} with x by {} %, and {} of the cable’s weight draw it down",
+        "; it {way} with x by {} %, and {} N/m of the cable’s weight draw it down",
         significant(100.0 * slope.abs()),
-        quantity(scene.body_force().abs(), "N/m")
+        significant(scene.body_force().abs())
     )
 }
 
