@@ -699,9 +699,11 @@ fn one_scene_has_one_force() {
         .expect("a row");
     let largest = report.run().passes.iter().map(|pass| pass.downstream_peak_n);
     assert_eq!(own[1], format!("{:.1}", largest.fold(0.0, f64::max)));
-    assert_eq!(
-        own[3],
-        format!("{:.3}", 1e3 * report.run().passes[29].upstream_displacement_m)
+    let moved = 1e3 * report.run().passes[29].upstream_displacement_m;
+    assert!(
+        (number(&own[3]) / moved - 1.0).abs() < 5e-4,
+        "{} for {moved}",
+        own[3]
     );
     let value = format!("<dd class=\"value\">{} N</dd>", own[1]);
     assert!(page.contains(&value), "{value}");

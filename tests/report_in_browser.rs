@@ -393,8 +393,8 @@ fn heat_and_crowded_drawings_are_well_on_every_screen_and_on_paper() {
         (&page, DESK, true),
         (&printed(&page), SHEET, false),
     ] {
-        // Two drawings; three of force, three of heat, three of the cause.
-        let faults = faults(page, width, dark, 11);
+        // Two drawings; two figures of force, three of heat, three of the cause.
+        let faults = faults(page, width, dark, 10);
         assert!(faults.is_empty(), "{width} px, dark {dark}: {faults:#?}");
     }
 }

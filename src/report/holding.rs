@@ -4,14 +4,15 @@ use super::content::Report;
 use super::figure::{MILLI, figure};
 use super::html::Html;
 use super::measures::{Comparison, Way};
-use super::quantity::stiffness;
+use super::quantity::{significant, stiffness};
 use crate::CableEnd;
 use crate::design::{Place, TradeOff};
 use crate::figure::{Axis, Chart, Series};
 use crate::scene::End;
 use crate::shown::{exact_percent, percent, rounded};
 
-type Column = (String, fn(&TradeOff) -> f64, usize);
+/// Its name, the value, and how that is written.
+type Column = (String, fn(&TradeOff) -> f64, fn(f64) -> String);
 
 pub fn holding(html: &mut Html, report: &Report) {
     let comparison = &report.measures;
@@ -47,9 +48,7 @@ pub fn holding(html: &mut Html, report: &Report) {
                 } else {
                     percent(answer.error_estimate)
                 };
-                let values = columns
-                    .iter()
-                    .map(|(_, value, decimals)| rounded(value(answer), *decimals));
+                let values = columns.iter().map(|(_, value, written)| written(value(answer)));
                 values.chain([clamp, error]).collect()
             }
             Err(_) => std::iter::once("failed")
@@ -97,13 +96,14 @@ fn columns(report: &Report, end: CableEnd) -> Vec<Column> {
     };
     let [force, movement] = of_end(end);
     let [other_force, other_movement] = of_end(other);
+    let newtons = |force: f64| rounded(force, 1);
     vec![
-        (format!("force {}, N", name(end)), force, 1),
-        (format!("moved {}, mm", name(end)), movement, 3),
+        (format!("force {}, N", name(end)), force, newtons),
+        (format!("moved {}, mm", name(end)), movement, significant),
         if held == End::Free {
-            (format!("moved {}, mm", name(other)), other_movement, 3)
+            (format!("moved {}, mm", name(other)), other_movement, significant)
         } else {
-            (format!("force {}, N", name(other)), other_force, 1)
+            (format!("force {}, N", name(other)), other_force, newtons)
         },
     ]
 }
@@ -145,7 +145,7 @@ fn caption(comparison: &Comparison) -> String {
     let free = free.map_or(String::new(), |answer| {
         format!(
             " A free end, which carries nothing, moves {} mm and is not drawn.",
-            rounded(movement(answer), 3)
+            significant(movement(answer))
         )
     });
     format!("Largest force against largest movement: a softer end moves more and is pressed less.{free}")

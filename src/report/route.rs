@@ -195,7 +195,7 @@ fn held(end: End) -> String {
 
 /// Clamps on the cable, numbered where there is room.
 fn draw_clamps(drawing: &mut Drawing, scene: &Scene, line: &Line) {
-    let mut taken = f64::NEG_INFINITY;
+    let mut taken: Vec<f64> = Vec::new();
     for (k, clamp) in scene.restraints.iter().enumerate() {
         let (x, y) = line.at(clamp.position / scene.duct.length, DEEP);
         for side in [-1.0, 1.0] {
@@ -204,9 +204,10 @@ fn draw_clamps(drawing: &mut Drawing, scene: &Scene, line: &Line) {
             let jaw = [(x - 4.0, far), (x + 4.0, far), (x + 2.0, near), (x - 2.0, near)];
             drawing.area(&jaw, Ink::Series(1), 1.0);
         }
-        if k < MOST && (x - taken).abs() >= APART && scene.restraints.len() > 1 {
+        let has_room = taken.iter().all(|other| (x - other).abs() >= APART);
+        if k < MOST && has_room && scene.restraints.len() > 1 {
             drawing.text(&(k + 1).to_string(), (x, y - 20.0), Anchor::Middle);
-            taken = x;
+            taken.push(x);
         }
     }
 }
