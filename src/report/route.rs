@@ -172,7 +172,7 @@ fn end(drawing: &mut Drawing, end: End, (x, y): (f64, f64), out: f64) {
             let coil = |k: u32| {
                 let side = match k {
                     0 | 6 => 0.0,
-                    k if k % 2 == 0 => 6.0,
+                    k if k.is_multiple_of(2) => 6.0,
                     _ => -6.0,
                 };
                 (x + out * 4.0 * f64::from(k), y + side)

@@ -283,7 +283,7 @@ fn ground(drawing: &mut Drawing, scene: &Scene, depths: &Depths, surface: f64) {
             let point = |k: u32| {
                 (
                     LEFT + step * f64::from(k),
-                    y + if k % 2 == 0 { -3.0 } else { 3.0 },
+                    y + if k.is_multiple_of(2) { -3.0 } else { 3.0 },
                 )
             };
             (0..=count).map(point).collect()
