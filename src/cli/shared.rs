@@ -108,6 +108,7 @@ impl Input {
     }
 
     /// The text of the scene file.
+    #[cfg(feature = "plot")]
     pub fn text(&self) -> &str {
         self.file.text()
     }
