@@ -13,7 +13,9 @@ use creepage::{Limits, Readings, Scene};
 use serde_json::Value;
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
-const FIGURES: [&str; 7] = [
+const FIGURES: [&str; 9] = [
+    "Cross-section of the road",
+    "Along the duct",
     "Force against passes",
     "Force along the cable",
     "Movement of the ends",
@@ -21,6 +23,16 @@ const FIGURES: [&str; 7] = [
     "Velocity of the duct along its axis",
     "Friction on the cable, pass 1; Friction on the cable, pass 6",
     "Force against movement",
+];
+
+/// Head of the table of ways to hold the cable where the upstream end is free.
+const HELD_BY: [&str; 6] = [
+    "held by",
+    "force downstream, N",
+    "moved downstream, mm",
+    "moved upstream, mm",
+    "on clamp, N",
+    "error",
 ];
 
 fn creepage(arguments: &[&str]) -> Output {
@@ -119,27 +131,37 @@ fn the_numbers_are_those_of_the_run() {
         .iter()
         .filter(|element| element.get("class") == "value")
         .collect();
-    assert_eq!(shown.len(), 5);
+    assert_eq!(shown.len(), 6);
     let last = &run["passes"][199];
     close(number(&shown[0].text), &run["saturation"]["force_n"], 1.0, 0.05);
     assert_eq!(
         run["saturation"]["passes_to_95_percent"],
         number(&shown[1].text) as u64
     );
+    let passes = run["passes"].as_array().expect("a list");
+    let largest = passes
+        .iter()
+        .map(|pass| pass["downstream_peak_n"].as_f64().expect("a number"));
     close(
         number(&shown[2].text),
+        &largest.fold(0.0, f64::max).into(),
+        1.0,
+        0.05,
+    );
+    close(
+        number(&shown[3].text),
         &last["upstream_displacement_m"],
         1e3,
         5e-4,
     );
     close(
-        number(&shown[3].text),
+        number(&shown[4].text),
         &run["duct_motion"]["peak_longitudinal_m"],
         1e6,
         5e-3,
     );
     close(
-        number(&shown[4].text),
+        number(&shown[5].text),
         &run["error_estimate"]["relative"],
         100.0,
         5e-3,
@@ -195,7 +217,7 @@ fn every_candidate_is_shown_with_its_fate() {
     }
     assert!(plan.candidates.iter().any(|candidate| !candidate.chosen));
     let ground = table(&page, &["ground at depth", "Young’s modulus", "Poisson’s ratio"]);
-    assert_eq!(ground[0], ["0 to 50 mm", "4 GPa", "0.35"]);
+    assert_eq!(ground[0], ["0 to 0.05 m", "4000 MPa", "0.35"]);
     assert_eq!(ground[2][0], "below 12 m");
 }
 
@@ -343,10 +365,8 @@ fn readings_are_drawn_and_compared() {
     let circles = |page: &str| {
         let orange = |element: &&Element| element.name == "polygon" || element.name == "polyline";
         let elements = elements(page);
-        let svg = elements
-            .iter()
-            .position(|element| element.name == "svg")
-            .expect("a figure");
+        let force = |pair: &[Element]| pair[0].name == "svg" && pair[1].text == "Force against passes";
+        let svg = elements.windows(2).position(force).expect("a figure");
         let end = svg
             + 1
             + elements[svg + 1..]
@@ -384,22 +404,19 @@ fn a_way_that_fails_is_told_and_the_others_stay() {
         ..ReportOptions::default()
     };
     let page = page(&[], &options);
-    let rows = table(
-        &page,
-        &["held by", "force, N", "movement, mm", "on clamp, N", "error"],
-    );
+    let rows = table(&page, &HELD_BY);
     assert_eq!(
         rows.iter().map(|row| row[0].as_str()).collect::<Vec<_>>(),
         [
             "fixed end, as in the scene",
-            "spring of 1 MN/m",
-            "clamp of 1 MN/m at 99 m"
+            "spring of 1000 kN/m",
+            "clamp of 1000 kN/m at 99 m"
         ]
     );
     assert!(number(&rows[0][1]) > number(&rows[1][1]) && number(&rows[1][1]) > 0.0);
     assert_eq!(rows[2][1], "failed");
     assert!(
-        page.contains("Failed: clamp of 1 MN/m at 99 m: position of the clamp: found 99"),
+        page.contains("Failed: clamp of 1000 kN/m at 99 m: position of the clamp: found 99"),
         "{page}"
     );
 }
@@ -413,7 +430,7 @@ fn other_scenes_have_their_pages() {
             "There is no friction here",
         ),
         (&["ends.downstream=free"], "largest compression in the cable"),
-        (&["duct.lateral_offset=2 m"], "2 m beside the duct"),
+        (&["duct.lateral_offset=2 m"], "2 m right of the duct"),
         (
             &[
                 "duct.inner_diameter=200 mm",
@@ -532,4 +549,220 @@ fn bad_input_has_status_2_and_a_failure_leaves_the_older_page() {
         .map(|entry| entry.expect("an entry").file_name())
         .collect();
     assert_eq!(left.len(), 2, "{left:?}");
+}
+
+/// Places of a drawing's points \[px\].
+fn points(element: &Element) -> Vec<(f64, f64)> {
+    let pair = |point: &str| {
+        let (x, y) = point.split_once(',').expect("x,y");
+        (number(x), number(y))
+    };
+    element.get("points").split_whitespace().map(pair).collect()
+}
+
+fn centre(points: &[(f64, f64)]) -> (f64, f64) {
+    let count = points.len() as f64;
+    let sum = points
+        .iter()
+        .fold((0.0, 0.0), |sum, point| (sum.0 + point.0, sum.1 + point.1));
+    (sum.0 / count, sum.1 / count)
+}
+
+/// The elements of the figure with this title.
+fn figure<'e>(elements: &'e [Element], title: &str) -> &'e [Element] {
+    let begins = |pair: &[Element]| pair[0].name == "svg" && pair[1].text == title;
+    let start = elements.windows(2).position(begins).expect("the figure");
+    let length = elements[start..]
+        .iter()
+        .position(|element| element.name == "figcaption");
+    &elements[start..start + length.expect("a caption")]
+}
+
+#[test]
+fn the_cross_section_is_to_scale_and_lanes_are_on_their_side() {
+    let overrides = [
+        "traffic.passes=2",
+        "ground.rigid_base_depth=4 m",
+        r#"ground.layers=[{thickness="50 cm", young_modulus="400 MPa", poisson_ratio=0.35}, {young_modulus="80 MPa", poisson_ratio=0.4}]"#,
+        "duct.lateral_offset=1 m",
+        "duct.depth=1.5 m",
+    ];
+    let mut scene = scene(&overrides);
+    let mut other = scene.vehicles[0].clone();
+    other.vehicle = ground_field::Vehicle::point("back", 1e5, 10.0)
+        .expect("a vehicle")
+        .driving(ground_field::Direction::Reverse);
+    other.lateral_offset = -3.0;
+    (scene.vehicles[0].share, other.share) = (0.75, 0.25);
+    scene.vehicles.push(other);
+    let options = ReportOptions {
+        measures: Some(&[]),
+        ..ReportOptions::default()
+    };
+    let page = Report::new(&scene, &options).expect("a report").to_html();
+    let elements = elements(&page);
+    let drawing = figure(&elements, "Cross-section of the road");
+    let words = texts(drawing, "text");
+    for text in [
+        "0.5 m, 400 MPa",
+        "3.5 m, 80 MPa",
+        "rock from 4 m on",
+        "duct, 1.5 m deep",
+        "2: back, reverse, 25 %",
+    ] {
+        assert!(words.contains(&text), "{text}: {words:?}");
+    }
+    let shapes = |name: &str| -> Vec<Vec<(f64, f64)>> {
+        let named = drawing.iter().filter(|element| element.name == name);
+        named.map(points).collect()
+    };
+    let polygons = shapes("polygon");
+    // Rings around the signs of direction, the duct as a disc, layers as boxes from the left to the right edge.
+    let rings: Vec<(f64, f64)> = shapes("polyline")
+        .iter()
+        .filter(|ring| ring.len() == 25)
+        .map(|ring| centre(&ring[1..]))
+        .collect();
+    let duct = polygons.iter().rfind(|disc| disc.len() == 24).expect("the duct");
+    let duct = centre(duct);
+    let boxes: Vec<_> = polygons
+        .iter()
+        .filter(|shape| shape.len() == 4 && shape[1].0 - shape[0].0 > 100.0)
+        .collect();
+    assert_eq!((rings.len(), boxes.len()), (2, 2));
+    // The reverse lane lies 3 m to the right of the other one, and the duct 1 m to the left.
+    let scale = (rings[1].0 - rings[0].0) / 3.0;
+    let near = |one: f64, other: f64| assert!((one - other).abs() < 0.2, "{one} px, {other} px");
+    near(rings[0].0 - duct.0, scale);
+    let surface = boxes[0][0].1;
+    near(duct.1 - surface, 1.5 * scale);
+    near(boxes[0][2].1 - surface, 0.5 * scale);
+    near(boxes[1][2].1 - surface, 4.0 * scale);
+}
+
+#[test]
+fn the_side_view_has_clamps_at_their_places_and_ends_where_the_duct_does() {
+    let clamps =
+        r#"restraints=[{position="12 m", stiffness="1 MN/m"}, {position="27 m", stiffness="50 kN/m"}]"#;
+    let options = ReportOptions {
+        measures: Some(&[]),
+        ..ReportOptions::default()
+    };
+    let page = page(&[clamps, "duct.slope=-0.02"], &options);
+    let elements = elements(&page);
+    let drawing = figure(&elements, "Along the duct");
+    let words = texts(drawing, "text");
+    for text in [
+        "0",
+        "30",
+        "free",
+        "fixed",
+        "forward, 100 %",
+        "1: clamp of 1000 kN/m at 12 m",
+        "2: clamp of 50 kN/m at 27 m",
+    ] {
+        assert!(words.contains(&text), "{text}: {words:?}");
+    }
+    let at = |label: &str| -> f64 {
+        let text = drawing.iter().rfind(|element| element.text == label);
+        number(text.expect("a label").get("x"))
+    };
+    // The labels of the axis are 30 m apart, the numbers of the clamps stand above them.
+    let scale = (at("30") - at("0")) / 30.0;
+    for (clamp, place) in [("1", 12.0), ("2", 27.0)] {
+        assert!((at(clamp) - at("0") - place * scale).abs() < 0.2, "clamp {clamp}");
+    }
+    assert!(page.contains("The duct falls by 2 % toward growing x, drawn 5 times as steep."));
+    let along = texts(figure(&elements, "Force along the cable"), "text");
+    assert!(along.contains(&"30") && !along.contains(&"40"), "{along:?}");
+}
+
+#[test]
+fn one_scene_has_one_force() {
+    let mut limits = Limits::default();
+    limits.downstream.force_n = Some(1.0);
+    limits.downstream.movement_m = Some(1.0);
+    let own = ["ends.downstream.spring=1 MN/m", "traffic.passes=30"];
+    let report = Report::new(
+        &scene(&own),
+        &ReportOptions {
+            limits,
+            ..ReportOptions::default()
+        },
+    )
+    .expect("a report");
+    let page = report.to_html();
+    let rows = table(&page, &HELD_BY);
+    let own = rows
+        .iter()
+        .find(|row| row[0].ends_with("as in the scene"))
+        .expect("a row");
+    let largest = report.run().passes.iter().map(|pass| pass.downstream_peak_n);
+    assert_eq!(own[1], format!("{:.1}", largest.fold(0.0, f64::max)));
+    let moved = 1e3 * report.run().passes[29].upstream_displacement_m;
+    assert!(
+        (number(&own[3]) / moved - 1.0).abs() < 5e-4,
+        "{} for {moved}",
+        own[3]
+    );
+    let value = format!("<dd class=\"value\">{} N</dd>", own[1]);
+    assert!(page.contains(&value), "{value}");
+    assert!(page.contains(&format!("largest {} N", own[1])));
+    // The free end stands in the table and leaves the chart to the others.
+    assert_eq!((rows[0][0].as_str(), rows[0][1].as_str()), ("free end", "0.0"));
+    assert!(page.contains(&format!("moves {} mm and is not drawn", rows[0][2])));
+}
+
+#[test]
+fn a_page_says_what_it_was_made_from_and_can_be_made_again() {
+    let folder = folder("record");
+    let file = folder.join("page.html");
+    let report = |epoch: &str| {
+        let output = Command::new(assert_cmd::cargo::cargo_bin!("creepage"))
+            .current_dir(env!("CARGO_MANIFEST_DIR"))
+            .args([
+                "report",
+                UPPER,
+                "-o",
+                text(&file),
+                "--set",
+                "traffic.passes=2",
+                "--trucks-per-day",
+                "50",
+            ])
+            .env("SOURCE_DATE_EPOCH", epoch)
+            .stdin(Stdio::null())
+            .output()
+            .expect("the command starts");
+        (
+            output.status.code(),
+            String::from_utf8(output.stderr).expect("UTF-8"),
+        )
+    };
+    let (status, errors) = report("tomorrow");
+    assert_eq!(status, Some(2), "{errors}");
+    assert!(
+        errors.contains("SOURCE_DATE_EPOCH") && errors.contains("tomorrow"),
+        "{errors}"
+    );
+    let mut pages = [String::new(), String::new()];
+    for page in &mut pages {
+        assert_eq!(report("951782400").0, Some(0));
+        *page = fs::read_to_string(&file).expect("the page");
+    }
+    assert_eq!(pages[0], pages[1]);
+    // 29 February 2000.
+    assert!(pages[0].contains("computed on 2000-02-29 00:00 UTC by creepage"));
+    let elements = elements(&pages[0]);
+    let points = texts(&elements, "li");
+    assert!(points.contains(&"traffic.passes=2") && points.contains(&"traffic.per_day=50"));
+    let read = table(&pages[0], &["read", "SHA-256"]);
+    assert_eq!(read.len(), 1);
+    assert_eq!(read[0][0], "full-scale-upper.toml");
+    let sum = Command::new("sha256sum")
+        .arg(UPPER)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output();
+    let sum = String::from_utf8(sum.expect("sha256sum").stdout).expect("UTF-8");
+    assert!(sum.starts_with(&read[0][1]) && read[0][1].len() == 64, "{sum}");
 }

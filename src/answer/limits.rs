@@ -94,13 +94,7 @@ impl Limited {
         }
     }
 
-    /// A value of it with its unit.
-    #[cfg(feature = "cli")]
-    pub(crate) fn shown(self, value: f64) -> String {
-        self.shown_in(&Units::default(), value)
-    }
-
-    /// The same in units of a reader.
+    /// A value of it in units of a reader.
     pub(crate) fn shown_in(self, units: &Units, value: f64) -> String {
         match self {
             Self::Force => format!("{} {}", units.force(value), units.force.symbol()),

@@ -1,6 +1,9 @@
 //! `creepage report`: a scene's answer as one page of HTML.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::time::SystemTime;
+
+use chrono::{DateTime, Utc};
 
 use super::failure::Failure;
 use super::limits::LimitArguments;
@@ -9,11 +12,14 @@ use super::readings::ReadArguments;
 use super::shared::{Force, Input, TrafficArguments};
 use super::terminal;
 use crate::output::Kind;
-use crate::report::{Report, ReportOptions};
+use crate::report::{Report, ReportOptions, Source};
+
+/// Names the time of a page in place of the clock.
+const EPOCH: &str = "SOURCE_DATE_EPOCH";
 
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "The page holds scene, numbers, figures and ways to hold the cable; it needs no network and nothing beside it.
+    after_help = "The page holds scene, numbers, figures and ways to hold the cable; it needs no network and nothing beside it. It names the files it was made from with their SHA-256, and the date: that of SOURCE_DATE_EPOCH (seconds since 1970) where the environment has it.
 
 Examples:
   creepage report my-duct.toml -o my-duct.html
@@ -56,6 +62,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         arguments.data.as_deref(),
         table.as_deref(),
     ];
+    let sources = sources(&input, &read)?;
+    let overrides = arguments.scene.overrides();
+    let date = date()?;
     let mut files = arguments.force.files(read.into_iter().flatten());
     let page = files.output(&arguments.output, Kind::Page)?;
     let report = with_bar(PERCENT, PER_MILLE, |progress| {
@@ -65,6 +74,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
                 readings: readings.as_ref(),
                 warnings: &input.warnings,
                 limits,
+                sources: &sources,
+                overrides: &overrides,
+                date: Some(&date),
                 progress,
                 ..ReportOptions::default()
             },
@@ -73,4 +85,40 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let report = input.located(report)?;
     terminal::warn_all(&report.run().warnings);
     Ok(page.write(|out| out.write_all(report.to_html().as_bytes()))?)
+}
+
+/// The files that are read, the scene's first.
+fn sources(input: &Input, read: &[Option<&Path>]) -> Result<Vec<Source>, Failure> {
+    let mut sources = Vec::new();
+    for (index, path) in read.iter().flatten().enumerate() {
+        let name = path.file_name().map_or_else(
+            || path.display().to_string(),
+            |name| name.to_string_lossy().into_owned(),
+        );
+        // What was computed; a pipe can be read only once.
+        if index == 0 {
+            sources.push(Source::new(name, input.text().as_bytes()));
+        } else if path.is_file() {
+            sources.push(Source::new(name, &std::fs::read(path)?));
+        }
+    }
+    Ok(sources)
+}
+
+/// The time of this page: now, or that of `SOURCE_DATE_EPOCH` \[s since 1970\] for a page that can be made again to the last byte
+/// (reproducible-builds.org/specs/source-date-epoch).
+fn date() -> Result<String, Failure> {
+    let time = match std::env::var(EPOCH) {
+        Err(_) => DateTime::<Utc>::from(SystemTime::now()),
+        Ok(text) => {
+            let seconds = text.trim().parse().ok();
+            let time = seconds.and_then(|seconds| DateTime::from_timestamp(seconds, 0));
+            time.ok_or_else(|| Failure::Usage {
+                argument: EPOCH,
+                found: format!("`{text}` in the environment"),
+                allowed: "seconds since 1970, such as 1700000000".into(),
+            })?
+        }
+    };
+    Ok(time.format("%Y-%m-%d %H:%M UTC").to_string())
 }

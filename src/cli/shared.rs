@@ -39,12 +39,16 @@ pub struct TrafficArguments {
 impl TrafficArguments {
     /// The scene file with all that was set on top of it.
     pub fn read(&self) -> Result<SceneFile, Failure> {
+        Ok(SceneFile::read(&self.file.scene)?.with(&self.overrides())?)
+    }
+
+    /// All that is set on top of the scene file.
+    pub fn overrides(&self) -> Vec<String> {
         let keys = [("per_day", self.trucks_per_day), ("years", self.years)];
         let given = keys
             .iter()
             .filter_map(|(key, value)| Some(format!("traffic.{key}={}", (*value)?)));
-        let overrides: Vec<String> = self.file.set.iter().cloned().chain(given).collect();
-        Ok(SceneFile::read(&self.file.scene)?.with(&overrides)?)
+        self.file.set.iter().cloned().chain(given).collect()
     }
 }
 
@@ -106,6 +110,12 @@ impl Input {
     /// The table that the scene reads beside its file, which no output may replace.
     pub fn table(&self) -> Option<PathBuf> {
         self.file.histogram()
+    }
+
+    /// The text of the scene file.
+    #[cfg(feature = "plot")]
+    pub fn text(&self) -> &str {
+        self.file.text()
     }
 
     /// The answer, or the error with the line of the key at fault.

@@ -169,7 +169,7 @@ impl Spring {
 
 impl TradeOff {
     /// What `run` gives for `scene` with `springs`.
-    pub(super) fn of(scene: &Scene, run: &Run, springs: &[Spring], limits: &Limits) -> Self {
+    pub(crate) fn of(scene: &Scene, run: &Run, springs: &[Spring], limits: &Limits) -> Self {
         let forces = CableEnd::ALL.map(|end| run.largest(end, Limited::Force));
         let movements = CableEnd::ALL.map(|end| run.largest(end, Limited::Movement));
         let movement_m = movements[0].max(movements[1]);

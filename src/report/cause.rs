@@ -137,7 +137,7 @@ fn areas(pass: u64, friction: &FrictionProfile) -> String {
     });
     let lengths = &friction.slip_lengths;
     format!(
-        "Pass {}: at its limit over {:.1} m forward and {:.1} m backward; in total along the cable {forward} N forward and {backward} N \
+        "Pass {}: at its limit over {:.1} m forward and {:.1} m backward; in total over the whole cable {forward} N forward and {backward} N \
          backward.",
         count(pass),
         lengths.forward_m,

@@ -3,6 +3,7 @@
 use super::agreement::Agreement;
 use super::friction::Friction;
 use super::measures::Comparison;
+use super::source::Source;
 use crate::calibration::CellEnd;
 use crate::design::Measure;
 use crate::readings::Readings;
@@ -27,6 +28,12 @@ pub struct ReportOptions<'a> {
     pub measures: Option<&'a [Measure]>,
     /// Limits that are judged at the top of the page.
     pub limits: Limits,
+    /// The files that were read, the scene's first; without any the page states the scene alone, as [`Scene::to_toml`] writes it.
+    pub sources: &'a [Source],
+    /// What was set on top of the scene's file.
+    pub overrides: &'a [String],
+    /// When the page is made, in words.
+    pub date: Option<&'a str>,
     /// Warnings in addition to those of the run.
     pub warnings: &'a [String],
     /// Called after each pass of the scene's run, then after each way to hold the cable; it may stop the report.
@@ -44,6 +51,11 @@ pub struct Report {
     pub(super) agreement: Option<Agreement>,
     pub(super) measures: Comparison,
     pub(super) verdicts: Vec<Verdict>,
+    pub(super) sources: Vec<Source>,
+    /// Whether the first source is the scene's file.
+    pub(super) is_from_file: bool,
+    pub(super) overrides: Vec<String>,
+    pub(super) date: Option<String>,
     pub(super) warnings: Vec<String>,
 }
 
@@ -78,6 +90,13 @@ impl Report {
             agreement: agreement.transpose()?,
             measures: Comparison::new(scene, &run, options.measures, ways)?,
             verdicts: options.limits.verdicts(&run),
+            sources: match options.sources {
+                [] => vec![Source::new("the scene in SI units", scene.to_toml().as_bytes())],
+                sources => sources.to_vec(),
+            },
+            is_from_file: !options.sources.is_empty(),
+            overrides: options.overrides.to_vec(),
+            date: options.date.map(str::to_owned),
             warnings: options.warnings.iter().chain(&run.warnings).cloned().collect(),
             run,
             scene: scene.clone(),

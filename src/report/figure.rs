@@ -1,15 +1,17 @@
 //! How figures stand on the page: narrow, so that their text is still legible on a phone.
 
 use super::html::Html;
-use crate::PassRecord;
+use super::quantity::significant;
 use crate::answer::listed;
 use crate::figure::{Axis, Chart, Panels};
 use crate::scene::{DAYS_PER_YEAR, Traffic};
+use crate::{PassRecord, Scene};
 
-/// Width of a figure, and height of a chart alone and of one of several \[px\].
-const WIDTH: f64 = 440.0;
+/// Width of a figure, and height of a chart alone, of one of several, and of one of several with legends \[px\].
+pub const WIDTH: f64 = 440.0;
 const ALONE: f64 = 330.0;
 const STACKED: f64 = 250.0;
+const WITH_LEGENDS: f64 = 300.0;
 /// Passes beyond which their axis is logarithmic.
 const MANY: u64 = 2000;
 /// Passes that are all drawn; of more, those that a run with jumps would list.
@@ -39,11 +41,58 @@ pub const MICRO: f64 = 1e6;
 pub fn figure(html: &mut Html, charts: impl IntoIterator<Item = Chart>, caption: &str) {
     let charts: Vec<Chart> = charts.into_iter().collect();
     let height = if charts.len() == 1 { ALONE } else { STACKED };
+    of_height(html, charts, height, caption);
+}
+
+/// The same of charts with legends, which take room.
+pub fn with_legends(html: &mut Html, charts: impl IntoIterator<Item = Chart>, caption: &str) {
+    of_height(html, charts.into_iter().collect(), WITH_LEGENDS, caption);
+}
+
+fn of_height(html: &mut Html, charts: Vec<Chart>, height: f64, caption: &str) {
     let panels = Panels::new("").panel_size(WIDTH, height);
     match charts.into_iter().fold(panels, Panels::with).to_svg() {
         Ok(svg) => html.figure(&svg, caption),
         Err(error) => html.paragraph(&format!("A figure could not be drawn: {error}. {caption}")),
     }
+}
+
+/// How many parts an axis along the duct may have, and the leading digits of a round one.
+const PARTS: [f64; 3] = [5.0, 4.0, 3.0];
+const ROUND: [f64; 9] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
+/// Least part beside the end of the duct, as a share of the others.
+const LEAST_PART: f64 = 0.7;
+
+/// Places along a duct of this length \[m\] with their labels, the last one its end: in round parts that are all alike where there are such.
+pub fn ticks(length: f64) -> Vec<(f64, String)> {
+    let power = |part: f64| 10_f64.powf(part.log10().floor());
+    let is_round = |part: &f64| {
+        let leading = part / power(*part);
+        ROUND.iter().any(|round| (leading / round - 1.0).abs() < 1e-9)
+    };
+    let mut parts = PARTS.iter().map(|parts| length / parts);
+    let part = parts.find(is_round).unwrap_or_else(|| {
+        let least = length / PARTS[1];
+        let above = ROUND.iter().map(|round| round * power(least));
+        above
+            .into_iter()
+            .find(|part| *part >= least)
+            .unwrap_or(10.0 * power(least))
+    });
+    let inside = |k: &u32| part * f64::from(*k) <= length - LEAST_PART * part;
+    let places = (0..=PARTS[0] as u32).filter(inside).map(|k| part * f64::from(k));
+    places
+        .chain([length])
+        .map(|place| (place, significant(place)))
+        .collect()
+}
+
+/// The axis along the duct.
+pub fn along_duct(scene: &Scene) -> Axis {
+    let length = scene.duct.length;
+    Axis::linear("place along the duct, m")
+        .range(0.0, length)
+        .ticks(ticks(length))
 }
 
 /// Passes along an axis, or the time that they take where it is known.
@@ -78,19 +127,14 @@ impl Passes {
         format!("{what} against {along}")
     }
 
+    /// The axis, which ends with the last pass where it is not logarithmic.
     pub fn axis(&self) -> Axis {
-        let axis = if self.last > MANY {
-            Axis::logarithmic
-        } else {
-            Axis::linear
-        };
-        let Some((_, name)) = self.unit() else {
-            return axis("passes");
-        };
-        if self.last > MANY {
-            axis(name).ticks(self.ticks())
-        } else {
-            axis(name)
+        let unit = self.unit();
+        let name = unit.map_or("passes", |(_, name)| name);
+        match unit {
+            _ if self.last <= MANY => Axis::linear(name).range(0.0, self.place(self.last)),
+            None => Axis::logarithmic(name),
+            Some(_) => Axis::logarithmic(name).ticks(self.ticks()),
         }
     }
 

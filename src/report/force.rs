@@ -2,7 +2,7 @@
 
 use super::agreement::Agreement;
 use super::content::Report;
-use super::figure::{MILLI, Passes, figure};
+use super::figure::{MILLI, Passes, along_duct, figure};
 use super::html::Html;
 use super::quantity::{count, length};
 use crate::PassRecord;
@@ -98,8 +98,8 @@ fn over_passes(report: &Report) -> Chart {
 }
 
 fn along(report: &Report) -> Chart {
-    let axes = (Axis::linear("place along the duct, m"), Axis::linear("force, N"));
-    let chart = Chart::new("Force along the cable", axes.0, axes.1);
+    let force = Axis::linear("force, N");
+    let chart = Chart::new("Force along the cable", along_duct(&report.scene), force);
     let stages = report.run.stages.iter();
     stages.fold(chart, |chart, stage| {
         let profile = &stage.force_profile;

@@ -28,6 +28,7 @@ impl Friction {
         }
         let mut scene = scene.clone();
         scene.traffic.passes = 1;
+        scene.heat = None;
         scene.solver.method = SolverMethod::QuasiStatic;
         let options = RunOptions {
             stages: &[1],
@@ -43,6 +44,12 @@ impl Friction {
                 format!("the method quasi-static does not apply: {error}."),
             ),
         };
+        if run.heat.is_some() && !passes.is_empty() {
+            return with(
+                passes,
+                Some("Friction is that of the first pass, without heat.".into()),
+            );
+        }
         let method = &run.plan.cable;
         let remark = format!("The method {method} does not show friction while a vehicle passes; {instead}");
         with(passes, Some(remark))

@@ -1,7 +1,7 @@
 //! The cable under heat and traffic: a day as it goes, the days one after the other, the cable when it is hottest and coldest.
 
 use super::content::Report;
-use super::figure::{MILLI, Passes, figure};
+use super::figure::{MILLI, Passes, along_duct, figure, with_legends};
 use super::html::Html;
 use super::quantity::{count, length, significant};
 use crate::answer::{DayExtremes, DayPoint, HeatRecord, table_days};
@@ -21,12 +21,14 @@ pub fn heat(html: &mut Html, report: &Report) {
         "Day {} as it goes, after passes: temperature of the cable above that at laying, force on the ends, movement of the ends.",
         count(last.day)
     );
-    figure(html, day(report, record), &caption);
+    with_legends(html, day(report, record), &caption);
     let caption = "Force along the cable when that day is hottest and coldest.";
-    figure(html, [along(record)], caption);
+    figure(html, [along(report, record)], caption);
     let caption = "Largest and least force and farthest places of the ends on each day.";
-    figure(html, over_days(report, record), caption);
+    with_legends(html, over_days(report, record), caption);
+    html.raw("<div class=\"ranges\">");
     days(html, report, record);
+    html.raw("</div>");
     html.raw("</div>");
     html.paragraph(
         "Forces of heat are upper bounds: the cable snakes in the clearance of its duct as it expands, EA falls as it warms, and its insulation \
@@ -120,14 +122,17 @@ fn day(report: &Report, record: &HeatRecord) -> [Chart; 3] {
     ]
 }
 
-fn along(record: &HeatRecord) -> Chart {
-    let axes = (Axis::linear("place along the duct, m"), Axis::linear("force, N"));
+fn along(report: &Report, record: &HeatRecord) -> Chart {
     let profiles = [
         ("hottest", &record.hot_profile),
         ("coldest", &record.cold_profile),
     ];
     profiles.into_iter().fold(
-        Chart::new("Hot and cold force along the cable", axes.0, axes.1),
+        Chart::new(
+            "Hot and cold force along the cable",
+            along_duct(&report.scene),
+            Axis::linear("force, N"),
+        ),
         |chart, (name, profile)| {
             let points = profile.positions_m.iter().zip(&profile.force_n);
             chart.with(Series::line(name, points.map(|(x, force)| (*x, *force))))
@@ -178,41 +183,44 @@ fn over_days(report: &Report, record: &HeatRecord) -> [Chart; 2] {
 
 /// Extremes of some days, without what stays zero.
 fn days(html: &mut Html, report: &Report, record: &HeatRecord) {
-    type Column = (&'static str, fn(&DayExtremes) -> f64, usize);
+    type Column = (&'static str, fn(&DayExtremes) -> [f64; 2], usize);
+    // Soft hyphens: a phone is narrow.
     let mut columns: Vec<Column> = vec![
-        ("least force up\u{ad}stream, N", |day| day.upstream_min_n, 1),
-        ("most, N", |day| day.upstream_max_n, 1),
-        ("least force down\u{ad}stream, N", |day| day.downstream_min_n, 1),
-        ("most, N", |day| day.downstream_max_n, 1),
         (
-            "up\u{ad}stream end from, mm",
-            |day| MILLI * day.upstream_displacement_min_m,
+            "force up\u{ad}stream, N",
+            |day| [day.upstream_min_n, day.upstream_max_n],
+            1,
+        ),
+        (
+            "force down\u{ad}stream, N",
+            |day| [day.downstream_min_n, day.downstream_max_n],
+            1,
+        ),
+        (
+            "place of the up\u{ad}stream end, mm",
+            |day| [day.upstream_displacement_min_m, day.upstream_displacement_max_m].map(|x| MILLI * x),
             3,
         ),
-        ("to, mm", |day| MILLI * day.upstream_displacement_max_m, 3),
         (
-            "down\u{ad}stream end from, mm",
-            |day| MILLI * day.downstream_displacement_min_m,
+            "place of the down\u{ad}stream end, mm",
+            |day| {
+                [
+                    day.downstream_displacement_min_m,
+                    day.downstream_displacement_max_m,
+                ]
+                .map(|x| MILLI * x)
+            },
             3,
         ),
-        ("to, mm", |day| MILLI * day.downstream_displacement_max_m, 3),
     ];
     let all = &report.run.days;
-    // Both columns of an end or none.
-    let is_shown: Vec<bool> = columns
-        .chunks(2)
-        .flat_map(|pair| {
-            [pair.iter()
-                .any(|(_, value, _)| all.iter().any(|day| value(day) != 0.0)); 2]
-        })
-        .collect();
-    let mut shown = is_shown.into_iter();
-    columns.retain(|_| shown.next().unwrap_or(true));
+    columns.retain(|(_, range, _)| all.iter().any(|day| range(day) != [0.0; 2]));
     let row = |name: String, day: &DayExtremes| {
-        let values = columns
-            .iter()
-            .map(|(_, value, decimals)| rounded(value(day), *decimals));
-        std::iter::once(name).chain(values).collect()
+        let ranges = columns.iter().map(|(_, range, decimals)| {
+            let [least, most] = range(day).map(|value| rounded(value, *decimals));
+            format!("{least} to {most}")
+        });
+        std::iter::once(name).chain(ranges).collect()
     };
     let mut rows: Vec<Vec<String>> = table_days(all, record.periodic_from_day)
         .into_iter()

@@ -3,82 +3,152 @@
 use super::content::Report;
 use super::figure::{MILLI, figure};
 use super::html::Html;
-use super::measures::Way;
+use super::measures::{Comparison, Way};
+use super::quantity::{significant, stiffness};
+use crate::CableEnd;
 use crate::design::{Place, TradeOff};
 use crate::figure::{Axis, Chart, Series};
+use crate::scene::End;
 use crate::shown::{exact_percent, percent, rounded};
 
-/// Ratio of the largest to the smallest movement beyond which their axis is logarithmic.
-const WIDE: f64 = 50.0;
+/// Its name, the value, and how that is written.
+type Column = (String, fn(&TradeOff) -> f64, fn(f64) -> String);
 
 pub fn holding(html: &mut Html, report: &Report) {
     let comparison = &report.measures;
-    let end = match comparison.end {
-        Place::Upstream => "upstream",
-        _ => "downstream",
-    };
+    let end = end(comparison);
+    let own = comparison.own_stiffness.map_or(String::new(), |own| {
+        format!(
+            " Stiffnesses are from a tenth to ten times that of the whole cable, EA/L = {}.",
+            stiffness(own)
+        )
+    });
     html.paragraph(&format!(
-        "The same traffic with the {end} end held in other ways, and with a clamp in addition to what the scene has. Force and movement are \
-         the largest at either end during all passes. Each row is a separate run with a tolerance of {}, all on one mesh, so that they \
-         can be compared; they may differ a little from the numbers above. The command “creepage design” finds the stiffness for given \
-         limits.",
+        "The same traffic with the {} end held in other ways, and with a clamp in addition to what the scene has.{own} Forces and movements \
+         are the largest during all passes. The row “as in the scene” is the run of this page; each other row is a run of its own with a \
+         tolerance of {}. The command “creepage design” finds the stiffness for given limits.",
+        end.name(),
         exact_percent(comparison.tolerance)
     ));
     if let Some(failure) = &comparison.failure {
         html.paragraph(&format!("The comparison failed: {failure}"));
         return;
     }
-    if let Some(chart) = chart(&comparison.ways) {
-        let caption = "Largest force against largest movement: a softer end moves more and is pressed less.";
-        figure(html, [chart], caption);
+    if let Some(chart) = chart(comparison) {
+        figure(html, [chart], &caption(comparison));
     }
+    let columns = columns(report, end);
     let rows = comparison.ways.iter().map(|way| {
-        let numbers = match &way.answer {
-            Ok(answer) => [
-                rounded(answer.force_n, 1),
-                rounded(MILLI * answer.movement_m, 3),
-                answer.clamp_force_n.map_or("–".into(), |force| rounded(force, 1)),
+        let numbers: Vec<String> = match &way.answer {
+            Ok(answer) => {
+                let clamp = answer.clamp_force_n.map_or("–".into(), |force| rounded(force, 1));
                 // Where no end is pressed there is no error of the force.
-                if answer.force_n == 0.0 {
+                let error = if answer.force_n == 0.0 {
                     "–".into()
                 } else {
                     percent(answer.error_estimate)
-                },
-            ],
-            Err(_) => ["failed", "–", "–", "–"].map(str::to_owned),
+                };
+                let values = columns.iter().map(|(_, value, written)| written(value(answer)));
+                values.chain([clamp, error]).collect()
+            }
+            Err(_) => std::iter::once("failed")
+                .chain(std::iter::repeat_n("–", columns.len() + 1))
+                .map(str::to_owned)
+                .collect(),
         };
         std::iter::once(way.name()).chain(numbers).collect()
     });
-    let head = ["held by", "force, N", "movement, mm", "on clamp, N", "error"];
+    let names = columns.iter().map(|(name, ..)| name.as_str());
+    let head: Vec<&str> = std::iter::once("held by")
+        .chain(names)
+        .chain(["on clamp, N", "error"])
+        .collect();
     html.table(1, &head, rows);
     html.list(&failures(&comparison.ways));
 }
 
-/// Force against movement of all ways that have an answer; `None` without any.
-fn chart(ways: &[Way]) -> Option<Chart> {
-    let points = |wanted: fn(&Way) -> bool| -> Vec<(f64, f64)> {
-        let answers = ways.iter().filter(|way| wanted(way)).flat_map(|way| &way.answer);
-        let point = |answer: &TradeOff| (MILLI * answer.movement_m, answer.force_n);
-        answers.map(point).collect()
+/// The end that is varied.
+fn end(comparison: &Comparison) -> CableEnd {
+    match comparison.end {
+        Place::Upstream => CableEnd::Upstream,
+        _ => CableEnd::Downstream,
+    }
+}
+
+/// Force on an end, and how far it moves.
+fn of_end(end: CableEnd) -> [fn(&TradeOff) -> f64; 2] {
+    match end {
+        CableEnd::Upstream => [|way| way.upstream_force_n, |way| MILLI * way.upstream_movement_m],
+        CableEnd::Downstream => [
+            |way| way.downstream_force_n,
+            |way| MILLI * way.downstream_movement_m,
+        ],
+    }
+}
+
+/// Force and movement of the end that is varied; of the other one its movement where it is free, and otherwise the force on it.
+fn columns(report: &Report, end: CableEnd) -> Vec<Column> {
+    // Soft hyphens: a phone is narrow.
+    let name = |end: CableEnd| end.name().replace("stream", "\u{ad}stream");
+    let (other, held) = match end {
+        CableEnd::Upstream => (CableEnd::Downstream, report.scene.ends.downstream),
+        CableEnd::Downstream => (CableEnd::Upstream, report.scene.ends.upstream),
     };
-    let all = points(|_| true);
-    let movements = || all.iter().map(|(movement, _)| *movement);
-    let least = movements().fold(f64::INFINITY, f64::min);
-    let most = movements().fold(0.0, f64::max);
-    let wide = least > 0.0 && most > WIDE * least;
-    let axis = if wide { Axis::logarithmic } else { Axis::linear };
-    let (x, y) = ("largest movement of an end, mm", "largest force on an end, N");
-    let chart = Chart::new("Force against movement", axis(x), Axis::linear(y));
+    let [force, movement] = of_end(end);
+    let [other_force, other_movement] = of_end(other);
+    let newtons = |force: f64| rounded(force, 1);
+    vec![
+        (format!("force {}, N", name(end)), force, newtons),
+        (format!("moved {}, mm", name(end)), movement, significant),
+        if held == End::Free {
+            (format!("moved {}, mm", name(other)), other_movement, significant)
+        } else {
+            (format!("force {}, N", name(other)), other_force, newtons)
+        },
+    ]
+}
+
+/// Force against movement of the end that is varied, by all ways that have an answer; `None` without any. A free end carries nothing and would
+/// set the axis, so it is left out.
+fn chart(comparison: &Comparison) -> Option<Chart> {
+    let end = end(comparison);
+    let [force, movement] = of_end(end);
+    let points = |wanted: fn(&Way) -> bool| -> Vec<(f64, f64)> {
+        let ways = comparison.ways.iter();
+        let shown = ways.filter(|way| wanted(way) && !way.is_free_end());
+        let point = |answer: &TradeOff| (movement(answer), force(answer));
+        shown.flat_map(|way| &way.answer).map(point).collect()
+    };
+    let name = end.name();
+    let chart = Chart::new(
+        "Force against movement",
+        Axis::linear(format!("movement of the {name} end, mm")),
+        Axis::linear("force on it, N"),
+    );
     let springs = points(|way| !way.is_clamp());
     let (clamps, own) = (points(Way::is_clamp), points(|way| way.is_scene));
     let has = [&springs, &clamps, &own].map(|points| !points.is_empty());
     let series = [
-        Series::line_points("end free … springs … fixed", springs).look(0),
+        Series::line_points("springs … fixed end", springs).look(0),
         Series::points("with a clamp", clamps).look(1),
         Series::points("the scene’s end", own).look(2).marker(5),
     ];
     let drawn = series.into_iter().zip(has).filter(|(_, has)| *has);
-    (!all.is_empty()).then(|| drawn.fold(chart, |chart, (series, _)| chart.with(series)))
+    has.contains(&true)
+        .then(|| drawn.fold(chart, |chart, (series, _)| chart.with(series)))
+}
+
+fn caption(comparison: &Comparison) -> String {
+    let [_, movement] = of_end(end(comparison));
+    let free = comparison.ways.iter().find(|way| way.is_free_end());
+    let free = free.and_then(|way| way.answer.as_ref().ok());
+    let free = free.map_or(String::new(), |answer| {
+        format!(
+            " A free end, which carries nothing, moves {} mm and is not drawn.",
+            significant(movement(answer))
+        )
+    });
+    format!("Largest force against largest movement: a softer end moves more and is pressed less.{free}")
 }
 
 /// Ways that failed and why, those with the same reason together.

@@ -60,6 +60,28 @@ impl Html {
         self.raw("</div>");
     }
 
+    /// Whether each limit is kept, and in what words.
+    pub fn verdicts(&mut self, verdicts: impl IntoIterator<Item = (bool, String)>) {
+        let points: Vec<String> = verdicts
+            .into_iter()
+            .map(|(kept, words)| {
+                let class = if kept { "kept" } else { "exceeded" };
+                format!("<li class=\"{class}\">{}</li>", escaped(&words))
+            })
+            .collect();
+        if !points.is_empty() {
+            self.raw(&format!("<ul class=\"verdicts\">{}</ul>", points.concat()));
+        }
+    }
+
+    /// What only some readers want: folded on a screen, open in print.
+    pub fn details(&mut self, summary: &str, write: impl FnOnce(&mut Self)) {
+        self.raw("<details>");
+        self.element("summary", summary);
+        write(self);
+        self.raw("</details>");
+    }
+
     pub fn figure(&mut self, svg: &str, caption: &str) {
         self.raw("<figure>");
         self.raw(svg);
@@ -98,9 +120,11 @@ mod tests {
         html.list(std::slice::from_ref(&text));
         html.table(0, &[nasty], [vec![text]]);
         html.headline(nasty, nasty, nasty);
+        html.verdicts([(true, nasty.to_owned())]);
+        html.details(nasty, |_| {});
         html.figure("<svg/>", nasty);
         let page = html.finish();
-        assert_eq!(page.matches(safe).count(), 8, "{page}");
+        assert_eq!(page.matches(safe).count(), 10, "{page}");
         assert!(!page.contains("<script"), "{page}");
     }
 }

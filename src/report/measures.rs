@@ -1,9 +1,9 @@
 //! Ways to hold the cable, each by a run of the scene.
 
-use super::quantity::{length, quantity};
-use crate::design::{DesignError, Measure, Place, TradeOff, compare};
+use super::quantity::{length, stiffness as stated};
+use crate::design::{DesignError, Measure, Place, Spring, TradeOff, compare};
 use crate::scene::End;
-use crate::{Error, PassRecord, Progress, Run, Scene};
+use crate::{Error, Limits, PassRecord, Progress, Run, Scene};
 
 /// Tolerance of these runs, unless the scene's is looser: they are compared with each other, on one mesh.
 const TOLERANCE: f64 = 0.05;
@@ -20,6 +20,8 @@ pub struct Comparison {
     /// Tolerance of the runs.
     pub tolerance: f64,
     pub ways: Vec<Way>,
+    /// EA/L of the whole cable \[N/m\], of which the stiffnesses are shares; `None` where they were given.
+    pub own_stiffness: Option<f64>,
     /// Why there are none.
     pub failure: Option<String>,
 }
@@ -33,7 +35,8 @@ pub struct Way {
 }
 
 impl Comparison {
-    /// Runs `scene` with each of `measures`, or with those that suit it.
+    /// Runs `scene` with each of `measures`, or with those that suit it. The way in which the scene holds its end is `run` itself, so that
+    /// one scene has one force.
     ///
     /// # Errors
     ///
@@ -51,22 +54,44 @@ impl Comparison {
             .passes
             .last()
             .map_or(Place::Downstream, |last| end(&scene, last));
+        let own_stiffness = measures.is_none().then(|| own_stiffness(&scene));
         let measures = measures.map_or_else(|| suitable(&scene, end), <[Measure]>::to_vec);
         let held = held(&scene, end);
-        let (answers, failure) = match compare(&scene, &measures, progress) {
+        let is_scene = |measure: &Measure| measure.place == end && measure.stiffness == held;
+        let others: Vec<Measure> = measures.iter().copied().filter(|way| !is_scene(way)).collect();
+        let compared = if others.is_empty() {
+            Ok(Vec::new())
+        } else {
+            compare(&scene, &others, progress)
+        };
+        let (answers, failure) = match compared {
             Ok(answers) => (answers, None),
             Err(DesignError::Analysis(Error::Stopped)) => return Err(Error::Stopped),
             Err(error) => (Vec::new(), Some(error.to_string())),
         };
-        let ways = measures.into_iter().zip(answers).map(|(measure, answer)| Way {
-            measure,
-            is_scene: measure.place == end && measure.stiffness == held,
-            answer,
+        let mut answers = answers.into_iter();
+        let ways = measures.into_iter().filter_map(|measure| {
+            let is_scene = is_scene(&measure);
+            let answer = if is_scene {
+                let spring = Spring {
+                    place: end,
+                    stiffness_n_per_m: measure.stiffness.is_finite().then_some(measure.stiffness),
+                };
+                Ok(TradeOff::of(&scene, run, &[spring], &Limits::default()))
+            } else {
+                answers.next()?
+            };
+            Some(Way {
+                measure,
+                is_scene,
+                answer,
+            })
         });
         Ok(Self {
             end,
             tolerance,
             ways: ways.collect(),
+            own_stiffness,
             failure,
         })
     }
@@ -77,10 +102,15 @@ impl Way {
         matches!(self.measure.place, Place::Clamp(_))
     }
 
+    /// Whether nothing holds the end.
+    pub fn is_free_end(&self) -> bool {
+        !self.is_clamp() && self.measure.stiffness == 0.0
+    }
+
     /// What it is, in words.
     pub fn name(&self) -> String {
         let Measure { place, stiffness } = self.measure;
-        let spring = quantity(stiffness, "N/m");
+        let spring = stated(stiffness);
         let name = match place {
             Place::Clamp(position) => format!("clamp of {spring} at {}", length(position)),
             _ if stiffness == 0.0 => "free end".to_owned(),
@@ -116,7 +146,7 @@ fn end(scene: &Scene, last: &PassRecord) -> Place {
 
 /// Free, springs, the scene's own, fixed, and clamps.
 fn suitable(scene: &Scene, end: Place) -> Vec<Measure> {
-    let own = scene.cable.axial_stiffness / scene.duct.length;
+    let own = own_stiffness(scene);
     let held = held(scene, end);
     let mut stiffnesses: Vec<f64> = SPRINGS.iter().map(|share| share * own).collect();
     stiffnesses.extend([0.0, f64::INFINITY, held]);
@@ -133,6 +163,11 @@ fn suitable(scene: &Scene, end: Place) -> Vec<Measure> {
     });
     let measure = |(place, stiffness)| Measure { place, stiffness };
     springs.chain(clamps).map(measure).collect()
+}
+
+/// EA/L \[N/m\].
+fn own_stiffness(scene: &Scene) -> f64 {
+    scene.cable.axial_stiffness / scene.duct.length
 }
 
 /// Stiffness with which `scene` holds the end \[N/m\].

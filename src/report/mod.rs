@@ -1,6 +1,6 @@
 //! A report: one self-contained HTML page about a scene, which loads nothing.
 //!
-//! It holds the scene in words, the important numbers, figures of the force, the movement and the motion behind them, ways to hold
+//! It holds the scene in words and as drawings, the important numbers, figures of the force, the movement and the motion behind them, ways to hold
 //! the cable compared with each other, and how all of that was computed and how wrong it may be. It is legible on a phone, on paper,
 //! and on light and dark screens.
 //!
@@ -22,16 +22,25 @@
 mod agreement;
 mod cause;
 mod content;
+mod depths;
 mod figure;
 mod force;
 mod friction;
+mod headline;
 mod heat;
 mod holding;
 mod html;
+mod labels;
+mod lanes;
 mod measures;
 mod page;
 mod plan;
 mod quantity;
+mod record;
+mod route;
+mod section;
+mod source;
 mod words;
 
 pub use content::{Report, ReportOptions};
+pub use source::Source;

@@ -2,30 +2,29 @@
 
 use super::cause::cause;
 use super::content::Report;
-use super::figure::{MICRO, MILLI};
 use super::force::force;
+use super::headline::headline;
 use super::heat::heat;
 use super::holding::holding;
 use super::html::{Html, escaped};
-use super::measures::pressed_end;
 use super::plan::plan;
-use super::quantity::count;
+use super::record::record;
+use super::route::route;
+use super::section::section;
 use super::words;
-use crate::PassRecord;
-use crate::answer::{CableEnd, DayExtremes, after};
-use crate::design::Place;
 use crate::figure::dark_style;
-use crate::shown::{percent, rounded};
 
 const STYLE: &str = include_str!("style.css");
 
+/// Only where there are some.
+const WARNINGS: &str = "Warnings";
 /// Only of a cable that is heated.
 const HEAT: &str = "Heat, day by day";
 
 type Section = (&'static str, fn(&mut Html, &Report));
 
-const SECTIONS: [Section; 8] = [
-    ("Warnings", warnings),
+const SECTIONS: [Section; 9] = [
+    (WARNINGS, warnings),
     ("Scene", scene),
     ("Force and movement", force),
     (HEAT, heat),
@@ -33,6 +32,7 @@ const SECTIONS: [Section; 8] = [
     ("Ways to hold the cable", holding),
     ("How it was computed", plan),
     ("What is left out", limits),
+    ("Where this page comes from", record),
 ];
 
 impl Report {
@@ -59,7 +59,12 @@ impl Report {
         html.raw("</head>\n<body>\n<main>");
         headline(&mut html, self);
         for (title, write) in SECTIONS {
-            if title == HEAT && self.run.heat.is_none() {
+            let is_empty = match title {
+                WARNINGS => self.warnings.is_empty(),
+                HEAT => self.run.heat.is_none(),
+                _ => false,
+            };
+            if is_empty {
                 continue;
             }
             html.raw("<section>");
@@ -72,139 +77,16 @@ impl Report {
     }
 }
 
-/// Title and the most important numbers.
-fn headline(html: &mut Html, report: &Report) {
-    let run = &report.run;
-    html.element("h1", &report.scene.title);
-    let version = env!("CARGO_PKG_VERSION");
-    html.paragraph(&format!(
-        "Creepage of the cable in its duct under traffic, computed by creepage {version}."
-    ));
-    let Some(last) = run.passes.last() else { return };
-    let passes = count(last.pass);
-    let (force, what) = pressed(report, last);
-    let place = what.trim_start_matches("force ");
-    let newtons = |force| format!("{} N", rounded(force, 1));
-    // What a force does, where that is not what one expects.
-    let place = |force| format!("{place}{}", if force < 0.0 { ", tension" } else { "" });
-    html.paragraph(&answer(report, last));
-    html.raw("<div class=\"verdicts\">");
-    let verdicts: Vec<String> = report.verdicts.iter().map(ToString::to_string).collect();
-    html.list(&verdicts);
-    html.raw("</div>");
-    html.raw("<dl class=\"headlines\">");
-    if let Some(saturation) = &run.saturation {
-        let force = saturation.force_n;
-        html.headline("Saturated force", &newtons(force), &place(force));
-        let reached = count(saturation.passes_to_95_percent);
-        let time = report.scene.traffic.years_after(saturation.passes_to_95_percent);
-        let time = time.map_or_else(String::new, |years| format!("{}, ", after(years)));
-        html.headline(
-            "Passes to 95 % of it",
-            &reached,
-            &format!("{time}of {passes} computed"),
-        );
-    } else if let Some(heat) = &run.heat {
-        let (force, place) = hardest(&heat.all_days);
-        let note = format!("{place}, on all {} days", count(heat.all_days.day));
-        html.headline("Largest force with heat", &newtons(force), &note);
-    } else {
-        let note = format!("{}, not levelled off after {passes} passes", place(force));
-        html.headline("Force after the last pass", &newtons(force), &note);
-    }
-    let (upstream, downstream) = run.heat.as_ref().map_or(
-        (last.upstream_displacement_m, last.downstream_displacement_m),
-        |heat| {
-            (
-                heat.all_days.movement(CableEnd::Upstream),
-                heat.all_days.movement(CableEnd::Downstream),
-            )
-        },
-    );
-    let (end, moved) = if upstream.abs() > downstream.abs() {
-        ("upstream", upstream)
-    } else {
-        ("downstream", downstream)
-    };
-    let moved = format!("{} mm", rounded(MILLI * moved, 3));
-    let note = format!("{end} end, after {passes} passes");
-    html.headline("Movement of an end", &moved, &note);
-    let motion = &run.duct_motion;
-    let along = format!("{:.2} µm", MICRO * motion.peak_longitudinal_m);
-    let down = format!("along its axis; {:.1} µm down", MICRO * motion.peak_vertical_m);
-    html.headline("Peak motion of the duct", &along, &down);
-    let error = percent(run.error_estimate.relative);
-    let note = "of the forces, from the computation alone";
-    html.headline("Estimated error", &error, note);
-    html.raw("</dl>");
-}
-
-/// The answer in a sentence.
-fn answer(report: &Report, last: &PassRecord) -> String {
-    let traffic = &report.scene.traffic;
-    let passes = |pass: u64| {
-        let time = traffic.years_after(pass).map(after);
-        let words = if pass == 1 {
-            "one pass".into()
-        } else {
-            format!("{} passes", count(pass))
-        };
-        time.map_or(words.clone(), |time| format!("{words} ({time})"))
-    };
-    if let Some(heat) = &report.run.heat {
-        let (force, place) = hardest(&heat.all_days);
-        return format!(
-            "Heat and traffic press with up to {} N {place} in {}.",
-            rounded(force, 1),
-            passes(last.pass)
-        );
-    }
-    let (force, what) = pressed(report, last);
-    match &report.run.saturation {
-        Some(saturation) => format!(
-            "The {what} levels off at {} N. 95 % of that is reached after {}.",
-            rounded(saturation.force_n, 1),
-            passes(saturation.passes_to_95_percent)
-        ),
-        None => format!(
-            "After {} the {what} is {} N; it has not levelled off.",
-            passes(last.pass),
-            rounded(force, 1)
-        ),
-    }
-}
-
-/// The force of days that is largest in size, and where it acts.
-fn hardest(days: &DayExtremes) -> (f64, &'static str) {
-    let forces = [
-        (days.downstream_max_n, "on the downstream end"),
-        (days.downstream_min_n, "on the downstream end, tension,"),
-        (days.upstream_max_n, "on the upstream end"),
-        (days.upstream_min_n, "on the upstream end, tension,"),
-    ];
-    let inside = (days.max_compression_n, "in the cable");
-    let none = forces.iter().all(|(force, _)| *force == 0.0);
-    let largest = forces.into_iter().max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-    largest.filter(|_| !none).unwrap_or(inside)
-}
-
-/// The force that matters most after a pass, and where it acts.
-fn pressed(report: &Report, last: &PassRecord) -> (f64, &'static str) {
-    match pressed_end(&report.scene, last) {
-        None => (last.max_compression_n, "largest compression in the cable"),
-        Some(Place::Upstream) => (last.upstream_force_n, "force on the upstream end"),
-        Some(_) => (last.downstream_force_n, "force on the downstream end"),
-    }
-}
-
 fn warnings(html: &mut Html, report: &Report) {
-    if report.warnings.is_empty() {
-        html.paragraph("None.");
-    }
     html.list(&report.warnings);
 }
 
 fn scene(html: &mut Html, report: &Report) {
+    html.raw("<div class=\"figures\">");
+    for (svg, caption) in [section(&report.scene), route(&report.scene)] {
+        html.figure(&svg, &caption);
+    }
+    html.raw("</div>");
     html.list(&words::scene(&report.scene));
     words::ground(html, &report.scene);
     if let Some(scaling) = words::scaling(&report.scene) {

@@ -5,6 +5,20 @@ use super::html::Html;
 use crate::shown::{percent, time};
 
 pub fn plan(html: &mut Html, report: &Report) {
+    let error = &report.run.error_estimate;
+    html.paragraph(&format!(
+        "The estimated error of the forces is {}. It says how well the equations are solved, not how well they describe a duct.",
+        percent(error.relative)
+    ));
+    html.details(
+        "Technical detail: method, mesh, what was considered, parts of the error",
+        |html| {
+            detail(html, report);
+        },
+    );
+}
+
+fn detail(html: &mut Html, report: &Report) {
     let (run, plan) = (&report.run, &report.plan);
     html.paragraph(&format!(
         "Ground {}, cable {}, node spacing {:.3} m, vehicle step {:.3} m.",
@@ -27,11 +41,7 @@ pub fn plan(html: &mut Html, report: &Report) {
     html.table(3, &["model", "error, time", "why, or why not"], rows);
     html.element("h3", "Error of the forces");
     let error = &run.error_estimate;
-    html.paragraph(&format!(
-        "{} in all, {}. How well the equations are solved, not how well they describe a duct.",
-        percent(error.relative),
-        error.method
-    ));
+    html.paragraph(&format!("{} in all, {}.", percent(error.relative), error.method));
     let parts = error.parts;
     let row = |name: &str, part: f64| vec![name.to_owned(), percent(part)];
     let rows = [

@@ -1,5 +1,7 @@
 //! Quantities as an engineer says them: four digits, a prefix, groups of thousands.
 
+use ground_field::Modulus;
+
 /// SI prefixes and what they stand for, the largest first.
 const PREFIXES: [(f64, &str); 7] = [
     (1e9, "G"),
@@ -34,6 +36,36 @@ pub fn count(number: u64) -> String {
     grouped
 }
 
+/// A length in metres, for what stands beside other lengths: "0.05 m".
+pub fn metres(metres: f64) -> String {
+    format!("{} m", significant(metres))
+}
+
+/// Young's modulus in MPa, at the top and at the bottom where it varies: "3000 MPa", "100 to 250 MPa".
+pub fn moduli(modulus: Modulus) -> String {
+    let mega = |modulus: f64| significant(1e-6 * modulus);
+    match modulus {
+        Modulus::Uniform(modulus) => format!("{} MPa", mega(modulus)),
+        Modulus::Linear { top, bottom } => format!("{} to {} MPa", mega(top), mega(bottom)),
+    }
+}
+
+/// Stiffness of a spring or a clamp in kN/m: "3000 kN/m".
+pub fn stiffness(stiffness: f64) -> String {
+    format!("{} kN/m", significant(1e-3 * stiffness))
+}
+
+/// A number with its power of ten: "7.4·10⁶".
+pub fn power_of_ten(value: f64) -> String {
+    const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let text = format!("{value:.3e}");
+    let (leading, exponent) = text.split_once('e').unwrap_or((&text, "0"));
+    let leading = leading.trim_end_matches('0').trim_end_matches('.');
+    let raised = |digit: char| digit.to_digit(10).map_or('⁻', |digit| RAISED[digit as usize]);
+    let exponent: String = exponent.chars().map(raised).collect();
+    format!("{leading}·10{exponent}")
+}
+
 /// A length in the unit one would say it in: "0.9 m", "50 mm".
 pub fn length(metres: f64) -> String {
     if metres.abs() < 0.1 {
@@ -50,7 +82,7 @@ pub fn significant(value: f64) -> String {
     }
     let magnitude = value.abs().log10().floor() as i32;
     if !(-4..9).contains(&magnitude) {
-        return format!("{value:.3e}");
+        return power_of_ten(value);
     }
     let text = format!("{value:.*}", (3 - magnitude).max(0) as usize);
     if text.contains('.') {
@@ -82,7 +114,11 @@ mod tests {
         );
         assert_eq!([0.9, 1500.0, 0.05].map(length), ["0.9 m", "1500 m", "50 mm"]);
         assert_eq!(significant(7_352_941.0), "7352941");
-        assert_eq!(significant(1e-7), "1.000e-7");
+        assert_eq!(significant(1e-7), "1·10⁻⁷");
         assert_eq!(significant(120.0), "120");
+        assert_eq!(power_of_ten(7.4e6), "7.4·10⁶");
+        assert_eq!(stiffness(3e6), "3000 kN/m");
+        assert_eq!(metres(0.05), "0.05 m");
+        assert_eq!(moduli(Modulus::Uniform(3e9)), "3000 MPa");
     }
 }

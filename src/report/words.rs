@@ -3,7 +3,8 @@
 use ground_field::{Base, Direction, Modulus, Vehicle};
 
 use super::html::Html;
-use super::quantity::{count, length, quantity, significant};
+use super::lanes::middle;
+use super::quantity::{count, length, metres, moduli, power_of_ten, quantity, significant, stiffness};
 use crate::Scene;
 use crate::answer::after;
 use crate::ground::load_ratio;
@@ -33,8 +34,8 @@ pub fn scene(scene: &Scene) -> Vec<String> {
         ends,
     ];
     points.extend(scene.restraints.iter().map(|clamp| {
-        let (stiffness, place) = (quantity(clamp.stiffness, "N/m"), length(clamp.position));
-        format!("Clamp of {stiffness} at {place}.")
+        let (stiff, place) = (stiffness(clamp.stiffness), length(clamp.position));
+        format!("Clamp of {stiff} at {place}.")
     }));
     points.push(traffic(scene));
     points
@@ -48,9 +49,9 @@ fn slope(scene: &Scene) -> String {
     }
     let way = if slope > 0.0 { "rises" } else { "falls" };
     format!(
-        "; it {way} with x by {} %, and {} of the cable’s weight draw it down",
+        "; it {way} with x by {} %, and {} N/m of the cable’s weight draw it down",
         significant(100.0 * slope.abs()),
-        quantity(scene.body_force().abs(), "N/m")
+        significant(scene.body_force().abs())
     )
 }
 
@@ -112,9 +113,11 @@ fn friction(scene: &Scene) -> String {
     let law = match scene.friction.law {
         FrictionLaw::Coulomb => "Coulomb's law".to_owned(),
         FrictionLaw::ElasticPlastic { shape_factor: b } => {
-            format!("elastic-plastic law, shape factor {b:.3e} 1/m")
+            format!("elastic-plastic law, shape factor {} 1/m", power_of_ten(b))
         }
-        FrictionLaw::Sigmoid { shape_factor: b } => format!("sigmoid law, shape factor {b:.3e} 1/m"),
+        FrictionLaw::Sigmoid { shape_factor: b } => {
+            format!("sigmoid law, shape factor {} 1/m", power_of_ten(b))
+        }
         _ => "a law of its own".to_owned(),
     };
     format!(
@@ -129,7 +132,7 @@ fn end(end: End) -> String {
     match end {
         End::Free => "free".into(),
         End::Fixed => "fixed".into(),
-        End::Spring(stiffness) => format!("on a spring of {}", quantity(stiffness, "N/m")),
+        End::Spring(spring) => format!("on a spring of {}", stiffness(spring)),
     }
 }
 
@@ -162,20 +165,20 @@ pub fn ground(html: &mut Html, scene: &Scene) {
     let mut top = 0.0;
     for layer in profile.layers() {
         let bottom = top + layer.thickness();
-        let modulus = match layer.modulus() {
-            Modulus::Uniform(modulus) => quantity(modulus, "Pa"),
-            Modulus::Linear { top, bottom } => [top, bottom].map(|end| quantity(end, "Pa")).join(" to "),
-        };
-        let from = if top == 0.0 { "0".into() } else { length(top) };
-        let depth = format!("{from} to {}", length(bottom));
+        let modulus = moduli(layer.modulus());
+        let depth = format!("{} to {}", significant(top), metres(bottom));
         rows.push(row(depth, modulus, layer.poisson_ratio()));
         top = bottom;
     }
-    let below = format!("below {}", length(top));
+    let below = format!("below {}", metres(top));
     rows.push(match profile.base() {
         Base::HalfSpace(soil) => {
             let depth = if top == 0.0 { "everywhere".into() } else { below };
-            row(depth, quantity(soil.young_modulus(), "Pa"), soil.poisson_ratio())
+            row(
+                depth,
+                moduli(Modulus::Uniform(soil.young_modulus())),
+                soil.poisson_ratio(),
+            )
         }
         Base::Rigid => vec![below, "rock that does not move".into(), "–".into()],
     });
@@ -247,19 +250,14 @@ fn loads(scene: &Scene) -> String {
     format!("{least} to {most}, in the mean {mean}")
 }
 
-/// Where the middle between a vehicle's outer wheels lies.
+/// Where a vehicle drives beside the duct, seen toward growing x.
 fn lane(scene: &Scene, traffic: &TrafficVehicle) -> String {
-    let sides = || traffic.vehicle.wheels().iter().map(|wheel| wheel.y);
-    let (right, left) = (
-        sides().fold(f64::INFINITY, f64::min),
-        sides().fold(f64::NEG_INFINITY, f64::max),
-    );
-    let beside = (0.5 * (right + left) - scene.offset_from(traffic)).abs();
-    if beside < 5e-4 {
-        "right above the duct".into()
-    } else {
-        format!("{} beside the duct", length(beside))
+    let left = middle(traffic) - scene.duct.lateral_offset;
+    if left.abs() < 5e-4 {
+        return "right above the duct".into();
     }
+    let side = if left > 0.0 { "left" } else { "right" };
+    format!("{} {side} of the duct", length(left.abs()))
 }
 
 fn load(vehicle: &Vehicle) -> String {

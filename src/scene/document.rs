@@ -89,6 +89,11 @@ pub struct Document {
 }
 
 impl Document {
+    /// The text that was parsed.
+    pub fn text(&self) -> &str {
+        self.sources.first().map_or("", |source| &source.text)
+    }
+
     pub fn parse(name: &str, text: &str) -> Result<Self, SceneError> {
         let table = DeTable::parse(text).map_err(|error| {
             let Fault { span, message } = fault(text, &error);

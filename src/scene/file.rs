@@ -87,6 +87,11 @@ impl SceneFile {
         Ok(file)
     }
 
+    /// The text of the file, without what was set on top of it.
+    pub fn text(&self) -> &str {
+        self.document.text()
+    }
+
     /// The scene.
     ///
     /// # Errors

@@ -3,6 +3,7 @@
 mod axis;
 mod chart;
 mod draw;
+mod drawing;
 mod error;
 mod palette;
 mod panels;
@@ -11,6 +12,7 @@ mod series;
 
 pub use axis::Axis;
 pub use chart::Chart;
+pub use drawing::{Anchor, Drawing, Ink};
 pub use error::FigureError;
 pub use palette::dark_style;
 pub use panels::Panels;

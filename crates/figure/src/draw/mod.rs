@@ -1,6 +1,6 @@
 //! From data to SVG.
 
-mod canvas;
+pub mod canvas;
 mod cells;
 mod frame;
 mod legend;

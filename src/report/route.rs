@@ -1,0 +1,232 @@
+//! The duct along the road: its length, ends, clamps, slope and traffic.
+
+use ground_field::Direction;
+
+use super::figure::{WIDTH, ticks};
+use super::quantity::{length, significant, stiffness};
+use crate::Scene;
+use crate::figure::{Anchor, Drawing, Ink};
+use crate::scene::End;
+
+/// Where the duct begins and ends \[px\].
+const LEFT: f64 = 44.0;
+const RIGHT: f64 = 396.0;
+/// The title's height, and where the directions of traffic stand \[px\].
+const TITLE: f64 = 36.0;
+const TRAFFIC: f64 = 50.0;
+/// The road's least height, and how far the duct is drawn below it \[px\].
+const ROAD: f64 = 72.0;
+const DEEP: f64 = 44.0;
+/// Half the duct's height \[px\].
+const DUCT: f64 = 6.0;
+/// Most that the road is drawn to rise \[px\], and factors of exaggeration, the largest first.
+const RISE: f64 = 48.0;
+const STEEPER: [f64; 12] = [
+    1000.0, 500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1,
+];
+/// Clamps that are listed at most, and how far apart their numbers are at least \[px\].
+const MOST: usize = 8;
+const APART: f64 = 20.0;
+
+/// The drawing, and its caption.
+pub fn route(scene: &Scene) -> (String, String) {
+    let steeper = steeper(scene.duct.slope);
+    let line = Line::new(scene, steeper);
+    let clamps = clamps(scene);
+    let axis = ROAD + line.rise() + DEEP + 34.0;
+    let words = axis + 44.0;
+    let height = words + Drawing::LINE * (2.0 + clamps.len() as f64) + 4.0;
+
+    let mut drawing = Drawing::new("Along the duct", (WIDTH, height));
+    drawing.title("Along the duct", (0.5 * WIDTH, 0.5 * TITLE));
+    traffic(&mut drawing, scene);
+    let ground = [
+        line.at(0.0, 0.0),
+        line.at(1.0, 0.0),
+        (RIGHT, axis - 6.0),
+        (LEFT, axis - 6.0),
+    ];
+    drawing.area(&ground, Ink::Grey, 0.15);
+    drawing.line(&ground[..2], Ink::Dark, 2.0);
+    for side in [DEEP - DUCT, DEEP + DUCT] {
+        drawing.line(&[line.at(0.0, side), line.at(1.0, side)], Ink::Grey, 1.0);
+    }
+    drawing.line(&[line.at(0.0, DEEP), line.at(1.0, DEEP)], Ink::Series(0), 3.0);
+    end(&mut drawing, scene.ends.upstream, line.at(0.0, DEEP), -1.0);
+    end(&mut drawing, scene.ends.downstream, line.at(1.0, DEEP), 1.0);
+    draw_clamps(&mut drawing, scene, &line);
+
+    drawing.line(&[(LEFT, axis), (RIGHT, axis)], Ink::Dark, 1.2);
+    for (place, label) in ticks(scene.duct.length) {
+        let x = LEFT + (RIGHT - LEFT) * place / scene.duct.length;
+        drawing.line(&[(x, axis), (x, axis + 5.0)], Ink::Dark, 1.2);
+        drawing.text(&label, (x, axis + 15.0), Anchor::Middle);
+    }
+    drawing.text("m", (RIGHT + 32.0, axis + 15.0), Anchor::Middle);
+    for (name, end, x, anchor) in [
+        ("upstream end", scene.ends.upstream, 12.0, Anchor::Start),
+        ("downstream end", scene.ends.downstream, WIDTH - 12.0, Anchor::End),
+    ] {
+        drawing.text(name, (x, words), anchor);
+        drawing.text(&held(end), (x, words + Drawing::LINE), anchor);
+    }
+    for (k, clamp) in clamps.iter().enumerate() {
+        let y = words + Drawing::LINE * (k as f64 + 2.3);
+        drawing.text(clamp, (12.0, y), Anchor::Start);
+    }
+    (drawing.to_svg(), caption(scene, steeper))
+}
+
+fn caption(scene: &Scene, steeper: f64) -> String {
+    let slope = scene.duct.slope;
+    let way = if slope > 0.0 { "rises" } else { "falls" };
+    let slope = if slope == 0.0 {
+        "The duct is level.".to_owned()
+    } else {
+        let percent = significant(100.0 * slope.abs());
+        let drawn = if steeper == 1.0 {
+            "drawn as steep as it is".to_owned()
+        } else {
+            format!("drawn {} times as steep", significant(steeper))
+        };
+        format!("The duct {way} by {percent} % toward growing x, {drawn}.")
+    };
+    format!(
+        "The cable in its duct from the side, {} deep. The length is to scale, the depth is not. {slope}",
+        length(scene.duct.depth)
+    )
+}
+
+/// By how much a slope is drawn steeper than it is.
+fn steeper(slope: f64) -> f64 {
+    let fits = |factor: &f64| factor * slope.abs() * (RIGHT - LEFT) <= RISE;
+    STEEPER
+        .into_iter()
+        .find(fits)
+        .unwrap_or(STEEPER[STEEPER.len() - 1])
+}
+
+/// The road's line.
+struct Line {
+    /// Heights of the road at x = 0 and at the duct's end \[px\].
+    heights: [f64; 2],
+}
+
+impl Line {
+    fn new(scene: &Scene, steeper: f64) -> Self {
+        let rise = steeper * scene.duct.slope * (RIGHT - LEFT);
+        Self {
+            heights: [ROAD + rise.max(0.0), ROAD + (-rise).max(0.0)],
+        }
+    }
+
+    fn rise(&self) -> f64 {
+        (self.heights[0] - self.heights[1]).abs()
+    }
+
+    /// A point so far below the road \[px\], at a share of the length.
+    fn at(&self, share: f64, below: f64) -> (f64, f64) {
+        let [from, to] = self.heights;
+        (LEFT + share * (RIGHT - LEFT), from + share * (to - from) + below)
+    }
+}
+
+/// Arrows with the shares of both directions.
+fn traffic(drawing: &mut Drawing, scene: &Scene) {
+    let share = |direction: Direction| -> f64 {
+        let same = scene
+            .vehicles
+            .iter()
+            .filter(|traffic| traffic.vehicle.direction() == direction);
+        same.map(|traffic| traffic.share).sum()
+    };
+    for (direction, from, sign, anchor) in [
+        (Direction::Forward, LEFT, 1.0, Anchor::Start),
+        (Direction::Reverse, RIGHT, -1.0, Anchor::End),
+    ] {
+        let share = share(direction);
+        if share == 0.0 {
+            continue;
+        }
+        let tip = (from + sign * 40.0, TRAFFIC);
+        let barb = |y: f64| (tip.0 - sign * 8.0, tip.1 + y);
+        drawing.line(&[(from, TRAFFIC), tip], Ink::Dark, 1.6);
+        drawing.line(&[barb(-4.0), tip, barb(4.0)], Ink::Dark, 1.6);
+        let text = format!("{direction}, {} %", significant(100.0 * share));
+        drawing.text(&text, (tip.0 + sign * 8.0, TRAFFIC), anchor);
+    }
+}
+
+/// What holds an end; `out` is the direction out of the duct.
+fn end(drawing: &mut Drawing, end: End, (x, y): (f64, f64), out: f64) {
+    let wall = |drawing: &mut Drawing, x: f64| {
+        drawing.line(&[(x, y - 14.0), (x, y + 14.0)], Ink::Dark, 2.0);
+        for k in -2..=2 {
+            let low = y + 6.0 * f64::from(k);
+            drawing.line(&[(x, low), (x + out * 6.0, low + 6.0)], Ink::Dark, 0.8);
+        }
+    };
+    match end {
+        End::Fixed => wall(drawing, x),
+        End::Spring(_) => {
+            let coil = |k: u32| {
+                let side = match k {
+                    0 | 6 => 0.0,
+                    k if k.is_multiple_of(2) => 6.0,
+                    _ => -6.0,
+                };
+                (x + out * 4.0 * f64::from(k), y + side)
+            };
+            let spring: Vec<(f64, f64)> = (0..=6).map(coil).collect();
+            drawing.line(&spring, Ink::Series(1), 1.6);
+            wall(drawing, x + out * 24.0);
+        }
+        End::Free => drawing.line(&[(x, y), (x + out * 14.0, y)], Ink::Series(0), 3.0),
+    }
+}
+
+fn held(end: End) -> String {
+    match end {
+        End::Free => "free".to_owned(),
+        End::Fixed => "fixed".to_owned(),
+        End::Spring(spring) => format!("spring of {}", stiffness(spring)),
+    }
+}
+
+/// Clamps on the cable, numbered where there is room.
+fn draw_clamps(drawing: &mut Drawing, scene: &Scene, line: &Line) {
+    let mut taken: Vec<f64> = Vec::new();
+    for (k, clamp) in scene.restraints.iter().enumerate() {
+        let (x, y) = line.at(clamp.position / scene.duct.length, DEEP);
+        for side in [-1.0, 1.0] {
+            let near = y + side * 3.0;
+            let far = y + side * 11.0;
+            let jaw = [(x - 4.0, far), (x + 4.0, far), (x + 2.0, near), (x - 2.0, near)];
+            drawing.area(&jaw, Ink::Series(1), 1.0);
+        }
+        let has_room = taken.iter().all(|other| (x - other).abs() >= APART);
+        if k < MOST && has_room && scene.restraints.len() > 1 {
+            drawing.text(&(k + 1).to_string(), (x, y - 20.0), Anchor::Middle);
+            taken.push(x);
+        }
+    }
+}
+
+/// What the clamps are.
+fn clamps(scene: &Scene) -> Vec<String> {
+    let clamps = &scene.restraints;
+    let name = |(k, clamp): (usize, &crate::scene::Restraint)| {
+        let number = if clamps.len() > 1 {
+            format!("{}: ", k + 1)
+        } else {
+            String::new()
+        };
+        let (stiff, place) = (stiffness(clamp.stiffness), length(clamp.position));
+        format!("{number}clamp of {stiff} at {place}")
+    };
+    let mut names: Vec<String> = clamps.iter().take(MOST).enumerate().map(name).collect();
+    if clamps.len() > MOST {
+        names.push(format!("and {} more clamps", clamps.len() - MOST));
+    }
+    names
+}
