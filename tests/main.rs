@@ -29,6 +29,8 @@ mod house;
 mod lanes;
 #[path = "methods.rs"]
 mod methods;
+#[path = "mistakes.rs"]
+mod mistakes;
 #[path = "occurrence.rs"]
 mod occurrence;
 #[path = "paper/main.rs"]

@@ -1,10 +1,13 @@
 //! `creepage design`: the end spring or clamp that stays within limits of force and movement.
 
 use std::io::Write;
+use std::sync::{Mutex, PoisonError};
+
+use serde::Serialize;
 
 use super::failure::Failure;
 use super::limits::LimitArguments;
-use super::progress::{PER_MILLE, PERCENT, with_bar};
+use super::progress::{HowFar, stopped, watched};
 use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
 use crate::design::{Design, DesignError, DesignOptions, Place, TradeOff, design};
@@ -66,9 +69,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
                 .into(),
         });
     }
-    let answer = with_bar(PERCENT, PER_MILLE, |progress| {
+    let tried = Mutex::new(Vec::new());
+    let how_far = |now| HowFar::new(now, "of the runs that a design usually takes");
+    let keep = |_| keep(arguments, &tried.lock().unwrap_or_else(PoisonError::into_inner));
+    let answer = watched(how_far, keep, |progress| {
         let mut options = DesignOptions::new(arguments.at, limits);
         options.progress = progress;
+        options.tried = Some(&tried);
         design(&input.scene, &options)
     });
     let answer = match answer {
@@ -80,6 +87,32 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Some(_) => Ok(()),
         None => Err(Failure::NotKept),
     }
+}
+
+/// The stiffnesses that were tried before the search was stopped.
+#[derive(Serialize)]
+struct CutShort<'a> {
+    cut_short: bool,
+    curve: &'a [TradeOff],
+}
+
+fn keep(arguments: &Arguments, tried: &[TradeOff]) -> Result<(), Failure> {
+    let cut = format!("cut short after {} stiffnesses: no answer", tried.len());
+    let mut curve = tried.to_vec();
+    curve.sort_by(|a, b| {
+        let key = |point: &TradeOff| point.stiffness_n_per_m.unwrap_or(f64::INFINITY);
+        key(a).total_cmp(&key(b))
+    });
+    let answer = CutShort {
+        cut_short: true,
+        curve: &curve,
+    };
+    arguments.json.print(&answer, || {
+        let mut out = terminal::out();
+        writeln!(out, "{cut}")?;
+        Ok(table(&mut out, arguments.at, &curve)?)
+    })?;
+    stopped(cut)
 }
 
 fn print(design: &Design) -> Result<(), Failure> {
@@ -100,7 +133,7 @@ fn print(design: &Design) -> Result<(), Failure> {
     };
     let limits: Vec<String> = design.limits.all().map(limit).collect();
     writeln!(out, "limits: {}\n", limits.join("; "))?;
-    table(&mut out, design)?;
+    table(&mut out, design.place, &design.curve)?;
     if let Some(nearest) = &design.nearest {
         writeln!(
             out,
@@ -137,18 +170,18 @@ fn stiffness(place: Place, value: Option<f64>) -> String {
 }
 
 /// Every stiffness that was computed.
-fn table(out: &mut impl Write, design: &Design) -> std::io::Result<()> {
+fn table(out: &mut impl Write, place: Place, curve: &[TradeOff]) -> std::io::Result<()> {
     writeln!(out, "{:>16} {:>23} {:>23}", "", "force, N", "movement, mm")?;
     writeln!(
         out,
         "{:>16} {:>11} {:>11} {:>11} {:>11} {:>14}",
         "stiffness, N/m", "upstream", "downstream", "upstream", "downstream", "within limits"
     )?;
-    for point in &design.curve {
+    for point in curve {
         writeln!(
             out,
             "{:>16} {:>11.1} {:>11.1} {:>11.4} {:>11.4} {:>14}",
-            stiffness(design.place, point.stiffness_n_per_m),
+            stiffness(place, point.stiffness_n_per_m),
             point.upstream_force_n,
             point.downstream_force_n,
             1e3 * point.upstream_movement_m,

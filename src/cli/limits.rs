@@ -1,6 +1,7 @@
 //! Limits of force and movement on the command line.
 
 use super::failure::Failure;
+use super::terminal;
 use crate::scene::{Dimension, End, Ends};
 use crate::{CableEnd, EndLimits, Limits};
 
@@ -39,7 +40,29 @@ fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
     Err("allowed: a finite value greater than 0".to_owned())
 }
 
+/// Smallest force \[N\] and largest movement \[m\] that a limit is likely to be.
+const LEAST_FORCE: f64 = 10.0;
+const MOST_MOVEMENT: f64 = 1.0;
+
 impl LimitArguments {
+    /// Warns of bare numbers that were probably meant in another unit.
+    fn warn_of_slips(&self) {
+        for Limit { value, .. } in self.limit_force.iter().filter(|limit| limit.value < LEAST_FORCE) {
+            terminal::warn(format_args!(
+                "--limit-force is {value} N: did you mean {value}kN?"
+            ));
+        }
+        for Limit { value, .. } in self
+            .limit_movement
+            .iter()
+            .filter(|limit| limit.value > MOST_MOVEMENT)
+        {
+            terminal::warn(format_args!(
+                "--limit-movement is {value} m: did you mean {value}mm?"
+            ));
+        }
+    }
+
     pub fn are_given(&self) -> bool {
         !self.limit_force.is_empty() || !self.limit_movement.is_empty()
     }
@@ -47,6 +70,7 @@ impl LimitArguments {
     /// The limits of a cable with these ends. Without a name a limit is that of the ends that are not free; what is named counts before what
     /// is not.
     pub fn limits(&self, ends: Ends) -> Result<Limits, Failure> {
+        self.warn_of_slips();
         let held = |end: CableEnd| match end {
             CableEnd::Upstream => ends.upstream != End::Free,
             CableEnd::Downstream => ends.downstream != End::Free,

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::failure::Failure;
 use super::limits::LimitArguments;
-use super::progress::{PER_MILLE, PERCENT, with_bar};
+use super::progress::{HowFar, stopped, watched};
 use super::readings::ReadArguments;
 use super::shared::{Force, Input, TrafficArguments};
 use super::terminal;
@@ -39,9 +39,31 @@ pub struct Arguments {
     reading: ReadArguments,
 }
 
+/// Formats that somebody may expect by the name's ending, and none of which this is.
+const OTHER_FORMATS: [&str; 7] = ["csv", "docx", "json", "pdf", "png", "svg", "xlsx"];
+
+impl Arguments {
+    /// Refuses a page by the name of another format, which no program would open.
+    fn page_is_html(&self) -> Result<(), Failure> {
+        let ending = self.output.extension().map(|ending| ending.to_ascii_lowercase());
+        if OTHER_FORMATS
+            .iter()
+            .any(|other| ending.as_deref() == Some(other.as_ref()))
+        {
+            return Err(Failure::Usage {
+                argument: "--output",
+                found: self.output.display().to_string(),
+                allowed: "a page of HTML, such as my-duct.html, which a browser also prints to PDF".into(),
+            });
+        }
+        Ok(())
+    }
+}
+
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let limits = arguments.limits.limits(input.scene.ends)?;
+    arguments.page_is_html()?;
     let readings = arguments
         .data
         .as_deref()
@@ -58,7 +80,9 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     ];
     let mut files = arguments.force.files(read.into_iter().flatten());
     let page = files.output(&arguments.output, Kind::Page)?;
-    let report = with_bar(PERCENT, PER_MILLE, |progress| {
+    let how_far = |now| HowFar::new(now, "of the runs: the scene's own, then ways to hold the cable");
+    let keep = |_| stopped("no page is written");
+    let report = watched(how_far, keep, |progress| {
         Report::new(
             &input.scene,
             &ReportOptions {
@@ -71,6 +95,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         )
     });
     let report = input.located(report)?;
-    terminal::warn_all(&report.run().warnings);
+    input.warn_all(&report.run().warnings);
     Ok(page.write(|out| out.write_all(report.to_html().as_bytes()))?)
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::scene::{End, Restraint};
-use crate::{Error, Limited, Limits, Progress, Scene};
+use crate::{Error, Limited, Limits, Scene};
 
 /// Where a spring is put.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -15,29 +15,6 @@ pub enum Place {
     Downstream,
     /// A clamp at this position along the duct \[m\], beside what is in the scene.
     Clamp(f64),
-}
-
-/// How to design.
-#[derive(Debug, Clone, Copy)]
-#[non_exhaustive]
-pub struct DesignOptions<'a> {
-    /// Where the spring is.
-    pub place: Place,
-    /// What it has to stay within.
-    pub limits: Limits,
-    /// Called after each run of the scene; it may stop the search.
-    pub progress: Progress<'a>,
-}
-
-impl DesignOptions<'_> {
-    /// A spring at `place` that stays within `limits`.
-    pub fn new(place: Place, limits: Limits) -> Self {
-        Self {
-            place,
-            limits,
-            progress: Progress::default(),
-        }
-    }
 }
 
 /// Error of a design.
@@ -121,7 +98,7 @@ impl Place {
         match self {
             Self::Clamp(position) if !(0.0..=scene.duct.length).contains(&position) => {
                 Err(DesignError::Invalid {
-                    name: "position of the clamp",
+                    name: "position of the clamp in m",
                     found: position,
                     allowed: "a position in the duct, from 0 to its length",
                 })

@@ -18,11 +18,13 @@
 
 mod compare;
 mod limits;
+mod options;
 mod search;
 mod trade_off;
 
 pub use crate::Limits;
 pub use compare::{Measure, compare};
-pub use limits::{DesignError, DesignOptions, Place};
+pub use limits::{DesignError, Place};
+pub use options::DesignOptions;
 pub use search::design;
 pub use trade_off::{Design, TradeOff};

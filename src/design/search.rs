@@ -7,7 +7,8 @@ use argmin::core::{CostFunction, Executor};
 use argmin::solver::brent::BrentRoot;
 use rayon::prelude::*;
 
-use super::limits::{self, DesignError, DesignOptions, Place};
+use super::limits::{self, DesignError, Place};
+use super::options::DesignOptions;
 use super::trade_off::{Design, Limit, TradeOff, limited};
 use crate::{Error, Progress, RunOptions, Scene};
 
@@ -157,6 +158,12 @@ impl Search<'_> {
         let run = crate::run(&place.held(self.scene, stiffness))?;
         let point = TradeOff::of(&run, place, stated, &limits);
         self.points().push(point.clone());
+        if let Some(tried) = self.options.tried {
+            tried
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner)
+                .push(point.clone());
+        }
         let runs = self.runs.fetch_add(1, Ordering::Relaxed) + 1;
         let share = runs as f64 / self.expected_runs as f64;
         self.options.progress.report(share.min(1.0))?;

@@ -9,6 +9,7 @@ use cable_dem::{CableError, Statistics};
 use super::lived::{Lived, Living};
 use super::outlook::Work;
 use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both, judge, mesh_reason};
+use super::underway::Underway;
 use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
 use crate::plan::{PassMethod, Plan};
@@ -54,7 +55,7 @@ pub fn solve(
     plan: &Plan<'_>,
     heat: &Heat,
     method: PassMethod,
-    progress: Progress<'_>,
+    (progress, underway): (Progress<'_>, Option<&Underway>),
     verify: bool,
     warnings: &mut Vec<String>,
 ) -> Result<Solved, Error> {
@@ -62,6 +63,7 @@ pub fn solve(
         plan,
         heat,
         progress,
+        underway,
         every_pass: matches!(method, PassMethod::EveryPass(_)),
         begin: 0,
     };
@@ -74,6 +76,7 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<(Work
         plan,
         heat,
         progress: Progress::default(),
+        underway: None,
         every_pass: false,
         begin: 0,
     };

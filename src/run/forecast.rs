@@ -244,6 +244,7 @@ impl<'a> Probe<'a> {
             mesh: self.plan.levels.mesh(level)?,
             stages: &[],
             progress: Progress::default(),
+            seen: None,
         };
         let period = self.plan.period.len() as u64;
         let passes = match way {
