@@ -2,6 +2,7 @@
 
 use std::ffi::OsString;
 use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::error::ErrorKind;
@@ -104,7 +105,9 @@ fn advice(kind: ErrorKind) -> Option<String> {
         .collect();
     match kind {
         ErrorKind::InvalidSubcommand => {
-            let scene = arguments.get(1).filter(|name| name.ends_with(".toml"))?;
+            let is_scene =
+                |name: &&String| Path::new(name).extension().is_some_and(|ending| ending == "toml");
+            let scene = arguments.get(1).filter(is_scene)?;
             Some(format!(
                 "A command stands before the scene: creepage run {}",
                 terminal::line(scene)

@@ -44,6 +44,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 
 /// The time of what is chosen is that of the whole run, not of its first mesh.
 fn foresee(plan: &mut PlanReport, seconds: f64) {
+    // It is right within a factor of two: more digits say nothing.
+    let seconds = format!("{seconds:.1e}").parse().unwrap_or(seconds);
     plan.estimated_seconds = seconds;
     let chosen = |candidate: &&mut Candidate| candidate.chosen && candidate.part == Part::Cable;
     if let Some(candidate) = plan.candidates.iter_mut().find(chosen) {

@@ -1,5 +1,6 @@
 //! `creepage report`: a scene's answer as one page of HTML.
 
+use std::ffi::OsStr;
 use std::path::PathBuf;
 
 use super::failure::Failure;
@@ -45,7 +46,7 @@ const OTHER_FORMATS: [&str; 7] = ["csv", "docx", "json", "pdf", "png", "svg", "x
 impl Arguments {
     /// Refuses a page by the name of another format, which no program would open.
     fn page_is_html(&self) -> Result<(), Failure> {
-        let ending = self.output.extension().map(|ending| ending.to_ascii_lowercase());
+        let ending = self.output.extension().map(OsStr::to_ascii_lowercase);
         if OTHER_FORMATS
             .iter()
             .any(|other| ending.as_deref() == Some(other.as_ref()))
@@ -63,7 +64,6 @@ impl Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let limits = arguments.limits.limits(input.scene.ends)?;
-    arguments.page_is_html()?;
     let readings = arguments
         .data
         .as_deref()
@@ -80,6 +80,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     ];
     let mut files = arguments.force.files(read.into_iter().flatten());
     let page = files.output(&arguments.output, Kind::Page)?;
+    arguments.page_is_html()?;
     let how_far = |now| HowFar::new(now, "of the runs: the scene's own, then ways to hold the cable");
     let keep = |_| stopped("no page is written");
     let report = watched(how_far, keep, |progress| {

@@ -84,7 +84,7 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<(Work
     let (coarse, lived) = living.coarse(level, FIRST_KNOTS)?;
     let periods = lived.passes.simulated as f64;
     let nodes = plan.levels.mesh(coarse)?.nodes();
-    let work = Work::new(&lived.passes.statistics, nodes, periods);
+    let work = Work::new(&lived.passes.statistics, nodes, periods, 0.0);
     // That level and the one below; before them, with as many real periods a day and with twice as many, the coarse one.
     let meshes = |work: Work| match (level - coarse).checked_sub(1) {
         Some(below) => work.refined(below) + work.refined(below + 1),
