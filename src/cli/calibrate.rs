@@ -141,7 +141,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         if share < 1.0 {
             HowFar::new(
                 Now { share, ..now },
-                format!("{runs:.0} of about {usual} model runs"),
+                &format!("{runs:.0} of about {usual} model runs"),
             )
         } else {
             HowFar::unknown(

@@ -70,7 +70,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         });
     }
     let tried = Mutex::new(Vec::new());
-    let how_far = |now| HowFar::new(now, "of the runs that a design usually takes");
+    let how_far = |now| HowFar::new(now, "runs of the scene with one stiffness after the other");
     let keep = |_| keep(arguments, &tried.lock().unwrap_or_else(PoisonError::into_inner));
     let answer = watched(how_far, keep, |progress| {
         let mut options = DesignOptions::new(arguments.at, limits);

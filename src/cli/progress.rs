@@ -46,16 +46,19 @@ pub struct HowFar {
 
 impl HowFar {
     /// A share of the work in words, and the time that the rest takes at the same speed.
-    pub fn new(now: Now, words: impl Into<String>) -> Self {
-        let (share, words) = (now.share, words.into());
-        let left = now.elapsed.as_secs_f64() * (1.0 - share) / (share - now.first);
+    pub fn new(now: Now, words: &str) -> Self {
+        let Now {
+            share,
+            first,
+            elapsed,
+        } = now;
+        let left = elapsed.as_secs_f64() * (1.0 - share) / (share - first);
+        if !left.is_finite() {
+            return Self::unknown(words, elapsed);
+        }
         Self {
             share: Some(share),
-            words: if left.is_finite() {
-                format!("{words}, about {} left", rounded(left.max(1.0)))
-            } else {
-                words
-            },
+            words: format!("{words}, about {} left", rounded(left.max(1.0))),
         }
     }
 

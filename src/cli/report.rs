@@ -81,7 +81,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut files = arguments.force.files(read.into_iter().flatten());
     let page = files.output(&arguments.output, Kind::Page)?;
     arguments.page_is_html()?;
-    let how_far = |now| HowFar::new(now, "of the runs: the scene's own, then ways to hold the cable");
+    let how_far = |now| HowFar::new(now, "the scene's run, then ways to hold the cable");
     let keep = |_| stopped("no page is written");
     let report = watched(how_far, keep, |progress| {
         Report::new(

@@ -46,7 +46,7 @@ impl<'a> RunProgress<'a> {
             // Till then every mesh to come counts as much as this one.
             None => HowFar {
                 share: None,
-                ..HowFar::new(now, words)
+                ..HowFar::new(now, &words)
             },
             Some(share) if share < MOST => HowFar::new(
                 Now {
@@ -54,7 +54,7 @@ impl<'a> RunProgress<'a> {
                     first: 0.0,
                     elapsed,
                 },
-                words,
+                &words,
             ),
             Some(_) => HowFar {
                 share: Some(MOST),

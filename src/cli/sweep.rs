@@ -101,7 +101,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let add = |row: &Row| map.iter().for_each(|(_, map)| map.add(row));
     let count = sweep.count();
     let points = |share: f64| format!("{:.0} of {count} points", share * count as f64);
-    let how_far = |now: Now| HowFar::new(now, points(now.share));
+    let how_far = |now: Now| HowFar::new(now, &points(now.share));
     let keep = |share| {
         let (points, out) = (points(share), arguments.out.display());
         stopped(format_args!(
