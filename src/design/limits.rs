@@ -98,9 +98,9 @@ impl Place {
         match self {
             Self::Clamp(position) if !(0.0..=scene.duct.length).contains(&position) => {
                 Err(DesignError::Invalid {
-                    name: "position of the clamp in m",
+                    name: "position of the clamp",
                     found: position,
-                    allowed: "a position in the duct, from 0 to its length",
+                    allowed: "a position in the duct, from 0 m to its length",
                 })
             }
             _ => Ok(()),
