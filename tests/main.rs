@@ -31,6 +31,8 @@ mod house;
 mod lanes;
 #[path = "methods.rs"]
 mod methods;
+#[path = "mistakes.rs"]
+mod mistakes;
 #[path = "occurrence.rs"]
 mod occurrence;
 #[path = "paper/main.rs"]

@@ -175,6 +175,7 @@ impl SeriesModel {
             mesh: self.mesh(level)?,
             stages: &self.stages,
             progress: Progress::default(),
+            seen: None,
         })
     }
 }

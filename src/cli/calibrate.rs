@@ -2,12 +2,14 @@
 
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::Once;
 
 use super::failure::Failure;
-use super::progress::{MODEL_RUNS, with_bar};
+use super::progress::{HowFar, Now, stopped, watched};
 use super::readings::ReadArguments;
 use super::shared::{Input, OutputArguments, SceneArguments};
 use super::terminal;
+use crate::Readings;
 use crate::calibration::{
     BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Series, Unknown,
 };
@@ -130,7 +132,30 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         max_evaluations: arguments.max_evaluations,
         ..CalibrateOptions::default()
     };
-    let answer = with_bar(MODEL_RUNS, arguments.max_evaluations, |progress| {
+    let most = arguments.max_evaluations;
+    let usual = usual_runs(arguments.fit.len()).min(most);
+    let told = Once::new();
+    let how_far = |now: Now| {
+        told.call_once(|| tell(&readings, usual, most));
+        let runs = now.share * most as f64;
+        let share = runs / usual as f64;
+        if share < 1.0 {
+            HowFar::new(
+                Now { share, ..now },
+                &format!("{runs:.0} of about {usual} model runs"),
+            )
+        } else {
+            HowFar::unknown(
+                &format!("{runs:.0} model runs, more than usual, at most {most}"),
+                now.elapsed,
+            )
+        }
+    };
+    let keep = |share: f64| {
+        let runs = share * most as f64;
+        stopped(format_args!("nothing is fitted after {runs:.0} model runs"))
+    };
+    let answer = watched(how_far, keep, |progress| {
         let pairs = inputs.iter().zip(&readings);
         let series: Vec<Series<'_>> = pairs
             .map(|(input, readings)| Series {
@@ -150,6 +175,22 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let slips: Vec<String> = inputs.into_iter().flat_map(|input| input.warnings).collect();
     answer.warnings.splice(0..0, slips);
     destination.write(&answer, &answer.fit, || print(&answer, law))
+}
+
+/// Runs of the model that a fit of so many parameters usually takes, measured on one to four; two are fitted where none is named.
+fn usual_runs(parameters: usize) -> usize {
+    let parameters = if parameters == 0 { 2 } else { parameters };
+    16 + 25 * parameters
+}
+
+/// Says what takes so long.
+fn tell(readings: &[Readings], usual: usize, most: usize) {
+    let count: usize = readings.iter().map(|series| series.readings().len()).sum();
+    let passes: u64 = readings.iter().map(Readings::last_pass).sum();
+    let _ = writeln!(
+        terminal::err(),
+        "a fit to {count} readings takes about {usual} runs of the model, at most {most}, each of {passes} passes"
+    );
 }
 
 fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {

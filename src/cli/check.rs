@@ -18,7 +18,7 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::read(&arguments.scene)?;
     let plan = input.located(crate::plan(&input.scene))?;
-    terminal::warn_all(&plan.report().warnings);
+    input.warn_all(&plan.report().warnings);
     let mut out = terminal::out();
     writeln!(
         out,

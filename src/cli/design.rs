@@ -1,15 +1,19 @@
 //! `creepage design`: the springs or the clamp that stay within limits of force and movement.
 
+use std::io::Write;
+use std::sync::{Mutex, PoisonError};
+
 use serde::Serialize;
 
-use super::design_words::{Shown, advice, compared, print};
+use super::design_words::{Shown, advice, compared, print, tried};
 use super::failure::Failure;
 use super::limits::{LimitArguments, place};
-use super::progress::{PER_MILLE, PERCENT, with_bar};
+use super::progress::{HowFar, stopped, watched};
 use super::shared::{Input, Json, TrafficArguments};
-use crate::design::{Design, DesignError, DesignOptions, Place, best, design};
+use super::terminal;
+use crate::design::{Design, DesignError, DesignOptions, Place, TradeOff, best, design, sort};
 use crate::scene::{End, Restraint};
-use crate::{Limits, Progress, Scene};
+use crate::{Limits, Scene};
 
 #[derive(Debug, clap::Args)]
 #[command(
@@ -93,6 +97,7 @@ struct Compared<'a> {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let units = arguments.limits.units(input.file());
+    arguments.limits.warn_of_slips();
     let ways = &arguments.at;
     let everywhere: Vec<Place> = ways.iter().flat_map(|way| way.all()).collect();
     let limits = |way: &Places| -> Result<Limits, Failure> {
@@ -110,13 +115,21 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         })
     };
     let limits = ways.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
-    let designs = with_bar(PERCENT, PER_MILLE, |progress: Progress<'_>| {
+    let units = Shown::new(units);
+    let done = Mutex::new(Vec::new());
+    let how_far = |now| HowFar::new(now, "runs of the scene with one stiffness after the other");
+    let keep = |_| {
+        let done = done.lock().unwrap_or_else(PoisonError::into_inner);
+        keep(arguments, &limits, &done, &input.scene, &units)
+    };
+    let designs = watched(how_far, keep, |progress| {
         let all = ways.len() as f64;
-        let each = ways.iter().zip(limits).enumerate();
+        let each = ways.iter().zip(&limits).enumerate();
         each.map(|(index, (way, limits))| {
-            let mut options = DesignOptions::new(way.0, limits);
+            let mut options = DesignOptions::new(way.0, limits.clone());
             options.second = way.1;
             options.progress = progress.part(index as f64 / all, (index + 1) as f64 / all);
+            options.tried = Some(&done);
             design(&input.scene, &options)
         })
         .collect::<Result<Vec<_>, _>>()
@@ -129,7 +142,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         return Ok(());
     };
     let candidates: &[Design] = if designs.len() > 1 { &designs } else { &[] };
-    let units = Shown::new(units);
     arguments.json.print(&Compared { best, candidates }, || {
         if candidates.is_empty() {
             print(best, &input.scene, &units)
@@ -141,4 +153,41 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Some(_) => Ok(()),
         None => Err(Failure::NotKept(advice(best, &input.scene, &units))),
     }
+}
+
+/// The stiffnesses that were tried before the search was stopped.
+#[derive(Serialize)]
+struct CutShort<'a> {
+    cut_short: bool,
+    curve: &'a [TradeOff],
+}
+
+/// Prints what was tried before the search was stopped.
+fn keep(
+    arguments: &Arguments,
+    limits: &[Limits],
+    done: &[TradeOff],
+    scene: &Scene,
+    units: &Shown,
+) -> Result<(), Failure> {
+    let cut = format!(
+        "cut short after {} runs with other stiffnesses: no answer",
+        done.len()
+    );
+    let mut curve = done.to_vec();
+    sort(&mut curve);
+    let answer = CutShort {
+        cut_short: true,
+        curve: &curve,
+    };
+    arguments.json.print(&answer, || {
+        let mut out = terminal::out();
+        writeln!(out, "{cut}")?;
+        for (way, limits) in arguments.at.iter().zip(limits) {
+            let places: Vec<Place> = way.all().collect();
+            tried(&mut out, &places, limits, &curve, scene, units)?;
+        }
+        Ok(())
+    })?;
+    stopped(cut)
 }

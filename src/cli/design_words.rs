@@ -7,7 +7,7 @@ use super::terminal;
 use crate::design::{Binding, Design, Place, Side, Spring, TradeOff, largest_shown};
 use crate::scene::Unit;
 use crate::shown::percent;
-use crate::{Limited, Scene, Units};
+use crate::{Limited, Limits, Scene, Units};
 
 /// How the words about a design show numbers.
 pub struct Shown {
@@ -86,8 +86,35 @@ pub fn print(design: &Design, scene: &Scene, units: &Shown) -> Result<(), Failur
     };
     let limits: Vec<String> = design.limits.all().map(limit).collect();
     writeln!(out, "limits: {}\n", limits.join("; "))?;
-    table(&mut out, &curve(design, scene, units))?;
+    table(
+        &mut out,
+        &curve(&design.places, &design.limits, &design.curve, scene, units),
+    )?;
     conclusion(&mut out, design, units)
+}
+
+/// What was tried of springs at these places.
+pub fn tried(
+    out: &mut impl Write,
+    held: &[Place],
+    limits: &Limits,
+    points: &[TradeOff],
+    scene: &Scene,
+    units: &Shown,
+) -> std::io::Result<()> {
+    let is_here = |point: &&TradeOff| {
+        point
+            .springs
+            .iter()
+            .map(|spring| spring.place)
+            .eq(held.iter().copied())
+    };
+    let points: Vec<TradeOff> = points.iter().filter(is_here).cloned().collect();
+    if points.is_empty() {
+        return Ok(());
+    }
+    writeln!(out, "{}", places(held))?;
+    table(out, &curve(held, limits, &points, scene, units))
 }
 
 /// Several beside each other, and the best.
@@ -158,22 +185,25 @@ fn places(places: &[Place]) -> String {
 }
 
 /// Every run with the scene's own tolerance.
-fn curve(design: &Design, scene: &Scene, units: &Shown) -> Vec<Vec<String>> {
-    let one = design.places.len() == 1;
+fn curve(
+    held: &[Place],
+    limits: &Limits,
+    points: &[TradeOff],
+    scene: &Scene,
+    units: &Shown,
+) -> Vec<Vec<String>> {
+    let one = held.len() == 1;
     let stiffness = units.stiffness_symbol();
-    let of_springs = design.places.iter().map(|place| match place {
+    let of_springs = held.iter().map(|place| match place {
         _ if one => format!("stiffness, {stiffness}"),
         Place::Clamp(position) => format!("{position} m, {stiffness}"),
         Place::Upstream => format!("upstream, {stiffness}"),
         Place::Downstream => format!("downstream, {stiffness}"),
     });
-    let clamped = design.places.iter().copied().chain(
-        design
-            .limits
-            .clamps
-            .iter()
-            .map(|clamp| Place::Clamp(clamp.position_m)),
-    );
+    let clamped = held
+        .iter()
+        .copied()
+        .chain(limits.clamps.iter().map(|clamp| Place::Clamp(clamp.position_m)));
     let mut places = vec![Place::Upstream, Place::Downstream];
     for place in clamped {
         if !places.contains(&place) {
@@ -195,7 +225,7 @@ fn curve(design: &Design, scene: &Scene, units: &Shown) -> Vec<Vec<String>> {
     let last = std::iter::once("within limits".to_owned());
     let mut rows = vec![of_springs.chain(columns.iter().map(name)).chain(last).collect()];
     let most = largest_shown(scene);
-    for point in &design.curve {
+    for point in points {
         let value = |&(place, quantity): &(Place, Limited)| match point.value(place, quantity) {
             _ if matches!(place, Place::Clamp(_)) && !has(point, place) => "–".to_owned(),
             value if quantity == Limited::Movement && value > most => {

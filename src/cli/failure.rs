@@ -1,8 +1,11 @@
 //! What keeps a command from finishing, what is printed then, and the exit status.
 
 use std::ffi::OsString;
-use std::io::{self, ErrorKind, Write};
+use std::io::{self, Write};
+use std::path::Path;
 use std::process::ExitCode;
+
+use clap::error::ErrorKind;
 
 use super::terminal;
 use crate::output::OutputError;
@@ -58,7 +61,7 @@ impl Failure {
     fn reader_has_left(&self) -> bool {
         match self {
             Self::Output(error) | Self::File(OutputError::StandardOutput(error)) => {
-                error.kind() == ErrorKind::BrokenPipe
+                error.kind() == io::ErrorKind::BrokenPipe
             }
             _ => false,
         }
@@ -89,5 +92,36 @@ pub fn unparsed(error: &clap::Error) -> Result<(), Failure> {
     } else {
         let _ = writeln!(terminal::err(), "{}", terminal::cut(text.trim_end()));
     }
+    if let Some(advice) = advice(error.kind()) {
+        let _ = writeln!(terminal::err(), "\n{advice}");
+    }
     Err(Failure::Unparsed)
+}
+
+/// What was probably meant by arguments that are none.
+fn advice(kind: ErrorKind) -> Option<String> {
+    let arguments: Vec<String> = std::env::args_os()
+        .map(|argument| argument.to_string_lossy().into_owned())
+        .collect();
+    match kind {
+        ErrorKind::InvalidSubcommand => {
+            let is_scene =
+                |name: &&String| Path::new(name).extension().is_some_and(|ending| ending == "toml");
+            let scene = arguments.get(1).filter(is_scene)?;
+            Some(format!(
+                "A command stands before the scene: creepage run {}",
+                terminal::line(scene)
+            ))
+        }
+        ErrorKind::UnknownArgument => {
+            let place = arguments.iter().position(|argument| argument == "--set")?;
+            let [key, value] = arguments.get(place + 1..place + 3)? else {
+                return None;
+            };
+            let parted = !key.contains('=') && !value.starts_with('-');
+            let (key, value) = (terminal::line(key), terminal::line(value));
+            parted.then(|| format!("--set takes KEY=VALUE without a space: --set {key}={value}"))
+        }
+        _ => None,
+    }
 }

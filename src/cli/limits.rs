@@ -1,6 +1,7 @@
 //! Limits of force and movement on the command line.
 
 use super::failure::Failure;
+use super::terminal;
 use crate::scene::{Dimension, End, Unit};
 use crate::{CableEnd, ClampLimits, EndLimits, Limits, Place, Scene, SceneFile, Units};
 
@@ -67,7 +68,29 @@ pub fn place(text: &str) -> Option<Place> {
     }
 }
 
+/// Smallest force \[N\] and largest movement \[m\] that a limit is likely to be.
+const LEAST_FORCE: f64 = 10.0;
+const MOST_MOVEMENT: f64 = 1.0;
+
 impl LimitArguments {
+    /// Warns of bare numbers that were probably meant in another unit.
+    pub fn warn_of_slips(&self) {
+        for Limit { value, .. } in self.limit_force.iter().filter(|limit| limit.value < LEAST_FORCE) {
+            terminal::warn(format_args!(
+                "--limit-force is {value} N: did you mean {value}kN?"
+            ));
+        }
+        for Limit { value, .. } in self
+            .limit_movement
+            .iter()
+            .filter(|limit| limit.value > MOST_MOVEMENT)
+        {
+            terminal::warn(format_args!(
+                "--limit-movement is {value} m: did you mean {value}mm?"
+            ));
+        }
+    }
+
     pub fn are_given(&self) -> bool {
         !self.limit_force.is_empty() || !self.limit_movement.is_empty()
     }
@@ -81,10 +104,11 @@ impl LimitArguments {
     /// The limits of the cable of `scene`. Without a name a limit is that of the ends that are not free; what is named counts before what
     /// is not, and a clamp's own limit before that of all clamps.
     pub fn limits(&self, scene: &Scene) -> Result<Limits, Failure> {
+        self.warn_of_slips();
         self.limits_beside(scene, &[])
     }
 
-    /// The same; there may also be limits of clamps `elsewhere`, which are left out.
+    /// The same without warnings; there may also be limits of clamps `elsewhere`, which are left out.
     pub fn limits_beside(&self, scene: &Scene, elsewhere: &[Place]) -> Result<Limits, Failure> {
         let held = |end: CableEnd| match end {
             CableEnd::Upstream => scene.ends.upstream != End::Free,

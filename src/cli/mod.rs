@@ -18,6 +18,7 @@ mod readings;
 #[cfg(feature = "plot")]
 mod report;
 mod run;
+mod run_progress;
 mod shared;
 mod signals;
 mod sweep;
@@ -80,7 +81,8 @@ enum Command {
 }
 
 /// Stands at the end of every help.
-const EXIT_STATUS: &str = "Exit status: 0 done; 1 the computation failed; 2 bad input or usage.";
+const EXIT_STATUS: &str =
+    "Exit status: 0 done; 1 the computation failed; 2 bad input or usage; 130 stopped by Ctrl-C.";
 
 /// The command line, whose every help ends with the exit status.
 fn command_line() -> clap::Command {
@@ -95,7 +97,7 @@ fn command_line() -> clap::Command {
     with_status(Arguments::command()).mut_subcommands(with_status)
 }
 
-/// Runs the command with the process's arguments. Exit status: 0 done; 1 the computation failed; 2 bad input or usage.
+/// Runs the command with the process's arguments. Exit status: 0 done; 1 the computation failed; 2 bad input or usage; 130 stopped by Ctrl-C.
 pub fn main() -> ExitCode {
     let parsed = command_line()
         .try_get_matches()

@@ -3,6 +3,7 @@
 use std::io::Write;
 
 use super::failure::Failure;
+use super::progress::{HowFar, Now, stopped, watched};
 use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
 use crate::error::with_causes;
@@ -23,9 +24,13 @@ pub struct Arguments {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
-    let plan = input.located(crate::plan(&input.scene))?;
-    let forecast = crate::forecast(&plan);
-    let mut plan = plan.report();
+    let how_far = |now: Now| HowFar::unknown("choosing ground, method and mesh", now.elapsed);
+    let keep = |_| stopped("nothing is planned");
+    let (mut plan, forecast) = watched(how_far, keep, |_| {
+        let plan = input.located(crate::plan(&input.scene))?;
+        let forecast = crate::forecast(&plan);
+        Ok::<_, Failure>((plan.report(), forecast))
+    })?;
     match forecast {
         Ok(forecast) => foresee(&mut plan, forecast.seconds),
         Err(error) => plan.warnings.push(format!(
@@ -39,6 +44,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 
 /// The time of what is chosen is that of the whole run, not of its first mesh.
 fn foresee(plan: &mut PlanReport, seconds: f64) {
+    // It is right within a factor of two: more digits say nothing.
+    let seconds = format!("{seconds:.1e}").parse().unwrap_or(seconds);
     plan.estimated_seconds = seconds;
     let chosen = |candidate: &&mut Candidate| candidate.chosen && candidate.part == Part::Cable;
     if let Some(candidate) = plan.candidates.iter_mut().find(chosen) {

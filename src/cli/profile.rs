@@ -5,6 +5,7 @@ use std::io::Write;
 use serde::Serialize;
 
 use super::failure::Failure;
+use super::progress::{HowFar, Now, stopped, watched};
 use super::shared::{Input, OutputArguments, SceneArguments};
 use super::terminal;
 use crate::Profile;
@@ -28,7 +29,9 @@ pub struct Arguments {
 fn finite(text: &str) -> Result<f64, String> {
     match text.trim().parse::<f64>() {
         Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(format!("found \"{text}\"; allowed: a finite number in m")),
+        _ => Err(format!(
+            "found \"{text}\"; allowed: positions in m with commas between them, such as 0,0.5,1"
+        )),
     }
 }
 
@@ -46,10 +49,13 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let read = [Some(&*arguments.scene.scene), table.as_deref()];
     let mut files = arguments.output.files(read.into_iter().flatten());
     let destination = arguments.output.destination(Kind::Motion, &mut files)?;
-    let answer = input.located(match &arguments.positions {
+    let how_far = |now: Now| HowFar::unknown("computing the ground", now.elapsed);
+    let keep = |_| stopped("nothing is computed");
+    let answer = watched(how_far, keep, |_| match &arguments.positions {
         Some(positions) => crate::profile_at(&input.scene, positions),
         None => crate::profile(&input.scene),
-    })?;
+    });
+    let answer = input.located(answer)?;
     let rows = (0..answer.positions_m.len()).map(|i| Row {
         position_m: answer.positions_m[i],
         longitudinal_m: answer.longitudinal_m[i],

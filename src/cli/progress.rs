@@ -1,39 +1,182 @@
-//! Progress bars on a terminal.
+//! How far a computation is, and what happens when it is stopped.
+//!
+//! The command computes in a thread of its own, while this one shows how far it is and heeds Ctrl-C: whatever the computation does, the
+//! process ends at once, and what it had finished is printed before.
 
-use std::io::{self, IsTerminal};
+use std::cell::Cell;
+use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
-use std::sync::Once;
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
+use super::failure::Failure;
+use super::{signals, terminal};
 use crate::Progress;
+use crate::shown::time;
 
-/// A bar with the percentage done.
-pub const PERCENT: &str = "{bar:40} {percent} %, {eta} left";
-/// A bar that counts the points of a sweep.
-pub const POINTS: &str = "{bar:40} {pos}/{len} points, {eta} left";
-/// A count of model runs; how many are needed is not known before.
-pub const MODEL_RUNS: &str = "{spinner} {pos} model runs";
-/// Steps of a bar of percentages.
-pub const PER_MILLE: usize = 1000;
+/// How often signals are looked for.
+const TICK: Duration = Duration::from_millis(25);
+/// What takes no longer is not shown; where nobody watches, a line is written every few seconds.
+const UNSEEN: Duration = Duration::from_secs(2);
+const BETWEEN_LINES: Duration = Duration::from_secs(5);
+/// Steps of a bar.
+const STEPS: u64 = 1000;
 
-/// Computes something with a bar of `length` steps that looks like `template`, on a terminal only.
-pub fn with_bar<T>(template: &str, length: usize, compute: impl FnOnce(Progress<'_>) -> T) -> T {
-    if !io::stderr().is_terminal() {
-        return compute(Progress::default());
+/// What a computation has reported, and how long it has taken.
+#[derive(Clone, Copy)]
+pub struct Now {
+    /// The share of the work that is done, and that which was done at the start.
+    pub share: f64,
+    pub first: f64,
+    pub elapsed: Duration,
+}
+
+/// How far a computation is.
+pub struct HowFar {
+    /// The share of the work that is done, where it is known.
+    pub share: Option<f64>,
+    /// In words, with the time left.
+    pub words: String,
+}
+
+impl HowFar {
+    /// A share of the work in words, and the time that the rest takes at the same speed.
+    pub fn new(now: Now, words: &str) -> Self {
+        let Now {
+            share,
+            first,
+            elapsed,
+        } = now;
+        let left = elapsed.as_secs_f64() * (1.0 - share) / (share - first);
+        if !left.is_finite() {
+            return Self::unknown(words, elapsed);
+        }
+        Self {
+            share: Some(share),
+            words: format!("{words}, about {} left", rounded(left.max(1.0))),
+        }
     }
-    let bar = ProgressBar::new(length as u64);
-    if let Ok(style) = ProgressStyle::with_template(template) {
-        bar.set_style(style);
+
+    /// A computation that does not say how far it is.
+    pub fn unknown(words: &str, elapsed: Duration) -> Self {
+        Self {
+            share: None,
+            words: format!("{words}, {} so far", rounded(elapsed.as_secs_f64())),
+        }
     }
-    let begun = Once::new();
-    let show = |share: f64| {
-        bar.set_position((share * length as f64).round() as u64);
-        // What an earlier run had done took no time of this one.
-        begun.call_once(|| bar.reset_eta());
+
+    fn line(&self) -> String {
+        let percent = |share: f64| format!("{:.0} %, ", 100.0 * share);
+        format!("{}{}", self.share.map_or_else(String::new, percent), self.words)
+    }
+}
+
+/// A time in whole seconds, minutes or hours.
+pub fn rounded(seconds: f64) -> String {
+    if seconds < 100.0 {
+        format!("{seconds:.0} s")
+    } else {
+        time(seconds.max(120.0))
+    }
+}
+
+/// Computes something and shows how far it is, in the words of `how_far`. Where the process is asked to stop, `keep` prints what is finished,
+/// with the share of the work that is done, and this never returns.
+pub fn watched<A: Send>(
+    how_far: impl Fn(Now) -> HowFar,
+    keep: impl FnOnce(f64) -> Result<(), Failure>,
+    compute: impl FnOnce(Progress<'_>) -> A + Send,
+) -> A {
+    let watch = signals::Watch::new();
+    let share = AtomicU64::new(0.0_f64.to_bits());
+    let first = OnceLock::new();
+    let report = |now: f64| {
+        first.get_or_init(|| now);
+        share.store(now.to_bits(), Ordering::Relaxed);
         ControlFlow::Continue(())
     };
-    let answer = compute(Progress::new(&show));
-    bar.finish_and_clear();
-    answer
+    thread::scope(|scope| {
+        let (send, receive) = channel();
+        let progress = Progress::new(&report);
+        let worker = scope.spawn(move || {
+            let _ = send.send(compute(progress));
+        });
+        let begun = Instant::now();
+        let screen = Screen::default();
+        let answer = loop {
+            match receive.recv_timeout(TICK) {
+                Ok(answer) => break answer,
+                Err(RecvTimeoutError::Disconnected) => match worker.join() {
+                    Err(panic) => std::panic::resume_unwind(panic),
+                    Ok(()) => unreachable!("it sends before it ends"),
+                },
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+            if let Some(signal) = watch.asked() {
+                screen.clear();
+                // Whoever reads it may be stopped too.
+                let _ = keep(f64::from_bits(share.load(Ordering::Relaxed)));
+                let _ = io::stdout().flush();
+                signals::end(signal);
+            }
+            let now = Now {
+                share: f64::from_bits(share.load(Ordering::Relaxed)),
+                first: first.get().copied().unwrap_or_default(),
+                elapsed: begun.elapsed(),
+            };
+            if now.elapsed > UNSEEN {
+                screen.show(now.elapsed, || how_far(now));
+            }
+        };
+        screen.clear();
+        answer
+    })
+}
+
+/// Where it is shown: as a bar at a terminal, else line by line.
+#[derive(Default)]
+struct Screen {
+    bar: Cell<Option<ProgressBar>>,
+    /// When the next line is due.
+    due: Cell<Duration>,
+}
+
+impl Screen {
+    fn show(&self, elapsed: Duration, how_far: impl FnOnce() -> HowFar) {
+        if !io::stderr().is_terminal() {
+            if elapsed >= self.due.get() {
+                self.due.set(elapsed + BETWEEN_LINES);
+                let _ = writeln!(terminal::err(), "progress: {}", how_far().line());
+            }
+            return;
+        }
+        let bar = self.bar.take().unwrap_or_else(|| ProgressBar::new(STEPS));
+        let HowFar { share, words } = how_far();
+        let template = match share {
+            Some(_) => "{bar:20} {percent} %, {wide_msg}",
+            None => "{spinner} {wide_msg}",
+        };
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            bar.set_style(style);
+        }
+        bar.set_message(words);
+        bar.set_position((share.unwrap_or(0.0) * STEPS as f64) as u64);
+        self.bar.set(Some(bar));
+    }
+
+    fn clear(&self) {
+        if let Some(bar) = self.bar.take() {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+/// Says on standard error that a command was stopped, and what there is of its work.
+pub fn stopped(words: impl std::fmt::Display) -> Result<(), Failure> {
+    Ok(writeln!(terminal::err(), "stopped: {words}")?)
 }

@@ -1,5 +1,6 @@
 //! `creepage report`: a scene's answer as one page of HTML.
 
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
@@ -7,7 +8,7 @@ use chrono::{DateTime, Utc};
 
 use super::failure::Failure;
 use super::limits::LimitArguments;
-use super::progress::{PER_MILLE, PERCENT, with_bar};
+use super::progress::{HowFar, stopped, watched};
 use super::readings::ReadArguments;
 use super::shared::{Force, Input, TrafficArguments};
 use super::terminal;
@@ -45,6 +46,27 @@ pub struct Arguments {
     reading: ReadArguments,
 }
 
+/// Formats that somebody may expect by the name's ending, and none of which this is.
+const OTHER_FORMATS: [&str; 7] = ["csv", "docx", "json", "pdf", "png", "svg", "xlsx"];
+
+impl Arguments {
+    /// Refuses a page by the name of another format, which no program would open.
+    fn page_is_html(&self) -> Result<(), Failure> {
+        let ending = self.output.extension().map(OsStr::to_ascii_lowercase);
+        if OTHER_FORMATS
+            .iter()
+            .any(|other| ending.as_deref() == Some(other.as_ref()))
+        {
+            return Err(Failure::Usage {
+                argument: "--output",
+                found: self.output.display().to_string(),
+                allowed: "a page of HTML, such as my-duct.html, which a browser also prints to PDF".into(),
+            });
+        }
+        Ok(())
+    }
+}
+
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let limits = arguments.limits.limits(&input.scene)?;
@@ -67,7 +89,10 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let date = date()?;
     let mut files = arguments.force.files(read.into_iter().flatten());
     let page = files.output(&arguments.output, Kind::Page)?;
-    let report = with_bar(PERCENT, PER_MILLE, |progress| {
+    arguments.page_is_html()?;
+    let how_far = |now| HowFar::new(now, "the scene's run, then ways to hold the cable");
+    let keep = |_| stopped("no page is written");
+    let report = watched(how_far, keep, |progress| {
         Report::new(
             &input.scene,
             &ReportOptions {
@@ -83,7 +108,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         )
     });
     let report = input.located(report)?;
-    terminal::warn_all(&report.run().warnings);
+    input.warn_all(&report.run().warnings);
     Ok(page.write(|out| out.write_all(report.to_html().as_bytes()))?)
 }
 

@@ -7,8 +7,9 @@ use serde::Serialize;
 use super::days;
 use super::failure::Failure;
 use super::limits::LimitArguments;
-use super::progress::{PER_MILLE, PERCENT, with_bar};
-use super::shared::{Input, OutputArguments, TrafficArguments};
+use super::progress::{stopped, watched};
+use super::run_progress::RunProgress;
+use super::shared::{Destination, Input, OutputArguments, TrafficArguments};
 use super::terminal;
 #[cfg(feature = "xlsx")]
 use super::workbook::WorkbookArguments;
@@ -16,7 +17,9 @@ use crate::answer::{after, table_rows};
 use crate::output::Kind;
 use crate::scene::Traffic;
 use crate::shown::{exact, percent};
-use crate::{Limits, PassRecord, Reached, Run, RunOptions, Units, Verdict};
+use crate::{
+    CutShort, DuctMotionSummary, Limits, PassRecord, Reached, Run, RunOptions, Underway, Units, Verdict,
+};
 
 #[derive(Debug, clap::Args)]
 #[command(
@@ -82,19 +85,30 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let destination = arguments.output.destination(Kind::Passes, &mut files)?;
     #[cfg(feature = "xlsx")]
     let workbook = arguments.workbook.destination(&mut files)?;
-    let answer = with_bar(PERCENT, PER_MILLE, |progress| {
-        let options = RunOptions {
-            verify: arguments.verify,
-            progress,
-            ..RunOptions::default()
-        };
-        crate::run_with(&input.scene, &options)
-    });
+    let units = arguments.limits.units(input.file());
+    let underway = Underway::default();
+    let shown = RunProgress::new(&input.scene, &underway);
+    let keep = |_| match underway.finished() {
+        Some(finished) => keep(&finished, &input.scene.traffic, &destination, &units),
+        None => stopped("no pass is finished that could be shown"),
+    };
+    let answer = watched(
+        |now| shown.how_far(now),
+        keep,
+        |progress| {
+            let options = RunOptions {
+                verify: arguments.verify,
+                progress,
+                underway: Some(&underway),
+                ..RunOptions::default()
+            };
+            crate::run_with(&input.scene, &options)
+        },
+    );
     let mut answer = input.located(answer)?;
     let traffic = input.scene.traffic.clone();
     #[cfg(feature = "xlsx")]
     let file = input.file().clone();
-    let units = arguments.limits.units(input.file());
     input.warn(&mut answer.warnings);
     let judgement = arguments
         .limits
@@ -112,12 +126,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             .map_or(&[][..], |judgement| &judgement.limits);
         workbook.write(&answer, verdicts, &file, &units)?;
     }
-    // A column that only some rows have is none of a table.
-    let rows = answer.passes.iter().map(|record| PassRecord {
-        interpolated: false,
-        ..*record
-    });
-    destination.write(&judged, rows, || {
+    destination.write(&judged, rows(&answer.passes), || {
         print(&answer, &traffic, &units)?;
         let mut out = terminal::out();
         for verdict in judged.judgement.iter().flat_map(|judgement| &judgement.limits) {
@@ -125,6 +134,35 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         }
         Ok(())
     })
+}
+
+/// The rows of a table. A column that only some rows have is none of it.
+fn rows(passes: &[PassRecord]) -> impl Iterator<Item = PassRecord> {
+    passes.iter().map(|record| PassRecord {
+        interpolated: false,
+        ..*record
+    })
+}
+
+/// Prints the passes of a run that was stopped. No file is written: an older one is whole.
+fn keep(
+    finished: &CutShort,
+    traffic: &Traffic,
+    destination: &Destination,
+    units: &Units,
+) -> Result<(), Failure> {
+    let last = finished.passes.last().map_or(0, |record| record.pass);
+    let cut = format!(
+        "cut short after pass {last} of {}, on nodes {:.3} m apart: the error is not known",
+        traffic.passes, finished.plan.node_spacing_m
+    );
+    destination.print(finished, rows(&finished.passes), || {
+        let mut out = terminal::out();
+        heading(&mut out, &finished.title, &finished.duct_motion)?;
+        writeln!(out, "{cut}")?;
+        Ok(table(&mut out, &finished.passes, traffic, units)?)
+    })?;
+    stopped(cut)
 }
 
 /// The time of a pass behind its number, where it is known.
@@ -136,18 +174,22 @@ fn in_time(traffic: &Traffic, pass: u64) -> String {
 /// Forces that differ by a smaller share are the same to a reader.
 const NOTICEABLE: f64 = 0.01;
 
+fn heading(out: &mut impl Write, title: &str, motion: &DuctMotionSummary) -> std::io::Result<()> {
+    writeln!(out, "{}", terminal::line(title))?;
+    writeln!(
+        out,
+        "duct motion: {:.2} µm along, {:.1} µm down",
+        1e6 * motion.peak_longitudinal_m,
+        1e6 * motion.peak_vertical_m
+    )
+}
+
 fn print(run: &Run, traffic: &Traffic, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
     let (force, metres) = (|value| units.force(value), units.length.symbol());
     let length = |value| units.length.of_si(value);
-    writeln!(out, "{}", terminal::line(&run.title))?;
-    writeln!(
-        out,
-        "duct motion: {:.2} µm along, {:.1} µm down",
-        1e6 * run.duct_motion.peak_longitudinal_m,
-        1e6 * run.duct_motion.peak_vertical_m
-    )?;
-    table(&mut out, run, traffic, units)?;
+    heading(&mut out, &run.title, &run.duct_motion)?;
+    table(&mut out, &run.passes, traffic, units)?;
     if let Some(heat) = &run.heat {
         days::print(&mut out, &run.days, heat, units)?;
     }
@@ -221,7 +263,12 @@ fn print(run: &Run, traffic: &Traffic, units: &Units) -> Result<(), Failure> {
 }
 
 /// Forces and movements after some passes.
-fn table(out: &mut impl Write, run: &Run, traffic: &Traffic, units: &Units) -> std::io::Result<()> {
+fn table(
+    out: &mut impl Write,
+    passes: &[PassRecord],
+    traffic: &Traffic,
+    units: &Units,
+) -> std::io::Result<()> {
     // A column of times where they are known.
     let time = |text: &str| {
         traffic
@@ -248,7 +295,7 @@ fn table(out: &mut impl Write, run: &Run, traffic: &Traffic, units: &Units) -> s
         "downstream",
         format!("in cable, {}", units.force.symbol())
     )?;
-    for record in table_rows(&run.passes, traffic) {
+    for record in table_rows(passes, traffic) {
         writeln!(
             out,
             "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}",

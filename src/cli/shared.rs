@@ -19,8 +19,18 @@ pub struct SceneArguments {
     pub scene: PathBuf,
     /// Override a key of the scene (`creepage explain` lists them), such as friction.dynamic_coefficient=0.3; a number without a unit is
     /// SI; may be repeated
-    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    #[arg(long, value_name = "KEY=VALUE", allow_hyphen_values = true, value_parser = key_and_value)]
     pub set: Vec<String>,
+}
+
+/// Says at once that an override has no `=`, before what stands behind it is taken for an argument.
+fn key_and_value(text: &str) -> Result<String, String> {
+    if text.contains('=') {
+        return Ok(text.to_owned());
+    }
+    Err(format!(
+        "found `--set {text}` without `=`; allowed: KEY=VALUE without a space, such as friction.dynamic_coefficient=0.3"
+    ))
 }
 
 /// A scene whose traffic may be given in years.
@@ -123,9 +133,20 @@ impl Input {
         answer.map_err(|error| Failure::Analysis(error.located(&self.file)))
     }
 
+    /// Warns of what an answer warns of, with the line of the key that a warning begins with.
+    pub fn warn_all(&self, warnings: &[String]) {
+        for warning in warnings {
+            let key = warning.strip_prefix('`').and_then(|rest| rest.split('`').next());
+            match key.and_then(|key| self.file.locate(key)) {
+                Some(location) => terminal::warn(format_args!("{location}: {warning}{}", location.excerpt())),
+                None => terminal::warn(warning),
+            }
+        }
+    }
+
     /// Warns of what the answer warns of, and adds to it the warnings of the scene.
     pub fn warn(self, warnings: &mut Vec<String>) {
-        terminal::warn_all(warnings);
+        self.warn_all(warnings);
         warnings.splice(0..0, self.warnings);
     }
 }
@@ -142,7 +163,7 @@ pub fn warn_of_slips(file: &SceneFile) -> Vec<String> {
 impl Force {
     /// What a command reads and writes. When the process is stopped, nothing half written is left.
     pub fn files<'p>(&self, read: impl IntoIterator<Item = &'p Path>) -> Files {
-        signals::clean_up_when_stopped();
+        signals::listen();
         Files::reading(read, self.force)
     }
 }
@@ -208,6 +229,19 @@ impl OutputArguments {
 }
 
 impl Destination {
+    /// Prints an answer that is not whole, which no file is replaced by.
+    pub fn print<T: Serialize, R: Serialize>(
+        &self,
+        answer: &T,
+        rows: impl IntoIterator<Item = R>,
+        print: impl FnOnce() -> Result<(), Failure>,
+    ) -> Result<(), Failure> {
+        match &self.table {
+            Table::StandardOutput => Ok(std::io::stdout().lock().write_all(&csv(rows)?)?),
+            _ => self.json.print(answer, print),
+        }
+    }
+
     /// Writes the answer and its table, one row a record with the record's fields as columns.
     pub fn write<T: Serialize, R: Serialize>(
         &self,

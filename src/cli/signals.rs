@@ -1,46 +1,117 @@
-//! What is done when the process is asked to stop: what it has half written goes, and then it ends as it would have.
+//! What is done when the process is asked to stop: what it has half written goes, and what it has finished may be printed first.
 
-/// Removes temporary files when a signal ends the process. A signal that is ignored, as under `nohup`, stays so.
 #[cfg(unix)]
-pub fn clean_up_when_stopped() {
-    use std::sync::Once;
+pub use unix::{Watch, end, listen};
 
+#[cfg(unix)]
+mod unix {
+    use std::ffi::c_int;
+    use std::sync::Once;
+    use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
+    use std::time::{Duration, Instant};
+
+    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
-    static ONCE: Once = Once::new();
-    ONCE.call_once(|| {
-        // Without this a stopped process leaves a file behind, and nothing worse.
-        let Ok(mut signals) = Signals::new(heeded()) else {
-            return;
-        };
-        std::thread::spawn(move || {
-            if let Some(signal) = signals.forever().next() {
-                let _until_the_end = crate::output::remove_all();
-                let _ = emulate_default_handler(signal);
-            }
+    /// Signals that come together are one: `timeout` sends its own to the process and to its group.
+    const ONE: Duration = Duration::from_millis(200);
+
+    /// Whether somebody waits for signals, and the one that came.
+    static WATCHED: AtomicBool = AtomicBool::new(false);
+    static ASKED: AtomicI32 = AtomicI32::new(0);
+
+    /// Removes temporary files when a signal ends the process. A signal that is ignored, as under `nohup`, stays so.
+    pub fn listen() {
+        static ONCE: Once = Once::new();
+        ONCE.call_once(|| {
+            // Without this a stopped process leaves a file behind, and nothing worse.
+            let Ok(mut signals) = Signals::new(heeded()) else {
+                return;
+            };
+            std::thread::spawn(move || {
+                let mut asked = None;
+                for signal in signals.forever() {
+                    let is_told = signal != SIGHUP && WATCHED.load(Ordering::SeqCst);
+                    // Who asks twice does not want to wait.
+                    let first = *asked.get_or_insert_with(Instant::now);
+                    if !is_told || first.elapsed() > ONE {
+                        end(signal);
+                    }
+                    ASKED.store(signal, Ordering::SeqCst);
+                }
+            });
         });
-    });
+    }
+
+    /// While this lives, the first Ctrl-C or SIGTERM does not end the process but is told.
+    pub struct Watch(());
+
+    impl Watch {
+        pub fn new() -> Self {
+            listen();
+            WATCHED.store(true, Ordering::SeqCst);
+            Self(())
+        }
+
+        /// The signal that asks the process to stop.
+        #[expect(clippy::unused_self, reason = "signals are told only while it lives")]
+        pub fn asked(&self) -> Option<c_int> {
+            Some(ASKED.load(Ordering::SeqCst)).filter(|&signal| signal != 0)
+        }
+    }
+
+    impl Drop for Watch {
+        fn drop(&mut self) {
+            WATCHED.store(false, Ordering::SeqCst);
+        }
+    }
+
+    /// Removes temporary files and ends the process: with status 130 after Ctrl-C, as shells say it, else by the signal.
+    pub fn end(signal: c_int) -> ! {
+        let _until_the_end = crate::output::remove_all();
+        if signal != SIGINT {
+            let _ = emulate_default_handler(signal);
+        }
+        std::process::exit(128 + signal)
+    }
+
+    /// The signals that ask a process to stop, without those that it ignores. Where the system does not say which these are, a closed
+    /// terminal is left alone: a long sweep under `nohup` counts for more than a file that is left.
+    fn heeded() -> Vec<c_int> {
+        match std::fs::read_to_string("/proc/self/status") {
+            Ok(status) => {
+                let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+                let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+                let ignored = ignored.unwrap_or_default();
+                let mut signals = vec![SIGHUP, SIGINT, SIGTERM];
+                signals.retain(|signal| ignored & (1 << (signal - 1)) == 0);
+                signals
+            }
+            Err(_) => vec![SIGINT, SIGTERM],
+        }
+    }
+}
+
+/// Elsewhere the system ends the process.
+#[cfg(not(unix))]
+pub fn listen() {}
+
+#[cfg(not(unix))]
+pub struct Watch;
+
+#[cfg(not(unix))]
+impl Watch {
+    pub fn new() -> Self {
+        Self
+    }
+
+    pub fn asked(&self) -> Option<i32> {
+        None
+    }
 }
 
 #[cfg(not(unix))]
-pub fn clean_up_when_stopped() {}
-
-/// The signals that ask a process to stop, without those that it ignores. Where the system does not say which these are, a closed
-/// terminal is left alone: a long sweep under `nohup` counts for more than a file that is left.
-#[cfg(unix)]
-fn heeded() -> Vec<std::ffi::c_int> {
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
-
-    match std::fs::read_to_string("/proc/self/status") {
-        Ok(status) => {
-            let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-            let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
-            let ignored = ignored.unwrap_or_default();
-            let mut signals = vec![SIGHUP, SIGINT, SIGTERM];
-            signals.retain(|signal| ignored & (1 << (signal - 1)) == 0);
-            signals
-        }
-        Err(_) => vec![SIGINT, SIGTERM],
-    }
+pub fn end(signal: i32) -> ! {
+    std::process::exit(128 + signal)
 }

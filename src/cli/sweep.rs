@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::progress::{POINTS, with_bar};
+use super::progress::{HowFar, Now, stopped, watched};
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
 use crate::Units;
@@ -101,7 +101,16 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     #[cfg(feature = "plot")]
     let add = |row: &Row| map.iter().for_each(|(_, map)| map.add(row));
-    let summary = with_bar(POINTS, sweep.count(), |progress| {
+    let count = sweep.count();
+    let points = |share: f64| format!("{:.0} of {count} points", share * count as f64);
+    let how_far = |now: Now| HowFar::new(now, &points(now.share));
+    let keep = |share| {
+        let (points, out) = (points(share), arguments.out.display());
+        stopped(format_args!(
+            "{points} are kept beside {out}; the same command goes on from there"
+        ))
+    };
+    let summary = watched(how_far, keep, |progress| {
         let options = SweepOptions {
             threads: arguments.threads.map(usize::from),
             force: arguments.force.force,

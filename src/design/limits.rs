@@ -2,38 +2,8 @@
 
 use super::trade_off::Spring;
 use crate::scene::{End, Restraint};
-use crate::{Error, Limited, Limits, Place, Progress, Scene};
-
-/// How to design.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct DesignOptions<'a> {
-    /// Where the spring is.
-    pub place: Place,
-    /// Where a second one is, if two are wanted at once.
-    pub second: Option<Place>,
-    /// What they have to stay within.
-    pub limits: Limits,
-    /// Called after each run of the scene; it may stop the search.
-    pub progress: Progress<'a>,
-}
-
-impl DesignOptions<'_> {
-    /// A spring at `place` that stays within `limits`.
-    pub fn new(place: Place, limits: Limits) -> Self {
-        Self {
-            place,
-            second: None,
-            limits,
-            progress: Progress::default(),
-        }
-    }
-
-    /// Where springs are.
-    pub(super) fn places(&self) -> Vec<Place> {
-        std::iter::once(self.place).chain(self.second).collect()
-    }
-}
+use super::options::DesignOptions;
+use crate::{Error, Limited, Place, Scene};
 
 /// Error of a design.
 #[derive(Debug, thiserror::Error)]
@@ -151,7 +121,7 @@ impl Place {
                 Err(DesignError::Invalid {
                     name: "position of the clamp",
                     found: position,
-                    allowed: "a position in the duct, from 0 to its length",
+                    allowed: "a position in the duct, from 0 m to its length",
                 })
             }
             _ => Ok(()),

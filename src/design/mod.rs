@@ -21,6 +21,7 @@
 
 mod compare;
 mod limits;
+mod options;
 mod pair;
 mod runs;
 mod search;
@@ -28,6 +29,8 @@ mod trade_off;
 
 pub use crate::{ClampLimits, Limits, Place};
 pub use compare::{Measure, compare};
-pub use limits::{DesignError, DesignOptions};
+pub use limits::DesignError;
+pub use options::DesignOptions;
+pub use runs::sort;
 pub use search::design;
 pub use trade_off::{Binding, ClampPeak, Design, Side, Spring, TradeOff, best, largest_shown};

@@ -9,7 +9,8 @@
 
 use rayon::prelude::*;
 
-use super::limits::{DesignError, DesignOptions};
+use super::limits::DesignError;
+use super::options::DesignOptions;
 use super::runs::{Runs, stiffnesses};
 use super::trade_off::{Design, TradeOff};
 use crate::{CableEnd, Error, Limited, Limits, Place, Progress, Scene};
@@ -37,7 +38,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     let mut rough = scene.clone();
     rough.solver.tolerance = scene.solver.tolerance.max(ROUGH);
     let progress = options.progress.part(0.0, ROUGH_SHARE);
-    let runs = Runs::new(&rough, places.clone(), limits, progress, all + 1)?;
+    let runs = Runs::new(&rough, options, progress, all + 1)?;
     let points = (0..all)
         .into_par_iter()
         .map(|index| {
@@ -54,7 +55,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         aim: Aim::new(limits),
     };
     let progress: Progress<'_> = options.progress.part(ROUGH_SHARE, 1.0);
-    let runs = Runs::new(scene, places.clone(), limits, progress, MOST_RUNS + 1)?;
+    let runs = Runs::new(scene, options, progress, MOST_RUNS + 1)?;
     map.follow(&runs)?;
     let points = runs.points().clone();
     let best = |points: &mut dyn Iterator<Item = &TradeOff>| {

@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::limits::held;
+use super::options::DesignOptions;
 use super::trade_off::{Spring, TradeOff};
 use crate::{Error, Limits, Place, Progress, RunOptions, Scene};
 
@@ -18,25 +19,27 @@ pub struct Runs<'a> {
     places: Vec<Place>,
     limits: &'a Limits,
     progress: Progress<'a>,
+    tried: Option<&'a Mutex<Vec<TradeOff>>>,
     expected: usize,
     points: Mutex<Vec<TradeOff>>,
     count: AtomicUsize,
 }
 
 impl<'a> Runs<'a> {
-    /// For springs at `places`; `expected` runs are all of the progress.
+    /// Of `scene`; `expected` runs are all of the progress.
     pub fn new(
         scene: &Scene,
-        places: Vec<Place>,
-        limits: &'a Limits,
+        options: &'a DesignOptions<'a>,
         progress: Progress<'a>,
         expected: usize,
     ) -> Result<Self, Error> {
+        let places = options.places();
         Ok(Self {
             scene: on_one_mesh(scene, &places, progress)?,
             places,
-            limits,
+            limits: &options.limits,
             progress,
+            tried: options.tried,
             expected,
             points: Mutex::default(),
             // That of the mesh.
@@ -56,6 +59,10 @@ impl<'a> Runs<'a> {
         let run = crate::run(&held(&self.scene, &springs))?;
         let point = TradeOff::of(&self.scene, &run, &springs, self.limits);
         self.points().push(point.clone());
+        if let Some(tried) = self.tried {
+            let mut tried = tried.lock().unwrap_or_else(PoisonError::into_inner);
+            tried.push(point.clone());
+        }
         let count = self.count.fetch_add(1, Ordering::Relaxed);
         let share = count as f64 / self.expected as f64;
         self.progress.report(share.min(1.0))?;
@@ -87,11 +94,16 @@ impl<'a> Runs<'a> {
     /// Everything that was run, by growing stiffness.
     pub fn into_curve(self) -> Vec<TradeOff> {
         let mut points = self.points.into_inner().unwrap_or_default();
-        let stiffnesses =
-            |point: &TradeOff| -> Vec<f64> { point.springs.iter().map(Spring::stiffness).collect() };
-        points.sort_by(|a, b| stiffnesses(a).partial_cmp(&stiffnesses(b)).expect("no NaN"));
+        sort(&mut points);
         points
     }
+}
+
+/// Sorts runs by growing stiffness.
+pub fn sort(points: &mut [TradeOff]) {
+    let stiffnesses =
+        |point: &TradeOff| -> Vec<f64> { point.springs.iter().map(Spring::stiffness).collect() };
+    points.sort_by(|a, b| stiffnesses(a).partial_cmp(&stiffnesses(b)).expect("no NaN"));
 }
 
 /// Stiffnesses to try at `place` \[N/m\], ascending, so many a decade: from a free end to a fixed one, from no clamp to a stiff one.

@@ -4,7 +4,8 @@ use argmin::core::{CostFunction, Executor};
 use argmin::solver::brent::BrentRoot;
 use rayon::prelude::*;
 
-use super::limits::{self, DesignError, DesignOptions};
+use super::limits::{self, DesignError};
+use super::options::DesignOptions;
 use super::pair;
 use super::runs::{Runs, stiffnesses};
 use super::trade_off::{Binding, Design, Side, TradeOff};
@@ -49,13 +50,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     let stiffnesses = stiffnesses(scene, options.place, &options.limits, POINTS_PER_DECADE);
     let limits: Vec<Limit> = options.limits.all().collect();
     let expected = stiffnesses.len() + USUAL_STEPS * limits.len() + 1;
-    let runs = Runs::new(
-        scene,
-        options.places(),
-        &options.limits,
-        options.progress,
-        expected,
-    )?;
+    let runs = Runs::new(scene, options, options.progress, expected)?;
     let curve = stiffnesses
         .par_iter()
         .map(|&stiffness| runs.run(&[stiffness]))

@@ -4,6 +4,7 @@ use cycle_jump::Record;
 
 use super::passes::{Passes, Task, force_profile};
 use super::refine::Solved;
+use super::underway::CutShort;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
     Stage, balance, saturation, simulated,
@@ -33,6 +34,20 @@ impl<'a> RunBuilder<'a> {
             },
             warnings: plan.warnings.clone(),
             plan,
+        }
+    }
+
+    /// What there is to say if the run is stopped, but its passes.
+    pub fn cut_short(&self) -> CutShort {
+        CutShort {
+            title: self.plan.scene.title.clone(),
+            cut_short: true,
+            plan: self.summary.clone(),
+            duct_motion: self.duct_motion(),
+            passes: Vec::new(),
+            saturation: None,
+            error_estimate: None,
+            warnings: self.warnings.clone(),
         }
     }
 
@@ -143,6 +158,7 @@ impl<'a> RunBuilder<'a> {
             mesh,
             stages: &[],
             progress: Progress::default(),
+            seen: None,
         };
         let first = task.every_pass()?;
         let profile = force_profile(&first.cable, &first.state)?;

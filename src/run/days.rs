@@ -9,6 +9,7 @@ use cable_dem::{CableError, Statistics};
 use super::lived::{Lived, Living};
 use super::outlook::Work;
 use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both, judge, mesh_reason};
+use super::underway::Underway;
 use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
 use crate::plan::{PassMethod, Plan};
@@ -54,12 +55,14 @@ pub fn solve(
     plan: &Plan<'_>,
     heat: &Heat,
     method: PassMethod,
-    progress: Progress<'_>,
+    (progress, underway): (Progress<'_>, Option<&Underway>),
     verify: bool,
     warnings: &mut Vec<String>,
 ) -> Result<Solved, Error> {
     let every_pass = matches!(method, PassMethod::EveryPass(_));
-    Living::new(plan, heat, every_pass, progress).solve(verify, warnings)
+    let mut living = Living::new(plan, heat, every_pass, progress);
+    living.underway = underway;
+    living.solve(verify, warnings)
 }
 
 /// Work that a run of `plan` is expected to take, and the level that it ends on: one run on a coarse mesh tells.
@@ -69,7 +72,7 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<(Work
     let (coarse, lived) = living.coarse(level, FIRST_KNOTS)?;
     let periods = lived.passes.simulated as f64;
     let nodes = plan.levels.mesh(coarse)?.nodes();
-    let work = Work::new(&lived.passes.statistics, nodes, periods);
+    let work = Work::new(&lived.passes.statistics, nodes, periods, 0.0);
     // That level and the one below; before them, with as many real periods a day and with twice as many, the coarse one.
     let meshes = |work: Work| match (level - coarse).checked_sub(1) {
         Some(below) => work.refined(below) + work.refined(below + 1),

@@ -25,7 +25,7 @@ use crate::{Error, Progress, Scene};
 
 /// What a forecast may cost: this share of the run, or as many seconds if that is more.
 const SHARE: f64 = 0.08;
-const SECONDS: f64 = 0.3;
+const SECONDS: f64 = 0.8;
 /// Jumps are looked for on the level where the run does it if that takes no longer than this \[s\], with so many periods; else on the coarsest.
 const SECONDS_OF_JUMPS: f64 = 0.1;
 const PERIODS: f64 = 100.0;
@@ -50,7 +50,8 @@ pub struct Forecast {
 }
 
 /// Predicts what the run of `plan` will take, without `verify`: in nine of ten scenes its processor time is at most twice
-/// [`Forecast::seconds`]. The prediction itself takes a tenth of that, or a third of a second.
+/// [`Forecast::seconds`]. The prediction itself takes a tenth of that, or a second: on meshes that
+/// take no longer the run is made.
 ///
 /// # Errors
 ///
@@ -246,6 +247,7 @@ impl<'a> Probe<'a> {
             mesh: self.plan.levels.mesh(level)?,
             stages: &[],
             progress: Progress::default(),
+            seen: None,
         };
         let period = self.plan.period.len() as u64;
         let passes = match way {
@@ -264,7 +266,10 @@ impl<'a> Probe<'a> {
         } else {
             0.0
         };
-        let work = Work::new(&passes.statistics, task.mesh.nodes(), periods);
+        let within_jumps = passes.records.iter().filter(|record| record.interpolated).count();
+        let beyond = passes.beyond.as_ref().map_or(0, |beyond| beyond.records.len());
+        let listed = (within_jumps + beyond) as f64;
+        let work = Work::new(&passes.statistics, task.mesh.nodes(), periods, listed);
         self.spent.set(self.spent.get() + self.seconds(work));
         Ok((passes, work))
     }

@@ -85,6 +85,21 @@ impl Listing {
         own.copied().unwrap_or(period.vehicles[phase])
     }
 
+    /// Whether the pass of this number is that of the scene's own traffic.
+    pub fn is_own(&self, pass: u64) -> bool {
+        let row = self.rows.binary_search_by_key(&pass, |(listed, _)| *listed);
+        match row {
+            Ok(row) => self.rows[row].1 == (pass..=pass),
+            Err(_) => {
+                self.own.is_empty()
+                    && self
+                        .rows
+                        .iter()
+                        .all(|(listed, shown)| *shown == (*listed..=*listed))
+            }
+        }
+    }
+
     /// The passes that have to be known, ascending.
     pub fn wanted(&self) -> Vec<u64> {
         let mut wanted: Vec<u64> = self.rows.iter().flat_map(|(_, shown)| shown.clone()).collect();

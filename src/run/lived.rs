@@ -6,6 +6,7 @@ use cycle_jump::days::{DailyHeat, Day, DayRecord, Days, DaysRequest, live};
 
 use super::locked_law::locked_law;
 use super::passes::{Passes, Simulation, Task, force_profile};
+use super::underway::Underway;
 use crate::answer::error_estimate::{Scale, Shares};
 use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed, simulated};
 use crate::cable::{cable, traffic};
@@ -32,6 +33,7 @@ pub struct Living<'a> {
     pub plan: &'a Plan<'a>,
     pub heat: &'a Heat,
     pub progress: Progress<'a>,
+    pub underway: Option<&'a Underway>,
     pub every_pass: bool,
     /// Place in the period of the traffic with which days begin.
     pub begin: usize,
@@ -44,6 +46,7 @@ impl<'a> Living<'a> {
             plan,
             heat,
             progress,
+            underway: None,
             every_pass,
             begin: 0,
         }
@@ -141,6 +144,7 @@ impl<'a> Living<'a> {
             mesh,
             stages: &[],
             progress,
+            seen: self.underway.map(|underway| underway.on_mesh(mesh, true)),
         };
         let mut simulation = Simulation::new(&task)?;
         let day = self.day(knots);

@@ -12,6 +12,7 @@ pub mod passes;
 mod random;
 mod refine;
 mod solver;
+mod underway;
 
 use ground_field::GroundField;
 
@@ -20,6 +21,7 @@ use crate::{Error, Progress, Run, Scene, finite};
 use assemble::RunBuilder;
 pub use forecast::{Forecast, forecast};
 use refine::Refinement;
+pub use underway::{CutShort, HowFar, Underway};
 
 /// How to run.
 #[derive(Default, Clone, Copy)]
@@ -32,6 +34,8 @@ pub struct RunOptions<'a> {
     pub ground: Option<&'a dyn GroundField>,
     /// Passes at which to look at the cable, for [`Run::stages`]; those beyond the scene's are left out.
     pub stages: &'a [u64],
+    /// What another thread looks at while the run goes on.
+    pub underway: Option<&'a Underway>,
 }
 
 /// Computes all passes of `scene`.
@@ -77,15 +81,20 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
     if plan.scene.friction_limit() == 0.0 {
         return answer.without_friction(options.stages);
     }
+    if let Some(underway) = options.underway {
+        underway.begin(answer.cut_short(), &plan.scene.traffic);
+    }
     let solve = |method, warnings: &mut Vec<String>| {
         if let Some(heat) = plan.scene.warming() {
-            return days::solve(plan, heat, method, options.progress, options.verify, warnings);
+            let seen = (options.progress, options.underway);
+            return days::solve(plan, heat, method, seen, options.verify, warnings);
         }
         let refinement = Refinement {
             plan,
             method,
             progress: options.progress,
             stages: options.stages,
+            underway: options.underway,
         };
         refinement.solve(options.verify, warnings)
     };

@@ -16,13 +16,13 @@ use super::refine::{MAX_NODE_UPDATES, REFINEMENT_COST, SHARP, allowed};
 use crate::answer::error_estimate::{Scale, Shares, difference, of_differences};
 use crate::plan::{CableMethod, Levels, Plan};
 
-/// Time of a node's update, a window, a corner, and a node's part in one jump \[s\] without inertia; of a node's update with it, and of an
-/// explicit one.
-const SECONDS: Work = Work([9.0e-9, 1.4e-7, 5e-9, 1.4e-6]);
-const DYNAMIC: Work = Work([6e-8, 0.0, 0.0, 1.4e-6]);
-const EXPLICIT: Work = Work([1e-9, 0.0, 0.0, 1.4e-6]);
+/// Time of a node's update, a window, a corner, a node's part in one jump, and in one pass that is listed within a jump \[s\] without
+/// inertia; of a node's update with it, and of an explicit one.
+const SECONDS: Work = Work([9.0e-9, 1.4e-7, 5e-9, 1.4e-6, 4.5e-8]);
+const DYNAMIC: Work = Work([6e-8, 0.0, 0.0, 1.4e-6, 4.5e-8]);
+const EXPLICIT: Work = Work([1e-9, 0.0, 0.0, 1.4e-6, 4.5e-8]);
 /// What they multiply by from one level to the next, where that is not measured; and the bounds of what is believed.
-const GROWTH: Work = Work([4.6, 2.1, 4.6, 2.0]);
+const GROWTH: Work = Work([4.6, 2.1, 4.6, 2.0, 2.0]);
 const BELIEVED: (f64, f64) = (0.8, 1.3);
 /// ln of what the differences between meshes are multiplied by from one level to the next; the part of it that the first passes tell.
 const FALL: f64 = -1.23;
@@ -45,18 +45,19 @@ const TRIED: u32 = 200;
 /// Smallest difference that counts.
 const LEAST: f64 = 1e-5;
 
-/// Counts of work: node updates, windows, corners, and nodes times periods.
+/// Counts of work: node updates, windows, corners, nodes times periods, and nodes times passes within jumps.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Work(pub [f64; 4]);
+pub struct Work(pub [f64; 5]);
 
 impl Work {
-    /// Of `simulated` periods on a mesh of so many `nodes`, with jumps.
-    pub fn new(statistics: &Statistics, nodes: usize, periods: f64) -> Self {
+    /// Of so many simulated `periods` on a mesh of so many `nodes`, with so many passes listed within jumps.
+    pub fn new(statistics: &Statistics, nodes: usize, periods: f64, listed: f64) -> Self {
         Self([
             statistics.node_updates as f64,
             statistics.windows as f64,
             statistics.corners as f64,
             nodes as f64 * periods,
+            nodes as f64 * listed,
         ])
     }
 
@@ -173,7 +174,7 @@ impl Known<'_> {
                 statistics += record.outcome.statistics;
             }
             self.early.push(Level {
-                work: Work::new(&statistics, 0, 0.0),
+                work: Work::new(&statistics, 0, 0.0, 0.0),
                 records: first.to_vec(),
             });
         }

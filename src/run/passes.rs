@@ -6,12 +6,13 @@ use ground_field::DuctMotion;
 
 use super::listing::Listing;
 use super::solver::PassSolver;
+use super::underway::OnMesh;
 use crate::answer::error_estimate::Scale;
 use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
 use crate::cable::{cable, traffic};
 use crate::ground::peak;
 use crate::plan::{CableMethod, Period};
-use crate::scene::Scene;
+use crate::scene::{End, Scene};
 use crate::{Error, Progress};
 
 /// Periods after which a run with jumps takes no more of them.
@@ -27,6 +28,8 @@ pub struct Task<'a> {
     /// Passes at which the cable is looked at.
     pub stages: &'a [u64],
     pub progress: Progress<'a>,
+    /// Where another thread sees the passes that are finished.
+    pub seen: Option<OnMesh<'a>>,
 }
 
 /// How jumps are taken.
@@ -90,11 +93,15 @@ impl Task<'_> {
         let mut records = Vec::new();
         for (vehicle, pass) in traffic.zip(1..=count) {
             let outcome = simulation.pass(vehicle, Some(pass), &mut state)?;
-            records.push(Record {
+            let record = Record {
                 pass,
                 outcome,
                 interpolated: false,
-            });
+            };
+            if let Some(seen) = self.seen {
+                seen.keep(&record);
+            }
+            records.push(record);
         }
         Ok(simulation.passes(records, state, count))
     }
@@ -133,9 +140,19 @@ impl Task<'_> {
             guide: jumping.guide,
         };
         let cable = simulation.cable.clone();
+        // How far a cable that nothing holds has moved as a whole is known to the jumps alone.
+        let seen = self.seen.filter(|_| is_held(scene));
         let evolution = evolve(&cable, mesh, &jumps, &request, |Next { phase, number }, state| {
             let vehicle = listing.vehicle(jumping.period, phase, number);
-            simulation.pass(vehicle, number, state)
+            let outcome = simulation.pass(vehicle, number, state)?;
+            if let (Some(seen), Some(pass)) = (seen, number.filter(|&pass| listing.is_own(pass))) {
+                seen.keep(&Record {
+                    pass,
+                    outcome: outcome.clone(),
+                    interpolated: false,
+                });
+            }
+            Ok::<_, Error>(outcome)
         })?;
         let records = listing.records(&evolution.records);
         let mut passes = simulation.passes(records, evolution.state, evolution.simulated);
@@ -143,6 +160,12 @@ impl Task<'_> {
         passes.beyond = evolution.beyond;
         Ok(passes)
     }
+}
+
+/// Whether an end or a clamp holds the cable.
+fn is_held(scene: &Scene) -> bool {
+    let free = (scene.ends.upstream, scene.ends.downstream) == (End::Free, End::Free);
+    !free || !scene.restraints.is_empty()
 }
 
 /// Passes under way.
@@ -209,6 +232,9 @@ impl<'a> Simulation<'a> {
         balance::of_state(&self.cable, state, number.unwrap_or(0))?;
         self.statistics += outcome.statistics;
         self.reached = self.reached.max(number.unwrap_or(0).min(count));
+        if let Some(seen) = self.task.seen {
+            seen.reach(self.reached, &outcome.statistics);
+        }
         progress.report(self.share())?;
         Ok(outcome)
     }

@@ -8,6 +8,7 @@ use cycle_jump::Record;
 use super::jumps::{self, Found};
 use super::passes::{Jumping, Passes, Task};
 use super::random;
+use super::underway::Underway;
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use crate::answer::{DayExtremes, HeatRecord, RandomSpread, simulated};
 use crate::ground::{peak, road};
@@ -33,6 +34,7 @@ pub struct Refinement<'a> {
     pub progress: Progress<'a>,
     /// Passes at which the cable is looked at.
     pub stages: &'a [u64],
+    pub underway: Option<&'a Underway>,
 }
 
 /// Passes on the mesh that was good enough.
@@ -236,6 +238,7 @@ impl Refinement<'_> {
             mesh,
             stages: &[],
             progress: Progress::default(),
+            seen: None,
         }
     }
 
@@ -249,6 +252,7 @@ impl Refinement<'_> {
     ) -> Result<Passes, Error> {
         let mut task = self.task(self.plan.scene, self.plan.levels.mesh(level)?);
         task.progress = progress;
+        task.seen = self.underway.map(|underway| underway.on_mesh(task.mesh, shown));
         if shown {
             task.stages = self.stages;
         }

@@ -52,8 +52,45 @@ pub fn other_name(key: &str) -> Option<&'static str> {
     found.map(|(_, name)| *name)
 }
 
-/// The key that was probably meant where only `known` ones are: a near miss, or a key of another section.
+/// Words and symbols of the field for what a scene calls otherwise.
+const SYNONYMS: [(&str, &str); 23] = [
+    ("alpha", "expansion"),
+    ("anchors", "restraints"),
+    ("clamp", "restraints"),
+    ("clamps", "restraints"),
+    ("conduit", "duct"),
+    ("days", "years"),
+    ("e", "young_modulus"),
+    ("ea", "axial_stiffness"),
+    ("end", "downstream"),
+    ("gradient", "slope"),
+    ("left", "upstream"),
+    ("mass", "weight"),
+    ("mu", "dynamic_coefficient"),
+    ("nu", "poisson_ratio"),
+    ("pavement", "ground"),
+    ("pipe", "duct"),
+    ("right", "downstream"),
+    ("road", "ground"),
+    ("soil", "ground"),
+    ("soils", "ground"),
+    ("start", "upstream"),
+    ("trucks", "vehicles"),
+    ("velocity", "speed"),
+];
+
+/// The key that was probably meant where only `known` ones are: a near miss, another word for it, the same name with another
+/// beginning, or a key of another section.
 pub fn suggestion(key: &str, known: &'static str) -> Option<String> {
+    let synonym = || {
+        let word = key.to_lowercase();
+        let found = SYNONYMS.iter().find(|(other, _)| *other == word);
+        found.map(|(_, name)| *name).filter(|name| holds(known, name))
+    };
+    let ends_alike = || {
+        let ends = |long: &str, short: &str| long.strip_suffix(short).is_some_and(|head| head.ends_with('_'));
+        known.split(", ").find(|name| ends(name, key) || ends(key, name))
+    };
     let elsewhere = || {
         // Keys inside a value are not looked for.
         let sections = KEYS
@@ -62,9 +99,22 @@ pub fn suggestion(key: &str, known: &'static str) -> Option<String> {
         let found = sections.into_iter().find(|found| found.name == key)?;
         Some(joined(found.section, key))
     };
-    nearest(key, known.split(", "))
+    synonym()
+        .or_else(|| nearest(key, known.split(", ")))
+        .or_else(ends_alike)
         .map(str::to_owned)
         .or_else(elsewhere)
+}
+
+/// The `known` keys, and where else `key` belongs if it is one of the top level.
+pub fn and_where_else(key: &str, known: &'static str) -> String {
+    match key {
+        "title" => format!("{known}; `title` stands above the first section"),
+        _ if !holds(known, key) && holds(of(""), key) => {
+            format!("{known}; `{key}` stands for itself, not in a section")
+        }
+        _ => known.to_owned(),
+    }
 }
 
 /// Whether a table is a section of a file: tables inside a value are not.

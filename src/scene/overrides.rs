@@ -27,9 +27,19 @@ pub fn apply(document: &mut Document, text: &str) -> Result<(), SceneError> {
         let allowed = "a key such as duct.length or vehicles.0.speed";
         return Err(wrong(document, key_place, key, format!("`{key}`"), allowed));
     }
+    if let Some(meant) = with_points(key) {
+        let allowed = format!("`{meant}`: an item of a list by its number, from 0 on");
+        return Err(wrong(document, key_place, key, format!("`{key}`"), &allowed));
+    }
     let value = value(written, source, text.len() - written.len());
     descend(&mut document.root, &segments, value, &key_place)
         .map_err(|(found, allowed)| wrong(document, key_place, key, found, &allowed))
+}
+
+/// A key with the numbers of list items in brackets, `ground.layers[1].thickness`, as it is to be written.
+fn with_points(key: &str) -> Option<String> {
+    let bracketed = key.contains('[') && key.contains(']');
+    bracketed.then(|| key.replace('[', ".").replace(']', ""))
 }
 
 /// There is nothing at the key: what was found, and what is allowed.

@@ -3,7 +3,6 @@
 //! A unit is a power of ten times a factor. The power of ten goes into the decimal exponent before the digits become a
 //! binary number, so that `"35.7 um"` is exactly the number written `35.7e-6`.
 
-use super::nearest::nearest;
 use super::syntax::with_point;
 use super::units::{Dimension, UNITS, Unit, normalised};
 
@@ -66,7 +65,7 @@ impl Dimension {
         let Some(unit) = UNITS.iter().find(|unit| unit.symbol == symbol) else {
             return Err(QuantityError::UnknownUnit {
                 unit: written.to_owned(),
-                nearest: nearest(&symbol, self.units()),
+                nearest: self.unit_meant_by(&symbol),
             });
         };
         if !self.takes(unit.dimension) {
@@ -99,7 +98,6 @@ impl Dimension {
 }
 
 /// The number that a text begins with, and its unit, which may be empty. `None` where digits or points follow the number.
-#[cfg(feature = "sweep")]
 pub(crate) fn leading_number(text: &str) -> Option<(f64, &str)> {
     let (number, rest) = split(text.trim())?;
     let value = number.shifted(0)?;

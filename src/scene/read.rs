@@ -14,6 +14,7 @@ use super::range::{
     diameters, node_spacings, positions, shown, vehicle_steps,
 };
 use super::table::Table;
+use super::units::Dimension;
 use super::value::Value;
 use super::{ground, heat, traffic};
 
@@ -169,7 +170,14 @@ fn end(table: &Table, key: &str) -> Result<End, SceneError> {
         let table = Table::new(value)?;
         table.quantity("spring", SPRING).map(End::Spring)
     } else {
-        value.word_of(&[("free", End::Free), ("fixed", End::Fixed)], ALLOWED)
+        let written = value.text(ALLOWED)?;
+        let spring = Dimension::ForcePerLength.parse(&written);
+        let meant = spring.map_or_else(
+            |_| String::new(),
+            |_| format!("; did you mean {{ spring = \"{written}\" }}?"),
+        );
+        let allowed = format!("{ALLOWED}{meant}");
+        value.word_of(&[("free", End::Free), ("fixed", End::Fixed)], &allowed)
     }
 }
 

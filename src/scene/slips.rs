@@ -1,7 +1,7 @@
 //! Bare numbers that were probably meant in another unit.
 //!
 //! A number without a unit is SI: `load = 20` is 20 N, the weight of two bricks, and `speed = 40` is 144 km/h. Both are
-//! valid, so they are a warning and no error.
+//! valid, so they are a warning and no error. So is `passes = 292.000`, which is 292.
 
 use std::fmt;
 
@@ -13,6 +13,9 @@ use super::location::Location;
 const LIGHT: f64 = 1e3;
 /// Speeds above this \[m/s\] are faster than any truck: 130 km/h.
 const FAST: f64 = 130.0 / 3.6;
+/// Weights per length below this \[N/m\] may be in kg/m; springs and clamps below this \[N/m\] hold nothing.
+const LIGHT_CABLE: f64 = 20.0;
+const SLACK: f64 = 1e3;
 
 /// A bare number that was probably meant in another unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,7 +41,7 @@ impl fmt::Display for UnitSlip {
     }
 }
 
-/// Every one in the vehicles of `document`.
+/// Every one in `document`.
 pub fn unit_slips(document: &Document) -> Vec<UnitSlip> {
     let mut slips = Vec::new();
     let mut judge = |path: String, node: &Node| {
@@ -54,6 +57,16 @@ pub fn unit_slips(document: &Document) -> Vec<UnitSlip> {
                 let fast = 3.6 * value;
                 format!("{value} m/s, {fast:.0} km/h: did you mean \"{found} km/h\"?")
             }
+            "weight" if *value < LIGHT_CABLE => {
+                format!("{value} N/m: did you mean \"{found} kgf/m\"?")
+            }
+            "spring" | "stiffness" if *value < SLACK => {
+                format!("{value} N/m, which holds nothing: did you mean \"{found} MN/m\"?")
+            }
+            "passes" if parts_thousands(&found) => {
+                let meant = found.replace('.', "");
+                format!("{value} passes, since decimals follow a point: did you mean {meant}?")
+            }
             _ => return,
         };
         slips.push(UnitSlip {
@@ -63,12 +76,14 @@ pub fn unit_slips(document: &Document) -> Vec<UnitSlip> {
             meaning,
         });
     };
-    if let Content::Table(entries) = &document.root.content {
-        for entry in entries.iter().filter(|entry| entry.key == "vehicles") {
-            each_value(&entry.value, &entry.key, &mut judge);
-        }
-    }
+    each_value(&document.root, "", &mut judge);
     slips
+}
+
+/// Whether a point in a number may stand between thousands: three digits follow it.
+fn parts_thousands(text: &str) -> bool {
+    text.split_once('.')
+        .is_some_and(|(_, digits)| digits.len() == 3 && digits.bytes().all(|b| b.is_ascii_digit()))
 }
 
 /// Calls `visit` with every value that is no table and no list, and its key.

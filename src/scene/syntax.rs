@@ -5,6 +5,7 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+use super::keys;
 use super::location::line_start;
 use super::openings::openings;
 
@@ -42,7 +43,12 @@ pub fn fault(text: &str, error: &toml::de::Error) -> Fault {
         message = format!("duplicate key, which stands on line {line} already");
     }
     let start = line_start(text, span.start);
-    if let Some(hint) = hint(text[start..].lines().next().unwrap_or_default()) {
+    let hint = if is_table(text) {
+        Some("this is a table; a scene has lines such as length = \"30 m\"".to_owned())
+    } else {
+        hint(text[start..].lines().next().unwrap_or_default())
+    };
+    if let Some(hint) = hint {
         message = format!("{message}; {hint}");
     }
     Fault { span, message }
@@ -88,13 +94,35 @@ fn first_key(text: &str, second: &Range<usize>) -> Option<usize> {
         .max()
 }
 
-/// A hint for `line` of a scene file: a decimal comma, a quantity without quotes, typographic quotes, a colon.
+/// Whether the text begins like a table of readings or of ducts: cells between commas, semicolons or tabs, and no key.
+fn is_table(text: &str) -> bool {
+    let mut lines = text
+        .lines()
+        .filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let like_a_row = |line: &str| line.contains([',', ';', '\t']) && !line.contains(['=', '[', '"', ':']);
+    lines.next().is_some_and(like_a_row)
+}
+
+/// A hint for `line` of a scene file: a comment of another language, a section without brackets, a decimal comma, a text or a quantity
+/// without quotes, typographic quotes, a colon or nothing in place of `=`.
 fn hint(line: &str) -> Option<String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
+    if let Some(mark) = ["//", "/*", ";", "%", "--", "!"]
+        .iter()
+        .find(|mark| line.trim().starts_with(**mark))
+    {
+        return Some(format!("a comment begins with `#`, not with `{mark}`"));
+    }
     let Some((key, value)) = line.split_once('=') else {
-        let (key, value) = line.split_once(':')?;
-        let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '.');
+        let line = line.split('#').next()?.trim();
+        if keys::holds(keys::of(""), line) {
+            return Some(format!("a section stands in brackets: [{line}]"));
+        }
+        let (key, value) = line.split_once(':').or_else(|| line.split_once(' '))?;
         let (key, value) = (key.trim(), value.trim());
-        return (!key.is_empty() && !value.is_empty() && key.chars().all(plain))
+        let is_value =
+            line.contains(':') || value.starts_with(['"', '\'', '{', '[']) || value.parse::<f64>().is_ok();
+        return (!key.is_empty() && !value.is_empty() && key.chars().all(plain) && is_value)
             .then(|| format!("a key and its value stand on both sides of `=`: {key} = {value}"));
     };
     let (key, value) = (key.trim(), value.split('#').next()?.trim());
@@ -106,14 +134,24 @@ fn hint(line: &str) -> Option<String> {
         return Some(format!("the closing quote is missing: {key} = {value}\""));
     }
     let number = value.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'));
-    if !number || value.contains(['"', '\'']) {
+    if value.contains(['"', '\'']) {
         return None;
+    }
+    if !number {
+        let is_text = value.starts_with(char::is_alphabetic)
+            && value
+                .chars()
+                .all(|c| c.is_alphanumeric() || " _-.,()/".contains(c));
+        return is_text.then(|| format!("a text stands in quotes: {key} = \"{value}\""));
     }
     if let Some(point) = with_point(value) {
         let quotes = if point.parse::<f64>().is_ok() { "" } else { "\"" };
-        return Some(format!(
-            "decimals are written with a point: {key} = {quotes}{point}{quotes}"
-        ));
+        let how = if point.contains('.') {
+            "decimals are written with a point"
+        } else {
+            "nothing parts thousands"
+        };
+        return Some(format!("{how}: {key} = {quotes}{point}{quotes}"));
     }
     let unit = value.ends_with(|c: char| c.is_alphabetic() || matches!(c, '%' | '2' | '²'));
     unit.then(|| format!("a quantity with its unit stands in quotes: {key} = \"{value}\""))
@@ -180,11 +218,22 @@ mod tests {
                 "depth = \"1.2 m",
                 "the closing quote is missing: depth = \"1.2 m\"",
             ),
+            ("law = coulomb", "a text stands in quotes: law = \"coulomb\""),
+            ("passes = 5,844,000", "nothing parts thousands: passes = 5844000"),
+            (
+                "depth 1.2 # m",
+                "a key and its value stand on both sides of `=`: depth = 1.2",
+            ),
+            (
+                "friction # of the cable",
+                "a section stands in brackets: [friction]",
+            ),
+            ("// depth = 1", "a comment begins with `#`, not with `//`"),
         ];
         for (line, expected) in cases {
             assert_eq!(hint(line).as_deref(), Some(expected));
         }
-        for line in ["depth", "see: ", "a b: c", "law = coulomb", "passes = 200", ""] {
+        for line in ["depth", "see: ", "a b: c", "a b", "passes = 200", ""] {
             assert_eq!(hint(line), None, "{line}");
         }
     }

@@ -32,7 +32,8 @@ impl<'d> Table<'d> {
             };
             let key = joined(&value.path, &entry.key);
             let document = value.document;
-            return Err(document.wrong(kind, &entry.key_place, &key, "", known));
+            let allowed = keys::and_where_else(&entry.key, known);
+            return Err(document.wrong(kind, &entry.key_place, &key, "", allowed));
         }
         let table = Self { value, entries };
         for key in known.split(", ") {

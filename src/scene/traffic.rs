@@ -207,7 +207,10 @@ fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {
         }
     };
     let speed = table.quantity("speed", SPEED)?;
-    let direction = table.word("direction", DIRECTIONS, Direction::Forward)?;
+    let allowed = "\"forward\", toward the downstream end, or \"reverse\"";
+    let direction = table
+        .optional("direction")
+        .map_or(Ok(Direction::Forward), |value| value.word_of(DIRECTIONS, allowed))?;
     Vehicle::new(name, wheels, speed, direction).map_err(|e| table.rejected(e))
 }
 

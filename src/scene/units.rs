@@ -1,5 +1,7 @@
 //! The dimensions and units of scene files.
 
+use super::nearest::nearest;
+
 /// Physical dimension of a quantity in a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -61,6 +63,13 @@ impl Dimension {
         self.units().next().filter(|unit| *unit != "%")
     }
 
+    /// The unit that was probably meant by an unknown one.
+    pub(super) fn unit_meant_by(self, unknown: &str) -> Option<&'static str> {
+        let in_words = IN_WORDS.iter().find(|(word, _)| *word == unknown.to_lowercase());
+        let meant = in_words.and_then(|(_, symbol)| self.units().find(|unit| unit == symbol));
+        meant.or_else(|| nearest(unknown, self.units()))
+    }
+
     /// The dimension in words, with its article: "a length".
     pub fn noun(self) -> &'static str {
         match self {
@@ -93,6 +102,24 @@ const POUND_FORCE: f64 = 4.4482216152605;
 /// International foot and inch \[m\].
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 0.0254;
+
+/// Units in words and other symbols for them, in small letters.
+const IN_WORDS: [(&str, &str); 14] = [
+    ("c", "K"),
+    ("°c", "K"),
+    ("degc", "K"),
+    ("celsius", "K"),
+    ("kelvin", "K"),
+    ("feet", "ft"),
+    ("kph", "km/h"),
+    ("meter", "m"),
+    ("meters", "m"),
+    ("metre", "m"),
+    ("metres", "m"),
+    ("t", "tf"),
+    ("ton", "tf"),
+    ("tonnes", "tf"),
+];
 
 /// A unit of a scene file: one of it is `factor / divisor · 10^exponent` in SI; for a slope that is the angle, and its tangent counts.
 #[derive(Debug, Clone, Copy, PartialEq)]

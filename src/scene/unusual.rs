@@ -6,7 +6,7 @@
 use ground_field::{Base, Modulus, SoilProfile};
 
 use super::arrangement::may_jam;
-use super::data::{Ground, PeakScaling, Scene, TrafficVehicle};
+use super::data::{FrictionLaw, Ground, PeakScaling, Scene, TrafficVehicle};
 
 /// Moduli \[Pa\] between which soils and pavements lie: peat and granite.
 const SOFTEST: f64 = 1e6;
@@ -22,6 +22,19 @@ const ROUGHEST: f64 = 1.5;
 /// Where it is farther than this number of depths from the vehicle's axis to the duct's axis, a duct hardly moves.
 const FARTHEST: f64 = 10.0;
 
+/// Depths \[m\] between which ducts lie below roads, weights \[N/m\] and axial stiffnesses \[N\] between which power cables lie.
+const DEPTHS: (f64, f64) = (0.2, 20.0);
+const WEIGHTS: (f64, f64) = (5.0, 2e3);
+const AXIAL_STIFFNESSES: (f64, f64) = (5e5, 1e10);
+/// Friction that builds up more slowly than with this shape factor \[1/m\] needs movements that no traffic makes.
+const SLOW: f64 = 1e4;
+/// Radii \[m\] of what a wheel presses on are a quarter of this.
+const LARGEST_RADIUS: f64 = 0.6;
+/// Vehicles heavier than this \[N\] do not drive, on a road with more than so many a day and for so many years.
+const HEAVIEST: f64 = 5e6;
+const BUSIEST: f64 = 2e5;
+const OLDEST: f64 = 200.0;
+
 /// A warning for every value that is unusual.
 pub(crate) fn unusual(scene: &Scene) -> Vec<String> {
     let mut warnings = moduli(&scene.ground.profile);
@@ -34,8 +47,98 @@ pub(crate) fn unusual(scene: &Scene) -> Vec<String> {
             "`friction.dynamic_coefficient` is {coefficient}: that of cables in ducts is below 1"
         ));
     }
+    warnings.extend(sizes(scene));
+    warnings.extend(traffic(scene));
     warnings.extend(far(scene));
     warnings.extend(lanes_scaled_alike(scene));
+    warnings
+}
+
+/// Sizes of the duct and its cable.
+fn sizes(scene: &Scene) -> impl Iterator<Item = String> {
+    let Scene {
+        duct,
+        cable,
+        friction,
+        ..
+    } = scene;
+    let within = |key, value: f64, (least, most), (size, unit), of| {
+        let outside = !(least..=most).contains(&value);
+        let shown = |value: f64| rounded(value / size);
+        outside.then(|| {
+            format!(
+                "`{key}` is {} {unit}, but {of} from {} to {} {unit}",
+                shown(value),
+                shown(least),
+                shown(most)
+            )
+        })
+    };
+    let metres = (1.0, "m");
+    let depth = within(
+        "duct.depth",
+        duct.depth,
+        DEPTHS,
+        metres,
+        "ducts lie below roads at depths",
+    );
+    let cables = "that of power cables is";
+    let weight = within("cable.weight", cable.weight, WEIGHTS, (1.0, "N/m"), cables);
+    let (stiffness, meganewtons) = (cable.axial_stiffness, (1e6, "MN"));
+    let stiffness = within(
+        "cable.axial_stiffness",
+        stiffness,
+        AXIAL_STIFFNESSES,
+        meganewtons,
+        cables,
+    );
+    let slow = match friction.law {
+        FrictionLaw::ElasticPlastic { shape_factor } if shape_factor < SLOW => Some(format!(
+            "`friction.shape_factor` is {shape_factor} 1/m: friction builds up over {} mm, more than traffic moves a cable to and fro",
+            rounded(2e3 / shape_factor)
+        )),
+        _ => None,
+    };
+    [depth, weight, stiffness, slow].into_iter().flatten()
+}
+
+/// A number with few digits.
+fn rounded(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+/// What drives, and how much of it.
+fn traffic(scene: &Scene) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (index, vehicle) in scene.vehicles.iter().map(|traffic| &traffic.vehicle).enumerate() {
+        let tonnes = vehicle.weight() / 9806.65;
+        if vehicle.weight() > HEAVIEST {
+            warnings.push(format!(
+                "`vehicles.{index}` weighs {tonnes:.0} t, more than any vehicle on a road"
+            ));
+        }
+        let radii = vehicle.wheels().iter().map(|wheel| wheel.load.contact_radius());
+        if let Some((wheel, radius)) = radii.enumerate().find(|(_, radius)| *radius > LARGEST_RADIUS) {
+            warnings.push(format!(
+                "`vehicles.{index}.wheels.{wheel}.contact_radius` is {radius} m: that of tyres is from 0.1 to 0.3 m"
+            ));
+        }
+    }
+    let per_day = scene.traffic.per_day;
+    if let Some(per_day) = per_day.filter(|&per_day| per_day > BUSIEST) {
+        warnings.push(format!(
+            "`traffic.per_day` is {per_day}: no road has more than {BUSIEST} vehicles a day"
+        ));
+    }
+    if let Some(years) = scene
+        .traffic
+        .years_after(scene.traffic.passes)
+        .filter(|&years| years > OLDEST)
+    {
+        warnings.push(format!(
+            "`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date"
+        ));
+    }
     warnings
 }
 

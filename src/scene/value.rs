@@ -6,7 +6,7 @@ use super::document::{Content, Document, Node};
 use super::error::{SceneError, WrongKind};
 use super::keys::joined;
 use super::nearest::nearest;
-use super::quantity::QuantityError;
+use super::quantity::{QuantityError, leading_number};
 use super::range::{Follows, Quantity, allowed_whole};
 use super::syntax::with_point;
 use super::units::Dimension;
@@ -69,7 +69,8 @@ impl<'d> Value<'d> {
                 Err(error) => return Err(self.not_a_quantity(error, allowed)),
             },
             (Content::Text(text), None) => {
-                let meant = bare(text).map_or_else(String::new, |number| format!("{number}: "));
+                let meant = bare(text).filter(|&number| quantity.range.contains(number));
+                let meant = meant.map_or_else(String::new, |number| format!("{number}: "));
                 return Err(self.wrong_type(meant + &allowed));
             }
             _ => return Err(self.wrong_type(allowed)),
@@ -101,6 +102,11 @@ impl<'d> Value<'d> {
             Content::Number { integer, .. } => integer
                 .filter(|integer| range.contains(integer))
                 .ok_or_else(|| self.out_of_range(allowed)),
+            Content::Text(ref text) => {
+                let meant = whole(text).filter(|meant| range.contains(meant));
+                let meant = meant.map_or_else(String::new, |meant| format!("{meant}: "));
+                Err(self.wrong_type(meant + &allowed))
+            }
             _ => Err(self.wrong_type(allowed)),
         }
     }
@@ -176,14 +182,17 @@ impl<'d> Value<'d> {
 
 /// What a bare number out of its range was probably meant in.
 fn bare_in(value: f64, quantity: Quantity) -> String {
+    let fits = |value| quantity.range.contains(value);
     let (dimension, unit, si) = match quantity.dimension {
-        Some(dimension @ Dimension::Length) => (dimension, "mm", "in m"),
-        Some(dimension @ Dimension::Pressure) => (dimension, "MPa", "in Pa"),
-        Some(dimension @ Dimension::Slope) => (dimension, "%", "the rise over a distance of 1"),
+        None if value > 1.0 && fits(value / 100.0) => return format!("; did you mean {}?", value / 100.0),
+        // Tables give it in millionths.
+        Some(dimension @ Dimension::InverseTemperature) => (dimension, "e-6 1/K", "in 1/K"),
+        Some(dimension @ Dimension::Length) => (dimension, " mm", "in m"),
+        Some(dimension @ Dimension::Pressure) => (dimension, " MPa", "in Pa"),
+        Some(dimension @ Dimension::Slope) => (dimension, " %", "the rise over a distance of 1"),
         _ => return String::new(),
     };
-    let meant = format!("{value} {unit}");
-    let fits = |value| quantity.range.contains(value);
+    let meant = format!("{value}{unit}");
     if dimension.parse(&meant).is_ok_and(fits) {
         format!("; a bare number is {si}: did you mean \"{meant}\"?")
     } else {
@@ -191,12 +200,22 @@ fn bare_in(value: f64, quantity: Quantity) -> String {
     }
 }
 
-/// A dimensionless number that was written as a percentage or with a comma, as it is to be written.
+/// A dimensionless number that was written as a percentage, with a comma or with a word behind it, as it is to be written.
 fn bare(text: &str) -> Option<f64> {
     let point = with_point(text).unwrap_or_else(|| text.to_owned());
     let number = Dimension::Ratio
         .parse(&point)
         .ok()
-        .or_else(|| point.trim().parse().ok());
+        .or_else(|| leading_number(&point).map(|(number, _)| number));
     number.filter(|number: &f64| number.is_finite())
+}
+
+/// A whole number that was written with marks between its thousands.
+fn whole(text: &str) -> Option<u64> {
+    let marks = |c: char| c.is_whitespace() || matches!(c, ',' | '.' | '\'' | '’' | '_');
+    let groups: Vec<&str> = text.trim().split(marks).collect();
+    let (first, others) = groups.split_first()?;
+    let is_whole =
+        (1..=3).contains(&first.len()) && others.iter().all(|group| group.len() == 3) || others.is_empty();
+    is_whole.then(|| groups.concat().parse().ok())?
 }

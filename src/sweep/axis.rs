@@ -174,9 +174,20 @@ fn range(text: &str) -> Option<Result<Vec<String>, &'static str>> {
     let Some(([first, last, step], unit)) = numbers(&parts) else {
         return Some(Err("A:B:STEP, three numbers in one unit"));
     };
+    let has_unit = |part: &str| number(part).is_some_and(|(_, unit)| !unit.is_empty());
+    if has_unit(parts[0]) && has_unit(parts[1]) && !has_unit(parts[2]) {
+        return Some(Err(
+            "A:B:STEP with a unit at the STEP too: it is a distance, no number of values",
+        ));
+    }
     let steps = (last - first) / step;
     if !steps.is_finite() || steps < 0.0 {
         return Some(Err("a STEP that leads from A to B"));
+    }
+    if steps < 1.0 - 1e-9 && first != last {
+        return Some(Err(
+            "A:B:STEP with a STEP that is at most B - A: it is a distance, no number of values",
+        ));
     }
     if steps > MOST_VALUES {
         return Some(Err("at most a million values"));

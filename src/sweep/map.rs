@@ -1,6 +1,6 @@
 //! Occurrence map: force or movement over two varied keys.
 
-use std::cell::RefCell;
+use std::sync::{Mutex, PoisonError};
 
 use super::axis::AxisValues;
 use super::error::SweepError;
@@ -30,7 +30,7 @@ pub enum MapValue {
 pub struct SweepMap<'a> {
     sweep: &'a Sweep,
     value: MapValue,
-    cells: RefCell<Vec<Option<f64>>>,
+    cells: Mutex<Vec<Option<f64>>>,
 }
 
 impl<'a> SweepMap<'a> {
@@ -43,14 +43,14 @@ impl<'a> SweepMap<'a> {
         let listed = |axis: &super::axis::Axis| matches!(&axis.values, AxisValues::List(list) if list.len() <= MOST_CELLS);
         if sweep.axes.len() != 2 || !sweep.axes.iter().all(listed) {
             return Err(SweepError::Unfit {
-                found: "a map of other than two lists".into(),
+                found: format!("--map with {} varied keys", sweep.axes.len()),
                 allowed: "a map of two keys, each with a list or range of at most 500 values",
             });
         }
         Ok(Self {
             sweep,
             value,
-            cells: RefCell::new(vec![None; sweep.count()]),
+            cells: Mutex::new(vec![None; sweep.count()]),
         })
     }
 
@@ -60,12 +60,13 @@ impl<'a> SweepMap<'a> {
         let (columns, rows) = (self.sweep.axes[0].count(), self.sweep.axes[1].count());
         let (column, line) = (row.index / rows, row.index % rows);
         let larger = |a: f64, b: f64| f64::max(a.abs(), b.abs());
-        self.cells.borrow_mut()[line * columns + column] = Some(match self.value {
-            MapValue::Force => larger(answer.upstream_force_n, answer.downstream_force_n),
-            MapValue::Movement => {
-                1e3 * larger(answer.upstream_displacement_m, answer.downstream_displacement_m)
-            }
-        });
+        self.cells.lock().unwrap_or_else(PoisonError::into_inner)[line * columns + column] =
+            Some(match self.value {
+                MapValue::Force => larger(answer.upstream_force_n, answer.downstream_force_n),
+                MapValue::Movement => {
+                    1e3 * larger(answer.upstream_displacement_m, answer.downstream_displacement_m)
+                }
+            });
     }
 
     /// The map as SVG.
@@ -79,7 +80,14 @@ impl<'a> SweepMap<'a> {
             MapValue::Movement => ("Largest movement of an end", "movement, mm"),
         };
         let [x, y] = [0, 1].map(|index| grid_axis(&self.sweep.axes[index]));
-        Chart::of_values(title, x, y, Axis::linear(label), self.cells.borrow().clone()).to_svg()
+        Chart::of_values(
+            title,
+            x,
+            y,
+            Axis::linear(label),
+            self.cells.lock().unwrap_or_else(PoisonError::into_inner).clone(),
+        )
+        .to_svg()
     }
 }
 

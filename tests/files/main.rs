@@ -16,5 +16,6 @@ mod links;
 #[cfg(target_os = "linux")]
 mod random;
 mod signals;
+mod stopped;
 mod texts;
 mod whole;

@@ -1,0 +1,175 @@
+//! Typical mistakes of a cable engineer, each with what its message has to say: the line, the key, what was found, what is allowed, and
+//! advice that is right.
+
+#![cfg(feature = "cli")]
+
+use std::process::Command;
+
+use tempfile::TempDir;
+
+const SCENE: &str = r#"title = "Harbour road, 66 kV"
+
+[duct]
+length = "180 m"
+depth = "1.3 m"
+
+[[ground.layers]]  # asphalt
+thickness = "20 cm"
+young_modulus = "4000 MPa"
+poisson_ratio = 0.35
+
+[[ground.layers]]  # soil
+young_modulus = "80 MPa"
+poisson_ratio = 0.4
+
+[cable]
+weight = "110 N/m"
+axial_stiffness = "60 MN"
+
+[friction]
+dynamic_coefficient = 0.3
+shape_factor = "7e6 1/m"
+
+[ends]
+upstream = "free"
+downstream = { spring = "3 MN/m" }
+
+[[vehicles]]
+name = "truck"
+speed = "50 km/h"
+wheels = [{ y = "0.9 m", load = "50 kN", contact_radius = "0.15 m" }, { y = "-0.9 m", load = 50e3 }]
+
+[traffic]
+passes = 20
+"#;
+
+/// What stands in the scene → what an engineer writes in its place (`¶` begins a line) | the line of the message | parts of it.
+/// Some are refused; what is only hardly meant is a warning.
+const IN_THE_SCENE: &str = r#"
+weight = "110 N/m" → weight = 11 | 17 | `cable.weight`: 11 without a unit is 11 N/m: did you mean "11 kgf/m"?
+weight = "110 N/m" → weight = "11 kg/m" | 17 | `cable.weight`: unknown unit `kg/m`: found "11 kg/m" (did you mean `kgf/m`?) | units: N/m, kN/m
+axial_stiffness = "60 MN" → axial_stiffness = "60 kN" | 18 | `cable.axial_stiffness` is 0.06 MN, but that of power cables is from 0.5 to 10000 MN
+axial_stiffness = "60 MN" → axial_stiffness = "120 GPa" | 18 | `cable.axial_stiffness`: wrong dimension: found "120 GPa", a pressure or modulus; allowed: a force
+speed = "50 km/h" → speed = 50 | 30 | `vehicles.0.speed`: 50 without a unit is 50 m/s, 180 km/h: did you mean "50 km/h"?
+load = 50e3 → load = 5 | 31 | `vehicles.0.wheels.1.load`: 5 without a unit is 5 N | did you mean "5 tf" or "5 kN"?
+load = "50 kN" → load = "5 t" | 31 | unknown unit `t`: found "5 t" (did you mean `tf`?)
+contact_radius = "0.15 m" → contact_radius = 15 | 31 | `vehicles.0.wheels.0.contact_radius` is 15 m: that of tyres is from 0.1 to 0.3 m
+shape_factor = "7e6 1/m" → shape_factor = 7 | 22 | `friction.shape_factor` is 7 1/m: friction builds up over 286 mm
+depth = "1.3 m" → depth = 130 | 5 | `duct.depth` is 130 m, but ducts lie below roads at depths from 0.2 to 20 m
+depth = "1.3 m" → depth = "130 mm" | 5 | `duct.depth` is 0.13 m
+length = "180 m" → length = "180 meters" | 4 | unknown unit `meters`: found "180 meters" (did you mean `m`?)
+passes = 20 → passes = 292.000 | 34 | `traffic.passes`: 292.000 without a unit is 292 passes | did you mean 292000?
+passes = 20 → passes = 5,844,000 | 34 | nothing parts thousands: passes = 5844000
+passes = 20 → passes = "292 000" | 34 | `traffic.passes`: found the text "292 000"; allowed: 292000: a whole number
+passes = 20 → per_day = 800¶years = "20 years" | 35 | `traffic.years`: found the text "20 years"; allowed: 20: a number
+passes = 20 → per_day = 800¶years = 2026 | 33 | lasts 2026 years | a number of years, not a date
+passes = 20 → passes = 20¶per_day = 5844000 | 35 | `traffic.per_day` is 5844000: no road has more than 200000 vehicles a day
+poisson_ratio = 0.4 → poisson_ratio = 40 | 14 | `ground.layers.1.poisson_ratio`: out of range: found 40; allowed: a number from 0 to 0.5 | did you mean 0.4?
+dynamic_coefficient = 0.3 → dynamic_coefficient = 30 | 21 | found 30; allowed: a number from 0 to 10 | did you mean 0.3?
+[[ground.layers]]  # soil → [[ground.layer]] | 12 | unknown key `ground.layer` (did you mean `layers`?)
+[[vehicles]] → [[vehicle]] | 28 | unknown key `vehicle` (did you mean `vehicles`?)
+{ spring = "3 MN/m" } → "spring" | 26 | `ends.downstream`: found "spring"; allowed: "free", "fixed" or { spring = "3 MN/m" }
+{ spring = "3 MN/m" } → "5 MN/m" | 26 | `ends.downstream`: found "5 MN/m" | did you mean { spring = "5 MN/m" }?
+{ spring = "3 MN/m" } → { spring = 3 } | 26 | `ends.downstream.spring`: 3 without a unit is 3 N/m | did you mean "3 MN/m"?
+upstream = "free" → left = "free" | 25 | unknown key `ends.left` (did you mean `upstream`?)
+[traffic] → [[clamps]]¶position = "90 m"¶[traffic] | 33 | unknown key `clamps` (did you mean `restraints`?)
+[[ground.layers]]  # asphalt → [[soil.layers]] | 7 | unknown key `soil` (did you mean `ground`?)
+dynamic_coefficient = 0.3 → mu = 0.3 | 21 | unknown key `friction.mu` (did you mean `dynamic_coefficient`?)
+axial_stiffness = "60 MN" → EA = "60 MN" | 18 | unknown key `cable.EA` (did you mean `axial_stiffness`?)
+young_modulus = "80 MPa" → E = "80 MPa" | 13 | unknown key `ground.layers.1.E` (did you mean `young_modulus`?)
+speed = "50 km/h" → velocity = "50 km/h" | 30 | unknown key `vehicles.0.velocity` (did you mean `speed`?)
+passes = 20 → years = 20¶trucks_per_day = 800 | 35 | unknown key `traffic.trucks_per_day` (did you mean `per_day`?)
+length = "180 m" → length = "180 m"¶diameter = "200 mm" | 5 | unknown key `duct.diameter` (did you mean `inner_diameter`?)
+depth = "1.3 m" → Depth = "1.3 m" | 5 | unknown key `duct.Depth` (did you mean `depth`?)
+depth = "1.3 m" → depth "1.3 m" | 5 | a key and its value stand on both sides of `=`: depth = "1.3 m"
+[friction] → friction | 20 | a section stands in brackets: [friction]
+[cable] → // the cable¶[cable] | 16 | a comment begins with `#`, not with `//`
+title = "Harbour road, 66 kV" → title = Harbour road | 1 | a text stands in quotes: title = "Harbour road"
+passes = 20 → passes = 20¶title = "Harbour" | 35 | unknown key `traffic.title` | `title` stands above the first section
+[traffic] → [duct]¶slope = "3 %"¶[traffic] | 33 | duplicate key, which stands on line 3 already
+speed = "50 km/h" → speed = "50 km/h"¶direction = "northbound" | 31 | found "northbound"; allowed: "forward", toward the downstream end, or "reverse"
+passes = 20 → passes = 20¶sequence = ["t-25"] | 35 | `traffic.sequence.0`: found "t-25"; allowed: "truck"
+passes = 20 → passes = 20¶[heat]¶expansion = "17e-6 1/K"¶daily_swing = "20 °C" | 37 | `heat.daily_swing`: unknown unit `°C` | did you mean `K`?
+passes = 20 → passes = 20¶[heat]¶expansion = 17¶daily_swing = "20 K" | 36 | `heat.expansion`: out of range: found 17 | did you mean "17e-6 1/K"?
+"#;
+
+/// What an engineer types; SCENE and DATA are good files | parts of the message.
+const ON_THE_COMMAND_LINE: &str = r#"
+run DATA | data.csv, line 1: | this is a table; a scene has lines such as length = "30 m"
+SCENE | A command stands before the scene: creepage run | scene.toml
+check SCENE --set duct.depth 1.5m | --set takes KEY=VALUE without a space: --set duct.depth=1.5m
+check SCENE --set depth=1.5m | --set depth=1.5m: found unknown key `depth` (did you mean `duct.depth`?)
+check SCENE --set ground.layers[1].young_modulus=60MPa | allowed: `ground.layers.1.young_modulus`: an item of a list by its number
+run SCENE --set traffic.passes=1 --limit-movement 10 | --limit-movement is 10 m: did you mean 10mm?
+run SCENE --set traffic.passes=1 --limit-force 2 | --limit-force is 2 N: did you mean 2kN?
+run SCENE --limit-force left=2kN | left=2kN | allowed before `=`: upstream or downstream
+run SCENE --years 20 | scene.toml, line 33: key `traffic.per_day` is missing; allowed: vehicles a day
+design SCENE | --limit-force: found no limit | such as --limit-force 2kN
+design SCENE --limit-force 2kN --at 500m | found 500 | from 0
+sweep SCENE --out o.csv --vary duct.depth=1m:2m:5 | found 1m:2m:5 | a unit at the STEP too: it is a distance
+sweep SCENE --out o.csv --vary traffic.passes=10:20:50 | found 10:20:50 | a STEP that is at most B - A
+sweep SCENE --out o.csv --vary duct.depth=2m:1m:0.1m | found 2m:1m:0.1m | a STEP that leads from A to B
+sweep SCENE --out o.csv --vary friction.dynamic_coefficient=normal(0.3) --samples 4 | found normal(0.3) | normal(MEAN, SD)
+sweep SCENE --out o.xls --vary duct.depth=1m,2m | o.xls | .csv
+sweep SCENE --out o.csv --vary duct.depth=1m,2m --vary duct.length=30m,60m --vary duct.slope=0,0.01 --map m.svg | --map with 3 varied keys; allowed: a map of two keys
+calibrate SCENE --data DATA --fit mu | found "mu"; allowed: dynamic_coefficient
+calibrate DATA --data SCENE | this is a table; a scene has lines such as
+calibrate SCENE --data DATA --column-force Kraft | data.csv:1: no column Kraft in
+calibrate SCENE --data DATA --unit kg | the unit `kg`; allowed: N, kN, daN, kgf
+profile SCENE --positions 0-180 | found "0-180"; allowed: positions in m with commas between them
+report SCENE -o page.pdf | found page.pdf; allowed: a page of HTML, such as my-duct.html
+"#;
+
+/// Runs the program in `folder`; what it says on standard error.
+fn said(folder: &TempDir, arguments: &[&str]) -> String {
+    let output = Command::new(assert_cmd::cargo::cargo_bin!("creepage"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the program to run");
+    String::from_utf8(output.stderr).expect("UTF-8")
+}
+
+#[test]
+fn each_mistake_gets_a_message_that_helps() {
+    let folder = TempDir::new().expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
+    write("data.csv", "pass,force_n\n1,90\n2,114\n5,168\n10,222\n");
+    let mut failures = Vec::new();
+    let mut judge = |what: &str, message: &str, parts: &[&str]| {
+        if let Some(part) = parts.iter().find(|part| !message.contains(**part)) {
+            failures.push(format!("{what}\n  lacks: {part}\n  said: {message}"));
+        }
+    };
+    let rows = |table: &'static str| table.lines().filter(|row| !row.is_empty());
+    for row in rows(IN_THE_SCENE) {
+        let (old, row) = row.split_once(" → ").expect("→");
+        let cells: Vec<&str> = row.split(" | ").collect();
+        let (new, line, parts) = (cells[0].replace('¶', "\n"), cells[1], &cells[2..]);
+        assert_eq!(SCENE.matches(old).count(), 1, "{old} is one place of the scene");
+        write("scene.toml", &SCENE.replace(old, &new));
+        let message = said(&folder, &["check", "scene.toml"]);
+        judge(
+            &new,
+            &message,
+            &[&[&*format!("scene.toml, line {line}: ")], parts].concat(),
+        );
+    }
+    write("scene.toml", SCENE);
+    assert_eq!(said(&folder, &["check", "scene.toml"]), "");
+    for row in rows(ON_THE_COMMAND_LINE) {
+        let cells: Vec<&str> = row.split(" | ").collect();
+        let file = |word| match word {
+            "SCENE" => "scene.toml",
+            "DATA" => "data.csv",
+            word => word,
+        };
+        let arguments: Vec<&str> = cells[0].split(' ').map(file).collect();
+        judge(cells[0], &said(&folder, &arguments), &cells[1..]);
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n\n"));
+    // Nothing half made is left.
+    for output in ["o.csv", "o.xls", "m.svg", "page.pdf"] {
+        assert!(!folder.path().join(output).exists(), "{output}");
+    }
+}
