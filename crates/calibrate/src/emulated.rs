@@ -68,7 +68,6 @@ impl Calibration<'_> {
     /// As for [`fit`](Self::fit), and [`CalibrationError::InvalidOption`] for a `coarse` of other parameters or observations.
     pub fn fit_emulated(&self, coarse: Option<&Emulator>) -> Result<(Fit, Emulator), CalibrationError> {
         self.check_count()?;
-        let runs = Evaluator::new(self);
         let (dimensions, observations) = (self.parameters.len(), self.observations.len());
         // One that could not follow its model has nothing to teach.
         let coarse = coarse.filter(|coarse| coarse.runs() > 0);
@@ -79,9 +78,20 @@ impl Calibration<'_> {
                 allowed: "those of this calibration, and its observations",
             });
         }
+        self.with_size(|one, known| one.emulate(coarse, known))
+    }
+
+    /// The fit by an emulator that may have learned before.
+    fn emulate(
+        &self,
+        coarse: Option<&Emulator>,
+        known: Option<Emulator>,
+    ) -> Result<(Fit, Emulator), CalibrationError> {
+        let runs = Evaluator::new(self);
+        let (dimensions, observations) = (self.parameters.len(), self.observations.len());
         let mut emulation = Emulation {
             calibration: self,
-            emulator: Emulator::new(&self.parameters, coarse),
+            emulator: known.unwrap_or_else(|| Emulator::new(&self.parameters, coarse)),
             runs: &runs,
         };
         let start = self.start();
