@@ -13,6 +13,8 @@ mod calibration;
 mod cli;
 #[path = "design.rs"]
 mod design;
+#[path = "discrepancy.rs"]
+mod discrepancy;
 #[path = "faulty_cells.rs"]
 mod faulty_cells;
 #[path = "files/main.rs"]
@@ -43,6 +45,8 @@ mod readings;
 mod report;
 #[path = "scene/main.rs"]
 mod scene;
+#[path = "several_kinds.rs"]
+mod several_kinds;
 #[path = "slope.rs"]
 mod slope;
 #[path = "sweep.rs"]
