@@ -34,7 +34,7 @@ const EXCLUDED: f64 = 3.84;
 struct Size {
     /// λ and δ.
     ratio: f64,
-    size: f64,
+    deviation: f64,
     /// −2 ln L, without and with the prior.
     data: f64,
     total: f64,
@@ -136,12 +136,12 @@ impl Equations {
             }
             None => (left, 1.0),
         };
-        let (data, size) = (determinants + fits, ratio * noise.sqrt());
+        let (data, deviation) = (determinants + fits, ratio * noise.sqrt());
         Some(Size {
             ratio,
-            size,
+            deviation,
             data,
-            total: data + (size / sigma).powi(2) - 2.0 * size.ln(),
+            total: data + (deviation / sigma).powi(2) - 2.0 * deviation.ln(),
             errors: (solved.inverse() * noise).diagonal().map(f64::sqrt),
             change,
             weight: 0.0,
@@ -176,7 +176,9 @@ impl Sizes {
             size.weight = (-0.5 * (size.total - best)).exp();
         }
         let sum: f64 = list.iter().map(|size| size.weight).sum();
-        list.iter_mut().for_each(|size| size.weight /= sum);
+        for size in &mut list {
+            size.weight /= sum;
+        }
         (!list.is_empty()).then_some(Self { list, freedom })
     }
 
@@ -212,7 +214,7 @@ impl Sizes {
         let between = |value: fn(&Size) -> f64| {
             value(here) * (value(&self.list[neighbour]) / value(here)).powf(shift.abs())
         };
-        (between(|size| size.ratio), between(|size| size.size))
+        (between(|size| size.ratio), between(|size| size.deviation))
     }
 
     /// The most likely λ.
@@ -245,9 +247,9 @@ impl Sizes {
         for _ in 0..40 {
             let middle = 0.5 * (inner + outer);
             if beyond(middle) > tail {
-                inner = middle
+                inner = middle;
             } else {
-                outer = middle
+                outer = middle;
             }
         }
         Some(outer)
@@ -267,17 +269,17 @@ impl Sizes {
             let mut sum = 0.0;
             for size in &self.list {
                 if sum + size.weight >= share {
-                    return size.size * step.powf((share - sum) / size.weight - 0.5);
+                    return size.deviation * step.powf((share - sum) / size.weight - 0.5);
                 }
                 sum += size.weight;
             }
             f64::INFINITY
         };
-        let mean: f64 = self.list.iter().map(|size| size.weight * size.size).sum();
+        let mean: f64 = self.list.iter().map(|size| size.weight * size.deviation).sum();
         let square: f64 = self
             .list
             .iter()
-            .map(|size| size.weight * (size.size - mean).powi(2))
+            .map(|size| size.weight * (size.deviation - mean).powi(2))
             .sum();
         let interval = Interval {
             lower: excluded(self.list.first()).then(|| at(0.5 * tail)),
@@ -293,7 +295,7 @@ impl Sizes {
             profile: self
                 .list
                 .iter()
-                .map(|size| (size.size, size.total - total))
+                .map(|size| (size.deviation, size.total - total))
                 .collect(),
         }
     }
