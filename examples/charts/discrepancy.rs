@@ -22,7 +22,7 @@ const FRICTION: f64 = 0.25;
 const SHAPE_FACTOR: f64 = 2e6;
 const NOISE: f64 = 4.0;
 const PASSES: u64 = 40;
-const DRAWS: u64 = 40;
+const DRAWS: u64 = 30;
 /// Node spacing of fits; the vehicle's step is half of it \[m\].
 const SPACING: f64 = 0.4;
 /// What `--discrepancy` says of its size beforehand.
@@ -160,7 +160,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         "model,what_is_true,true_value,discrepancy,draws,held,missed_and_called_identifiable,median_width\n",
     );
     let mut panels =
-        Panels::new("Intervals of μ_d that hold the truth, of 40, where the model is wrong").columns(3);
+        Panels::new("Intervals of μ_d that hold the truth, of 30, where the model is wrong").columns(3);
     for wrong in &CASES {
         let mut shares = [Vec::new(), Vec::new()];
         for truth in wrong.truths {

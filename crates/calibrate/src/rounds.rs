@@ -8,6 +8,8 @@ use crate::{Calibration, CalibrationError, Fit, Profiles};
 
 /// Change of λ, as a share, at which the rounds end: an interval then moves by a few per cent at most.
 const SETTLED: f64 = 0.1;
+/// Rounds after which λ only grows; nearly all fits take three to five.
+const WAVERING: usize = 8;
 
 impl Calibration<'_> {
     /// Fits with a size of the discrepancy, by `fit`, until the residuals call for the size that was taken; then with the intervals asked for.
@@ -29,14 +31,16 @@ impl Calibration<'_> {
             evaluations += found.evaluations;
             found.evaluations = evaluations;
             let wanted = found.ratio;
-            let settled = (wanted / whitening.ratio).ln().abs() < SETTLED;
+            let change = (wanted / whitening.ratio).ln();
+            // Where two sizes are as likely, it may waver between them: then none is taken that is called too small.
+            let settled = change.abs() < SETTLED || (round > WAVERING && change < 0.0);
             if settled && one.options.profiles == self.options.profiles {
                 return Ok((found, last));
             }
             if settled {
                 one.options.profiles = self.options.profiles;
-            } else if round > 3 {
-                // Half of a change, so that the rounds cannot go in a circle.
+            } else if (4..=WAVERING).contains(&round) {
+                // Half of a change, so that the rounds hardly go in a circle.
                 whitening.ratio = (whitening.ratio * wanted).sqrt();
             } else {
                 whitening.ratio = wanted;
