@@ -299,8 +299,7 @@ fn draws() -> Result<Vec<Draws>, Box<dyn Error>> {
     Ok(rows)
 }
 
-/// Where the model is wrong, an interval without a discrepancy seldom holds the truth. With one it nearly always does, but for a load so wrong that
-/// no friction follows, and there it is not called identifiable.
+/// Where the model is wrong, an interval without a discrepancy seldom holds the truth; with one it nearly always does.
 #[test]
 fn a_discrepancy_keeps_intervals_honest_where_the_model_is_wrong() -> Tested {
     let rows = draws()?;
@@ -313,17 +312,19 @@ fn a_discrepancy_keeps_intervals_honest_where_the_model_is_wrong() -> Tested {
         shares.iter().sum::<f64>() / shares.len() as f64
     };
     assert_eq!((of(true, true).count(), of(false, true).count()), (9, 9));
-    assert!(mean(false, true) < 0.35, "{}", mean(false, true));
-    assert!(mean(true, true) > 0.8, "{}", mean(true, true));
-    for row in of(true, true).chain(of(true, false)) {
-        assert!(row.claimed <= 0.1, "{}: {}", row.model, row.claimed);
+    assert!(mean(false, true) < 0.3, "{}", mean(false, true));
+    assert!(mean(true, true) > 0.85, "{}", mean(true, true));
+    assert!(of(true, true).filter(|row| row.held > 0.9).count() >= 7);
+    // Ground a fifth too stiff, and axles so far apart that no friction gives the forces: that is not called identifiable.
+    for row in of(true, true) {
         assert!(
-            row.held >= 0.85 || row.claimed == 0.0,
+            row.held > 0.7 || row.claimed == 0.0,
             "{}: {}",
             row.model,
             row.held
         );
     }
+    assert!(of(true, true).map(|row| row.claimed).sum::<f64>() < 0.05 * 9.0);
     // What it costs where the model is right.
     for (with, without) in of(true, false)
         .zip(of(false, false))

@@ -2,8 +2,7 @@
 //!
 //! The upper cable of the full-scale experiment, 40 passes, noise of 4 N. Three models are wrong by more and more: Coulomb's law for a cable
 //! that gives before it slips (μ_d alone is fitted), ground that is stiffer than the true one, and one load for two axles (μ_d and the shape
-//! factor are fitted). The first value of each is the truth itself, or as good as it. The last of them are as wrong as the
-//! model is for the paper's lower cable: 10 to 25 % in the force that the true friction gives.
+//! factor are fitted). The first value of each is the truth itself, or nearly.
 //!
 //! Readings are runs on a mesh twice as fine as the fit's first; what the next one says more is added to a fit, so that the meshes are the same.
 
