@@ -199,6 +199,57 @@ fn two_series_share_their_ground() {
     assert_eq!((answer.fit.len(), answer.fit[199].series), (200, 2));
 }
 
+/// Friction and law of both cables and the ground that they share.
+#[test]
+#[ignore = "half a minute: see calibration_coverage.rs for the command"]
+fn five_parameters_of_two_series() {
+    let scenes = ["upper", "lower"]
+        .map(|cable| Scene::from_file(format!("examples/scenes/full-scale-{cable}.toml")).unwrap());
+    let truths = [0.25, 0.27, 2e6, 2e6, 0.9];
+    let measured: Vec<Readings> = (0..2)
+        .map(|index| {
+            let file = creepage::SceneFile::read(format!(
+                "examples/scenes/full-scale-{}.toml",
+                ["upper", "lower"][index]
+            ));
+            let set = [
+                "ground.layers.0.young_modulus=720 MPa",
+                "friction.shape_factor=2e6 1/m",
+                "traffic.passes=60",
+            ];
+            let mut scene = file
+                .unwrap()
+                .with(&set.map(String::from))
+                .unwrap()
+                .scene()
+                .unwrap();
+            (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(0.1), Some(0.05));
+            let run = creepage::run(&scene).unwrap();
+            let forces: Vec<f64> = run.passes.iter().map(|pass| pass.downstream_force_n).collect();
+            readings(&noisy(&forces, 4.0, 1 + index as u64))
+        })
+        .collect();
+    let series: Vec<Series<'_>> = scenes
+        .iter()
+        .zip(&measured)
+        .map(|(scene, readings)| Series { scene, readings })
+        .collect();
+    let of = |quantity| [0, 1].map(|series| Unknown::of(quantity, series));
+    let mut unknowns = [of(Quantity::DynamicCoefficient), of(Quantity::ShapeFactor)].concat();
+    unknowns.push(Unknown::shared(Quantity::GroundStiffness));
+    let options = CalibrateOptions {
+        unknowns,
+        ..CalibrateOptions::default()
+    };
+    let answer = calibrate_jointly(&series, &options).unwrap();
+    for (parameter, truth) in answer.parameters.iter().zip(truths) {
+        let error = parameter.standard_error.unwrap();
+        assert!((parameter.value - truth).abs() < 3.0 * error, "{parameter:?}");
+    }
+    // Both scenes in each; on the finest mesh a run takes thirty times as long as on the coarsest.
+    assert!(answer.evaluations <= 320, "{}", answer.evaluations);
+}
+
 /// The bootstrap agrees with the curvature where the model is nearly linear.
 #[test]
 #[ignore = "half a minute: see calibration_coverage.rs for the command"]

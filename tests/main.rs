@@ -15,6 +15,8 @@ mod cli;
 mod design;
 #[path = "design_pairs/main.rs"]
 mod design_pairs;
+#[path = "discrepancy.rs"]
+mod discrepancy;
 #[path = "faulty_cells.rs"]
 mod faulty_cells;
 #[path = "files/main.rs"]
@@ -47,6 +49,8 @@ mod readings;
 mod report;
 #[path = "scene/main.rs"]
 mod scene;
+#[path = "several_kinds.rs"]
+mod several_kinds;
 #[path = "slope.rs"]
 mod slope;
 #[path = "sweep.rs"]

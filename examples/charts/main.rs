@@ -11,6 +11,7 @@ mod passes;
 mod stopwatch;
 
 mod cable;
+mod discrepancy;
 mod ground;
 mod whole;
 
@@ -27,6 +28,7 @@ const CHARTS: &[Entry] = &[
     ("ground", ground::run),
     ("cable", cable::run),
     ("whole", whole::run),
+    ("discrepancy", discrepancy::run),
 ];
 
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {

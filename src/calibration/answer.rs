@@ -18,6 +18,8 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
     let model_error = model_error(found);
     let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
     let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
+    // A share of the largest reading.
+    let units = units.chain(["1"]);
     let judgement = judge(problem, found, mistakes)?;
     let suspicious = judgement.lack_of_fit.suspicious;
     let assumptions = ground::assumption(problem, found)?.into_iter().collect();
@@ -27,10 +29,11 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
         parameters: fit
             .estimates
             .iter()
+            .chain(&fit.discrepancy)
             .zip(units)
             .map(|(estimate, unit)| parameter(estimate, unit, suspicious))
             .collect(),
-        correlation: fit.correlation.clone(),
+        correlation: correlation(fit),
         residual_rms_n: fit.residual_rms,
         r_squared: fit.r_squared,
         evaluations: found.evaluations,
@@ -45,6 +48,20 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
         fit: readings(problem, fit),
         bootstrap: found.bootstrap.as_ref().map(summary),
     })
+}
+
+/// That of the parameters, and of the discrepancy with itself alone: the others are averaged over it.
+fn correlation(fit: &Fit) -> Vec<Vec<Option<f64>>> {
+    let mut correlation = fit.correlation.clone();
+    if fit.discrepancy.is_some() {
+        for row in &mut correlation {
+            row.push(None);
+        }
+        let mut last = vec![None; correlation.len()];
+        last.push(Some(1.0));
+        correlation.push(last);
+    }
+    correlation
 }
 
 /// Half the difference to a mesh twice as fine.
@@ -122,15 +139,24 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
             Loss::Tukey { .. } => "tukey",
             _ => "other",
         },
-        intervals: if fit.noise_estimated {
-            format!(
-                "profile likelihood, Student's t with {:.1} degrees of freedom",
-                fit.degrees_of_freedom
-            )
-        } else {
-            "profile likelihood with the given sigmas".into()
-        },
+        intervals: intervals(fit),
     })
+}
+
+fn intervals(fit: &Fit) -> String {
+    let noise = if fit.noise_estimated {
+        format!(
+            ", Student's t with {:.1} degrees of freedom",
+            fit.degrees_of_freedom
+        )
+    } else {
+        " with the given sigmas".into()
+    };
+    let averaged = match fit.discrepancy {
+        Some(_) => ", averaged over the size of the discrepancy",
+        None => "",
+    };
+    format!("profile likelihood{noise}{averaged}")
 }
 
 fn readings(problem: &Problem<'_>, fit: &Fit) -> Vec<FittedReading> {

@@ -60,7 +60,9 @@ pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Res
     let judged: Vec<usize> = (0..rows.list.len())
         .filter(|row| !outliers.contains(row))
         .collect();
-    let alternatives = if fit.degrees_of_freedom < FEWEST || !mistakes.is_empty() {
+    // An error of a cell is smooth as well: it becomes part of the discrepancy.
+    let hidden = fit.discrepancy.is_some() || !mistakes.is_empty();
+    let alternatives = if fit.degrees_of_freedom < FEWEST || hidden {
         [None, None]
     } else {
         alternatives(problem, found, &cells, &judged)?
@@ -170,8 +172,13 @@ fn explanation(
         Some(best) => format!("try --fit {}", fit_it(best.quantity)),
         None if runs => "see whether each run starts as it is taken to (--run-start), and whether ground and cable are those of the scene".into(),
         None => format!(
-            "see whether ground, cable and vehicles are those of the scene; try --fit {} or ground_stiffness with --deflection",
-            fit_it(Quantity::ZeroOffset)
+            "see whether ground, cable and vehicles are those of the scene; try --fit {} or ground_stiffness with --deflection{}",
+            fit_it(Quantity::ZeroOffset),
+            if fit.discrepancy.is_none() {
+                "; where the model itself is not the truth, --discrepancy makes the intervals as wide as that leaves them"
+            } else {
+                ""
+            }
         ),
     };
     let explained = fit
@@ -188,7 +195,7 @@ fn explanation(
 struct Rows<'a> {
     /// Row of the fit, series, and reading.
     list: Vec<(usize, usize, &'a Reading, Observed)>,
-    /// Residuals in units of the sigmas.
+    /// Residuals in units of the sigmas, without what is most likely the discrepancy.
     standardised: Vec<f64>,
     weights: &'a [f64],
 }
@@ -205,7 +212,7 @@ impl<'a> Rows<'a> {
             .map(|(row, (index, reading, observed))| (row, index, reading, observed));
         Self {
             list: list.collect(),
-            standardised: fit.standardised_residuals(),
+            standardised: fit.standardised_noise(),
             weights: &fit.weights,
         }
     }

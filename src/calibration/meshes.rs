@@ -10,7 +10,7 @@ use crate::Error;
 pub const MESH_SHIFT: f64 = 0.8;
 /// Distance to the minimum, in standard errors, at which a fit is good enough to look at its mesh, and in the end.
 const PILOT_TOLERANCE: f64 = 0.3;
-const TOLERANCE: f64 = 0.03;
+const TOLERANCE: f64 = 0.05;
 
 pub struct Final {
     pub fit: Fit,

@@ -13,11 +13,13 @@
 //! the readings say; movements of an end, forces and strains along the cable, the duct's deflection. Before the first pass all are zero.
 //!
 //! *Assumptions.* The cable was at rest before the first pass, and the noise of the readings is independent. What
-//! the model leaves out (the spread of wheels, heat, bends) is not in the intervals.
+//! the model leaves out (the spread of wheels, heat, bends) is in the intervals only with a discrepancy
+//! ([`CalibrateOptions::discrepancy`]).
 
 mod alternatives;
 mod answer;
 mod cell;
+mod discrepancy;
 mod ground;
 mod judgement;
 mod meshes;

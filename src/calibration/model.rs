@@ -224,8 +224,11 @@ impl Model for CableModel<'_> {
 impl CableModel<'_> {
     fn remembered(&self, parameters: &[f64]) -> Result<Vec<f64>, Error> {
         let values = std::iter::once(&self.stiffness).chain(parameters);
-        // The way through free variables leaves the last bits to chance.
-        let key = (self.level, values.map(|value| value.to_bits() >> 10).collect());
+        // The way through free variables leaves the last bits to chance; rounded, lest a power of two has two keys.
+        let key = (
+            self.level,
+            values.map(|value| (value.to_bits() + (1 << 9)) >> 10).collect(),
+        );
         let known = self
             .memory
             .lock()

@@ -1,7 +1,8 @@
 //! What is known and what is asked, as the crate `calibrate` takes it.
 
-use calibrate::{Calibration, Options, Prior, Profiles};
+use calibrate::{Calibration, Loss, Options, Prior, Profiles};
 
+use super::discrepancy::discrepancy;
 use super::model::{CableModel, Memory, SeriesModel};
 use super::noise;
 use super::options::{CalibrateOptions, Series};
@@ -90,6 +91,9 @@ impl Problem<'_> {
         } else if let Some(relative) = noise::relative_sigmas(self.series) {
             calibration = calibration.with_relative_sigmas(relative)?;
         }
+        if let Some(share) = self.options.discrepancy {
+            calibration = calibration.with_discrepancy(discrepancy(self.series, self.models, share)?)?;
+        }
         let mut options = Options::default();
         options.loss = self.options.loss;
         options.scan = start.is_some().then_some(0);
@@ -132,6 +136,13 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
             key: "series",
             found: "none",
             reason: "there is nothing to fit".into(),
+        });
+    }
+    if options.discrepancy.is_some() && (options.loss != Loss::Squares || options.bootstrap.is_some()) {
+        return Err(Error::Unfit {
+            key: "discrepancy",
+            found: "a robust loss or a bootstrap beside it",
+            reason: "both take what is left of a reading for independent noise; leave one of them out".into(),
         });
     }
     let mut unknowns = options.unknowns.clone();

@@ -54,6 +54,11 @@ pub struct Arguments {
     /// Standard deviation of the measured deflection, "15 um"
     #[arg(long, value_name = "LENGTH", requires = "deflection", value_parser = positive_length)]
     deflection_sigma: Option<f64>,
+    /// Let the model be wrong by a smooth function of the passes and fit its standard deviation, a share of the largest reading: intervals
+    /// then hold where the model is not the truth. SHARE is how large it may be, before the readings are seen
+    #[arg(long, value_name = "SHARE", num_args = 0..=1, require_equals = true, default_missing_value = "10 %", value_parser = positive_share,
+        conflicts_with_all = ["robust", "bootstrap"])]
+    discrepancy: Option<f64>,
     /// Ignore outliers (Tukey's loss)
     #[arg(long)]
     robust: bool,
@@ -78,6 +83,10 @@ fn positive_length(text: &str) -> Result<f64, String> {
 
 fn positive_force(text: &str) -> Result<f64, String> {
     positive(text, Dimension::Force, "force such as \"20 N\"")
+}
+
+fn positive_share(text: &str) -> Result<f64, String> {
+    positive(text, Dimension::Ratio, "share such as \"10 %\"")
 }
 
 fn positive(text: &str, dimension: Dimension, allowed: &str) -> Result<f64, String> {
@@ -119,6 +128,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         unknowns: arguments.fit.clone(),
         zero_offset_sigma: arguments.zero_offset_sigma,
         drift_sigma: arguments.drift_sigma,
+        discrepancy: arguments.discrepancy,
         deflection: deflection.map(|(value, sigma)| Deflection { value, sigma }),
         loss: if arguments.robust {
             Loss::TUKEY
@@ -193,6 +203,9 @@ fn tell(readings: &[Readings], usual: usize, most: usize) {
     );
 }
 
+/// Name of the parameter that is the model's own error.
+const DISCREPANCY: &str = "discrepancy";
+
 fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     let mut out = terminal::out();
     let titles: Vec<String> = answer.titles.iter().map(|title| terminal::line(title)).collect();
@@ -214,6 +227,16 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
             error,
             interval(parameter.interval_95),
             if parameter.identifiable { "yes" } else { "NO" }
+        )?;
+    }
+    if answer
+        .parameters
+        .iter()
+        .any(|parameter| parameter.name == DISCREPANCY)
+    {
+        writeln!(
+            out,
+            "({DISCREPANCY}: standard deviation of a smooth error of the model, a share of the largest reading; the intervals allow for it)"
         )?;
     }
     if let Some(bootstrap) = &answer.bootstrap {

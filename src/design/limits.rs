@@ -1,8 +1,8 @@
 //! What is asked of a design, and what can be wrong with that.
 
+use super::options::DesignOptions;
 use super::trade_off::Spring;
 use crate::scene::{End, Restraint};
-use super::options::DesignOptions;
 use crate::{Error, Limited, Place, Scene};
 
 /// Error of a design.

@@ -7,6 +7,7 @@ use crate::fit::Fit;
 use crate::interval::EXCLUSION;
 use crate::parameter::{FARTHEST, physical};
 use crate::search::ROUGH;
+use crate::size::Sizes;
 use crate::solution::{Route, Solution};
 use crate::{Calibration, CalibrationError, Warning};
 
@@ -26,7 +27,8 @@ impl Calibration<'_> {
     /// more model runs than allowed.
     pub fn fit(&self) -> Result<Fit, CalibrationError> {
         self.check_count()?;
-        self.fit_directly(&Evaluator::new(self), self.start())
+        let fit = |one: &Self, _| Ok((one.fit_directly(&Evaluator::new(one), one.start())?, ()));
+        Ok(self.with_size(fit)?.0)
     }
 
     /// The fit by `evaluator`, which may have run before, from `start` and all over the range.
@@ -49,7 +51,18 @@ impl Calibration<'_> {
         let deviance = solution.optimum.deviance;
         let standardised = &solution.optimum.point.residuals;
         let observed = &self.observations;
-        let residuals: Vec<f64> = standardised
+        let mut plain = standardised.clone();
+        let mut smooth = vec![0.0; observed.len()];
+        if let Some(whitening) = &self.whitening {
+            whitening.undo(&mut plain);
+            let parts = whitening.smooth(&plain.rows(0, observed.len()).into_owned());
+            smooth = parts
+                .iter()
+                .zip(&self.sigmas)
+                .map(|(part, sigma)| -part * sigma)
+                .collect();
+        }
+        let residuals: Vec<f64> = plain
             .iter()
             .zip(&self.sigmas)
             .map(|(r, sigma)| -r * sigma)
@@ -89,11 +102,14 @@ impl Calibration<'_> {
             deviance: solution.optimum.value(),
             evaluations: evaluator.count(),
             iterations: solution.optimum.iterations,
-            curvatures: curvatures
-                .iter()
-                .zip(&self.sigmas)
-                .map(|(curvature, sigma)| curvature / sigma)
-                .collect(),
+            discrepancy: solution
+                .sizes
+                .as_ref()
+                .map(|sizes| sizes.estimate(1.0 - self.options.confidence)),
+            ratio: solution.sizes.as_ref().map_or(0.0, Sizes::ratio),
+            smooth,
+            whitening: self.whitening.clone(),
+            curvatures: curvatures.iter().take(observed.len()).copied().collect(),
             sigmas: self.sigmas.clone(),
             estimates: solution.estimates,
             free: solution.optimum.point.free,

@@ -74,6 +74,10 @@ impl Calibration<'_> {
         if options.replicates < 10 {
             return Err(invalid("replicates", options.replicates, "at least 10"));
         }
+        if self.discrepancy.is_some() {
+            let allowed = "none beside a discrepancy, whose residuals are not independent";
+            return Err(invalid("replicates", options.replicates, allowed));
+        }
         if fit.fitted.len() != self.observations.len() || fit.free.len() != self.parameters.len() {
             return Err(invalid(
                 "observations of the fit",

@@ -1,10 +1,12 @@
 //! A calibration: model, parameters, observations and options.
 
 use std::fmt;
+use std::sync::Arc;
 
 use nalgebra::DVector;
 
-use crate::{CalibrationError, Model, Options, Parameter};
+use crate::whitening::Whitening;
+use crate::{CalibrationError, Discrepancy, Loss, Model, Options, Parameter};
 
 /// Scanned points for each parameter and one more: 24 for two, of which the emulator learns as well.
 const SCAN: usize = 8;
@@ -33,6 +35,9 @@ pub struct Calibration<'a> {
     pub(crate) sigmas: Vec<f64>,
     pub(crate) knows_noise: bool,
     pub(crate) options: Options,
+    pub(crate) discrepancy: Option<Discrepancy>,
+    /// With the size that is being tried.
+    pub(crate) whitening: Option<Arc<Whitening>>,
 }
 
 impl fmt::Debug for Calibration<'_> {
@@ -87,7 +92,26 @@ impl<'a> Calibration<'a> {
             observations,
             knows_noise: false,
             options: Options::default(),
+            discrepancy: None,
+            whitening: None,
         })
+    }
+
+    /// The model may be off by a smooth function of the observations, whose size is fitted as well.
+    ///
+    /// # Errors
+    ///
+    /// [`CalibrationError::InvalidOption`] for one of another number of observations.
+    pub fn with_discrepancy(mut self, discrepancy: Discrepancy) -> Result<Self, CalibrationError> {
+        if discrepancy.count() != self.observations.len() {
+            return Err(CalibrationError::InvalidOption {
+                name: "observations of the discrepancy",
+                value: discrepancy.count() as f64,
+                allowed: "as many as there are",
+            });
+        }
+        self.discrepancy = Some(discrepancy);
+        Ok(self)
     }
 
     /// The standard deviation of each observation is known.
@@ -186,6 +210,13 @@ impl<'a> Calibration<'a> {
                 observations,
                 parameters,
                 needed,
+            });
+        }
+        if self.discrepancy.is_some() && self.options.loss != Loss::Squares {
+            return Err(CalibrationError::InvalidOption {
+                name: "threshold of the loss",
+                value: self.options.loss.threshold().unwrap_or(f64::NAN),
+                allowed: "least squares beside a discrepancy",
             });
         }
         Ok(())

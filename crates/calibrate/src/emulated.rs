@@ -24,7 +24,10 @@ const ANCHORS: usize = 2;
 /// Distance between prediction and run at an end, in standard errors of all readings together. Without a limit, five of 2400 fits took
 /// fewer runs than they needed, and lost the truth (tests/calibration_coverage.rs).
 const FOLLOWED: f64 = 0.5;
-/// Distance from a run, in standard errors, at which an emulator of the difference to a coarser model is taken to know the model.
+/// Standard error of the readings by the emulator of a difference to a coarser model, in those of all readings together, up to which it is
+/// believed without a run. Runs were off by up to twice as much, which moves the end of an interval by less than its accuracy.
+const SURE: f64 = 0.15;
+/// Distance between ends of intervals, in standard errors of all parameters together, at which a finer model is asked at both.
 const NEAR: f64 = 0.5;
 /// Distance, in the model's own noise, that an optimum may be off where the model has run: three standard deviations.
 const RIPPLE: f64 = 3.0;
@@ -65,7 +68,6 @@ impl Calibration<'_> {
     /// As for [`fit`](Self::fit), and [`CalibrationError::InvalidOption`] for a `coarse` of other parameters or observations.
     pub fn fit_emulated(&self, coarse: Option<&Emulator>) -> Result<(Fit, Emulator), CalibrationError> {
         self.check_count()?;
-        let runs = Evaluator::new(self);
         let (dimensions, observations) = (self.parameters.len(), self.observations.len());
         // One that could not follow its model has nothing to teach.
         let coarse = coarse.filter(|coarse| coarse.runs() > 0);
@@ -76,9 +78,20 @@ impl Calibration<'_> {
                 allowed: "those of this calibration, and its observations",
             });
         }
+        self.with_size(|one, known| one.emulate(coarse, known))
+    }
+
+    /// The fit by an emulator that may have learned before.
+    fn emulate(
+        &self,
+        coarse: Option<&Emulator>,
+        known: Option<Emulator>,
+    ) -> Result<(Fit, Emulator), CalibrationError> {
+        let runs = Evaluator::new(self);
+        let (dimensions, observations) = (self.parameters.len(), self.observations.len());
         let mut emulation = Emulation {
             calibration: self,
-            emulator: Emulator::new(&self.parameters, coarse),
+            emulator: known.unwrap_or_else(|| Emulator::new(&self.parameters, coarse)),
             runs: &runs,
         };
         let start = self.start();
@@ -157,11 +170,7 @@ impl Emulation<'_> {
             };
             let optimum = solution.optimum.point.free.clone();
             let learned = self.emulator.known(&optimum).is_some();
-            let witnesses: Vec<&Witness> = solution
-                .witnesses
-                .iter()
-                .filter(|witness| !self.is_excluded(&solution, witness) && !self.is_known(&solution, witness))
-                .collect();
+            let witnesses = self.doubtful(&solution);
             let mut places = vec![optimum.clone()];
             places.extend(witnesses.iter().map(|witness| witness.point.free.clone()));
             let Some(seen) = self.run(places)? else {
@@ -273,42 +282,70 @@ impl Emulation<'_> {
             && rise > EXCLUSION * witness.threshold
     }
 
-    /// Whether the model ran so close to the end of an interval that the emulator of its difference to a coarser one, which was asked there,
-    /// knows it.
-    fn is_known(&self, solution: &Solution, witness: &Witness) -> bool {
-        let near = || {
-            self.emulator
-                .nearest(&witness.point.free, |change| self.length(solution, change))
-        };
-        self.emulator.coarse.is_some() && witness.bound.is_none() && near() < NEAR
-    }
-
-    /// Length of a change of the model's free variables in standard errors of all of them together.
-    fn length(&self, solution: &Solution, change: &DVector<f64>) -> f64 {
+    /// The witnesses that the model is asked about: the one of which the emulator is least sure, then what that leaves, until none is doubtful.
+    fn doubtful<'s>(&self, solution: &'s Solution) -> Vec<&'s Witness> {
+        let left = solution.witnesses.iter();
+        let mut left: Vec<&Witness> = left
+            .filter(|witness| !self.is_excluded(solution, witness))
+            .collect();
         let optimum = &solution.optimum;
         let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
-        let change = self.emulator.with_terms(change, optimum.point.free.len());
-        let information = information(&optimum.jacobian, &curvatures);
-        change.dot(&(information * &change)).max(0.0).sqrt()
+        let weights = |k: usize| curvatures[k] / self.calibration.sigmas[k].powi(2);
+        // All finer models rest on the coarsest, which is asked wherever an answer rests on it.
+        let doubt = self
+            .emulator
+            .doubt(weights)
+            .filter(|_| self.emulator.coarse.is_some());
+        let Some(mut doubt) = doubt else {
+            return left;
+        };
+        let place = |witness: &Witness| self.emulator.place(&witness.point.free);
+        doubt.without(self.emulator.place(&optimum.point.free));
+        let mut asked = Vec::new();
+        loop {
+            let size = |witness: &&Witness| doubt.at(&place(witness)) / self.allowed(solution, witness);
+            let sizes: Vec<f64> = left.iter().map(size).collect();
+            let most = (0..sizes.len()).max_by(|&a, &b| sizes[a].total_cmp(&sizes[b]));
+            let Some(most) = most.filter(|&most| sizes[most] > 1.0) else {
+                return asked;
+            };
+            let witness = left.swap_remove(most);
+            doubt.without(place(witness));
+            asked.push(witness);
+        }
     }
 
-    /// Where the model was asked beside the optimum and the bounds, each at some distance from the others.
+    /// Standard error of an emulator at a witness up to which it is believed.
+    fn allowed(&self, solution: &Solution, witness: &Witness) -> f64 {
+        let rise = root(solution, &witness.point, &solution.optimum.point);
+        let sure = match witness.bound {
+            // Half of what would make it another answer, for two standard errors.
+            Some(_) => SURE.max(0.25 * (rise - witness.threshold).abs()),
+            None => SURE,
+        };
+        sure.max(0.5 * self.calibration.options.tolerance)
+    }
+
+    /// Where a finer model is asked beside the optimum: at the ends of intervals, each at some distance from the others.
     fn ends(&self, solution: &Solution) -> Vec<DVector<f64>> {
-        let mut ends: Vec<DVector<f64>> = Vec::new();
+        let optimum = &solution.optimum;
+        let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
+        let information = information(&optimum.jacobian, &curvatures);
+        let length = |change: &DVector<f64>| change.dot(&(&information * change)).max(0.0).sqrt();
+        let mut ends: Vec<&DVector<f64>> = Vec::new();
         for witness in solution
             .witnesses
             .iter()
             .filter(|witness| witness.bound.is_none())
         {
-            let free = self.emulator.of_model(&witness.point.free);
-            if ends
-                .iter()
-                .all(|other| self.length(solution, &(other - &free)) >= NEAR)
-            {
+            let free = &witness.point.free;
+            if ends.iter().all(|other| length(&(*other - free)) >= NEAR) {
                 ends.push(free);
             }
         }
-        ends
+        ends.into_iter()
+            .map(|free| self.emulator.of_model(free))
+            .collect()
     }
 
     /// Whether the model found a root of the rise at a witness that means what the emulator's does.

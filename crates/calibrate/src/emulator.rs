@@ -11,7 +11,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::{Cholesky, DMatrix, DVector};
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::{Model, ModelError, Parameter};
 
@@ -40,7 +40,10 @@ pub struct Emulator {
     /// Mean of what `coarse` misses, and what each run's neighbourhood adds to it, a row each.
     mean: DVector<f64>,
     weights: DMatrix<f64>,
-    /// Where the intervals of the fit that it was made for end, and a rival of it; no two of them within half a standard error.
+    /// What `weights` were solved with, and the sum of squares of each prediction about its mean, in units of the correlations.
+    factor: Option<Cholesky<f64, Dyn>>,
+    squares: Vec<f64>,
+    /// Where a finer model should run beside the optimum: ends of intervals of the fit that it was made for, and a rival of it.
     pub(crate) ends: Vec<DVector<f64>>,
     /// Parameters and their lower and upper bounds that this model, or a coarser one, was seen to exclude by far.
     pub(crate) excluded: Vec<(usize, bool)>,
@@ -59,6 +62,8 @@ impl Emulator {
             predictions: Vec::new(),
             mean: DVector::zeros(0),
             weights: DMatrix::zeros(0, 0),
+            factor: None,
+            squares: Vec::new(),
             ends: Vec::new(),
             excluded: coarse.map_or_else(Vec::new, |coarse| coarse.excluded.clone()),
         }
@@ -98,7 +103,7 @@ impl Emulator {
     }
 
     /// Shares of the parameters' ranges at free variables.
-    fn place(&self, free: &DVector<f64>) -> DVector<f64> {
+    pub(crate) fn place(&self, free: &DVector<f64>) -> DVector<f64> {
         DVector::from_fn(self.parameters.len(), |k, _| {
             let parameter = &self.parameters[k];
             parameter.share(parameter.bounded(free[self.indices[k]]))
@@ -140,13 +145,16 @@ impl Emulator {
         Some(&self.predictions[run])
     }
 
-    /// Distance to the nearest of its runs, which `measure` gives to what separates two places.
-    pub(crate) fn nearest(&self, free: &DVector<f64>, measure: impl Fn(&DVector<f64>) -> f64) -> f64 {
-        let here = self.of_model(free);
-        self.points
-            .iter()
-            .map(|point| measure(&(point - &here)))
-            .fold(f64::INFINITY, f64::min)
+    /// What it knows of its own error, where the square of that of prediction k counts `weights[k]`; nothing with less than two runs.
+    pub(crate) fn doubt(&self, weights: impl Fn(usize) -> f64) -> Option<Doubt> {
+        let factor = self.factor.clone().filter(|_| self.places.len() > 1)?;
+        let squares = (0..self.squares.len()).map(|k| weights(k) * self.squares[k]);
+        let variance = squares.sum::<f64>() / (self.places.len() - 1) as f64;
+        Some(Doubt {
+            variance,
+            places: self.places.clone(),
+            factor,
+        })
     }
 
     /// Adds runs at free variables.
@@ -179,6 +187,7 @@ impl Emulator {
         let factor =
             |nugget| Cholesky::new(&correlations + DMatrix::from_diagonal_element(count, count, nugget));
         let Some(solved) = [NUGGET, 1e-6, 1e-4, 1e-2, 1.0].into_iter().find_map(factor) else {
+            self.factor = None;
             self.mean = missed.row_mean().transpose();
             self.weights = DMatrix::zeros(count, width);
             return;
@@ -189,6 +198,10 @@ impl Emulator {
             row -= self.mean.transpose();
         }
         self.weights = solved.solve(&missed);
+        self.squares = (0..width)
+            .map(|k| self.weights.column(k).dot(&missed.column(k)))
+            .collect();
+        self.factor = Some(solved);
     }
 
     /// Predictions at shares of the ranges.
@@ -212,6 +225,40 @@ impl Model for Emulator {
             parameter.share(parameter.coordinate(parameters[k]))
         });
         Ok(self.at(&place).data.into())
+    }
+}
+
+/// Standard error of an emulator's predictions, all of them together (Sacks et al., equation 9). It depends on where the model runs, not on
+/// what it says there, so that a run can be weighed before it is made.
+pub(crate) struct Doubt {
+    variance: f64,
+    places: Vec<DVector<f64>>,
+    factor: Cholesky<f64, Dyn>,
+}
+
+impl Doubt {
+    /// At shares of the ranges.
+    pub fn at(&self, place: &DVector<f64>) -> f64 {
+        let near = self.near(place);
+        let known = self.factor.solve(&near);
+        let ones = DVector::from_element(near.len(), 1.0);
+        let of_mean = (1.0 - known.sum()).powi(2) / self.factor.solve(&ones).sum();
+        (self.variance * (1.0 - near.dot(&known) + of_mean).max(0.0)).sqrt()
+    }
+
+    /// What is left of it once the model has run there.
+    pub fn without(&mut self, place: DVector<f64>) {
+        let column = self.near(&place).push(1.0 + NUGGET);
+        self.factor = self.factor.insert_column(self.places.len(), column);
+        self.places.push(place);
+    }
+
+    fn near(&self, place: &DVector<f64>) -> DVector<f64> {
+        let correlations = self
+            .places
+            .iter()
+            .map(|other| correlation((place - other).norm()));
+        DVector::from_iterator(self.places.len(), correlations)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Model runs: residuals and their derivatives by the free variables.
 //!
-//! The residuals are (prediction − observation)/σ, followed by those of the priors. Where the model has no answer they are
+//! The residuals are (prediction − observation)/σ, whitened where the model has a discrepancy, followed by those of the priors. Where the model has no answer they are
 //! infinite, and the optimiser stays away. Derivatives are central differences. Their step is at least the cube root of the
 //! model's relative noise, which balances rounding against curvature, and so long that the noise stays small beside the change.
 
@@ -110,7 +110,11 @@ impl<'a> Evaluator<'a> {
             .map(|(row, (predicted, (observed, sigma)))| (predicted + added(row) - observed) / sigma);
         let parameters = self.calibration.parameters.iter().zip(free.iter());
         let priors = parameters.filter_map(|(parameter, &z)| parameter.prior_residual(z));
-        DVector::from_vec(data.chain(priors).collect())
+        let mut residuals = DVector::from_vec(data.chain(priors).collect());
+        if let Some(whitening) = &self.calibration.whitening {
+            whitening.apply(&mut residuals);
+        }
+        residuals
     }
 
     /// The observations with their sigmas.
@@ -157,9 +161,12 @@ impl<'a> Evaluator<'a> {
         }
         let parameters = &self.calibration.parameters;
         let rows = self.calibration.observations.len();
-        let columns = DMatrix::from_fn(rows, terms.len(), |row, k| {
+        let mut columns = DMatrix::from_fn(rows, terms.len(), |row, k| {
             parameters[terms[k]].column().map_or(0.0, |column| column[row]) / self.calibration.sigmas[row]
         });
+        if let Some(whitening) = &self.calibration.whitening {
+            whitening.apply_to_columns(&mut columns);
+        }
         let left = self.standardised(&free, predicted);
         let mut square = columns.tr_mul(&columns);
         for k in 0..terms.len() {

@@ -1,7 +1,10 @@
 //! What a calibration answers.
 
+use std::sync::Arc;
+
 use nalgebra::{DMatrix, DVector};
 
+use crate::whitening::Whitening;
 use crate::{Estimate, Warning};
 
 /// A calibrated model.
@@ -34,13 +37,20 @@ pub struct Fit {
     pub evaluations: usize,
     /// Iterations of the descent that led to the optimum.
     pub iterations: u64,
+    /// Size of the discrepancy, where the calibration has one.
+    pub discrepancy: Option<Estimate>,
+    /// What of each residual is most likely the discrepancy; 0 without one.
+    pub smooth: Vec<f64>,
     /// What the user should know.
     pub warnings: Vec<Warning>,
     /// The optimum in free variables and the derivatives of the standardised residuals by them.
     pub(crate) free: DVector<f64>,
     pub(crate) jacobian: DMatrix<f64>,
-    /// Half the second derivative of the deviance by each prediction.
+    /// Half the second derivative of the deviance by each of them.
     pub(crate) curvatures: Vec<f64>,
+    pub(crate) whitening: Option<Arc<Whitening>>,
+    /// The size of the discrepancy beside the noise that the residuals call for.
+    pub(crate) ratio: f64,
     pub(crate) sigmas: Vec<f64>,
     /// Covariance of the free variables.
     pub(crate) covariance: DMatrix<f64>,
@@ -61,12 +71,30 @@ impl Fit {
             .collect()
     }
 
+    /// Residuals without their smooth part, the discrepancy, in units of their sigmas.
+    pub fn standardised_noise(&self) -> Vec<f64> {
+        let parts = self.residuals.iter().zip(&self.smooth).zip(&self.sigmas);
+        parts
+            .map(|((residual, smooth), sigma)| (residual - smooth) / sigma)
+            .collect()
+    }
+
+    /// What a change of the observations changes of the residuals.
+    pub(crate) fn standardised(&self, change: &[f64]) -> DVector<f64> {
+        let pairs = change.iter().zip(&self.sigmas);
+        let mut change = DVector::from_iterator(change.len(), pairs.map(|(change, sigma)| change / sigma));
+        if let Some(whitening) = &self.whitening {
+            whitening.apply(&mut change);
+        }
+        change
+    }
+
     /// By how many standard errors each estimate would move, to first order, if the model predicted `change` more, in the
     /// observations' unit: what an error of the model does to the parameters. 0 for what has no standard error.
     pub fn shift(&self, change: &[f64]) -> Vec<f64> {
         let count = self.free.len();
         let mut gradient = DVector::zeros(count);
-        for (row, (change, curvature)) in change.iter().zip(&self.curvatures).enumerate() {
+        for (row, (change, curvature)) in self.standardised(change).iter().zip(&self.curvatures).enumerate() {
             for k in 0..count {
                 gradient[k] -= self.jacobian[(row, k)] * curvature * change;
             }

@@ -133,17 +133,27 @@ impl Profiler<'_> {
             let near = |station: &Station| (station.root - self.wanted).abs() < ACCURACY * self.wanted;
             let (inner, outer) = (&stations[inner], &stations[outer]);
             let width = outer.distance - inner.distance;
+            let narrow = width < ACCURACY * outer.distance;
             // Beyond an infinite rise the model has no answer.
-            let edge = outer.root.is_infinite() && width < ACCURACY * outer.distance;
-            if near(inner) || near(outer) || edge {
+            if near(inner) || near(outer) || (narrow && outer.root.is_infinite()) {
                 return Ok(Some(place));
+            }
+            if narrow {
+                // The rise has no jumps: the others are stuck, unless from here they find the way.
+                let again = self.station(k, sign, outer.distance, std::slice::from_ref(inner))?;
+                if again.root >= outer.root {
+                    return Ok(None);
+                }
+                let index = stations.partition_point(|other| other.distance < again.distance);
+                stations[index] = again;
+                continue;
             }
             let middle = inner.distance + 0.5 * width;
             let next = if round % 3 == 2 { middle } else { place };
             let station = self.station(k, sign, next, stations)?;
             insert(stations, station);
         }
-        // The rise has no jumps: where it seems to, the others are stuck, and nothing is excluded.
+        // Where the others are stuck, nothing is excluded.
         Ok(None)
     }
 

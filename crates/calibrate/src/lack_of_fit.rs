@@ -50,20 +50,18 @@ impl Fit {
         if columns.iter().any(|column| column.len() != rows) {
             return None;
         }
+        let columns: Vec<DVector<f64>> = columns.iter().map(|column| self.standardised(column)).collect();
         // Half the second derivatives of the deviance; outliers of a robust fit hardly count.
-        let weight = |row: usize| self.curvatures[row] / self.sigmas[row] * self.weights[row];
+        let weight = |row: usize| self.curvatures[row] * self.weights[row];
         let weighted = DMatrix::from_fn(rows, count, |row, k| columns[k][row] * weight(row));
         let plain = DMatrix::from_fn(rows, count, |row, k| columns[k][row]);
-        let jacobian = DMatrix::from_fn(rows, self.free.len(), |row, k| {
-            self.jacobian[(row, k)] * self.sigmas[row]
-        });
-        let across = jacobian.tr_mul(&weighted);
+        let across = self.jacobian.rows(0, rows).tr_mul(&weighted);
         let full = plain.tr_mul(&weighted);
         let left = &full - across.tr_mul(&(&self.covariance * &across));
         if (0..count).any(|k| left[(k, k)].is_nan() || left[(k, k)] <= LEFT * full[(k, k)]) {
             return None;
         }
-        let slope = weighted.tr_mul(&DVector::from_column_slice(&self.residuals));
+        let slope = weighted.tr_mul(&self.standardised(&self.residuals));
         let solved = left.cholesky()?;
         let sizes = solved.solve(&slope);
         let gain = slope.dot(&sizes);

@@ -13,8 +13,8 @@
 //! [`Calibration::fit_emulated`] gives the same answer with a part of the runs.
 //!
 //! *Assumptions.* Independent noise, Gaussian but for the outliers that a robust loss is there for; predictions that
-//! are smooth in the parameters but for a small known ripple ([`Options::relative_noise`]). Errors of the model itself are not in
-//! the intervals.
+//! are smooth in the parameters but for a small known ripple ([`Options::relative_noise`]). Errors of the model itself are in
+//! the intervals only where it is given a [`Discrepancy`].
 //!
 //! *References.* D. M. Bates, D. G. Watts, Nonlinear Regression Analysis and Its Applications, 1988; P. J. Huber, Robust Statistics,
 //! 1981; A. Raue et al., "Structural and practical identifiability analysis", Bioinformatics 25 (2009) 1923.
@@ -44,6 +44,7 @@ mod bootstrap;
 mod calibration;
 mod descent;
 mod deviance;
+mod discrepancy;
 mod emulated;
 mod emulator;
 mod error;
@@ -58,15 +59,19 @@ mod observer;
 mod options;
 mod parameter;
 mod point;
+mod rounds;
 mod search;
+mod size;
 mod solution;
 mod station;
 mod step;
 mod uncertainty;
 mod warning;
+mod whitening;
 
 pub use bootstrap::{Bootstrap, BootstrapOptions};
 pub use calibration::Calibration;
+pub use discrepancy::Discrepancy;
 pub use emulator::Emulator;
 pub use error::CalibrationError;
 pub use estimate::{Estimate, Interval};

@@ -10,6 +10,7 @@ use crate::interval::{Profile, Witness};
 use crate::parameter::FARTHEST;
 use crate::point::Point;
 use crate::search::{MAX_ROUNDS, Search};
+use crate::size::Sizes;
 use crate::station::{Profiler, Stop};
 use crate::uncertainty::{Covariance, parameters_from_data, quantile};
 use crate::{Calibration, CalibrationError, Loss, Parameter, Profiles, Warning};
@@ -39,6 +40,8 @@ pub(crate) struct Solution {
     /// Whether the noise was estimated from the residuals, and if so, because the sigmas are not believed.
     pub noise_estimated: bool,
     pub misfit: Option<Warning>,
+    /// Sizes of the discrepancy, where the model has one.
+    pub sizes: Option<Sizes>,
 }
 
 impl Calibration<'_> {
@@ -105,11 +108,13 @@ impl Calibration<'_> {
         let covariance = Covariance::of(optimum);
         let noise_estimated = !search.known_noise || self.options.loss.is_robust();
         let tail = 1.0 - self.options.confidence;
-        let profiler = Profiler {
+        let sizes = Sizes::of(self, optimum, self.freedom(optimum));
+        let natural = quantile(0.5 * tail, noise_estimated.then(|| self.freedom(optimum)));
+        let mut profiler = Profiler {
             search,
             optimum,
             covariance: &covariance,
-            wanted: quantile(0.5 * tail, noise_estimated.then(|| self.freedom(optimum))),
+            wanted: natural,
             rival,
             scan: route.scan_others,
         };
@@ -117,12 +122,16 @@ impl Calibration<'_> {
         let mut witnesses: Vec<Witness> = rival
             .map(|point| Witness {
                 point: point.clone(),
-                threshold: profiler.wanted,
+                threshold: natural,
                 bound: None,
             })
             .into_iter()
             .collect();
         for (k, parameter) in self.parameters.iter().enumerate() {
+            let of_sizes = sizes
+                .as_ref()
+                .and_then(|sizes| sizes.quantile(k, tail, &covariance));
+            profiler.wanted = of_sizes.unwrap_or(natural);
             let free = optimum.point.free[k];
             let coordinate = parameter.bounded(free);
             let error = covariance
@@ -160,6 +169,7 @@ impl Calibration<'_> {
             witnesses,
             noise_estimated,
             misfit: None,
+            sizes,
         })
     }
 }
