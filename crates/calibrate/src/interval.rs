@@ -138,7 +138,7 @@ impl Profiler<'_> {
             if near(inner) || near(outer) || (narrow && outer.root.is_infinite()) {
                 return Ok(Some(place));
             }
-            if narrow && round % 3 == 2 {
+            if narrow {
                 // The rise has no jumps: where it seems to, the others are stuck, unless from here they find the way.
                 let again = self.station(k, sign, outer.distance, std::slice::from_ref(inner))?;
                 if again.root < outer.root {
