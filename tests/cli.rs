@@ -1754,16 +1754,23 @@ fn assert_shows(shown: &str, printed: &str) {
     }
 }
 
-/// Whether two lines have the same words, and numbers within 0.2 % or one of their last decimals.
+/// Whether two lines have the same words, and numbers within 0.2 % or one of their last decimals; milliseconds that something takes, within
+/// half of them, for planning is measured.
 fn alike(shown: &str, printed: &str) -> bool {
-    let (shown, printed) = (shown.split_whitespace(), printed.split_whitespace());
-    shown.clone().count() == printed.clone().count()
-        && shown
-            .zip(printed)
-            .all(|(a, b)| match (a.parse::<f64>(), b.parse::<f64>()) {
-                (Ok(x), Ok(y)) => (x - y).abs() <= (2e-3 * y.abs()).max(1.01 * last_decimal(a)),
-                _ => a == b,
-            })
+    let words = |line: &str| -> Vec<String> { line.split_whitespace().map(str::to_owned).collect() };
+    let (shown, printed) = (words(shown), words(printed));
+    let same = |index: usize| {
+        let (a, b) = (&shown[index], &printed[index]);
+        let is_time = shown.get(index + 1).is_some_and(|unit| unit == "ms");
+        match (a.parse::<f64>(), b.parse::<f64>()) {
+            (Ok(x), Ok(y)) => {
+                let share = if is_time { 0.5 } else { 2e-3 };
+                (x - y).abs() <= (share * y.abs()).max(1.01 * last_decimal(a))
+            }
+            _ => a == b,
+        }
+    };
+    shown.len() == printed.len() && (0..shown.len()).all(same)
 }
 
 /// 0.01 for "3.58"; 0 for a whole number or one with an exponent.
