@@ -5,7 +5,6 @@ use std::io::Write;
 use super::failure::Failure;
 use super::terminal;
 use crate::design::{Binding, Design, Place, Side, Spring, TradeOff, largest_shown};
-use crate::scene::Unit;
 use crate::shown::percent;
 use crate::{Limited, Limits, Scene, Units};
 
@@ -15,12 +14,11 @@ pub struct Shown {
 }
 
 impl Shown {
-    /// In the units that were typed; a stiffness in kN/m where none was, for springs are stiff.
-    pub fn new(mut units: Units) -> Self {
-        if units.stiffness == Unit::NEWTON_PER_METRE {
-            units.stiffness = Unit::KILONEWTON_PER_METRE;
+    /// In the units that were typed.
+    pub fn new(units: Units) -> Self {
+        Self {
+            units: units.for_springs(),
         }
-        Self { units }
     }
 
     fn symbol(&self, quantity: Limited) -> &'static str {
@@ -49,13 +47,7 @@ impl Shown {
 
     /// The same as it was given.
     fn given(&self, quantity: Limited, value: f64) -> String {
-        let number = self.number(quantity, value);
-        let number = if number.contains('.') {
-            number.trim_end_matches('0').trim_end_matches('.')
-        } else {
-            &number
-        };
-        format!("{number} {}", self.symbol(quantity))
+        quantity.given_in(&self.units, value)
     }
 
     /// A stiffness without its unit, to four digits.
