@@ -5,7 +5,8 @@ use std::sync::{Mutex, PoisonError};
 
 use serde::Serialize;
 
-use super::design_words::{Shown, advice, compared, print, tried};
+use super::design_units::Shown;
+use super::design_words::{advice, compared, print, tried};
 use super::failure::Failure;
 use super::limits::{LimitArguments, place};
 use super::progress::{HowFar, stopped, watched};
@@ -170,10 +171,7 @@ fn keep(
     scene: &Scene,
     units: &Shown,
 ) -> Result<(), Failure> {
-    let cut = format!(
-        "cut short after {} runs with other stiffnesses: no answer",
-        done.len()
-    );
+    let cut = format!("cut short after {} stiffnesses: no answer", done.len());
     let mut curve = done.to_vec();
     sort(&mut curve);
     let answer = CutShort {

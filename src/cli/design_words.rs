@@ -2,72 +2,12 @@
 
 use std::io::Write;
 
+use super::design_units::Shown;
 use super::failure::Failure;
 use super::terminal;
 use crate::design::{Binding, Design, Place, Side, Spring, TradeOff, largest_shown};
 use crate::shown::percent;
-use crate::{Limited, Limits, Scene, Units};
-
-/// How the words about a design show numbers.
-pub struct Shown {
-    units: Units,
-}
-
-impl Shown {
-    /// In the units that were typed.
-    pub fn new(units: Units) -> Self {
-        Self {
-            units: units.for_springs(),
-        }
-    }
-
-    fn symbol(&self, quantity: Limited) -> &'static str {
-        match quantity {
-            Limited::Force => self.units.force.symbol(),
-            Limited::Movement => self.units.movement.symbol(),
-        }
-    }
-
-    fn stiffness_symbol(&self) -> &'static str {
-        self.units.stiffness.symbol()
-    }
-
-    /// A force or a movement without its unit.
-    fn number(&self, quantity: Limited, value: f64) -> String {
-        match quantity {
-            Limited::Force => self.units.force(value),
-            Limited::Movement => self.units.movement(value),
-        }
-    }
-
-    /// The same with its unit.
-    fn shown(&self, quantity: Limited, value: f64) -> String {
-        quantity.shown_in(&self.units, value)
-    }
-
-    /// The same as it was given.
-    fn given(&self, quantity: Limited, value: f64) -> String {
-        quantity.given_in(&self.units, value)
-    }
-
-    /// A stiffness without its unit, to four digits.
-    fn stiffness(&self, spring: &Spring) -> String {
-        match (spring.stiffness_n_per_m, spring.place) {
-            (None, _) => "fixed".to_owned(),
-            (Some(0.0), Place::Clamp(_)) => "no clamp".to_owned(),
-            (Some(0.0), _) => "free".to_owned(),
-            (Some(value), _) => {
-                let value = self.units.stiffness.of_si(value);
-                let whole = value.log10().floor();
-                if (-3.0..5.0).contains(&whole) {
-                    format!("{value:.*}", (3.0 - whole).max(0.0) as usize)
-                } else {
-                    format!("{value:.3e}")
-                }
-            }
-        }
-    }
-}
+use crate::{Limited, Limits, Scene};
 
 /// One design in full.
 pub fn print(design: &Design, scene: &Scene, units: &Shown) -> Result<(), Failure> {

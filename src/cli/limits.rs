@@ -75,16 +75,15 @@ const MOST_MOVEMENT: f64 = 1.0;
 impl LimitArguments {
     /// Warns of bare numbers that were probably meant in another unit.
     pub fn warn_of_slips(&self) {
-        for Limit { value, .. } in self.limit_force.iter().filter(|limit| limit.value < LEAST_FORCE) {
+        let bare = |limit: &&Limit| limit.unit.is_none();
+        let forces = self.limit_force.iter().filter(bare);
+        for Limit { value, .. } in forces.filter(|limit| limit.value < LEAST_FORCE) {
             terminal::warn(format_args!(
                 "--limit-force is {value} N: did you mean {value}kN?"
             ));
         }
-        for Limit { value, .. } in self
-            .limit_movement
-            .iter()
-            .filter(|limit| limit.value > MOST_MOVEMENT)
-        {
+        let movements = self.limit_movement.iter().filter(bare);
+        for Limit { value, .. } in movements.filter(|limit| limit.value > MOST_MOVEMENT) {
             terminal::warn(format_args!(
                 "--limit-movement is {value} m: did you mean {value}mm?"
             ));

@@ -20,15 +20,15 @@ pub(crate) const NOTHING: f64 = 1e-10;
 /// ```
 /// use calibrate::{Calibration, Discrepancy, ModelError, Parameter, Scale};
 ///
-/// // A parabola, taken for a line.
+/// // A line of slope 1 with a wave on it, read to 0.01; the model is the line alone.
 /// let places: Vec<f64> = (1..=20).map(|k| 0.05 * f64::from(k)).collect();
-/// let measured: Vec<f64> = places.iter().enumerate().map(|(k, x)| x + 0.3 * x * x + if k % 2 == 0 { 0.01 } else { -0.01 }).collect();
+/// let noise = |k: usize| if k % 2 == 0 { 0.01 } else { -0.01 };
+/// let measured = places.iter().enumerate().map(|(k, x)| x + 0.05 * (4.0 * x).cos() + noise(k)).collect();
 /// let line = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(places.iter().map(|x| p[0] * x).collect()) };
 /// let slope = Parameter::new("slope", 0.0, 10.0, Scale::Linear)?;
 /// let plain = Calibration::new(&line, vec![slope], measured)?;
 /// let smooth = |i: usize, j: usize| (-0.5 * ((places[i] - places[j]) / 0.5).powi(2)).exp();
 /// let allowed = plain.clone().with_discrepancy(Discrepancy::new(20, smooth, 0.1)?)?;
-/// // The slope at the origin is 1.
 /// assert!(!plain.fit()?.estimates[0].interval.contains(1.0));
 /// assert!(allowed.fit()?.estimates[0].interval.contains(1.0));
 /// # Ok::<(), calibrate::CalibrationError>(())

@@ -79,10 +79,11 @@ impl Fit {
             .collect()
     }
 
-    /// What a change of the observations changes of the residuals.
+    /// What a change of the observations changes of the residuals; those it does not name stay.
     pub(crate) fn standardised(&self, change: &[f64]) -> DVector<f64> {
-        let pairs = change.iter().zip(&self.sigmas);
-        let mut change = DVector::from_iterator(change.len(), pairs.map(|(change, sigma)| change / sigma));
+        let mut change = DVector::from_fn(self.sigmas.len(), |row, _| {
+            change.get(row).map_or(0.0, |change| change / self.sigmas[row])
+        });
         if let Some(whitening) = &self.whitening {
             whitening.apply(&mut change);
         }

@@ -139,14 +139,13 @@ impl Profiler<'_> {
                 return Ok(Some(place));
             }
             if narrow {
-                // The rise has no jumps: the others are stuck, unless from here they find the way.
+                // The rise has no jumps: where it seems to, the others are stuck, unless from here they find the way.
                 let again = self.station(k, sign, outer.distance, std::slice::from_ref(inner))?;
-                if again.root >= outer.root {
-                    return Ok(None);
+                if again.root < outer.root {
+                    let index = stations.partition_point(|other| other.distance < again.distance);
+                    stations[index] = again;
+                    continue;
                 }
-                let index = stations.partition_point(|other| other.distance < again.distance);
-                stations[index] = again;
-                continue;
             }
             let middle = inner.distance + 0.5 * width;
             let next = if round % 3 == 2 { middle } else { place };

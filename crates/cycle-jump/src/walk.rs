@@ -22,8 +22,8 @@ const SHORTEST: u64 = 4;
 /// Growth of the next jump's length after a simulated period.
 const GROWTH_BETWEEN: f64 = 1.3;
 /// Least and largest growth from one jump to the next; share of the length that the error would allow.
-const GROWTH: (f64, f64) = (0.2, 5.0);
-const CAUTION: f64 = 0.95;
+const GROWTH: (f64, f64) = (0.2, 3.0);
+const CAUTION: f64 = 0.85;
 /// Error of a jump beside the tolerance above which it is taken back, and of one that another run took on another mesh.
 const REJECTED: f64 = 2.0;
 const REJECTED_AS_GUIDED: f64 = 4.0;

@@ -9,7 +9,6 @@
 //! and once these are known r follows from a linear system. An answer is right exactly when every stuck node's friction
 //! lies within its bounds and every slipping node has slipped the way its friction points.
 
-use super::elimination::Eliminated;
 use super::support::Support;
 use crate::{DuctedCable, Mesh};
 
@@ -70,6 +69,13 @@ pub(crate) struct Load<'a> {
     pub anchor: &'a [f64],
     /// Friction before the step \[N/m\]; the answer does not depend on it but for the anchor.
     pub friction: &'a [f64],
+}
+
+/// A row once it is eliminated: r_i = value + factor · r of the neighbour towards the middle.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Eliminated {
+    pub value: f64,
+    pub factor: f64,
 }
 
 /// A trial answer, over all nodes; outside the stretch being solved `r` holds the neighbours' values.

@@ -10,7 +10,7 @@
 //! d_i/d_{i−1} would have every row wait for a division. Rounding changes them as if it had changed the rows by a few units in the
 //! last place.
 
-use super::chain::{Chain, Contact, Load, Stretch};
+use super::chain::{Chain, Contact, Eliminated, Load, Stretch};
 
 /// Rows after which determinants are made of size 1 again: each is at least half the one before.
 const RESCALED: usize = 256;
@@ -37,13 +37,6 @@ pub(super) struct Rows<'a> {
 struct Row {
     a: f64,
     b: f64,
-}
-
-/// A row once it is eliminated: r_i = value + factor · r of the neighbour towards the middle.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Eliminated {
-    value: f64,
-    factor: f64,
 }
 
 /// What the rows on one side leave to the next: the last one's value, d_{i−1}, a_{i−1} d_{i−2}.
