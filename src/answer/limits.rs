@@ -85,6 +85,7 @@ impl CableEnd {
 
 impl Limited {
     /// What is limited at a place, in words.
+    #[cfg(feature = "cli")]
     pub(crate) fn at(self, place: impl Into<Place>) -> String {
         self.at_in(&Units::default(), place.into())
     }
