@@ -102,7 +102,7 @@ check SCENE --set depth=1.5m | --set depth=1.5m: found unknown key `depth` (did 
 check SCENE --set ground.layers[1].young_modulus=60MPa | allowed: `ground.layers.1.young_modulus`: an item of a list by its number
 run SCENE --set traffic.passes=1 --limit-movement 10 | --limit-movement is 10 m: did you mean 10mm?
 run SCENE --set traffic.passes=1 --limit-force 2 | --limit-force is 2 N: did you mean 2kN?
-run SCENE --limit-force left=2kN | left=2kN | allowed before `=`: upstream or downstream
+run SCENE --limit-force left=2kN | left=2kN | allowed before `=`: upstream, downstream, clamp
 run SCENE --years 20 | scene.toml, line 33: key `traffic.per_day` is missing; allowed: vehicles a day
 design SCENE | --limit-force: found no limit | such as --limit-force 2kN
 design SCENE --limit-force 2kN --at 500m | found 500 | from 0

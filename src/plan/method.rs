@@ -14,7 +14,7 @@ use crate::scene::{Scene, SolverMethod};
 use crate::shown::time;
 
 /// Measured time a node's update takes \[s\] on one core of about 3 GHz: without inertia, with it, and explicit.
-const QUASI_STATIC_SECONDS: f64 = 1.6e-8;
+const QUASI_STATIC_SECONDS: f64 = 1.1e-8;
 const DYNAMIC_SECONDS: f64 = 6e-8;
 const EXPLICIT_SECONDS: f64 = 1e-9;
 /// Speed of waves in the cable beside the vehicle's time step, for the explicit solver's share of the work.
