@@ -117,7 +117,10 @@ fn the_report_tells_each_lane_from_the_duct() {
     let page = creepage::report::Report::new(&scene, &options)
         .expect("a report")
         .to_html();
-    for words in ["forward, right above the duct", "reverse, 3.5 m right of the duct"] {
+    for words in [
+        "forward, right above the duct",
+        "reverse, 3.5 m right of the duct",
+    ] {
         assert!(page.contains(words), "{words}");
     }
 }

@@ -85,7 +85,7 @@ impl CableEnd {
 
 impl Limited {
     /// What is limited at a place, in words.
-    #[cfg(feature = "cli")]
+    #[cfg(feature = "design")]
     pub(crate) fn at(self, place: impl Into<Place>) -> String {
         self.at_in(&Units::default(), place.into())
     }
