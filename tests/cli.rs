@@ -325,7 +325,7 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
     // The free end counts only by its name.
     let kept = printed(&run(&["--limit-movement", "1 um"]));
     assert!(
-        kept.contains("limit kept: movement of the downstream end at most 0.0 µm of 1.0 µm"),
+        kept.contains("limit kept: movement of the downstream end at most 0.0 µm of 1 µm"),
         "{kept}"
     );
     let named = printed(&run(&[
@@ -335,8 +335,8 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
         "upstream=2 um",
     ]));
     for line in [
-        "limit exceeded: movement of the upstream end above 2.0 µm from pass 1 on, 6 h; largest ",
-        "limit kept: movement of the downstream end at most 0.0 µm of 1.0 µm",
+        "limit exceeded: movement of the upstream end above 2 µm from pass 1 on, 6 h; largest ",
+        "limit kept: movement of the downstream end at most 0.0 µm of 1 µm",
     ] {
         assert!(named.contains(line), "{named}");
     }
@@ -1095,7 +1095,7 @@ fn design_takes_pairs_several_places_and_limits_of_clamps() {
     let clamp = ["--limit-force", "13m=1N", "--limit-movement", "clamp=1m"];
     let said = printed(&[&run[..], &clamp].concat());
     assert!(
-        said.contains("limit exceeded: force on the clamp at 13 m above 1.0 N from pass "),
+        said.contains("limit exceeded: force on the clamp at 13 m above 1 N from pass "),
         "{said}"
     );
     assert!(

@@ -304,7 +304,7 @@ fn the_page_begins_with_the_answer_and_a_verdict() {
     for words in [
         "After 6 passes (3 days) the force on the downstream end is ",
         "limit kept: force on the downstream end at most ",
-        "limit exceeded: movement of the upstream end above 0.0010 mm from pass 1 on, 12 h; largest ",
+        "limit exceeded: movement of the upstream end above 0.001 mm from pass 1 on, 12 h; largest ",
     ] {
         assert!(before.contains(words), "{words}: {before}");
     }
@@ -713,6 +713,96 @@ fn one_scene_has_one_force() {
     // The free end stands in the table and leaves the chart to the others.
     assert_eq!((rows[0][0].as_str(), rows[0][1].as_str()), ("free end", "0.0"));
     assert!(page.contains(&format!("moves {} mm and is not drawn", rows[0][2])));
+}
+
+/// A duct in feet, inches and kips.
+const IMPERIAL: &str = r#"
+title = "Imperial"
+duct = { length = "98 ft", depth = "4 ft", slope = "2 %" }
+ground.layers = [
+    { thickness = "4 in", young_modulus = "300000 psi", poisson_ratio = 0.35 },
+    { young_modulus = "116 ksi", poisson_ratio = 0.4 },
+]
+cable = { weight = "7.5 lbf/ft", axial_stiffness = "1800 kip" }
+friction = { law = "elastic-plastic", dynamic_coefficient = 0.25, shape_factor = "7.35e6 1/m" }
+ends = { upstream = "free", downstream = { spring = "20 kip/in" } }
+restraints = [{ position = "50 ft", stiffness = "5 kip/in" }]
+vehicles = [{ name = "truck", load = "44 kip", speed = "40 km/h", direction = "forward" }]
+traffic = { passes = 6 }
+"#;
+/// \[N\] and \[m\].
+const KIP: f64 = 4448.2216152605;
+const INCH: f64 = 0.0254;
+
+#[test]
+fn a_page_is_in_the_units_that_were_typed() {
+    let folder = folder("imperial");
+    let (scene, file) = (folder.join("scene.toml"), folder.join("page.html"));
+    fs::write(&scene, IMPERIAL).expect("a scene");
+    let limits = ["--limit-force", "2kip", "--limit-force", "50 ft=1kip"];
+    let output = creepage(&[&["report", text(&scene), "-o", text(&file)], &limits[..]].concat());
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let page = fs::read_to_string(&file).expect("the page");
+    let run: Value =
+        serde_json::from_slice(&creepage(&["run", text(&scene), "--json"]).stdout).expect("JSON");
+
+    let all = elements(&page);
+    let card = |title: &str| {
+        let at = all
+            .iter()
+            .position(|element| element.text == title)
+            .expect("a card");
+        all[at..].iter().find(|element| element.get("class") == "value")
+    };
+    let last = &run["passes"][5];
+    let force = last["downstream_force_n"].as_f64().expect("a force") / KIP;
+    assert_eq!(
+        card("Force after the last pass").expect("a value").text,
+        format!("{force:.5} kip")
+    );
+    let moved = last["upstream_displacement_m"].as_f64().expect("a movement") / INCH;
+    assert_eq!(
+        card("Movement of an end").expect("a value").text,
+        format!("{moved:.4} in")
+    );
+    let heads = [
+        "pass",
+        "force downstream, kip",
+        "moved upstream, in",
+        "moved downstream, in",
+    ];
+    let rows = table(&page, &heads);
+    let shown = rows.last().expect("a row");
+    assert_eq!(shown[1], format!("{force:.5}"));
+    assert_eq!(shown[2], format!("{moved:.5}"));
+
+    for words in [
+        "of 2 kip",
+        "force on the clamp at 50 ft at most",
+        "Duct: 98 ft long, 4 ft from the road surface",
+        "7.5 lbf/ft heavy, axial stiffness EA 1800 kip",
+        "spring of 20 kip/in",
+        "clamp of 5 kip/in at 50 ft",
+        "4 in, 300000 psi",
+        "44 kip, concentrated",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    // Axes end where the duct does, and the force along it is that of the table.
+    let along = figure(&all, "Force along the cable");
+    assert!(texts(along, "text").contains(&"98"));
+    for name in ["force, kip", "place along the duct, ft"] {
+        assert!(texts(along, "text").contains(&name), "{name}");
+    }
+    // Nothing but the duct's motion, which is in µm and mm/s, and what the program says of its mesh is metric.
+    let metric = ["N", "kN", "MN", "N/m", "kN/m", "MN/m", "mm", "MPa"];
+    for element in &all {
+        let said = element.text.replace("μ N′", "");
+        let mut words = said
+            .split_whitespace()
+            .map(|word| word.trim_end_matches(['.', ',', ';', ':']));
+        assert!(!words.any(|word| metric.contains(&word)), "{said}");
+    }
 }
 
 #[test]

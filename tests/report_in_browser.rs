@@ -16,7 +16,8 @@ use std::time::{Duration, Instant};
 
 use creepage::design::{Measure, Place};
 use creepage::report::{Report, ReportOptions};
-use creepage::{Readings, Scene};
+use creepage::scene::{Dimension, Unit};
+use creepage::{Readings, Scene, Units};
 use serde_json::Value;
 
 const PHONE: u32 = 390;
@@ -278,10 +279,28 @@ fn plain() -> String {
         .to_html()
 }
 
+/// Other units have longer names, and more digits in a table.
+fn imperial() -> String {
+    let unit = |dimension, symbol| Unit::of(dimension, symbol).expect("a unit");
+    let units = Units {
+        force: unit(Dimension::Force, "kip"),
+        movement: Unit::INCH,
+        stiffness: unit(Dimension::ForcePerLength, "kip/in"),
+        length: Unit::FOOT,
+        weight: unit(Dimension::ForcePerLength, "lbf/ft"),
+        modulus: unit(Dimension::Pressure, "psi"),
+    };
+    let options = ReportOptions {
+        units,
+        ..ReportOptions::default()
+    };
+    Report::new(&upper(&[]), &options).expect("a report").to_html()
+}
+
 #[test]
 #[ignore = "needs Chromium"]
 fn the_page_is_well_on_phones_and_desks_by_day_and_night() {
-    for page in [plain(), full()] {
+    for page in [plain(), full(), imperial()] {
         for width in [PHONE, DESK] {
             for dark in [false, true] {
                 let faults = faults(&page, width, dark, 9);

@@ -85,12 +85,18 @@ impl CableEnd {
 
 impl Limited {
     /// What is limited at a place, in words.
+    #[cfg(feature = "design")]
     pub(crate) fn at(self, place: impl Into<Place>) -> String {
-        let place = place.into();
+        self.at_in(&Units::default(), place.into())
+    }
+
+    /// The same in units of a reader.
+    fn at_in(self, units: &Units, place: Place) -> String {
+        let shown = place.shown_in(units);
         match (self, place) {
-            (Self::Force, _) => format!("force on the {place}"),
-            (Self::Movement, Place::Clamp(_)) => format!("movement at the {place}"),
-            (Self::Movement, _) => format!("movement of the {place}"),
+            (Self::Force, _) => format!("force on the {shown}"),
+            (Self::Movement, Place::Clamp(_)) => format!("movement at the {shown}"),
+            (Self::Movement, _) => format!("movement of the {shown}"),
         }
     }
 
@@ -99,6 +105,17 @@ impl Limited {
         match self {
             Self::Force => format!("{} {}", units.force(value), units.force.symbol()),
             Self::Movement => format!("{} {}", units.movement(value), units.movement.symbol()),
+        }
+    }
+
+    /// The same of a value that was given: "20 kN", not "20.0000 kN".
+    pub(crate) fn given_in(self, units: &Units, value: f64) -> String {
+        let shown = self.shown_in(units, value);
+        match shown.split_once(' ') {
+            Some((number, unit)) if number.contains('.') => {
+                format!("{} {unit}", number.trim_end_matches('0').trim_end_matches('.'))
+            }
+            _ => shown,
         }
     }
 }
@@ -184,8 +201,9 @@ impl Limits {
 impl Verdict {
     /// In words, in units of a reader.
     pub fn shown(&self, units: &Units) -> String {
-        let [limit, largest] = [self.limit, self.largest].map(|value| self.quantity.shown_in(units, value));
-        let what = self.quantity.at(self.end);
+        let limit = self.quantity.given_in(units, self.limit);
+        let largest = self.quantity.shown_in(units, self.largest);
+        let what = self.quantity.at_in(units, self.end);
         let verdict = match self.reached_after {
             Some(Reached { pass, years }) => {
                 let time = years.map_or_else(String::new, |years| format!(", {}", super::after(years)));

@@ -5,6 +5,8 @@ use serde::{Deserialize, Serialize};
 use super::cable_end::CableEnd;
 use super::heat::DayExtremes;
 use super::record::{RestraintRecord, Run};
+use super::units::Units;
+use crate::shown::exact;
 
 /// Clamps nearer to each other than this are at one place \[m\].
 const SAME_PLACE: f64 = 1e-6;
@@ -36,6 +38,18 @@ impl Place {
     pub fn is_clamp_at(self, position: f64) -> bool {
         matches!(self, Self::Clamp(own) if (own - position).abs() <= SAME_PLACE)
     }
+
+    /// It in words, in units of a reader.
+    pub(super) fn shown_in(self, units: &Units) -> String {
+        match self {
+            Self::Upstream => "upstream end".to_owned(),
+            Self::Downstream => "downstream end".to_owned(),
+            Self::Clamp(position) => {
+                let position = exact(units.length.of_si(position));
+                format!("clamp at {position} {}", units.length.symbol())
+            }
+        }
+    }
 }
 
 impl From<CableEnd> for Place {
@@ -49,11 +63,7 @@ impl From<CableEnd> for Place {
 
 impl std::fmt::Display for Place {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            Self::Upstream => f.write_str("upstream end"),
-            Self::Downstream => f.write_str("downstream end"),
-            Self::Clamp(position) => write!(f, "clamp at {position} m"),
-        }
+        f.write_str(&self.shown_in(&Units::default()))
     }
 }
 

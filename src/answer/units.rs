@@ -8,14 +8,18 @@ const FORCE_DIGIT: f64 = 0.1;
 const MOVEMENT_DIGIT: f64 = 1e-7;
 /// Units of stiffness whose force suits the ends of a cable. Springs are stiff: the MN of "3 MN/m" does not.
 const SUITABLE: [&str; 5] = ["kN", "kgf", "tf", "lbf", "kip"];
+/// Units of moduli that do not suit: those of the ground have too many digits in them.
+const TOO_SMALL: [&str; 2] = ["Pa", "N/m2"];
 
-/// The units in which a reader gets forces, movements and lengths: those that were typed, where they suit.
+/// The units in which a reader gets forces, movements, lengths and the like: those that were typed, where they suit.
 ///
 /// - Forces: the unit of a limit of force; else that in the first unit of an end spring, a clamp or the cable's weight, if that is kN, kgf,
 ///   tf, lbf or kip; else N.
 /// - Movements: the unit of a limit of movement; else inches where the duct's length is typed in ft or in; else mm.
 /// - Stiffnesses: the unit of an end spring or a clamp; else the one that goes with the force.
 /// - Lengths along the duct: ft where the duct's length is typed in ft or in; else m.
+/// - Weight and friction per length: the unit of the cable's weight; else N/m.
+/// - Moduli: the first unit of a modulus of the ground, if it is not Pa; else MPa.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Units {
     /// Of forces.
@@ -26,6 +30,10 @@ pub struct Units {
     pub stiffness: Unit,
     /// Of lengths along the duct.
     pub length: Unit,
+    /// Of the cable's weight and of friction on it, per length.
+    pub weight: Unit,
+    /// Of moduli of the ground.
+    pub modulus: Unit,
 }
 
 impl Default for Units {
@@ -35,6 +43,8 @@ impl Default for Units {
             movement: Unit::MILLIMETRE,
             stiffness: Unit::NEWTON_PER_METRE,
             length: Unit::METRE,
+            weight: Unit::NEWTON_PER_METRE,
+            modulus: Unit::MEGAPASCAL,
         }
     }
 }
@@ -50,11 +60,13 @@ impl Units {
             .filter(|typed| holds(&typed.key))
             .find_map(|typed| stiffness(&typed.key));
         let suits = |force: &Unit| SUITABLE.contains(&force.symbol());
-        let of_scene = spring
-            .or_else(|| stiffness("cable.weight"))
-            .and_then(|unit| unit.force())
-            .filter(suits);
+        let weight = stiffness("cable.weight");
+        let of_scene = spring.or(weight).and_then(|unit| unit.force()).filter(suits);
         let force = limit_force.or(of_scene).unwrap_or(Unit::NEWTON);
+        let modulus = typed
+            .iter()
+            .filter(|typed| typed.key.starts_with("ground."))
+            .find_map(|typed| file.typed_unit(&typed.key, Dimension::Pressure));
         let length = file.typed_unit("duct.length", Dimension::Length);
         let in_feet = length.is_some_and(|unit| [Unit::FOOT, Unit::INCH].contains(&unit));
         let [length, movement] = if in_feet {
@@ -67,7 +79,20 @@ impl Units {
             movement: limit_movement.unwrap_or(movement),
             stiffness: spring.or(force.per_length()).unwrap_or(Unit::NEWTON_PER_METRE),
             length,
+            weight: weight.unwrap_or(Unit::NEWTON_PER_METRE),
+            modulus: modulus
+                .filter(|unit| !TOO_SMALL.contains(&unit.symbol()))
+                .unwrap_or(Unit::MEGAPASCAL),
         }
+    }
+
+    /// The same with stiffnesses in kN/m where they would be in N/m: springs are stiff.
+    #[cfg(any(feature = "cli", feature = "plot"))]
+    pub(crate) fn for_springs(mut self) -> Self {
+        if self.stiffness == Unit::NEWTON_PER_METRE {
+            self.stiffness = Unit::KILONEWTON_PER_METRE;
+        }
+        self
     }
 
     /// A force \[N\] in its unit, as many digits as 0.1 N needs.
@@ -148,6 +173,21 @@ mod tests {
             units("[[vehicles]]\nload = \"20 tf\"", "", ""),
             ["N", "mm", "N/m", "m"]
         );
+    }
+
+    #[test]
+    fn weights_and_moduli_have_their_own_units() {
+        let of = |scene: &str| {
+            let file = SceneFile::from_toml("scene", scene).expect("a file");
+            let units = Units::typed(&file, None, None);
+            [units.weight, units.modulus].map(|unit| unit.symbol())
+        };
+        let layers = |modulus: &str| {
+            format!("[cable]\nweight = \"7 lbf/ft\"\n[[ground.layers]]\nyoung_modulus = \"{modulus}\"")
+        };
+        assert_eq!(of(""), ["N/m", "MPa"]);
+        assert_eq!(of(&layers("1e5 psi")), ["lbf/ft", "psi"]);
+        assert_eq!(of(&layers("8e8 Pa")), ["lbf/ft", "MPa"]);
     }
 
     #[test]

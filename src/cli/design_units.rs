@@ -1,7 +1,6 @@
 //! Numbers of a design in the units that were typed.
 
 use crate::design::{Place, Spring};
-use crate::scene::Unit;
 use crate::{Limited, Units};
 
 /// How the words about a design show numbers.
@@ -10,12 +9,11 @@ pub struct Shown {
 }
 
 impl Shown {
-    /// In the units that were typed; a stiffness in kN/m where none was, for springs are stiff.
-    pub fn new(mut units: Units) -> Self {
-        if units.stiffness == Unit::NEWTON_PER_METRE {
-            units.stiffness = Unit::KILONEWTON_PER_METRE;
+    /// In the units that were typed.
+    pub fn new(units: Units) -> Self {
+        Self {
+            units: units.for_springs(),
         }
-        Self { units }
     }
 
     pub fn symbol(&self, quantity: Limited) -> &'static str {
@@ -44,13 +42,7 @@ impl Shown {
 
     /// The same as it was given.
     pub fn given(&self, quantity: Limited, value: f64) -> String {
-        let number = self.number(quantity, value);
-        let number = if number.contains('.') {
-            number.trim_end_matches('0').trim_end_matches('.')
-        } else {
-            &number
-        };
-        format!("{number} {}", self.symbol(quantity))
+        quantity.given_in(&self.units, value)
     }
 
     /// A stiffness without its unit, to four digits.

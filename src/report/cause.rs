@@ -5,10 +5,9 @@ use super::content::{Report, reach};
 use super::figure::{MICRO, MILLI, figure};
 use super::friction::positive_area;
 use super::html::Html;
-use super::quantity::count;
-use crate::FrictionProfile;
+use super::quantity::{Shown, count, round_below, significant};
 use crate::figure::{Axis, Chart, Reference, Series};
-use crate::shown::rounded;
+use crate::{FrictionProfile, Units};
 
 pub fn cause(html: &mut Html, report: &Report) {
     html.paragraph(
@@ -42,7 +41,10 @@ pub fn cause(html: &mut Html, report: &Report) {
     );
     let passes = &report.friction.passes;
     if !passes.is_empty() {
-        let words: Vec<String> = passes.iter().map(|(pass, seen)| areas(*pass, seen)).collect();
+        let words: Vec<String> = passes
+            .iter()
+            .map(|(pass, seen)| areas(*pass, seen, &report.shown))
+            .collect();
         figure(
             html,
             friction(report),
@@ -61,13 +63,26 @@ pub fn cause(html: &mut Html, report: &Report) {
 /// Values of a point of the duct against the vehicle's position past it: at x_v the vehicle is x_v − x = −ξ past the point at x.
 fn past(report: &Report, values: &[f64], scale: impl Fn(f64) -> f64) -> Vec<(f64, f64)> {
     let pairs = report.motion.positions_m.iter().zip(values).rev();
-    pairs.map(|(xi, value)| (-xi, scale(*value))).collect()
+    let length = report.shown.units.length;
+    pairs
+        .map(|(xi, value)| (length.of_si(-xi), scale(*value)))
+        .collect()
+}
+
+/// An axis of places to either side, with ticks on both sides.
+fn either_side(report: &Report, name: &str) -> Axis {
+    let half = reach(&report.scene, report.shown.units.length);
+    let step = round_below(half);
+    let most = (half / step).floor() as i32;
+    let ticks = (-most..=most).map(|k| step * f64::from(k));
+    Axis::linear(report.shown.in_length(name))
+        .range(-half, half)
+        .ticks(ticks.map(|place| (place, significant(place).replace('-', "−"))))
 }
 
 /// The axis of the vehicle's position.
 fn position(report: &Report) -> Axis {
-    let half = reach(&report.scene);
-    Axis::linear("vehicle past the point looked at, m").range(-half, half)
+    either_side(report, "vehicle past the point looked at")
 }
 
 /// The displacement of a point of the duct, as the vehicle drives by.
@@ -110,18 +125,20 @@ fn ways(report: &Report) -> [f64; 2] {
 }
 
 fn friction(report: &Report) -> impl Iterator<Item = Chart> {
-    let limit = report.scene.friction_limit();
-    let half = reach(&report.scene);
+    let Units { length, weight, .. } = report.shown.units;
+    let limit = weight.of_si(report.scene.friction_limit());
+    let half = reach(&report.scene, length);
     report.friction.passes.iter().map(move |(pass, friction)| {
         let from_vehicle = friction
             .positions_m
             .iter()
-            .map(|x| x - friction.vehicle_position_m);
-        let points = from_vehicle.zip(friction.friction_n_per_m.iter().copied());
+            .map(|x| length.of_si(x - friction.vehicle_position_m));
+        let friction = friction.friction_n_per_m.iter();
+        let points = from_vehicle.zip(friction.map(|friction| weight.of_si(*friction)));
         Chart::new(
             format!("Friction on the cable, pass {}", count(*pass)),
-            Axis::linear("place from the vehicle, m").range(-half, half),
-            Axis::linear("friction, N/m").range(-1.5 * limit, 1.5 * limit),
+            either_side(report, "place from the vehicle"),
+            Axis::linear(format!("friction, {}", weight.symbol())).range(-1.5 * limit, 1.5 * limit),
         )
         .refer(Reference::horizontal(limit, "+μ N′"))
         .refer(Reference::horizontal(-limit, "−μ N′"))
@@ -130,17 +147,18 @@ fn friction(report: &Report) -> impl Iterator<Item = Chart> {
 }
 
 /// Lengths at the limit, and the two areas of friction.
-fn areas(pass: u64, friction: &FrictionProfile) -> String {
+fn areas(pass: u64, friction: &FrictionProfile, shown: &Shown) -> String {
     let [forward, backward] = [1.0, -1.0].map(|sign| {
         let values = friction.friction_n_per_m.iter().map(|f| sign * f);
-        rounded(positive_area(&friction.positions_m, values), 1)
+        shown.force(positive_area(&friction.positions_m, values))
     });
-    let lengths = &friction.slip_lengths;
+    let (lengths, unit) = (&friction.slip_lengths, shown.units.length);
     format!(
-        "Pass {}: at its limit over {:.1} m forward and {:.1} m backward; in total over the whole cable {forward} N forward and {backward} N \
-         backward.",
+        "Pass {}: at its limit over {:.1} {metres} forward and {:.1} {metres} backward; in total over the whole cable {forward} forward and \
+         {backward} backward.",
         count(pass),
-        lengths.forward_m,
-        lengths.backward_m,
+        unit.of_si(lengths.forward_m),
+        unit.of_si(lengths.backward_m),
+        metres = unit.symbol(),
     )
 }

@@ -3,12 +3,14 @@
 use super::agreement::Agreement;
 use super::friction::Friction;
 use super::measures::Comparison;
+use super::quantity::{Shown, round_below};
 use super::source::Source;
 use crate::calibration::CellEnd;
 use crate::design::Measure;
 use crate::readings::Readings;
+use crate::scene::Unit;
 use crate::{
-    Error, Limits, PlanReport, Profile, Progress, Run, RunOptions, Scene, Verdict, finite, profile_at,
+    Error, Limits, PlanReport, Profile, Progress, Run, RunOptions, Scene, Units, Verdict, finite, profile_at,
 };
 
 /// Positions at which the motion of the duct is drawn, and how far on either side of the vehicle \[depths\].
@@ -28,6 +30,8 @@ pub struct ReportOptions<'a> {
     pub measures: Option<&'a [Measure]>,
     /// Limits that are judged at the top of the page.
     pub limits: Limits,
+    /// Units in which the page is.
+    pub units: Units,
     /// The files that were read, the scene's first; without any the page states the scene alone, as [`Scene::to_toml`] writes it.
     pub sources: &'a [Source],
     /// What was set on top of the scene's file.
@@ -43,6 +47,7 @@ pub struct ReportOptions<'a> {
 /// The content of the page; [`to_html`](Report::to_html) writes it.
 #[derive(Debug)]
 pub struct Report {
+    pub(super) shown: Shown,
     pub(super) scene: Scene,
     pub(super) run: Run,
     pub(super) plan: PlanReport,
@@ -84,8 +89,9 @@ impl Report {
             .map(|readings| Agreement::new(scene, &run, readings));
         let ways = options.progress.part(RUN_SHARE, 1.0);
         let report = Self {
+            shown: Shown::new(options.units),
             plan: plan.report(),
-            motion: profile_at(scene, &positions(scene))?,
+            motion: profile_at(scene, &positions(scene, options.units.length))?,
             friction: Friction::new(scene, &run),
             agreement: agreement.transpose()?,
             measures: Comparison::new(scene, &run, options.measures, ways)?,
@@ -122,25 +128,26 @@ impl Report {
     }
 }
 
-/// How far on either side of the vehicle the figures go \[m\]: a round length, so that their axes have ticks on both sides.
-pub(super) fn reach(scene: &Scene) -> f64 {
+/// How far on either side of the vehicle the figures go, a round length in `unit`.
+pub(super) fn reach(scene: &Scene, unit: Unit) -> f64 {
     let wheels = scene.vehicles[0].vehicle.wheels();
     let longest = wheels.iter().map(|wheel| wheel.x.abs()).fold(0.0, f64::max);
-    let reach = REACH_DEPTHS * scene.duct.depth + longest;
+    let reach = unit.of_si(REACH_DEPTHS * scene.duct.depth + longest);
     let step = 0.5 * 10_f64.powf(reach.log10().floor());
     step * (reach / step).ceil()
 }
 
 /// Positions ξ \[m\] of the figures of the duct's motion.
-fn positions(scene: &Scene) -> Vec<f64> {
-    let (half, middle) = (reach(scene), POSITIONS / 2);
+fn positions(scene: &Scene, unit: Unit) -> Vec<f64> {
+    let (half, middle) = (reach(scene, unit) / unit.of_si(1.0), POSITIONS / 2);
     let position = |k: i32| half * f64::from(k) / f64::from(middle);
     (-middle..=middle).map(position).collect()
 }
 
 /// The first pass, the last, and round numbers between them.
 fn stages(count: u64) -> Vec<u64> {
-    let between = |k: u32| round((count as f64).powf(f64::from(k) / f64::from(STAGES - 1)));
+    let between =
+        |k: u32| round_below((count as f64).powf(f64::from(k) / f64::from(STAGES - 1))).round() as u64;
     let mut stages: Vec<u64> = (0..STAGES - 1)
         .map(between)
         .filter(|&pass| pass < count)
@@ -148,15 +155,6 @@ fn stages(count: u64) -> Vec<u64> {
     stages.push(count);
     stages.dedup();
     stages
-}
-
-/// The largest of 1, 2, 5, 10, 20, … that is not above `number`, which is at least 1.
-fn round(number: f64) -> u64 {
-    // The cube root of a thousand comes out a little below ten.
-    let number = number * (1.0 + 1e-9);
-    let power = 10_f64.powf(number.log10().floor());
-    let step = [5.0, 2.0].into_iter().find(|step| number / power >= *step);
-    (step.unwrap_or(1.0) * power).round() as u64
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! How figures stand on the page: narrow, so that their text is still legible on a phone.
 
+use super::content::Report;
 use super::html::Html;
 use super::quantity::significant;
+use crate::PassRecord;
 use crate::answer::listed;
 use crate::figure::{Axis, Chart, Panels};
 use crate::scene::{DAYS_PER_YEAR, Traffic};
-use crate::{PassRecord, Scene};
 
 /// Width of a figure, and height of a chart alone, of one of several, and of one of several with legends \[px\].
 pub const WIDTH: f64 = 440.0;
@@ -33,7 +34,7 @@ const TICKS: [(f64, &str); 8] = [
     (100.0 * DAYS_PER_YEAR, "100 years"),
 ];
 
-/// Metres to millimetres, and to micrometres.
+/// Metres to millimetres, and to micrometres, in which the duct moves.
 pub const MILLI: f64 = 1e3;
 pub const MICRO: f64 = 1e6;
 
@@ -63,7 +64,7 @@ const ROUND: [f64; 9] = [1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0];
 /// Least part beside the end of the duct, as a share of the others.
 const LEAST_PART: f64 = 0.7;
 
-/// Places along a duct of this length \[m\] with their labels, the last one its end: in round parts that are all alike where there are such.
+/// Places along a duct of this length in any unit with their labels, the last one its end: in round parts that are all alike where there are such.
 pub fn ticks(length: f64) -> Vec<(f64, String)> {
     let power = |part: f64| 10_f64.powf(part.log10().floor());
     let is_round = |part: &f64| {
@@ -88,9 +89,10 @@ pub fn ticks(length: f64) -> Vec<(f64, String)> {
 }
 
 /// The axis along the duct.
-pub fn along_duct(scene: &Scene) -> Axis {
-    let length = scene.duct.length;
-    Axis::linear("place along the duct, m")
+pub fn along_duct(report: &Report) -> Axis {
+    let Report { scene, shown, .. } = report;
+    let length = shown.units.length.of_si(scene.duct.length);
+    Axis::linear(shown.in_length("place along the duct"))
         .range(0.0, length)
         .ticks(ticks(length))
 }

@@ -2,21 +2,21 @@
 
 use super::agreement::Agreement;
 use super::content::Report;
-use super::figure::{MILLI, Passes, along_duct, figure};
+use super::figure::{Passes, along_duct, figure};
 use super::html::Html;
-use super::quantity::{count, length};
-use crate::PassRecord;
+use super::quantity::{Shown, count};
 use crate::answer::{after, table_rows};
 use crate::figure::{Axis, Chart, Reference, Series};
 use crate::scene::End;
-use crate::shown::rounded;
+use crate::{ForceProfile, PassRecord, Units};
 
 /// Readings that are drawn at most: of more every second, third, … is.
 const READINGS: usize = 300;
 
 pub fn force(html: &mut Html, report: &Report) {
     html.raw("<div class=\"figures\">");
-    let measured = report.agreement.as_ref().map_or(String::new(), measured);
+    let measured = report.agreement.as_ref();
+    let measured = measured.map_or(String::new(), |agreement| measured_in(agreement, &report.shown));
     let when = if report.run.heat.is_some() {
         ", on the first day"
     } else {
@@ -34,21 +34,24 @@ pub fn force(html: &mut Html, report: &Report) {
     passes(html, report);
     html.raw("</div>");
     for clamp in &report.run.restraints {
-        let (place, force) = (length(clamp.position_m), rounded(clamp.force_n, 1));
-        html.paragraph(&format!("The clamp at {place} carries {force} N."));
+        let (place, force) = (
+            report.shown.length(clamp.position_m),
+            report.shown.force(clamp.force_n),
+        );
+        html.paragraph(&format!("The clamp at {place} carries {force}."));
     }
 }
 
-fn measured(agreement: &Agreement) -> String {
-    let [rms, mean, largest] = agreement.numbers().map(|force| rounded(force, 1));
+fn measured_in(agreement: &Agreement, shown: &Shown) -> String {
+    let [rms, mean, largest] = agreement.numbers().map(|force| shown.force(force));
     let bars = if agreement.readings.iter().any(|reading| reading.sigma.is_some()) {
         " Bars are one standard deviation long to either side."
     } else {
         ""
     };
     format!(
-        " {} readings at the {} end; measured minus computed force of {} of them: mean {mean} N, root of the mean square {rms} N, \
-         largest reading {largest} N.{bars}",
+        " {} readings at the {} end; measured minus computed force of {} of them: mean {mean}, root of the mean square {rms}, \
+         largest reading {largest}.{bars}",
         agreement.readings.len(),
         agreement.end.name(),
         agreement.compared,
@@ -57,7 +60,8 @@ fn measured(agreement: &Agreement) -> String {
 
 /// Force on the ends against passes, the saturated force, and readings.
 fn over_passes(report: &Report) -> Chart {
-    let run = &report.run;
+    let Report { run, shown, .. } = report;
+    let in_unit = |newtons| shown.units.force.of_si(newtons);
     let readings = report.agreement.as_ref().map_or(&[][..], |a| &a.readings);
     let drawn = drawn(report);
     let computed = drawn.iter().map(|record| record.pass);
@@ -65,9 +69,10 @@ fn over_passes(report: &Report) -> Chart {
         .chain(readings.iter().map(|reading| reading.passes))
         .max();
     let along = Passes::new(&report.scene.traffic, last.unwrap_or(1));
-    let mut chart = Chart::new(along.title("Force"), along.axis(), Axis::linear("force, N"));
+    let force = Axis::linear(shown.in_force("force"));
+    let mut chart = Chart::new(along.title("Force"), along.axis(), force);
     let line = |name: &str, look, value: fn(&PassRecord) -> f64| {
-        Series::line(name, along.series(drawn, value)).look(look)
+        Series::line(name, along.series(drawn, |record| in_unit(value(record)))).look(look)
     };
     let ends = &report.scene.ends;
     if ends.downstream != End::Free {
@@ -80,37 +85,48 @@ fn over_passes(report: &Report) -> Chart {
         chart = chart.with(line("largest in the cable", 0, |record| record.max_compression_n));
     }
     if let Some(saturation) = &run.saturation {
-        let label = format!("levels off at {:.1} N", saturation.force_n);
-        chart = chart.refer(Reference::horizontal(saturation.force_n, label));
+        let label = format!("levels off at {}", shown.force(saturation.force_n));
+        chart = chart.refer(Reference::horizontal(in_unit(saturation.force_n), label));
     }
     if readings.is_empty() {
         return chart;
     }
-    let shown = || readings.iter().step_by(readings.len().div_ceil(READINGS));
-    for reading in shown() {
+    let seen = || readings.iter().step_by(readings.len().div_ceil(READINGS));
+    for reading in seen() {
         if let Some(sigma) = reading.sigma {
-            let bar = [-sigma, sigma].map(|sigma| (along.place(reading.passes), reading.value + sigma));
+            let bar =
+                [-sigma, sigma].map(|sigma| (along.place(reading.passes), in_unit(reading.value + sigma)));
             chart = chart.with(Series::line("", bar).colour(1).solid());
         }
     }
-    let points = shown().map(|reading| (along.place(reading.passes), reading.value));
+    let points = seen().map(|reading| (along.place(reading.passes), in_unit(reading.value)));
     chart.with(Series::points("measured", points).look(1).marker(0))
 }
 
 fn along(report: &Report) -> Chart {
-    let force = Axis::linear("force, N");
-    let chart = Chart::new("Force along the cable", along_duct(&report.scene), force);
+    let force = Axis::linear(report.shown.in_force("force"));
+    let chart = Chart::new("Force along the cable", along_duct(report), force);
     let stages = report.run.stages.iter();
     stages.fold(chart, |chart, stage| {
-        let profile = &stage.force_profile;
-        let points = profile.positions_m.iter().zip(&profile.force_n);
         let name = if stage.pass == 1 {
             "pass 1".into()
         } else {
             count(stage.pass)
         };
-        chart.with(Series::line(name, points.map(|(x, force)| (*x, *force))))
+        chart.with(Series::line(
+            name,
+            profile_points(&stage.force_profile, &report.shown),
+        ))
     })
+}
+
+/// Force against place.
+pub fn profile_points(profile: &ForceProfile, shown: &Shown) -> Vec<(f64, f64)> {
+    let Units { length, force, .. } = shown.units;
+    let points = profile.positions_m.iter().zip(&profile.force_n);
+    points
+        .map(|(x, newtons)| (length.of_si(*x), force.of_si(*newtons)))
+        .collect()
 }
 
 /// The passes that a line can follow: of a heated cable those of the first day.
@@ -127,30 +143,41 @@ fn movement(report: &Report) -> Chart {
     let passes = drawn(report);
     let last = passes.last().map_or(1, |record| record.pass);
     let along = Passes::new(&report.scene.traffic, last);
-    let upstream = along.series(passes, |record| MILLI * record.upstream_displacement_m);
-    let downstream = along.series(passes, |record| MILLI * record.downstream_displacement_m);
-    Chart::new("Movement of the ends", along.axis(), Axis::linear("movement, mm"))
+    let unit = report.shown.units.movement;
+    let upstream = along.series(passes, |record| unit.of_si(record.upstream_displacement_m));
+    let downstream = along.series(passes, |record| unit.of_si(record.downstream_displacement_m));
+    let moved = Axis::linear(report.shown.in_movement("movement"));
+    Chart::new("Movement of the ends", along.axis(), moved)
         .with(Series::line("upstream end", upstream))
         .with(Series::line("downstream end", downstream))
 }
 
 /// Some passes, as the terminal shows them; without what stays zero, as the force on a free end.
 fn passes(html: &mut Html, report: &Report) {
-    type Column = (&'static str, fn(&PassRecord) -> f64, usize);
-    let passes = &report.run.passes;
+    type Column = (String, fn(&PassRecord) -> f64, fn(&Units, f64) -> String);
+    let Report { run, shown, .. } = report;
+    let passes = &run.passes;
     // Soft hyphens: a phone is narrow.
     let mut columns: Vec<Column> = vec![
-        ("force up\u{ad}stream, N", |record| record.upstream_force_n, 1),
-        ("force down\u{ad}stream, N", |record| record.downstream_force_n, 1),
         (
-            "moved up\u{ad}stream, mm",
-            |record| MILLI * record.upstream_displacement_m,
-            4,
+            shown.in_force("force up\u{ad}stream"),
+            |record| record.upstream_force_n,
+            Units::force,
         ),
         (
-            "moved down\u{ad}stream, mm",
-            |record| MILLI * record.downstream_displacement_m,
-            4,
+            shown.in_force("force down\u{ad}stream"),
+            |record| record.downstream_force_n,
+            Units::force,
+        ),
+        (
+            shown.in_movement("moved up\u{ad}stream"),
+            |record| record.upstream_displacement_m,
+            Units::movement,
+        ),
+        (
+            shown.in_movement("moved down\u{ad}stream"),
+            |record| record.downstream_displacement_m,
+            Units::movement,
         ),
     ];
     let is_shown = |(_, value, _): &Column| passes.iter().any(|record| value(record) != 0.0);
@@ -160,7 +187,7 @@ fn passes(html: &mut Html, report: &Report) {
     let row = |record: &PassRecord| {
         let values = columns
             .iter()
-            .map(|(_, value, decimals)| rounded(value(record), *decimals));
+            .map(|(_, value, written)| written(&shown.units, value(record)));
         let time = record.years.map(after);
         std::iter::once(count(record.pass))
             .chain(time)
@@ -168,7 +195,7 @@ fn passes(html: &mut Html, report: &Report) {
             .collect()
     };
     let traffic = &report.scene.traffic;
-    let names = columns.iter().map(|(name, ..)| *name);
+    let names = columns.iter().map(|(name, ..)| name.as_str());
     let time = traffic.per_day.map(|_| "after");
     let head: Vec<&str> = std::iter::once("pass").chain(time).chain(names).collect();
     html.table(0, &head, table_rows(passes, traffic).into_iter().map(row));

@@ -1,14 +1,14 @@
 //! The top of the page: the answer in words, verdicts, and the most important numbers.
 
 use super::content::Report;
-use super::figure::{MICRO, MILLI};
+use super::figure::MICRO;
 use super::html::Html;
 use super::measures::pressed_end;
 use super::quantity::count;
 use crate::answer::{CableEnd, after};
 use crate::design::Place;
 use crate::scene::{End, Scene};
-use crate::shown::{percent, rounded};
+use crate::shown::percent;
 use crate::{Limited, PassRecord, Run, Saturation, Verdict};
 
 /// Title and the most important numbers.
@@ -30,9 +30,9 @@ pub fn headline(html: &mut Html, report: &Report) {
     html.paragraph(&answer(report, last));
     html.raw("</div>");
     html.verdicts(report.verdicts.iter().map(|verdict| {
-        let later = later(&report.run, verdict);
+        let later = later(report, verdict);
         let kept = verdict.reached_after.is_none() && later.is_empty();
-        (kept, format!("{verdict}{later}"))
+        (kept, verdict.shown(&report.shown.units) + &later)
     }));
     html.raw("<dl class=\"headlines\">");
     forces(html, report, last);
@@ -40,7 +40,7 @@ pub fn headline(html: &mut Html, report: &Report) {
     let [(first, _), (second, _)] = moved;
     let (most, end) = moved[usize::from(second.abs() >= first.abs())];
     let note = format!("{} end, {}", end.name(), over(report, last.pass));
-    html.headline("Movement of an end", &millimetres(most), &note);
+    html.headline("Movement of an end", &report.shown.movement(most), &note);
     let motion = &report.run.duct_motion;
     let along = format!("{:.2} µm", MICRO * motion.peak_longitudinal_m);
     let down = format!("along its axis; {:.1} µm down", MICRO * motion.peak_vertical_m);
@@ -53,7 +53,7 @@ pub fn headline(html: &mut Html, report: &Report) {
 
 /// The three cards about forces.
 fn forces(html: &mut Html, report: &Report, last: &PassRecord) {
-    let run = &report.run;
+    let Report { run, shown, .. } = report;
     let (largest, place) = hardest(run);
     let traffic = |html: &mut Html| {
         let years = report.scene.traffic.years_after(last.pass);
@@ -64,11 +64,11 @@ fn forces(html: &mut Html, report: &Report, last: &PassRecord) {
     };
     let note = format!("{}{}, during all passes", on(place), tension(largest));
     if run.heat.is_some() {
-        html.headline("Largest force with heat", &newtons(largest), &note);
+        html.headline("Largest force with heat", &shown.force(largest), &note);
         let swing = run.days.last().map_or(0.0, |day| day.largest_range().0);
         html.headline(
             "Swing of the force",
-            &newtons(swing),
+            &shown.force(swing),
             "on an end within the last day",
         );
         return traffic(html);
@@ -76,7 +76,7 @@ fn forces(html: &mut Html, report: &Report, last: &PassRecord) {
     if let Some(saturation) = &run.saturation {
         let place = levelled(&report.scene, saturation);
         let note = format!("{}{}", on(place), tension(saturation.force_n));
-        html.headline("Saturated force", &newtons(saturation.force_n), &note);
+        html.headline("Saturated force", &shown.force(saturation.force_n), &note);
         let reached = saturation.passes_to_95_percent;
         let time = report.scene.traffic.years_after(reached);
         let time = time.map_or_else(String::new, |years| format!("{}; ", after(years)));
@@ -85,15 +85,15 @@ fn forces(html: &mut Html, report: &Report, last: &PassRecord) {
     } else {
         let (force, place) = pressed(&report.scene, last);
         let note = format!("{}{}, not levelled off", on(place), tension(force));
-        html.headline("Force after the last pass", &newtons(force), &note);
+        html.headline("Force after the last pass", &shown.force(force), &note);
         traffic(html);
     }
-    html.headline("Largest force computed", &newtons(largest), &note);
+    html.headline("Largest force computed", &shown.force(largest), &note);
 }
 
 /// The answer in sentences.
 fn answer(report: &Report, last: &PassRecord) -> String {
-    let scene = &report.scene;
+    let Report { scene, shown, .. } = report;
     let passes = |pass: u64| {
         let words = if pass == 1 {
             "one pass".into()
@@ -110,7 +110,7 @@ fn answer(report: &Report, last: &PassRecord) -> String {
             "In {} heat and traffic load {} with up to {}{}.{moved}",
             passes(last.pass),
             the(place),
-            newtons(force),
+            shown.force(force),
             tension(force)
         );
     }
@@ -119,13 +119,13 @@ fn answer(report: &Report, last: &PassRecord) -> String {
         "After {} the {} is {}{}",
         passes(last.pass),
         force_of(place),
-        newtons(force),
+        shown.force(force),
         tension(force)
     );
     let Some(saturation) = &report.run.saturation else {
         return format!("{now}; it has not levelled off.{moved}");
     };
-    let level = newtons(saturation.force_n);
+    let level = shown.force(saturation.force_n);
     let reached = passes(saturation.passes_to_95_percent);
     if saturation.passes_to_95_percent > last.pass {
         return format!(
@@ -148,7 +148,7 @@ fn moved(report: &Report, last: &PassRecord) -> String {
     };
     let of = |(end, held): (CableEnd, End)| {
         let free = if held == End::Free { "free " } else { "" };
-        let moved = millimetres(movement(&report.run, last, end).abs());
+        let moved = report.shown.movement(movement(&report.run, last, end).abs());
         (held != End::Fixed).then(|| format!("the {free}{} end {moves} {moved}", end.name()))
     };
     let both = [
@@ -225,8 +225,8 @@ fn levelled(scene: &Scene, saturation: &Saturation) -> At {
 }
 
 /// What a limit that is kept so far comes to later.
-fn later(run: &Run, verdict: &Verdict) -> String {
-    let Some(saturation) = &run.saturation else {
+fn later(report: &Report, verdict: &Verdict) -> String {
+    let Some(saturation) = &report.run.saturation else {
         return String::new();
     };
     let level = match verdict.end {
@@ -240,7 +240,7 @@ fn later(run: &Run, verdict: &Verdict) -> String {
     }
     format!(
         " in these passes; more of them exceed it, as the force levels off at {}",
-        newtons(level)
+        report.shown.force(level)
     )
 }
 
@@ -268,12 +268,4 @@ fn over(report: &Report, passes: u64) -> String {
     let when = if report.run.heat.is_some() { "in" } else { "after" };
     let plural = if passes == 1 { "" } else { "es" };
     format!("{when} {} pass{plural}", count(passes))
-}
-
-fn newtons(force: f64) -> String {
-    format!("{} N", rounded(force, 1))
-}
-
-fn millimetres(metres: f64) -> String {
-    format!("{} mm", rounded(MILLI * metres, 3))
 }

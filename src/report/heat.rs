@@ -1,13 +1,14 @@
 //! The cable under heat and traffic: a day as it goes, the days one after the other, the cable when it is hottest and coldest.
 
 use super::content::Report;
-use super::figure::{MILLI, Passes, along_duct, figure, with_legends};
+use super::figure::{Passes, along_duct, figure, with_legends};
+use super::force::profile_points;
 use super::html::Html;
-use super::quantity::{count, length, significant};
+use super::quantity::{Shown, count, significant};
+use crate::Units;
 use crate::answer::{DayExtremes, DayPoint, HeatRecord, table_days};
 use crate::figure::{Axis, Chart, Series};
-use crate::scene::{DAYS_PER_YEAR, End, Heat, Warming};
-use crate::shown::rounded;
+use crate::scene::{DAYS_PER_YEAR, End, Heat, Unit, Warming};
 
 pub fn heat(html: &mut Html, report: &Report) {
     let (Some(record), Some(heat), Some(last)) =
@@ -15,7 +16,11 @@ pub fn heat(html: &mut Html, report: &Report) {
     else {
         return;
     };
-    html.paragraph(&format!("{} {}", course(heat), outcome(record, last)));
+    html.paragraph(&format!(
+        "{} {}",
+        course(heat),
+        outcome(record, last, &report.shown)
+    ));
     html.raw("<div class=\"figures\">");
     let caption = format!(
         "Day {} as it goes, after passes: temperature of the cable above that at laying, force on the ends, movement of the ends.",
@@ -67,58 +72,68 @@ fn course(heat: &Heat) -> String {
 }
 
 /// What comes of it.
-fn outcome(record: &HeatRecord, last: &DayExtremes) -> String {
+fn outcome(record: &HeatRecord, last: &DayExtremes, shown: &Shown) -> String {
     let (force, movement) = last.largest_range();
     let lasting = match (record.periodic_from_day, record.drift_per_day_m) {
         (Some(day), Some(drift)) if drift != 0.0 => format!(
-            "From day {} on every day is like the one before, but the cable moves on by {} mm a day, {} a year.",
+            "From day {} on every day is like the one before, but the cable moves on by {} a day, {} a year.",
             count(day),
-            rounded(MILLI * drift, 3),
-            length(DAYS_PER_YEAR * drift)
+            shown.movement(drift),
+            shown.length(DAYS_PER_YEAR * drift)
         ),
         (Some(day), _) => format!("From day {} on every day is like the one before.", count(day)),
         _ => "At the end days still differ from the ones before.".to_owned(),
     };
     format!(
-        "{lasting} On the last day the force on an end changes by up to {} N and an end moves by up to {} mm, to and fro: the load of joints that \
+        "{lasting} On the last day the force on an end changes by up to {} and an end moves by up to {}, to and fro: the load of joints that \
          counts for fatigue.",
-        rounded(force, 1),
-        rounded(MILLI * movement, 3)
+        shown.force(force),
+        shown.movement(movement)
     )
 }
 
 /// Temperature, forces and movements over the day.
 fn day(report: &Report, record: &HeatRecord) -> [Chart; 3] {
     let hours = || Axis::linear("hour of the day").range(0.0, 24.0);
-    let line = |name: &str, look, value: fn(&DayPoint) -> f64| {
-        Series::line(name, record.cycle.iter().map(|point| (point.hour, value(point)))).look(look)
+    let shown = &report.shown;
+    let Units { force, movement, .. } = shown.units;
+    let line = |name: &str, look, unit: Unit, value: fn(&DayPoint) -> f64| {
+        let points = record.cycle.iter();
+        Series::line(name, points.map(|point| (point.hour, unit.of_si(value(point))))).look(look)
     };
-    let mut force = Chart::new("Force over the day", hours(), Axis::linear("force, N"));
+    let axis = Axis::linear(shown.in_force("force"));
+    let mut forces = Chart::new("Force over the day", hours(), axis);
     let ends = &report.scene.ends;
     if ends.downstream != End::Free {
-        force = force.with(line("downstream end", 0, |point| point.downstream_force_n));
+        forces = forces.with(line("downstream end", 0, force, |point| point.downstream_force_n));
     }
     if ends.upstream != End::Free {
-        force = force.with(line("upstream end", 1, |point| point.upstream_force_n));
+        forces = forces.with(line("upstream end", 1, force, |point| point.upstream_force_n));
     }
     // Free ends carry nothing.
     if (ends.upstream, ends.downstream) == (End::Free, End::Free) {
-        force = force.with(line("ends", 0, |point| point.downstream_force_n));
+        forces = forces.with(line("ends", 0, force, |point| point.downstream_force_n));
     }
     [
-        Chart::new("Temperature over the day", hours(), Axis::linear("warming, K")).with(line(
-            "cable",
-            2,
-            |point| point.warming_k,
-        )),
-        force,
-        Chart::new("Movement over the day", hours(), Axis::linear("movement, mm"))
-            .with(line("downstream end", 0, |point| {
-                MILLI * point.downstream_displacement_m
-            }))
-            .with(line("upstream end", 1, |point| {
-                MILLI * point.upstream_displacement_m
-            })),
+        Chart::new("Temperature over the day", hours(), Axis::linear("warming, K")).with(
+            Series::line(
+                "cable",
+                record.cycle.iter().map(|point| (point.hour, point.warming_k)),
+            )
+            .look(2),
+        ),
+        forces,
+        Chart::new(
+            "Movement over the day",
+            hours(),
+            Axis::linear(shown.in_movement("movement")),
+        )
+        .with(line("downstream end", 0, movement, |point| {
+            point.downstream_displacement_m
+        }))
+        .with(line("upstream end", 1, movement, |point| {
+            point.upstream_displacement_m
+        })),
     ]
 }
 
@@ -130,13 +145,10 @@ fn along(report: &Report, record: &HeatRecord) -> Chart {
     profiles.into_iter().fold(
         Chart::new(
             "Hot and cold force along the cable",
-            along_duct(&report.scene),
-            Axis::linear("force, N"),
+            along_duct(report),
+            Axis::linear(report.shown.in_force("force")),
         ),
-        |chart, (name, profile)| {
-            let points = profile.positions_m.iter().zip(&profile.force_n);
-            chart.with(Series::line(name, points.map(|(x, force)| (*x, *force))))
-        },
+        |chart, (name, profile)| chart.with(Series::line(name, profile_points(profile, &report.shown))),
     )
 }
 
@@ -145,79 +157,90 @@ fn over_days(report: &Report, record: &HeatRecord) -> [Chart; 2] {
     let days = &report.run.days;
     let passes = |day: u64| day * record.passes_per_day;
     let along = Passes::new(&report.scene.traffic, passes(record.all_days.day));
-    let line = |name: &str, colour, value: fn(&DayExtremes) -> f64| {
-        let points = days.iter().map(|day| (along.place(passes(day.day)), value(day)));
+    let shown = &report.shown;
+    let Units { force, movement, .. } = shown.units;
+    let line = |name: &str, colour, unit: Unit, value: fn(&DayExtremes) -> f64| {
+        let points = days
+            .iter()
+            .map(|day| (along.place(passes(day.day)), unit.of_si(value(day))));
         Series::line(name, points).look(colour)
     };
     let ends = &report.scene.ends;
-    let mut force = Chart::new("Force day by day", along.axis(), Axis::linear("force, N"));
+    let axis = Axis::linear(shown.in_force("force"));
+    let mut forces = Chart::new("Force day by day", along.axis(), axis);
     let both_free = (ends.upstream, ends.downstream) == (End::Free, End::Free);
     if both_free {
-        force = force
-            .with(line("compression in the cable", 0, |day| day.max_compression_n))
-            .with(line("tension in the cable", 1, |day| -day.max_tension_n));
+        forces = forces
+            .with(line("compression in the cable", 0, force, |day| {
+                day.max_compression_n
+            }))
+            .with(line("tension in the cable", 1, force, |day| -day.max_tension_n));
     }
     if ends.downstream != End::Free {
-        force = force
-            .with(line("downstream end, most and least", 0, |day| {
+        forces = forces
+            .with(line("downstream end, most and least", 0, force, |day| {
                 day.downstream_max_n
             }))
-            .with(line("", 0, |day| day.downstream_min_n));
+            .with(line("", 0, force, |day| day.downstream_min_n));
     }
     if ends.upstream != End::Free {
-        force = force
-            .with(line("upstream end, most and least", 1, |day| day.upstream_max_n))
-            .with(line("", 1, |day| day.upstream_min_n));
+        forces = forces
+            .with(line("upstream end, most and least", 1, force, |day| {
+                day.upstream_max_n
+            }))
+            .with(line("", 1, force, |day| day.upstream_min_n));
     }
-    let movement = Chart::new("Movement day by day", along.axis(), Axis::linear("movement, mm"))
-        .with(line("downstream end, most and least", 0, |day| {
-            MILLI * day.downstream_displacement_max_m
+    let axis = Axis::linear(shown.in_movement("movement"));
+    let movements = Chart::new("Movement day by day", along.axis(), axis)
+        .with(line("downstream end, most and least", 0, movement, |day| {
+            day.downstream_displacement_max_m
         }))
-        .with(line("", 0, |day| MILLI * day.downstream_displacement_min_m))
-        .with(line("upstream end, most and least", 1, |day| {
-            MILLI * day.upstream_displacement_max_m
+        .with(line("", 0, movement, |day| day.downstream_displacement_min_m))
+        .with(line("upstream end, most and least", 1, movement, |day| {
+            day.upstream_displacement_max_m
         }))
-        .with(line("", 1, |day| MILLI * day.upstream_displacement_min_m));
-    [force, movement]
+        .with(line("", 1, movement, |day| day.upstream_displacement_min_m));
+    [forces, movements]
 }
 
 /// Extremes of some days, without what stays zero.
 fn days(html: &mut Html, report: &Report, record: &HeatRecord) {
-    type Column = (&'static str, fn(&DayExtremes) -> [f64; 2], usize);
+    type Column = (String, fn(&DayExtremes) -> [f64; 2], fn(&Shown, f64) -> String);
+    let shown = &report.shown;
+    let force: fn(&Shown, f64) -> String = |shown, newtons| shown.units.force(newtons);
     // Soft hyphens: a phone is narrow.
     let mut columns: Vec<Column> = vec![
         (
-            "force up\u{ad}stream, N",
+            shown.in_force("force up\u{ad}stream"),
             |day| [day.upstream_min_n, day.upstream_max_n],
-            1,
+            force,
         ),
         (
-            "force down\u{ad}stream, N",
+            shown.in_force("force down\u{ad}stream"),
             |day| [day.downstream_min_n, day.downstream_max_n],
-            1,
+            force,
         ),
         (
-            "place of the up\u{ad}stream end, mm",
-            |day| [day.upstream_displacement_min_m, day.upstream_displacement_max_m].map(|x| MILLI * x),
-            3,
+            shown.in_movement("place of the up\u{ad}stream end"),
+            |day| [day.upstream_displacement_min_m, day.upstream_displacement_max_m],
+            Shown::movement_number,
         ),
         (
-            "place of the down\u{ad}stream end, mm",
+            shown.in_movement("place of the down\u{ad}stream end"),
             |day| {
                 [
                     day.downstream_displacement_min_m,
                     day.downstream_displacement_max_m,
                 ]
-                .map(|x| MILLI * x)
             },
-            3,
+            Shown::movement_number,
         ),
     ];
     let all = &report.run.days;
     columns.retain(|(_, range, _)| all.iter().any(|day| range(day) != [0.0; 2]));
     let row = |name: String, day: &DayExtremes| {
-        let ranges = columns.iter().map(|(_, range, decimals)| {
-            let [least, most] = range(day).map(|value| rounded(value, *decimals));
+        let ranges = columns.iter().map(|(_, range, written)| {
+            let [least, most] = range(day).map(|value| written(shown, value));
             format!("{least} to {most}")
         });
         std::iter::once(name).chain(ranges).collect()
@@ -228,7 +251,7 @@ fn days(html: &mut Html, report: &Report, record: &HeatRecord) {
         .collect();
     rows.push(row("all days".into(), &record.all_days));
     let head: Vec<&str> = std::iter::once("day")
-        .chain(columns.iter().map(|(name, ..)| *name))
+        .chain(columns.iter().map(|(name, ..)| name.as_str()))
         .collect();
     html.table(0, &head, rows);
 }

@@ -1,26 +1,26 @@
 //! Ways to hold the cable: force against movement.
 
 use super::content::Report;
-use super::figure::{MILLI, figure};
+use super::figure::figure;
 use super::html::Html;
 use super::measures::{Comparison, Way};
-use super::quantity::{significant, stiffness};
+use super::quantity::{Shown, significant};
 use crate::CableEnd;
 use crate::design::{Place, TradeOff};
 use crate::figure::{Axis, Chart, Series};
 use crate::scene::End;
-use crate::shown::{exact_percent, percent, rounded};
+use crate::shown::{exact_percent, percent};
 
 /// Its name, the value, and how that is written.
-type Column = (String, fn(&TradeOff) -> f64, fn(f64) -> String);
+type Column = (String, fn(&TradeOff) -> f64, fn(&Shown, f64) -> String);
 
 pub fn holding(html: &mut Html, report: &Report) {
-    let comparison = &report.measures;
+    let (comparison, shown) = (&report.measures, &report.shown);
     let end = end(comparison);
     let own = comparison.own_stiffness.map_or(String::new(), |own| {
         format!(
             " Stiffnesses are from a tenth to ten times that of the whole cable, EA/L = {}.",
-            stiffness(own)
+            shown.stiffness(own)
         )
     });
     html.paragraph(&format!(
@@ -34,21 +34,24 @@ pub fn holding(html: &mut Html, report: &Report) {
         html.paragraph(&format!("The comparison failed: {failure}"));
         return;
     }
-    if let Some(chart) = chart(comparison) {
-        figure(html, [chart], &caption(comparison));
+    if let Some(chart) = chart(comparison, shown) {
+        figure(html, [chart], &caption(comparison, shown));
     }
     let columns = columns(report, end);
     let rows = comparison.ways.iter().map(|way| {
         let numbers: Vec<String> = match &way.answer {
             Ok(answer) => {
-                let clamp = answer.clamp_force_n.map_or("–".into(), |force| rounded(force, 1));
+                let clamp = answer.clamp_force_n;
+                let clamp = clamp.map_or("–".into(), |force| shown.units.force(force));
                 // Where no end is pressed there is no error of the force.
                 let error = if answer.force_n == 0.0 {
                     "–".into()
                 } else {
                     percent(answer.error_estimate)
                 };
-                let values = columns.iter().map(|(_, value, written)| written(value(answer)));
+                let values = columns
+                    .iter()
+                    .map(|(_, value, written)| written(shown, value(answer)));
                 values.chain([clamp, error]).collect()
             }
             Err(_) => std::iter::once("failed")
@@ -56,15 +59,16 @@ pub fn holding(html: &mut Html, report: &Report) {
                 .map(str::to_owned)
                 .collect(),
         };
-        std::iter::once(way.name()).chain(numbers).collect()
+        std::iter::once(way.name(shown)).chain(numbers).collect()
     });
+    let on_clamp = shown.in_force("on clamp");
     let names = columns.iter().map(|(name, ..)| name.as_str());
     let head: Vec<&str> = std::iter::once("held by")
         .chain(names)
-        .chain(["on clamp, N", "error"])
+        .chain([on_clamp.as_str(), "error"])
         .collect();
     html.table(1, &head, rows);
-    html.list(&failures(&comparison.ways));
+    html.list(&failures(&comparison.ways, shown));
 }
 
 /// The end that is varied.
@@ -75,14 +79,11 @@ fn end(comparison: &Comparison) -> CableEnd {
     }
 }
 
-/// Force on an end, and how far it moves.
+/// Force on an end \[N\], and how far it moves \[m\].
 fn of_end(end: CableEnd) -> [fn(&TradeOff) -> f64; 2] {
     match end {
-        CableEnd::Upstream => [|way| way.upstream_force_n, |way| MILLI * way.upstream_movement_m],
-        CableEnd::Downstream => [
-            |way| way.downstream_force_n,
-            |way| MILLI * way.downstream_movement_m,
-        ],
+        CableEnd::Upstream => [|way| way.upstream_force_n, |way| way.upstream_movement_m],
+        CableEnd::Downstream => [|way| way.downstream_force_n, |way| way.downstream_movement_m],
     }
 }
 
@@ -96,34 +97,50 @@ fn columns(report: &Report, end: CableEnd) -> Vec<Column> {
     };
     let [force, movement] = of_end(end);
     let [other_force, other_movement] = of_end(other);
-    let newtons = |force: f64| rounded(force, 1);
+    let shown = &report.shown;
+    let force_on = |end, force| -> Column {
+        let named = shown.in_force(&format!("force {}", name(end)));
+        (named, force, |shown, newtons| shown.units.force(newtons))
+    };
+    let moved = |end, movement| -> Column {
+        let named = shown.in_movement(&format!("moved {}", name(end)));
+        (named, movement, |shown, metres| {
+            significant(shown.units.movement.of_si(metres))
+        })
+    };
     vec![
-        (format!("force {}, N", name(end)), force, newtons),
-        (format!("moved {}, mm", name(end)), movement, significant),
+        force_on(end, force),
+        moved(end, movement),
         if held == End::Free {
-            (format!("moved {}, mm", name(other)), other_movement, significant)
+            moved(other, other_movement)
         } else {
-            (format!("force {}, N", name(other)), other_force, newtons)
+            force_on(other, other_force)
         },
     ]
 }
 
 /// Force against movement of the end that is varied, by all ways that have an answer; `None` without any. A free end carries nothing and would
 /// set the axis, so it is left out.
-fn chart(comparison: &Comparison) -> Option<Chart> {
+fn chart(comparison: &Comparison, shown: &Shown) -> Option<Chart> {
     let end = end(comparison);
     let [force, movement] = of_end(end);
     let points = |wanted: fn(&Way) -> bool| -> Vec<(f64, f64)> {
         let ways = comparison.ways.iter();
-        let shown = ways.filter(|way| wanted(way) && !way.is_free_end());
-        let point = |answer: &TradeOff| (movement(answer), force(answer));
-        shown.flat_map(|way| &way.answer).map(point).collect()
+        let drawn = ways.filter(|way| wanted(way) && !way.is_free_end());
+        let units = &shown.units;
+        let point = |answer: &TradeOff| {
+            (
+                units.movement.of_si(movement(answer)),
+                units.force.of_si(force(answer)),
+            )
+        };
+        drawn.flat_map(|way| &way.answer).map(point).collect()
     };
     let name = end.name();
     let chart = Chart::new(
         "Force against movement",
-        Axis::linear(format!("movement of the {name} end, mm")),
-        Axis::linear("force on it, N"),
+        Axis::linear(shown.in_movement(&format!("movement of the {name} end"))),
+        Axis::linear(shown.in_force("force on it")),
     );
     let springs = points(|way| !way.is_clamp());
     let (clamps, own) = (points(Way::is_clamp), points(|way| way.is_scene));
@@ -138,28 +155,29 @@ fn chart(comparison: &Comparison) -> Option<Chart> {
         .then(|| drawn.fold(chart, |chart, (series, _)| chart.with(series)))
 }
 
-fn caption(comparison: &Comparison) -> String {
+fn caption(comparison: &Comparison, shown: &Shown) -> String {
     let [_, movement] = of_end(end(comparison));
     let free = comparison.ways.iter().find(|way| way.is_free_end());
     let free = free.and_then(|way| way.answer.as_ref().ok());
     let free = free.map_or(String::new(), |answer| {
         format!(
-            " A free end, which carries nothing, moves {} mm and is not drawn.",
-            significant(movement(answer))
+            " A free end, which carries nothing, moves {} {} and is not drawn.",
+            significant(shown.units.movement.of_si(movement(answer))),
+            shown.units.movement.symbol()
         )
     });
     format!("Largest force against largest movement: a softer end moves more and is pressed less.{free}")
 }
 
 /// Ways that failed and why, those with the same reason together.
-fn failures(ways: &[Way]) -> Vec<String> {
+fn failures(ways: &[Way], shown: &Shown) -> Vec<String> {
     let mut reasons: Vec<(String, Vec<String>)> = Vec::new();
     for way in ways {
         let Err(error) = &way.answer else { continue };
         let error = error.to_string();
         match reasons.iter_mut().find(|(reason, _)| *reason == error) {
-            Some((_, names)) => names.push(way.name()),
-            None => reasons.push((error, vec![way.name()])),
+            Some((_, names)) => names.push(way.name(shown)),
+            None => reasons.push((error, vec![way.name(shown)])),
         }
     }
     let line = |(reason, names): (String, Vec<String>)| format!("Failed: {}: {reason}", names.join("; "));

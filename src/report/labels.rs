@@ -2,10 +2,9 @@
 
 use ground_field::{Base, Modulus};
 
+use super::content::Report;
 use super::depths::Depths;
 use super::figure::WIDTH;
-use super::quantity::{metres, moduli};
-use crate::Scene;
 use crate::figure::{Anchor, Drawing, Ink};
 
 /// Where they begin \[px\].
@@ -60,21 +59,26 @@ impl Label {
 }
 
 /// Thickness and modulus of each layer, the base, and the depth of the duct, from above to below.
-pub fn labels(scene: &Scene, depths: &Depths) -> Vec<Label> {
+pub fn labels(report: &Report, depths: &Depths) -> Vec<Label> {
+    let Report { scene, shown, .. } = report;
     let profile = &scene.ground.profile;
     let mut labels = Vec::new();
     let mut top = 0.0;
     let between = |from: f64, to: f64| 0.5 * (from + to);
     for layer in profile.layers() {
         let bottom = top + layer.thickness();
-        let text = format!("{}, {}", metres(layer.thickness()), moduli(layer.modulus()));
+        let text = format!(
+            "{}, {}",
+            shown.depth(layer.thickness()),
+            shown.moduli(layer.modulus())
+        );
         let about = between(depths.place(top), depths.place(bottom));
         labels.push(Label::new(&text, about, false));
         top = bottom;
     }
     let text = match profile.base() {
-        Base::HalfSpace(soil) => format!("below, {}", moduli(Modulus::Uniform(soil.young_modulus()))),
-        Base::Rigid => format!("rock from {} on", metres(top)),
+        Base::HalfSpace(soil) => format!("below, {}", shown.moduli(Modulus::Uniform(soil.young_modulus()))),
+        Base::Rigid => format!("rock from {} on", shown.depth(top)),
     };
     let about = between(depths.place(top), depths.height());
     labels.push(Label::new(
@@ -86,7 +90,7 @@ pub fn labels(scene: &Scene, depths: &Depths) -> Vec<Label> {
         about,
         false,
     ));
-    let text = format!("duct, {} deep", metres(scene.duct.depth));
+    let text = format!("duct, {} deep", shown.depth(scene.duct.depth));
     labels.push(Label::new(&text, depths.place(scene.duct.depth), true));
     labels.sort_by(|a, b| a.about.total_cmp(&b.about));
     labels

@@ -1,6 +1,6 @@
 //! Ways to hold the cable, each by a run of the scene.
 
-use super::quantity::{length, stiffness as stated};
+use super::quantity::Shown;
 use crate::design::{DesignError, Measure, Place, Spring, TradeOff, compare};
 use crate::scene::End;
 use crate::{Error, Limits, PassRecord, Progress, Run, Scene};
@@ -108,11 +108,11 @@ impl Way {
     }
 
     /// What it is, in words.
-    pub fn name(&self) -> String {
+    pub fn name(&self, shown: &Shown) -> String {
         let Measure { place, stiffness } = self.measure;
-        let spring = stated(stiffness);
+        let spring = shown.stiffness(stiffness);
         let name = match place {
-            Place::Clamp(position) => format!("clamp of {spring} at {}", length(position)),
+            Place::Clamp(position) => format!("clamp of {spring} at {}", shown.length(position)),
             _ if stiffness == 0.0 => "free end".to_owned(),
             _ if stiffness.is_infinite() => "fixed end".to_owned(),
             _ => format!("spring of {spring}"),

@@ -83,16 +83,16 @@ fn warnings(html: &mut Html, report: &Report) {
 
 fn scene(html: &mut Html, report: &Report) {
     html.raw("<div class=\"figures\">");
-    for (svg, caption) in [section(&report.scene), route(&report.scene)] {
+    for (svg, caption) in [section(report), route(report)] {
         html.figure(&svg, &caption);
     }
     html.raw("</div>");
-    html.list(&words::scene(&report.scene));
-    words::ground(html, &report.scene);
+    html.list(&words::scene(report));
+    words::ground(html, report);
     if let Some(scaling) = words::scaling(&report.scene) {
         html.paragraph(&scaling);
     }
-    words::vehicles(html, &report.scene);
+    words::vehicles(html, report);
 }
 
 fn limits(html: &mut Html, report: &Report) {

@@ -20,9 +20,14 @@ pub fn plan(html: &mut Html, report: &Report) {
 
 fn detail(html: &mut Html, report: &Report) {
     let (run, plan) = (&report.run, &report.plan);
+    let length = report.shown.units.length;
     html.paragraph(&format!(
-        "Ground {}, cable {}, node spacing {:.3} m, vehicle step {:.3} m.",
-        run.plan.ground, run.plan.cable, run.plan.node_spacing_m, run.plan.vehicle_step_m
+        "Ground {}, cable {}, node spacing {:.3} {metres}, vehicle step {:.3} {metres}.",
+        run.plan.ground,
+        run.plan.cable,
+        length.of_si(run.plan.node_spacing_m),
+        length.of_si(run.plan.vehicle_step_m),
+        metres = length.symbol(),
     ));
     html.list(&run.plan.reasons);
     html.element("h3", "What was considered");

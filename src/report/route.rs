@@ -2,8 +2,9 @@
 
 use ground_field::Direction;
 
+use super::content::Report;
 use super::figure::{WIDTH, ticks};
-use super::quantity::{length, significant, stiffness};
+use super::quantity::{Shown, significant};
 use crate::Scene;
 use crate::figure::{Anchor, Drawing, Ink};
 use crate::scene::End;
@@ -29,10 +30,11 @@ const MOST: usize = 8;
 const APART: f64 = 20.0;
 
 /// The drawing, and its caption.
-pub fn route(scene: &Scene) -> (String, String) {
+pub fn route(report: &Report) -> (String, String) {
+    let Report { scene, shown, .. } = report;
     let steeper = steeper(scene.duct.slope);
     let line = Line::new(scene, steeper);
-    let clamps = clamps(scene);
+    let clamps = clamps(report);
     let axis = ROAD + line.rise() + DEEP + 34.0;
     let words = axis + 44.0;
     let height = words + Drawing::LINE * (2.0 + clamps.len() as f64) + 4.0;
@@ -57,27 +59,30 @@ pub fn route(scene: &Scene) -> (String, String) {
     draw_clamps(&mut drawing, scene, &line);
 
     drawing.line(&[(LEFT, axis), (RIGHT, axis)], Ink::Dark, 1.2);
-    for (place, label) in ticks(scene.duct.length) {
-        let x = LEFT + (RIGHT - LEFT) * place / scene.duct.length;
+    let unit = shown.units.length;
+    let length = unit.of_si(scene.duct.length);
+    for (place, label) in ticks(length) {
+        let x = LEFT + (RIGHT - LEFT) * place / length;
         drawing.line(&[(x, axis), (x, axis + 5.0)], Ink::Dark, 1.2);
         drawing.text(&label, (x, axis + 15.0), Anchor::Middle);
     }
-    drawing.text("m", (RIGHT + 32.0, axis + 15.0), Anchor::Middle);
+    drawing.text(unit.symbol(), (RIGHT + 32.0, axis + 15.0), Anchor::Middle);
     for (name, end, x, anchor) in [
         ("upstream end", scene.ends.upstream, 12.0, Anchor::Start),
         ("downstream end", scene.ends.downstream, WIDTH - 12.0, Anchor::End),
     ] {
         drawing.text(name, (x, words), anchor);
-        drawing.text(&held(end), (x, words + Drawing::LINE), anchor);
+        drawing.text(&held(end, shown), (x, words + Drawing::LINE), anchor);
     }
     for (k, clamp) in clamps.iter().enumerate() {
         let y = words + Drawing::LINE * (k as f64 + 2.3);
         drawing.text(clamp, (12.0, y), Anchor::Start);
     }
-    (drawing.to_svg(), caption(scene, steeper))
+    (drawing.to_svg(), caption(report, steeper))
 }
 
-fn caption(scene: &Scene, steeper: f64) -> String {
+fn caption(report: &Report, steeper: f64) -> String {
+    let Report { scene, shown, .. } = report;
     let slope = scene.duct.slope;
     let way = if slope > 0.0 { "rises" } else { "falls" };
     let slope = if slope == 0.0 {
@@ -93,7 +98,7 @@ fn caption(scene: &Scene, steeper: f64) -> String {
     };
     format!(
         "The cable in its duct from the side, {} deep. The length is to scale, the depth is not. {slope}",
-        length(scene.duct.depth)
+        shown.length(scene.duct.depth)
     )
 }
 
@@ -185,11 +190,11 @@ fn end(drawing: &mut Drawing, end: End, (x, y): (f64, f64), out: f64) {
     }
 }
 
-fn held(end: End) -> String {
+fn held(end: End, shown: &Shown) -> String {
     match end {
         End::Free => "free".to_owned(),
         End::Fixed => "fixed".to_owned(),
-        End::Spring(spring) => format!("spring of {}", stiffness(spring)),
+        End::Spring(spring) => format!("spring of {}", shown.stiffness(spring)),
     }
 }
 
@@ -213,7 +218,8 @@ fn draw_clamps(drawing: &mut Drawing, scene: &Scene, line: &Line) {
 }
 
 /// What the clamps are.
-fn clamps(scene: &Scene) -> Vec<String> {
+fn clamps(report: &Report) -> Vec<String> {
+    let Report { scene, shown, .. } = report;
     let clamps = &scene.restraints;
     let name = |(k, clamp): (usize, &crate::scene::Restraint)| {
         let number = if clamps.len() > 1 {
@@ -221,7 +227,7 @@ fn clamps(scene: &Scene) -> Vec<String> {
         } else {
             String::new()
         };
-        let (stiff, place) = (stiffness(clamp.stiffness), length(clamp.position));
+        let (stiff, place) = (shown.stiffness(clamp.stiffness), shown.length(clamp.position));
         format!("{number}clamp of {stiff} at {place}")
     };
     let mut names: Vec<String> = clamps.iter().take(MOST).enumerate().map(name).collect();

@@ -2,11 +2,12 @@
 
 use ground_field::{Base, Direction, Modulus};
 
+use super::content::Report;
 use super::depths::Depths;
 use super::figure::WIDTH;
 use super::labels::{Label, labels, spread};
 use super::lanes::{Lane, lanes};
-use super::quantity::{length, significant};
+use super::quantity::{Shown, round_below, significant};
 use crate::Scene;
 use crate::figure::{Anchor, Drawing, Ink};
 
@@ -31,7 +32,8 @@ const BAR: f64 = 70.0;
 const OPACITY: [f64; 2] = [0.1, 0.45];
 
 /// The drawing, and its caption.
-pub fn section(scene: &Scene) -> (String, String) {
+pub fn section(report: &Report) -> (String, String) {
+    let Report { scene, shown, .. } = report;
     let all = lanes(scene);
     let drawn = &all[..all.len().min(MOST)];
     let wheels: Vec<Vec<(f64, f64)>> = drawn.iter().map(Lane::wheels).collect();
@@ -40,7 +42,7 @@ pub fn section(scene: &Scene) -> (String, String) {
     let rows = rows(&across, drawn, &wheels);
     let surface = TITLE + ROW * (1 + rows.iter().max().unwrap_or(&0)) as f64;
     let bottom = surface + depths.height();
-    let mut labels = labels(scene, &depths);
+    let mut labels = labels(report, &depths);
     spread(&mut labels, surface, bottom);
     let lowest = labels.last().map_or(bottom, Label::bottom).max(bottom);
     let scale = lowest + Drawing::LINE;
@@ -70,7 +72,7 @@ pub fn section(scene: &Scene) -> (String, String) {
     for label in &labels {
         label.draw(&mut drawing, duct.0 + SMALLEST, RIGHT);
     }
-    across.bar(&mut drawing, scale);
+    across.bar(&mut drawing, scale, shown);
     for (k, name) in names.iter().enumerate() {
         let y = scale + Drawing::LINE * (k as f64 + 1.2);
         drawing.text(name, (LEFT, y), Anchor::Start);
@@ -125,18 +127,16 @@ impl Across {
         0.5 * (LEFT + RIGHT) + self.scale * (self.middle - left)
     }
 
-    /// What a metre is.
-    fn bar(&self, drawing: &mut Drawing, y: f64) {
-        let most = BAR / self.scale;
-        let power = 10_f64.powf(most.log10().floor());
-        let step = [5.0, 2.0, 1.0].into_iter().find(|step| step * power <= most);
-        let long = step.unwrap_or(1.0) * power;
+    /// How long a round length is.
+    fn bar(&self, drawing: &mut Drawing, y: f64, shown: &Shown) {
+        let unit = shown.units.length;
+        let long = round_below(unit.of_si(BAR / self.scale)) / unit.of_si(1.0);
         let end = LEFT + self.scale * long;
         drawing.line(&[(LEFT, y), (end, y)], Ink::Dark, 2.0);
         for x in [LEFT, end] {
             drawing.line(&[(x, y - 4.0), (x, y + 4.0)], Ink::Dark, 1.2);
         }
-        drawing.text(&length(long), (end + 8.0, y), Anchor::Start);
+        drawing.text(&shown.length(long), (end + 8.0, y), Anchor::Start);
     }
 }
 

@@ -2,9 +2,10 @@
 
 use ground_field::{Base, Direction, Modulus, Vehicle};
 
+use super::content::Report;
 use super::html::Html;
 use super::lanes::middle;
-use super::quantity::{count, length, metres, moduli, power_of_ten, quantity, significant, stiffness};
+use super::quantity::{Shown, count, power_of_ten, quantity, significant};
 use crate::Scene;
 use crate::answer::after;
 use crate::ground::load_ratio;
@@ -16,25 +17,26 @@ const MOST_ROWS: usize = 12;
 const KILOMETRES_PER_HOUR: f64 = 3.6;
 
 /// What lies where and what holds it, a point for each part.
-pub fn scene(scene: &Scene) -> Vec<String> {
+pub fn scene(report: &Report) -> Vec<String> {
+    let Report { scene, shown, .. } = report;
     let (duct, ends) = (&scene.duct, &scene.ends);
-    let (long, deep) = (length(duct.length), length(duct.depth));
+    let (long, deep) = (shown.length(duct.length), shown.length(duct.depth));
     let ends = format!(
         "Ends: upstream (x = 0) {}, downstream (x = {long}) {}.",
-        end(ends.upstream),
-        end(ends.downstream)
+        end(ends.upstream, shown),
+        end(ends.downstream, shown)
     );
     let mut points = vec![
         format!(
             "Duct: {long} long, {deep} from the road surface to the cable{}.",
-            slope(scene)
+            slope(report)
         ),
-        cable(scene),
-        friction(scene),
+        cable(report),
+        friction(report),
         ends,
     ];
     points.extend(scene.restraints.iter().map(|clamp| {
-        let (stiff, place) = (stiffness(clamp.stiffness), length(clamp.position));
+        let (stiff, place) = (shown.stiffness(clamp.stiffness), shown.length(clamp.position));
         format!("Clamp of {stiff} at {place}.")
     }));
     points.push(traffic(scene));
@@ -42,20 +44,22 @@ pub fn scene(scene: &Scene) -> Vec<String> {
 }
 
 /// Which way the duct slopes, and what draws the cable down it.
-fn slope(scene: &Scene) -> String {
+fn slope(report: &Report) -> String {
+    let Report { scene, shown, .. } = report;
     let slope = scene.duct.slope;
     if slope == 0.0 {
         return String::new();
     }
     let way = if slope > 0.0 { "rises" } else { "falls" };
     format!(
-        "; it {way} with x by {} %, and {} N/m of the cable’s weight draw it down",
+        "; it {way} with x by {} %, and {} of the cable’s weight draw it down",
         significant(100.0 * slope.abs()),
-        significant(scene.body_force().abs())
+        shown.weight(scene.body_force().abs())
     )
 }
 
-fn cable(scene: &Scene) -> String {
+fn cable(report: &Report) -> String {
+    let Report { scene, shown, .. } = report;
     let cable = &scene.cable;
     let pressed = match cable.normal_load_factor {
         1.0 => "it lies on the duct with its own weight".to_owned(),
@@ -65,13 +69,10 @@ fn cable(scene: &Scene) -> String {
             significant(factor)
         ),
     };
-    let (weight, stiffness) = (
-        quantity(cable.weight, "N/m"),
-        quantity(cable.axial_stiffness, "N"),
-    );
+    let (weight, stiffness) = (shown.weight(cable.weight), shown.load(cable.axial_stiffness));
     format!(
         "Cable: {weight} heavy, axial stiffness EA {stiffness}; {pressed}{}.",
-        beside(scene)
+        beside(report)
     )
 }
 
@@ -84,7 +85,8 @@ fn under(scene: &Scene) -> &'static str {
 }
 
 /// The other cables in the duct.
-fn beside(scene: &Scene) -> String {
+fn beside(report: &Report) -> String {
+    let Report { scene, shown, .. } = report;
     let place = match scene.cable.arrangement {
         Arrangement::TrefoilUpper => "the upper one of three cables in trefoil",
         Arrangement::TrefoilLower => "a lower one of three cables in trefoil",
@@ -93,7 +95,7 @@ fn beside(scene: &Scene) -> String {
         _ => return String::new(),
     };
     let [inner, own] =
-        [scene.duct.inner_diameter, scene.cable.diameter].map(|d| length(d.unwrap_or_default()));
+        [scene.duct.inner_diameter, scene.cable.diameter].map(|d| shown.length(d.unwrap_or_default()));
     format!(", as {place}, {own} thick in a duct of {inner}")
 }
 
@@ -109,7 +111,8 @@ fn together(scene: &Scene) -> &'static str {
     }
 }
 
-fn friction(scene: &Scene) -> String {
+fn friction(report: &Report) -> String {
+    let Report { scene, shown, .. } = report;
     let law = match scene.friction.law {
         FrictionLaw::Coulomb => "Coulomb's law".to_owned(),
         FrictionLaw::ElasticPlastic { shape_factor: b } => {
@@ -123,16 +126,16 @@ fn friction(scene: &Scene) -> String {
     format!(
         "Friction: dynamic coefficient {}, so at most {}; {law}.{}",
         significant(scene.friction.dynamic_coefficient),
-        quantity(scene.friction_limit(), "N/m"),
+        shown.weight(scene.friction_limit()),
         together(scene)
     )
 }
 
-fn end(end: End) -> String {
+fn end(end: End, shown: &Shown) -> String {
     match end {
         End::Free => "free".into(),
         End::Fixed => "fixed".into(),
-        End::Spring(spring) => format!("on a spring of {}", stiffness(spring)),
+        End::Spring(spring) => format!("on a spring of {}", shown.stiffness(spring)),
     }
 }
 
@@ -158,25 +161,26 @@ fn traffic(scene: &Scene) -> String {
 }
 
 /// The layers of the ground from the surface down.
-pub fn ground(html: &mut Html, scene: &Scene) {
+pub fn ground(html: &mut Html, report: &Report) {
+    let Report { scene, shown, .. } = report;
     let profile = &scene.ground.profile;
     let row = |depth: String, modulus: String, ratio: f64| vec![depth, modulus, significant(ratio)];
     let mut rows = Vec::new();
     let mut top = 0.0;
     for layer in profile.layers() {
         let bottom = top + layer.thickness();
-        let modulus = moduli(layer.modulus());
-        let depth = format!("{} to {}", significant(top), metres(bottom));
+        let modulus = shown.moduli(layer.modulus());
+        let depth = shown.depths(top, bottom);
         rows.push(row(depth, modulus, layer.poisson_ratio()));
         top = bottom;
     }
-    let below = format!("below {}", metres(top));
+    let below = format!("below {}", shown.depth(top));
     rows.push(match profile.base() {
         Base::HalfSpace(soil) => {
             let depth = if top == 0.0 { "everywhere".into() } else { below };
             row(
                 depth,
-                moduli(Modulus::Uniform(soil.young_modulus())),
+                shown.moduli(Modulus::Uniform(soil.young_modulus())),
                 soil.poisson_ratio(),
             )
         }
@@ -204,7 +208,8 @@ pub fn scaling(scene: &Scene) -> Option<String> {
 }
 
 /// The vehicles, and where they drive.
-pub fn vehicles(html: &mut Html, scene: &Scene) {
+pub fn vehicles(html: &mut Html, report: &Report) {
+    let Report { scene, shown, .. } = report;
     let first = &scene.vehicles[0];
     let alike = |other: &TrafficVehicle| load_ratio(other, first).is_some();
     let many = scene.vehicles.len() > MOST_ROWS && scene.vehicles.iter().all(alike);
@@ -217,8 +222,8 @@ pub fn vehicles(html: &mut Html, scene: &Scene) {
         };
         vec![
             vehicle.name().to_owned(),
-            format!("{speed} km/h {direction}, {}", lane(scene, traffic)),
-            load(vehicle),
+            format!("{speed} km/h {direction}, {}", lane(report, traffic)),
+            load(vehicle, shown),
             format!("{} %", significant(100.0 * traffic.share)),
         ]
     });
@@ -226,7 +231,7 @@ pub fn vehicles(html: &mut Html, scene: &Scene) {
     if many {
         let mut row = rows.take(1).next().unwrap_or_default();
         row[0] = format!("{} classes of axles", scene.vehicles.len());
-        row[2] = loads(scene);
+        row[2] = loads(report);
         "100 %".clone_into(&mut row[3]);
         html.table(3, &head, [row]);
     } else {
@@ -235,7 +240,8 @@ pub fn vehicles(html: &mut Html, scene: &Scene) {
 }
 
 /// The range of the vehicles' loads and their mean.
-fn loads(scene: &Scene) -> String {
+fn loads(report: &Report) -> String {
+    let Report { scene, shown, .. } = report;
     let weights = || scene.vehicles.iter().map(|traffic| traffic.vehicle.weight());
     let (least, most) = (
         weights().fold(f64::INFINITY, f64::min),
@@ -246,22 +252,22 @@ fn loads(scene: &Scene) -> String {
         .iter()
         .map(|traffic| traffic.share * traffic.vehicle.weight())
         .sum();
-    let [least, most, mean] = [least, most, mean].map(|load| quantity(load, "N"));
+    let [least, most, mean] = [least, most, mean].map(|load| shown.load(load));
     format!("{least} to {most}, in the mean {mean}")
 }
 
 /// Where a vehicle drives beside the duct, seen toward growing x.
-fn lane(scene: &Scene, traffic: &TrafficVehicle) -> String {
-    let left = middle(traffic) - scene.duct.lateral_offset;
+fn lane(report: &Report, traffic: &TrafficVehicle) -> String {
+    let left = middle(traffic) - report.scene.duct.lateral_offset;
     if left.abs() < 5e-4 {
         return "right above the duct".into();
     }
     let side = if left > 0.0 { "left" } else { "right" };
-    format!("{} {side} of the duct", length(left.abs()))
+    format!("{} {side} of the duct", report.shown.length(left.abs()))
 }
 
-fn load(vehicle: &Vehicle) -> String {
-    let whole = quantity(vehicle.weight(), "N");
+fn load(vehicle: &Vehicle, shown: &Shown) -> String {
+    let whole = shown.load(vehicle.weight());
     match vehicle.wheels() {
         [wheel] if wheel.load.is_point() => format!("{whole}, concentrated"),
         [_] => format!("{whole}, one wheel"),

@@ -148,6 +148,8 @@ impl Unit {
     pub const NEWTON_PER_METRE: Self = unit("N/m", Dimension::ForcePerLength, 0, 1.0);
     /// Kilonewton per metre.
     pub const KILONEWTON_PER_METRE: Self = unit("kN/m", Dimension::ForcePerLength, 3, 1.0);
+    /// Megapascal.
+    pub const MEGAPASCAL: Self = unit("MPa", Dimension::Pressure, 6, 1.0);
 
     /// The unit of this dimension that is written so.
     pub fn of(dimension: Dimension, symbol: &str) -> Option<Self> {
