@@ -1,6 +1,7 @@
 //! Runs of one scene with springs of different stiffness, all on one mesh, none of them twice.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::cmp::Ordering;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use super::limits::held;
@@ -63,7 +64,7 @@ impl<'a> Runs<'a> {
             let mut tried = tried.lock().unwrap_or_else(PoisonError::into_inner);
             tried.push(point.clone());
         }
-        let count = self.count.fetch_add(1, Ordering::Relaxed);
+        let count = self.count.fetch_add(1, Relaxed);
         let share = count as f64 / self.expected as f64;
         self.progress.report(share.min(1.0))?;
         Ok(point)
@@ -88,7 +89,7 @@ impl<'a> Runs<'a> {
 
     /// How many were made, that of the mesh among them.
     pub fn count(&self) -> usize {
-        self.count.load(Ordering::Relaxed)
+        self.count.load(Relaxed)
     }
 
     /// Everything that was run, by growing stiffness.
@@ -103,7 +104,10 @@ impl<'a> Runs<'a> {
 pub fn sort(points: &mut [TradeOff]) {
     let stiffnesses =
         |point: &TradeOff| -> Vec<f64> { point.springs.iter().map(Spring::stiffness).collect() };
-    points.sort_by(|a, b| stiffnesses(a).partial_cmp(&stiffnesses(b)).expect("no NaN"));
+    points.sort_by(|a, b| {
+        let pairs = stiffnesses(a).into_iter().zip(stiffnesses(b));
+        pairs.fold(Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(&b)))
+    });
 }
 
 /// Stiffnesses to try at `place` \[N/m\], ascending, so many a decade: from a free end to a fixed one, from no clamp to a stiff one.

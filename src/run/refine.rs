@@ -51,6 +51,13 @@ pub struct Solved {
     pub heat: Option<(Vec<DayExtremes>, HeatRecord)>,
 }
 
+/// What passes on some meshes say of the last.
+struct Seen {
+    is_within: bool,
+    would_be_with_smaller_jumps: bool,
+    is_costly: bool,
+}
+
 impl Refinement<'_> {
     /// Refines until the estimated error is within the tolerance, unless the scene says how fine to be.
     pub fn solve(&self, verify: bool, warnings: &mut Vec<String>) -> Result<Solved, Error> {
@@ -62,76 +69,16 @@ impl Refinement<'_> {
             ..
         } = self.plan;
         let tolerance = scene.solver.tolerance;
-        let scale = self.scale();
-        let mut level = levels.first();
         let mut statistics = Statistics::default();
         let mut found = match self.method {
             PassMethod::Jumps(_) => Some(self.jumps(jumps::SHARE, None, &mut statistics)?),
             PassMethod::EveryPass(_) => None,
         };
-        let mut may_be_smaller = true;
         // How many meshes it takes is not known: each is half of what is left.
         let left = found.as_ref().map_or(0.0, |_| FINDING);
         let mut parts = self.progress.part(left, 1.0).halving();
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
-        let mut passes;
-        'meshes: loop {
-            error.passes = found.as_ref().map_or(Shares::default(), |found| found.error);
-            let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
-            let way = way.as_ref();
-            let known = found.as_ref().map(|found| (found.level, &found.passes));
-            let now = parts();
-            let (finest, coarser) = both(
-                || self.simulate(level, way, now, true),
-                || self.coarser(level, way, known),
-            )?;
-            passes = coarser;
-            passes.push(finest);
-            loop {
-                if passes.len() > 1 {
-                    let records: Vec<&[Record]> = passes.iter().map(|p| &p.records[..]).collect();
-                    error.mesh = of_mesh(&records, Levels::typical_error(level), scale);
-                }
-                let last = &passes[passes.len() - 1];
-                // A corner of an exact step is about as much work as a node.
-                let work = last.statistics.node_updates + last.statistics.corners;
-                let costly = REFINEMENT_COST.saturating_mul(work) > MAX_NODE_UPDATES;
-                // One mesh alone does not show its error.
-                let known = passes.len() > 1 || levels.named();
-                // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
-                let still = last.records.iter().all(|record| record.outcome.dissipated == 0.0);
-                let seen = !still || level >= SHARP;
-                let others = error.total().less(error.passes);
-                let within = others.is_within(allowed(tolerance, error.passes));
-                if known && seen && within {
-                    break 'meshes;
-                }
-                // Smaller jumps cost less than a finer mesh.
-                let smaller = Shares::both((1.0 - jumps::SMALLER_SHARE) * tolerance);
-                if known && seen && others.is_within(smaller) && std::mem::take(&mut may_be_smaller) {
-                    if let Some(before) = found.take() {
-                        let was = before.error;
-                        let now = self.jumps(jumps::SMALLER_SHARE, Some(before), &mut statistics)?;
-                        let is_smaller = now.error != was;
-                        found = Some(now);
-                        if is_smaller {
-                            statistics += work_of(&passes);
-                            continue 'meshes;
-                        }
-                    }
-                }
-                if costly || level >= levels.finest() {
-                    break 'meshes;
-                }
-                let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
-                match self.simulate(level + 1, way.as_ref(), parts(), true) {
-                    // What is known of coarser meshes counts.
-                    Err(Error::Jumps(_)) if known => break 'meshes,
-                    finer => passes.push(finer?),
-                }
-                level += 1;
-            }
-        }
+        let (level, mut passes) = self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?;
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
         statistics += work_of(&passes);
@@ -144,7 +91,7 @@ impl Refinement<'_> {
         if verify || alone || doubtful {
             let finer = self.simulate(level + 1, way, parts(), true)?;
             statistics += finer.statistics;
-            error.mesh = measured(&finest.records, &finer.records, scale);
+            error.mesh = measured(&finest.records, &finer.records, self.scale());
             error.measured = true;
         }
         judge(&error, scene, warnings)?;
@@ -166,12 +113,93 @@ impl Refinement<'_> {
         })
     }
 
+    /// The passes on mesh after mesh, up to one that is good enough, and its level; with smaller jumps than those `found` where these
+    /// spare a finer mesh.
+    fn meshes<'p>(
+        &self,
+        found: &mut Option<Found>,
+        error: &mut ErrorParts,
+        statistics: &mut Statistics,
+        parts: &mut impl FnMut() -> Progress<'p>,
+    ) -> Result<(usize, Vec<Passes>), Error> {
+        let levels = &self.plan.levels;
+        let mut level = levels.first();
+        let mut may_be_smaller = true;
+        'jumps: loop {
+            error.passes = found.as_ref().map_or(Shares::default(), |found| found.error);
+            let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
+            let way = way.as_ref();
+            let known = found.as_ref().map(|found| (found.level, &found.passes));
+            let now = parts();
+            let (finest, coarser) = both(
+                || self.simulate(level, way, now, true),
+                || self.coarser(level, way, known),
+            )?;
+            let mut passes = coarser;
+            passes.push(finest);
+            loop {
+                let seen = self.look(&passes, level, error);
+                if seen.is_within {
+                    return Ok((level, passes));
+                }
+                if let Some(before) =
+                    found.take_if(|_| seen.would_be_with_smaller_jumps && std::mem::take(&mut may_be_smaller))
+                {
+                    let was = before.error;
+                    let now = found.insert(self.jumps(jumps::SMALLER_SHARE, Some(before), statistics)?);
+                    if now.error != was {
+                        *statistics += work_of(&passes);
+                        continue 'jumps;
+                    }
+                }
+                if seen.is_costly || level >= levels.finest() {
+                    return Ok((level, passes));
+                }
+                let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
+                match self.simulate(level + 1, way.as_ref(), parts(), true) {
+                    // What is known of coarser meshes counts.
+                    Err(Error::Jumps(_)) if self.is_known(&passes) => return Ok((level, passes)),
+                    finer => passes.push(finer?),
+                }
+                level += 1;
+            }
+        }
+    }
+
+    /// Whether `passes` show their error: on one mesh alone they do not.
+    fn is_known(&self, passes: &[Passes]) -> bool {
+        passes.len() > 1 || self.plan.levels.named()
+    }
+
+    /// What the `passes` on all meshes up to `level` say, and the mesh's part of their `error`.
+    fn look(&self, passes: &[Passes], level: usize, error: &mut ErrorParts) -> Seen {
+        let tolerance = self.plan.scene.solver.tolerance;
+        if passes.len() > 1 {
+            let records: Vec<&[Record]> = passes.iter().map(|p| &p.records[..]).collect();
+            error.mesh = of_mesh(&records, Levels::typical_error(level), self.scale());
+        }
+        let last = &passes[passes.len() - 1];
+        // A corner of an exact step is about as much work as a node.
+        let work = last.statistics.node_updates + last.statistics.corners;
+        // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
+        let still = last.records.iter().all(|record| record.outcome.dissipated == 0.0);
+        let is_seen = self.is_known(passes) && (!still || level >= SHARP);
+        let others = error.total().less(error.passes);
+        let smaller = Shares::both((1.0 - jumps::SMALLER_SHARE) * tolerance);
+        Seen {
+            is_within: is_seen && others.is_within(allowed(tolerance, error.passes)),
+            would_be_with_smaller_jumps: is_seen && others.is_within(smaller),
+            is_costly: REFINEMENT_COST.saturating_mul(work) > MAX_NODE_UPDATES,
+        }
+    }
+
     /// Jumps that take at most the `share` of the tolerance; smaller ones than those found `before`.
     fn jumps(&self, share: f64, before: Option<Found>, statistics: &mut Statistics) -> Result<Found, Error> {
         let progress = if before.is_none() {
             self.progress.part(0.0, FINDING)
         } else {
-            Progress::default()
+            // It may be stopped, but its share of the work is not counted.
+            self.progress.part(FINDING, FINDING)
         };
         let simulate =
             |level, jumping: &Jumping<'_>, progress| self.simulate(level, Some(jumping), progress, false);
