@@ -228,12 +228,15 @@ pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
         records.iter().map(|record| &record.outcome).collect()
     }
     let (a, b) = (outcomes(a), outcomes(b));
-    let forces = |outcome: &PassOutcome| {
-        [
+    let forces = |outcome: &PassOutcome| -> Vec<f64> {
+        let ends = [
             outcome.force.upstream,
             outcome.force.downstream,
             outcome.max_compression,
-        ]
+        ];
+        ends.into_iter()
+            .chain(outcome.restraints.iter().copied())
+            .collect()
     };
     let movements = |outcome: &PassOutcome| [outcome.upstream_displacement, outcome.downstream_displacement];
     let largest = |outcome: &PassOutcome| {
@@ -255,6 +258,11 @@ pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
         .copied()
         .flat_map(movements)
         .fold(scale.movement, |largest, u| largest.max(u.abs()));
+    // Clamps move in proportion to their force.
+    let clamped = a
+        .iter()
+        .flat_map(|outcome| &outcome.restraints)
+        .fold(scale.force, |largest, force| largest.max(force.abs()));
     let of_pass = |(a, b): (&PassOutcome, &PassOutcome)| {
         // A clamp may hold a cable whose ends are free: what is compressed is then small beside what is stretched.
         let scale = forces(a)
@@ -268,7 +276,10 @@ pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
         };
         Shares {
             force: largest(&forces(a), &forces(b), scale),
-            movement: largest(&movements(a), &movements(b), moved),
+            movement: f64::max(
+                largest(&movements(a), &movements(b), moved),
+                largest(&a.restraints, &b.restraints, clamped),
+            ),
         }
     };
     a.into_iter().zip(b).map(of_pass).collect()

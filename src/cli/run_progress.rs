@@ -3,10 +3,13 @@
 use std::cell::OnceCell;
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
+use std::time::Duration;
 
 use super::progress::{HowFar, Now};
 use crate::{Scene, Underway};
 
+/// Runs that are shorter are not foretold: a forecast takes up to a second.
+const LONG: Duration = Duration::from_secs(5);
 /// More than this share of the work is never said to be done before it is: a forecast may be too low.
 const MOST: f64 = 0.99;
 
@@ -38,6 +41,9 @@ impl<'a> RunProgress<'a> {
             "pass {} of {} on nodes {:.3} m apart",
             reached.pass, reached.passes, reached.node_spacing_m
         );
+        if elapsed < LONG {
+            return HowFar::new(now, &words);
+        }
         let forecast = self.forecast.get_or_init(|| forecast(self.scene.clone()));
         if let Ok(total) = forecast.try_recv() {
             let _ = self.total.set(total);

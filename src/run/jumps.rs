@@ -73,7 +73,7 @@ pub fn find<'a>(
     plan: &Plan<'_>,
     scale: Scale,
     share: f64,
-    before: Option<Found>,
+    before: Option<&Found>,
     progress: Progress<'a>,
     carry_out: impl Fn(usize, &Jumping<'_>, Progress<'a>) -> Result<Passes, Error>,
 ) -> Result<(Found, Statistics), Error> {
@@ -107,7 +107,7 @@ pub fn find<'a>(
         beyond: false,
     };
     let mut statistics = Statistics::default();
-    let mut coarse = if let Some(found) = &before {
+    let mut coarse = if let Some(found) = before {
         level = found.level;
         taken.tolerance = found.tolerance;
         taken.first_periods = found.first_periods;
@@ -124,7 +124,7 @@ pub fn find<'a>(
         statistics += coarse.statistics;
         coarse
     };
-    let mut best = before;
+    let mut best = None;
     for finer in 1..=FINEST {
         taken.tolerance *= FINER.0;
         taken.first_jump *= FINER.1;

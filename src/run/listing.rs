@@ -21,6 +21,8 @@ pub struct Listing {
     rows: Vec<(u64, RangeInclusive<u64>)>,
     /// The first vehicles of the scene's own traffic.
     own: Vec<usize>,
+    /// Whether the scene's vehicles are drawn: then no pass is one of theirs.
+    is_drawn: bool,
 }
 
 impl Listing {
@@ -32,6 +34,7 @@ impl Listing {
             return Ok(Self {
                 rows: listed.iter().map(|&pass| (pass, pass..=pass)).collect(),
                 own: Vec::new(),
+                is_drawn: false,
             });
         }
         let window = |pass: u64| {
@@ -47,6 +50,7 @@ impl Listing {
             return Ok(Self {
                 rows: listed.iter().map(|&pass| (pass, mean(pass))).collect(),
                 own: Vec::new(),
+                is_drawn: true,
             });
         }
         let traffic = traffic(scene, scene.traffic.order.clone())?;
@@ -76,7 +80,11 @@ impl Listing {
         }
         // So far on its order is not known: the mean of a period stands for it.
         rows.extend(next.map(|pass| (pass, window(pass))));
-        Ok(Self { rows, own })
+        Ok(Self {
+            rows,
+            own,
+            is_drawn: false,
+        })
     }
 
     /// The vehicle of the pass `number`, whose place in the period is `phase`.
@@ -87,6 +95,9 @@ impl Listing {
 
     /// Whether the pass of this number is that of the scene's own traffic.
     pub fn is_own(&self, pass: u64) -> bool {
+        if self.is_drawn {
+            return false;
+        }
         let row = self.rows.binary_search_by_key(&pass, |(listed, _)| *listed);
         match row {
             Ok(row) => self.rows[row].1 == (pass..=pass),

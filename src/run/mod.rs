@@ -103,6 +103,10 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
             if plan.choice.may_simulate && matches!(plan.choice.method, PassMethod::Jumps(_)) =>
         {
             answer.gives_up_jumps(&error);
+            // What the jumps have come to is no answer.
+            if let Some(underway) = options.underway {
+                underway.begin(answer.cut_short(), &plan.scene.traffic);
+            }
             let every_pass = PassMethod::EveryPass(plan.choice.method.cable_method());
             solve(every_pass, &mut answer.warnings)?
         }

@@ -125,32 +125,42 @@ impl Refinement<'_> {
         let levels = &self.plan.levels;
         let mut level = levels.first();
         let mut may_be_smaller = true;
+        // The passes with larger jumps, until there are some with smaller ones.
+        let mut before = None;
         'jumps: loop {
             error.passes = found.as_ref().map_or(Shares::default(), |found| found.error);
             let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
             let way = way.as_ref();
             let known = found.as_ref().map(|found| (found.level, &found.passes));
             let now = parts();
-            let (finest, coarser) = both(
+            let made = both(
                 || self.simulate(level, way, now, true),
                 || self.coarser(level, way, known),
-            )?;
-            let mut passes = coarser;
-            passes.push(finest);
+            );
+            let mut passes = match (made, before.take()) {
+                // Smaller jumps do not get on.
+                (Err(Error::Jumps(_)), Some((larger, passes))) => {
+                    error.passes = found.insert(larger).error;
+                    passes
+                }
+                (made, _) => {
+                    let (finest, mut passes) = made?;
+                    passes.push(finest);
+                    passes
+                }
+            };
             loop {
                 let seen = self.look(&passes, level, error);
                 if seen.is_within {
                     return Ok((level, passes));
                 }
-                if let Some(before) =
-                    found.take_if(|_| seen.would_be_with_smaller_jumps && std::mem::take(&mut may_be_smaller))
+                if seen.would_be_with_smaller_jumps
+                    && std::mem::take(&mut may_be_smaller)
+                    && let Some(smaller) = self.smaller_jumps(found.as_ref(), statistics)?
                 {
-                    let was = before.error;
-                    let now = found.insert(self.jumps(jumps::SMALLER_SHARE, Some(before), statistics)?);
-                    if now.error != was {
-                        *statistics += work_of(&passes);
-                        continue 'jumps;
-                    }
+                    *statistics += work_of(&passes);
+                    before = found.replace(smaller).map(|larger| (larger, passes));
+                    continue 'jumps;
                 }
                 if seen.is_costly || level >= levels.finest() {
                     return Ok((level, passes));
@@ -163,6 +173,22 @@ impl Refinement<'_> {
                 }
                 level += 1;
             }
+        }
+    }
+
+    /// Smaller jumps than those of `found`, if there are any with a smaller error.
+    fn smaller_jumps(
+        &self,
+        found: Option<&Found>,
+        statistics: &mut Statistics,
+    ) -> Result<Option<Found>, Error> {
+        let Some(found) = found else {
+            return Ok(None);
+        };
+        match self.jumps(jumps::SMALLER_SHARE, Some(found), statistics) {
+            Err(Error::Jumps(_)) => Ok(None),
+            smaller => Ok(Some(smaller?)
+                .filter(|smaller| smaller.error != found.error && smaller.error.is_within(found.error))),
         }
     }
 
@@ -194,7 +220,7 @@ impl Refinement<'_> {
     }
 
     /// Jumps that take at most the `share` of the tolerance; smaller ones than those found `before`.
-    fn jumps(&self, share: f64, before: Option<Found>, statistics: &mut Statistics) -> Result<Found, Error> {
+    fn jumps(&self, share: f64, before: Option<&Found>, statistics: &mut Statistics) -> Result<Found, Error> {
         let progress = if before.is_none() {
             self.progress.part(0.0, FINDING)
         } else {
