@@ -245,6 +245,58 @@ fn bad_input_ends_with_two() {
     );
 }
 
+/// A share beyond all sense is refused with what was found and what is allowed; readings that are all 0 have no share.
+#[test]
+fn a_discrepancy_needs_a_share_of_something() {
+    for share in [
+        "1e-300", "1e6", "0.009 %", "1001 %", "0", "-1", "nan", "inf", "much",
+    ] {
+        let option = format!("--discrepancy={share}");
+        refused(
+            &["calibrate", UPPER, "--data", SYNTHETIC, &option],
+            2,
+            &["--discrepancy", &format!("found \"{share}\""), "0.01 % to 1000 %"],
+        );
+    }
+    let fit = ["--fit", "dynamic_coefficient"];
+    for (name, size) in [("zero", "0"), ("tiny", "1e-300")] {
+        let rows = ["0", "1", "2", "5", "10", "20"].map(|pass| format!("{pass},{size}\n"));
+        let data = file(
+            &format!("calibrate-{name}.csv"),
+            &format!("pass,force_n\n{}", rows.concat()),
+        );
+        let asked = [
+            "calibrate",
+            UPPER,
+            "--data",
+            data.to_str().unwrap(),
+            "--discrepancy",
+        ];
+        refused(
+            &[&asked[..], &fit[..]].concat(),
+            2,
+            &["a largest reading of 0", "leave the discrepancy out"],
+        );
+    }
+    // At one pass, only the prior knows the size: whatever the share, the value lies in its interval.
+    let once = file(
+        "calibrate-once.csv",
+        "pass,force_n\n20,100\n20,101\n20,99\n20,100.5\n20,99.5\n20,101\n",
+    );
+    for share in ["--discrepancy=0.01 %", "--discrepancy=1000 %"] {
+        let asked = ["calibrate", UPPER, "--data", once.to_str().unwrap(), share];
+        let (answer, _) = document(&[&asked[..], &fit[..]].concat());
+        let size = &answer["parameters"][1];
+        assert_eq!(size["name"], "discrepancy");
+        let value = size["value"].as_f64().unwrap();
+        let [lower, upper] = [0, 1].map(|end| size["interval_95"][end].as_f64());
+        assert!(
+            lower.is_none_or(|lower| lower <= value) && upper.is_none_or(|upper| value <= upper),
+            "{size}"
+        );
+    }
+}
+
 /// The synthetic series as a drifting cell would have read it, in kN and between semicolons.
 fn drifting(name: &str) -> PathBuf {
     let text = fs::read_to_string(SYNTHETIC).unwrap();

@@ -45,6 +45,17 @@ fn a_discrepancy_is_found_where_the_law_is_wrong() {
         off(&allowed)
     );
 
+    for share in [1e-300, 11.0, f64::NAN] {
+        let absurd = CalibrateOptions {
+            discrepancy: Some(share),
+            ..CalibrateOptions::default()
+        };
+        let error = calibrate(&upper, &data, &absurd).unwrap_err();
+        assert!(
+            error.is_bad_input() && error.to_string().contains("0.0001 to 10"),
+            "{error}"
+        );
+    }
     let robust = CalibrateOptions {
         discrepancy: Some(0.1),
         loss: Loss::TUKEY,

@@ -4,7 +4,9 @@
 //! is a share of the instrument's largest reading, the same share for all, and is fitted. It is the same in all runs of a scene: there the model
 //! is wrong in the same way. Before the first pass nothing can be wrong but a deflection.
 
-use calibrate::Discrepancy;
+use std::ops::RangeInclusive;
+
+use calibrate::{CalibrationError, Discrepancy};
 
 use super::cell::Observed;
 use super::model::SeriesModel;
@@ -16,8 +18,18 @@ use crate::Error;
 /// draws, with 2 in 93 to 97 %; the other way round, on ground a fifth too stiff they do so in 100 and 73 %.
 pub const LENGTH: f64 = 2.0;
 
+/// Shares that may be asked for: below is less than an instrument shows, above is no knowledge.
+pub const SHARES: RangeInclusive<f64> = 1e-4..=10.0;
+
 /// Among all readings, with a `share` of the largest as the scale of its prior.
 pub fn discrepancy(series: &[Series<'_>], models: &[SeriesModel], share: f64) -> Result<Discrepancy, Error> {
+    if !SHARES.contains(&share) {
+        return Err(Error::Calibration(CalibrationError::InvalidOption {
+            name: "discrepancy",
+            value: share,
+            allowed: "a share of 0.0001 to 10",
+        }));
+    }
     // Instrument, logarithm of the passes, and what the error is a share of.
     let mut rows: Vec<((usize, Observed), f64, f64)> = Vec::new();
     for (index, (one, model)) in series.iter().zip(models).enumerate() {
@@ -29,6 +41,15 @@ pub fn discrepancy(series: &[Series<'_>], models: &[SeriesModel], share: f64) ->
             let scale = if exact { 0.0 } else { largest };
             rows.push(((index, observed), (pass.max(1) as f64).ln(), scale));
         }
+    }
+    // Squares, as of numbers that are as good as 0 nothing is left.
+    if rows.iter().all(|(_, _, scale)| scale * scale == 0.0) {
+        return Err(Error::Unfit {
+            key: "discrepancy",
+            found: "a largest reading of 0 after the passes",
+            reason: "the discrepancy is a share of it; check the readings, or leave the discrepancy out"
+                .into(),
+        });
     }
     let covariance = |i: usize, j: usize| {
         let ((one, place, scale), (other, elsewhere, factor)) = (&rows[i], &rows[j]);

@@ -38,6 +38,8 @@ use ::calibrate::{Options, Profiles};
 pub use ::calibrate::{BootstrapOptions, CalibrationError, Loss};
 #[cfg(feature = "plot")]
 pub(crate) use cell::{CellEnd, force_ends};
+#[cfg(feature = "cli")]
+pub(crate) use discrepancy::SHARES;
 pub use judgement::LackOfFit;
 pub use options::{CalibrateOptions, Deflection, Series};
 pub use result::{

@@ -36,7 +36,8 @@ pub struct CalibrateOptions<'a> {
     /// That of its drift \[N per pass\]; a quarter of the largest force over all passes if left out.
     pub drift_sigma: Option<f64>,
     /// Whether the model may be wrong by a smooth function of the passes, whose standard deviation is fitted: how large that may be, as a
-    /// share of the largest reading, before the readings (the scale of a half-normal distribution). Least squares only, and no bootstrap.
+    /// share of the largest reading, 1e-4 to 10, before the readings (the scale of a half-normal distribution). Least squares only, and no
+    /// bootstrap.
     pub discrepancy: Option<f64>,
     /// How much residuals count.
     pub loss: Loss,

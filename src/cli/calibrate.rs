@@ -11,7 +11,8 @@ use super::shared::{Input, OutputArguments, SceneArguments};
 use super::terminal;
 use crate::Readings;
 use crate::calibration::{
-    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, Series, Unknown,
+    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, SHARES, Series,
+    Unknown,
 };
 use crate::output::Kind;
 use crate::scene::{Dimension, FrictionLaw};
@@ -55,8 +56,8 @@ pub struct Arguments {
     #[arg(long, value_name = "LENGTH", requires = "deflection", value_parser = positive_length)]
     deflection_sigma: Option<f64>,
     /// Let the model be wrong by a smooth function of the passes and fit its standard deviation, a share of the largest reading: intervals
-    /// then hold where the model is not the truth. SHARE is how large it may be, before the readings are seen
-    #[arg(long, value_name = "SHARE", num_args = 0..=1, require_equals = true, default_missing_value = "10 %", value_parser = positive_share,
+    /// then hold where the model is not the truth. SHARE is how large it may be, before the readings are seen (0.01 % to 1000 %)
+    #[arg(long, value_name = "SHARE", num_args = 0..=1, require_equals = true, default_missing_value = "10 %", value_parser = share_of_discrepancy,
         conflicts_with_all = ["robust", "bootstrap"])]
     discrepancy: Option<f64>,
     /// Ignore outliers (Tukey's loss)
@@ -85,8 +86,13 @@ fn positive_force(text: &str) -> Result<f64, String> {
     positive(text, Dimension::Force, "force such as \"20 N\"")
 }
 
-fn positive_share(text: &str) -> Result<f64, String> {
-    positive(text, Dimension::Ratio, "share such as \"10 %\"")
+fn share_of_discrepancy(text: &str) -> Result<f64, String> {
+    let allowed = "0.01 % to 1000 % of the largest reading";
+    match Dimension::Ratio.parse_argument(text) {
+        Ok(share) if SHARES.contains(&share) => Ok(share),
+        Ok(_) => Err(format!("found \"{text}\"; allowed: {allowed}")),
+        Err(error) => Err(format!("found \"{text}\": {error}; allowed: {allowed}")),
+    }
 }
 
 fn positive(text: &str, dimension: Dimension, allowed: &str) -> Result<f64, String> {

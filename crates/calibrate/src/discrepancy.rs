@@ -49,7 +49,8 @@ impl Discrepancy {
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidOption`] unless `sigma` is finite and positive and the covariance finite, with variances of at least 0.
+    /// [`CalibrationError::InvalidOption`] unless `sigma` is finite and positive and the covariance finite, with variances of at least 0 and
+    /// one above it.
     pub fn new(
         count: usize,
         covariance: impl Fn(usize, usize) -> f64,
@@ -91,6 +92,9 @@ impl Discrepancy {
             }
             left[pivot] = 0.0;
             columns.push(column);
+        }
+        if columns.is_empty() {
+            return Err(invalid("largest variance of the discrepancy", 0.0, "positive"));
         }
         let factor = DMatrix::from_fn(count, columns.len(), |row, column| columns[column][row]);
         Ok(Self {

@@ -10,6 +10,7 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::deviance::information;
+use crate::emulator::least_sure;
 use crate::evaluator::Evaluator;
 use crate::interval::{ACCURACY, EXCLUSION, Witness};
 use crate::point::{Point, all_over, score};
@@ -305,8 +306,7 @@ impl Emulation<'_> {
         loop {
             let size = |witness: &&Witness| doubt.at(&place(witness)) / self.allowed(solution, witness);
             let sizes: Vec<f64> = left.iter().map(size).collect();
-            let most = (0..sizes.len()).max_by(|&a, &b| sizes[a].total_cmp(&sizes[b]));
-            let Some(most) = most.filter(|&most| sizes[most] > 1.0) else {
+            let Some(most) = least_sure(&sizes) else {
                 return asked;
             };
             let witness = left.swap_remove(most);

@@ -151,7 +151,7 @@ impl Emulator {
         let squares = (0..self.squares.len()).map(|k| weights(k) * self.squares[k]);
         let variance = squares.sum::<f64>() / (self.places.len() - 1) as f64;
         Some(Doubt {
-            variance,
+            variance: at_least_zero(variance),
             places: self.places.clone(),
             factor,
         })
@@ -243,7 +243,7 @@ impl Doubt {
         let known = self.factor.solve(&near);
         let ones = DVector::from_element(near.len(), 1.0);
         let of_mean = (1.0 - known.sum()).powi(2) / self.factor.solve(&ones).sum();
-        (self.variance * (1.0 - near.dot(&known) + of_mean).max(0.0)).sqrt()
+        (self.variance * at_least_zero(1.0 - near.dot(&known) + of_mean)).sqrt()
     }
 
     /// What is left of it once the model has run there.
@@ -262,6 +262,24 @@ impl Doubt {
     }
 }
 
+/// A variance that rounding may have made negative. What is no number stays so: `max` would take it for 0, and so for sure.
+fn at_least_zero(variance: f64) -> f64 {
+    variance.clamp(0.0, f64::INFINITY)
+}
+
+/// Index of the largest of these doubts, shares of what is allowed, if it is not allowed. What is no number is the largest.
+pub(crate) fn least_sure(doubts: &[f64]) -> Option<usize> {
+    let size = |k: usize| {
+        if doubts[k].is_nan() {
+            f64::INFINITY
+        } else {
+            doubts[k]
+        }
+    };
+    let most = (0..doubts.len()).max_by(|&a, &b| size(a).total_cmp(&size(b)));
+    most.filter(|&most| size(most) > 1.0)
+}
+
 /// Correlation at a distance: Matérn's function of order 5/2.
 fn correlation(distance: f64) -> f64 {
     let scaled = 5.0_f64.sqrt() * distance / LENGTH;
@@ -272,7 +290,7 @@ fn correlation(distance: f64) -> f64 {
 mod tests {
     use nalgebra::{DVector, dvector};
 
-    use super::Emulator;
+    use super::{Emulator, least_sure};
     use crate::{Model, Parameter, Scale};
 
     fn parameters() -> Vec<Parameter> {
@@ -320,6 +338,28 @@ mod tests {
             assert!((after - before - missed(a)).abs() < 2e-3, "{before} {after}");
         }
         assert_eq!(second.runs(), 7);
+    }
+
+    /// Rounding leaves no doubt; what is no number leaves nothing sure.
+    #[test]
+    fn doubt_is_a_number_or_asked() {
+        let mut emulator = Emulator::new(&parameters(), None);
+        emulator.learn(grid(|a, b| a + b));
+        let at = |emulator: &Emulator| emulator.doubt(|_| 1.0).unwrap().at(&dvector![0.4, 0.6]);
+        assert!(at(&emulator) > 0.0);
+        emulator.squares = vec![-1e-20, 0.0];
+        assert_eq!(at(&emulator), 0.0);
+        emulator.squares = vec![1.0, f64::NAN];
+        assert!(at(&emulator).is_nan());
+        let doubt = emulator.doubt(|_| 0.0);
+        assert!(doubt.unwrap().at(&dvector![f64::NAN, 0.6]).is_nan());
+
+        for nan in [f64::NAN, -f64::NAN] {
+            assert_eq!(least_sure(&[0.5, nan, 2.0]), Some(1));
+            assert_eq!(least_sure(&[nan, 0.5]), Some(0));
+        }
+        assert_eq!(least_sure(&[0.5, 1.2, 2.0]), Some(2));
+        assert_eq!((least_sure(&[0.5, 1.0]), least_sure(&[])), (None, None));
     }
 
     /// Runs that are nearly one, and runs that are one, do not make it swing.

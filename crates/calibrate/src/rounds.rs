@@ -31,6 +31,13 @@ impl Calibration<'_> {
             evaluations += found.evaluations;
             found.evaluations = evaluations;
             let wanted = found.ratio;
+            if found.discrepancy.is_none() {
+                return Err(CalibrationError::InvalidOption {
+                    name: "sigma of the discrepancy",
+                    value: discrepancy.sigma,
+                    allowed: "large enough to show beside the noise of the observations",
+                });
+            }
             let change = (wanted / whitening.ratio).ln();
             // Where two sizes are as likely, it may waver between them: then none is taken that is called too small.
             let settled = change.abs() < SETTLED || (round > WAVERING && change < 0.0);

@@ -158,11 +158,11 @@ pub(crate) struct Sizes {
 }
 
 impl Sizes {
-    /// Around `optimum`; nothing without a discrepancy.
+    /// Around `optimum`; nothing without a discrepancy, or where its prior is so small that even the least size is too large.
     pub fn of(calibration: &Calibration<'_>, optimum: &Optimum, freedom: f64) -> Option<Self> {
         let (discrepancy, whitening) = (calibration.discrepancy.as_ref()?, calibration.whitening.as_ref()?);
         let equations = Equations::new(calibration, whitening, optimum);
-        let largest = whitening.variances.max().sqrt();
+        let largest = whitening.variances.iter().copied().fold(0.0, f64::max).sqrt();
         let freedom = (!calibration.knows_noise).then_some(freedom.max(1.0));
         let least = calibration.least_noise();
         let size = |index: usize| {
@@ -170,7 +170,8 @@ impl Sizes {
             let ratio = RATIOS.0 * (RATIOS.1 / RATIOS.0).powf(share) / largest;
             equations.size(whitening, ratio, discrepancy.sigma, freedom, least)
         };
-        let mut list: Vec<Size> = (0..SIZES).filter_map(size).collect();
+        let list = (0..SIZES).filter_map(size);
+        let mut list: Vec<Size> = list.filter(|size| size.total.is_finite()).collect();
         let best = list.iter().map(|size| size.total).fold(f64::INFINITY, f64::min);
         for size in &mut list {
             size.weight = (-0.5 * (size.total - best)).exp();
@@ -179,7 +180,8 @@ impl Sizes {
         for size in &mut list {
             size.weight /= sum;
         }
-        (!list.is_empty()).then_some(Self { list, freedom })
+        let sizes = Self { list, freedom };
+        (sizes.best() > 0).then_some(sizes)
     }
 
     /// Index of the most likely size.
@@ -255,14 +257,17 @@ impl Sizes {
         Some(outer)
     }
 
-    /// δ as a parameter; an end is open where the readings do not exclude what lies beyond.
+    /// δ as a parameter; an end is open where the readings, or with them the prior, do not exclude what lies beyond.
     pub fn estimate(&self, tail: f64) -> Estimate {
         let least = self
             .list
             .iter()
             .map(|size| size.data)
             .fold(f64::INFINITY, f64::min);
-        let excluded = |size: Option<&Size>| size.is_some_and(|size| size.data > least + EXCLUDED);
+        let total = self.list[self.best()].total;
+        let excluded = |size: Option<&Size>| {
+            size.is_some_and(|size| size.data > least + EXCLUDED && size.total > total + EXCLUDED)
+        };
         // Each size stands for those around it, evenly spread in the logarithm.
         let step = (RATIOS.1 / RATIOS.0).powf(1.0 / (SIZES - 1) as f64);
         let at = |share: f64| {
@@ -281,14 +286,15 @@ impl Sizes {
             .iter()
             .map(|size| size.weight * (size.deviation - mean).powi(2))
             .sum();
+        let value = self.most_likely().1;
+        // The most likely size of a skewed distribution may lie beyond its quantiles.
         let interval = Interval {
-            lower: excluded(self.list.first()).then(|| at(0.5 * tail)),
-            upper: excluded(self.list.last()).then(|| at(1.0 - 0.5 * tail)),
+            lower: excluded(self.list.first()).then(|| at(0.5 * tail).min(value)),
+            upper: excluded(self.list.last()).then(|| at(1.0 - 0.5 * tail).max(value)),
         };
-        let total = self.list[self.best()].total;
         Estimate {
             name: "discrepancy".into(),
-            value: self.most_likely().1,
+            value,
             standard_error: Some(square.sqrt()),
             interval,
             identifiable: interval.is_closed(),

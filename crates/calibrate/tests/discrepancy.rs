@@ -88,6 +88,23 @@ fn intervals_hold_where_the_model_is_off() {
     }
 }
 
+/// Observations at one place tell nothing of the size: the prior alone says how large it may be, and where it is wide, the interval is open.
+#[test]
+fn an_interval_holds_its_value() {
+    let level = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(vec![p[0]; 6]) };
+    let data = vec![100.0, 101.0, 99.0, 100.5, 99.5, 101.0];
+    for sigma in [0.1, 10.0, 1e3, 1e6, 1e9] {
+        let one = Parameter::new("level", 0.0, 1e3, Scale::Linear).unwrap();
+        let calibration = Calibration::new(&level, vec![one], data.clone()).unwrap();
+        let discrepancy = Discrepancy::new(6, |_, _| 1e4, sigma).unwrap();
+        let fit = calibration.with_discrepancy(discrepancy).unwrap().fit().unwrap();
+        let size = fit.discrepancy.unwrap();
+        assert!(size.interval.contains(size.value), "{sigma}: {size:?}");
+        assert!(!size.identifiable, "{sigma}: {size:?}");
+        assert_eq!(size.interval.upper.is_some(), sigma < 1e3, "{sigma}: {size:?}");
+    }
+}
+
 /// What of the residuals is smooth is found, and the rest is the noise.
 #[test]
 fn the_smooth_part_is_told_from_noise() {
@@ -113,6 +130,19 @@ fn what_does_not_go_together_is_refused() {
     refused(calibration.clone().with_discrepancy(of(3)).unwrap_err());
     refused(Discrepancy::new(4, |_, _| f64::NAN, 0.1).unwrap_err());
     refused(Discrepancy::new(4, |_, _| 1.0, 0.0).unwrap_err());
+    for none in [0.0, 1e-300_f64.powi(2)] {
+        refused(Discrepancy::new(4, |_, _| none, 0.1).unwrap_err());
+    }
+    // So small beside the noise that nothing of it is left, or that its prior overflows.
+    for (variance, sigma) in [(f64::MIN_POSITIVE, 0.1), (1.0, 1e-300), (1.0, 1e-9)] {
+        let tiny = Discrepancy::new(4, |_, _| variance, sigma).unwrap();
+        let tiny = calibration
+            .clone()
+            .with_sigmas(vec![100.0; 4])
+            .unwrap()
+            .with_discrepancy(tiny);
+        refused(tiny.unwrap().fit().unwrap_err());
+    }
     let mut options = Options::default();
     options.loss = Loss::TUKEY;
     let robust = calibration
