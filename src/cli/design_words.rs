@@ -211,12 +211,6 @@ fn conclusion(out: &mut impl Write, design: &Design, units: &Shown) -> Result<()
             "no stiffness stays within the limits; nearest: {}",
             reached(design, nearest, units)
         )?;
-        if design.excess() <= 1.0 + nearest.error_estimate {
-            writeln!(
-                out,
-                "it exceeds them by less than the estimated error: with a smaller solver.tolerance one may be found"
-            )?;
-        }
     }
     if let Some(answer) = &design.answer {
         writeln!(out, "answer: {}", reached(design, answer, units))?;

@@ -17,7 +17,7 @@ use crate::{CableEnd, Error, Limited, Limits, Place, Progress, Scene};
 
 /// Points of the grid, and of the map, in a decade of stiffness.
 const POINTS_PER_DECADE: i32 = 1;
-const FINE_PER_DECADE: i32 = 192;
+const FINE_PER_DECADE: i32 = 48;
 /// Tolerance of the rough runs, if the scene's own is not looser, and their share of the progress.
 const ROUGH: f64 = 0.05;
 const ROUGH_SHARE: f64 = 0.7;
@@ -38,12 +38,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     let mut rough = scene.clone();
     rough.solver.tolerance = scene.solver.tolerance.max(ROUGH);
     let progress = options.progress.part(0.0, ROUGH_SHARE);
-    // What is shown of a search that is stopped has the scene's own tolerance.
-    let unseen = DesignOptions {
-        tried: None,
-        ..options.clone()
-    };
-    let runs = Runs::new(&rough, &unseen, progress, all + 1)?;
+    let runs = Runs::new(&rough, options, progress, all + 1)?;
     let points = (0..all)
         .into_par_iter()
         .map(|index| {

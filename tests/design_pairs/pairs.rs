@@ -108,23 +108,3 @@ fn limits_and_places_that_have_no_meaning_are_refused() {
         );
     }
 }
-
-/// Limits that only few pairs keep, within a few per cent of each stiffness.
-#[test]
-fn a_narrow_pair_is_found() {
-    let scene = creepage::SceneFile::read("examples/scenes/full-scale-upper.toml")
-        .and_then(|file| file.with(&["traffic.passes=60"]))
-        .and_then(|file| file.scene())
-        .expect("a scene");
-    let found = designed(
-        &scene,
-        &[Place::Upstream, Place::Downstream],
-        &[
-            (Place::Upstream, Limited::Force, 207.0),
-            (Place::Downstream, Limited::Force, 207.0),
-            (Place::Downstream, Limited::Movement, 1.035e-3),
-        ],
-    );
-    let answer = found.answer.expect("a pair that keeps the limits");
-    assert!(answer.within_limits && answer.downstream_movement_m <= 1.035e-3);
-}
