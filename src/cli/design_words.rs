@@ -5,7 +5,7 @@ use std::io::Write;
 use super::design_units::Shown;
 use super::failure::Failure;
 use super::terminal;
-use crate::design::{Binding, Design, Place, Side, Spring, TradeOff, largest_shown};
+use crate::design::{Binding, Design, Doubt, Place, Side, Spring, TradeOff, largest_shown};
 use crate::shown::percent;
 use crate::{Limited, Limits, Scene};
 
@@ -208,7 +208,8 @@ fn conclusion(out: &mut impl Write, design: &Design, units: &Shown) -> Result<()
     if let Some(nearest) = &design.nearest {
         writeln!(
             out,
-            "no stiffness stays within the limits; nearest: {}",
+            "{}; nearest: {}",
+            none(design),
             reached(design, nearest, units)
         )?;
     }
@@ -223,6 +224,16 @@ fn conclusion(out: &mut impl Write, design: &Design, units: &Shown) -> Result<()
     }
     writeln!(out, "{} runs of the scene", design.runs)?;
     Ok(())
+}
+
+/// That nothing is within the limits, as surely as it is known.
+fn none(design: &Design) -> String {
+    let less = match design.doubt() {
+        None => return "no stiffness stays within the limits".to_owned(),
+        Some(Doubt::Error) => "the estimated error".to_owned(),
+        Some(Doubt::Step(step)) => format!("{}, the step of the search", percent(step)),
+    };
+    format!("none found within the limits, but the nearest exceeds them by less than {less}")
 }
 
 /// Where the range of stiffness ends and why, or what leaves least room.
@@ -353,8 +364,8 @@ pub fn advice(design: &Design, scene: &Scene, units: &Shown) -> String {
         _ => "other places (--at), further clamps in the scene".to_owned(),
     };
     format!(
-        "no stiffness stays within the limits: at the nearest, which is on standard output, {}; try {try_next}, a larger limit, or less \
-         friction or load on the duct",
+        "{}: at the nearest, which is on standard output, {}; try {try_next}, a larger limit, or less friction or load on the duct",
+        none(design),
         fails.join(" and ")
     )
 }

@@ -20,6 +20,7 @@
 //! A limit of one spring that is crossed more than once as the stiffness grows is an error, since there is no single range then.
 
 mod compare;
+mod doubt;
 mod limits;
 mod options;
 mod pair;
@@ -29,6 +30,7 @@ mod trade_off;
 
 pub use crate::{ClampLimits, Limits, Place};
 pub use compare::{Measure, compare};
+pub use doubt::Doubt;
 pub use limits::DesignError;
 pub use options::DesignOptions;
 pub use runs::sort;

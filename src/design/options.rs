@@ -17,7 +17,7 @@ pub struct DesignOptions<'a> {
     pub limits: Limits,
     /// Called after each run of the scene; it may stop the search.
     pub progress: Progress<'a>,
-    /// Takes every run as soon as it is made, for whoever looks on from another thread.
+    /// Takes every run with the scene's own tolerance as soon as it is made, for whoever looks on from another thread.
     pub tried: Option<&'a Mutex<Vec<TradeOff>>>,
 }
 

@@ -3,7 +3,8 @@
 //! Rough runs over a grid of both stiffnesses tell how everything that is limited depends on them, and between them formulas that are
 //! exact for a spring against a spring: 1/u is linear in k, and 1/F in 1/k. On that map the best point is found by looking at all; a
 //! run with the scene's own tolerance there scales the map, and the next best point is looked for until map and run agree (space
-//! mapping: J. W. Bandler et al., IEEE Trans. Microwave Theory Tech. 42 (1994) 2536). Every point of the answer is such a run.
+//! mapping: J. W. Bandler et al., IEEE Trans. Microwave Theory Tech. 42 (1994) 2536). Where that pair exceeds a limit by less than a step of
+//! the map may change, finer steps around it are looked at. Every point of the answer is such a run.
 //!
 //! A map of all stiffnesses finds the best of several valleys, needs no monotony and its runs are made on all cores at once.
 
@@ -18,6 +19,10 @@ use crate::{CableEnd, Error, Limited, Limits, Place, Progress, Scene};
 /// Points of the grid, and of the map, in a decade of stiffness.
 const POINTS_PER_DECADE: i32 = 1;
 const FINE_PER_DECADE: i32 = 48;
+/// Points of the finer steps in a step of the map, on how many such steps to either side, and their runs, at most.
+const FINER: i32 = 10;
+const STEPS_BESIDE: i32 = 2;
+const FINER_RUNS: usize = 6;
 /// Tolerance of the rough runs, if the scene's own is not looser, and their share of the progress.
 const ROUGH: f64 = 0.05;
 const ROUGH_SHARE: f64 = 0.7;
@@ -38,7 +43,10 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     let mut rough = scene.clone();
     rough.solver.tolerance = scene.solver.tolerance.max(ROUGH);
     let progress = options.progress.part(0.0, ROUGH_SHARE);
-    let runs = Runs::new(&rough, options, progress, all + 1)?;
+    // Rough runs are not shown beside those with the scene's own tolerance.
+    let mut unseen = options.clone();
+    unseen.tried = None;
+    let runs = Runs::new(&rough, &unseen, progress, all + 1)?;
     let points = (0..all)
         .into_par_iter()
         .map(|index| {
@@ -57,6 +65,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     let progress: Progress<'_> = options.progress.part(ROUGH_SHARE, 1.0);
     let runs = Runs::new(scene, options, progress, MOST_RUNS + 1)?;
     map.follow(&runs)?;
+    map.refine(&runs)?;
     let points = runs.points().clone();
     let best = |points: &mut dyn Iterator<Item = &TradeOff>| {
         let worth = |point: &&TradeOff| map.aim.worth(&map.aim.values(point));
@@ -147,7 +156,7 @@ impl Map {
     fn follow(&self, runs: &Runs<'_>) -> Result<(), Error> {
         let mut scale = vec![1.0; self.aim.wanted.len()];
         for _ in 0..MOST_RUNS {
-            let (pair, expected) = self.best(&scale);
+            let (pair, expected) = self.best(&self.trials, &scale);
             if runs.done(&pair).is_some() {
                 break;
             }
@@ -156,19 +165,40 @@ impl Map {
             if (said - is).abs() <= AGREES * is && (said <= 1.0) == (is <= 1.0) {
                 break;
             }
-            for ((scale, said), is) in scale.iter_mut().zip(expected).zip(values) {
-                if said > 0.0 && is > 0.0 {
-                    *scale *= is / said;
-                }
-            }
+            fit(&mut scale, &expected, &values);
         }
         Ok(())
     }
 
-    /// The best pair by the map, each value of it times its `scale`: of equally good ones that with the stiffest ends and the softest
-    /// clamps.
-    fn best(&self, scale: &[f64]) -> ([f64; 2], Vec<f64>) {
-        let [rows, columns] = &self.trials;
+    /// Looks between the trials where the best run exceeds a limit by less than one step: no value grows faster than a stiffness.
+    fn refine(&self, runs: &Runs<'_>) -> Result<(), Error> {
+        let mut scale = vec![1.0; self.aim.wanted.len()];
+        let excess = |point: &TradeOff| self.aim.excess(&self.aim.values(point));
+        let least = |a: &&TradeOff, b: &&TradeOff| excess(a).total_cmp(&excess(b));
+        let Some(mut point) = runs.points().iter().min_by(least).cloned() else {
+            return Ok(());
+        };
+        let close = 1.0..=1.0 + step(FINE_PER_DECADE);
+        for _ in 0..FINER_RUNS {
+            if point.within_limits || !close.contains(&excess(&point)) {
+                break;
+            }
+            let pair = [0, 1].map(|axis: usize| point.springs[axis].stiffness());
+            let said = self.values(pair, &scale);
+            fit(&mut scale, &said, &self.aim.values(&point));
+            let (pair, _) = self.best(&pair.map(around), &scale);
+            if runs.done(&pair).is_some() {
+                break;
+            }
+            point = runs.run(&pair)?;
+        }
+        Ok(())
+    }
+
+    /// The best pair of `trials` by the map, each value of it times its `scale`: of equally good ones that with the stiffest ends and the
+    /// softest clamps.
+    fn best(&self, trials: &[Vec<f64>; 2], scale: &[f64]) -> ([f64; 2], Vec<f64>) {
+        let [rows, columns] = trials;
         let pairs: Vec<([usize; 2], Vec<f64>)> = (0..rows.len() * columns.len())
             .into_par_iter()
             .map(|index| {
@@ -218,6 +248,36 @@ impl Map {
         };
         self.aim.wanted.iter().zip(scale).map(value).collect()
     }
+}
+
+/// By what share a stiffness differs from the next, so many a decade.
+fn step(per_decade: i32) -> f64 {
+    10_f64.powf(1.0 / f64::from(per_decade)) - 1.0
+}
+
+/// The smallest step, as a share of the stiffness.
+pub fn finest_step() -> f64 {
+    step(FINE_PER_DECADE * FINER)
+}
+
+/// Changes `scale` so that what the map said becomes what is.
+fn fit(scale: &mut [f64], said: &[f64], is: &[f64]) {
+    for ((scale, said), is) in scale.iter_mut().zip(said).zip(is) {
+        if *said > 0.0 && *is > 0.0 {
+            *scale *= is / said;
+        }
+    }
+}
+
+/// Finer steps around a stiffness; only itself where there is no spring, or a fixed end.
+fn around(stiffness: f64) -> Vec<f64> {
+    if stiffness == 0.0 || stiffness.is_infinite() {
+        return vec![stiffness];
+    }
+    let (steps, per_decade) = (STEPS_BESIDE * FINER, f64::from(FINE_PER_DECADE * FINER));
+    (-steps..=steps)
+        .map(|i| stiffness * 10_f64.powf(f64::from(i) / per_decade))
+        .collect()
 }
 
 /// The levels on both sides of `stiffness`, with their weights in the mean of the inverse.

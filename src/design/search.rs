@@ -14,7 +14,7 @@ use crate::{Error, Limited, Limits, Place, Scene};
 /// The curve has points in half decades.
 const POINTS_PER_DECADE: i32 = 2;
 /// Width of the last bracket around a stiffness, as a share of it.
-const ACCURACY: f64 = 0.01;
+pub const ACCURACY: f64 = 0.01;
 const MOST_STEPS: u64 = 40;
 /// Runs that finding the stiffness at a limit takes, about: only the progress depends on it.
 const USUAL_STEPS: usize = 8;

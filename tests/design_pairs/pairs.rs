@@ -1,7 +1,9 @@
 //! Two springs, or a spring and a clamp.
 
-use creepage::design::{DesignOptions, design};
-use creepage::{Limited, Place, Run, Scene};
+use std::sync::Mutex;
+
+use creepage::design::{DesignOptions, Doubt, design, sort};
+use creepage::{Limited, Place, Run, Scene, SceneFile};
 
 use super::grid::{BOTH, Given, check, designed, excess, grid, held, limits, reached, scene};
 
@@ -86,6 +88,60 @@ fn where_only_forces_are_limited_two_springs_let_the_ends_move_least() {
             .iter()
             .all(|spring| spring.stiffness_n_per_m.is_none())
     );
+}
+
+/// Springs that are softer by 5 % exceed the movement, and stiffer ones the force.
+#[test]
+fn springs_that_hardly_keep_the_limits_are_found() {
+    let scene = SceneFile::read("examples/scenes/full-scale-upper.toml")
+        .and_then(|file| file.with(&["traffic.passes=60"])?.scene())
+        .expect("a valid scene");
+    let within = |force: f64, movement_mm: f64| {
+        let limits = [
+            (BOTH[0], Limited::Force, force),
+            (BOTH[1], Limited::Force, force),
+            (BOTH[0], Limited::Movement, 10e-3),
+            (BOTH[1], Limited::Movement, 1e-3 * movement_mm),
+        ];
+        (designed(&scene, &BOTH, &limits), limits)
+    };
+    let (found, limits) = within(207.0, 1.035);
+    let answer = found.answer.as_ref().expect("2.05e5 and 2.0e5 N/m keep them");
+    assert!(found.runs < 64, "{} runs", found.runs);
+    assert_eq!(found.doubt(), None);
+    // On the mesh of the search, which is that of fixed ends.
+    let mut same = scene.clone();
+    let plan = held(&scene, &BOTH.map(|place| (place, f64::INFINITY))).plan;
+    same.solver.node_spacing = Some(plan.node_spacing_m);
+    same.solver.vehicle_step = Some(plan.vehicle_step_m);
+    let springs = BOTH.map(|place| {
+        let mut springs = answer.springs.iter();
+        let spring = springs.find(|spring| spring.place == place).expect("both");
+        (place, spring.stiffness())
+    });
+    let own = excess(&held(&same, &springs), &limits);
+    assert!(own <= 1.0 && own > 0.98, "{own}");
+    // Where nothing was found, it is known only if the nearest is farther from the limits than its error.
+    let (hardly, _) = within(205.5, 1.0275);
+    assert!(hardly.answer.is_none() && hardly.excess() < 1.006);
+    assert_eq!(hardly.doubt(), Some(Doubt::Error));
+    let (none, _) = within(180.0, 0.9);
+    assert!(none.answer.is_none());
+    assert_eq!(none.doubt(), None);
+}
+
+#[test]
+fn who_looks_on_sees_no_rough_runs() {
+    let scene = scene(&[]);
+    let tried = Mutex::default();
+    let mut options = DesignOptions::new(BOTH[0], limits(&of_both(&scene, 1.0)));
+    options.second = Some(BOTH[1]);
+    options.tried = Some(&tried);
+    let found = design(&scene, &options).expect("a design");
+    let mut seen = tried.lock().expect("whole").clone();
+    sort(&mut seen);
+    assert!(!seen.is_empty() && found.runs > 10 * seen.len());
+    assert_eq!(seen, found.curve);
 }
 
 #[test]
