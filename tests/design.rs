@@ -171,6 +171,19 @@ fn an_end_that_may_be_fixed_is_fixed() {
     assert_eq!(design.answer.unwrap().stiffness_n_per_m, None);
 }
 
+/// Ten million passes drive a cable that nothing holds out of its duct: a limit of force alone is no leave to do so.
+#[test]
+fn no_answer_lets_the_cable_leave_the_duct() {
+    let mut scene = scene();
+    scene.traffic.passes = 10_000_000;
+    let design = designed(&scene, Place::Downstream, 10.0, None).unwrap();
+    assert!(design.curve[0].leaves_duct, "{:?}", design.curve[0]);
+    assert!(design.answer.is_none(), "{:?}", design.answer);
+    let nearest = design.nearest.expect("a spring");
+    assert!(!nearest.leaves_duct && !nearest.within_limits, "{nearest:?}");
+    assert!(nearest.stiffness_n_per_m.is_none_or(|stiffness| stiffness > 0.0));
+}
+
 #[test]
 fn a_clamp_is_as_soft_as_the_limit_allows() {
     let scene = scene();

@@ -228,15 +228,12 @@ pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
         records.iter().map(|record| &record.outcome).collect()
     }
     let (a, b) = (outcomes(a), outcomes(b));
-    let forces = |outcome: &PassOutcome| -> Vec<f64> {
-        let ends = [
+    let forces = |outcome: &PassOutcome| {
+        [
             outcome.force.upstream,
             outcome.force.downstream,
             outcome.max_compression,
-        ];
-        ends.into_iter()
-            .chain(outcome.restraints.iter().copied())
-            .collect()
+        ]
     };
     let movements = |outcome: &PassOutcome| [outcome.upstream_displacement, outcome.downstream_displacement];
     let largest = |outcome: &PassOutcome| {
@@ -274,8 +271,16 @@ pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
             let pairs = a.iter().zip(b);
             pairs.fold(0.0, |most: f64, (a, b)| most.max(share((a - b).abs(), scale)))
         };
+        // A clamp may carry what presses from both sides: the errors of the ends are not small beside that.
+        let on_clamps = a
+            .restraints
+            .iter()
+            .fold(scale, |largest, force| largest.max(force.abs()));
         Shares {
-            force: largest(&forces(a), &forces(b), scale),
+            force: f64::max(
+                largest(&forces(a), &forces(b), scale),
+                largest(&a.restraints, &b.restraints, on_clamps),
+            ),
             movement: f64::max(
                 largest(&movements(a), &movements(b), moved),
                 largest(&a.restraints, &b.restraints, clamped),

@@ -6,7 +6,7 @@
 //! (Aitken's Δ²; A. C. Aitken, Proc. R. Soc. Edinburgh 46 (1926) 289). Early on the force grows like √n: the gains' ratio is
 //! above 0.7 and nothing can be said yet.
 
-use cable_dem::PassOutcome;
+use cable_dem::{Order, PassOutcome};
 use cycle_jump::{Beyond, Record};
 
 use super::balance;
@@ -24,6 +24,8 @@ const FEWEST_PASSES: usize = 12;
 pub const LEVEL: f64 = 0.95;
 /// A force already reached may exceed the saturation by this share of it, which is no more than an extrapolation's error.
 const NEARLY: f64 = 0.02;
+/// Of a period's passes, those that leave this share of the largest force at least show how it grows.
+const TELLS: f64 = 0.5;
 /// A force below this share of the largest in any pass is none.
 const NOTHING: f64 = 1e-3;
 
@@ -68,6 +70,8 @@ pub fn saturation(
     let (Some(upstream), Some(downstream)) = (upstream, downstream) else {
         return (None, None);
     };
+    let downstream = at_least_reached(downstream, records, |o| o.force.downstream);
+    let upstream = at_least_reached(upstream, records, |o| o.force.upstream);
     let range = ForceRange {
         downstream_min_n: downstream.0,
         downstream_max_n: downstream.1,
@@ -75,7 +79,9 @@ pub fn saturation(
         upstream_max_n: upstream.1,
     };
     let inside = match (scene.ends.upstream, scene.ends.downstream) {
-        (End::Free, End::Free) => level(|o| o.max_compression),
+        (End::Free, End::Free) => {
+            level(|o| o.max_compression).map(|range| at_least_reached(range, records, |o| o.max_compression))
+        }
         _ => Some((0.0, 0.0)),
     };
     let largest =
@@ -84,46 +90,78 @@ pub fn saturation(
     (saturation, Some(range))
 }
 
-/// The saturation at the forces `largest` on the downstream end, the upstream end and inside the cable: at least what is reached, if that is
-/// nearly it, and no more than friction can carry to an end whose other end is free. `None` where there is none worth the name
-/// beside the force `scale`, or the force falls.
-fn levels_off(
+/// The range with the largest force that was reached, if that is nearly in it.
+fn at_least_reached((least, most): Range, records: &[Record], force: fn(&PassOutcome) -> f64) -> Range {
+    let reached = records
+        .iter()
+        .map(|record| force(&record.outcome))
+        .fold(0.0, larger);
+    if reached.abs() <= (1.0 + NEARLY) * larger(least, most).abs() {
+        (least.min(reached), most.max(reached))
+    } else {
+        (least, most)
+    }
+}
+
+/// The saturation at the forces `largest` on the downstream end, the upstream end and inside the cable: no more than friction can carry to
+/// an end whose other end is free. `None` where there is none worth the name beside the force `scale`, or the force falls.
+fn levels_off<'a>(
     scene: &Scene,
-    records: &[Record],
-    beyond: Option<&Beyond>,
+    records: &'a [Record],
+    beyond: Option<&'a Beyond>,
     largest: [f64; 3],
     scale: f64,
 ) -> Option<Saturation> {
-    let mut force_n = largest.into_iter().fold(0.0, larger);
+    let force_n = largest.into_iter().fold(0.0, larger);
     let free = [scene.ends.upstream, scene.ends.downstream].map(|end| end == End::Free);
     let limit = balance::carried(scene);
     let one_free = free.contains(&true) && scene.restraints.is_empty();
-    let shown = |record: &Record| {
+    let shown = |outcome: &PassOutcome| {
         let PassOutcome {
             force,
             max_compression,
             ..
-        } = record.outcome;
+        } = *outcome;
         if free == [true; 2] {
             max_compression
         } else {
             larger(force.upstream, force.downstream)
         }
     };
-    let reached = records.iter().map(shown).fold(0.0, larger);
+    let reached = records
+        .iter()
+        .map(|record| shown(&record.outcome))
+        .fold(0.0, larger);
     let nothing = force_n.abs() < NOTHING * scale;
     let impossible = one_free && force_n.abs() > (1.0 + balance::MARGIN) * limit;
     let falls = reached.abs() > (1.0 + NEARLY) * force_n.abs();
     if nothing || impossible || falls {
         return None;
     }
-    force_n = larger(force_n, reached);
-    let later = beyond.map_or(&[][..], |beyond| &beyond.records);
-    let mut all = records.iter().chain(later);
-    let first = all.find(|record| shown(record) / (LEVEL * force_n) >= 1.0)?;
+    // Of vehicles in random order, a row between jumps is the mean of a period: it leads to the mean.
+    let leads_to = match (beyond, &scene.traffic.order) {
+        (Some(Beyond { period, .. }), Order::Random { .. }) => {
+            period.iter().map(shown).sum::<f64>() / period.len() as f64
+        }
+        _ => force_n,
+    };
+    let is_there = |record: &&Record, end: f64| shown(&record.outcome) / (LEVEL * end) >= 1.0;
+    let within = records.iter().find(|record| is_there(record, leads_to));
+    // Beyond them a pass leads to what the same pass of the last period leaves; where that is little, it says nothing.
+    let later = |beyond: &'a Beyond| {
+        let end = |record: &Record| {
+            let phase = (record.pass - 1) % beyond.period.len() as u64;
+            shown(&beyond.period[phase as usize])
+        };
+        let tells = |end: f64| end.abs() >= TELLS * force_n.abs();
+        beyond
+            .records
+            .iter()
+            .find(|record| tells(end(record)) && is_there(record, end(record)))
+    };
     Some(Saturation {
         force_n,
-        passes_to_95_percent: first.pass,
+        passes_to_95_percent: within.or_else(|| beyond.and_then(later))?.pass,
         downstream_force_n: largest[0],
         upstream_force_n: largest[1],
     })

@@ -197,9 +197,10 @@ fn print(run: &Run, traffic: &Traffic, units: &Units) -> Result<(), Failure> {
         _ if run.heat.is_some() => {}
         Some(saturation) => writeln!(
             out,
-            "saturation: {} {}, 95 % of it after {} passes{}",
+            "saturation: {} {}, 95 % of {} after {} passes{}",
             force(saturation.force_n),
             units.force.symbol(),
+            if run.random.is_some() { "the mean" } else { "it" },
             saturation.passes_to_95_percent,
             in_time(traffic, saturation.passes_to_95_percent)
         )?,

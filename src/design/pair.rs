@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::limits::DesignError;
 use super::options::DesignOptions;
 use super::runs::{Runs, stiffnesses};
-use super::trade_off::{Design, TradeOff};
+use super::trade_off::{Design, TradeOff, in_duct};
 use crate::{CableEnd, Error, Limited, Limits, Place, Progress, Scene};
 
 /// Points of the grid, and of the map, in a decade of stiffness.
@@ -60,7 +60,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         trials: grid(FINE_PER_DECADE),
         levels,
         places: [places[0], places[1]],
-        aim: Aim::new(limits),
+        aim: Aim::new(limits, scene),
     };
     let progress: Progress<'_> = options.progress.part(ROUGH_SHARE, 1.0);
     let runs = Runs::new(scene, options, progress, MOST_RUNS + 1)?;
@@ -97,19 +97,18 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
 
 /// What is looked for.
 struct Aim {
-    /// What has to be known of a point: what is limited, and then the movement of the ends.
+    /// What has to be known of a point: what is limited, and then the movement of the ends, with which they still are in the duct.
     wanted: Vec<(Place, Limited)>,
     limits: Vec<f64>,
     moves_freely: bool,
 }
 
 impl Aim {
-    fn new(limits: &Limits) -> Self {
-        let limited = limits.all().map(|(place, quantity, _)| (place, quantity));
-        let ends = CableEnd::ALL.map(|end| (end.into(), Limited::Movement));
+    fn new(limits: &Limits, scene: &Scene) -> Self {
+        let all = || limits.all().chain(in_duct(scene));
         Self {
-            wanted: limited.chain(ends).collect(),
-            limits: limits.all().map(|(.., limit)| limit).collect(),
+            wanted: all().map(|(place, quantity, _)| (place, quantity)).collect(),
+            limits: all().map(|(.., limit)| limit).collect(),
             moves_freely: limits.all().all(|(_, quantity, _)| quantity == Limited::Force),
         }
     }
@@ -135,7 +134,8 @@ impl Aim {
         if !self.moves_freely || excess > SAFE {
             return excess;
         }
-        let moved = values[self.limits.len()..].iter().copied().fold(0.0, f64::max);
+        let ends = &values[values.len() - CableEnd::ALL.len()..];
+        let moved = ends.iter().copied().fold(0.0, f64::max);
         SAFE * moved / (1.0 + moved)
     }
 }

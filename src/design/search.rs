@@ -8,7 +8,7 @@ use super::limits::{self, DesignError};
 use super::options::DesignOptions;
 use super::pair;
 use super::runs::{Runs, stiffnesses};
-use super::trade_off::{Binding, Design, Side, TradeOff};
+use super::trade_off::{Binding, Design, Side, TradeOff, in_duct};
 use crate::{Error, Limited, Limits, Place, Scene};
 
 /// The curve has points in half decades.
@@ -48,7 +48,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         return pair::design(scene, options);
     }
     let stiffnesses = stiffnesses(scene, options.place, &options.limits, POINTS_PER_DECADE);
-    let limits: Vec<Limit> = options.limits.all().collect();
+    let limits: Vec<Limit> = options.limits.all().chain(in_duct(scene)).collect();
     let expected = stiffnesses.len() + USUAL_STEPS * limits.len() + 1;
     let runs = Runs::new(scene, options, options.progress, expected)?;
     let curve = stiffnesses

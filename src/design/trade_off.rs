@@ -123,6 +123,14 @@ pub fn largest_shown(scene: &Scene) -> f64 {
     LEAVES * scene.duct.length
 }
 
+/// What no end may exceed, whatever is limited: the cable is to stay in the duct.
+pub(super) fn in_duct(scene: &Scene) -> impl Iterator<Item = (Place, Limited, f64)> {
+    let most = largest_shown(scene);
+    CableEnd::ALL
+        .into_iter()
+        .map(move |end| (end.into(), Limited::Movement, most))
+}
+
 impl Design {
     /// The answer, or what comes nearest to the limits.
     pub fn found(&self) -> Option<&TradeOff> {
@@ -204,8 +212,11 @@ impl TradeOff {
         point
     }
 
-    /// The largest of what is limited, as a share of its limit.
+    /// The largest of what is limited, as a share of its limit; infinite where the cable leaves the duct, which no limit allows.
     pub fn excess(&self, limits: &Limits) -> f64 {
+        if self.leaves_duct {
+            return f64::INFINITY;
+        }
         let shares = limits.all().map(|limit| self.share(limit));
         shares.fold(0.0, f64::max)
     }

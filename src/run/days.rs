@@ -9,12 +9,11 @@ use cable_dem::{CableError, Statistics};
 use super::lived::{Lived, Living};
 use super::outlook::Work;
 use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both, judge, mesh_reason};
-use super::underway::Underway;
 use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
 use crate::plan::{PassMethod, Plan};
 use crate::scene::{Heat, Scene};
-use crate::{Error, Progress};
+use crate::{Error, Progress, RunOptions};
 
 /// Real periods a day to begin with.
 const FIRST_KNOTS: u64 = 16;
@@ -55,14 +54,13 @@ pub fn solve(
     plan: &Plan<'_>,
     heat: &Heat,
     method: PassMethod,
-    (progress, underway): (Progress<'_>, Option<&Underway>),
-    verify: bool,
+    options: &RunOptions<'_>,
     warnings: &mut Vec<String>,
 ) -> Result<Solved, Error> {
     let every_pass = matches!(method, PassMethod::EveryPass(_));
-    let mut living = Living::new(plan, heat, every_pass, progress);
-    living.underway = underway;
-    living.solve(verify, warnings)
+    let mut living = Living::new(plan, heat, every_pass, options.progress);
+    living.underway = options.underway;
+    living.solve(options.verify, warnings)
 }
 
 /// Work that a run of `plan` is expected to take, and the level that it ends on: one run on a coarse mesh tells.

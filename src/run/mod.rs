@@ -81,13 +81,14 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
     if plan.scene.friction_limit() == 0.0 {
         return answer.without_friction(options.stages);
     }
-    if let Some(underway) = options.underway {
-        underway.begin(answer.cut_short(), &plan.scene.traffic);
-    }
-    let solve = |method, warnings: &mut Vec<String>| {
+    let solve = |method, answer: &mut RunBuilder<'_>| {
+        if let Some(underway) = options.underway {
+            // What another method has come to is no answer.
+            underway.begin(answer.cut_short(), &plan.scene.traffic);
+        }
+        let warnings = &mut answer.warnings;
         if let Some(heat) = plan.scene.warming() {
-            let seen = (options.progress, options.underway);
-            return days::solve(plan, heat, method, seen, options.verify, warnings);
+            return days::solve(plan, heat, method, options, warnings);
         }
         let refinement = Refinement {
             plan,
@@ -98,17 +99,13 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
         };
         refinement.solve(options.verify, warnings)
     };
-    let solved = match solve(plan.choice.method, &mut answer.warnings) {
+    let solved = match solve(plan.choice.method, &mut answer) {
         Err(error @ (Error::Jumps(_) | Error::Inaccurate { .. }))
             if plan.choice.may_simulate && matches!(plan.choice.method, PassMethod::Jumps(_)) =>
         {
             answer.gives_up_jumps(&error);
-            // What the jumps have come to is no answer.
-            if let Some(underway) = options.underway {
-                underway.begin(answer.cut_short(), &plan.scene.traffic);
-            }
             let every_pass = PassMethod::EveryPass(plan.choice.method.cable_method());
-            solve(every_pass, &mut answer.warnings)?
+            solve(every_pass, &mut answer)?
         }
         solved => solved?,
     };

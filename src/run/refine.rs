@@ -126,7 +126,7 @@ impl Refinement<'_> {
         let mut level = levels.first();
         let mut may_be_smaller = true;
         // The passes with larger jumps, until there are some with smaller ones.
-        let mut before = None;
+        let mut before: Option<(Found, Vec<Passes>)> = None;
         'jumps: loop {
             error.passes = found.as_ref().map_or(Shares::default(), |found| found.error);
             let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
@@ -143,7 +143,10 @@ impl Refinement<'_> {
                     error.passes = found.insert(larger).error;
                     passes
                 }
-                (made, _) => {
+                (made, before) => {
+                    if let Some((_, passes)) = before {
+                        *statistics += work_of(&passes);
+                    }
                     let (finest, mut passes) = made?;
                     passes.push(finest);
                     passes
@@ -158,7 +161,6 @@ impl Refinement<'_> {
                     && std::mem::take(&mut may_be_smaller)
                     && let Some(smaller) = self.smaller_jumps(found.as_ref(), statistics)?
                 {
-                    *statistics += work_of(&passes);
                     before = found.replace(smaller).map(|larger| (larger, passes));
                     continue 'jumps;
                 }

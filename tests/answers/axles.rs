@@ -47,6 +47,24 @@ fn scene(overrides: &[&str]) -> Scene {
         .expect("a scene")
 }
 
+/// When the mean has come near to its end does not depend on how many axles come afterwards.
+#[test]
+fn the_mean_levels_off_after_as_many_axles_in_one_year_as_in_ten() {
+    let levelled = [20_000, 200_000].map(|passes| {
+        let run = creepage::run(&scene(&[&format!("traffic.passes={passes}")])).expect("an answer");
+        let after = run.saturation.expect("a saturation").passes_to_95_percent;
+        // By the rows themselves: the first within 5 % of the last.
+        let last = run.passes.last().expect("a pass").downstream_force_n;
+        let near = run
+            .passes
+            .iter()
+            .find(|pass| pass.downstream_force_n >= 0.95 * last);
+        assert_eq!(after, near.expect("the last at least").pass);
+        after
+    });
+    assert_eq!(levelled[0], levelled[1]);
+}
+
 /// The stand-ins' force is the mean of all axles', within the stated error, and the stated spread is theirs.
 #[test]
 fn stand_ins_keep_the_mean_force_and_the_spread_of_all_axles() {
