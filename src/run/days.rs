@@ -7,13 +7,14 @@
 use cable_dem::{CableError, Statistics};
 
 use super::lived::{Lived, Living};
+use super::options::RunOptions;
 use super::outlook::Work;
 use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both, judge, mesh_reason};
 use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
 use crate::plan::{PassMethod, Plan};
 use crate::scene::{Heat, Scene};
-use crate::{Error, Progress, RunOptions};
+use crate::{Error, Progress};
 
 /// Real periods a day to begin with.
 const FIRST_KNOTS: u64 = 16;

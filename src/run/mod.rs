@@ -7,6 +7,7 @@ mod jumps;
 mod listing;
 mod lived;
 mod locked_law;
+mod options;
 mod outlook;
 pub mod passes;
 mod random;
@@ -14,29 +15,13 @@ mod refine;
 mod solver;
 mod underway;
 
-use ground_field::GroundField;
-
 use crate::plan::{PassMethod, Plan, plan, plan_on};
-use crate::{Error, Progress, Run, Scene, finite};
+use crate::{Error, Run, Scene, finite};
 use assemble::RunBuilder;
 pub use forecast::{Forecast, forecast};
+pub use options::RunOptions;
 use refine::Refinement;
 pub use underway::{CutShort, HowFar, Underway};
-
-/// How to run.
-#[derive(Default, Clone, Copy)]
-pub struct RunOptions<'a> {
-    /// Measure the error by a run on a mesh twice as fine instead of estimating it.
-    pub verify: bool,
-    /// Called after each pass; it may stop the run.
-    pub progress: Progress<'a>,
-    /// A ground model of one's own, in place of the scene's.
-    pub ground: Option<&'a dyn GroundField>,
-    /// Passes at which to look at the cable, for [`Run::stages`]; those beyond the scene's are left out.
-    pub stages: &'a [u64],
-    /// What another thread looks at while the run goes on.
-    pub underway: Option<&'a Underway>,
-}
 
 /// Computes all passes of `scene`.
 ///
@@ -93,11 +78,9 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
         let refinement = Refinement {
             plan,
             method,
-            progress: options.progress,
-            stages: options.stages,
-            underway: options.underway,
+            options,
         };
-        refinement.solve(options.verify, warnings)
+        refinement.solve(warnings)
     };
     let solved = match solve(plan.choice.method, &mut answer) {
         Err(error @ (Error::Jumps(_) | Error::Inaccurate { .. }))

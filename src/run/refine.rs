@@ -6,9 +6,9 @@ use cable_dem::{CableError, Mesh, Statistics};
 use cycle_jump::Record;
 
 use super::jumps::{self, Found};
+use super::options::RunOptions;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
-use super::underway::Underway;
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use crate::answer::{DayExtremes, HeatRecord, RandomSpread, simulated};
 use crate::ground::{peak, road};
@@ -31,10 +31,7 @@ const LEAST_SHARE: f64 = 0.5;
 pub struct Refinement<'a> {
     pub plan: &'a Plan<'a>,
     pub method: PassMethod,
-    pub progress: Progress<'a>,
-    /// Passes at which the cable is looked at.
-    pub stages: &'a [u64],
-    pub underway: Option<&'a Underway>,
+    pub options: &'a RunOptions<'a>,
 }
 
 /// Passes on the mesh that was good enough.
@@ -60,7 +57,7 @@ struct Seen {
 
 impl Refinement<'_> {
     /// Refines until the estimated error is within the tolerance, unless the scene says how fine to be.
-    pub fn solve(&self, verify: bool, warnings: &mut Vec<String>) -> Result<Solved, Error> {
+    pub fn solve(&self, warnings: &mut Vec<String>) -> Result<Solved, Error> {
         let Plan {
             scene,
             ground,
@@ -76,7 +73,7 @@ impl Refinement<'_> {
         };
         // How many meshes it takes is not known: each is half of what is left.
         let left = found.as_ref().map_or(0.0, |_| FINDING);
-        let mut parts = self.progress.part(left, 1.0).halving();
+        let mut parts = self.options.progress.part(left, 1.0).halving();
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
         let (level, mut passes) = self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?;
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
@@ -88,7 +85,7 @@ impl Refinement<'_> {
         let mesh = levels.mesh(level)?;
         let finest = passes.pop().expect("the first level was computed");
         error.road = self.road_error(&finest, mesh, way, &mut statistics)?;
-        if verify || alone || doubtful {
+        if self.options.verify || alone || doubtful {
             let finer = self.simulate(level + 1, way, parts(), true)?;
             statistics += finer.statistics;
             error.mesh = measured(&finest.records, &finer.records, self.scale());
@@ -224,10 +221,10 @@ impl Refinement<'_> {
     /// Jumps that take at most the `share` of the tolerance; smaller ones than those found `before`.
     fn jumps(&self, share: f64, before: Option<&Found>, statistics: &mut Statistics) -> Result<Found, Error> {
         let progress = if before.is_none() {
-            self.progress.part(0.0, FINDING)
+            self.options.progress.part(0.0, FINDING)
         } else {
             // It may be stopped, but its share of the work is not counted.
-            self.progress.part(FINDING, FINDING)
+            self.options.progress.part(FINDING, FINDING)
         };
         let simulate =
             |level, jumping: &Jumping<'_>, progress| self.simulate(level, Some(jumping), progress, false);
@@ -308,9 +305,9 @@ impl Refinement<'_> {
     ) -> Result<Passes, Error> {
         let mut task = self.task(self.plan.scene, self.plan.levels.mesh(level)?);
         task.progress = progress;
-        task.seen = self.underway.map(|underway| underway.on_mesh(task.mesh, shown));
+        task.seen = self.options.underway.map(|underway| underway.on_mesh(task.mesh, shown));
         if shown {
-            task.stages = self.stages;
+            task.stages = self.options.stages;
         }
         let affordable = MAX_NODE_UPDATES as f64 / self.plan.levels.node_updates(level, 1);
         let way = way.map(|way| Jumping {

@@ -5,4 +5,3 @@ mod cost;
 mod forecast;
 mod honest;
 mod scenes;
-mod statistics;

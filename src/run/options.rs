@@ -1,0 +1,21 @@
+//! How a run is to be carried out.
+
+use ground_field::GroundField;
+
+use super::underway::Underway;
+use crate::Progress;
+
+/// How to run.
+#[derive(Default, Clone, Copy)]
+pub struct RunOptions<'a> {
+    /// Measure the error by a run on a mesh twice as fine instead of estimating it.
+    pub verify: bool,
+    /// Called after each pass; it may stop the run.
+    pub progress: Progress<'a>,
+    /// A ground model of one's own, in place of the scene's.
+    pub ground: Option<&'a dyn GroundField>,
+    /// Passes at which to look at the cable, for [`Run::stages`]; those beyond the scene's are left out.
+    pub stages: &'a [u64],
+    /// What another thread looks at while the run goes on.
+    pub underway: Option<&'a Underway>,
+}
