@@ -67,14 +67,20 @@ impl Refinement<'_> {
         } = self.plan;
         let tolerance = scene.solver.tolerance;
         let mut statistics = Statistics::default();
+        let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
         let mut found = match self.method {
-            PassMethod::Jumps(_) => Some(self.jumps(jumps::SHARE, None, &mut statistics)?),
+            PassMethod::Jumps(_) => {
+                // Larger jumps than the first mesh leaves room for would only make a finer one necessary.
+                let mesh = levels.expected_error(levels.first()).unwrap_or(0.0);
+                let room = 1.0 - (error.total().force + mesh) / tolerance;
+                let share = room.clamp(jumps::SMALLER_SHARE, jumps::SHARE);
+                Some(self.jumps(share, None, &mut statistics)?)
+            }
             PassMethod::EveryPass(_) => None,
         };
         // How many meshes it takes is not known: each is half of what is left.
         let left = found.as_ref().map_or(0.0, |_| FINDING);
         let mut parts = self.options.progress.part(left, 1.0).halving();
-        let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
         let (level, mut passes) = self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?;
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
@@ -305,7 +311,10 @@ impl Refinement<'_> {
     ) -> Result<Passes, Error> {
         let mut task = self.task(self.plan.scene, self.plan.levels.mesh(level)?);
         task.progress = progress;
-        task.seen = self.options.underway.map(|underway| underway.on_mesh(task.mesh, shown));
+        task.seen = self
+            .options
+            .underway
+            .map(|underway| underway.on_mesh(task.mesh, shown));
         if shown {
             task.stages = self.options.stages;
         }
