@@ -1,7 +1,7 @@
 //! The cable under heat and traffic: a day as it goes, the days one after the other, the cable when it is hottest and coldest.
 
 use super::content::Report;
-use super::figure::{Passes, along_duct, figure, with_legends};
+use super::figure::{DOWNSTREAM, Passes, UPSTREAM, along_duct, figure, with_legends};
 use super::force::profile_points;
 use super::html::Html;
 use super::quantity::{Shown, count, significant};
@@ -11,20 +11,27 @@ use crate::figure::{Axis, Chart, Series};
 use crate::scene::{DAYS_PER_YEAR, End, Heat, Unit, Warming};
 
 pub fn heat(html: &mut Html, report: &Report) {
-    let (Some(record), Some(heat), Some(last)) =
-        (&report.run.heat, &report.scene.heat, report.run.days.last())
-    else {
+    let (run, passes) = (&report.run, report.scene.traffic.passes);
+    let (Some(record), Some(heat)) = (&run.heat, &report.scene.heat) else {
+        return;
+    };
+    let Some(whole) = record.last_whole(&run.days, passes) else {
         return;
     };
     html.paragraph(&format!(
         "{} {}",
         course(heat),
-        outcome(record, last, &report.shown)
+        outcome(record, whole, &report.shown)
     ));
     html.raw("<div class=\"figures\">");
+    let part = if passes.is_multiple_of(record.passes_per_day) {
+        ""
+    } else {
+        ", in which the passes end"
+    };
     let caption = format!(
-        "Day {} as it goes, after passes: temperature of the cable above that at laying, force on the ends, movement of the ends.",
-        count(last.day)
+        "Day {} as it goes, after passes{part}: temperature of the cable above that at laying, force on the ends, movement of the ends.",
+        count(record.all_days.day)
     );
     with_legends(html, day(report, record), &caption);
     let caption = "Force along the cable when that day is hottest and coldest.";
@@ -72,8 +79,8 @@ fn course(heat: &Heat) -> String {
 }
 
 /// What comes of it.
-fn outcome(record: &HeatRecord, last: &DayExtremes, shown: &Shown) -> String {
-    let (force, movement) = last.largest_range();
+fn outcome(record: &HeatRecord, whole: &DayExtremes, shown: &Shown) -> String {
+    let (force, movement) = whole.largest_range();
     let lasting = match (record.periodic_from_day, record.drift_per_day_m) {
         (Some(day), Some(drift)) if drift != 0.0 => format!(
             "From day {} on every day is like the one before, but the cable moves on by {} a day, {} a year.",
@@ -85,7 +92,7 @@ fn outcome(record: &HeatRecord, last: &DayExtremes, shown: &Shown) -> String {
         _ => "At the end days still differ from the ones before.".to_owned(),
     };
     format!(
-        "{lasting} On the last day the force on an end changes by up to {} and an end moves by up to {}, to and fro: the load of joints that \
+        "{lasting} On the last whole day the force on an end changes by up to {} and an end moves by up to {}, to and fro: the load of joints that \
          counts for fatigue.",
         shown.force(force),
         shown.movement(movement)
@@ -104,11 +111,15 @@ fn day(report: &Report, record: &HeatRecord) -> [Chart; 3] {
     let axis = Axis::linear(shown.in_force("force"));
     let mut forces = Chart::new("Force over the day", hours(), axis);
     let ends = &report.scene.ends;
-    if ends.downstream != End::Free {
-        forces = forces.with(line("downstream end", 0, force, |point| point.downstream_force_n));
-    }
     if ends.upstream != End::Free {
-        forces = forces.with(line("upstream end", 1, force, |point| point.upstream_force_n));
+        forces = forces.with(line("upstream end", UPSTREAM, force, |point| {
+            point.upstream_force_n
+        }));
+    }
+    if ends.downstream != End::Free {
+        forces = forces.with(line("downstream end", DOWNSTREAM, force, |point| {
+            point.downstream_force_n
+        }));
     }
     // Free ends carry nothing.
     if (ends.upstream, ends.downstream) == (End::Free, End::Free) {
@@ -128,11 +139,11 @@ fn day(report: &Report, record: &HeatRecord) -> [Chart; 3] {
             hours(),
             Axis::linear(shown.in_movement("movement")),
         )
-        .with(line("downstream end", 0, movement, |point| {
-            point.downstream_displacement_m
-        }))
-        .with(line("upstream end", 1, movement, |point| {
+        .with(line("upstream end", UPSTREAM, movement, |point| {
             point.upstream_displacement_m
+        }))
+        .with(line("downstream end", DOWNSTREAM, movement, |point| {
+            point.downstream_displacement_m
         })),
     ]
 }
@@ -176,30 +187,37 @@ fn over_days(report: &Report, record: &HeatRecord) -> [Chart; 2] {
             }))
             .with(line("tension in the cable", 1, force, |day| -day.max_tension_n));
     }
-    if ends.downstream != End::Free {
-        forces = forces
-            .with(line("downstream end, most and least", 0, force, |day| {
-                day.downstream_max_n
-            }))
-            .with(line("", 0, force, |day| day.downstream_min_n));
-    }
     if ends.upstream != End::Free {
         forces = forces
-            .with(line("upstream end, most and least", 1, force, |day| {
+            .with(line("upstream end, most and least", UPSTREAM, force, |day| {
                 day.upstream_max_n
             }))
-            .with(line("", 1, force, |day| day.upstream_min_n));
+            .with(line("", UPSTREAM, force, |day| day.upstream_min_n));
+    }
+    if ends.downstream != End::Free {
+        forces = forces
+            .with(line("downstream end, most and least", DOWNSTREAM, force, |day| {
+                day.downstream_max_n
+            }))
+            .with(line("", DOWNSTREAM, force, |day| day.downstream_min_n));
     }
     let axis = Axis::linear(shown.in_movement("movement"));
     let movements = Chart::new("Movement day by day", along.axis(), axis)
-        .with(line("downstream end, most and least", 0, movement, |day| {
-            day.downstream_displacement_max_m
-        }))
-        .with(line("", 0, movement, |day| day.downstream_displacement_min_m))
-        .with(line("upstream end, most and least", 1, movement, |day| {
+        .with(line("upstream end, most and least", UPSTREAM, movement, |day| {
             day.upstream_displacement_max_m
         }))
-        .with(line("", 1, movement, |day| day.upstream_displacement_min_m));
+        .with(line("", UPSTREAM, movement, |day| {
+            day.upstream_displacement_min_m
+        }))
+        .with(line(
+            "downstream end, most and least",
+            DOWNSTREAM,
+            movement,
+            |day| day.downstream_displacement_max_m,
+        ))
+        .with(line("", DOWNSTREAM, movement, |day| {
+            day.downstream_displacement_min_m
+        }));
     [forces, movements]
 }
 
@@ -207,18 +225,17 @@ fn over_days(report: &Report, record: &HeatRecord) -> [Chart; 2] {
 fn days(html: &mut Html, report: &Report, record: &HeatRecord) {
     type Column = (String, fn(&DayExtremes) -> [f64; 2], fn(&Shown, f64) -> String);
     let shown = &report.shown;
-    let force: fn(&Shown, f64) -> String = |shown, newtons| shown.units.force(newtons);
     // Soft hyphens: a phone is narrow.
     let mut columns: Vec<Column> = vec![
         (
             shown.in_force("force up\u{ad}stream"),
             |day| [day.upstream_min_n, day.upstream_max_n],
-            force,
+            Shown::force_number,
         ),
         (
             shown.in_force("force down\u{ad}stream"),
             |day| [day.downstream_min_n, day.downstream_max_n],
-            force,
+            Shown::force_number,
         ),
         (
             shown.in_movement("place of the up\u{ad}stream end"),
