@@ -34,11 +34,6 @@ const TICKS: [(f64, &str); 8] = [
     (100.0 * DAYS_PER_YEAR, "100 years"),
 ];
 
-/// Looks of lines: one for each end in all figures, and one for what is neither.
-pub const UPSTREAM: usize = 1;
-pub const DOWNSTREAM: usize = 0;
-pub const MEASURED: usize = 2;
-
 /// Metres to millimetres, and to micrometres, in which the duct moves.
 pub const MILLI: f64 = 1e3;
 pub const MICRO: f64 = 1e6;

@@ -2,12 +2,12 @@
 
 use super::agreement::{Agreement, CellError};
 use super::content::Report;
-use super::figure::{DOWNSTREAM, MEASURED, Passes, UPSTREAM, along_duct, figure};
+use super::ends::{self, OTHER};
+use super::figure::{Passes, along_duct, figure};
 use super::html::Html;
 use super::quantity::{Shown, count, significant};
 use crate::answer::{after, in_rows, table_rows};
 use crate::figure::{Axis, Chart, Reference, Series};
-use crate::scene::End;
 use crate::{CableEnd, ForceProfile, Limited, PassRecord, Place, Units};
 
 /// Readings that are drawn at most: of more every second, third, … is.
@@ -121,23 +121,13 @@ fn over_passes(report: &Report) -> Chart {
     let along = Passes::new(&report.scene.traffic, last.unwrap_or(1));
     let force = Axis::linear(shown.in_force("force"));
     let mut chart = Chart::new(along.title("Force"), along.axis(), force);
-    let line = |name: &str, look, value: fn(&PassRecord) -> f64| {
-        Series::line(name, along.series(drawn, |record| in_unit(value(record)))).look(look)
-    };
-    let ends = &report.scene.ends;
-    if ends.upstream != End::Free {
-        chart = chart.with(line("upstream end", UPSTREAM, |record| record.upstream_force_n));
-    }
-    if ends.downstream != End::Free {
-        chart = chart.with(line("downstream end", DOWNSTREAM, |record| {
-            record.downstream_force_n
-        }));
-    }
-    if (ends.upstream, ends.downstream) == (End::Free, End::Free) {
-        let inside = line("largest in the cable", MEASURED, |record| {
-            record.max_compression_n
-        });
-        chart = chart.with(inside.solid());
+    let ends = ends::held(&report.scene);
+    chart = ends::lines(chart, &ends, Some(""), |end| {
+        along.series(drawn, |record| in_unit(ends::of_pass(record, end)[0]))
+    });
+    if ends.is_empty() {
+        let inside = along.series(drawn, |record| in_unit(record.max_compression_n));
+        chart = chart.with(Series::line("largest in the cable", inside).look(OTHER).solid());
     }
     if let Some(saturation) = &run.saturation {
         let label = format!("levels off at {}", shown.force(saturation.force_n));
@@ -151,11 +141,11 @@ fn over_passes(report: &Report) -> Chart {
         if let Some(sigma) = reading.sigma {
             let bar =
                 [-sigma, sigma].map(|sigma| (along.place(reading.passes), in_unit(reading.value + sigma)));
-            chart = chart.with(Series::line("", bar).colour(MEASURED).solid());
+            chart = chart.with(Series::line("", bar).colour(OTHER).solid());
         }
     }
     let points = seen().map(|reading| (along.place(reading.passes), in_unit(reading.value)));
-    chart.with(Series::points("measured", points).look(MEASURED).marker(0))
+    chart.with(Series::points("measured", points).look(OTHER).marker(0))
 }
 
 fn along(report: &Report) -> Chart {
@@ -204,43 +194,22 @@ fn movement(report: &Report) -> Chart {
     let last = passes.last().map_or(1, |record| record.pass);
     let along = Passes::new(&report.scene.traffic, last);
     let unit = report.shown.units.movement;
-    let upstream = along.series(passes, |record| unit.of_si(record.upstream_displacement_m));
-    let downstream = along.series(passes, |record| unit.of_si(record.downstream_displacement_m));
     let moved = Axis::linear(report.shown.in_movement("movement"));
-    Chart::new("Movement of the ends", along.axis(), moved)
-        .with(Series::line("upstream end", upstream).look(UPSTREAM))
-        .with(Series::line("downstream end", downstream).look(DOWNSTREAM))
+    let chart = Chart::new("Movement of the ends", along.axis(), moved);
+    ends::lines(chart, &CableEnd::ALL, Some(""), |end| {
+        along.series(passes, |record| unit.of_si(ends::of_pass(record, end)[1]))
+    })
 }
 
 /// Some passes, as the terminal shows them; without what stays zero, as the force on a free end.
 fn passes(html: &mut Html, report: &Report) {
-    type Column = (String, fn(&PassRecord) -> f64, fn(&Shown, f64) -> String);
     let Report { run, shown, .. } = report;
     let passes = &run.passes;
-    // Soft hyphens: a phone is narrow.
-    let mut columns: Vec<Column> = vec![
-        (
-            shown.in_force("force up\u{ad}stream"),
-            |record| record.upstream_force_n,
-            Shown::force_number,
-        ),
-        (
-            shown.in_force("force down\u{ad}stream"),
-            |record| record.downstream_force_n,
-            Shown::force_number,
-        ),
-        (
-            shown.in_movement("moved up\u{ad}stream"),
-            |record| record.upstream_displacement_m,
-            Shown::movement_number,
-        ),
-        (
-            shown.in_movement("moved down\u{ad}stream"),
-            |record| record.downstream_displacement_m,
-            Shown::movement_number,
-        ),
-    ];
-    let is_shown = |(_, value, _): &Column| passes.iter().any(|record| value(record) != 0.0);
+    let mut columns = ends::columns(shown, "moved *");
+    let is_shown = |(_, end, kind): &(String, CableEnd, usize)| {
+        let mut values = passes.iter().map(|record| ends::of_pass(record, *end)[*kind]);
+        values.any(|value| value != 0.0)
+    };
     if columns.iter().any(is_shown) {
         columns.retain(is_shown);
     }
@@ -252,8 +221,11 @@ fn passes(html: &mut Html, report: &Report) {
     let row = |record: &PassRecord| {
         let values = columns
             .iter()
-            .map(|(_, value, written)| written(shown, value(record)));
-        let time = record.years.map(|years| after(years).replace(' ', "\u{a0}"));
+            .map(|(_, end, kind)| match ends::of_pass(record, *end) {
+                [force, _] if *kind == 0 => shown.force_number(force),
+                [_, metres] => shown.movement_number(metres),
+            });
+        let time = record.years.map(after);
         std::iter::once(count(record.pass))
             .chain(time)
             .chain(values)
@@ -264,8 +236,8 @@ fn passes(html: &mut Html, report: &Report) {
     let time = traffic.per_day.map(|_| "time");
     let first = std::iter::once("after pass").chain(time);
     let head: Vec<&str> = first.chain(names).chain(kind).collect();
-    // Names of vehicles may break.
-    html.raw("<div class=\"ranges\">");
+    let names = if kind == Some("vehicle") { " names" } else { "" };
+    html.raw(&format!("<div class=\"passes{names}\">"));
     html.table(0, &head, rows.into_iter().map(row));
     html.raw("</div>");
 }

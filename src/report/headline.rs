@@ -1,6 +1,7 @@
 //! The top of the page: the answer in words, verdicts, and the most important numbers.
 
 use super::content::Report;
+use super::ends;
 use super::figure::MICRO;
 use super::html::Html;
 use super::measures::pressed_end;
@@ -61,23 +62,18 @@ pub fn headline(html: &mut Html, report: &Report) {
 /// What is not limited beside what is.
 fn not_judged(report: &Report) -> Vec<String> {
     let (scene, verdicts) = (&report.scene, &report.verdicts);
-    let moves = |verdict: &&Verdict| verdict.quantity == Limited::Movement;
-    let mut left = Vec::new();
-    for (end, held) in CableEnd::ALL
-        .into_iter()
-        .zip([scene.ends.upstream, scene.ends.downstream])
-    {
-        let name = end.name();
-        let mut movements = verdicts.iter().filter(moves).peekable();
-        if held == End::Free
-            && movements.peek().is_some()
-            && movements.all(|verdict| verdict.end != end.into())
-        {
-            left.push(format!(
-                "the movement of the free {name} end (--limit-movement {name}=LENGTH)"
-            ));
-        }
-    }
+    let movements = || {
+        let verdicts = verdicts.iter();
+        verdicts.filter(|verdict| verdict.quantity == Limited::Movement)
+    };
+    let held = ends::held(scene);
+    let free = CableEnd::ALL.into_iter().filter(|end| !held.contains(end));
+    let free = free.filter(|end| movements().all(|verdict| verdict.end != (*end).into()));
+    let free = free.filter(|_| movements().next().is_some());
+    let mut left: Vec<String> = free
+        .map(CableEnd::name)
+        .map(|name| format!("the movement of the free {name} end (--limit-movement {name}=LENGTH)"))
+        .collect();
     let mut clamped = verdicts
         .iter()
         .filter(|verdict| matches!(verdict.end, Place::Clamp(_)));
@@ -221,7 +217,10 @@ fn moved(report: &Report, last: &PassRecord) -> String {
     };
     let of = |(end, held): (CableEnd, End)| {
         let free = if held == End::Free { "free " } else { "" };
-        let moved = report.shown.movement(movement(&report.run, last, end).abs());
+        let moved = report
+            .shown
+            .movement(movement(&report.run, last, end).abs())
+            .replace("> ", "more than ");
         (held != End::Fixed).then(|| format!("the {free}{} end {moves} {moved}", end.name()))
     };
     let both = [
@@ -243,11 +242,8 @@ fn moved(report: &Report, last: &PassRecord) -> String {
 
 /// Displacement after the last pass; of a heated cable the farthest of all days \[m\].
 fn movement(run: &Run, last: &PassRecord, end: CableEnd) -> f64 {
-    match (&run.heat, end) {
-        (Some(heat), _) => heat.all_days.movement(end),
-        (None, CableEnd::Upstream) => last.upstream_displacement_m,
-        (None, CableEnd::Downstream) => last.downstream_displacement_m,
-    }
+    let heat = run.heat.as_ref();
+    heat.map_or(ends::of_pass(last, end)[1], |heat| heat.all_days.movement(end))
 }
 
 /// Where a force acts: on an end, or within the cable.

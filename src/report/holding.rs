@@ -1,7 +1,8 @@
 //! Ways to hold the cable: force against movement.
 
 use super::content::Report;
-use super::figure::{MEASURED, figure};
+use super::ends::OTHER;
+use super::figure::figure;
 use super::html::Html;
 use super::measures::{Comparison, Way};
 use super::quantity::Shown;
@@ -179,7 +180,7 @@ fn chart(report: &Report) -> Option<Chart> {
     let series = [
         Series::line_points("springs … fixed end", springs).look(0),
         Series::points("with a clamp", clamps).look(3),
-        Series::points("the scene’s end", own).look(MEASURED).marker(5),
+        Series::points("the scene’s end", own).look(OTHER).marker(5),
     ];
     let drawn = series.into_iter().zip(has).filter(|(_, has)| *has);
     has.contains(&true)
@@ -193,7 +194,7 @@ fn caption(comparison: &Comparison, shown: &Shown) -> String {
     let free = free.map_or(String::new(), |answer| {
         format!(
             " A free end, which carries nothing, moves {} and is not drawn.",
-            shown.movement(movement(answer))
+            shown.movement(movement(answer)).replace("> ", "more than ")
         )
     });
     format!(

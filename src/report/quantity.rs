@@ -160,10 +160,9 @@ fn four_digits(si: f64, unit: Unit, digit: f64) -> String {
     let finest = (-unit.of_si(digit).log10()).round().max(0.0);
     // Of what is rounded: 0.09999996 is 0.1000.
     let rounded_up = format!("{value:.3e}");
-    let exponent = rounded_up
-        .split_once('e')
-        .and_then(|(_, exponent)| exponent.parse().ok());
-    let decimals = (3.0 - exponent.unwrap_or(0.0)).clamp(0.0, finest);
+    let exponent = rounded_up.split_once('e').map_or("0", |(_, exponent)| exponent);
+    let exponent: f64 = exponent.parse().unwrap_or(0.0);
+    let decimals = (3.0 - exponent).clamp(0.0, finest);
     let text = rounded(value, decimals as usize);
     if text.bytes().all(|byte| matches!(byte, b'0' | b'.')) {
         return "0".into();
