@@ -245,23 +245,7 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
             "({DISCREPANCY}: standard deviation of a smooth error of the model, a share of the largest reading; the intervals allow for it)"
         )?;
     }
-    if let Some(bootstrap) = &answer.bootstrap {
-        writeln!(
-            out,
-            "\nbootstrap: {} replicates, seed {}, {} failed",
-            bootstrap.replicates, bootstrap.seed, bootstrap.failed
-        )?;
-        for (k, parameter) in answer.parameters.iter().enumerate() {
-            writeln!(
-                out,
-                "{:<22} {:>13} {:>15}  {}",
-                label(parameter),
-                "",
-                significant(bootstrap.standard_errors[k]),
-                interval(bootstrap.interval_95[k])
-            )?;
-        }
-    }
+    print_bootstrap(&mut out, answer)?;
     for i in 1..answer.parameters.len() {
         for j in 0..i {
             if let Some(correlation) = answer.correlation[i][j] {
@@ -318,6 +302,28 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         answer.evaluations,
         answer.method.intervals
     )?;
+    Ok(())
+}
+
+fn print_bootstrap(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failure> {
+    let Some(bootstrap) = &answer.bootstrap else {
+        return Ok(());
+    };
+    writeln!(
+        out,
+        "\nbootstrap: {} replicates, seed {}, {} failed",
+        bootstrap.replicates, bootstrap.seed, bootstrap.failed
+    )?;
+    for (k, parameter) in answer.parameters.iter().enumerate() {
+        writeln!(
+            out,
+            "{:<22} {:>13} {:>15}  {}",
+            label(parameter),
+            "",
+            significant(bootstrap.standard_errors[k]),
+            interval(bootstrap.interval_95[k])
+        )?;
+    }
     Ok(())
 }
 
