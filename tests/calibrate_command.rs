@@ -184,6 +184,19 @@ fn robust_and_overridden() {
         "--set",
         "friction.shape_factor=2e6 1/m",
     ];
+    let (answer, _) = document(&[&arguments[..], &fixed[..]].concat());
+    let size = &answer["residuals"][0];
+    assert_eq!((&size["left_out"], &size["readings"]), (&1.into(), &39.into()));
+    let kept = answer["fit"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|row| row["pass"] != 13);
+    let squares: f64 = kept.map(|row| row["residual"].as_f64().unwrap().powi(2)).sum();
+    assert!(
+        (size["rms"].as_f64().unwrap() - (squares / 39.0).sqrt()).abs() < 1e-9,
+        "{size}"
+    );
     let output = creepage(&[&arguments[..], &fixed[..]].concat());
     let text = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(0));
@@ -194,6 +207,7 @@ fn robust_and_overridden() {
         .and_then(|value| value.parse().ok())
         .expect("a line with the coefficient");
     assert!((value / 0.25 - 1.0).abs() < 0.02, "{text}");
+    assert!(text.contains("N rms of 39 readings, 1 left out"), "{text}");
     assert!(
         String::from_utf8(output.stderr)
             .unwrap()
@@ -440,4 +454,11 @@ fn whatever_is_measured_is_fitted() {
         (75, "force downstream, force upstream, movement upstream".into())
     );
     assert!(rows[2]["force_n"].is_null() && rows[2]["unit"] == "m");
+    let units: Vec<&Value> = answer["residuals"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|size| &size["unit"])
+        .collect();
+    assert_eq!(units, ["N", "m"]);
 }

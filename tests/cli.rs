@@ -1063,9 +1063,19 @@ fn design_takes_pairs_several_places_and_limits_of_clamps() {
         said.contains("2 ways to hold the cable") && said.contains("best: clamp at 13 m"),
         "{said}"
     );
+    for words in [
+        "limits: ",
+        "; force on the clamp at 5 m 0.15 kN",
+        "; movement at the clamp at 13 m 1 mm",
+        "on the clamp",
+        "\nclamp at 13 m: force at most ",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    let unlimited = printed(&design(&["--at", "13m", "--limit-force", "0.1kN"]));
     assert!(
-        said.contains("force on the clamp at 13 m") && said.contains(" kN"),
-        "{said}"
+        unlimited.contains("clamps are not limited; --limit-force clamp=FORCE"),
+        "{unlimited}"
     );
     let document = json(&clamps);
     let candidates = document["candidates"].as_array().expect("a list");

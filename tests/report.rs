@@ -31,7 +31,7 @@ const HELD_BY: [&str; 6] = [
     "force downstream, N",
     "moved downstream, mm",
     "moved upstream, mm",
-    "on clamp, N",
+    "most on a clamp, N",
     "error",
 ];
 
@@ -169,7 +169,10 @@ fn the_numbers_are_those_of_the_run() {
         5e-3,
     );
 
-    let rows = table(&page, &["pass", "force downstream, N", "moved upstream, mm"]);
+    let rows = table(
+        &page,
+        &["after pass", "force downstream, N", "moved upstream, mm"],
+    );
     assert_eq!(rows.len(), 8);
     for row in rows {
         let pass = &run["passes"][number(&row[0]) as usize - 1];
@@ -282,7 +285,7 @@ fn figures_and_tables_are_over_time_where_the_vehicles_a_day_are_known() {
         assert!(
             !table(
                 &page,
-                &["pass", "after", "force downstream, N", "moved upstream, mm"]
+                &["after pass", "time", "force downstream, N", "moved upstream, mm"]
             )
             .is_empty()
         );
@@ -365,7 +368,7 @@ fn readings_are_drawn_and_compared() {
                 10.0 N, largest reading 500.0 N.";
     assert!(with.contains(said), "{with}");
     let circles = |page: &str| {
-        let orange = |element: &&Element| element.name == "polygon" || element.name == "polyline";
+        let drawn = |element: &&Element| element.name == "polygon" || element.name == "polyline";
         let elements = elements(page);
         let force = |pair: &[Element]| pair[0].name == "svg" && pair[1].text == "Force against passes";
         let svg = elements.windows(2).position(force).expect("a figure");
@@ -377,8 +380,8 @@ fn readings_are_drawn_and_compared() {
                 .expect("another");
         elements[svg..end]
             .iter()
-            .filter(orange)
-            .filter(|element| element.get("stroke") == "#D55E00")
+            .filter(drawn)
+            .filter(|element| element.get("stroke") == "#009E73")
             .count()
     };
     // Each reading is a circle and a bar; the legend shows one circle more.
@@ -391,6 +394,86 @@ fn readings_are_drawn_and_compared() {
         error.is_bad_input() && error.to_string().contains("load cell"),
         "{error}"
     );
+}
+
+#[test]
+fn readings_in_another_unit_are_told() {
+    let run = creepage::run(&scene(&["traffic.passes=6"])).expect("a run");
+    let thousandth =
+        |record: &creepage::PassRecord| format!("{},{}\n", record.pass, 1e-3 * record.downstream_force_n);
+    let rows: Vec<String> = run.passes.iter().map(thousandth).collect();
+    let csv = format!("pass,force_n\n{}", rows.concat());
+    let readings = Readings::from_csv("cell.csv", csv.as_bytes()).expect("readings");
+    let options = ReportOptions {
+        readings: Some(&readings),
+        measures: Some(&[]),
+        ..ReportOptions::default()
+    };
+    let report = Report::new(&scene(&["traffic.passes=6"]), &options).expect("a report");
+    assert!(
+        report.mistakes()[0].contains("are they kN?"),
+        "{:?}",
+        report.mistakes()
+    );
+    assert!(report.to_html().contains(&report.mistakes()[0]));
+}
+
+#[test]
+fn every_clamp_has_its_force_and_rows_their_vehicle() {
+    let clamps =
+        r#"restraints=[{position="12 m", stiffness="1 MN/m"}, {position="27 m", stiffness="5 MN/m"}]"#;
+    let mut scene = scene(&["traffic.passes=6", clamps, "ends.downstream.spring=1 MN/m"]);
+    let mut other = scene.vehicles[0].clone();
+    other.vehicle = ground_field::Vehicle::point("back", 1e5, 10.0).expect("a vehicle");
+    (scene.vehicles[0].share, other.share) = (0.75, 0.25);
+    scene.vehicles.push(other);
+    let mut limits = Limits::default();
+    limits.downstream.movement_m = Some(1.0);
+    let measures = [Measure {
+        place: Place::Downstream,
+        stiffness: 1e6,
+    }];
+    let options = ReportOptions {
+        limits,
+        measures: Some(&measures),
+        ..ReportOptions::default()
+    };
+    let report = Report::new(&scene, &options).expect("a report");
+    let (page, run) = (report.to_html(), report.run());
+    let largest = |place: f64| run.largest(Place::Clamp(place), creepage::Limited::Force);
+    let head = [
+        "clamp at",
+        "force after the last pass, N",
+        "force at most after a pass, N",
+        "moved at most after a pass, mm",
+    ];
+    let rows = table(&page, &head);
+    for (row, place) in rows.iter().zip([12.0, 27.0]) {
+        assert_eq!(number(&row[0]), place);
+        assert!((number(&row[2]) - largest(place)).abs() < 0.051, "{row:?}");
+    }
+    let most = largest(12.0).max(largest(27.0));
+    let ways = table(&page, &HELD_BY);
+    assert!((number(&ways[0][4]) - most).abs() < 0.051, "{ways:?}");
+    let card = page.split("Largest force on a clamp").nth(1).expect("a card");
+    assert!(card.contains("after a pass"));
+    for words in [
+        "the movement of the free upstream end (--limit-movement upstream=LENGTH)",
+        "the clamps (--limit-force clamp=FORCE)",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    let head = [
+        "after pass",
+        "force downstream, N",
+        "moved upstream, mm",
+        "moved downstream, mm",
+        "vehicle",
+    ];
+    let rows = table(&page, &head);
+    // Of four vehicles, one is the other.
+    let back = rows.iter().filter(|row| row[4] == "back").count();
+    assert!(rows.len() == 6 && (1..=2).contains(&back), "{rows:?}");
 }
 
 #[test]
@@ -711,7 +794,7 @@ fn one_scene_has_one_force() {
     assert!(page.contains(&value), "{value}");
     assert!(page.contains(&format!("largest {} N", own[1])));
     // The free end stands in the table and leaves the chart to the others.
-    assert_eq!((rows[0][0].as_str(), rows[0][1].as_str()), ("free end", "0.0"));
+    assert_eq!((rows[0][0].as_str(), rows[0][1].as_str()), ("free end", "0"));
     assert!(page.contains(&format!("moves {} mm and is not drawn", rows[0][2])));
 }
 
@@ -763,10 +846,10 @@ fn a_page_is_in_the_units_that_were_typed() {
     let moved = last["upstream_displacement_m"].as_f64().expect("a movement") / INCH;
     assert_eq!(
         card("Movement of an end").expect("a value").text,
-        format!("{moved:.4} in")
+        format!("{moved:.5} in")
     );
     let heads = [
-        "pass",
+        "after pass",
         "force downstream, kip",
         "moved upstream, in",
         "moved downstream, in",

@@ -315,7 +315,8 @@ fn the_page_is_well_on_phones_and_desks_by_day_and_night() {
 fn millions_of_passes_and_no_friction_are_well_on_a_phone() {
     let many = upper(&["traffic.passes=2000000", "solver.tolerance=0.05"]);
     let none = upper(&["friction.dynamic_coefficient=0", "traffic.passes=3"]);
-    for (scene, figures) in [(many, 9), (none, 8)] {
+    // Without friction nothing moves, which no chart shows.
+    for (scene, figures) in [(many, 9), (none, 7)] {
         let page = Report::new(&scene, &ReportOptions::default())
             .expect("a report")
             .to_html();

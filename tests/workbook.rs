@@ -110,6 +110,20 @@ fn assert_records(sheet: &Range<Data>, records: &[Value], units: &[(&str, &str)]
     }
 }
 
+/// The clamps of a document, with what each comes to over its passes.
+fn clamps(document: &Value) -> Vec<Value> {
+    let mut clamps = document["restraints"].as_array().expect("clamps").clone();
+    for clamp in &mut clamps {
+        let forces = clamp["after_passes_n"].as_array().expect("forces");
+        let sizes = forces.iter().map(|force| force.as_f64().expect("a force").abs());
+        let largest = sizes.fold(0.0, f64::max);
+        let stiffness = clamp["stiffness_n_per_m"].as_f64().expect("a stiffness");
+        clamp["largest_force_n"] = largest.into();
+        clamp["largest_displacement_m"] = (largest / stiffness).into();
+    }
+    clamps
+}
+
 #[test]
 fn a_run_is_its_document_in_the_units_that_were_typed() {
     let folder = folder("run");
@@ -147,9 +161,14 @@ fn a_run_is_its_document_in_the_units_that_were_typed() {
         ("pass", ""),
     ];
     assert_records(&book.sheet("passes"), passes, &units);
-    let clamps = document["restraints"].as_array().expect("clamps");
-    let units = [("position", "ft"), ("stiffness", "kip/in"), ("force", "lbf")];
-    assert_records(&book.sheet("clamps"), clamps, &units);
+    let clamps = clamps(&document);
+    let units = [
+        ("position", "ft"),
+        ("stiffness", "kip/in"),
+        ("force", "lbf"),
+        ("largest_displacement", "in"),
+    ];
+    assert_records(&book.sheet("clamps"), &clamps, &units);
 
     let along = book.sheet("force along");
     let profile = &document["force_profile"];

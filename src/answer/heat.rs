@@ -83,6 +83,14 @@ pub struct HeatRecord {
     pub cold_profile: ForceProfile,
 }
 
+impl HeatRecord {
+    /// The last of `days` that all of its passes were computed of, if `passes` end within one; else the last.
+    pub fn last_whole<'d>(&self, days: &'d [DayExtremes], passes: u64) -> Option<&'d DayExtremes> {
+        let whole = days.iter().rfind(|day| day.day * self.passes_per_day <= passes);
+        whole.or(days.last())
+    }
+}
+
 impl DayExtremes {
     /// By how much the force on an end changes at most over the day \[N\], and how far an end moves \[m\]: the cyclic load of joints.
     pub fn largest_range(&self) -> (f64, f64) {

@@ -201,8 +201,12 @@ impl Limits {
 impl Verdict {
     /// In words, in units of a reader.
     pub fn shown(&self, units: &Units) -> String {
+        self.shown_with(units, &self.quantity.shown_in(units, self.largest))
+    }
+
+    /// The same with the `largest` in words.
+    pub(crate) fn shown_with(&self, units: &Units, largest: &str) -> String {
         let limit = self.quantity.given_in(units, self.limit);
-        let largest = self.quantity.shown_in(units, self.largest);
         let what = self.quantity.at_in(units, self.end);
         let verdict = match self.reached_after {
             Some(Reached { pass, years }) => {

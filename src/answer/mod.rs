@@ -25,9 +25,9 @@ pub use place::{Limited, Place};
 pub use record::*;
 pub use saturation::{larger, saturation};
 #[cfg(any(feature = "cli", feature = "plot"))]
-pub use table_rows::{table_days, table_rows};
+pub use table_rows::{in_rows, table_days, table_rows};
 pub use units::Units;
-#[cfg(any(feature = "cli", feature = "plot"))]
+#[cfg(feature = "cli")]
 pub use units::in_unit;
 #[cfg(feature = "sweep")]
 pub use units::si_of_field;

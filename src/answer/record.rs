@@ -4,9 +4,13 @@ use cable_dem::{SlipLengths, Statistics};
 use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
+use super::cable_end::CableEnd;
 use super::force_profile::ForceProfile;
 use super::heat::{DayExtremes, HeatRecord};
 use crate::scene::Traffic;
+
+/// Forces that differ by a smaller share are the same to a reader.
+const NOTICEABLE: f64 = 0.01;
 
 /// Answer of a run.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -180,6 +184,18 @@ pub struct ForceRange {
     pub upstream_min_n: f64,
     /// Largest force on the upstream end \[N\].
     pub upstream_max_n: f64,
+}
+
+impl ForceRange {
+    /// The ends on which vehicles that differ leave noticeably different forces by turns: the least and the largest \[N\].
+    pub fn by_turns(&self) -> impl Iterator<Item = (CableEnd, f64, f64)> {
+        let ends = [
+            (CableEnd::Upstream, self.upstream_min_n, self.upstream_max_n),
+            (CableEnd::Downstream, self.downstream_min_n, self.downstream_max_n),
+        ];
+        ends.into_iter()
+            .filter(|(_, least, most)| most - least > NOTICEABLE * most.abs().max(least.abs()))
+    }
 }
 
 /// How far forces scatter around their mean where vehicles come in random order.

@@ -4,7 +4,8 @@ use super::calendar::calendar;
 use super::heat::DayExtremes;
 use super::listed::ROUND;
 use super::record::PassRecord;
-use crate::scene::Traffic;
+use crate::cable::traffic;
+use crate::scene::{Scene, Traffic};
 use crate::shown::ROWS;
 
 /// Few enough of `passes` for a short table: all, or round numbers and the last. Where the vehicles a day are known, those from the first
@@ -21,6 +22,35 @@ pub fn table_rows<'r>(passes: &'r [PassRecord], traffic: &Traffic) -> Vec<&'r Pa
         *index == last || is_time(record) || record.pass < first && is_round(record.pass)
     });
     shown.map(|(_, record)| record).collect()
+}
+
+/// Passes of a traffic whose vehicles are followed one by one.
+const LONGEST_ORDER: u64 = 1_000_000;
+
+/// In what `rows` differ beside the number of the pass, and what that is in each: the hour of the day where the cable is heated and there are
+/// `a_day` passes, else the vehicle. `None` where they do not, and where rows are means over many vehicles.
+pub fn in_rows(
+    rows: &[&PassRecord],
+    scene: &Scene,
+    a_day: Option<u64>,
+    are_means: bool,
+) -> Option<(&'static str, Vec<String>)> {
+    if let Some(a_day) = a_day {
+        let hour = |pass: u64| 24.0 * (((pass - 1) % a_day) as f64 + 0.5) / a_day as f64;
+        let hours = rows.iter().map(|record| format!("{:.1}", hour(record.pass)));
+        return Some(("hour", hours.collect()));
+    }
+    if scene.vehicles.len() == 1 || are_means {
+        return None;
+    }
+    let last = rows.last().map_or(0, |record| record.pass).min(LONGEST_ORDER);
+    let order = traffic(scene, scene.traffic.order.clone()).ok()?;
+    let vehicles: Vec<usize> = order.take(last as usize).collect();
+    let name = |record: &&PassRecord| match vehicles.get(record.pass as usize - 1) {
+        Some(vehicle) => scene.vehicles[*vehicle].vehicle.name().to_owned(),
+        None => "mean".to_owned(),
+    };
+    Some(("vehicle", rows.iter().map(name).collect()))
 }
 
 /// Few enough of `days` for a short table: round numbers and the last, which stands for all from the day `periodic_from` on.

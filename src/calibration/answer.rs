@@ -3,12 +3,13 @@
 use calibrate::{Bootstrap, BootstrapOptions, Estimate, Fit, Loss, Warning};
 
 use super::ground;
-use super::judgement::judge;
+use super::judgement::{LEFT_OUT, judge};
 use super::meshes::{Final, MESH_SHIFT};
 use super::model::SeriesModel;
 use super::problem::Problem;
 use super::result::{
-    BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
+    BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate,
+    ProfilePoint, ResidualSize,
 };
 use crate::Error;
 use crate::readings::Measured;
@@ -24,6 +25,9 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
     let suspicious = judgement.lack_of_fit.suspicious;
     let assumptions = ground::assumption(problem, found)?.into_iter().collect();
     let own_sigmas = problem.series.iter().all(|one| one.readings.sigmas().is_some());
+    let readings = readings(problem, fit);
+    let residuals = residuals(&readings);
+    let forces = residuals.iter().find(|size| size.unit == "N");
     Ok(Calibrated {
         titles: problem.series.iter().map(|one| one.scene.title.clone()).collect(),
         parameters: fit
@@ -34,8 +38,9 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
             .map(|(estimate, unit)| parameter(estimate, unit, suspicious))
             .collect(),
         correlation: correlation(fit),
-        residual_rms_n: fit.residual_rms,
-        r_squared: fit.r_squared,
+        residual_rms_n: forces.map_or(0.0, |forces| forces.rms),
+        residuals,
+        r_squared: explained(&readings),
         evaluations: found.evaluations,
         warnings: warnings(problem, fit, &model_error, judgement.warnings),
         lack_of_fit: judgement.lack_of_fit,
@@ -45,7 +50,7 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
         degrees_of_freedom: fit.degrees_of_freedom,
         method: method(problem, found)?,
         model_error,
-        fit: readings(problem, fit),
+        fit: readings,
         bootstrap: found.bootstrap.as_ref().map(summary),
     })
 }
@@ -187,6 +192,37 @@ fn readings(problem: &Problem<'_>, fit: &Fit) -> Vec<FittedReading> {
             }
         })
         .collect()
+}
+
+/// The share of the variance of the readings that are kept which the model explains; `None` where they do not vary.
+fn explained(readings: &[FittedReading]) -> Option<f64> {
+    let kept = || readings.iter().filter(|reading| reading.weight >= LEFT_OUT);
+    let mean = kept().map(|reading| reading.value).sum::<f64>() / kept().count().max(1) as f64;
+    let variation: f64 = kept().map(|reading| (reading.value - mean).powi(2)).sum();
+    let left: f64 = kept().map(|reading| reading.residual.powi(2)).sum();
+    (variation > 0.0).then(|| 1.0 - left / variation)
+}
+
+/// By kind of reading, in the order of the file.
+fn residuals(readings: &[FittedReading]) -> Vec<ResidualSize> {
+    let mut sizes: Vec<ResidualSize> = Vec::new();
+    for reading in readings {
+        if sizes.iter().any(|size| size.measured == reading.measured) {
+            continue;
+        }
+        let (measured, unit) = (reading.measured, reading.unit);
+        let all = readings.iter().filter(|other| other.measured == measured);
+        let (kept, left): (Vec<_>, Vec<_>) = all.partition(|other| other.weight >= LEFT_OUT);
+        let squares: f64 = kept.iter().map(|other| other.residual * other.residual).sum();
+        sizes.push(ResidualSize {
+            measured,
+            rms: (squares / kept.len().max(1) as f64).sqrt(),
+            unit,
+            readings: kept.len(),
+            left_out: left.len(),
+        });
+    }
+    sizes
 }
 
 fn summary((bootstrap, options): &(Bootstrap, BootstrapOptions)) -> BootstrapSummary {

@@ -25,7 +25,7 @@ const OUTLIER: f64 = 4.5;
 /// Makes the median of |r| under Gaussian noise a standard deviation.
 const MEDIAN_TO_SIGMA: f64 = 1.4826;
 /// Weight below which a robust fit left a reading out.
-const LEFT_OUT: f64 = 0.35;
+pub const LEFT_OUT: f64 = 0.35;
 /// Fewest readings that are judged beside the parameters.
 const FEWEST: f64 = 3.0;
 

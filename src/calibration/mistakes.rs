@@ -33,38 +33,45 @@ pub fn mistakes(problem: &Problem<'_>) -> Result<Vec<String>, Error> {
             continue;
         }
         // The zero reading has no sign and no size.
-        let rows: Vec<usize> = (0..measured.len())
-            .filter(|&row| cell.offset[row] != 0.0 && cell.drift[row] > 0.0)
-            .collect();
-        let negative = |values: &[f64]| {
-            rows.iter().filter(|&&row| values[row] < 0.0).count() as f64 / rows.len().max(1) as f64
-        };
-        let middle = |values: &[f64]| {
-            let mut sizes: Vec<f64> = rows.iter().map(|&row| values[row].abs()).collect();
-            sizes.sort_by(f64::total_cmp);
-            sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
-        };
-        let place = cell.observed.place();
-        let (found, wanted) = (negative(&measured), negative(expected));
-        let all = if found == 1.0 { "all" } else { "nearly all" };
-        if rows.len() > 2 && found >= NEARLY_ALL && wanted <= 1.0 - NEARLY_ALL {
-            mistakes.push(format!(
-                "{all} forces at the {place} end are negative where the scene presses on the cell: does the cell count tension as positive? \
-                 --tension-positive turns the sign"
-            ));
-        } else if rows.len() > 2 && found <= 1.0 - NEARLY_ALL && wanted >= NEARLY_ALL {
-            mistakes.push(format!("{all} forces at the {place} end are positive where the scene pulls at the cell: tension is negative here"));
-        }
-        let ratio = middle(&measured) / middle(expected);
-        if (THOUSAND.0..THOUSAND.1).contains(&ratio.recip()) {
-            mistakes.push(format!(
-                "the forces at the {place} end are about a thousand times too small for this scene: are they kN? --unit kN reads them so"
-            ));
-        } else if (THOUSAND.0..THOUSAND.1).contains(&ratio) {
-            mistakes.push(format!(
-                "the forces at the {place} end are about a thousand times too large for this scene: are they N? --unit N reads them so"
-            ));
-        }
+        let rows = (0..measured.len()).filter(|&row| cell.offset[row] != 0.0 && cell.drift[row] > 0.0);
+        let both: Vec<(f64, f64)> = rows.map(|row| (measured[row], expected[row])).collect();
+        mistakes.extend(of_forces(&cell.observed.place(), &both));
     }
     Ok(mistakes)
+}
+
+/// What looks mistaken of the forces on the end `place` after passes, each measured and expected.
+pub(crate) fn of_forces(place: &str, both: &[(f64, f64)]) -> Vec<String> {
+    let mut mistakes = Vec::new();
+    let negative = |of: fn(&(f64, f64)) -> f64| {
+        both.iter().filter(|pair| of(pair) < 0.0).count() as f64 / both.len().max(1) as f64
+    };
+    let middle = |of: fn(&(f64, f64)) -> f64| {
+        let mut sizes: Vec<f64> = both.iter().map(|pair| of(pair).abs()).collect();
+        sizes.sort_by(f64::total_cmp);
+        sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
+    };
+    let (found, wanted) = (negative(|pair| pair.0), negative(|pair| pair.1));
+    let all = if found == 1.0 { "all" } else { "nearly all" };
+    if both.len() > 2 && found >= NEARLY_ALL && wanted <= 1.0 - NEARLY_ALL {
+        mistakes.push(format!(
+            "{all} forces at the {place} end are negative where the scene presses on the cell: does the cell count tension as positive? \
+             --tension-positive turns the sign"
+        ));
+    } else if both.len() > 2 && found <= 1.0 - NEARLY_ALL && wanted >= NEARLY_ALL {
+        mistakes.push(format!(
+            "{all} forces at the {place} end are positive where the scene pulls at the cell: tension is negative here"
+        ));
+    }
+    let ratio = middle(|pair| pair.0) / middle(|pair| pair.1);
+    if (THOUSAND.0..THOUSAND.1).contains(&ratio.recip()) {
+        mistakes.push(format!(
+            "the forces at the {place} end are about a thousand times too small for this scene: are they kN? --unit kN reads them so"
+        ));
+    } else if (THOUSAND.0..THOUSAND.1).contains(&ratio) {
+        mistakes.push(format!(
+            "the forces at the {place} end are about a thousand times too large for this scene: are they N? --unit N reads them so"
+        ));
+    }
+    mistakes
 }

@@ -41,9 +41,12 @@ pub(crate) use cell::{CellEnd, force_ends};
 #[cfg(feature = "cli")]
 pub(crate) use discrepancy::SHARES;
 pub use judgement::LackOfFit;
+#[cfg(feature = "plot")]
+pub(crate) use mistakes::of_forces;
 pub use options::{CalibrateOptions, Deflection, Series};
 pub use result::{
-    BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint,
+    BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate,
+    ProfilePoint, ResidualSize,
 };
 pub use unknown::{Quantity, Unknown};
 

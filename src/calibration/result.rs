@@ -13,8 +13,10 @@ pub struct Calibrated {
     pub parameters: Vec<FittedParameter>,
     /// Their correlation; null where one of them has no standard error.
     pub correlation: Vec<Vec<Option<f64>>>,
-    /// Root of the mean square of the residuals \[N\].
+    /// Root of the mean square of the residuals of the forces that the fit keeps \[N\]; 0 without forces.
     pub residual_rms_n: f64,
+    /// How large the residuals are, of each kind of reading.
+    pub residuals: Vec<ResidualSize>,
     /// Share of the forces' variance that the model explains; null where they do not vary.
     pub r_squared: Option<f64>,
     /// Runs of the model, all meshes together, without those of the bootstrap.
@@ -124,6 +126,35 @@ pub struct FittedReading {
     pub residual: f64,
     /// Unit of these three; 1 for a number.
     pub unit: &'static str,
+}
+
+/// How large the residuals of one kind of reading are.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ResidualSize {
+    /// What was measured.
+    pub measured: &'static str,
+    /// Root of the mean square of the residuals of the readings that the fit keeps, in `unit`.
+    pub rms: f64,
+    /// Its unit; 1 for a number.
+    pub unit: &'static str,
+    /// Readings that it keeps.
+    pub readings: usize,
+    /// Outliers that a robust fit leaves out.
+    pub left_out: usize,
+}
+
+impl std::fmt::Display for ResidualSize {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match (self.measured, self.unit) {
+            ("force", unit) => write!(f, "{:.2} {unit} rms", self.rms)?,
+            (measured, "1") => write!(f, "{measured} {:.2e} rms", self.rms)?,
+            (measured, unit) => write!(f, "{measured} {:.2e} {unit} rms", self.rms)?,
+        }
+        match self.left_out {
+            0 => Ok(()),
+            count => write!(f, " of {} readings, {count} left out", self.readings),
+        }
+    }
 }
 
 /// Spread of refits to data drawn anew.

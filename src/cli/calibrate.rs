@@ -11,8 +11,8 @@ use super::shared::{Input, OutputArguments, SceneArguments};
 use super::terminal;
 use crate::Readings;
 use crate::calibration::{
-    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, SHARES, Series,
-    Unknown,
+    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, ResidualSize, SHARES,
+    Series, Unknown,
 };
 use crate::output::Kind;
 use crate::scene::{Dimension, FrictionLaw};
@@ -245,23 +245,7 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
             "({DISCREPANCY}: standard deviation of a smooth error of the model, a share of the largest reading; the intervals allow for it)"
         )?;
     }
-    if let Some(bootstrap) = &answer.bootstrap {
-        writeln!(
-            out,
-            "\nbootstrap: {} replicates, seed {}, {} failed",
-            bootstrap.replicates, bootstrap.seed, bootstrap.failed
-        )?;
-        for (k, parameter) in answer.parameters.iter().enumerate() {
-            writeln!(
-                out,
-                "{:<22} {:>13} {:>15}  {}",
-                label(parameter),
-                "",
-                significant(bootstrap.standard_errors[k]),
-                interval(bootstrap.interval_95[k])
-            )?;
-        }
-    }
+    print_bootstrap(&mut out, answer)?;
     for i in 1..answer.parameters.len() {
         for j in 0..i {
             if let Some(correlation) = answer.correlation[i][j] {
@@ -275,10 +259,12 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     let explained = answer
         .r_squared
         .map_or_else(String::new, |r| format!(", R² {r:.5}"));
+    let residuals: Vec<String> = answer.residuals.iter().map(ToString::to_string).collect();
     writeln!(
         out,
-        "residuals: {:.2} N rms{explained}, {:.1} degrees of freedom",
-        answer.residual_rms_n, answer.degrees_of_freedom
+        "residuals: {}{explained}, {:.1} degrees of freedom",
+        residuals.join(", "),
+        answer.degrees_of_freedom
     )?;
     let lack = &answer.lack_of_fit;
     let chance = |p: Option<f64>| p.map_or_else(|| "-".into(), |p| format!("{p:.2}"));
@@ -297,14 +283,20 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     let shifts = answer.model_error.standard_errors.iter();
     writeln!(
         out,
-        "error of the mesh: {} of the force, at most {:.2} standard errors of a parameter",
+        "error of the mesh: {} of the {}, at most {:.2} standard errors of a parameter",
         percent(answer.model_error.relative),
+        only(answer).map_or("largest reading", |kind| kind.measured),
         shifts.fold(0.0_f64, |most, &error| most.max(error))
     )?;
     writeln!(
         out,
-        "method: cable {}, load cell {}, node spacing {:.3} m, {} model runs; {}",
+        "method: cable {}, {} {}, node spacing {:.3} m, {} model runs; {}",
         answer.method.cable,
+        if answer.fit[0].measured == "force" {
+            "load cell"
+        } else {
+            answer.fit[0].measured
+        },
         answer.method.load_cell[0],
         answer.method.node_spacing_m[0],
         answer.evaluations,
@@ -313,12 +305,43 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     Ok(())
 }
 
-fn print_readings(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failure> {
+fn print_bootstrap(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failure> {
+    let Some(bootstrap) = &answer.bootstrap else {
+        return Ok(());
+    };
     writeln!(
         out,
-        "\n{:>9} {:>13} {:>11} {:>13}",
-        "pass", "measured, N", "fitted, N", "residual, N"
+        "\nbootstrap: {} replicates, seed {}, {} failed",
+        bootstrap.replicates, bootstrap.seed, bootstrap.failed
     )?;
+    for (k, parameter) in answer.parameters.iter().enumerate() {
+        writeln!(
+            out,
+            "{:<22} {:>13} {:>15}  {}",
+            label(parameter),
+            "",
+            significant(bootstrap.standard_errors[k]),
+            interval(bootstrap.interval_95[k])
+        )?;
+    }
+    Ok(())
+}
+
+/// The kind of all readings, where they are of one.
+fn only(answer: &Calibrated) -> Option<&ResidualSize> {
+    match &answer.residuals[..] {
+        [only] => Some(only),
+        _ => None,
+    }
+}
+
+fn print_readings(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failure> {
+    let unit = only(answer).map_or("1", |kind| kind.unit);
+    let [measured, fitted, residual] = ["measured", "fitted", "residual"].map(|name| match unit {
+        "1" => name.to_owned(),
+        unit => format!("{name}, {unit}"),
+    });
+    writeln!(out, "\n{:>9} {measured:>13} {fitted:>11} {residual:>13}", "pass")?;
     let stride = answer.fit.len().div_ceil(ROWS);
     for row in answer.fit.iter().step_by(stride.max(1)) {
         let [measured, fitted, residual] =
@@ -327,9 +350,8 @@ fn print_readings(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failu
                 _ => format!("{value:.3e}"),
             });
         write!(out, "{:>9} {measured:>13} {fitted:>11} {residual:>13}", row.pass)?;
-        match row.measured {
-            "force" => {}
-            other => write!(out, "  {other}, {}", row.unit)?,
+        if only(answer).is_none() || row.measured != "force" {
+            write!(out, "  {}, {}", row.measured, row.unit)?;
         }
         if answer.titles.len() > 1 {
             write!(out, "  scene {}", row.series)?;

@@ -14,9 +14,10 @@ pub fn print(
     out: &mut impl Write,
     days: &[DayExtremes],
     heat: &HeatRecord,
+    passes: u64,
     units: &Units,
 ) -> std::io::Result<()> {
-    let Some(last) = days.last() else {
+    let Some(whole) = heat.last_whole(days, passes) else {
         return Ok(());
     };
     let Units { force, movement, .. } = units;
@@ -75,10 +76,15 @@ pub fn print(
         (Some(day), _) => writeln!(out, "from day {day} on every day is like the one before")?,
         _ => writeln!(out, "days still differ from the ones before")?,
     }
-    let (cyclic_force, cyclic_movement) = last.largest_range();
+    let (cyclic_force, cyclic_movement) = whole.largest_range();
     writeln!(
         out,
-        "on the last day the force on an end changes by up to {} {} and an end moves by up to {} {}, to and fro",
+        "on the last {} the force on an end changes by up to {} {} and an end moves by up to {} {}, to and fro",
+        if passes.is_multiple_of(heat.passes_per_day) {
+            "day"
+        } else {
+            "whole day"
+        },
         units.force(cyclic_force),
         force.symbol(),
         in_unit(cyclic_movement, *movement, DIGIT),

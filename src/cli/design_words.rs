@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use super::design_clamps::{clamps, has, on_clamp};
 use super::design_units::Shown;
 use super::failure::Failure;
 use super::terminal;
@@ -13,16 +14,24 @@ use crate::{Limited, Limits, Scene};
 pub fn print(design: &Design, scene: &Scene, units: &Shown) -> Result<(), Failure> {
     let mut out = terminal::out();
     head(&mut out, design)?;
-    let limit = |(place, quantity, limit): (Place, Limited, f64)| {
-        format!("{} {}", quantity.at(place), units.given(quantity, limit))
-    };
-    let limits: Vec<String> = design.limits.all().map(limit).collect();
-    writeln!(out, "limits: {}\n", limits.join("; "))?;
+    limited(&mut out, std::slice::from_ref(design), units)?;
     table(
         &mut out,
         &curve(&design.places, &design.limits, &design.curve, scene, units),
     )?;
     conclusion(&mut out, design, units)
+}
+
+/// The limits of all designs, each once.
+fn limited(out: &mut impl Write, designs: &[Design], units: &Shown) -> std::io::Result<()> {
+    let mut limits: Vec<String> = Vec::new();
+    for (place, quantity, limit) in designs.iter().flat_map(|design| design.limits.all()) {
+        let limit = format!("{} {}", quantity.at(place), units.given(quantity, limit));
+        if !limits.contains(&limit) {
+            limits.push(limit);
+        }
+    }
+    writeln!(out, "limits: {}\n", limits.join("; "))
 }
 
 /// What was tried of springs at these places.
@@ -54,17 +63,19 @@ pub fn compared(best: &Design, all: &[Design], units: &Shown) -> Result<(), Fail
     let mut out = terminal::out();
     writeln!(
         out,
-        "{}: {} ways to hold the cable, {} passes\n",
+        "{}: {} ways to hold the cable, {} passes",
         terminal::line(&best.title),
         all.len(),
         best.passes
     )?;
+    limited(&mut out, all, units)?;
     let mut rows = vec![
         [
             "held by",
             "stiffness",
             "largest share of a limit",
             "of",
+            "on the clamp",
             "within limits",
         ]
         .map(str::to_owned)
@@ -87,7 +98,13 @@ pub fn compared(best: &Design, all: &[Design], units: &Shown) -> Result<(), Fail
             stiffnesses.join(" and "),
             percent(design.excess()),
             of.join(", "),
-            within(found),
+            on_clamp(design, found, units),
+            within(found)
+                + if is_near(design) {
+                    ", nearer than the error"
+                } else {
+                    ""
+                },
         ]);
     }
     table(&mut out, &rows)?;
@@ -172,11 +189,6 @@ fn curve(
     rows
 }
 
-fn has(point: &TradeOff, place: Place) -> bool {
-    let mut clamps = point.clamps.iter();
-    clamps.any(|clamp| place.is_clamp_at(clamp.position_m))
-}
-
 fn within(point: &TradeOff) -> String {
     let within = if point.within_limits { "yes" } else { "no" };
     let leaves = if point.leaves_duct {
@@ -218,12 +230,19 @@ fn conclusion(out: &mut impl Write, design: &Design, units: &Shown) -> Result<()
         for line in deciding(design, answer, units) {
             writeln!(out, "{line}")?;
         }
-        if design.excess() * (1.0 + answer.error_estimate) > 1.0 {
+        if is_near(design) {
             writeln!(out, "nearer to a limit than the estimated error: leave a margin")?;
         }
     }
+    clamps(out, design, units)?;
     writeln!(out, "{} runs of the scene", design.runs)?;
     Ok(())
+}
+
+/// Whether the answer's error decides.
+fn is_near(design: &Design) -> bool {
+    let answer = design.answer.as_ref();
+    answer.is_some_and(|answer| design.excess() * (1.0 + answer.error_estimate) > 1.0)
 }
 
 /// That nothing is within the limits, as surely as it is known.

@@ -5,6 +5,7 @@ mod check;
 mod completions;
 mod days;
 mod design;
+mod design_clamps;
 mod design_units;
 mod design_words;
 mod explain;

@@ -110,6 +110,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     });
     let report = input.located(report)?;
     input.warn_all(&report.run().warnings);
+    terminal::warn_all(report.mistakes());
     Ok(page.write(|out| out.write_all(report.to_html().as_bytes()))?)
 }
 

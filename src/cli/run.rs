@@ -13,12 +13,13 @@ use super::shared::{Destination, Input, OutputArguments, TrafficArguments};
 use super::terminal;
 #[cfg(feature = "xlsx")]
 use super::workbook::WorkbookArguments;
-use crate::answer::{after, table_rows};
+use crate::answer::{after, in_rows, table_rows};
 use crate::output::Kind;
 use crate::scene::Traffic;
 use crate::shown::{exact, percent};
 use crate::{
-    CutShort, DuctMotionSummary, Limits, PassRecord, Reached, Run, RunOptions, Underway, Units, Verdict,
+    CutShort, DuctMotionSummary, Limits, PassRecord, Reached, Run, RunOptions, Scene, Underway, Units,
+    Verdict,
 };
 
 #[derive(Debug, clap::Args)]
@@ -89,7 +90,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let underway = Underway::default();
     let shown = RunProgress::new(&input.scene, &underway);
     let keep = |_| match underway.finished() {
-        Some(finished) => keep(&finished, &input.scene.traffic, &destination, &units),
+        Some(finished) => keep(&finished, &input.scene, &destination, &units),
         None => stopped("no pass is finished that could be shown"),
     };
     let answer = watched(
@@ -106,7 +107,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         },
     );
     let mut answer = input.located(answer)?;
-    let traffic = input.scene.traffic.clone();
+    let scene = input.scene.clone();
     #[cfg(feature = "xlsx")]
     let file = input.file().clone();
     input.warn(&mut answer.warnings);
@@ -127,7 +128,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         workbook.write(&answer, verdicts, &file, &units)?;
     }
     destination.write(&judged, rows(&answer.passes), || {
-        print(&answer, &traffic, &units)?;
+        print(&answer, &scene, &units)?;
         let mut out = terminal::out();
         for verdict in judged.judgement.iter().flat_map(|judgement| &judgement.limits) {
             writeln!(out, "{}", verdict.shown(&units))?;
@@ -145,22 +146,17 @@ fn rows(passes: &[PassRecord]) -> impl Iterator<Item = PassRecord> {
 }
 
 /// Prints the passes of a run that was stopped. No file is written: an older one is whole.
-fn keep(
-    finished: &CutShort,
-    traffic: &Traffic,
-    destination: &Destination,
-    units: &Units,
-) -> Result<(), Failure> {
+fn keep(finished: &CutShort, scene: &Scene, destination: &Destination, units: &Units) -> Result<(), Failure> {
     let last = finished.passes.last().map_or(0, |record| record.pass);
     let cut = format!(
         "cut short after pass {last} of {}, on nodes {:.3} m apart: the error is not known",
-        traffic.passes, finished.plan.node_spacing_m
+        scene.traffic.passes, finished.plan.node_spacing_m
     );
     destination.print(finished, rows(&finished.passes), || {
         let mut out = terminal::out();
         heading(&mut out, &finished.title, &finished.duct_motion)?;
         writeln!(out, "{cut}")?;
-        Ok(table(&mut out, &finished.passes, traffic, units)?)
+        Ok(table(&mut out, &finished.passes, scene, (None, false), units)?)
     })?;
     stopped(cut)
 }
@@ -170,9 +166,6 @@ fn in_time(traffic: &Traffic, pass: u64) -> String {
     let years = traffic.years_after(pass);
     years.map_or_else(String::new, |years| format!(", {}", after(years)))
 }
-
-/// Forces that differ by a smaller share are the same to a reader.
-const NOTICEABLE: f64 = 0.01;
 
 fn heading(out: &mut impl Write, title: &str, motion: &DuctMotionSummary) -> std::io::Result<()> {
     writeln!(out, "{}", terminal::line(title))?;
@@ -184,14 +177,15 @@ fn heading(out: &mut impl Write, title: &str, motion: &DuctMotionSummary) -> std
     )
 }
 
-fn print(run: &Run, traffic: &Traffic, units: &Units) -> Result<(), Failure> {
+fn print(run: &Run, scene: &Scene, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
     let (force, metres) = (|value| units.force(value), units.length.symbol());
     let length = |value| units.length.of_si(value);
     heading(&mut out, &run.title, &run.duct_motion)?;
-    table(&mut out, &run.passes, traffic, units)?;
+    let a_day = run.heat.as_ref().map(|heat| heat.passes_per_day);
+    table(&mut out, &run.passes, scene, (a_day, run.random.is_some()), units)?;
     if let Some(heat) = &run.heat {
-        days::print(&mut out, &run.days, heat, units)?;
+        days::print(&mut out, &run.days, heat, scene.traffic.passes, units)?;
     }
     match &run.saturation {
         _ if run.heat.is_some() => {}
@@ -202,26 +196,21 @@ fn print(run: &Run, traffic: &Traffic, units: &Units) -> Result<(), Failure> {
             units.force.symbol(),
             if run.random.is_some() { "the mean" } else { "it" },
             saturation.passes_to_95_percent,
-            in_time(traffic, saturation.passes_to_95_percent)
+            in_time(&scene.traffic, saturation.passes_to_95_percent)
         )?,
         None if run.range.is_some() => writeln!(out, "saturation: none, the force was larger before")?,
         None => writeln!(out, "saturation: not reached within these passes")?,
     }
     if let Some(range) = run.range {
-        for (end, least, most) in [
-            ("upstream", range.upstream_min_n, range.upstream_max_n),
-            ("downstream", range.downstream_min_n, range.downstream_max_n),
-        ] {
-            // Vehicles that differ leave different forces by turns.
-            if most - least > NOTICEABLE * most.abs().max(least.abs()) {
-                writeln!(
-                    out,
-                    "in the end the {end} end shows {} to {} {} by turns",
-                    force(least),
-                    force(most),
-                    units.force.symbol()
-                )?;
-            }
+        for (end, least, most) in range.by_turns() {
+            writeln!(
+                out,
+                "in the end the {} end shows {} to {} {} by turns",
+                end.name(),
+                force(least),
+                force(most),
+                units.force.symbol()
+            )?;
         }
     }
     for restraint in &run.restraints {
@@ -263,13 +252,26 @@ fn print(run: &Run, traffic: &Traffic, units: &Units) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Forces and movements after some passes.
+/// Forces and movements after some passes, of which there are so many `a_day` of heat, or which are means over many vehicles.
 fn table(
     out: &mut impl Write,
     passes: &[PassRecord],
-    traffic: &Traffic,
+    scene: &Scene,
+    (a_day, are_means): (Option<u64>, bool),
     units: &Units,
 ) -> std::io::Result<()> {
+    let traffic = &scene.traffic;
+    let rows = table_rows(passes, traffic);
+    let (kind, kinds) = in_rows(&rows, scene, a_day, are_means).unwrap_or_default();
+    let mut kinds = kinds.iter();
+    // What has no column is not even a blank.
+    let beside = |text: &str| {
+        if text.is_empty() {
+            String::new()
+        } else {
+            format!("  {text}")
+        }
+    };
     // A column of times where they are known.
     let time = |text: &str| {
         traffic
@@ -287,26 +289,28 @@ fn table(
     )?;
     writeln!(
         out,
-        "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}",
+        "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}{}",
         "pass",
         time("after"),
         "upstream",
         "downstream",
         "upstream",
         "downstream",
-        format!("in cable, {}", units.force.symbol())
+        format!("in cable, {}", units.force.symbol()),
+        beside(kind)
     )?;
-    for record in table_rows(passes, traffic) {
+    for record in rows {
         writeln!(
             out,
-            "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}",
+            "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}{}",
             record.pass,
             time(&record.years.map_or_else(String::new, after)),
             units.force(record.upstream_force_n),
             units.force(record.downstream_force_n),
             units.movement(record.upstream_displacement_m),
             units.movement(record.downstream_displacement_m),
-            units.force(record.max_compression_n)
+            units.force(record.max_compression_n),
+            beside(&kinds.next().map_or_else(String::new, |kind| terminal::line(kind)))
         )?;
     }
     writeln!(out)

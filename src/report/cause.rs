@@ -41,6 +41,10 @@ pub fn cause(html: &mut Html, report: &Report) {
     );
     let passes = &report.friction.passes;
     if !passes.is_empty() {
+        let which = match passes.len() {
+            1 => "",
+            _ => ", in the first pass and the last one above that was simulated",
+        };
         let words: Vec<String> = passes
             .iter()
             .map(|(pass, seen)| areas(*pass, seen, &report.shown))
@@ -49,7 +53,7 @@ pub fn cause(html: &mut Html, report: &Report) {
             html,
             friction(report),
             &format!(
-                "Friction on the cable with the vehicle over the middle of the duct, positive toward growing x. {}",
+                "Friction on the cable with the vehicle over the middle of the duct, positive toward growing x{which}. {}",
                 words.join(" ")
             ),
         );

@@ -6,7 +6,7 @@ use super::measures::Comparison;
 use super::quantity::{Shown, round_below};
 use super::source::Source;
 use crate::calibration::CellEnd;
-use crate::design::Measure;
+use crate::design::{Measure, largest_shown};
 use crate::readings::Readings;
 use crate::scene::Unit;
 use crate::{
@@ -87,13 +87,16 @@ impl Report {
         let agreement = options
             .readings
             .map(|readings| Agreement::new(scene, &run, readings));
+        let agreement = agreement.transpose()?;
+        let mistakes = agreement
+            .as_ref()
+            .map_or(&[][..], |agreement| &agreement.mistakes);
         let ways = options.progress.part(RUN_SHARE, 1.0);
         let report = Self {
-            shown: Shown::new(options.units),
+            shown: Shown::new(options.units, largest_shown(scene)),
             plan: plan.report(),
             motion: profile_at(scene, &positions(scene, options.units.length))?,
             friction: Friction::new(scene, &run),
-            agreement: agreement.transpose()?,
             measures: Comparison::new(scene, &run, options.measures, ways)?,
             verdicts: options.limits.verdicts(&run),
             sources: match options.sources {
@@ -103,7 +106,8 @@ impl Report {
             is_from_file: !options.sources.is_empty(),
             overrides: options.overrides.to_vec(),
             date: options.date.map(str::to_owned),
-            warnings: options.warnings.iter().chain(&run.warnings).cloned().collect(),
+            warnings: [options.warnings, &run.warnings, mistakes].concat(),
+            agreement,
             run,
             scene: scene.clone(),
         };
@@ -120,6 +124,13 @@ impl Report {
         finite::check(&self.agreement.as_ref().map(Agreement::numbers))?;
         let mut answers = self.measures.ways.iter().flat_map(|way| &way.answer);
         answers.try_for_each(finite::check)
+    }
+
+    /// What looks mistaken in the readings.
+    pub fn mistakes(&self) -> &[String] {
+        self.agreement
+            .as_ref()
+            .map_or(&[], |agreement| &agreement.mistakes)
     }
 
     /// The scene's answer.

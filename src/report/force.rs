@@ -1,14 +1,14 @@
 //! Force and movement over the passes, and force along the cable.
 
-use super::agreement::Agreement;
+use super::agreement::{Agreement, CellError};
 use super::content::Report;
+use super::ends::{self, OTHER};
 use super::figure::{Passes, along_duct, figure};
 use super::html::Html;
-use super::quantity::{Shown, count};
-use crate::answer::{after, table_rows};
+use super::quantity::{Shown, count, significant};
+use crate::answer::{after, in_rows, table_rows};
 use crate::figure::{Axis, Chart, Reference, Series};
-use crate::scene::End;
-use crate::{ForceProfile, PassRecord, Units};
+use crate::{CableEnd, ForceProfile, Limited, PassRecord, Place, Units};
 
 /// Readings that are drawn at most: of more every second, third, … is.
 const READINGS: usize = 300;
@@ -25,7 +25,7 @@ pub fn force(html: &mut Html, report: &Report) {
     let caption =
         format!("Force after each pass{when}, compression positive. A free end carries none.{measured}");
     figure(html, [over_passes(report)], &caption);
-    let caption = "Force along the cable after the passes named, compression positive.";
+    let caption = "Force along the cable after the first pass, the last, and up to two round numbers between them, compression positive.";
     if !report.run.stages.is_empty() {
         figure(html, [along(report)], caption);
     }
@@ -33,13 +33,63 @@ pub fn force(html: &mut Html, report: &Report) {
     figure(html, [movement(report)], &caption);
     passes(html, report);
     html.raw("</div>");
-    for clamp in &report.run.restraints {
-        let (place, force) = (
-            report.shown.length(clamp.position_m),
-            report.shown.force(clamp.force_n),
-        );
-        html.paragraph(&format!("The clamp at {place} carries {force}."));
+    if let Some(error) = report
+        .agreement
+        .as_ref()
+        .and_then(|agreement| agreement.error.as_ref())
+    {
+        html.paragraph(&cell_error(error, &report.shown));
     }
+    clamps(html, report);
+}
+
+/// What the readings suggest, which a calibration can tell from another friction.
+fn cell_error(error: &CellError, shown: &Shown) -> String {
+    let (found, may, name) = match error {
+        CellError::Drift(slope) => {
+            let unit = shown.units.force;
+            let slope = significant(unit.of_si(*slope));
+            (
+                format!("changes by {slope} {} a pass", unit.symbol()),
+                "drift",
+                "drift",
+            )
+        }
+        CellError::Zero(level) => (
+            format!("begins with {} before the first pass", shown.force(*level)),
+            "have a zero that is off",
+            "zero_offset",
+        ),
+    };
+    format!(
+        "Measured minus computed force {found}, more than it scatters: the load cell may {may}, or friction and ground are not those of the scene. \
+         “creepage calibrate --fit dynamic_coefficient,{name}” tells these apart."
+    )
+}
+
+/// What each clamp carries.
+fn clamps(html: &mut Html, report: &Report) {
+    let Report { run, shown, .. } = report;
+    if run.restraints.is_empty() {
+        return;
+    }
+    let when = if run.heat.is_some() {
+        "at most, after passes and in heat"
+    } else {
+        "at most after a pass"
+    };
+    let rows = run.restraints.iter().map(|clamp| {
+        let largest = |quantity| run.largest(Place::Clamp(clamp.position_m), quantity);
+        vec![
+            shown.length(clamp.position_m),
+            shown.force_number(clamp.force_n),
+            shown.force_number(largest(Limited::Force)),
+            shown.movement_number(largest(Limited::Movement)),
+        ]
+    });
+    let [last, most] = ["after the last pass", when].map(|when| shown.in_force(&format!("force {when}")));
+    let moved = shown.in_movement(&format!("moved {when}"));
+    html.table(1, &["clamp at", &last, &most, &moved], rows);
 }
 
 fn measured_in(agreement: &Agreement, shown: &Shown) -> String {
@@ -71,18 +121,13 @@ fn over_passes(report: &Report) -> Chart {
     let along = Passes::new(&report.scene.traffic, last.unwrap_or(1));
     let force = Axis::linear(shown.in_force("force"));
     let mut chart = Chart::new(along.title("Force"), along.axis(), force);
-    let line = |name: &str, look, value: fn(&PassRecord) -> f64| {
-        Series::line(name, along.series(drawn, |record| in_unit(value(record)))).look(look)
-    };
-    let ends = &report.scene.ends;
-    if ends.downstream != End::Free {
-        chart = chart.with(line("downstream end", 0, |record| record.downstream_force_n));
-    }
-    if ends.upstream != End::Free {
-        chart = chart.with(line("upstream end", 1, |record| record.upstream_force_n));
-    }
-    if (ends.upstream, ends.downstream) == (End::Free, End::Free) {
-        chart = chart.with(line("largest in the cable", 0, |record| record.max_compression_n));
+    let ends = ends::held(&report.scene);
+    chart = ends::lines(chart, &ends, Some(""), |end| {
+        along.series(drawn, |record| in_unit(ends::of_pass(record, end)[0]))
+    });
+    if ends.is_empty() {
+        let inside = along.series(drawn, |record| in_unit(record.max_compression_n));
+        chart = chart.with(Series::line("largest in the cable", inside).look(OTHER).solid());
     }
     if let Some(saturation) = &run.saturation {
         let label = format!("levels off at {}", shown.force(saturation.force_n));
@@ -96,11 +141,11 @@ fn over_passes(report: &Report) -> Chart {
         if let Some(sigma) = reading.sigma {
             let bar =
                 [-sigma, sigma].map(|sigma| (along.place(reading.passes), in_unit(reading.value + sigma)));
-            chart = chart.with(Series::line("", bar).colour(1).solid());
+            chart = chart.with(Series::line("", bar).colour(OTHER).solid());
         }
     }
     let points = seen().map(|reading| (along.place(reading.passes), in_unit(reading.value)));
-    chart.with(Series::points("measured", points).look(1).marker(0))
+    chart.with(Series::points("measured", points).look(OTHER).marker(0))
 }
 
 fn along(report: &Report) -> Chart {
@@ -139,64 +184,60 @@ fn drawn(report: &Report) -> &[PassRecord] {
     &passes[..count]
 }
 
+/// Until the cable leaves the duct.
 fn movement(report: &Report) -> Chart {
+    let most = report.shown.most;
+    let is_in = |end: CableEnd, record: &PassRecord| end.movement(record) <= most;
     let passes = drawn(report);
+    let inside = passes.partition_point(|record| CableEnd::ALL.into_iter().all(|end| is_in(end, record)));
+    let passes = &passes[..inside.max(1).min(passes.len())];
     let last = passes.last().map_or(1, |record| record.pass);
     let along = Passes::new(&report.scene.traffic, last);
     let unit = report.shown.units.movement;
-    let upstream = along.series(passes, |record| unit.of_si(record.upstream_displacement_m));
-    let downstream = along.series(passes, |record| unit.of_si(record.downstream_displacement_m));
     let moved = Axis::linear(report.shown.in_movement("movement"));
-    Chart::new("Movement of the ends", along.axis(), moved)
-        .with(Series::line("upstream end", upstream))
-        .with(Series::line("downstream end", downstream))
+    let chart = Chart::new("Movement of the ends", along.axis(), moved);
+    ends::lines(chart, &CableEnd::ALL, Some(""), |end| {
+        along.series(passes, |record| unit.of_si(ends::of_pass(record, end)[1]))
+    })
 }
 
 /// Some passes, as the terminal shows them; without what stays zero, as the force on a free end.
 fn passes(html: &mut Html, report: &Report) {
-    type Column = (String, fn(&PassRecord) -> f64, fn(&Units, f64) -> String);
     let Report { run, shown, .. } = report;
     let passes = &run.passes;
-    // Soft hyphens: a phone is narrow.
-    let mut columns: Vec<Column> = vec![
-        (
-            shown.in_force("force up\u{ad}stream"),
-            |record| record.upstream_force_n,
-            Units::force,
-        ),
-        (
-            shown.in_force("force down\u{ad}stream"),
-            |record| record.downstream_force_n,
-            Units::force,
-        ),
-        (
-            shown.in_movement("moved up\u{ad}stream"),
-            |record| record.upstream_displacement_m,
-            Units::movement,
-        ),
-        (
-            shown.in_movement("moved down\u{ad}stream"),
-            |record| record.downstream_displacement_m,
-            Units::movement,
-        ),
-    ];
-    let is_shown = |(_, value, _): &Column| passes.iter().any(|record| value(record) != 0.0);
+    let mut columns = ends::columns(shown, "moved *");
+    let is_shown = |(_, end, kind): &(String, CableEnd, usize)| {
+        let mut values = passes.iter().map(|record| ends::of_pass(record, *end)[*kind]);
+        values.any(|value| value != 0.0)
+    };
     if columns.iter().any(is_shown) {
         columns.retain(is_shown);
     }
+    let traffic = &report.scene.traffic;
+    let rows = table_rows(passes, traffic);
+    let a_day = run.heat.as_ref().map(|heat| heat.passes_per_day);
+    let (kind, kinds) = in_rows(&rows, &report.scene, a_day, run.random.is_some()).unzip();
+    let mut kinds = kinds.into_iter().flatten();
     let row = |record: &PassRecord| {
         let values = columns
             .iter()
-            .map(|(_, value, written)| written(&shown.units, value(record)));
+            .map(|(_, end, kind)| match ends::of_pass(record, *end) {
+                [force, _] if *kind == 0 => shown.force_number(force),
+                [_, metres] => shown.movement_number(metres),
+            });
         let time = record.years.map(after);
         std::iter::once(count(record.pass))
             .chain(time)
             .chain(values)
+            .chain(kinds.next())
             .collect()
     };
-    let traffic = &report.scene.traffic;
     let names = columns.iter().map(|(name, ..)| name.as_str());
-    let time = traffic.per_day.map(|_| "after");
-    let head: Vec<&str> = std::iter::once("pass").chain(time).chain(names).collect();
-    html.table(0, &head, table_rows(passes, traffic).into_iter().map(row));
+    let time = traffic.per_day.map(|_| "time");
+    let first = std::iter::once("after pass").chain(time);
+    let head: Vec<&str> = first.chain(names).chain(kind).collect();
+    let names = if kind == Some("vehicle") { " names" } else { "" };
+    html.raw(&format!("<div class=\"passes{names}\">"));
+    html.table(0, &head, rows.into_iter().map(row));
+    html.raw("</div>");
 }

@@ -1,11 +1,12 @@
 //! The top of the page: the answer in words, verdicts, and the most important numbers.
 
 use super::content::Report;
+use super::ends;
 use super::figure::MICRO;
 use super::html::Html;
 use super::measures::pressed_end;
-use super::quantity::count;
-use crate::answer::{CableEnd, after};
+use super::quantity::{count, significant};
+use crate::answer::{CableEnd, ForceRange, after};
 use crate::design::Place;
 use crate::scene::{End, Scene};
 use crate::shown::percent;
@@ -32,8 +33,13 @@ pub fn headline(html: &mut Html, report: &Report) {
     html.verdicts(report.verdicts.iter().map(|verdict| {
         let later = later(report, verdict);
         let kept = verdict.reached_after.is_none() && later.is_empty();
-        (kept, verdict.shown(&report.shown.units) + &later)
+        let largest = report.shown.limited(verdict.quantity, verdict.largest);
+        (kept, verdict.shown_with(&report.shown.units, &largest) + &later)
     }));
+    let left = not_judged(report);
+    if !left.is_empty() {
+        html.paragraph(&format!("Not judged, as no limit names it: {}.", left.join("; ")));
+    }
     html.raw("<dl class=\"headlines\">");
     forces(html, report, last);
     let moved = CableEnd::ALL.map(|end| (movement(&report.run, last, end), end));
@@ -42,19 +48,61 @@ pub fn headline(html: &mut Html, report: &Report) {
     let note = format!("{} end, {}", end.name(), over(report, last.pass));
     html.headline("Movement of an end", &report.shown.movement(most), &note);
     let motion = &report.run.duct_motion;
-    let along = format!("{:.2} µm", MICRO * motion.peak_longitudinal_m);
-    let down = format!("along its axis; {:.1} µm down", MICRO * motion.peak_vertical_m);
+    let [along, down] =
+        [motion.peak_longitudinal_m, motion.peak_vertical_m].map(|peak| significant(MICRO * peak) + " µm");
+    let down = format!("along its axis; {down} down");
     html.headline("Peak motion of the duct", &along, &down);
     let error = percent(report.run.error_estimate.relative);
     let note = "of the forces, from the computation alone";
     html.headline("Estimated error", &error, note);
+    clamps(html, report);
     html.raw("</dl>");
+}
+
+/// What is not limited beside what is.
+fn not_judged(report: &Report) -> Vec<String> {
+    let (scene, verdicts) = (&report.scene, &report.verdicts);
+    let movements = || {
+        let verdicts = verdicts.iter();
+        verdicts.filter(|verdict| verdict.quantity == Limited::Movement)
+    };
+    let held = ends::held(scene);
+    let free = CableEnd::ALL.into_iter().filter(|end| !held.contains(end));
+    let free = free.filter(|end| movements().all(|verdict| verdict.end != (*end).into()));
+    let free = free.filter(|_| movements().next().is_some());
+    let mut left: Vec<String> = free
+        .map(CableEnd::name)
+        .map(|name| format!("the movement of the free {name} end (--limit-movement {name}=LENGTH)"))
+        .collect();
+    let mut clamped = verdicts
+        .iter()
+        .filter(|verdict| matches!(verdict.end, Place::Clamp(_)));
+    if !verdicts.is_empty() && !scene.restraints.is_empty() && clamped.next().is_none() {
+        left.push("the clamps (--limit-force clamp=FORCE)".to_owned());
+    }
+    left
+}
+
+/// The clamp that is pressed hardest: a card as wide as the page, as the others fill their rows.
+fn clamps(html: &mut Html, report: &Report) {
+    let Report { run, shown, .. } = report;
+    let force = |position: f64| run.largest(Place::Clamp(position), Limited::Force);
+    let clamps = run.restraints.iter().map(|clamp| clamp.position_m);
+    if let Some(hardest) = clamps.max_by(|a, b| force(*a).total_cmp(&force(*b))) {
+        let when = if run.heat.is_some() {
+            "after a pass or in heat"
+        } else {
+            AFTER
+        };
+        let note = format!("at {}, {when}", shown.length(hardest));
+        html.headline("Largest force on a clamp", &shown.force(force(hardest)), &note);
+    }
 }
 
 /// The three cards about forces.
 fn forces(html: &mut Html, report: &Report, last: &PassRecord) {
     let Report { run, shown, .. } = report;
-    let (largest, place) = hardest(run);
+    let (largest, place, when) = hardest(run);
     let traffic = |html: &mut Html| {
         let years = report.scene.traffic.years_after(last.pass);
         let note = years.map_or("their rate is not known".into(), |years| {
@@ -62,20 +110,18 @@ fn forces(html: &mut Html, report: &Report, last: &PassRecord) {
         });
         html.headline("Passes computed", &count(last.pass), &note);
     };
-    let note = format!("{}{}, during all passes", on(place), tension(largest));
-    if run.heat.is_some() {
+    let note = format!("{}, {when}{}", on(place), tension(largest));
+    if let Some(heat) = &run.heat {
         html.headline("Largest force with heat", &shown.force(largest), &note);
-        let swing = run.days.last().map_or(0.0, |day| day.largest_range().0);
-        html.headline(
-            "Swing of the force",
-            &shown.force(swing),
-            "on an end within the last day",
-        );
+        let day = heat.last_whole(&run.days, last.pass);
+        let swing = day.map_or(0.0, |day| day.largest_range().0);
+        let within = "on an end within the last whole day";
+        html.headline("Swing of the force", &shown.force(swing), within);
         return traffic(html);
     }
     if let Some(saturation) = &run.saturation {
         let place = levelled(&report.scene, saturation);
-        let note = format!("{}{}", on(place), tension(saturation.force_n));
+        let note = format!("{}, {AFTER}{}", on(place), tension(saturation.force_n));
         html.headline("Saturated force", &shown.force(saturation.force_n), &note);
         let reached = saturation.passes_to_95_percent;
         let time = report.scene.traffic.years_after(reached);
@@ -84,11 +130,11 @@ fn forces(html: &mut Html, report: &Report, last: &PassRecord) {
         html.headline("Passes to 95 % of it", &count(reached), &note);
     } else {
         let (force, place) = pressed(&report.scene, last);
-        let note = format!("{}{}, not levelled off", on(place), tension(force));
+        let note = format!("{}{}; it {}", on(place), tension(force), not_level(run));
         html.headline("Force after the last pass", &shown.force(force), &note);
         traffic(html);
     }
-    html.headline("Largest force computed", &shown.force(largest), &note);
+    html.headline("Largest force of all passes", &shown.force(largest), &note);
 }
 
 /// The answer in sentences.
@@ -103,9 +149,9 @@ fn answer(report: &Report, last: &PassRecord) -> String {
         let time = scene.traffic.years_after(pass).map(after);
         time.map_or(words.clone(), |time| format!("{words} ({time})"))
     };
-    let moved = format!(" {}", moved(report, last));
+    let moved = format!("{} {}", by_turns(report), moved(report, last));
     if report.run.heat.is_some() {
-        let (force, place) = hardest(&report.run);
+        let (force, place, _) = hardest(&report.run);
         return format!(
             "In {} heat and traffic load {} with up to {}{}.{moved}",
             passes(last.pass),
@@ -123,7 +169,7 @@ fn answer(report: &Report, last: &PassRecord) -> String {
         tension(force)
     );
     let Some(saturation) = &report.run.saturation else {
-        return format!("{now}; it has not levelled off.{moved}");
+        return format!("{now}; it {}.{moved}", not_level(&report.run));
     };
     let level = shown.force(saturation.force_n);
     let reached = passes(saturation.passes_to_95_percent);
@@ -138,6 +184,29 @@ fn answer(report: &Report, last: &PassRecord) -> String {
     )
 }
 
+/// Why there is no force that levels off.
+fn not_level(run: &Run) -> &'static str {
+    run.range.map_or("has not levelled off", |_| "was larger before")
+}
+
+/// What vehicles that differ leave by turns, once nothing changes any more.
+fn by_turns(report: &Report) -> String {
+    let shown = &report.shown;
+    let ends = report.run.range.iter().flat_map(ForceRange::by_turns);
+    let each = ends.map(|(end, least, most)| {
+        let (end, least, most) = (end.name(), shown.force_number(least), shown.force(most));
+        format!("the {end} end shows {least} to {most}")
+    });
+    let each: Vec<String> = each.collect();
+    if each.is_empty() {
+        return String::new();
+    }
+    format!(
+        " In the end {} after passes by turns, as vehicles differ.",
+        each.join(" and ")
+    )
+}
+
 /// How far both ends have moved.
 fn moved(report: &Report, last: &PassRecord) -> String {
     let ends = &report.scene.ends;
@@ -148,7 +217,10 @@ fn moved(report: &Report, last: &PassRecord) -> String {
     };
     let of = |(end, held): (CableEnd, End)| {
         let free = if held == End::Free { "free " } else { "" };
-        let moved = report.shown.movement(movement(&report.run, last, end).abs());
+        let moved = report
+            .shown
+            .movement(movement(&report.run, last, end).abs())
+            .replace("> ", "more than ");
         (held != End::Fixed).then(|| format!("the {free}{} end {moves} {moved}", end.name()))
     };
     let both = [
@@ -159,49 +231,61 @@ fn moved(report: &Report, last: &PassRecord) -> String {
     if moved.is_empty() {
         return "Both ends are fixed.".to_owned();
     }
-    format!("{when} {}.", moved.join(" and "))
+    let is_out = |end| movement(&report.run, last, end).abs() > report.shown.most;
+    let leaves = if CableEnd::ALL.into_iter().any(is_out) {
+        "; the cable leaves the duct"
+    } else {
+        ""
+    };
+    format!("{when} {}{leaves}.", moved.join(" and "))
 }
 
 /// Displacement after the last pass; of a heated cable the farthest of all days \[m\].
 fn movement(run: &Run, last: &PassRecord, end: CableEnd) -> f64 {
-    match (&run.heat, end) {
-        (Some(heat), _) => heat.all_days.movement(end),
-        (None, CableEnd::Upstream) => last.upstream_displacement_m,
-        (None, CableEnd::Downstream) => last.downstream_displacement_m,
-    }
+    let heat = run.heat.as_ref();
+    heat.map_or(ends::of_pass(last, end)[1], |heat| heat.all_days.movement(end))
 }
 
 /// Where a force acts: on an end, or within the cable.
 type At = Option<CableEnd>;
 
-/// The force that is largest in size on an end, after passes and during them and in all heat, or in the cable where no end is held.
-fn hardest(run: &Run) -> (f64, At) {
+/// When a force acts.
+const AFTER: &str = "after a pass";
+const DURING: &str = "during a pass";
+const IN_HEAT: &str = "in the heat of a day";
+
+/// The force that is largest in size on an end, after passes and during them and in all heat, or in the cable where no end is held; and when.
+fn hardest(run: &Run) -> (f64, At, &'static str) {
     let of_passes = run.passes.iter().flat_map(|record| {
         [
-            (record.downstream_force_n, CableEnd::Downstream),
-            (record.downstream_peak_n, CableEnd::Downstream),
-            (record.upstream_force_n, CableEnd::Upstream),
-            (record.upstream_peak_n, CableEnd::Upstream),
+            (record.downstream_peak_n, CableEnd::Downstream, DURING),
+            (record.upstream_peak_n, CableEnd::Upstream, DURING),
+            (record.downstream_force_n, CableEnd::Downstream, AFTER),
+            (record.upstream_force_n, CableEnd::Upstream, AFTER),
         ]
     });
     let days = run.heat.iter().map(|heat| &heat.all_days);
     let of_days = days.clone().flat_map(|days| {
         [
-            (days.downstream_max_n, CableEnd::Downstream),
-            (days.downstream_min_n, CableEnd::Downstream),
-            (days.upstream_max_n, CableEnd::Upstream),
-            (days.upstream_min_n, CableEnd::Upstream),
+            (days.downstream_max_n, CableEnd::Downstream, IN_HEAT),
+            (days.downstream_min_n, CableEnd::Downstream, IN_HEAT),
+            (days.upstream_max_n, CableEnd::Upstream, IN_HEAT),
+            (days.upstream_min_n, CableEnd::Upstream, IN_HEAT),
         ]
     });
     let largest = of_passes
         .chain(of_days)
         .max_by(|a, b| a.0.abs().total_cmp(&b.0.abs()));
-    if let Some((force, end)) = largest.filter(|(force, _)| *force != 0.0) {
-        return (force, Some(end));
+    if let Some((force, end, when)) = largest.filter(|(force, ..)| *force != 0.0) {
+        return (force, Some(end), when);
     }
-    let inside = run.passes.iter().map(|record| record.max_compression_n);
-    let inside = inside.chain(days.map(|days| days.max_compression_n));
-    (inside.fold(0.0, f64::max), None)
+    let inside = run
+        .passes
+        .iter()
+        .map(|record| (record.max_compression_n, None, AFTER));
+    let inside = inside.chain(days.map(|days| (days.max_compression_n, None, IN_HEAT)));
+    let nothing = (0.0, None, AFTER);
+    inside.fold(nothing, |most, one| if one.0 > most.0 { one } else { most })
 }
 
 /// The force that matters most after a pass.

@@ -1,30 +1,38 @@
 //! The cable under heat and traffic: a day as it goes, the days one after the other, the cable when it is hottest and coldest.
 
 use super::content::Report;
+use super::ends::{self, OTHER};
 use super::figure::{Passes, along_duct, figure, with_legends};
 use super::force::profile_points;
 use super::html::Html;
 use super::quantity::{Shown, count, significant};
-use crate::Units;
-use crate::answer::{DayExtremes, DayPoint, HeatRecord, table_days};
+use crate::answer::{DayExtremes, HeatRecord, table_days};
 use crate::figure::{Axis, Chart, Series};
-use crate::scene::{DAYS_PER_YEAR, End, Heat, Unit, Warming};
+use crate::scene::{DAYS_PER_YEAR, Heat, Unit, Warming};
+use crate::{CableEnd, Units};
 
 pub fn heat(html: &mut Html, report: &Report) {
-    let (Some(record), Some(heat), Some(last)) =
-        (&report.run.heat, &report.scene.heat, report.run.days.last())
-    else {
+    let (run, passes) = (&report.run, report.scene.traffic.passes);
+    let (Some(record), Some(heat)) = (&run.heat, &report.scene.heat) else {
+        return;
+    };
+    let Some(whole) = record.last_whole(&run.days, passes) else {
         return;
     };
     html.paragraph(&format!(
         "{} {}",
         course(heat),
-        outcome(record, last, &report.shown)
+        outcome(record, whole, &report.shown)
     ));
     html.raw("<div class=\"figures\">");
+    let part = if passes.is_multiple_of(record.passes_per_day) {
+        ""
+    } else {
+        ", in which the passes end"
+    };
     let caption = format!(
-        "Day {} as it goes, after passes: temperature of the cable above that at laying, force on the ends, movement of the ends.",
-        count(last.day)
+        "Day {} as it goes, after passes{part}: temperature of the cable above that at laying, force on the ends, movement of the ends.",
+        count(record.all_days.day)
     );
     with_legends(html, day(report, record), &caption);
     let caption = "Force along the cable when that day is hottest and coldest.";
@@ -72,8 +80,8 @@ fn course(heat: &Heat) -> String {
 }
 
 /// What comes of it.
-fn outcome(record: &HeatRecord, last: &DayExtremes, shown: &Shown) -> String {
-    let (force, movement) = last.largest_range();
+fn outcome(record: &HeatRecord, whole: &DayExtremes, shown: &Shown) -> String {
+    let (force, movement) = whole.largest_range();
     let lasting = match (record.periodic_from_day, record.drift_per_day_m) {
         (Some(day), Some(drift)) if drift != 0.0 => format!(
             "From day {} on every day is like the one before, but the cable moves on by {} a day, {} a year.",
@@ -85,7 +93,7 @@ fn outcome(record: &HeatRecord, last: &DayExtremes, shown: &Shown) -> String {
         _ => "At the end days still differ from the ones before.".to_owned(),
     };
     format!(
-        "{lasting} On the last day the force on an end changes by up to {} and an end moves by up to {}, to and fro: the load of joints that \
+        "{lasting} On the last whole day the force on an end changes by up to {} and an end moves by up to {}, to and fro: the load of joints that \
          counts for fatigue.",
         shown.force(force),
         shown.movement(movement)
@@ -97,43 +105,30 @@ fn day(report: &Report, record: &HeatRecord) -> [Chart; 3] {
     let hours = || Axis::linear("hour of the day").range(0.0, 24.0);
     let shown = &report.shown;
     let Units { force, movement, .. } = shown.units;
-    let line = |name: &str, look, unit: Unit, value: fn(&DayPoint) -> f64| {
+    let points = |end, kind: usize, unit: Unit| {
         let points = record.cycle.iter();
-        Series::line(name, points.map(|point| (point.hour, unit.of_si(value(point))))).look(look)
+        points.map(move |point| (point.hour, unit.of_si(ends::of_time(point, end)[kind])))
     };
-    let axis = Axis::linear(shown.in_force("force"));
-    let mut forces = Chart::new("Force over the day", hours(), axis);
-    let ends = &report.scene.ends;
-    if ends.downstream != End::Free {
-        forces = forces.with(line("downstream end", 0, force, |point| point.downstream_force_n));
-    }
-    if ends.upstream != End::Free {
-        forces = forces.with(line("upstream end", 1, force, |point| point.upstream_force_n));
-    }
-    // Free ends carry nothing.
-    if (ends.upstream, ends.downstream) == (End::Free, End::Free) {
-        forces = forces.with(line("ends", 0, force, |point| point.downstream_force_n));
-    }
+    let forces = Chart::new(
+        "Force over the day",
+        hours(),
+        Axis::linear(shown.in_force("force")),
+    );
+    let movements = Axis::linear(shown.in_movement("movement"));
+    let movements = Chart::new("Movement over the day", hours(), movements);
+    // Free ends carry nothing, which is drawn where both are.
+    let held = match &ends::held(&report.scene)[..] {
+        [] => CableEnd::ALL.to_vec(),
+        held => held.to_vec(),
+    };
+    let warming = record.cycle.iter().map(|point| (point.hour, point.warming_k));
     [
-        Chart::new("Temperature over the day", hours(), Axis::linear("warming, K")).with(
-            Series::line(
-                "cable",
-                record.cycle.iter().map(|point| (point.hour, point.warming_k)),
-            )
-            .look(2),
-        ),
-        forces,
-        Chart::new(
-            "Movement over the day",
-            hours(),
-            Axis::linear(shown.in_movement("movement")),
-        )
-        .with(line("downstream end", 0, movement, |point| {
-            point.downstream_displacement_m
-        }))
-        .with(line("upstream end", 1, movement, |point| {
-            point.upstream_displacement_m
-        })),
+        Chart::new("Temperature over the day", hours(), Axis::linear("warming, K"))
+            .with(Series::line("cable", warming).look(OTHER)),
+        ends::lines(forces, &held, Some(""), |end| points(end, 0, force)),
+        ends::lines(movements, &CableEnd::ALL, Some(""), |end| {
+            points(end, 1, movement)
+        }),
     ]
 }
 
@@ -159,88 +154,48 @@ fn over_days(report: &Report, record: &HeatRecord) -> [Chart; 2] {
     let along = Passes::new(&report.scene.traffic, passes(record.all_days.day));
     let shown = &report.shown;
     let Units { force, movement, .. } = shown.units;
-    let line = |name: &str, colour, unit: Unit, value: fn(&DayExtremes) -> f64| {
-        let points = days
-            .iter()
-            .map(|day| (along.place(passes(day.day)), unit.of_si(value(day))));
-        Series::line(name, points).look(colour)
+    let place = |day: &DayExtremes| along.place(passes(day.day));
+    let of_ends = |chart, ends: &[CableEnd], kind: usize, unit: Unit| {
+        let line = |end, which: usize| {
+            let values = days
+                .iter()
+                .map(move |day| (day, ends::of_day(day, end)[kind][which]));
+            values.map(|(day, value)| (place(day), unit.of_si(value)))
+        };
+        let chart = ends::lines(chart, ends, Some(", most and least"), |end| line(end, 1));
+        ends::lines(chart, ends, None, |end| line(end, 0))
     };
-    let ends = &report.scene.ends;
+    let held = ends::held(&report.scene);
     let axis = Axis::linear(shown.in_force("force"));
     let mut forces = Chart::new("Force day by day", along.axis(), axis);
-    let both_free = (ends.upstream, ends.downstream) == (End::Free, End::Free);
-    if both_free {
+    if held.is_empty() {
+        let line = |name: &str, value: fn(&DayExtremes) -> f64| {
+            Series::line(name, days.iter().map(|day| (place(day), force.of_si(value(day)))))
+        };
         forces = forces
-            .with(line("compression in the cable", 0, force, |day| {
-                day.max_compression_n
-            }))
-            .with(line("tension in the cable", 1, force, |day| -day.max_tension_n));
-    }
-    if ends.downstream != End::Free {
-        forces = forces
-            .with(line("downstream end, most and least", 0, force, |day| {
-                day.downstream_max_n
-            }))
-            .with(line("", 0, force, |day| day.downstream_min_n));
-    }
-    if ends.upstream != End::Free {
-        forces = forces
-            .with(line("upstream end, most and least", 1, force, |day| {
-                day.upstream_max_n
-            }))
-            .with(line("", 1, force, |day| day.upstream_min_n));
+            .with(line("compression in the cable", |day| day.max_compression_n))
+            .with(line("tension in the cable", |day| -day.max_tension_n));
     }
     let axis = Axis::linear(shown.in_movement("movement"));
-    let movements = Chart::new("Movement day by day", along.axis(), axis)
-        .with(line("downstream end, most and least", 0, movement, |day| {
-            day.downstream_displacement_max_m
-        }))
-        .with(line("", 0, movement, |day| day.downstream_displacement_min_m))
-        .with(line("upstream end, most and least", 1, movement, |day| {
-            day.upstream_displacement_max_m
-        }))
-        .with(line("", 1, movement, |day| day.upstream_displacement_min_m));
-    [forces, movements]
+    let movements = Chart::new("Movement day by day", along.axis(), axis);
+    [
+        of_ends(forces, &held, 0, force),
+        of_ends(movements, &CableEnd::ALL, 1, movement),
+    ]
 }
 
 /// Extremes of some days, without what stays zero.
 fn days(html: &mut Html, report: &Report, record: &HeatRecord) {
-    type Column = (String, fn(&DayExtremes) -> [f64; 2], fn(&Shown, f64) -> String);
     let shown = &report.shown;
-    let force: fn(&Shown, f64) -> String = |shown, newtons| shown.units.force(newtons);
-    // Soft hyphens: a phone is narrow.
-    let mut columns: Vec<Column> = vec![
-        (
-            shown.in_force("force up\u{ad}stream"),
-            |day| [day.upstream_min_n, day.upstream_max_n],
-            force,
-        ),
-        (
-            shown.in_force("force down\u{ad}stream"),
-            |day| [day.downstream_min_n, day.downstream_max_n],
-            force,
-        ),
-        (
-            shown.in_movement("place of the up\u{ad}stream end"),
-            |day| [day.upstream_displacement_min_m, day.upstream_displacement_max_m],
-            Shown::movement_number,
-        ),
-        (
-            shown.in_movement("place of the down\u{ad}stream end"),
-            |day| {
-                [
-                    day.downstream_displacement_min_m,
-                    day.downstream_displacement_max_m,
-                ]
-            },
-            Shown::movement_number,
-        ),
-    ];
     let all = &report.run.days;
-    columns.retain(|(_, range, _)| all.iter().any(|day| range(day) != [0.0; 2]));
+    let mut columns = ends::columns(shown, "place of the * end");
+    columns.retain(|(_, end, kind)| all.iter().any(|day| ends::of_day(day, *end)[*kind] != [0.0; 2]));
     let row = |name: String, day: &DayExtremes| {
-        let ranges = columns.iter().map(|(_, range, written)| {
-            let [least, most] = range(day).map(|value| written(shown, value));
+        let ranges = columns.iter().map(|(_, end, kind)| {
+            let [least, most] = ends::of_day(day, *end)[*kind].map(|value| match kind {
+                0 => shown.force_number(value),
+                _ => shown.movement_number(value),
+            });
             format!("{least} to {most}")
         });
         std::iter::once(name).chain(ranges).collect()

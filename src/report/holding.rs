@@ -1,15 +1,19 @@
 //! Ways to hold the cable: force against movement.
 
 use super::content::Report;
+use super::ends::OTHER;
 use super::figure::figure;
 use super::html::Html;
 use super::measures::{Comparison, Way};
-use super::quantity::{Shown, significant};
-use crate::CableEnd;
+use super::quantity::Shown;
 use crate::design::{Place, TradeOff};
-use crate::figure::{Axis, Chart, Series};
+use crate::figure::{Axis, Chart, Reference, Series};
 use crate::scene::End;
 use crate::shown::{exact_percent, percent};
+use crate::{CableEnd, Limited};
+
+/// Room of the chart to the left of the least movement and to the right of the largest, as a factor.
+const ROOM: f64 = 2.0;
 
 /// Its name, the value, and how that is written.
 type Column = (String, fn(&TradeOff) -> f64, fn(&Shown, f64) -> String);
@@ -19,13 +23,18 @@ pub fn holding(html: &mut Html, report: &Report) {
     let end = end(comparison);
     let own = comparison.own_stiffness.map_or(String::new(), |own| {
         format!(
-            " Stiffnesses are from a tenth to ten times that of the whole cable, EA/L = {}.",
+            " Stiffnesses are from a tenth to ten times that of the whole cable, EA/L = {}, and around that of the scene’s spring where it is beyond.",
             shown.stiffness(own)
         )
     });
+    let heat = report
+        .run
+        .heat
+        .as_ref()
+        .map_or("", |_| ", all of them also in heat");
     html.paragraph(&format!(
-        "The same traffic with the {} end held in other ways, and with a clamp in addition to what the scene has.{own} Forces and movements \
-         are the largest during all passes. The row “as in the scene” is the run of this page; each other row is a run of its own with a \
+        "The same traffic with the {} end held in other ways, and with a clamp in addition to what the scene has.{own} Of all passes, forces \
+         on the ends are the largest during a pass, forces on clamps and movements the largest after a pass{heat}. The row “as in the scene” is the run of this page; each other row is a run of its own with a \
          tolerance of {}. The command “creepage design” finds the stiffness for given limits.",
         end.name(),
         exact_percent(comparison.tolerance)
@@ -34,15 +43,16 @@ pub fn holding(html: &mut Html, report: &Report) {
         html.paragraph(&format!("The comparison failed: {failure}"));
         return;
     }
-    if let Some(chart) = chart(comparison, shown) {
+    if let Some(chart) = chart(report) {
         figure(html, [chart], &caption(comparison, shown));
     }
     let columns = columns(report, end);
     let rows = comparison.ways.iter().map(|way| {
         let numbers: Vec<String> = match &way.answer {
             Ok(answer) => {
-                let clamp = answer.clamp_force_n;
-                let clamp = clamp.map_or("–".into(), |force| shown.units.force(force));
+                let clamps = answer.clamps.iter().map(|clamp| clamp.force_n);
+                let clamp = clamps.reduce(f64::max);
+                let clamp = clamp.map_or("–".into(), |force| shown.force_number(force));
                 // Where no end is pressed there is no error of the force.
                 let error = if answer.force_n == 0.0 {
                     "–".into()
@@ -59,9 +69,11 @@ pub fn holding(html: &mut Html, report: &Report) {
                 .map(str::to_owned)
                 .collect(),
         };
-        std::iter::once(way.name(shown)).chain(numbers).collect()
+        let leaves = way.answer.as_ref().is_ok_and(|answer| answer.leaves_duct);
+        let leaves = if leaves { ", leaves the duct" } else { "" };
+        std::iter::once(way.name(shown) + leaves).chain(numbers).collect()
     });
-    let on_clamp = shown.in_force("on clamp");
+    let on_clamp = shown.in_force("most on a clamp");
     let names = columns.iter().map(|(name, ..)| name.as_str());
     let head: Vec<&str> = std::iter::once("held by")
         .chain(names)
@@ -100,13 +112,11 @@ fn columns(report: &Report, end: CableEnd) -> Vec<Column> {
     let shown = &report.shown;
     let force_on = |end, force| -> Column {
         let named = shown.in_force(&format!("force {}", name(end)));
-        (named, force, |shown, newtons| shown.units.force(newtons))
+        (named, force, Shown::force_number)
     };
     let moved = |end, movement| -> Column {
         let named = shown.in_movement(&format!("moved {}", name(end)));
-        (named, movement, |shown, metres| {
-            significant(shown.units.movement.of_si(metres))
-        })
+        (named, movement, Shown::movement_number)
     };
     vec![
         force_on(end, force),
@@ -119,36 +129,58 @@ fn columns(report: &Report, end: CableEnd) -> Vec<Column> {
     ]
 }
 
-/// Force against movement of the end that is varied, by all ways that have an answer; `None` without any. A free end carries nothing and would
-/// set the axis, so it is left out.
-fn chart(comparison: &Comparison, shown: &Shown) -> Option<Chart> {
+/// Force against movement of the end that is varied, by all ways that have an answer, and its limits; `None` without any. Movements differ by
+/// powers of ten. What has no place on such an axis is left out, as a free end, or stands at its left edge, as a fixed one.
+fn chart(report: &Report) -> Option<Chart> {
+    let (comparison, shown) = (&report.measures, &report.shown);
     let end = end(comparison);
     let [force, movement] = of_end(end);
-    let points = |wanted: fn(&Way) -> bool| -> Vec<(f64, f64)> {
+    let answers = |wanted: fn(&Way) -> bool| {
         let ways = comparison.ways.iter();
-        let drawn = ways.filter(|way| wanted(way) && !way.is_free_end());
-        let units = &shown.units;
-        let point = |answer: &TradeOff| {
-            (
-                units.movement.of_si(movement(answer)),
-                units.force.of_si(force(answer)),
-            )
-        };
-        drawn.flat_map(|way| &way.answer).map(point).collect()
+        let drawn = ways.filter(move |way| wanted(way) && !way.is_free_end());
+        drawn
+            .flat_map(|way| &way.answer)
+            .filter(|answer| movement(answer) <= shown.most)
     };
-    let name = end.name();
-    let chart = Chart::new(
+    let limits = || {
+        let verdicts = report.verdicts.iter();
+        verdicts.filter(|verdict| verdict.end == comparison.end)
+    };
+    let limit = limits().filter(|verdict| verdict.quantity == Limited::Movement);
+    let movements = answers(|_| true).map(movement).filter(|metres| *metres > 0.0);
+    let movements = movements.chain(limit.map(|verdict| verdict.limit));
+    let (least, most) = movements.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), metres| {
+        (least.min(metres), most.max(metres))
+    });
+    if most == 0.0 {
+        return None;
+    }
+    let (unit, edge) = (shown.units.movement, least / ROOM);
+    let in_force = |newtons| shown.units.force.of_si(newtons);
+    let points = |wanted: fn(&Way) -> bool| -> Vec<(f64, f64)> {
+        let point = |way| (unit.of_si(movement(way).max(edge)), in_force(force(way)));
+        answers(wanted).map(point).collect()
+    };
+    let along = Axis::logarithmic(shown.in_movement(&format!("movement of the {} end", end.name())));
+    let mut chart = Chart::new(
         "Force against movement",
-        Axis::linear(shown.in_movement(&format!("movement of the {name} end"))),
+        along.range(unit.of_si(edge), unit.of_si(ROOM * most)),
         Axis::linear(shown.in_force("force on it")),
     );
+    for verdict in limits() {
+        let label = format!("limit {}", verdict.quantity.given_in(&shown.units, verdict.limit));
+        chart = chart.refer(match verdict.quantity {
+            Limited::Force => Reference::horizontal(in_force(verdict.limit), label),
+            Limited::Movement => Reference::vertical(unit.of_si(verdict.limit), label),
+        });
+    }
     let springs = points(|way| !way.is_clamp());
     let (clamps, own) = (points(Way::is_clamp), points(|way| way.is_scene));
     let has = [&springs, &clamps, &own].map(|points| !points.is_empty());
     let series = [
         Series::line_points("springs … fixed end", springs).look(0),
-        Series::points("with a clamp", clamps).look(1),
-        Series::points("the scene’s end", own).look(2).marker(5),
+        Series::points("with a clamp", clamps).look(3),
+        Series::points("the scene’s end", own).look(OTHER).marker(5),
     ];
     let drawn = series.into_iter().zip(has).filter(|(_, has)| *has);
     has.contains(&true)
@@ -161,12 +193,14 @@ fn caption(comparison: &Comparison, shown: &Shown) -> String {
     let free = free.and_then(|way| way.answer.as_ref().ok());
     let free = free.map_or(String::new(), |answer| {
         format!(
-            " A free end, which carries nothing, moves {} {} and is not drawn.",
-            significant(shown.units.movement.of_si(movement(answer))),
-            shown.units.movement.symbol()
+            " A free end, which carries nothing, moves {} and is not drawn.",
+            shown.movement(movement(answer)).replace("> ", "more than ")
         )
     });
-    format!("Largest force against largest movement: a softer end moves more and is pressed less.{free}")
+    format!(
+        "Largest force during a pass against largest movement after a pass: a softer end moves more and is pressed less. What does not move \
+         stands at the left edge.{free}"
+    )
 }
 
 /// Ways that failed and why, those with the same reason together.

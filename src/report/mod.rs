@@ -23,6 +23,7 @@ mod agreement;
 mod cause;
 mod content;
 mod depths;
+mod ends;
 mod figure;
 mod force;
 mod friction;

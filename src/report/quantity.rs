@@ -2,9 +2,9 @@
 
 use ground_field::Modulus;
 
-use crate::Units;
-use crate::answer::in_unit;
 use crate::scene::Unit;
+use crate::shown::rounded;
+use crate::{Limited, Units};
 
 /// SI prefixes and what they stand for, the largest first.
 const PREFIXES: [(f64, &str); 7] = [
@@ -17,8 +17,9 @@ const PREFIXES: [(f64, &str); 7] = [
     (1e-9, "n"),
 ];
 
-/// Last digit of movements that stand in a sentence \[m\].
-const MOVEMENT_DIGIT: f64 = 1e-6;
+/// Last digits of forces \[N\] and movements \[m\], if four are not fewer.
+const FORCE_DIGIT: f64 = 0.1;
+const MOVEMENT_DIGIT: f64 = 1e-7;
 /// Shortest length that is said in m \[m\].
 const SHORT: f64 = 0.1;
 
@@ -27,21 +28,27 @@ const SHORT: f64 = 0.1;
 pub struct Shown {
     /// The units that were typed, in which tables and charts are.
     pub units: Units,
+    /// The largest movement of an end \[m\] that means more than that the cable leaves the duct.
+    pub most: f64,
 }
 
 impl Shown {
-    pub fn new(units: Units) -> Self {
-        Self {
-            units: units.for_springs(),
-        }
+    pub fn new(units: Units, most: f64) -> Self {
+        let units = units.for_springs();
+        Self { units, most }
     }
 
     /// A force with its unit: "551.2 N".
     pub fn force(&self, newtons: f64) -> String {
-        format!("{} {}", self.units.force(newtons), self.units.force.symbol())
+        format!("{} {}", self.force_number(newtons), self.units.force.symbol())
     }
 
-    /// A movement with its unit: "0.052 mm".
+    /// The same without its unit.
+    pub fn force_number(&self, newtons: f64) -> String {
+        four_digits(newtons, self.units.force, FORCE_DIGIT)
+    }
+
+    /// A movement with its unit: "0.0520 mm".
     pub fn movement(&self, metres: f64) -> String {
         format!(
             "{} {}",
@@ -50,9 +57,23 @@ impl Shown {
         )
     }
 
-    /// The same without its unit.
+    /// The same without its unit; where the cable leaves the duct, only that it does: "> 2500".
     pub fn movement_number(&self, metres: f64) -> String {
-        in_unit(metres, self.units.movement, MOVEMENT_DIGIT)
+        let beyond = match metres {
+            metres if metres > self.most => "> ",
+            metres if metres < -self.most => "< ",
+            _ => "",
+        };
+        let shown = metres.clamp(-self.most, self.most);
+        beyond.to_owned() + &four_digits(shown, self.units.movement, MOVEMENT_DIGIT)
+    }
+
+    /// What a limit is for, in words.
+    pub fn limited(&self, quantity: Limited, value: f64) -> String {
+        match quantity {
+            Limited::Force => self.force(value),
+            Limited::Movement => self.movement(value),
+        }
     }
 
     /// What is given of a force in its unit: "force, N".
@@ -131,6 +152,22 @@ impl Shown {
             }
         }
     }
+}
+
+/// A value in SI to four digits in this unit, none of them below `digit` in SI.
+fn four_digits(si: f64, unit: Unit, digit: f64) -> String {
+    let value = unit.of_si(si);
+    let finest = (-unit.of_si(digit).log10()).round().max(0.0);
+    // Of what is rounded: 0.09999996 is 0.1000.
+    let rounded_up = format!("{value:.3e}");
+    let exponent = rounded_up.split_once('e').map_or("0", |(_, exponent)| exponent);
+    let exponent: f64 = exponent.parse().unwrap_or(0.0);
+    let decimals = (3.0 - exponent).clamp(0.0, finest);
+    let text = rounded(value, decimals as usize);
+    if text.bytes().all(|byte| matches!(byte, b'0' | b'.')) {
+        return "0".into();
+    }
+    text
 }
 
 /// A value in SI to four digits in this unit.
@@ -226,7 +263,7 @@ mod tests {
 
     #[test]
     fn quantities_are_in_the_units_that_were_typed() {
-        let metric = Shown::new(Units::default());
+        let metric = Shown::new(Units::default(), 2.5);
         let lengths = [0.9, 1500.0, 0.05].map(|metres| metric.length(metres));
         assert_eq!(lengths, ["0.9 m", "1500 m", "50 mm"]);
         assert_eq!(metric.depths(0.0, 0.05), "0 to 0.05 m");
@@ -234,19 +271,22 @@ mod tests {
         assert_eq!(metric.stiffness(3e6), "3000 kN/m");
         assert_eq!(metric.moduli(Modulus::Uniform(3e9)), "3000 MPa");
         assert_eq!(metric.movement(1.23456e-3), "1.235 mm");
+        assert_eq!(metric.movement(822.115), "> 2500 mm");
+        let numbers = [0.0, 0.04, 12.34, 4627.44, -52_119.5].map(|newtons| metric.force_number(newtons));
+        assert_eq!(numbers, ["0", "0", "12.3", "4627", "-52120"]);
         assert_eq!(metric.in_length("place"), "place, m");
 
         let text = "[duct]\nlength = \"98 ft\"\n[cable]\nweight = \"7 lbf/ft\"\n[ends]\ndownstream = { spring = \"2 kip/in\" }\n\
                     [[ground.layers]]\nyoung_modulus = \"1e5 psi\"";
         let file = crate::SceneFile::from_toml("scene", text).expect("a file");
-        let imperial = Shown::new(Units::typed(&file, None, None));
+        let imperial = Shown::new(Units::typed(&file, None, None), 2.5);
         // 1 ft = 12 in = 0.3048 m, 1 kip = 4448.2216 N, 1 psi = 1 lbf/in².
         let lengths = [0.0, 0.0254, 0.3048, 30.48].map(|metres| imperial.length(metres));
         assert_eq!(lengths, ["0 ft", "1 in", "1 ft", "100 ft"]);
         assert_eq!(imperial.depths(0.0, 0.1016), "0 to 4 in");
         assert_eq!(imperial.depths(0.1016, 0.6096), "4 in to 2 ft");
         assert_eq!(imperial.load(8.01e6), "1801 kip");
-        assert_eq!(imperial.force(-444.822), "-0.10000 kip");
+        assert_eq!(imperial.force(-444.822), "-0.1000 kip");
         assert_eq!(imperial.stiffness(350_253.67), "2 kip/in");
         assert_eq!(imperial.weight(102.156), "7 lbf/ft");
         let linear = Modulus::Linear {
@@ -254,7 +294,7 @@ mod tests {
             bottom: 13_789_514.0,
         };
         assert_eq!(imperial.moduli(linear), "1000 to 2000 psi");
-        assert_eq!(imperial.movement(0.0254), "1.0000 in");
+        assert_eq!(imperial.movement(0.0254), "1.000 in");
         assert_eq!(imperial.in_movement("movement"), "movement, in");
     }
 }

@@ -1,4 +1,5 @@
-//! A run as a workbook. Its numbers are those of the JSON document, under the same names without the unit at their end.
+//! A run as a workbook. Its numbers are those of the JSON document, under the same names without the unit at their end; of clamps also the
+//! largest.
 
 use std::io;
 
@@ -8,7 +9,7 @@ use serde_json::Value;
 use super::scene::scene;
 use super::sheet::{Book, Cell};
 use crate::output::Kind;
-use crate::{Run, SceneFile, Units, Verdict};
+use crate::{Limited, Place, Run, SceneFile, Units, Verdict};
 
 /// Parts of the document that stand on the first sheet, in their order. What is a table has a sheet of its own.
 const ANSWER: [&str; 10] = [
@@ -57,7 +58,7 @@ fn write(
     ] {
         along(&mut book, name, profile, units)?;
     }
-    table(&mut book, "clamps", &document["restraints"], units)?;
+    table(&mut book, "clamps", &clamps(run, document), units)?;
     errors(&mut book, document)?;
     scene(&mut book, file)?;
     book.finish()
@@ -192,6 +193,18 @@ fn table(book: &mut Book, name: &str, records: &Value, units: &Units) -> Result<
         book.row(columns.iter().map(of), is_marked)?;
     }
     Ok(())
+}
+
+/// The clamps of the document, with what each comes to over all passes and days.
+fn clamps(run: &Run, document: &Value) -> Value {
+    let mut clamps = document["restraints"].clone();
+    let records = clamps.as_array_mut().into_iter().flatten();
+    for (record, clamp) in records.zip(&run.restraints) {
+        let place = Place::Clamp(clamp.position_m);
+        record["largest_force_n"] = run.largest(place, Limited::Force).into();
+        record["largest_displacement_m"] = run.largest(place, Limited::Movement).into();
+    }
+    clamps
 }
 
 /// A sheet with the force along the cable; none where that is not known.
