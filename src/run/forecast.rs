@@ -12,10 +12,11 @@ use cable_dem::CableError;
 
 use super::days;
 use super::jumps::{self, Found};
-use super::outlook::{Known, Level, Outlook, Work};
+use super::outlook::{Known, Level, Outlook};
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use super::refine::MAX_NODE_UPDATES;
+use super::work::Work;
 use crate::answer::error_estimate::{Scale, Shares, is_doubtful};
 use crate::answer::simulated;
 use crate::ground::{peak, road};
@@ -25,7 +26,7 @@ use crate::{Error, Progress, Scene};
 
 /// What a forecast may cost: this share of the run, or as many seconds if that is more.
 const SHARE: f64 = 0.08;
-const SECONDS: f64 = 0.8;
+const SECONDS: f64 = 2.0;
 /// Jumps are looked for on the level where the run does it if that takes no longer than this \[s\], with so many periods; else on the coarsest.
 const SECONDS_OF_JUMPS: f64 = 0.1;
 const PERIODS: f64 = 100.0;
@@ -50,7 +51,7 @@ pub struct Forecast {
 }
 
 /// Predicts what the run of `plan` will take, without `verify`: in nine of ten scenes its processor time is at most twice
-/// [`Forecast::seconds`]. The prediction itself takes a tenth of that, or a second: on meshes that
+/// [`Forecast::seconds`]. The prediction itself takes a tenth of that, or two seconds: on meshes that
 /// take no longer the run is made.
 ///
 /// # Errors
