@@ -62,6 +62,7 @@ impl Found {
             first_jump: self.first_jump,
             most_passes: 0,
             guide: Guide::Follow(&self.passes.schedule),
+            simulated: Some(self.passes.simulated),
             beyond: false,
         }
     }
@@ -104,6 +105,7 @@ pub fn find<'a>(
         first_jump: FIRST.1,
         most_passes: 0,
         guide: Guide::Free,
+        simulated: None,
         beyond: false,
     };
     let mut statistics = Statistics::default();

@@ -3,6 +3,7 @@
 mod assemble;
 mod days;
 mod forecast;
+mod judgement;
 mod jumps;
 mod listing;
 mod lived;
@@ -13,6 +14,7 @@ mod random;
 mod refine;
 mod solver;
 mod underway;
+mod work;
 
 use ground_field::GroundField;
 
