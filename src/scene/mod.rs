@@ -78,7 +78,7 @@ pub use data::{
 };
 pub use error::{SceneError, Wrong, WrongKind};
 pub use file::SceneFile;
-#[cfg(feature = "cli")]
+#[cfg(any(feature = "cli", feature = "sweep"))]
 pub(crate) use key::nearest_key;
 pub use key::{KeyMeaning, key_meanings};
 #[cfg(feature = "sweep")]

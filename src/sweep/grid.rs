@@ -6,7 +6,7 @@ use super::axis::{Axis, AxisValues};
 use super::error::SweepError;
 use super::list;
 use super::row::checksum;
-use crate::scene::{SceneError, WrongKind};
+use crate::scene::{SceneError, WrongKind, nearest_key};
 use crate::{Scene, SceneFile};
 
 /// Most points of a sweep.
@@ -103,6 +103,29 @@ impl Sweep {
                 "no column that is named as a key".into(),
                 "one or more, such as duct.depth",
             );
+        }
+        for axis in axes.iter().filter(|axis| axis.key != list::ID) {
+            // No scene has it, whatever stands there.
+            let key = [format!("{}=0", axis.key)];
+            if let Err(SceneError::Wrong(wrong)) = file.with(&key).and_then(|file| file.scene())
+                && let WrongKind::UnknownKey { suggestion } = &wrong.kind
+                && wrong
+                    .location
+                    .as_ref()
+                    .is_some_and(|location| location.line.is_none())
+            {
+                let meant = nearest_key(&axis.key).or(suggestion.clone());
+                let meant = meant.map_or_else(String::new, |key| format!(" (did you mean `{key}`?)"));
+                let found = format!(
+                    "the column `{}` in {}, which is no key{meant}",
+                    axis.key,
+                    table.display()
+                );
+                return unfit(
+                    found,
+                    "keys of the scene, which `creepage explain` lists, and `id`",
+                );
+            }
         }
         let count = axes[0].count();
         if !(1..=MOST_POINTS).contains(&count) {
