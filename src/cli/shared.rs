@@ -8,6 +8,7 @@ use serde::Serialize;
 use super::failure::Failure;
 use super::{signals, terminal};
 use crate::output::{Files, Kind, Output};
+use crate::scene::DAYS_PER_YEAR;
 use crate::{Error, Scene, SceneFile, finite};
 
 /// What stands for standard output in place of a file.
@@ -38,9 +39,12 @@ fn key_and_value(text: &str) -> Result<String, String> {
 pub struct TrafficArguments {
     #[command(flatten)]
     pub file: SceneArguments,
-    /// Years of traffic in place of the scene's passes, as traffic.years; of 365.25 days
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    /// Years of traffic in place of the scene's passes, as traffic.years; of 365.25 days. Also "30 days" or "6 months"
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = |text: &str| years(text, "years"))]
     years: Option<f64>,
+    /// Days of traffic in place of --years
+    #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "years", value_parser = |text: &str| years(text, "days"))]
+    days: Option<f64>,
     /// Vehicles a day, as traffic.per_day
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     trucks_per_day: Option<f64>,
@@ -49,17 +53,53 @@ pub struct TrafficArguments {
 impl TrafficArguments {
     /// The scene file with all that was set on top of it.
     pub fn read(&self) -> Result<SceneFile, Failure> {
-        Ok(SceneFile::read(&self.file.scene)?.with(&self.overrides())?)
+        let file = SceneFile::read(&self.file.scene)?.with(&self.overrides())?;
+        let lasts = self.years.or(self.days).is_some();
+        if lasts && !file.typed().iter().any(|typed| typed.key == "traffic.per_day") {
+            return Err(Failure::Usage {
+                argument: "--trucks-per-day",
+                found: "none, and no `traffic.per_day` in the scene".into(),
+                allowed: "how many vehicles a day there are in that time, such as --trucks-per-day 800"
+                    .into(),
+            });
+        }
+        Ok(file)
     }
 
     /// All that is set on top of the scene file.
     pub fn overrides(&self) -> Vec<String> {
-        let keys = [("per_day", self.trucks_per_day), ("years", self.years)];
+        let keys = [
+            ("per_day", self.trucks_per_day),
+            ("years", self.years.or(self.days)),
+        ];
         let given = keys
             .iter()
             .filter_map(|(key, value)| Some(format!("traffic.{key}={}", (*value)?)));
         self.file.set.iter().cloned().chain(given).collect()
     }
+}
+
+/// A time in years, typed with its unit or in `unit`.
+fn years(text: &str, unit: &str) -> Result<f64, String> {
+    let end = text.find(|c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E'));
+    let (number, written) = text.split_at(end.unwrap_or(text.len()));
+    let in_a_year = match if written.is_empty() { unit } else { written } {
+        "year" | "years" | "yr" | "a" => 1.0,
+        "month" | "months" => 12.0,
+        "week" | "weeks" => DAYS_PER_YEAR / 7.0,
+        "day" | "days" | "d" => DAYS_PER_YEAR,
+        _ => f64::NAN,
+    };
+    let years = number
+        .trim()
+        .parse()
+        .map_or(f64::NAN, |number: f64| number / in_a_year);
+    if years > 0.0 && years.is_finite() {
+        return Ok(years);
+    }
+    Err(format!(
+        "allowed: a number of {unit} greater than 0, such as 20, or with its unit, such as \"30 days\", \"6 months\" or \"20 years\""
+    ))
 }
 
 #[derive(Debug, clap::Args)]
@@ -135,7 +175,7 @@ impl Input {
 
     /// Warns of what an answer warns of, with the line of the key that a warning begins with.
     pub fn warn_all(&self, warnings: &[String]) {
-        for warning in warnings {
+        for warning in warnings.iter().filter(|warning| !self.is_told(warning)) {
             let key = warning.strip_prefix('`').and_then(|rest| rest.split('`').next());
             match key.and_then(|key| self.file.locate(key)) {
                 Some(location) => terminal::warn(format_args!("{location}: {warning}{}", location.excerpt())),
@@ -147,7 +187,18 @@ impl Input {
     /// Warns of what the answer warns of, and adds to it the warnings of the scene.
     pub fn warn(self, warnings: &mut Vec<String>) {
         self.warn_all(warnings);
+        warnings.retain(|warning| !self.is_told(warning));
         warnings.splice(0..0, self.warnings);
+    }
+
+    /// Whether the warning is of a key that a slip was found at.
+    fn is_told(&self, warning: &str) -> bool {
+        let key = warning.strip_prefix('`').and_then(|rest| rest.split('`').next());
+        key.is_some_and(|key| {
+            self.warnings
+                .iter()
+                .any(|slip| slip.contains(&format!("`{key}`: ")))
+        })
     }
 }
 
@@ -196,6 +247,12 @@ enum Table {
     File(Output),
 }
 
+/// Whether a file's name ends so, in capitals or not.
+pub fn has_ending(file: &Path, endings: &[&str]) -> bool {
+    let ending = file.extension().unwrap_or_default();
+    endings.iter().any(|known| ending.eq_ignore_ascii_case(known))
+}
+
 impl OutputArguments {
     /// What a command reads and writes.
     pub fn files<'p>(&self, read: impl IntoIterator<Item = &'p Path>) -> Files {
@@ -204,6 +261,16 @@ impl OutputArguments {
 
     /// Makes sure before hours of computing that the table can be written; an older one stays as it is till then.
     pub fn destination(&self, kind: Kind, files: &mut Files) -> Result<Destination, Failure> {
+        if let Some(file) = &self.csv
+            && has_ending(file, &["xlsx", "xls", "ods", "parquet"])
+        {
+            return Err(Failure::Usage {
+                argument: "--csv",
+                found: file.display().to_string(),
+                allowed: "a table of text, such as forces.csv; `creepage run` writes a workbook with --xlsx"
+                    .into(),
+            });
+        }
         let table = match &self.csv {
             None => Table::None,
             Some(file) if file == Path::new(STDOUT) => Table::StandardOutput,
