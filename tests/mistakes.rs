@@ -82,6 +82,10 @@ dynamic_coefficient = 0.3 → dynamic_coefficient = 30 | 21 | found 30; allowed:
 upstream = "free" → left = "free" | 25 | unknown key `ends.left` (did you mean `upstream`?)
 [traffic] → [[clamps]]¶position = "90 m"¶[traffic] | 33 | unknown key `clamps` (did you mean `restraints`?)
 [[ground.layers]]  # asphalt → [[soil.layers]] | 7 | unknown key `soil` (did you mean `ground`?)
+dynamic_coefficient = 0.3 → friction_coefficient = 0.3 | 21 | unknown key `friction.friction_coefficient` (did you mean `dynamic_coefficient`?)
+weight = "110 N/m" → weight = "11 kg" | 17 | unknown unit `kg`: found "11 kg" (did you mean `kgf/m`?)
+load = 50e3 → load = "5000 kg" | 31 | unknown unit `kg`: found "5000 kg" (did you mean `kgf`?)
+passes = 20 → passes = 20¶[solver]¶tolerance = 5 | 36 | found 5; allowed: a ratio greater than 0 and at most 0.5 | did you mean "5 %"?
 dynamic_coefficient = 0.3 → mu = 0.3 | 21 | unknown key `friction.mu` (did you mean `dynamic_coefficient`?)
 axial_stiffness = "60 MN" → EA = "60 MN" | 18 | unknown key `cable.EA` (did you mean `axial_stiffness`?)
 young_modulus = "80 MPa" → E = "80 MPa" | 13 | unknown key `ground.layers.1.E` (did you mean `young_modulus`?)
@@ -126,6 +130,12 @@ run SCENE --set traffic.passes=1 --limit-movement 10 | --limit-movement is 10 m:
 run SCENE --set traffic.passes=1 --limit-force 2 | --limit-force is 2 N: did you mean 2kN?
 run SCENE --limit-force left=2kN | left=2kN | allowed before `=`: upstream, downstream, clamp
 run SCENE --years 20 | --trucks-per-day: found none, and no `traffic.per_day` in the scene; allowed: how many vehicles a day
+sweep SCENE --out o.csv --vary friction.dynamic_coefficient=0.1-0.5 | found 0.1-0.5; allowed: A:B:STEP for a range, such as 0.1:0.5:STEP
+design SCENE --limit-force 2kg | `kg` is not a known unit; allowed: a force (units: N, kN
+run SCENE --years 20 --trucks-per-day 800/day | a number of vehicles a day greater than 0, such as 800
+run SCENE -o o.csv | A table is written with --csv FILE
+calibrate SCENE DATA | Readings stand behind --data
+presets t25 | found `t25` (did you mean `t-25`?)
 run SCENE --days 1 | --trucks-per-day: found none
 run SCENE --years 20fortnights --trucks-per-day 800 | allowed: a number of years greater than 0 | "30 days"
 run SCENE --days 1 --years 1 --trucks-per-day 800 | '--days <N>' cannot be used with '--years <N>'

@@ -142,7 +142,7 @@ pub fn si_of_field(field: &str) -> Option<(&str, &'static str)> {
 pub fn in_unit(si: f64, unit: Unit, digit: f64) -> String {
     let value = unit.of_si(si);
     let decimals = -unit.of_si(digit).log10().round();
-    let enough = DIGITS - value.abs().max(1.0).log10().floor();
+    let enough = DIGITS - value.abs().log10().floor();
     rounded(value, decimals.min(enough).max(0.0) as usize)
 }
 

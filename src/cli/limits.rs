@@ -39,9 +39,14 @@ fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
         Some((name, value)) => (named(name.trim())?, value),
     };
     let unit = dimension.unit_of(value);
-    let value = dimension
-        .parse_argument(value)
-        .map_err(|error| error.to_string())?;
+    let value = dimension.parse_argument(value).map_err(|error| {
+        let units: Vec<&str> = dimension.units().collect();
+        format!(
+            "{error}; allowed: {} (units: {}); another limit is another option",
+            dimension.noun(),
+            units.join(", ")
+        )
+    })?;
     if value > 0.0 && value.is_finite() {
         return Ok(Limit { of, value, unit });
     }

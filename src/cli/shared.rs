@@ -46,7 +46,7 @@ pub struct TrafficArguments {
     #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "years", value_parser = |text: &str| years(text, "days"))]
     days: Option<f64>,
     /// Vehicles a day, as traffic.per_day
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = a_day)]
     trucks_per_day: Option<f64>,
 }
 
@@ -77,6 +77,16 @@ impl TrafficArguments {
             .filter_map(|(key, value)| Some(format!("traffic.{key}={}", (*value)?)));
         self.file.set.iter().cloned().chain(given).collect()
     }
+}
+
+/// Vehicles a day.
+fn a_day(text: &str) -> Result<f64, String> {
+    let allowed = "allowed: a number of vehicles a day greater than 0, such as 800";
+    let number = text
+        .parse()
+        .ok()
+        .filter(|number: &f64| *number > 0.0 && number.is_finite());
+    number.ok_or_else(|| allowed.to_owned())
 }
 
 /// A time in years, typed with its unit or in `unit`.

@@ -84,6 +84,8 @@ pub use key::{KeyMeaning, key_meanings};
 #[cfg(feature = "sweep")]
 pub(crate) use keys::si_unit;
 pub use location::Location;
+#[cfg(feature = "cli")]
+pub(crate) use nearest::nearest;
 pub use quantity::QuantityError;
 #[cfg(feature = "sweep")]
 pub(crate) use quantity::leading_number;

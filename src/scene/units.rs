@@ -65,8 +65,9 @@ impl Dimension {
 
     /// The unit that was probably meant by an unknown one.
     pub(super) fn unit_meant_by(self, unknown: &str) -> Option<&'static str> {
-        let in_words = IN_WORDS.iter().find(|(word, _)| *word == unknown.to_lowercase());
-        let meant = in_words.and_then(|(_, symbol)| self.units().find(|unit| unit == symbol));
+        let unknown_word = unknown.to_lowercase();
+        let mut in_words = IN_WORDS.iter().filter(|(word, _)| *word == unknown_word);
+        let meant = in_words.find_map(|(_, symbol)| self.units().find(|unit| unit == symbol));
         meant.or_else(|| nearest(unknown, self.units()))
     }
 
@@ -107,7 +108,7 @@ const MILE: f64 = 1609.344;
 const YARD: f64 = 0.9144;
 
 /// Units in words and other symbols for them, in small letters.
-const IN_WORDS: [(&str, &str); 26] = [
+const IN_WORDS: [(&str, &str); 28] = [
     ("c", "K"),
     ("°c", "K"),
     ("degc", "K"),
@@ -123,6 +124,8 @@ const IN_WORDS: [(&str, &str); 26] = [
     ("miles", "mi"),
     ("mi/h", "mph"),
     ("miles/h", "mph"),
+    ("kg", "kgf"),
+    ("kg", "kgf/m"),
     ("kph", "km/h"),
     ("km/hr", "km/h"),
     ("kmph", "km/h"),

@@ -6,7 +6,6 @@ use std::path::Path;
 
 use super::axis::{Axis, AxisValues};
 use super::error::SweepError;
-use super::numbers::number;
 use super::sink::Cells;
 use super::table::Format;
 
@@ -77,7 +76,8 @@ fn with_point(cell: &str, separator: u8) -> Option<String> {
     let unsigned = whole.strip_prefix(['+', '-']).unwrap_or(whole);
     let is_number = !unsigned.is_empty() && unsigned.bytes().all(|byte| byte.is_ascii_digit()) && digits > 0;
     let point = format!("{whole}.{rest}");
-    let is_one = is_number && (separator == b';' || digits != 3) && number(&point).is_some();
+    let goes_on = rest[digits..].contains([',', '.']);
+    let is_one = is_number && !goes_on && (separator == b';' || digits != 3);
     is_one.then_some(point)
 }
 
