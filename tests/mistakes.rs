@@ -141,8 +141,8 @@ run SCENE --years 20fortnights --trucks-per-day 800 | allowed: a number of years
 run SCENE --days 1 --years 1 --trucks-per-day 800 | '--days <N>' cannot be used with '--years <N>'
 run SCENE --xlsx o.csv | --xlsx: found o.csv; allowed: a workbook of Excel | a table of text is written with --csv
 run SCENE --csv o.xls | --csv: found o.xls; allowed: a table of text
-sweep SCENE --out o.csv --rows DUCTS | the column `cable.wieght` in ducts.csv, which is no key (did you mean `cable.weight`?)
-sweep SCENE --out o.csv --rows DATA | the column `pass` in data.csv, which is no key
+sweep SCENE --out o.csv --rows DUCTS | the column `cable.wieght`, which is no key (did you mean `cable.weight`?)
+sweep SCENE --out o.csv --rows DATA | the column `pass`, which is no key
 sweep SCENE --out o.csv --rows RAGGED | ragged.csv | line 3 has 3 cells and the header 2
 design SCENE | --limit-force: found no limit | such as --limit-force 2kN
 design SCENE --limit-force 2kN --at 500m | found 500 | from 0

@@ -3,6 +3,7 @@
 use super::failure::Failure;
 use super::terminal;
 use crate::scene::{Dimension, End, Unit};
+use crate::shown::exact;
 use crate::{CableEnd, ClampLimits, EndLimits, Limits, Place, Scene, SceneFile, Units};
 
 #[derive(Debug, clap::Args)]
@@ -188,11 +189,13 @@ impl LimitArguments {
                         if all.any(|clamp| clamp.is_clamp_at(position)) {
                             continue;
                         }
-                        format!("a clamp at {position} m, where there is none")
+                        format!("a clamp at {} m, where there is none", exact(position))
                     }
                     _ => continue,
                 };
-                let clamps: Vec<String> = positions().map(|position| format!("{position} m")).collect();
+                let clamps: Vec<String> = positions()
+                    .map(|position| format!("{} m", exact(position)))
+                    .collect();
                 let allowed = match clamps.join(", ") {
                     none if none.is_empty() => {
                         "upstream or downstream, as the scene has no clamps".to_owned()

@@ -135,11 +135,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     })
 }
 
-/// The last column of the table, in every row or in none: JSON leaves it out wherever it is false.
+/// The last column of the table, 1 or 0 in every row, or in none: JSON leaves it out wherever it is false.
 #[derive(Serialize)]
 struct LastColumn {
     #[serde(skip_serializing_if = "Option::is_none")]
-    interpolated: Option<bool>,
+    interpolated: Option<u8>,
 }
 
 /// The rows of a table.
@@ -147,7 +147,7 @@ fn rows(passes: &[PassRecord]) -> impl Iterator<Item = (PassRecord, LastColumn)>
     let any = passes.iter().any(|record| record.interpolated);
     passes.iter().map(move |record| {
         let last = LastColumn {
-            interpolated: any.then_some(record.interpolated),
+            interpolated: any.then_some(record.interpolated.into()),
         };
         let others = PassRecord {
             interpolated: false,

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::{signals, terminal};
-use crate::output::{Files, Kind, Output};
+use crate::output::{Files, Kind, Output, OutputError};
 use crate::scene::DAYS_PER_YEAR;
 use crate::{Error, Scene, SceneFile, finite};
 
@@ -263,6 +263,11 @@ pub fn has_ending(file: &Path, endings: &[&str]) -> bool {
     endings.iter().any(|known| ending.eq_ignore_ascii_case(known))
 }
 
+/// Whether the command reads or writes that file already, which is told before what its name ends in.
+pub fn is_taken(output: &Result<Output, OutputError>) -> bool {
+    matches!(output, Err(OutputError::Taken(..)))
+}
+
 impl OutputArguments {
     /// What a command reads and writes.
     pub fn files<'p>(&self, read: impl IntoIterator<Item = &'p Path>) -> Files {
@@ -271,20 +276,20 @@ impl OutputArguments {
 
     /// Makes sure before hours of computing that the table can be written; an older one stays as it is till then.
     pub fn destination(&self, kind: Kind, files: &mut Files) -> Result<Destination, Failure> {
-        if let Some(file) = &self.csv
-            && has_ending(file, &["xlsx", "xls", "ods", "parquet"])
-        {
-            return Err(Failure::Usage {
-                argument: "--csv",
-                found: file.display().to_string(),
-                allowed: "a table of text, such as forces.csv; `creepage run` writes a workbook with --xlsx"
-                    .into(),
-            });
-        }
         let table = match &self.csv {
             None => Table::None,
             Some(file) if file == Path::new(STDOUT) => Table::StandardOutput,
-            Some(file) => Table::File(files.output(file, kind)?),
+            Some(file) => {
+                let output = files.output(file, kind);
+                if has_ending(file, &["xlsx", "xls", "ods", "parquet"]) && !is_taken(&output) {
+                    return Err(Failure::Usage {
+                        argument: "--csv",
+                        found: file.display().to_string(),
+                        allowed: "a table of text, such as forces.csv; `creepage run` writes a workbook with --xlsx".into(),
+                    });
+                }
+                Table::File(output?)
+            }
         };
         let on_stdout = match &table {
             Table::None => false,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use super::shared::{STDOUT, has_ending};
+use super::shared::{STDOUT, has_ending, is_taken};
 use crate::output::{Files, Kind, Output};
 use crate::{Run, SceneFile, Units, Verdict, finite, workbook};
 
@@ -23,7 +23,8 @@ impl WorkbookArguments {
         let Some(path) = &self.xlsx else {
             return Ok(Destination(None));
         };
-        if path.extension().is_some() && !has_ending(path, &["xlsx"]) {
+        let output = files.output(path, Kind::RunBook);
+        if path.extension().is_some() && !has_ending(path, &["xlsx"]) && !is_taken(&output) {
             return Err(Failure::Usage {
                 argument: "--xlsx",
                 found: path.display().to_string(),
@@ -31,7 +32,7 @@ impl WorkbookArguments {
                     .into(),
             });
         }
-        let output = files.output(path, Kind::RunBook)?;
+        let output = output?;
         if path == Path::new(STDOUT) || output.is_standard_output() {
             return Err(Failure::Usage {
                 argument: "--xlsx",

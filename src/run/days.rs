@@ -6,7 +6,7 @@
 
 use cable_dem::{CableError, Statistics};
 
-use super::judgement::{judge, mesh_reason};
+use super::judge::{judge, mesh_reason};
 use super::lived::{Lived, Living};
 use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both};
 use super::underway::Underway;

@@ -3,7 +3,7 @@
 mod assemble;
 mod days;
 mod forecast;
-mod judgement;
+mod judge;
 mod jumps;
 mod listing;
 mod lived;

@@ -5,7 +5,7 @@ use std::thread;
 use cable_dem::{CableError, Mesh, Statistics};
 use cycle_jump::Record;
 
-use super::judgement::{judge, mesh_reason};
+use super::judge::{judge, mesh_reason};
 use super::jumps::{self, Found};
 use super::passes::{Jumping, Passes, Task};
 use super::random;

@@ -76,6 +76,8 @@ pub use data::{
     Arrangement, Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Heat, Order,
     PeakScaling, Restraint, Scene, Solver, SolverMethod, Traffic, TrafficVehicle, UnknownWord, Warming,
 };
+#[cfg(any(feature = "cli", feature = "sweep"))]
+pub(crate) use error::did_you_mean;
 pub use error::{SceneError, Wrong, WrongKind};
 pub use file::SceneFile;
 #[cfg(any(feature = "cli", feature = "sweep"))]

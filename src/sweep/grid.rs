@@ -6,7 +6,7 @@ use super::axis::{Axis, AxisValues};
 use super::error::SweepError;
 use super::list;
 use super::row::checksum;
-use crate::scene::{SceneError, WrongKind, nearest_key};
+use crate::scene::{SceneError, Wrong, WrongKind, did_you_mean, nearest_key};
 use crate::{Scene, SceneFile};
 
 /// Most points of a sweep.
@@ -104,29 +104,6 @@ impl Sweep {
                 "one or more, such as duct.depth",
             );
         }
-        for axis in axes.iter().filter(|axis| axis.key != list::ID) {
-            // No scene has it, whatever stands there.
-            let key = [format!("{}=0", axis.key)];
-            if let Err(SceneError::Wrong(wrong)) = file.with(&key).and_then(|file| file.scene())
-                && let WrongKind::UnknownKey { suggestion } = &wrong.kind
-                && wrong
-                    .location
-                    .as_ref()
-                    .is_some_and(|location| location.line.is_none())
-            {
-                let meant = nearest_key(&axis.key).or(suggestion.clone());
-                let meant = meant.map_or_else(String::new, |key| format!(" (did you mean `{key}`?)"));
-                let found = format!(
-                    "the column `{}` in {}, which is no key{meant}",
-                    axis.key,
-                    table.display()
-                );
-                return unfit(
-                    found,
-                    "keys of the scene, which `creepage explain` lists, and `id`",
-                );
-            }
-        }
         let count = axes[0].count();
         if !(1..=MOST_POINTS).contains(&count) {
             return unfit(format!("{count} rows"), "from one to ten million rows");
@@ -154,10 +131,25 @@ impl Sweep {
             Err(SceneError::Wrong(wrong))
                 if matches!(wrong.kind, WrongKind::UnknownKey { .. } | WrongKind::Override) =>
             {
-                Err(SceneError::Wrong(wrong).into())
+                Err(self
+                    .unknown_column(&wrong)
+                    .unwrap_or(SceneError::Wrong(wrong).into()))
             }
             _ => Ok(()),
         }
+    }
+
+    /// The error of the column of a table whose name is no key, if `wrong` is of it.
+    fn unknown_column(&self, wrong: &Wrong) -> Option<SweepError> {
+        let inside = format!("{}.", wrong.key);
+        let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
+        let is_unknown = self.by_row && matches!(wrong.kind, WrongKind::UnknownKey { .. });
+        let Axis { key, .. } = self.axes.iter().find(is_meant).filter(|_| is_unknown)?;
+        let meant = did_you_mean(nearest_key(key).as_deref());
+        Some(SweepError::Unfit {
+            found: format!("the column `{key}`, which is no key{meant}"),
+            allowed: "keys of the scene, which `creepage explain` lists, and `id`",
+        })
     }
 
     /// How many points there are, samples included.

@@ -184,11 +184,7 @@ fn table(book: &mut Book, name: &str, records: &Value, units: &Units) -> Result<
     for record in &records {
         let of = |(column, _): &(&str, &str)| {
             let entry = record.iter().find(|(name, ..)| name == column);
-            let absent = match *column {
-                "interpolated" => Cell::Truth(false),
-                _ => Cell::Absent,
-            };
-            entry.map_or(absent, |(_, field, value)| cell(field, value, units))
+            entry.map_or(Cell::Absent, |(_, field, value)| cell(field, value, units))
         };
         let is_marked = record
             .iter()
