@@ -129,7 +129,7 @@ check SCENE --set ground.layers[1].young_modulus=60MPa | allowed: `ground.layers
 run SCENE --set traffic.passes=1 --limit-movement 10 | --limit-movement is 10 m: did you mean 10mm?
 run SCENE --set traffic.passes=1 --limit-force 2 | --limit-force is 2 N: did you mean 2kN?
 run SCENE --limit-force left=2kN | left=2kN | allowed before `=`: upstream, downstream, clamp
-run SCENE --years 20 | --trucks-per-day: found none, and no `traffic.per_day` in the scene; allowed: how many vehicles a day
+run SCENE --years 20 | --trucks-per-day: found none, and `traffic.per_day` is missing in the scene; allowed: how many vehicles a day
 sweep SCENE --out o.csv --vary friction.dynamic_coefficient=0.1-0.5 | found 0.1-0.5; allowed: A:B:STEP for a range, such as 0.1:0.5:STEP
 design SCENE --limit-force 2kg | `kg` is not a known unit; allowed: a force (units: N, kN
 run SCENE --years 20 --trucks-per-day 800/day | a number of vehicles a day greater than 0, such as 800

@@ -58,7 +58,7 @@ impl TrafficArguments {
         if lasts && !file.typed().iter().any(|typed| typed.key == "traffic.per_day") {
             return Err(Failure::Usage {
                 argument: "--trucks-per-day",
-                found: "none, and no `traffic.per_day` in the scene".into(),
+                found: "none, and `traffic.per_day` is missing in the scene".into(),
                 allowed: "how many vehicles a day there are in that time, such as --trucks-per-day 800"
                     .into(),
             });

@@ -81,7 +81,7 @@ pub struct PlanReport {
 
 impl Plan<'_> {
     /// Why the ground model was chosen, and the method for a reason of its own.
-    pub(crate) fn reasons(&self, method: String) -> Vec<String> {
+    pub(crate) fn reasons(&self, method: &str) -> Vec<String> {
         vec![
             format!("ground {}: {}", self.ground.name, self.ground.reason),
             format!("cable {}: {method}", self.choice.method.name()),
@@ -119,7 +119,7 @@ impl Plan<'_> {
             cable: choice.method.name().into(),
             node_spacing_m: spacing.0,
             vehicle_step_m: spacing.1,
-            reasons: self.reasons(self.foreseen()),
+            reasons: self.reasons(&self.foreseen()),
             estimated_error: mesh_error.map(|error| error + method_error + ground.accuracy),
             estimated_seconds: choice.estimates.seconds(choice.method),
             occurrence: Occurrence::new(scene, &ground.motions),

@@ -30,7 +30,7 @@ impl<'a> RunBuilder<'a> {
                 cable: plan.choice.method.name().into(),
                 node_spacing_m: 0.0,
                 vehicle_step_m: 0.0,
-                reasons: plan.reasons(plan.choice.reason.clone()),
+                reasons: plan.reasons(&plan.choice.reason),
             },
             warnings: plan.warnings.clone(),
             plan,

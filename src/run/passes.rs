@@ -112,7 +112,8 @@ impl Task<'_> {
     pub fn with_jumps(&self, jumping: &Jumping<'_>, listed: &[u64]) -> Result<Passes, Error> {
         let Self { scene, mesh, .. } = self;
         let mut simulation = Simulation::new(self)?;
-        simulation.jumps = Some(jumping.simulated);
+        simulation.jumps = true;
+        simulation.foreseen = jumping.simulated;
         let motion = peak(self.motions);
         let scale = Scale::new(scene.friction_limit(), motion);
         let patience = PATIENCE * jumping.period.len() as u64;
@@ -178,8 +179,9 @@ pub struct Simulation<'a> {
     slip: Option<SlipRecord>,
     stages: Vec<Stage>,
     statistics: Statistics,
-    /// Where passes come in leaps, about how many are simulated.
-    jumps: Option<Option<u64>>,
+    /// Whether passes come in leaps; then about how many are simulated, where that is known.
+    jumps: bool,
+    foreseen: Option<u64>,
     /// The farthest pass so far, and how many are simulated.
     reached: u64,
     simulated: u64,
@@ -194,7 +196,8 @@ impl<'a> Simulation<'a> {
             slip: None,
             stages: Vec::new(),
             statistics: Statistics::default(),
-            jumps: None,
+            jumps: false,
+            foreseen: None,
             reached: 0,
             simulated: 0,
         })
@@ -252,9 +255,9 @@ impl<'a> Simulation<'a> {
     /// The share of the work done.
     fn share(&self) -> f64 {
         let (pass, count) = (self.reached as f64, self.task.scene.traffic.passes as f64);
-        match self.jumps {
-            Some(Some(all)) => (self.simulated as f64 / all as f64).min(1.0),
-            Some(None) => pass.ln_1p() / count.ln_1p(),
+        match self.foreseen {
+            Some(all) => (self.simulated as f64 / all as f64).min(1.0),
+            None if self.jumps => pass.ln_1p() / count.ln_1p(),
             None => pass / count,
         }
     }
