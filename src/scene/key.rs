@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use serde::Serialize;
 
 use super::data::{Arrangement, GroundModel, SolverMethod};
-#[cfg(feature = "cli")]
+#[cfg(feature = "sweep")]
 use super::nearest::nearest;
 use super::range::{self as of, Quantity, allowed_whole};
 
@@ -183,7 +183,7 @@ pub fn key_meanings() -> Vec<KeyMeaning> {
 }
 
 /// The key nearest to `text`, by its last word where that has no section.
-#[cfg(any(feature = "cli", feature = "sweep"))]
+#[cfg(feature = "sweep")]
 pub(crate) fn nearest_key(text: &str) -> Option<String> {
     let keys: Vec<String> = key_meanings().into_iter().map(|key| key.key).collect();
     if text.contains('.') {

@@ -76,11 +76,11 @@ pub use data::{
     Arrangement, Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Heat, Order,
     PeakScaling, Restraint, Scene, Solver, SolverMethod, Traffic, TrafficVehicle, UnknownWord, Warming,
 };
-#[cfg(any(feature = "cli", feature = "sweep"))]
+#[cfg(feature = "sweep")]
 pub(crate) use error::did_you_mean;
 pub use error::{SceneError, Wrong, WrongKind};
 pub use file::SceneFile;
-#[cfg(any(feature = "cli", feature = "sweep"))]
+#[cfg(feature = "sweep")]
 pub(crate) use key::nearest_key;
 pub use key::{KeyMeaning, key_meanings};
 #[cfg(feature = "sweep")]
