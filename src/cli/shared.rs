@@ -79,14 +79,10 @@ impl TrafficArguments {
     }
 }
 
-/// Vehicles a day.
+/// Vehicles a day; what the scene's own key refuses is refused there.
 fn a_day(text: &str) -> Result<f64, String> {
     let allowed = "allowed: a number of vehicles a day greater than 0, such as 800";
-    let number = text
-        .parse()
-        .ok()
-        .filter(|number: &f64| *number > 0.0 && number.is_finite());
-    number.ok_or_else(|| allowed.to_owned())
+    text.parse().map_err(|_| allowed.to_owned())
 }
 
 /// A time in years, typed with its unit or in `unit`.
@@ -104,7 +100,8 @@ fn years(text: &str, unit: &str) -> Result<f64, String> {
         .trim()
         .parse()
         .map_or(f64::NAN, |number: f64| number / in_a_year);
-    if years > 0.0 && years.is_finite() {
+    // What the scene's own key refuses is refused there.
+    if years.is_finite() && (years > 0.0 || in_a_year == 1.0) {
         return Ok(years);
     }
     Err(format!(
