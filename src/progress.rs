@@ -10,7 +10,7 @@ type Callback<'a> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'a;
 
 /// A callback that learns how far a computation is and may stop it; by default there is none.
 ///
-/// It is called often, also from several threads at once, so it should return quickly. The share begins again at 0 where a finer mesh proves
+/// It is called often, also from several threads at once, so it should return quickly. The share falls back where a finer mesh proves
 /// necessary. [`ControlFlow::Break`] stops the computation, which then ends with [`Error::Stopped`].
 ///
 /// ```
@@ -57,6 +57,17 @@ impl<'a> Progress<'a> {
             let now = self.part(0.0, 0.5);
             self = self.part(0.5, 1.0);
             now
+        }
+    }
+
+    /// All of it for the passes on one mesh, or what is left after them where `finer` is to follow; then again for every finer mesh, in
+    /// whose work those before are a fourth.
+    pub(crate) fn refining(self, finer: bool) -> impl FnMut() -> Self {
+        const COARSER: f64 = 0.25;
+        let mut now = (0.0, if finer { COARSER } else { 1.0 });
+        move || {
+            let (start, end) = std::mem::replace(&mut now, (COARSER, 1.0));
+            self.part(start, end)
         }
     }
 

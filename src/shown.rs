@@ -12,6 +12,11 @@ pub fn rounded(value: f64, decimals: usize) -> String {
     }
 }
 
+/// `value` to four digits.
+pub fn four_digits(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
+}
+
 /// An estimated share as a percentage.
 pub fn percent(share: f64) -> String {
     if share > 0.0 && share < 5e-5 {

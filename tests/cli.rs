@@ -372,6 +372,37 @@ fn run_writes_the_same_numbers_as_csv() {
 }
 
 #[test]
+fn the_table_marks_the_passes_that_were_not_simulated() {
+    let file = folder("run_marked").join("forces.csv");
+    let traffic = ["--days", "20", "--trucks-per-day", "100", "--csv", text(&file)];
+    let run = json(&[&["run", UPPER][..], &traffic].concat());
+    let passes = run["passes"].as_array().expect("a list");
+    assert_eq!(passes.last().expect("a pass")["pass"], 2000);
+    let written = fs::read_to_string(&file).expect("a table");
+    let mut lines = written.lines();
+    assert!(lines.next().expect("a header").ends_with(",interpolated"));
+    let mut marked = 0;
+    for (line, pass) in lines.zip(passes) {
+        let is_marked = pass["interpolated"].as_bool().unwrap_or(false);
+        assert!(line.ends_with(if is_marked { ",1" } else { ",0" }), "{line}");
+        assert!(!line.contains(",-0.0,"), "{line}");
+        marked += usize::from(is_marked);
+    }
+    assert!((1..passes.len() - 1).contains(&marked), "{marked}");
+}
+
+#[test]
+fn a_time_of_traffic_is_typed_in_days_or_years() {
+    let passes = |time: &[&str]| {
+        let run = json(&[&["run", UPPER, "--trucks-per-day", "3"], time].concat());
+        run["passes"].as_array().expect("a list").len()
+    };
+    for time in [["--days", "2"], ["--years", "2 days"], ["--years", "0.0054757"]] {
+        assert_eq!(passes(&time), 6, "{time:?}");
+    }
+}
+
+#[test]
 fn csv_replaces_an_older_longer_file() {
     let file = folder("csv_replaces").join("forces.csv");
     let _ = fs::remove_file(&file);

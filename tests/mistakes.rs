@@ -48,13 +48,20 @@ passes = 20
 const IN_THE_SCENE: &str = r#"
 weight = "110 N/m" → weight = 11 | 17 | `cable.weight`: 11 without a unit is 11 N/m: did you mean "11 kgf/m"?
 weight = "110 N/m" → weight = "11 kg/m" | 17 | `cable.weight`: unknown unit `kg/m`: found "11 kg/m" (did you mean `kgf/m`?) | units: N/m, kN/m
-axial_stiffness = "60 MN" → axial_stiffness = "60 kN" | 18 | `cable.axial_stiffness` is 0.06 MN, but that of power cables is from 0.5 to 10000 MN
+axial_stiffness = "60 MN" → axial_stiffness = "60 kN" | 18 | `cable.axial_stiffness` is 0.06 MN, but that of power cables is from 0.5 to 1000 MN
+axial_stiffness = "60 MN" → axial_stiffness = 8e9 | 18 | `cable.axial_stiffness` is 8000 MN
+weight = "110 N/m" → weight = "1088 N/m" | 17 | `cable.weight` is 1088 N/m, but that of power cables is from 5 to 600 N/m
+load = "50 kN" → load = "2500 kN" | 31 | `vehicles.0.wheels.0.load` is 2500 kN, but a wheel on a road carries from 1 to 200 kN
+length = "180 m" → length = "1 m" | 5 | `duct.depth` is 1.3 m, more than the duct is long, 1 m: were they exchanged?
+young_modulus = "4000 MPa" → young_modulus = "3 MPa" | 9 | of the first layer, is 27 times less than that of the last, 80 MPa: layers stand from the top down
+speed = "50 km/h" → speed = "500 km/h" | 30 | `vehicles.0.speed` is 500 km/h, but trucks drive at 20 to 100 km/h
+speed = "50 km/h" → speed = "30 mi/h" | 30 | unknown unit `mi/h`: found "30 mi/h" (did you mean `mph`?)
 axial_stiffness = "60 MN" → axial_stiffness = "120 GPa" | 18 | `cable.axial_stiffness`: wrong dimension: found "120 GPa", a pressure or modulus; allowed: a force
 speed = "50 km/h" → speed = 50 | 30 | `vehicles.0.speed`: 50 without a unit is 50 m/s, 180 km/h: did you mean "50 km/h"?
 load = 50e3 → load = 5 | 31 | `vehicles.0.wheels.1.load`: 5 without a unit is 5 N | did you mean "5 tf" or "5 kN"?
 load = "50 kN" → load = "5 t" | 31 | unknown unit `t`: found "5 t" (did you mean `tf`?)
 contact_radius = "0.15 m" → contact_radius = 15 | 31 | `vehicles.0.wheels.0.contact_radius` is 15 m: that of tyres is from 0.1 to 0.3 m
-shape_factor = "7e6 1/m" → shape_factor = 7 | 22 | `friction.shape_factor` is 7 1/m: friction builds up over 286 mm
+shape_factor = "7e6 1/m" → shape_factor = 7 | 22 | `friction.shape_factor` is 7 1/m: friction builds up over 285.7 mm
 depth = "1.3 m" → depth = 130 | 5 | `duct.depth` is 130 m, but ducts lie below roads at depths from 0.2 to 20 m
 depth = "1.3 m" → depth = "130 mm" | 5 | `duct.depth` is 0.13 m
 length = "180 m" → length = "180 meters" | 4 | unknown unit `meters`: found "180 meters" (did you mean `m`?)
@@ -70,10 +77,15 @@ dynamic_coefficient = 0.3 → dynamic_coefficient = 30 | 21 | found 30; allowed:
 [[vehicles]] → [[vehicle]] | 28 | unknown key `vehicle` (did you mean `vehicles`?)
 { spring = "3 MN/m" } → "spring" | 26 | `ends.downstream`: found "spring"; allowed: "free", "fixed" or { spring = "3 MN/m" }
 { spring = "3 MN/m" } → "5 MN/m" | 26 | `ends.downstream`: found "5 MN/m" | did you mean { spring = "5 MN/m" }?
-{ spring = "3 MN/m" } → { spring = 3 } | 26 | `ends.downstream.spring`: 3 without a unit is 3 N/m | did you mean "3 MN/m"?
+{ spring = "3 MN/m" } → { spring = 3 } | 26 | `ends.downstream.spring` is 3 N/m, which holds nothing | did you mean "3 MN/m"?
+{ spring = "3 MN/m" } → { spring = "300 N/m" } | 26 | `ends.downstream.spring` is 300 N/m, which holds nothing: springs and clamps are from 0.1 to 1000 MN/m
 upstream = "free" → left = "free" | 25 | unknown key `ends.left` (did you mean `upstream`?)
 [traffic] → [[clamps]]¶position = "90 m"¶[traffic] | 33 | unknown key `clamps` (did you mean `restraints`?)
 [[ground.layers]]  # asphalt → [[soil.layers]] | 7 | unknown key `soil` (did you mean `ground`?)
+dynamic_coefficient = 0.3 → friction_coefficient = 0.3 | 21 | unknown key `friction.friction_coefficient` (did you mean `dynamic_coefficient`?)
+weight = "110 N/m" → weight = "11 kg" | 17 | unknown unit `kg`: found "11 kg" (did you mean `kgf/m`?)
+load = 50e3 → load = "5000 kg" | 31 | unknown unit `kg`: found "5000 kg" (did you mean `kgf`?)
+passes = 20 → passes = 20¶[solver]¶tolerance = 5 | 36 | found 5; allowed: a ratio greater than 0 and at most 0.5 | did you mean "5 %"?
 dynamic_coefficient = 0.3 → mu = 0.3 | 21 | unknown key `friction.mu` (did you mean `dynamic_coefficient`?)
 axial_stiffness = "60 MN" → EA = "60 MN" | 18 | unknown key `cable.EA` (did you mean `axial_stiffness`?)
 young_modulus = "80 MPa" → E = "80 MPa" | 13 | unknown key `ground.layers.1.E` (did you mean `young_modulus`?)
@@ -81,6 +93,20 @@ speed = "50 km/h" → velocity = "50 km/h" | 30 | unknown key `vehicles.0.veloci
 passes = 20 → years = 20¶trucks_per_day = 800 | 35 | unknown key `traffic.trucks_per_day` (did you mean `per_day`?)
 length = "180 m" → length = "180 m"¶diameter = "200 mm" | 5 | unknown key `duct.diameter` (did you mean `inner_diameter`?)
 depth = "1.3 m" → Depth = "1.3 m" | 5 | unknown key `duct.Depth` (did you mean `depth`?)
+depth = "1.3 m" → depth = "1.3 m | 5 | line 5: not valid TOML: the closing quote is missing: depth = "1.3 m"
+depth = "1.3 m" → depth = 1.3 m" | 5 | not valid TOML: the opening quote is missing: depth = "1.3 m"
+depth = "1.3 m" → depth = '1.3 m | 5 | not valid TOML: the closing quote is missing: depth = '1.3 m'
+depth = "1.3 m" → depth = 1,3 | 5 | not valid TOML: decimals are written with a point: depth = 1.3
+depth = "1.3 m" → depth = 1.3 m | 5 | not valid TOML: a quantity with its unit stands in quotes: depth = "1.3 m"
+depth = "1.3 m" → depth = "1.3 m"; | 5 | not valid TOML: nothing stands at the end of a line: depth = "1.3 m"
+depth = "1.3 m" → depth = | 5 | not valid TOML: the value is missing: depth = …
+depth = "1.3 m" → depth := 1.3 | 5 | not valid TOML: a key and its value stand on both sides of `=`: depth = 1.3
+depth = "1.3 m" → depth == 1.3 | 5 | not valid TOML: there is one `=` too many
+depth = "1.3 m" → dep th = 1.3 | 5 | not valid TOML: a line has a key, `=` and a value
+depth = "1.3 m" → depth = .5 | 5 | not valid TOML: a digit stands before a decimal point: 0.5
+depth = "1.3 m" → tiefe_größe = 1.3 | 5 | not valid TOML: a key has only the letters a to z
+depth = "1.3 m" → length = "20 m" | 5 | not valid TOML: duplicate key, which stands on line 4 already
+[traffic] → [traffic | 33 | not valid TOML: the closing bracket is missing: a section is written [duct]
 depth = "1.3 m" → depth "1.3 m" | 5 | a key and its value stand on both sides of `=`: depth = "1.3 m"
 [friction] → friction | 20 | a section stands in brackets: [friction]
 [cable] → // the cable¶[cable] | 16 | a comment begins with `#`, not with `//`
@@ -93,7 +119,7 @@ passes = 20 → passes = 20¶[heat]¶expansion = "17e-6 1/K"¶daily_swing = "20 
 passes = 20 → passes = 20¶[heat]¶expansion = 17¶daily_swing = "20 K" | 36 | `heat.expansion`: out of range: found 17 | did you mean "17e-6 1/K"?
 "#;
 
-/// What an engineer types; SCENE and DATA are good files | parts of the message.
+/// What an engineer types; SCENE and DATA are good files, DUCTS and RAGGED are not | parts of the message.
 const ON_THE_COMMAND_LINE: &str = r#"
 run DATA | data.csv, line 1: | this is a table; a scene has lines such as length = "30 m"
 SCENE | A command stands before the scene: creepage run | scene.toml
@@ -103,7 +129,21 @@ check SCENE --set ground.layers[1].young_modulus=60MPa | allowed: `ground.layers
 run SCENE --set traffic.passes=1 --limit-movement 10 | --limit-movement is 10 m: did you mean 10mm?
 run SCENE --set traffic.passes=1 --limit-force 2 | --limit-force is 2 N: did you mean 2kN?
 run SCENE --limit-force left=2kN | left=2kN | allowed before `=`: upstream, downstream, clamp
-run SCENE --years 20 | scene.toml, line 33: key `traffic.per_day` is missing; allowed: vehicles a day
+run SCENE --years 20 | --trucks-per-day: found none, and `traffic.per_day` is missing in the scene; allowed: how many vehicles a day
+sweep SCENE --out o.csv --vary friction.dynamic_coefficient=0.1-0.5 | found 0.1-0.5; allowed: A:B:STEP for a range, such as 0.1:0.5:STEP
+design SCENE --limit-force 2kg | `kg` is not a known unit; allowed: a force (units: N, kN
+run SCENE --years 20 --trucks-per-day 800/day | a number of vehicles a day greater than 0, such as 800
+run SCENE -o o.csv | A table is written with --csv FILE
+calibrate SCENE DATA | Readings stand behind --data
+presets t25 | found `t25` (did you mean `t-25`?)
+run SCENE --days 1 | --trucks-per-day: found none
+run SCENE --years 20fortnights --trucks-per-day 800 | allowed: a number of years greater than 0 | "30 days"
+run SCENE --days 1 --years 1 --trucks-per-day 800 | '--days <N>' cannot be used with '--years <N>'
+run SCENE --xlsx o.csv | --xlsx: found o.csv; allowed: a workbook of Excel | a table of text is written with --csv
+run SCENE --csv o.xls | --csv: found o.xls; allowed: a table of text
+sweep SCENE --out o.csv --rows DUCTS | the column `cable.wieght`, which is no key (did you mean `cable.weight`?)
+sweep SCENE --out o.csv --rows DATA | the column `pass`, which is no key
+sweep SCENE --out o.csv --rows RAGGED | ragged.csv | line 3 has 3 cells and the header 2
 design SCENE | --limit-force: found no limit | such as --limit-force 2kN
 design SCENE --limit-force 2kN --at 500m | found 500 | from 0
 sweep SCENE --out o.csv --vary duct.depth=1m:2m:5 | found 1m:2m:5 | a unit at the STEP too: it is a distance
@@ -135,6 +175,8 @@ fn each_mistake_gets_a_message_that_helps() {
     let folder = TempDir::new().expect("a folder");
     let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
     write("data.csv", "pass,force_n\n1,90\n2,114\n5,168\n10,222\n");
+    write("ducts.csv", "id;duct.depth;cable.wieght\na;1,5 m;110\n");
+    write("ragged.csv", "id,duct.depth\na,1.5\nb,1,5\n");
     let mut failures = Vec::new();
     let mut judge = |what: &str, message: &str, parts: &[&str]| {
         if let Some(part) = parts.iter().find(|part| !message.contains(**part)) {
@@ -162,6 +204,8 @@ fn each_mistake_gets_a_message_that_helps() {
         let file = |word| match word {
             "SCENE" => "scene.toml",
             "DATA" => "data.csv",
+            "DUCTS" => "ducts.csv",
+            "RAGGED" => "ragged.csv",
             word => word,
         };
         let arguments: Vec<&str> = cells[0].split(' ').map(file).collect();

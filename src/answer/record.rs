@@ -295,16 +295,18 @@ impl PassRecord {
             outcome,
             interpolated,
         } = record;
+        // No minus before zero.
+        let plain = |value: f64| value + 0.0;
         Self {
             pass: *pass,
             years: traffic.years_after(*pass),
-            downstream_force_n: outcome.force.downstream,
-            downstream_peak_n: outcome.peak.downstream,
-            upstream_force_n: outcome.force.upstream,
-            upstream_peak_n: outcome.peak.upstream,
-            max_compression_n: outcome.max_compression,
-            upstream_displacement_m: outcome.upstream_displacement,
-            downstream_displacement_m: outcome.downstream_displacement,
+            downstream_force_n: plain(outcome.force.downstream),
+            downstream_peak_n: plain(outcome.peak.downstream),
+            upstream_force_n: plain(outcome.force.upstream),
+            upstream_peak_n: plain(outcome.peak.upstream),
+            max_compression_n: plain(outcome.max_compression),
+            upstream_displacement_m: plain(outcome.upstream_displacement),
+            downstream_displacement_m: plain(outcome.downstream_displacement),
             dissipated_energy_j: Some(outcome.dissipated),
             interpolated: *interpolated,
         }

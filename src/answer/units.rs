@@ -6,6 +6,8 @@ use crate::shown::rounded;
 /// The last digit that is shown of a force \[N\] and of a movement \[m\].
 const FORCE_DIGIT: f64 = 0.1;
 const MOVEMENT_DIGIT: f64 = 1e-7;
+/// Digits that are shown behind the first one of a large value.
+const DIGITS: f64 = 4.0;
 /// Units of stiffness whose force suits the ends of a cable. Springs are stiff: the MN of "3 MN/m" does not.
 const SUITABLE: [&str; 5] = ["kN", "kgf", "tf", "lbf", "kip"];
 /// Units of moduli that do not suit: those of the ground have too many digits in them.
@@ -15,9 +17,9 @@ const TOO_SMALL: [&str; 2] = ["Pa", "N/m2"];
 ///
 /// - Forces: the unit of a limit of force; else that in the first unit of an end spring, a clamp or the cable's weight, if that is kN, kgf,
 ///   tf, lbf or kip; else N.
-/// - Movements: the unit of a limit of movement; else inches where the duct's length is typed in ft or in; else mm.
+/// - Movements: the unit of a limit of movement; else inches where the duct's length is typed in ft, in, yd or mi; else mm.
 /// - Stiffnesses: the unit of an end spring or a clamp; else the one that goes with the force.
-/// - Lengths along the duct: ft where the duct's length is typed in ft or in; else m.
+/// - Lengths along the duct: ft where the duct's length is typed in ft, in, yd or mi; else m.
 /// - Weight and friction per length: the unit of the cable's weight; else N/m.
 /// - Moduli: the first unit of a modulus of the ground, if it is not Pa; else MPa.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,7 +70,7 @@ impl Units {
             .filter(|typed| typed.key.starts_with("ground."))
             .find_map(|typed| file.typed_unit(&typed.key, Dimension::Pressure));
         let length = file.typed_unit("duct.length", Dimension::Length);
-        let in_feet = length.is_some_and(|unit| [Unit::FOOT, Unit::INCH].contains(&unit));
+        let in_feet = length.is_some_and(|unit| ["ft", "in", "yd", "mi"].contains(&unit.symbol()));
         let [length, movement] = if in_feet {
             [Unit::FOOT, Unit::INCH]
         } else {
@@ -136,10 +138,12 @@ pub fn si_of_field(field: &str) -> Option<(&str, &'static str)> {
         .find_map(|(end, unit)| Some((field.strip_suffix(end)?, unit)))
 }
 
-/// A value in SI in a unit, rounded to the decimal that is nearest to `digit`, in SI.
+/// A value in SI in a unit, rounded to the decimal that is nearest to `digit`, in SI; of large values to fewer decimals.
 pub fn in_unit(si: f64, unit: Unit, digit: f64) -> String {
-    let decimals = (-unit.of_si(digit).log10()).round().max(0.0);
-    rounded(unit.of_si(si), decimals as usize)
+    let value = unit.of_si(si);
+    let decimals = -unit.of_si(digit).log10().round();
+    let enough = DIGITS - value.abs().log10().floor();
+    rounded(value, decimals.min(enough).max(0.0) as usize)
 }
 
 #[cfg(test)]
@@ -206,6 +210,8 @@ mod tests {
         // 1 lbf = 4.4482216 N, 1 in = 25.4 mm.
         assert_eq!(shown("lbf", "in"), pair("277.54", "-0.04860"));
         assert_eq!(shown("kip", "um"), pair("0.27754", "-1234.6"));
+        assert_eq!(Units::default().movement(521.195_086_7), "521195");
+        assert_eq!(Units::default().force(-10_234.56), "-10235");
     }
 
     #[test]

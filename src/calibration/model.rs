@@ -188,6 +188,7 @@ fn jumping<'a>(period: &'a Period, guide: Guide<'a>) -> Jumping<'a> {
         first_jump: FIRST_JUMP,
         most_passes: MOST_PASSES,
         guide,
+        simulated: None,
         beyond: false,
     }
 }

@@ -114,6 +114,20 @@ fn advice(kind: ErrorKind) -> Option<String> {
             ))
         }
         ErrorKind::UnknownArgument => {
+            let any = |names: &[&str]| {
+                arguments
+                    .iter()
+                    .any(|argument| names.contains(&argument.as_str()))
+            };
+            if any(&["run", "profile"]) && any(&["-o", "--out", "--output"]) {
+                return Some(
+                    "A table is written with --csv FILE; a workbook by `creepage run`, with --xlsx FILE"
+                        .to_owned(),
+                );
+            }
+            if any(&["calibrate"]) && !any(&["--data"]) {
+                return Some("Readings stand behind --data: --data load-cell.csv".to_owned());
+            }
             let place = arguments.iter().position(|argument| argument == "--set")?;
             let [key, value] = arguments.get(place + 1..place + 3)? else {
                 return None;

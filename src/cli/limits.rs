@@ -3,6 +3,7 @@
 use super::failure::Failure;
 use super::terminal;
 use crate::scene::{Dimension, End, Unit};
+use crate::shown::exact;
 use crate::{CableEnd, ClampLimits, EndLimits, Limits, Place, Scene, SceneFile, Units};
 
 #[derive(Debug, clap::Args)]
@@ -39,9 +40,14 @@ fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
         Some((name, value)) => (named(name.trim())?, value),
     };
     let unit = dimension.unit_of(value);
-    let value = dimension
-        .parse_argument(value)
-        .map_err(|error| error.to_string())?;
+    let value = dimension.parse_argument(value).map_err(|error| {
+        let units: Vec<&str> = dimension.units().collect();
+        format!(
+            "{error}; allowed: {} (units: {}); another limit is another option",
+            dimension.noun(),
+            units.join(", ")
+        )
+    })?;
     if value > 0.0 && value.is_finite() {
         return Ok(Limit { of, value, unit });
     }
@@ -183,11 +189,13 @@ impl LimitArguments {
                         if all.any(|clamp| clamp.is_clamp_at(position)) {
                             continue;
                         }
-                        format!("a clamp at {position} m, where there is none")
+                        format!("a clamp at {} m, where there is none", exact(position))
                     }
                     _ => continue,
                 };
-                let clamps: Vec<String> = positions().map(|position| format!("{position} m")).collect();
+                let clamps: Vec<String> = positions()
+                    .map(|position| format!("{} m", exact(position)))
+                    .collect();
                 let allowed = match clamps.join(", ") {
                     none if none.is_empty() => {
                         "upstream or downstream, as the scene has no clamps".to_owned()

@@ -8,7 +8,7 @@ use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
 use crate::error::with_causes;
 use crate::occurrence::Occurrence;
-use crate::shown::{percent, time};
+use crate::shown::{four_digits, percent, time};
 use crate::{Candidate, Part, PlanReport};
 
 #[derive(Debug, clap::Args)]
@@ -108,9 +108,9 @@ fn print_occurrence(out: &mut impl Write, occurrence: &Occurrence) -> Result<(),
     if occurrence.creeps() {
         write!(
             out,
-            "{:.0} % of the friction stays locked in at saturation; at most about {:.0} N in this duct, whatever the friction",
+            "{:.0} % of the friction stays locked in at saturation; at most about {} N in this duct, whatever the friction",
             100.0 * occurrence.locked_share,
-            occurrence.ceiling_n
+            four_digits(occurrence.ceiling_n)
         )?;
     } else {
         write!(out, "nothing creeps")?;

@@ -6,6 +6,7 @@ use super::failure::Failure;
 use super::shared::Json;
 use super::terminal;
 use crate::presets::{Preset, PresetKind, all};
+use crate::scene::{did_you_mean, nearest};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -70,7 +71,7 @@ fn find(name: &str) -> Result<&'static Preset, Failure> {
         let names: Vec<&str> = all().iter().map(|preset| preset.name.as_str()).collect();
         Failure::Usage {
             argument: "NAME",
-            found: format!("`{name}`"),
+            found: format!("`{name}`{}", did_you_mean(nearest(name, names.iter().copied()))),
             allowed: names.join(", "),
         }
     })

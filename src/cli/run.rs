@@ -8,7 +8,7 @@ use super::days;
 use super::failure::Failure;
 use super::limits::LimitArguments;
 use super::progress::{stopped, watched};
-use super::run_progress::RunProgress;
+use super::run_progress::how_far;
 use super::shared::{Destination, Input, OutputArguments, TrafficArguments};
 use super::terminal;
 #[cfg(feature = "xlsx")]
@@ -88,13 +88,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let workbook = arguments.workbook.destination(&mut files)?;
     let units = arguments.limits.units(input.file());
     let underway = Underway::default();
-    let shown = RunProgress::new(&input.scene, &underway);
     let keep = |_| match underway.finished() {
         Some(finished) => keep(&finished, &input.scene, &destination, &units),
         None => stopped("no pass is finished that could be shown"),
     };
     let answer = watched(
-        |now| shown.how_far(now),
+        |now| how_far(&underway, now),
         keep,
         |progress| {
             let options = RunOptions {
@@ -137,11 +136,25 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     })
 }
 
-/// The rows of a table. A column that only some rows have is none of it.
-fn rows(passes: &[PassRecord]) -> impl Iterator<Item = PassRecord> {
-    passes.iter().map(|record| PassRecord {
-        interpolated: false,
-        ..*record
+/// The last column of the table, 1 or 0 in every row, or in none: JSON leaves it out wherever it is false.
+#[derive(Serialize)]
+struct LastColumn {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    interpolated: Option<u8>,
+}
+
+/// The rows of a table.
+fn rows(passes: &[PassRecord]) -> impl Iterator<Item = (PassRecord, LastColumn)> {
+    let any = passes.iter().any(|record| record.interpolated);
+    passes.iter().map(move |record| {
+        let last = LastColumn {
+            interpolated: any.then_some(record.interpolated.into()),
+        };
+        let others = PassRecord {
+            interpolated: false,
+            ..*record
+        };
+        (others, last)
     })
 }
 

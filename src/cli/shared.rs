@@ -7,7 +7,8 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::{signals, terminal};
-use crate::output::{Files, Kind, Output};
+use crate::output::{Files, Kind, Output, OutputError};
+use crate::scene::DAYS_PER_YEAR;
 use crate::{Error, Scene, SceneFile, finite};
 
 /// What stands for standard output in place of a file.
@@ -38,28 +39,74 @@ fn key_and_value(text: &str) -> Result<String, String> {
 pub struct TrafficArguments {
     #[command(flatten)]
     pub file: SceneArguments,
-    /// Years of traffic in place of the scene's passes, as traffic.years; of 365.25 days
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    /// Years of traffic in place of the scene's passes, as traffic.years; of 365.25 days. Also "30 days" or "6 months"
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = |text: &str| years(text, "years"))]
     years: Option<f64>,
+    /// Days of traffic in place of --years
+    #[arg(long, value_name = "N", allow_negative_numbers = true, conflicts_with = "years", value_parser = |text: &str| years(text, "days"))]
+    days: Option<f64>,
     /// Vehicles a day, as traffic.per_day
-    #[arg(long, value_name = "N", allow_negative_numbers = true)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = a_day)]
     trucks_per_day: Option<f64>,
 }
 
 impl TrafficArguments {
     /// The scene file with all that was set on top of it.
     pub fn read(&self) -> Result<SceneFile, Failure> {
-        Ok(SceneFile::read(&self.file.scene)?.with(&self.overrides())?)
+        let file = SceneFile::read(&self.file.scene)?.with(&self.overrides())?;
+        let lasts = self.years.or(self.days).is_some();
+        if lasts && !file.typed().iter().any(|typed| typed.key == "traffic.per_day") {
+            return Err(Failure::Usage {
+                argument: "--trucks-per-day",
+                found: "none, and `traffic.per_day` is missing in the scene".into(),
+                allowed: "how many vehicles a day there are in that time, such as --trucks-per-day 800"
+                    .into(),
+            });
+        }
+        Ok(file)
     }
 
     /// All that is set on top of the scene file.
     pub fn overrides(&self) -> Vec<String> {
-        let keys = [("per_day", self.trucks_per_day), ("years", self.years)];
+        let keys = [
+            ("per_day", self.trucks_per_day),
+            ("years", self.years.or(self.days)),
+        ];
         let given = keys
             .iter()
             .filter_map(|(key, value)| Some(format!("traffic.{key}={}", (*value)?)));
         self.file.set.iter().cloned().chain(given).collect()
     }
+}
+
+/// Vehicles a day; what the scene's own key refuses is refused there.
+fn a_day(text: &str) -> Result<f64, String> {
+    let allowed = "allowed: a number of vehicles a day greater than 0, such as 800";
+    text.parse().map_err(|_| allowed.to_owned())
+}
+
+/// A time in years, typed with its unit or in `unit`.
+fn years(text: &str, unit: &str) -> Result<f64, String> {
+    let end = text.find(|c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E'));
+    let (number, written) = text.split_at(end.unwrap_or(text.len()));
+    let in_a_year = match if written.is_empty() { unit } else { written } {
+        "year" | "years" | "yr" | "a" => 1.0,
+        "month" | "months" => 12.0,
+        "week" | "weeks" => DAYS_PER_YEAR / 7.0,
+        "day" | "days" | "d" => DAYS_PER_YEAR,
+        _ => f64::NAN,
+    };
+    let years = number
+        .trim()
+        .parse()
+        .map_or(f64::NAN, |number: f64| number / in_a_year);
+    // What the scene's own key refuses is refused there.
+    if years.is_finite() && (years > 0.0 || in_a_year == 1.0) {
+        return Ok(years);
+    }
+    Err(format!(
+        "allowed: a number of {unit} greater than 0, such as 20, or with its unit, such as \"30 days\", \"6 months\" or \"20 years\""
+    ))
 }
 
 #[derive(Debug, clap::Args)]
@@ -135,7 +182,7 @@ impl Input {
 
     /// Warns of what an answer warns of, with the line of the key that a warning begins with.
     pub fn warn_all(&self, warnings: &[String]) {
-        for warning in warnings {
+        for warning in warnings.iter().filter(|warning| !self.is_told(warning)) {
             let key = warning.strip_prefix('`').and_then(|rest| rest.split('`').next());
             match key.and_then(|key| self.file.locate(key)) {
                 Some(location) => terminal::warn(format_args!("{location}: {warning}{}", location.excerpt())),
@@ -147,7 +194,18 @@ impl Input {
     /// Warns of what the answer warns of, and adds to it the warnings of the scene.
     pub fn warn(self, warnings: &mut Vec<String>) {
         self.warn_all(warnings);
+        warnings.retain(|warning| !self.is_told(warning));
         warnings.splice(0..0, self.warnings);
+    }
+
+    /// Whether the warning is of a key that a slip was found at.
+    fn is_told(&self, warning: &str) -> bool {
+        let key = warning.strip_prefix('`').and_then(|rest| rest.split('`').next());
+        key.is_some_and(|key| {
+            self.warnings
+                .iter()
+                .any(|slip| slip.contains(&format!("`{key}`: ")))
+        })
     }
 }
 
@@ -196,6 +254,17 @@ enum Table {
     File(Output),
 }
 
+/// Whether a file's name ends so, in capitals or not.
+pub fn has_ending(file: &Path, endings: &[&str]) -> bool {
+    let ending = file.extension().unwrap_or_default();
+    endings.iter().any(|known| ending.eq_ignore_ascii_case(known))
+}
+
+/// Whether the command reads or writes that file already, which is told before what its name ends in.
+pub fn is_taken(output: &Result<Output, OutputError>) -> bool {
+    matches!(output, Err(OutputError::Taken(..)))
+}
+
 impl OutputArguments {
     /// What a command reads and writes.
     pub fn files<'p>(&self, read: impl IntoIterator<Item = &'p Path>) -> Files {
@@ -207,7 +276,17 @@ impl OutputArguments {
         let table = match &self.csv {
             None => Table::None,
             Some(file) if file == Path::new(STDOUT) => Table::StandardOutput,
-            Some(file) => Table::File(files.output(file, kind)?),
+            Some(file) => {
+                let output = files.output(file, kind);
+                if has_ending(file, &["xlsx", "xls", "ods", "parquet"]) && !is_taken(&output) {
+                    return Err(Failure::Usage {
+                        argument: "--csv",
+                        found: file.display().to_string(),
+                        allowed: "a table of text, such as forces.csv; `creepage run` writes a workbook with --xlsx".into(),
+                    });
+                }
+                Table::File(output?)
+            }
         };
         let on_stdout = match &table {
             Table::None => false,

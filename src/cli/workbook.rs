@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
-use super::shared::STDOUT;
+use super::shared::{STDOUT, has_ending, is_taken};
 use crate::output::{Files, Kind, Output};
 use crate::{Run, SceneFile, Units, Verdict, finite, workbook};
 
@@ -23,7 +23,16 @@ impl WorkbookArguments {
         let Some(path) = &self.xlsx else {
             return Ok(Destination(None));
         };
-        let output = files.output(path, Kind::RunBook)?;
+        let output = files.output(path, Kind::RunBook);
+        if path.extension().is_some() && !has_ending(path, &["xlsx"]) && !is_taken(&output) {
+            return Err(Failure::Usage {
+                argument: "--xlsx",
+                found: path.display().to_string(),
+                allowed: "a workbook of Excel, such as forces.xlsx; a table of text is written with --csv"
+                    .into(),
+            });
+        }
+        let output = output?;
         if path == Path::new(STDOUT) || output.is_standard_output() {
             return Err(Failure::Usage {
                 argument: "--xlsx",

@@ -118,6 +118,11 @@ impl Levels {
         (share * self.spacing, step)
     }
 
+    /// Steps of the vehicle on `level`, beside twice those on the level below.
+    pub fn steps_doubled(&self, level: usize) -> f64 {
+        0.5 * self.spacing(level - 1).1 / self.spacing(level).1
+    }
+
     /// The mesh of `level`; an error where the duct is too short for one so coarse, or what the scene asks for is out of
     /// range.
     pub fn mesh(&self, level: usize) -> Result<Mesh, Error> {

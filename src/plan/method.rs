@@ -32,7 +32,7 @@ const LONGEST_SECONDS: f64 = 60.0;
 /// Share of the tolerance that leaving inertia out may cost.
 const INERTIA_SHARE: f64 = 0.5;
 /// Most passes that are simulated one by one.
-const MOST_PASSES: u64 = 1_000_000;
+pub const MOST_PASSES: u64 = 1_000_000;
 
 /// How all passes are computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -170,10 +170,7 @@ fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
     if !estimates.jumps_pay() {
         return (PassMethod::EveryPass(method), reason);
     }
-    let (simulated, passes) = (estimates.typical, scene.traffic.passes);
-    let jumps =
-        format!("about {simulated:.0} of {passes} passes are simulated, with jumps between them; {reason}");
-    (PassMethod::Jumps(method), jumps)
+    (PassMethod::Jumps(method), reason)
 }
 
 /// What the choice rests on.
@@ -226,6 +223,15 @@ impl Estimates {
     fn inertia_in_words(&self) -> String {
         let percent = 100.0 * self.inertia;
         format!("inertia changes the force by at most {percent:.2} %, (v/c)²")
+    }
+
+    /// How many passes jumps leave to be simulated.
+    pub fn simulated_in_words(&self) -> String {
+        let simulated = self.typical.min(self.passes);
+        format!(
+            "about {simulated:.0} of {} passes are simulated, with jumps between them",
+            self.passes
+        )
     }
 
     fn jumps_pay(&self) -> bool {

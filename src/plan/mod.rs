@@ -18,7 +18,7 @@ use ground_field::GroundField;
 use crate::ground::{Ground, road};
 use crate::{Error, Scene};
 pub use mesh::Levels;
-pub use method::{CableMethod, MethodChoice, PassMethod};
+pub use method::{CableMethod, MOST_PASSES, MethodChoice, PassMethod};
 pub use period::Period;
 pub use report::{Candidate, Part, PlanReport};
 

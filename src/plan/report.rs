@@ -80,12 +80,21 @@ pub struct PlanReport {
 }
 
 impl Plan<'_> {
-    /// Why the ground model and the method were chosen.
-    pub(crate) fn reasons(&self) -> Vec<String> {
+    /// Why the ground model was chosen, and the method for a reason of its own.
+    pub(crate) fn reasons(&self, method: &str) -> Vec<String> {
         vec![
             format!("ground {}: {}", self.ground.name, self.ground.reason),
-            format!("cable {}: {}", self.choice.method.name(), self.choice.reason),
+            format!("cable {}: {method}", self.choice.method.name()),
         ]
+    }
+
+    /// Why the method was chosen, and how many passes it is expected to simulate.
+    fn foreseen(&self) -> String {
+        let reason = self.choice.reason.clone();
+        match self.choice.method {
+            PassMethod::Jumps(_) => format!("{}; {reason}", self.choice.estimates.simulated_in_words()),
+            PassMethod::EveryPass(_) => reason,
+        }
     }
 
     /// The plan for a reader.
@@ -110,7 +119,7 @@ impl Plan<'_> {
             cable: choice.method.name().into(),
             node_spacing_m: spacing.0,
             vehicle_step_m: spacing.1,
-            reasons: self.reasons(),
+            reasons: self.reasons(&self.foreseen()),
             estimated_error: mesh_error.map(|error| error + method_error + ground.accuracy),
             estimated_seconds: choice.estimates.seconds(choice.method),
             occurrence: Occurrence::new(scene, &ground.motions),
@@ -159,7 +168,7 @@ impl Plan<'_> {
                 estimated_error: estimates.error(self.scene, method),
                 estimated_seconds: Some(estimates.seconds(method)),
                 reason: if chosen {
-                    self.choice.reason.clone()
+                    self.foreseen()
                 } else {
                     estimates.against(self.scene, method)
                 },

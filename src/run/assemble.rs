@@ -30,7 +30,7 @@ impl<'a> RunBuilder<'a> {
                 cable: plan.choice.method.name().into(),
                 node_spacing_m: 0.0,
                 vehicle_step_m: 0.0,
-                reasons: plan.reasons(),
+                reasons: plan.reasons(&plan.choice.reason),
             },
             warnings: plan.warnings.clone(),
             plan,
@@ -93,9 +93,15 @@ impl<'a> RunBuilder<'a> {
         balance::of_records(self.plan.scene, &passes, &restraints)?;
         let first = passes.iter().find(|record| record.interpolated);
         if let Some(first) = first.filter(|_| solved.heat.is_none()) {
+            let (simulated, passes) = (solved.passes.simulated, self.plan.scene.traffic.passes);
+            let of = if simulated < passes {
+                format!("{simulated} of {passes} passes were simulated")
+            } else {
+                format!("{simulated} passes were simulated, some beyond the {passes} of the traffic")
+            };
             summary.reasons.push(format!(
-                "{} of {} passes were simulated; between them the answer follows jumps, from pass {} on",
-                solved.passes.simulated, self.plan.scene.traffic.passes, first.pass
+                "{of}; between them the answer follows jumps, from pass {} on",
+                first.pass
             ));
         }
         let total = solved.error.total();

@@ -6,10 +6,11 @@
 
 use cable_dem::{CableError, Statistics};
 
+use super::judge::{judge, mesh_reason};
 use super::lived::{Lived, Living};
 use super::options::RunOptions;
-use super::outlook::Work;
-use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both, judge, mesh_reason};
+use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both};
+use super::work::Work;
 use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
 use crate::plan::{PassMethod, Plan};
@@ -73,9 +74,10 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<(Work
     let nodes = plan.levels.mesh(coarse)?.nodes();
     let work = Work::new(&lived.passes.statistics, nodes, periods, 0.0);
     // That level and the one below; before them, with as many real periods a day and with twice as many, the coarse one.
+    let on = |work: Work, level| work.refined(&plan.levels, coarse, level);
     let meshes = |work: Work| match (level - coarse).checked_sub(1) {
-        Some(below) => work.refined(below) + work.refined(below + 1),
-        None => work.refined(level - coarse),
+        Some(below) => on(work, coarse + below) + on(work, level),
+        None => on(work, level),
     };
     let all = match method {
         PassMethod::EveryPass(_) => meshes(work.times(plan.scene.traffic.passes as f64 / periods)),
@@ -103,8 +105,7 @@ impl Living<'_> {
             .filter(|(coarse, _)| coarse + 1 == level)
             .map(|(_, lived)| lived);
         let known = coarse.is_some();
-        // How many meshes it takes is not known: each is half of what is left.
-        let mut parts = self.progress.part(FINDING, 1.0).halving();
+        let mut parts = self.progress.part(FINDING, 1.0).refining(verify);
         let now = parts();
         let (mut below, mut finest) = both(
             || match (coarse, level.checked_sub(1)) {
@@ -153,9 +154,9 @@ impl Living<'_> {
             };
         error.temperature = error.temperature + self.sequence_error(level, knots, &mut statistics)?;
         error.road = self.road_error(level, knots, &mut statistics)?;
-        judge(&error, scene, warnings)?;
-        warnings.extend(self.broken_sequence());
         let mesh = levels.mesh(level)?;
+        judge(&error, scene, &mesh, warnings)?;
+        warnings.extend(self.broken_sequence());
         Ok(Solved {
             reasons: vec![mesh_reason(self.plan, &mesh), self.reason(&finest, knots)],
             heat: Some(self.record(&finest)?),

@@ -12,10 +12,11 @@ use cable_dem::CableError;
 
 use super::days;
 use super::jumps::{self, Found};
-use super::outlook::{Known, Level, Outlook, Work};
+use super::outlook::{Known, Level, Outlook};
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use super::refine::MAX_NODE_UPDATES;
+use super::work::Work;
 use crate::answer::error_estimate::{Scale, Shares, is_doubtful};
 use crate::answer::simulated;
 use crate::ground::{peak, road};
@@ -25,7 +26,7 @@ use crate::{Error, Progress, Scene};
 
 /// What a forecast may cost: this share of the run, or as many seconds if that is more.
 const SHARE: f64 = 0.08;
-const SECONDS: f64 = 0.8;
+const SECONDS: f64 = 2.0;
 /// Jumps are looked for on the level where the run does it if that takes no longer than this \[s\], with so many periods; else on the coarsest.
 const SECONDS_OF_JUMPS: f64 = 0.1;
 const PERIODS: f64 = 100.0;
@@ -50,7 +51,7 @@ pub struct Forecast {
 }
 
 /// Predicts what the run of `plan` will take, without `verify`: in nine of ten scenes its processor time is at most twice
-/// [`Forecast::seconds`]. The prediction itself takes a tenth of that, or a second: on meshes that
+/// [`Forecast::seconds`]. The prediction itself takes a tenth of that, or two seconds: on meshes that
 /// take no longer the run is made.
 ///
 /// # Errors
@@ -125,7 +126,7 @@ impl<'a> Probe<'a> {
             }
         };
         if self.plan.scene.friction_limit() == 0.0 {
-            let work = early.work.refined(first - coarsest);
+            let work = early.work.refined(levels, coarsest, first);
             return Ok(Outlook {
                 level: first,
                 work,
@@ -186,26 +187,27 @@ impl<'a> Probe<'a> {
         let pass = known.early[0].work.times(1.0 / self.early.traffic.passes as f64);
         let periods = PERIODS.min(known.simulated / self.plan.period.len() as f64);
         let passes = pass.times(periods * self.plan.period.len() as f64);
-        let cheap = |level: usize| self.seconds(passes.refined(level)) < SECONDS_OF_JUMPS;
+        let levels = &self.plan.levels;
+        let on = |level: usize| passes.refined(levels, known.coarsest, level);
         let lowered = (0..first - known.coarsest)
-            .find(|lowered| cheap(first - known.coarsest - lowered))
+            .find(|lowered| self.seconds(on(first - lowered)) < SECONDS_OF_JUMPS)
             .unwrap_or(first.saturating_sub(known.coarsest + 1));
         let total = Cell::new(Work::default());
         let (found, _) = jumps::find(
             self.plan,
             known.scale,
-            jumps::SHARE,
+            jumps::share(self.plan),
             None,
             Progress::default(),
             |level, jumping: &Jumping<'_>, _| {
                 let lower = level.saturating_sub(lowered).max(known.coarsest);
                 let simulated = self.simulate(self.plan.scene, lower, Some(*jumping));
                 if let Err(Error::Jumps(_)) = simulated {
-                    let pass = pass.refined(level - known.coarsest);
+                    let pass = pass.refined(levels, known.coarsest, level);
                     total.set(total.get() + pass.times(self.affordable(level)));
                 }
                 let (mut passes, work) = simulated?;
-                let work = work.refined(level - lower);
+                let work = work.refined(levels, lower, level);
                 passes.statistics.node_updates = work.0[0] as usize;
                 passes.statistics.corners = work.0[2] as usize;
                 total.set(total.get() + work);

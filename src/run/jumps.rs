@@ -22,7 +22,7 @@ const LARGEST: f64 = 0.06;
 const FINER: (f64, f64) = (1.0 / 3.0, 0.5);
 const FINEST: usize = 4;
 /// Share of the tolerance that jumps may take; and where a mesh would keep the tolerance with smaller ones.
-pub const SHARE: f64 = 0.5;
+const SHARE: f64 = 0.5;
 pub const SMALLER_SHARE: f64 = 0.35;
 /// Periods simulated at the start, of at most so many vehicles and of more; and at most where only early jumps are off; and passes
 /// in them at most.
@@ -62,9 +62,18 @@ impl Found {
             first_jump: self.first_jump,
             most_passes: 0,
             guide: Guide::Follow(&self.passes.schedule),
+            simulated: Some(self.passes.simulated),
             beyond: false,
         }
     }
+}
+
+/// Share of the tolerance that the jumps of `plan` may take: larger ones than the first mesh leaves room for would only make a finer one
+/// necessary.
+pub fn share(plan: &Plan<'_>) -> f64 {
+    let mesh = plan.levels.expected_error(plan.levels.first()).unwrap_or(0.0);
+    let others = mesh + plan.ground.accuracy + plan.choice.inertia;
+    (1.0 - others / plan.scene.solver.tolerance).clamp(SMALLER_SHARE, SHARE)
 }
 
 /// Finds jumps for `plan` that take at most the `share` of its tolerance, or the best that are affordable; smaller ones than those found
@@ -104,6 +113,7 @@ pub fn find<'a>(
         first_jump: FIRST.1,
         most_passes: 0,
         guide: Guide::Free,
+        simulated: None,
         beyond: false,
     };
     let mut statistics = Statistics::default();

@@ -3,6 +3,7 @@
 mod assemble;
 mod days;
 mod forecast;
+mod judge;
 mod jumps;
 mod listing;
 mod lived;
@@ -14,6 +15,7 @@ mod random;
 mod refine;
 mod solver;
 mod underway;
+mod work;
 
 use crate::plan::{PassMethod, Plan, plan, plan_on};
 use crate::{Error, Run, Scene, finite};

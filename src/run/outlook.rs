@@ -4,26 +4,18 @@
 //! first passes have been made on the finer mesh too, theirs tells more than half of that. Each level costs about five times the one before.
 //! So the levels with which the run may end are weighed by how likely they are.
 //!
-//! All constants were fitted to the traces of 120 random scenes with 10⁴, 10⁶ and 10⁸ passes; `forecasts_on_many_scenes` in
-//! `tests/planner/forecast.rs` measures what they are worth.
-
-use std::ops::{Add, AddAssign, Div, Mul};
+//! All constants were fitted to the traces of 120 random scenes with 10⁴, 10⁶ and 10⁸ passes, and how the levels are weighed once more to
+//! half of 50 others with 10³ and 10⁶ passes; `forecasts_on_many_scenes` in `tests/planner/forecast.rs` measures what they are worth.
 
 use cable_dem::Statistics;
 use cycle_jump::Record;
 
+use super::jumps::SMALLER_SHARE;
 use super::refine::{MAX_NODE_UPDATES, REFINEMENT_COST, SHARP, allowed};
+use super::work::Work;
 use crate::answer::error_estimate::{Scale, Shares, difference, of_differences};
-use crate::plan::{CableMethod, Levels, Plan};
+use crate::plan::{Levels, Plan};
 
-/// Time of a node's update, a window, a corner, a node's part in one jump, and in one pass that is listed within a jump \[s\] without
-/// inertia; of a node's update with it, and of an explicit one.
-const SECONDS: Work = Work([5.8e-9, 1.4e-7, 5e-9, 1.4e-6, 4.5e-8]);
-const DYNAMIC: Work = Work([6e-8, 0.0, 0.0, 1.4e-6, 4.5e-8]);
-const EXPLICIT: Work = Work([1e-9, 0.0, 0.0, 1.4e-6, 4.5e-8]);
-/// What they multiply by from one level to the next, where that is not measured; and the bounds of what is believed.
-const GROWTH: Work = Work([4.6, 2.1, 4.6, 2.0, 2.0]);
-const BELIEVED: (f64, f64) = (0.8, 1.3);
 /// ln of what the differences between meshes are multiplied by from one level to the next; the part of it that the first passes tell.
 const FALL: f64 = -1.23;
 const TOLD: f64 = 0.65;
@@ -37,99 +29,15 @@ const SPREAD_ALONE: f64 = 1.0;
 const SPREAD_OF_WORK: f64 = 0.25;
 /// What is told is most likely within a factor of two of the truth, where a truth of less than twice of it counts so much besides; the
 /// standard deviation of ln of the work for a given last level; and what is tried to find it.
-const WORTH_OF_ENOUGH: f64 = 0.6;
+const WORTH_OF_ENOUGH: f64 = 0.3;
 const TWICE: f64 = std::f64::consts::LN_2;
-const SPREAD_OF_END: f64 = 0.15;
+const SPREAD_OF_END: f64 = 0.1;
 const MARGIN: f64 = 0.3;
 const TRIED: u32 = 200;
+/// Smaller jumps take this share of the work in which the first ones are found.
+const SMALLER_JUMPS: f64 = 0.5;
 /// Smallest difference that counts.
 const LEAST: f64 = 1e-5;
-
-/// Counts of work: node updates, windows, corners, nodes times periods, and nodes times passes within jumps.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Work(pub [f64; 5]);
-
-impl Work {
-    /// Of so many simulated `periods` on a mesh of so many `nodes`, with so many passes listed within jumps.
-    pub fn new(statistics: &Statistics, nodes: usize, periods: f64, listed: f64) -> Self {
-        Self([
-            statistics.node_updates as f64,
-            statistics.windows as f64,
-            statistics.corners as f64,
-            nodes as f64 * periods,
-            nodes as f64 * listed,
-        ])
-    }
-
-    /// Processor time \[s\].
-    pub fn seconds(self, method: CableMethod) -> f64 {
-        let cost = match method {
-            CableMethod::QuasiStatic => SECONDS,
-            CableMethod::Dynamic => DYNAMIC,
-            CableMethod::Explicit => EXPLICIT,
-        };
-        (self * cost).0.iter().sum()
-    }
-
-    /// On a mesh so many levels finer.
-    pub fn refined(self, levels: usize) -> Self {
-        (0..levels).fold(self, |work, _| work * GROWTH)
-    }
-
-    pub fn times(self, factor: f64) -> Self {
-        Self(self.0.map(|count| factor * count))
-    }
-
-    /// What a run compares with the most that it refines for.
-    fn updates(self) -> f64 {
-        self.0[0] + self.0[2]
-    }
-
-    fn map(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
-        Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
-    }
-
-    /// Growth from `coarser` to this, as far as it is believed.
-    fn growth(self, coarser: Self) -> Self {
-        (self / coarser).map(GROWTH, |growth, usual| {
-            if growth.is_finite() {
-                growth.clamp(BELIEVED.0 * usual, BELIEVED.1 * usual)
-            } else {
-                usual
-            }
-        })
-    }
-}
-
-impl Add for Work {
-    type Output = Self;
-
-    fn add(self, other: Self) -> Self {
-        self.map(other, |a, b| a + b)
-    }
-}
-
-impl AddAssign for Work {
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl Mul for Work {
-    type Output = Self;
-
-    fn mul(self, other: Self) -> Self {
-        self.map(other, |a, b| a * b)
-    }
-}
-
-impl Div for Work {
-    type Output = Self;
-
-    fn div(self, other: Self) -> Self {
-        self.map(other, |a, b| a / b)
-    }
-}
 
 /// Passes on one level, and their work.
 pub struct Level {
@@ -212,16 +120,18 @@ impl Known<'_> {
 
     /// Growth of the work from the level below to `level`, or as far as known.
     fn growth(&self, level: usize) -> Work {
+        let usual = |place: usize| Work::usual_growth(&self.plan.levels, self.coarsest + place);
         let known = |levels: &[Level], place: usize| {
-            (1..levels.len())
-                .contains(&place)
-                .then(|| levels[place].work.growth(levels[place - 1].work))
+            (1..levels.len()).contains(&place).then(|| {
+                let growth = levels[place].work.growth(levels[place - 1].work, usual(place));
+                growth * usual(level - self.coarsest) / usual(place)
+            })
         };
         let place = level - self.coarsest;
         known(&self.early, place)
             .or_else(|| known(&self.full, self.full.len().wrapping_sub(1)))
             .or_else(|| known(&self.early, self.early.len() - 1))
-            .unwrap_or(GROWTH)
+            .unwrap_or(usual(place))
     }
 
     /// Difference between `level` and the one below, and the standard deviation of its ln.
@@ -260,35 +170,45 @@ impl Known<'_> {
         }
     }
 
-    /// How likely a run that has come to `level` ends there.
-    fn ends_at(&self, level: usize) -> f64 {
+    /// How likely a run that has come to `level` ends there: with the jumps that were found, and with smaller ones.
+    fn ends_at(&self, level: usize) -> [f64; 2] {
         let Plan { scene, levels, .. } = self.plan;
         if level >= levels.finest() || levels.mesh(level + 1).is_err() {
-            return 1.0;
+            return [1.0, 0.0];
         }
         let still = self.early[0]
             .records
             .iter()
             .all(|record| record.outcome.dissipated == 0.0);
         if level == self.coarsest || still && level < SHARP {
-            return 0.0;
+            return [0.0; 2];
         }
         let (error, spread) = self.error(level);
         let others = Shares::both(self.plan.ground.accuracy + self.plan.choice.inertia);
-        let allowed = allowed(scene.solver.tolerance, self.passes).less(others);
-        let excess = (error.force / allowed.force).max(error.movement / allowed.movement);
-        let within = below(
-            if allowed.force > 0.0 {
-                excess.ln()
-            } else {
-                f64::INFINITY
-            },
-            spread,
-        );
+        let within = |allowed: Shares| {
+            let allowed = allowed.less(others);
+            let excess = (error.force / allowed.force).max(error.movement / allowed.movement);
+            below(
+                if allowed.force > 0.0 {
+                    excess.ln()
+                } else {
+                    f64::INFINITY
+                },
+                spread,
+            )
+        };
+        let tolerance = scene.solver.tolerance;
+        let found = within(allowed(tolerance, self.passes));
+        let smaller = within(Shares::both((1.0 - SMALLER_SHARE) * tolerance));
+        let smaller = if self.passes == Shares::default() {
+            0.0
+        } else {
+            (smaller - found).max(0.0)
+        };
         let work = REFINEMENT_COST as f64 * self.level_work(level).updates();
         let spread = if level < self.next() { 0.0 } else { SPREAD_OF_WORK };
         let affordable = below((work / MAX_NODE_UPDATES as f64).ln(), spread);
-        1.0 - (1.0 - within) * affordable
+        [1.0 - smaller - (1.0 - found - smaller) * affordable, smaller]
     }
 
     /// Error of the mesh on `level`, and the standard deviation of its ln.
@@ -323,16 +243,19 @@ impl Known<'_> {
             let ends_here = match self.stuck {
                 Some(stuck) if level + 1 == self.next() => {
                     work += stuck;
-                    1.0
+                    [1.0, 0.0]
                 }
                 _ => self.ends_at(level),
             };
-            ends.push(End {
-                level,
-                likely: left * ends_here,
-                work,
-            });
-            left *= 1.0 - ends_here;
+            let again = work + self.level_work(level) + self.besides.times(SMALLER_JUMPS);
+            for (ends_here, work) in ends_here.into_iter().zip([work, again]) {
+                ends.push(End {
+                    level,
+                    likely: left * ends_here,
+                    work,
+                });
+            }
+            left *= 1.0 - ends_here[0] - ends_here[1];
             if left <= 0.0 {
                 break;
             }

@@ -44,6 +44,8 @@ pub struct Jumping<'a> {
     /// Passes after which it is given up.
     pub most_passes: u64,
     pub guide: Guide<'a>,
+    /// About how many passes they leave to be simulated, where that is known.
+    pub simulated: Option<u64>,
     /// Whether it is followed where the forces lead.
     pub beyond: bool,
 }
@@ -111,6 +113,7 @@ impl Task<'_> {
         let Self { scene, mesh, .. } = self;
         let mut simulation = Simulation::new(self)?;
         simulation.jumps = true;
+        simulation.foreseen = jumping.simulated;
         let motion = peak(self.motions);
         let scale = Scale::new(scene.friction_limit(), motion);
         let patience = PATIENCE * jumping.period.len() as u64;
@@ -176,10 +179,12 @@ pub struct Simulation<'a> {
     slip: Option<SlipRecord>,
     stages: Vec<Stage>,
     statistics: Statistics,
-    /// Whether passes come in leaps.
+    /// Whether passes come in leaps; then about how many are simulated, where that is known.
     jumps: bool,
-    /// The farthest pass so far.
+    foreseen: Option<u64>,
+    /// The farthest pass so far, and how many are simulated.
     reached: u64,
+    simulated: u64,
 }
 
 impl<'a> Simulation<'a> {
@@ -192,7 +197,9 @@ impl<'a> Simulation<'a> {
             stages: Vec::new(),
             statistics: Statistics::default(),
             jumps: false,
+            foreseen: None,
             reached: 0,
+            simulated: 0,
         })
     }
 
@@ -231,6 +238,7 @@ impl<'a> Simulation<'a> {
         };
         balance::of_state(&self.cable, state, number.unwrap_or(0))?;
         self.statistics += outcome.statistics;
+        self.simulated += 1;
         self.reached = self.reached.max(number.unwrap_or(0).min(count));
         if let Some(seen) = self.task.seen {
             seen.reach(self.reached, &outcome.statistics);
@@ -247,10 +255,10 @@ impl<'a> Simulation<'a> {
     /// The share of the work done.
     fn share(&self) -> f64 {
         let (pass, count) = (self.reached as f64, self.task.scene.traffic.passes as f64);
-        if self.jumps {
-            pass.ln_1p() / count.ln_1p()
-        } else {
-            pass / count
+        match self.foreseen {
+            Some(all) => (self.simulated as f64 / all as f64).min(1.0),
+            None if self.jumps => pass.ln_1p() / count.ln_1p(),
+            None => pass / count,
         }
     }
 

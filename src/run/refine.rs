@@ -5,6 +5,7 @@ use std::thread;
 use cable_dem::{CableError, Mesh, Statistics};
 use cycle_jump::Record;
 
+use super::judge::{judge, mesh_reason};
 use super::jumps::{self, Found};
 use super::options::RunOptions;
 use super::passes::{Jumping, Passes, Task};
@@ -13,7 +14,6 @@ use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference,
 use crate::answer::{DayExtremes, HeatRecord, RandomSpread, simulated};
 use crate::ground::{peak, road};
 use crate::plan::{Levels, PassMethod, Plan};
-use crate::shown::{exact_percent, percent};
 use crate::{Error, Progress, Scene};
 
 /// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
@@ -69,18 +69,15 @@ impl Refinement<'_> {
         let mut statistics = Statistics::default();
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
         let mut found = match self.method {
-            PassMethod::Jumps(_) => {
-                // Larger jumps than the first mesh leaves room for would only make a finer one necessary.
-                let mesh = levels.expected_error(levels.first()).unwrap_or(0.0);
-                let room = 1.0 - (error.total().force + mesh) / tolerance;
-                let share = room.clamp(jumps::SMALLER_SHARE, jumps::SHARE);
-                Some(self.jumps(share, None, &mut statistics)?)
-            }
+            PassMethod::Jumps(_) => Some(self.jumps(jumps::share(self.plan), None, &mut statistics)?),
             PassMethod::EveryPass(_) => None,
         };
-        // How many meshes it takes is not known: each is half of what is left.
         let left = found.as_ref().map_or(0.0, |_| FINDING);
-        let mut parts = self.options.progress.part(left, 1.0).halving();
+        let mut parts = self
+            .options
+            .progress
+            .part(left, 1.0)
+            .refining(self.options.verify);
         let (level, mut passes) = self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?;
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
@@ -97,7 +94,7 @@ impl Refinement<'_> {
             error.mesh = measured(&finest.records, &finer.records, self.scale());
             error.measured = true;
         }
-        judge(&error, scene, warnings)?;
+        judge(&error, scene, &mesh, warnings)?;
         let mut random = None;
         if let Some(found) = &found {
             let task = self.task(scene, levels.mesh(found.level)?);
@@ -328,46 +325,12 @@ impl Refinement<'_> {
     }
 }
 
-/// Refuses an answer that is none, and warns of one that is not as good as asked.
-pub(super) fn judge(error: &ErrorParts, scene: &Scene, warnings: &mut Vec<String>) -> Result<(), Error> {
-    let tolerance = scene.solver.tolerance;
-    let total = error.total();
-    error_estimate::judge(total.force, tolerance)?;
-    for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
-        if share > tolerance {
-            let (share, tolerance) = (percent(share), percent(tolerance));
-            warnings.push(format!(
-                "the estimated error{of} of {share} exceeds the tolerance of {tolerance}"
-            ));
-        }
-    }
-    if !scene.friction.law.has_memory() {
-        warnings.push(
-            "the error is of the node spacing alone: the sigmoid law's result depends on the time step"
-                .into(),
-        );
-    }
-    Ok(())
-}
-
 fn work_of(passes: &[Passes]) -> Statistics {
     let mut work = Statistics::default();
     for passes in passes {
         work += passes.statistics;
     }
     work
-}
-
-/// Why this mesh.
-pub(super) fn mesh_reason(plan: &Plan<'_>, mesh: &Mesh) -> String {
-    let Plan { scene, levels, .. } = plan;
-    let nodes = scene.duct.depth / mesh.spacing();
-    let why = if levels.named() {
-        "as the scene asks".to_owned()
-    } else {
-        format!("for the requested {}", exact_percent(scene.solver.tolerance))
-    };
-    format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
 }
 
 /// What of the `tolerance` is left to all that is not the error of `passes`: what jumps leave, no finer mesh takes away.

@@ -42,6 +42,8 @@ pub struct HowFar {
     pub passes: u64,
     /// Distance between the nodes of that mesh \[m\].
     pub node_spacing_m: f64,
+    /// Whether a coarser mesh than that was not good enough.
+    pub is_refined: bool,
     /// Nodes eliminated so far, on all meshes together: as [`Cost::node_updates`](crate::Cost::node_updates) of the run.
     pub node_updates: f64,
 }
@@ -113,11 +115,13 @@ impl Underway {
         let seen = self.seen();
         let (_, traffic) = seen.answer.as_ref()?;
         let shown = seen.meshes.iter().rfind(|passes| passes.shown);
+        let before = seen.meshes.iter().filter(|passes| passes.shown).count();
         let last = shown.or(seen.meshes.last())?;
         Some(HowFar {
             pass: last.reached,
             passes: traffic.passes,
             node_spacing_m: last.mesh.spacing(),
+            is_refined: before > 1,
             node_updates: seen.node_updates,
         })
     }

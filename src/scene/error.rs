@@ -114,7 +114,8 @@ impl fmt::Display for Wrong {
 
 impl std::error::Error for Wrong {}
 
-fn did_you_mean(suggestion: Option<&str>) -> String {
+/// What was probably meant, in words.
+pub(crate) fn did_you_mean(suggestion: Option<&str>) -> String {
     suggestion.map_or_else(String::new, |word| format!(" (did you mean `{}`?)", cut(word)))
 }
 

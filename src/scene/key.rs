@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use serde::Serialize;
 
 use super::data::{Arrangement, GroundModel, SolverMethod};
-#[cfg(feature = "cli")]
+#[cfg(feature = "sweep")]
 use super::nearest::nearest;
 use super::range::{self as of, Quantity, allowed_whole};
 
@@ -55,7 +55,7 @@ const PRESET: Allowed = As("a name that `creepage presets` lists");
 /// The top level, then the sections, then tables inside them.
 pub(super) const KEYS: &[Key] = keys! {
     "" "title": As("a text"), Some("the file's name"), "Name of the scene in tables and reports.";
-    "" "duct": SECTION, None, "Where the duct lies: straight, at constant depth.";
+    "" "duct": SECTION, None, "Where the duct lies: straight, and as deep everywhere below a road that may slope.";
     "" "ground": SECTION, None, "The ground around the duct.";
     "" "cable": SECTION, None, "The cable in the duct.";
     "" "friction": SECTION, None, "Friction between cable and duct.";
@@ -183,7 +183,7 @@ pub fn key_meanings() -> Vec<KeyMeaning> {
 }
 
 /// The key nearest to `text`, by its last word where that has no section.
-#[cfg(feature = "cli")]
+#[cfg(feature = "sweep")]
 pub(crate) fn nearest_key(text: &str) -> Option<String> {
     let keys: Vec<String> = key_meanings().into_iter().map(|key| key.key).collect();
     if text.contains('.') {

@@ -53,16 +53,18 @@ pub fn other_name(key: &str) -> Option<&'static str> {
 }
 
 /// Words and symbols of the field for what a scene calls otherwise.
-const SYNONYMS: [(&str, &str); 23] = [
+const SYNONYMS: [(&str, &str); 25] = [
     ("alpha", "expansion"),
     ("anchors", "restraints"),
     ("clamp", "restraints"),
     ("clamps", "restraints"),
+    ("coefficient", "dynamic_coefficient"),
     ("conduit", "duct"),
     ("days", "years"),
     ("e", "young_modulus"),
     ("ea", "axial_stiffness"),
     ("end", "downstream"),
+    ("friction_coefficient", "dynamic_coefficient"),
     ("gradient", "slope"),
     ("left", "upstream"),
     ("mass", "weight"),

@@ -76,14 +76,18 @@ pub use data::{
     Arrangement, Cable, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Heat, Order,
     PeakScaling, Restraint, Scene, Solver, SolverMethod, Traffic, TrafficVehicle, UnknownWord, Warming,
 };
+#[cfg(feature = "sweep")]
+pub(crate) use error::did_you_mean;
 pub use error::{SceneError, Wrong, WrongKind};
 pub use file::SceneFile;
-#[cfg(feature = "cli")]
+#[cfg(feature = "sweep")]
 pub(crate) use key::nearest_key;
 pub use key::{KeyMeaning, key_meanings};
 #[cfg(feature = "sweep")]
 pub(crate) use keys::si_unit;
 pub use location::Location;
+#[cfg(feature = "cli")]
+pub(crate) use nearest::nearest;
 pub use quantity::QuantityError;
 #[cfg(feature = "sweep")]
 pub(crate) use quantity::leading_number;

@@ -197,6 +197,8 @@ mod tests {
             (Dimension::Force, "2 kip", 8896.443230521),
             (Dimension::Length, "10 ft", 3.048),
             (Dimension::Length, "1 in", 0.0254),
+            (Dimension::Length, "100 yd", 91.44),
+            (Dimension::Length, "0.5 mi", 804.672),
             // 1 psi = 1 lbf/in².
             (Dimension::Pressure, "1 psi", 4.4482216152605 / (0.0254 * 0.0254)),
             (Dimension::Pressure, "2 ksi", 8896.443230521 / (0.0254 * 0.0254)),
@@ -226,6 +228,8 @@ mod tests {
             (Dimension::Speed, "36 km/h", 10.0),
             (Dimension::Speed, "40 km/h", 40.0 / 3.6),
             (Dimension::Speed, "11 m/s", 11.0),
+            (Dimension::Speed, "30 mph", 30.0 * 1609.344 / 3600.0),
+            (Dimension::Speed, "44 ft/s", 44.0 * 0.3048),
             (Dimension::Speed, "11 mm/s", 0.011),
             (Dimension::Time, "0.1 ms", 1e-4),
             (Dimension::Time, "3 s", 3.0),

@@ -13,9 +13,8 @@ use super::location::Location;
 const LIGHT: f64 = 1e3;
 /// Speeds above this \[m/s\] are faster than any truck: 130 km/h.
 const FAST: f64 = 130.0 / 3.6;
-/// Weights per length below this \[N/m\] may be in kg/m; springs and clamps below this \[N/m\] hold nothing.
+/// Weights per length below this \[N/m\] may be in kg/m.
 const LIGHT_CABLE: f64 = 20.0;
-const SLACK: f64 = 1e3;
 
 /// A bare number that was probably meant in another unit.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,9 +58,6 @@ pub fn unit_slips(document: &Document) -> Vec<UnitSlip> {
             }
             "weight" if *value < LIGHT_CABLE => {
                 format!("{value} N/m: did you mean \"{found} kgf/m\"?")
-            }
-            "spring" | "stiffness" if *value < SLACK => {
-                format!("{value} N/m, which holds nothing: did you mean \"{found} MN/m\"?")
             }
             "passes" if parts_thousands(&found) => {
                 let meant = found.replace('.', "");

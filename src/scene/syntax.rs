@@ -36,22 +36,63 @@ pub fn fault(text: &str, error: &toml::de::Error) -> Fault {
             message,
         };
     }
-    let mut message = error.message().to_owned();
-    if message == "duplicate key"
-        && let Some(line) = first_line(text, &span)
-    {
-        message = format!("duplicate key, which stands on line {line} already");
-    }
     let start = line_start(text, span.start);
-    let hint = if is_table(text) {
-        Some("this is a table; a scene has lines such as length = \"30 m\"".to_owned())
+    let line = text[start..].lines().next().unwrap_or_default();
+    let message = if error.message() == "duplicate key"
+        && let Some(first) = first_line(text, &span)
+    {
+        format!("duplicate key, which stands on line {first} already")
+    } else if is_table(text) {
+        "this is a table; a scene has lines such as length = \"30 m\"".to_owned()
     } else {
-        hint(text[start..].lines().next().unwrap_or_default())
+        hint(line).unwrap_or_else(|| in_plain_words(error.message()).to_owned())
     };
-    if let Some(hint) = hint {
-        message = format!("{message}; {hint}");
-    }
     Fault { span, message }
+}
+
+/// What the parser says, in the words of those who do not know it.
+fn in_plain_words(message: &str) -> &str {
+    const WORDS: [(&str, &str); 13] = [
+        (
+            "string values must be quoted",
+            "behind `=` stands a number, or a text in quotes",
+        ),
+        (
+            "unexpected key or value",
+            "nothing but a comment, which begins with `#`, stands behind a value",
+        ),
+        (
+            "key with no value",
+            "a line has a key, `=` and a value, such as length = \"30 m\"",
+        ),
+        ("unquoted keys cannot be empty", "the key before `=` is missing"),
+        (
+            "invalid unquoted key",
+            "a key has only the letters a to z, digits, `_` and `-`",
+        ),
+        ("extra `=`", "there is one `=` too many"),
+        (
+            "unclosed table",
+            "the closing bracket is missing: a section is written [duct]",
+        ),
+        (
+            "unclosed array table",
+            "a closing bracket is missing: an item of a list is written [[vehicles]]",
+        ),
+        (
+            "missing escaped value",
+            "in double quotes `\\` has a meaning of its own: write `/`, or single quotes",
+        ),
+        ("invalid mantissa", "a digit stands before a decimal point: 0.5"),
+        ("invalid fraction", "a digit stands behind a decimal point: 5.0"),
+        (
+            "unexpected leading zero",
+            "a number does not begin with a zero that counts nothing",
+        ),
+        ("invalid float", "this is no number"),
+    ];
+    let known = WORDS.iter().find(|(begins, _)| message.starts_with(begins));
+    known.map_or(message, |(_, words)| words)
 }
 
 /// The line on which the key at `second` stands for the first time.
@@ -118,20 +159,41 @@ fn hint(line: &str) -> Option<String> {
         if keys::holds(keys::of(""), line) {
             return Some(format!("a section stands in brackets: [{line}]"));
         }
-        let (key, value) = line.split_once(':').or_else(|| line.split_once(' '))?;
+        let (key, value) = line.split_once([':', '→']).or_else(|| line.split_once(' '))?;
         let (key, value) = (key.trim(), value.trim());
-        let is_value =
-            line.contains(':') || value.starts_with(['"', '\'', '{', '[']) || value.parse::<f64>().is_ok();
+        let is_value = line.contains([':', '→'])
+            || value.starts_with(['"', '\'', '{', '['])
+            || value.parse::<f64>().is_ok();
         return (!key.is_empty() && !value.is_empty() && key.chars().all(plain) && is_value)
-            .then(|| format!("a key and its value stand on both sides of `=`: {key} = {value}"));
+            .then(|| both_sides(key, value));
     };
     let (key, value) = (key.trim(), value.split('#').next()?.trim());
+    if let Some(key) = key.strip_suffix(':') {
+        return Some(both_sides(key.trim_end(), value));
+    }
+    if value.is_empty() {
+        return Some(format!("the value is missing: {key} = …"));
+    }
+    let is_own_line = key.chars().all(plain) && !value.contains(['[', '{', '}', ']']);
+    if let Some(value) = value.strip_suffix([',', ';']).filter(|_| is_own_line) {
+        return Some(format!("nothing stands at the end of a line: {key} = {value}"));
+    }
     if value.contains(SMART_QUOTES) {
         let straight = value.replace(SMART_QUOTES, "\"");
         return Some(format!("“ and ” are not TOML's quotes: {key} = {straight}"));
     }
-    if value.starts_with('"') && value.matches('"').count() == 1 {
-        return Some(format!("the closing quote is missing: {key} = {value}\""));
+    for quote in ['"', '\''] {
+        let which = if value.starts_with(quote) {
+            "closing"
+        } else {
+            "opening"
+        };
+        if value.matches(quote).count() == 1 && (value.starts_with(quote) || value.ends_with(quote)) {
+            let value = value.trim_matches(quote);
+            return Some(format!(
+                "the {which} quote is missing: {key} = {quote}{value}{quote}"
+            ));
+        }
     }
     let number = value.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'));
     if value.contains(['"', '\'']) {
@@ -155,6 +217,10 @@ fn hint(line: &str) -> Option<String> {
     }
     let unit = value.ends_with(|c: char| c.is_alphabetic() || matches!(c, '%' | '2' | '²'));
     unit.then(|| format!("a quantity with its unit stands in quotes: {key} = \"{value}\""))
+}
+
+fn both_sides(key: &str, value: &str) -> String {
+    format!("a key and its value stand on both sides of `=`: {key} = {value}")
 }
 
 /// Quotes of word processors and mail.

@@ -65,8 +65,9 @@ impl Dimension {
 
     /// The unit that was probably meant by an unknown one.
     pub(super) fn unit_meant_by(self, unknown: &str) -> Option<&'static str> {
-        let in_words = IN_WORDS.iter().find(|(word, _)| *word == unknown.to_lowercase());
-        let meant = in_words.and_then(|(_, symbol)| self.units().find(|unit| unit == symbol));
+        let unknown_word = unknown.to_lowercase();
+        let mut in_words = IN_WORDS.iter().filter(|(word, _)| *word == unknown_word);
+        let meant = in_words.find_map(|(_, symbol)| self.units().find(|unit| unit == symbol));
         meant.or_else(|| nearest(unknown, self.units()))
     }
 
@@ -102,16 +103,33 @@ const POUND_FORCE: f64 = 4.4482216152605;
 /// International foot and inch \[m\].
 const FOOT: f64 = 0.3048;
 const INCH: f64 = 0.0254;
+/// International mile and yard \[m\].
+const MILE: f64 = 1609.344;
+const YARD: f64 = 0.9144;
 
 /// Units in words and other symbols for them, in small letters.
-const IN_WORDS: [(&str, &str); 14] = [
+const IN_WORDS: [(&str, &str); 28] = [
     ("c", "K"),
     ("°c", "K"),
     ("degc", "K"),
     ("celsius", "K"),
     ("kelvin", "K"),
     ("feet", "ft"),
+    ("foot", "ft"),
+    ("inch", "in"),
+    ("inches", "in"),
+    ("yard", "yd"),
+    ("yards", "yd"),
+    ("mile", "mi"),
+    ("miles", "mi"),
+    ("mi/h", "mph"),
+    ("miles/h", "mph"),
+    ("kg", "kgf"),
+    ("kg", "kgf/m"),
     ("kph", "km/h"),
+    ("km/hr", "km/h"),
+    ("kmph", "km/h"),
+    ("fps", "ft/s"),
     ("meter", "m"),
     ("meters", "m"),
     ("metre", "m"),
@@ -239,6 +257,8 @@ pub const UNITS: &[Unit] = &[
     unit("km", Dimension::Length, 3, 1.0),
     unit("in", Dimension::Length, 0, INCH),
     unit("ft", Dimension::Length, 0, FOOT),
+    unit("yd", Dimension::Length, 0, YARD),
+    unit("mi", Dimension::Length, 0, MILE),
     unit("N", Dimension::Force, 0, 1.0),
     unit("kN", Dimension::Force, 3, 1.0),
     unit("MN", Dimension::Force, 6, 1.0),
@@ -291,6 +311,11 @@ pub const UNITS: &[Unit] = &[
     Unit {
         divisor: 3.6,
         ..unit("km/h", Dimension::Speed, 0, 1.0)
+    },
+    unit("ft/s", Dimension::Speed, 0, FOOT),
+    Unit {
+        divisor: 3600.0,
+        ..unit("mph", Dimension::Speed, 0, MILE)
     },
     unit("s", Dimension::Time, 0, 1.0),
     unit("ms", Dimension::Time, -3, 1.0),

@@ -6,15 +6,17 @@
 use ground_field::{Base, Modulus, SoilProfile};
 
 use super::arrangement::may_jam;
-use super::data::{FrictionLaw, Ground, PeakScaling, Scene, TrafficVehicle};
+use super::data::{End, FrictionLaw, Ground, PeakScaling, Scene, TrafficVehicle};
+use crate::shown::four_digits;
 
 /// Moduli \[Pa\] between which soils and pavements lie: peat and granite.
 const SOFTEST: f64 = 1e6;
 const STIFFEST: f64 = 1e11;
 /// A bare modulus \[Pa\] up to this may be one in MPa.
 const MEGAPASCALS: f64 = 1e5;
-/// How many times stiffer one layer is than another where a layer on soil, or under a pavement, is hardly meant.
+/// How many times stiffer a layer is than the soil below it, and the ground below than a pavement, where that is hardly meant.
 const CONTRAST: f64 = 100.0;
+const INVERTED: f64 = 20.0;
 /// A first layer as thin as this \[m\] is a pavement's.
 const PAVEMENT: f64 = 0.5;
 /// Friction coefficients of cables in ducts are below 1.
@@ -24,14 +26,19 @@ const FARTHEST: f64 = 10.0;
 
 /// Depths \[m\] between which ducts lie below roads, weights \[N/m\] and axial stiffnesses \[N\] between which power cables lie.
 const DEPTHS: (f64, f64) = (0.2, 20.0);
-const WEIGHTS: (f64, f64) = (5.0, 2e3);
-const AXIAL_STIFFNESSES: (f64, f64) = (5e5, 1e10);
+const WEIGHTS: (f64, f64) = (5.0, 600.0);
+const AXIAL_STIFFNESSES: (f64, f64) = (5e5, 1e9);
+/// Springs and clamps softer than this \[N/m\] hold nothing.
+const SLACK: f64 = 1e3;
 /// Friction that builds up more slowly than with this shape factor \[1/m\] needs movements that no traffic makes.
 const SLOW: f64 = 1e4;
 /// Radii \[m\] of what a wheel presses on are a quarter of this.
 const LARGEST_RADIUS: f64 = 0.6;
-/// Vehicles heavier than this \[N\] do not drive, on a road with more than so many a day and for so many years.
+/// Vehicles heavier than this \[N\] do not drive, nor any with such a wheel \[N\] or so fast \[m/s\], on a road with more than so many a day
+/// and for so many years.
 const HEAVIEST: f64 = 5e6;
+const HEAVIEST_WHEEL: f64 = 5e5;
+const FASTEST: f64 = 200.0 / 3.6;
 const BUSIEST: f64 = 2e5;
 const OLDEST: f64 = 200.0;
 
@@ -48,6 +55,7 @@ pub(crate) fn unusual(scene: &Scene) -> Vec<String> {
         ));
     }
     warnings.extend(sizes(scene));
+    warnings.extend(springs(scene));
     warnings.extend(traffic(scene));
     warnings.extend(far(scene));
     warnings.extend(lanes_scaled_alike(scene));
@@ -64,7 +72,7 @@ fn sizes(scene: &Scene) -> impl Iterator<Item = String> {
     } = scene;
     let within = |key, value: f64, (least, most), (size, unit), of| {
         let outside = !(least..=most).contains(&value);
-        let shown = |value: f64| rounded(value / size);
+        let shown = |value: f64| four_digits(value / size);
         outside.then(|| {
             format!(
                 "`{key}` is {} {unit}, but {of} from {} to {} {unit}",
@@ -83,6 +91,13 @@ fn sizes(scene: &Scene) -> impl Iterator<Item = String> {
         "ducts lie below roads at depths",
     );
     let cables = "that of power cables is";
+    let short = (duct.depth > duct.length).then(|| {
+        format!(
+            "`duct.depth` is {} m, more than the duct is long, {} m: were they exchanged?",
+            four_digits(duct.depth),
+            four_digits(duct.length)
+        )
+    });
     let weight = within("cable.weight", cable.weight, WEIGHTS, (1.0, "N/m"), cables);
     let (stiffness, meganewtons) = (cable.axial_stiffness, (1e6, "MN"));
     let stiffness = within(
@@ -95,16 +110,35 @@ fn sizes(scene: &Scene) -> impl Iterator<Item = String> {
     let slow = match friction.law {
         FrictionLaw::ElasticPlastic { shape_factor } if shape_factor < SLOW => Some(format!(
             "`friction.shape_factor` is {shape_factor} 1/m: friction builds up over {} mm, more than traffic moves a cable to and fro",
-            rounded(2e3 / shape_factor)
+            four_digits(2e3 / shape_factor)
         )),
         _ => None,
     };
-    [depth, weight, stiffness, slow].into_iter().flatten()
+    [depth, short, weight, stiffness, slow].into_iter().flatten()
 }
 
-/// A number with few digits.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.2e}").parse().unwrap_or(value)
+/// Springs and clamps that hold nothing.
+fn springs(scene: &Scene) -> impl Iterator<Item = String> {
+    let of_end = |end| match end {
+        End::Spring(stiffness) => Some(stiffness),
+        _ => None,
+    };
+    let ends = [
+        ("upstream", scene.ends.upstream),
+        ("downstream", scene.ends.downstream),
+    ];
+    let ends = ends
+        .into_iter()
+        .filter_map(move |(name, end)| Some((format!("ends.{name}.spring"), of_end(end)?)));
+    let clamps = scene.restraints.iter().enumerate();
+    let clamps = clamps.map(|(index, clamp)| (format!("restraints.{index}.stiffness"), clamp.stiffness));
+    let slack = ends.chain(clamps).filter(|(_, stiffness)| *stiffness < SLACK);
+    slack.map(|(key, stiffness)| {
+        let stiffness = four_digits(stiffness);
+        format!(
+            "`{key}` is {stiffness} N/m, which holds nothing: springs and clamps are from 0.1 to 1000 MN/m; did you mean \"{stiffness} MN/m\"?"
+        )
+    })
 }
 
 /// What drives, and how much of it.
@@ -117,7 +151,24 @@ fn traffic(scene: &Scene) -> Vec<String> {
                 "`vehicles.{index}` weighs {tonnes:.0} t, more than any vehicle on a road"
             ));
         }
-        let radii = vehicle.wheels().iter().map(|wheel| wheel.load.contact_radius());
+        let wheels = vehicle.wheels();
+        let forces = wheels.iter().map(|wheel| wheel.load.force());
+        if let Some((wheel, force)) = forces.enumerate().find(|(_, force)| *force > HEAVIEST_WHEEL)
+            && wheels.len() > 1
+        {
+            warnings.push(format!(
+                "`vehicles.{index}.wheels.{wheel}.load` is {} kN, but a wheel on a road carries from 1 to 200 kN",
+                four_digits(force / 1e3)
+            ));
+        }
+        let speed = vehicle.speed();
+        if speed > FASTEST {
+            warnings.push(format!(
+                "`vehicles.{index}.speed` is {} km/h, but trucks drive at 20 to 100 km/h",
+                four_digits(3.6 * speed)
+            ));
+        }
+        let radii = wheels.iter().map(|wheel| wheel.load.contact_radius());
         if let Some((wheel, radius)) = radii.enumerate().find(|(_, radius)| *radius > LARGEST_RADIUS) {
             warnings.push(format!(
                 "`vehicles.{index}.wheels.{wheel}.contact_radius` is {radius} m: that of tyres is from 0.1 to 0.3 m"
@@ -216,21 +267,23 @@ fn moduli(profile: &SoilProfile) -> Vec<String> {
 fn contrast(ground: &Ground) -> Option<String> {
     let layers = ground.profile.layers();
     let (first, last) = (layers.first()?, layers.last()?);
-    let Base::HalfSpace(base) = ground.profile.base() else {
-        return None;
-    };
     let ([top, _], [_, above]) = (ends(first.modulus()), ends(last.modulus()));
-    let (base, index) = (base.young_modulus(), layers.len());
+    let (base, index) = match ground.profile.base() {
+        Base::HalfSpace(base) => (base.young_modulus(), layers.len()),
+        Base::Rigid => (above, layers.len() - 1),
+    };
     if above > CONTRAST * base {
         return Some(format!(
             "`ground.layers.{index}.young_modulus` is {:.0} times less than that of the layer on it",
             above / base
         ));
     }
-    (first.thickness() <= PAVEMENT && base > CONTRAST * top).then(|| {
+    (first.thickness() <= PAVEMENT && base > INVERTED * top).then(|| {
         format!(
-            "`ground.layers.0.young_modulus` is {:.0} times less than that of the ground below the pavement: layers stand from the top down",
-            base / top
+            "`ground.layers.0.young_modulus`, of the first layer, is {:.0} times less than that of the last, {} MPa: layers stand from the top \
+             down, and the last one is rarely as stiff as rock",
+            base / top,
+            four_digits(base / 1e6)
         )
     })
 }

@@ -189,6 +189,7 @@ fn bare_in(value: f64, quantity: Quantity) -> String {
         Some(dimension @ Dimension::InverseTemperature) => (dimension, "e-6 1/K", "in 1/K"),
         Some(dimension @ Dimension::Length) => (dimension, " mm", "in m"),
         Some(dimension @ Dimension::Pressure) => (dimension, " MPa", "in Pa"),
+        Some(dimension @ Dimension::Ratio) => (dimension, " %", "a share of 1"),
         Some(dimension @ Dimension::Slope) => (dimension, " %", "the rise over a distance of 1"),
         _ => return String::new(),
     };

@@ -136,6 +136,16 @@ fn list(text: &str) -> Result<Vec<String>, (String, String)> {
             format!("`{two}` for two values, `{one}` for one"),
         ));
     }
+    if let [one] = list[..]
+        && let Some((first, last)) = one.split_once("..").or_else(|| one.split_once('-'))
+        && let (Some(_), Some(_)) = (number(first), number(last))
+        && number(one).is_none()
+    {
+        return Err((
+            one.to_owned(),
+            format!("A:B:STEP for a range, such as {first}:{last}:STEP"),
+        ));
+    }
     let numbers = || list.iter().filter_map(|value| number(value));
     let units = || numbers().map(|(_, unit)| unit);
     if units().any(str::is_empty) && !units().all(str::is_empty) {
@@ -293,6 +303,10 @@ mod tests {
         assert!(told("a=1,5m").contains("`1m,5m` for two values, `1.5m` for one"));
         assert!(told("a=0,25").contains("`0, 25` for two values, `0.25` for one"));
         assert!(told("a=0.5,1,2m").contains("the unit at every value, such as 0.5m"));
+        for range in ["a=0.1-0.5", "a=0.1..0.5"] {
+            assert!(told(range).contains("A:B:STEP for a range, such as 0.1:0.5:STEP"));
+        }
+        assert_eq!(listed("a=1e-5"), ["1e-5"]);
         assert!(told("duct.depth=1m:2m").contains("A:B:STEP, which needs a step"));
         // Lists that are none.
         assert_eq!(listed("traffic.passes=10,100"), ["10", "100"]);

@@ -6,7 +6,7 @@ use super::axis::{Axis, AxisValues};
 use super::error::SweepError;
 use super::list;
 use super::row::checksum;
-use crate::scene::{SceneError, WrongKind};
+use crate::scene::{SceneError, Wrong, WrongKind, did_you_mean, nearest_key};
 use crate::{Scene, SceneFile};
 
 /// Most points of a sweep.
@@ -131,10 +131,25 @@ impl Sweep {
             Err(SceneError::Wrong(wrong))
                 if matches!(wrong.kind, WrongKind::UnknownKey { .. } | WrongKind::Override) =>
             {
-                Err(SceneError::Wrong(wrong).into())
+                Err(self
+                    .unknown_column(&wrong)
+                    .unwrap_or(SceneError::Wrong(wrong).into()))
             }
             _ => Ok(()),
         }
+    }
+
+    /// The error of the column of a table whose name is no key, if `wrong` is of it.
+    fn unknown_column(&self, wrong: &Wrong) -> Option<SweepError> {
+        let inside = format!("{}.", wrong.key);
+        let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
+        let is_unknown = self.by_row && matches!(wrong.kind, WrongKind::UnknownKey { .. });
+        let Axis { key, .. } = self.axes.iter().find(is_meant).filter(|_| is_unknown)?;
+        let meant = did_you_mean(nearest_key(key).as_deref());
+        Some(SweepError::Unfit {
+            found: format!("the column `{key}`, which is no key{meant}"),
+            allowed: "keys of the scene, which `creepage explain` lists, and `id`",
+        })
     }
 
     /// How many points there are, samples included.

@@ -543,7 +543,7 @@ fn a_message_reads_as_a_whole() {
     assert_eq!(
         message.unwrap_err().to_string(),
         "bad.toml, line 4: `duct.depth`: wrong dimension: found \"1.2 kN\", a force; \
-         allowed: a length greater than 0, from 1 cm to 1 km, such as \"1.2 m\" (units: m, cm, mm, um, nm, km, in, ft)\n  \
+         allowed: a length greater than 0, from 1 cm to 1 km, such as \"1.2 m\" (units: m, cm, mm, um, nm, km, in, ft, yd, mi)\n  \
            |\n\
          4 | depth = \"1.2 kN\"  # to the cable\n  \
            |         ^^^^^^^^"

@@ -37,7 +37,9 @@ pub enum CableError {
     },
     /// Nothing holds a cable that its own weight draws down the duct.
     #[error(
-        "the cable slides out of its duct: {body_force:?} N/m along it is no less than the friction of {limit:?} N/m, and no end and no clamp holds it"
+        "the cable slides out of its duct: {body_force:?} N/m along it is no less than the friction of {limit:?} N/m, and no end and no clamp holds it",
+        body_force = short(*body_force),
+        limit = short(*limit)
     )]
     NothingHolds {
         /// Force along the duct \[N/m\].
@@ -50,7 +52,8 @@ pub enum CableError {
     Heated,
     /// Rounding is too large beside the friction limit for the answer to mean anything.
     #[error(
-        "rounding of the elastic forces reaches {share:.1e} of the friction limit: axial stiffness {axial_stiffness:?} N at a node spacing of {spacing:?} m is too stiff for this friction"
+        "rounding of the elastic forces reaches {share:.1e} of the friction limit: axial stiffness {axial_stiffness:?} N at a node spacing of {spacing:?} m is too stiff for this friction",
+        spacing = short(*spacing)
     )]
     Precision {
         /// Rounding error as a share of the friction limit.
@@ -63,7 +66,9 @@ pub enum CableError {
     /// The motion of the duct is not known as far as the passing vehicle needs it.
     #[error(
         "the motion of the duct reaches {reach:?} m from the vehicle, and the duct with its approach is {needed:?} m long: sample the \
-         motion that far"
+         motion that far",
+        reach = short(*reach),
+        needed = short(*needed)
     )]
     OutOfReach {
         /// Length of the duct and approach \[m\].
@@ -75,7 +80,8 @@ pub enum CableError {
     #[error(
         "elements or steps of {longest:?} m leave out {:.0} % of the duct's peak displacement: take at least two, better six nodes a \
          depth of the duct",
-        100.0 * .left_out
+        100.0 * .left_out,
+        longest = short(*longest)
     )]
     CoarseMesh {
         /// The longer one of node spacing and vehicle step \[m\].
@@ -135,7 +141,7 @@ pub enum CableError {
 /// Where the vehicle is, in words.
 fn vehicle(position: f64) -> String {
     if position.is_finite() {
-        format!("with the vehicle at {position} m")
+        format!("with the vehicle at {} m", short(position))
     } else {
         "of the cable at rest".into()
     }
@@ -153,4 +159,9 @@ pub(crate) fn checked(
     } else {
         Err(CableError::InvalidParameter { name, value, allowed })
     }
+}
+
+/// A number to four digits: no message needs more.
+fn short(value: f64) -> f64 {
+    format!("{value:.3e}").parse().unwrap_or(value)
 }

@@ -1,0 +1,74 @@
+//! What the error of a run means: an answer that is refused, or warned of with a way to a smaller error.
+
+use cable_dem::Mesh;
+
+use crate::answer::error_estimate::{self, ErrorParts, Shares};
+use crate::plan::{MOST_PASSES, Plan};
+use crate::shown::{exact_percent, percent};
+use crate::{Error, Scene};
+
+/// Refuses an answer that is none, and warns of one that is not as good as asked.
+pub fn judge(
+    error: &ErrorParts,
+    scene: &Scene,
+    mesh: &Mesh,
+    warnings: &mut Vec<String>,
+) -> Result<(), Error> {
+    let tolerance = scene.solver.tolerance;
+    let total = error.total();
+    error_estimate::judge(total.force, tolerance)?;
+    let exceeds = [(total.force, ""), (total.movement, " of the movement")]
+        .into_iter()
+        .filter(|(share, _)| *share > tolerance)
+        .map(|(share, of)| format!("the estimated error{of} of {}", percent(share)));
+    let exceeds: Vec<String> = exceeds.collect();
+    if !exceeds.is_empty() {
+        warnings.push(format!(
+            "{} exceeds the tolerance of {}{}",
+            exceeds.join(" and "),
+            exact_percent(tolerance),
+            remedy(error, scene, mesh)
+        ));
+    }
+    if !scene.friction.law.has_memory() {
+        warnings.push(
+            "the error is of the node spacing alone: the sigmoid law's result depends on the time step"
+                .into(),
+        );
+    }
+    Ok(())
+}
+
+/// What makes the largest part of an error smaller.
+fn remedy(error: &ErrorParts, scene: &Scene, mesh: &Mesh) -> String {
+    let of = |part: Shares| part.force.max(part.movement);
+    let others = [
+        error.ground,
+        error.road,
+        error.temperature,
+        Shares::both(error.inertia),
+    ];
+    let others = others.map(of).into_iter().fold(0.0, f64::max);
+    if of(error.mesh) >= others.max(of(error.passes)) {
+        let spacing = 0.5 * mesh.spacing();
+        return format!(
+            ": solver.node_spacing = \"{spacing:.2e} m\" takes nodes half as far apart, and four to eight times as long"
+        );
+    }
+    if of(error.passes) >= others && scene.traffic.passes <= MOST_PASSES {
+        return ": solver.method = \"quasi-static\" simulates every pass".to_owned();
+    }
+    ", and no finer mesh makes it much smaller".to_owned()
+}
+
+/// Why this mesh.
+pub fn mesh_reason(plan: &Plan<'_>, mesh: &Mesh) -> String {
+    let Plan { scene, levels, .. } = plan;
+    let nodes = scene.duct.depth / mesh.spacing();
+    let why = if levels.named() {
+        "as the scene asks".to_owned()
+    } else {
+        format!("for the requested {}", exact_percent(scene.solver.tolerance))
+    };
+    format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
+}

@@ -1,0 +1,108 @@
+//! What a run costs, in counts that do not depend on the machine, and the processor time that they take.
+
+use std::ops::{Add, AddAssign, Div, Mul};
+
+use cable_dem::Statistics;
+
+use crate::plan::{CableMethod, Levels};
+
+/// Time of a node's update, a window, a corner, a node's part in one jump, and in one pass that is listed within a jump \[s\] without
+/// inertia; of a node's update with it, and of an explicit one.
+const SECONDS: Work = Work([5.8e-9, 1.4e-7, 5e-9, 1.4e-6, 4.5e-8]);
+const DYNAMIC: Work = Work([6e-8, 0.0, 0.0, 1.4e-6, 4.5e-8]);
+const EXPLICIT: Work = Work([1e-9, 0.0, 0.0, 1.4e-6, 4.5e-8]);
+/// What they multiply by from one level to the next, where that is not measured; and the bounds of what is believed.
+const GROWTH: Work = Work([4.6, 2.1, 4.6, 2.0, 2.0]);
+const BELIEVED: (f64, f64) = (0.8, 1.3);
+
+/// Counts of work: node updates, windows, corners, nodes times periods, and nodes times passes within jumps.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Work(pub [f64; 5]);
+
+impl Work {
+    /// Of so many simulated `periods` on a mesh of so many `nodes`, with so many passes listed within jumps.
+    pub fn new(statistics: &Statistics, nodes: usize, periods: f64, listed: f64) -> Self {
+        Self([
+            statistics.node_updates as f64,
+            statistics.windows as f64,
+            statistics.corners as f64,
+            nodes as f64 * periods,
+            nodes as f64 * listed,
+        ])
+    }
+
+    /// Processor time \[s\].
+    pub fn seconds(self, method: CableMethod) -> f64 {
+        let cost = match method {
+            CableMethod::QuasiStatic => SECONDS,
+            CableMethod::Dynamic => DYNAMIC,
+            CableMethod::Explicit => EXPLICIT,
+        };
+        (self * cost).0.iter().sum()
+    }
+
+    /// What the counts on the level below multiply by on `level`, usually.
+    pub fn usual_growth(levels: &Levels, level: usize) -> Self {
+        let steps = levels.steps_doubled(level);
+        GROWTH * Self([steps, steps, steps, 1.0, 1.0])
+    }
+
+    /// This work, of the level `from`, on a finer one.
+    pub fn refined(self, levels: &Levels, from: usize, to: usize) -> Self {
+        (from + 1..=to).fold(self, |work, level| work * Self::usual_growth(levels, level))
+    }
+
+    pub fn times(self, factor: f64) -> Self {
+        Self(self.0.map(|count| factor * count))
+    }
+
+    /// What a run compares with the most that it refines for.
+    pub fn updates(self) -> f64 {
+        self.0[0] + self.0[2]
+    }
+
+    fn map(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
+    }
+
+    /// Growth from `coarser` to this, as far as it is believed beside the `usual` one.
+    pub fn growth(self, coarser: Self, usual: Self) -> Self {
+        (self / coarser).map(usual, |growth, usual| {
+            if growth.is_finite() {
+                growth.clamp(BELIEVED.0 * usual, BELIEVED.1 * usual)
+            } else {
+                usual
+            }
+        })
+    }
+}
+
+impl Add for Work {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        self.map(other, |a, b| a + b)
+    }
+}
+
+impl AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl Mul for Work {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        self.map(other, |a, b| a * b)
+    }
+}
+
+impl Div for Work {
+    type Output = Self;
+
+    fn div(self, other: Self) -> Self {
+        self.map(other, |a, b| a / b)
+    }
+}
