@@ -10,8 +10,8 @@ type Callback<'a> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'a;
 
 /// A callback that learns how far a computation is and may stop it; by default there is none.
 ///
-/// It is called often, also from several threads at once, so it should return quickly. The share falls back where a finer mesh proves
-/// necessary. [`ControlFlow::Break`] stops the computation, which then ends with [`Error::Stopped`].
+/// It is called often, also from several threads at once, so it should return quickly. It never falls; where
+/// finer meshes prove necessary it grows slowly at the end. [`ControlFlow::Break`] stops the computation, which then ends with [`Error::Stopped`].
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -52,22 +52,21 @@ impl<'a> Progress<'a> {
     }
 
     /// Parts of it one after the other, each half of what is left: where nobody knows how many there will be.
-    pub(crate) fn halving(mut self) -> impl FnMut() -> Self {
-        move || {
-            let now = self.part(0.0, 0.5);
-            self = self.part(0.5, 1.0);
-            now
-        }
+    pub(crate) fn halving(self) -> impl FnMut() -> Self {
+        self.taking(0.5)
     }
 
-    /// All of it for the passes on one mesh, or what is left after them where `finer` is to follow; then again for every finer mesh, in
-    /// whose work those before are a fourth.
-    pub(crate) fn refining(self, finer: bool) -> impl FnMut() -> Self {
-        const COARSER: f64 = 0.25;
-        let mut now = (0.0, if finer { COARSER } else { 1.0 });
+    /// Parts of it for the passes on one mesh after the other: mostly the first is good enough.
+    pub(crate) fn refining(self) -> impl FnMut() -> Self {
+        self.taking(0.8)
+    }
+
+    /// Parts of it one after the other, each this `share` of what is left.
+    fn taking(mut self, share: f64) -> impl FnMut() -> Self {
         move || {
-            let (start, end) = std::mem::replace(&mut now, (COARSER, 1.0));
-            self.part(start, end)
+            let now = self.part(0.0, share);
+            self = self.part(share, 1.0);
+            now
         }
     }
 

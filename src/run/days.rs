@@ -105,7 +105,7 @@ impl Living<'_> {
             .filter(|(coarse, _)| coarse + 1 == level)
             .map(|(_, lived)| lived);
         let known = coarse.is_some();
-        let mut parts = self.progress.part(FINDING, 1.0).refining(verify);
+        let mut parts = self.progress.part(FINDING, 1.0).refining();
         let now = parts();
         let (mut below, mut finest) = both(
             || match (coarse, level.checked_sub(1)) {

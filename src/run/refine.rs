@@ -73,11 +73,7 @@ impl Refinement<'_> {
             PassMethod::EveryPass(_) => None,
         };
         let left = found.as_ref().map_or(0.0, |_| FINDING);
-        let mut parts = self
-            .options
-            .progress
-            .part(left, 1.0)
-            .refining(self.options.verify);
+        let mut parts = self.options.progress.part(left, 1.0).refining();
         let (level, mut passes) = self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?;
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
