@@ -22,7 +22,7 @@ const WEIGHTS: [f64; 4] = [1.5, 0.35, 0.12, 0.04];
 const WEIGHTS_OF_MANY: [f64; 4] = [1.5, 0.2, 0.06, 0.02];
 const MANY: usize = 40;
 /// Weight of the only difference.
-const WEIGHT_ALONE: f64 = 2.0;
+const WEIGHT_ALONE: f64 = 3.0;
 /// What the error is beside the difference to a mesh twice as fine, at second order.
 pub const VERIFIED: f64 = 4.0 / 3.0;
 /// Forces below this share of the largest one count as nothing when errors are compared, and movements of an end below this
