@@ -69,6 +69,12 @@ impl Extremes {
         .fold(0.0, |largest, force| largest.max(force.abs()))
     }
 
+    /// Largest force on a clamp, in size \[N\].
+    fn on_clamps(&self) -> f64 {
+        let forces = self.restraints.iter().flatten();
+        forces.fold(0.0, |largest, force| largest.max(force.abs()))
+    }
+
     /// How far the end moves that moves farther \[m\].
     pub fn range(&self) -> f64 {
         (self.forward[0] - self.backward[0]).max(self.forward[1] - self.backward[1])
@@ -96,11 +102,13 @@ impl Extremes {
         moved
     }
 
-    /// Largest difference to `other`: of a force as a share of the largest, or of `least.0` \[N\], of a movement as a share of the range,
+    /// Largest difference to `other`: of a force as a share of the largest, or of `least.0` \[N\], on a clamp also of the largest on a clamp,
+    /// of a movement as a share of the range,
     /// or of `least.1` \[m\].
     pub fn difference(&self, other: &Self, least: (f64, f64)) -> (f64, f64) {
         let apart = self.less(other);
-        let force = apart.largest_force() / self.largest_force().max(least.0);
+        let scale = self.largest_force().max(least.0);
+        let force = (apart.largest_force() / scale).max(apart.on_clamps() / self.on_clamps().max(scale));
         let moved = apart.forward.into_iter().chain(apart.backward);
         let moved = moved.fold(0.0_f64, |most, moved| most.max(moved.abs()));
         (force, moved / self.range().max(least.1))
