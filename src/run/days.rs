@@ -6,9 +6,10 @@
 
 use cable_dem::{CableError, Statistics};
 
+use super::judge::{judge, mesh_reason};
 use super::lived::{Lived, Living};
 use super::outlook::Work;
-use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both, judge, mesh_reason};
+use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both};
 use super::underway::Underway;
 use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;

@@ -3,7 +3,9 @@
 mod assemble;
 mod days;
 mod forecast;
+mod judge;
 mod jumps;
+mod known;
 mod listing;
 mod lived;
 mod locked_law;
@@ -14,12 +16,17 @@ mod refine;
 mod solver;
 mod underway;
 
+use std::sync::Arc;
+use std::time::Instant;
+
 use ground_field::GroundField;
 
-use crate::plan::{PassMethod, Plan, plan, plan_on};
+use crate::ground::{Ground, road};
+use crate::plan::{PassMethod, Plan, plan, plan_over};
 use crate::{Error, Progress, Run, Scene, finite};
 use assemble::RunBuilder;
 pub use forecast::{Forecast, forecast};
+pub use known::KnownMesh;
 use refine::Refinement;
 pub use underway::{CutShort, HowFar, Underway};
 
@@ -36,6 +43,8 @@ pub struct RunOptions<'a> {
     pub stages: &'a [u64],
     /// What another thread looks at while the run goes on.
     pub underway: Option<&'a Underway>,
+    /// A mesh whose error is known, in place of ever finer ones until it is; not where the cable is heated, or the scene says how fine to be.
+    pub mesh: Option<KnownMesh>,
 }
 
 /// Computes all passes of `scene`.
@@ -53,7 +62,28 @@ pub fn run(scene: &Scene) -> Result<Run, Error> {
 ///
 /// As for [`run`].
 pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
-    run_plan(&plan_on(scene, options.ground)?, options)
+    scene.validate()?;
+    let begun = Instant::now();
+    let ground = Ground::new(scene, options.ground, road::reach(scene))?;
+    run_over(scene, Arc::new(ground), options, begun)
+}
+
+/// Computes all passes of a valid `scene` over a `ground` that is known to be its own.
+pub(crate) fn run_over(
+    scene: &Scene,
+    ground: Arc<Ground>,
+    options: &RunOptions<'_>,
+    begun: Instant,
+) -> Result<Run, Error> {
+    run_plan(
+        &plan_over(
+            scene,
+            ground,
+            KnownMesh::of(scene, options.mesh).map(|mesh| mesh.level),
+            begun,
+        )?,
+        options,
+    )
 }
 
 /// Checks that `scene` can be computed, without computing its passes.
@@ -95,6 +125,7 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
             progress: options.progress,
             stages: options.stages,
             underway: options.underway,
+            known: KnownMesh::of(plan.scene, options.mesh),
         };
         refinement.solve(options.verify, warnings)
     };

@@ -1,19 +1,18 @@
 //! The passes of a scene on one mesh after the other, until their error is within the tolerance.
 
-use std::thread;
-
 use cable_dem::{CableError, Mesh, Statistics};
 use cycle_jump::Record;
 
+use super::judge::{judge, mesh_reason};
 use super::jumps::{self, Found};
+use super::known::KnownMesh;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use super::underway::Underway;
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
-use crate::answer::{DayExtremes, HeatRecord, RandomSpread, simulated};
+use crate::answer::{DayExtremes, HeatRecord, RandomSpread, listed, simulated};
 use crate::ground::{peak, road};
 use crate::plan::{Levels, PassMethod, Plan};
-use crate::shown::{exact_percent, percent};
 use crate::{Error, Progress, Scene};
 
 /// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
@@ -35,6 +34,8 @@ pub struct Refinement<'a> {
     /// Passes at which the cable is looked at.
     pub stages: &'a [u64],
     pub underway: Option<&'a Underway>,
+    /// The only mesh, where its error is known.
+    pub known: Option<KnownMesh>,
 }
 
 /// Passes on the mesh that was good enough.
@@ -71,19 +72,27 @@ impl Refinement<'_> {
         let tolerance = scene.solver.tolerance;
         let mut statistics = Statistics::default();
         let mut found = match self.method {
-            PassMethod::Jumps(_) => Some(self.jumps(jumps::SHARE, None, &mut statistics)?),
-            PassMethod::EveryPass(_) => None,
+            PassMethod::Jumps(_) if self.known.is_none() => {
+                Some(self.jumps(jumps::SHARE, None, &mut statistics)?)
+            }
+            _ => None,
         };
         // How many meshes it takes is not known: each is half of what is left.
         let left = found.as_ref().map_or(0.0, |_| FINDING);
         let mut parts = self.progress.part(left, 1.0).halving();
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
-        let (level, mut passes) = self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?;
+        let (level, mut passes) = match self.known {
+            Some(known) => {
+                error.mesh = Shares::both(known.error);
+                (levels.first(), vec![self.on_known_mesh(parts())?])
+            }
+            None => self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?,
+        };
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
         statistics += work_of(&passes);
         // One mesh alone does not show its error; and no mesh that the scene names is refused for what coarser ones show.
-        let alone = passes.len() == 1;
+        let alone = passes.len() == 1 && self.known.is_none();
         let doubtful = levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
         let mesh = levels.mesh(level)?;
         let finest = passes.pop().expect("the first level was computed");
@@ -174,6 +183,12 @@ impl Refinement<'_> {
                 level += 1;
             }
         }
+    }
+
+    /// All passes on the only mesh, with jumps as large as they usually may be: what they leave wrong is part of the mesh's known error.
+    fn on_known_mesh(&self, progress: Progress<'_>) -> Result<Passes, Error> {
+        let way = matches!(self.method, PassMethod::Jumps(_)).then(|| jumps::usual(self.plan));
+        self.simulate(self.plan.levels.first(), way.as_ref(), progress, true)
     }
 
     /// Smaller jumps than those of `found`, if there are any with a smaller error.
@@ -316,30 +331,12 @@ impl Refinement<'_> {
             most_passes: affordable as u64,
             ..*way
         });
+        if let (Some(_), Some(way)) = (self.known, &way) {
+            // Nobody looks at every pass.
+            return task.with_jumps(way, &listed(task.scene.traffic.passes));
+        }
         carry_out(&task, way.as_ref())
     }
-}
-
-/// Refuses an answer that is none, and warns of one that is not as good as asked.
-pub(super) fn judge(error: &ErrorParts, scene: &Scene, warnings: &mut Vec<String>) -> Result<(), Error> {
-    let tolerance = scene.solver.tolerance;
-    let total = error.total();
-    error_estimate::judge(total.force, tolerance)?;
-    for (share, of) in [(total.force, ""), (total.movement, " of the movement")] {
-        if share > tolerance {
-            let (share, tolerance) = (percent(share), percent(tolerance));
-            warnings.push(format!(
-                "the estimated error{of} of {share} exceeds the tolerance of {tolerance}"
-            ));
-        }
-    }
-    if !scene.friction.law.has_memory() {
-        warnings.push(
-            "the error is of the node spacing alone: the sigmoid law's result depends on the time step"
-                .into(),
-        );
-    }
-    Ok(())
 }
 
 fn work_of(passes: &[Passes]) -> Statistics {
@@ -348,18 +345,6 @@ fn work_of(passes: &[Passes]) -> Statistics {
         work += passes.statistics;
     }
     work
-}
-
-/// Why this mesh.
-pub(super) fn mesh_reason(plan: &Plan<'_>, mesh: &Mesh) -> String {
-    let Plan { scene, levels, .. } = plan;
-    let nodes = scene.duct.depth / mesh.spacing();
-    let why = if levels.named() {
-        "as the scene asks".to_owned()
-    } else {
-        format!("for the requested {}", exact_percent(scene.solver.tolerance))
-    };
-    format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
 }
 
 /// What of the `tolerance` is left to all that is not the error of `passes`: what jumps leave, no finer mesh takes away.
@@ -376,18 +361,11 @@ fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error
     }
 }
 
-/// Runs two computations side by side; the first error wins.
+/// Runs two computations side by side where a thread is free; the first error wins.
 pub(super) fn both<A: Send, B: Send>(
     first: impl FnOnce() -> Result<A, Error> + Send,
     second: impl FnOnce() -> Result<B, Error> + Send,
 ) -> Result<(A, B), Error> {
-    thread::scope(|scope| {
-        let handle = scope.spawn(second);
-        let first = first();
-        // A panic of the other thread goes on in this one.
-        let second = handle
-            .join()
-            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        Ok((first?, second?))
-    })
+    let (first, second) = rayon::join(first, second);
+    Ok((first?, second?))
 }
