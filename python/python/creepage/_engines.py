@@ -65,7 +65,7 @@ def on_dask(client: Any, compute: Callable[..., bool], out: str, parts: Sequence
     part_of = {}
     for part in islice(todo, width):
         part_of[submit(part)] = part
-    running = as_completed(list(part_of))
+    running = as_completed(list(part_of), loop=client.loop)
     done = 0
     for future in running:
         part = part_of.pop(future)
