@@ -3,11 +3,11 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
-use std::thread;
 use std::time::Duration;
 
 use creepage::Progress;
 use pyo3::prelude::*;
+use rayon::{Scope, ThreadPool};
 
 use crate::failure::Failure;
 
@@ -55,18 +55,12 @@ pub fn watched<T: Send>(
         }
     };
     let (answer, raised) = py.detach(|| {
-        thread::scope(|scope| {
-            let (send, receive) = sync_channel(1);
-            let report = &report;
-            scope.spawn(move || {
-                let compute = || compute(Progress::new(report));
-                let answer = match pool {
-                    Some(pool) => pool.install(compute),
-                    None => rayon::scope(|_| compute()),
-                };
-                // Whoever waits lives as long as this.
-                let _ = send.send(answer);
-            });
+        let (send, receive) = sync_channel(1);
+        let (report, share, stopped, call) = (&report, &share, &stopped, &call);
+        // In rayon's threads; this one only waits.
+        in_scope(pool.as_ref(), |scope| {
+            // Whoever waits lives as long as this.
+            scope.spawn(move |_| drop(send.send(compute(Progress::new(report)))));
             let mut raised = None;
             loop {
                 match receive.recv_timeout(TICK) {
@@ -93,5 +87,13 @@ pub fn watched<T: Send>(
         }
         // The scope has panicked with it.
         (None, None) => Err(Failure::broken().raised(py)),
+    }
+}
+
+/// Calls `wait` in this thread, with a scope whose tasks run in the threads of `pool`, or in rayon's own.
+fn in_scope<'s, T>(pool: Option<&ThreadPool>, wait: impl FnOnce(&Scope<'s>) -> T) -> T {
+    match pool {
+        Some(pool) => pool.in_place_scope(wait),
+        None => rayon::in_place_scope(wait),
     }
 }

@@ -1,5 +1,6 @@
 """The blocks of docs/python.md: those of Python run in turn in one folder, those of other engines give the same bytes."""
 
+import os
 import re
 import subprocess
 import sys
@@ -55,7 +56,9 @@ def recipe(engine, scene, folder):
     pyarrow.parquet.write_table(ducts(30), folder / "ducts.parquet")
     (folder / "scene.toml").write_text(scene, encoding="utf-8")
     code = f"SCENE, ducts = 'scene.toml', 'ducts.parquet'\n{code}"
-    subprocess.run([sys.executable, "-c", code], cwd=folder, check=True, timeout=600)
+    # Spark's workers take whatever `python3` is unless they are told.
+    environment = {**os.environ, "PYSPARK_PYTHON": sys.executable}
+    subprocess.run([sys.executable, "-c", code], cwd=folder, env=environment, check=True, timeout=600)
     return folder / "results"
 
 

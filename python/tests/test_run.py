@@ -126,12 +126,15 @@ def test_a_call_costs_less_than_a_millisecond_beside_its_run():
     import pyarrow
 
     count = 200
-    rows = pyarrow.table({"duct.length": ["30 m"] * count})
+    # Each on a ground of its own, which no call can share with the one before.
+    rows = pyarrow.table({"duct.depth": [1.2 + 1e-3 * row for row in range(count)]})
     whole = time.process_time()
     creepage.sweep(UPPER, rows, QUICK, threads=1)
     whole = time.process_time() - whole
     single = time.process_time()
-    for _ in range(count):
-        creepage.sweep(UPPER, rows.slice(0, 1), QUICK, threads=1)
+    for row in range(count):
+        creepage.sweep(UPPER, rows.slice(row, 1), QUICK, threads=1)
     single = time.process_time() - single
-    assert (single - whole) / count < 1e-3
+    each = 1e3 * (single - whole) / count
+    print(f"{each:.2f} ms a call beside {1e3 * whole / count:.2f} ms of its run")
+    assert each < 1

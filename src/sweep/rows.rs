@@ -213,5 +213,8 @@ fn with_medians(file: SceneFile, axes: &mut Vec<Axis>, samples: Samples) -> Resu
             }),
         }
     }
+    if medians.is_empty() {
+        return Ok(file);
+    }
     Ok(file.with(&medians)?)
 }

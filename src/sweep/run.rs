@@ -119,7 +119,7 @@ impl Sweep {
         let drawn: Vec<&str> = self.drawn(index / self.samples.count.max(1)).collect();
         let pairs = self.axes.iter().zip(values);
         pairs
-            .filter(|(axis, value)| !drawn.contains(&&*axis.key) && !(self.by_row && value.is_empty()))
+            .filter(|(axis, value)| !(drawn.contains(&&*axis.key) || self.by_row && value.is_empty()))
             .map(|(axis, value)| (axis.key.clone(), value.clone()))
             .collect()
     }
