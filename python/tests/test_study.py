@@ -108,6 +108,12 @@ def test_the_scene_may_hold_the_distribution(quick_scene, tmp_path):
     assert table["downstream_force_n"].to_pylist() == expected["downstream_force_n"].to_pylist()
 
 
+def test_brackets_in_a_title_draw_nothing(quick_scene, tmp_path):
+    rows = ducts(2, "normal(0.25, 0.03)").append_column("title", pyarrow.array(["Main road (north)", "normal(1, 2)"]))
+    study = creepage.study(quick_scene, rows, tmp_path / "out", samples=2)
+    assert study.dataset().schema.names[:3] == ["id", "friction.dynamic_coefficient", "sample"]
+
+
 def test_another_study_is_not_written_over(finished, tmp_path):
     text, rows, study = finished
     for other in ({"samples": 8}, {"samples": 9, "seed": 2}, {"samples": 9, "ducts_per_part": 5}):

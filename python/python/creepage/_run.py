@@ -18,7 +18,7 @@ class Run(dict):
     So are the fields of the last pass: ``run.downstream_force_n``. In Jupyter it shows its report.
     """
 
-    def __init__(self, values: Mapping[str, Any] = (), scene: Optional[Source] = None) -> None:
+    def __init__(self, values: Mapping[str, Any], scene: Source) -> None:
         super().__init__(values)
         self.scene = scene
 
@@ -29,6 +29,9 @@ class Run(dict):
         if passes and not name.startswith("_") and name in passes[-1]:
             return passes[-1][name]
         raise AttributeError(f"a run has no {name!r}")
+
+    def __reduce__(self) -> tuple:
+        return Run, (dict(self), self.scene)
 
     def __dir__(self) -> Iterable[str]:
         return [*super().__dir__(), *self]
@@ -58,8 +61,8 @@ def run(
 
     Raises InputError or ComputationError, with ``line`` and ``key`` where a key of the scene is at fault.
     """
-    scene = source(scene, overrides)
-    return Run(json.loads(_creepage.run(scene, verify, (_threads(threads), callback(progress)))), scene)
+    own = source(scene, overrides)
+    return Run(json.loads(_creepage.run(own, verify, (_threads(threads), callback(progress)))), own)
 
 
 def sweep(
@@ -81,8 +84,8 @@ def sweep(
 
     A row that fails has its error in the column ``error``. Raises as run does.
     """
-    scene = source(scene, overrides)
-    table = _creepage.sweep(scene, _stream(rows), samples, seed, (_threads(threads), callback(progress)))
+    call = (_threads(threads), callback(progress))
+    table = _creepage.sweep(source(scene, overrides), _stream(rows), samples, seed, call)
     return _as_given(rows, table)
 
 
@@ -110,8 +113,8 @@ def calibrate(
     else:
         name, readings = "rows", _csv(rows)
     call = (_threads(threads), callback(progress))
-    scene = source(scene, overrides)
-    return json.loads(_creepage.calibrate(scene, name, readings, list(fit), robust, bootstrap, seed, call))
+    own = source(scene, overrides)
+    return json.loads(_creepage.calibrate(own, name, readings, list(fit), robust, bootstrap, seed, call))
 
 
 def _threads(threads: Optional[int]) -> Optional[int]:

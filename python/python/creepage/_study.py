@@ -104,15 +104,15 @@ class Study:
     ) -> "Study":
         """Makes the folder and checks keys and distributions of all ducts, without computing any. The same study is opened again."""
         out = os.path.abspath(out)
-        scene = source(scene)
-        if os.path.exists(scene.name):
+        own = source(scene)
+        if os.path.exists(own.name):
             # Beside it a table of axle loads may lie.
-            scene = scene._replace(name=os.path.abspath(scene.name))
+            own = own._replace(name=os.path.abspath(own.name))
         per_part = ducts_per_part or max(1, ROWS_OF_A_PART // max(1, samples))
         wanted = {
             "format": 1,
             "version": _creepage.__version__,
-            "scene": scene._asdict(),
+            "scene": own._asdict(),
             "samples": samples,
             "seed": seed,
             "ducts_per_part": per_part,
@@ -125,7 +125,7 @@ class Study:
                 raise InputError(f"{out}: found another study, with another {' and '.join(other)}; allowed: the same study, or an empty folder")
             return cls(out)
         os.makedirs(os.path.join(out, "parts"), exist_ok=True)
-        count, columns = _copy_ducts(scene, ducts, os.path.join(out, "ducts.parquet"), samples, per_part)
+        count, columns = _copy_ducts(own, ducts, os.path.join(out, "ducts.parquet"), samples, per_part)
         # The manifest comes last: where it is, all else is.
         text = json.dumps({**wanted, "ducts": count, "columns": columns}, indent=1)
         _write(os.path.join(out, "study.json"), lambda path: Path(path).write_text(text, encoding="utf-8"))
@@ -298,7 +298,6 @@ def _as_table(batch: Any) -> Any:
 def _copy_ducts(scene: Source, ducts: Any, path: str, samples: int, per_part: int) -> tuple:
     """Copies the ducts with their ids, a few thousand in memory at a time, and checks them: how many, and the columns of the parts."""
     import pyarrow
-    import pyarrow.compute as compute
     import pyarrow.parquet
 
     group = _ducts_per_group(per_part)
@@ -311,28 +310,32 @@ def _copy_ducts(scene: Source, ducts: Any, path: str, samples: int, per_part: in
         writer = None
         for table in _groups(_batches(ducts), group):
             table = _with_ids(table, count)
-            for name in table.column_names:
-                column = table[name]
-                if pyarrow.types.is_string(column.type) or pyarrow.types.is_large_string(column.type) or pyarrow.types.is_string_view(column.type):
-                    if name != "id" and compute.any(compute.match_substring(column.cast("string"), "(")).as_py():
-                        drawn.add(name)
-            heads = _creepage.heads(scene, table, samples)
+            heads = pyarrow.table(_creepage.heads(scene, table, samples)).schema
+            numbers = (name for name in table.column_names if str(heads.field(name).type) == "double")
+            drawn.update(name for name in numbers if _draws(table[name]))
             if writer is None:
                 writer = pyarrow.parquet.ParquetWriter(beside, table.schema)
             writer.write_table(table.cast(writer.schema), row_group_size=group)
             count += len(table)
         if writer is None:
-            raise InputError(f"found no row in the table of ducts; allowed: one or more")
+            raise InputError("found no row in the table of ducts; allowed: one or more")
         writer.close()
 
     _write(path, copy)
     if samples and not drawn:
         raise InputError("found samples and no distribution; allowed: a distribution with them, in a cell of the table or in the scene")
-    answer = pyarrow.table(heads).schema
     keys = [("id", "string"), *((key, "double") for key in sorted(drawn)), ("sample", "int64")]
-    first = answer.names.index("downstream_force_n")
-    columns = keys + [(name, str(answer.field(name).type)) for name in answer.names[first:]]
+    first = heads.names.index("downstream_force_n")
+    columns = keys + [(name, str(heads.field(name).type)) for name in heads.names[first:]]
     return count, [list(column) for column in columns]
+
+
+def _draws(column: Any) -> bool:
+    """Whether a cell of a column of numbers is a distribution: no other number has brackets."""
+    import pyarrow.compute as compute
+
+    is_text = any(kind in str(column.type) for kind in ("string", "utf8"))
+    return bool(is_text and compute.any(compute.match_substring(column.cast("string"), "(")).as_py())
 
 
 def _groups(batches: Iterable, size: int) -> Iterator[Any]:
