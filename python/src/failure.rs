@@ -103,6 +103,10 @@ impl From<SweepError> for Failure {
     fn from(error: SweepError) -> Self {
         match error {
             SweepError::Scene(error) => error.into(),
+            SweepError::Cell { ref key, .. } => Self {
+                key: Some(key.clone()),
+                ..Self::input(&error)
+            },
             error if error.is_bad_input() => Self::input(&error),
             error => Self::computation(&error),
         }

@@ -2,8 +2,11 @@
 
 import os
 import random
+import subprocess
+import sys
 import time
 from pathlib import Path
+from signal import SIGINT, SIGKILL
 
 import creepage
 import pyarrow.parquet
@@ -37,14 +40,17 @@ def finished(out: Path) -> dict:
     return {entry.name: entry.inode() for entry in there if entry.name.endswith(".parquet")}
 
 
+def wait_for_parts(process, out: Path, count: int) -> None:
+    deadline = time.monotonic() + 60
+    while len(finished(out)) < count:
+        assert process.poll() is None and time.monotonic() < deadline, "the study does not get on"
+        time.sleep(0.002)
+
+
 def kill_at_random(victim, out: Path, seed: int) -> None:
     """Kills it once the first part is there, at any moment of the study."""
     draw = random.Random(seed)
-    after = draw.randrange(1, DUCTS // PER_PART - 4)
-    deadline = time.monotonic() + 60
-    while len(finished(out)) < after:
-        assert time.monotonic() < deadline, "the study does not get on"
-        time.sleep(0.002)
+    wait_for_parts(victim, out, draw.randrange(1, DUCTS // PER_PART - 4))
     time.sleep(draw.uniform(0, 0.1))
     victim.kill()
     victim.wait()
@@ -105,15 +111,25 @@ def test_any_number_of_workers_gives_the_same_bytes(network, tmp_path, workers):
     check(tmp_path / "out", {}, expected)
 
 
-def test_a_killed_process_without_a_cluster_loses_nothing_finished(network, tmp_path):
-    import subprocess
-    import sys
+def alone(scene, rows, out) -> list:
+    """A process that makes the study in two threads."""
+    code = """
+import sys, creepage
+scene, ducts, out, per_part = sys.argv[1:]
+creepage.study(open(scene).read(), ducts, out, ducts_per_part=int(per_part), threads=2)
+"""
+    return [sys.executable, "-c", code, str(scene), str(rows), str(out), str(PER_PART)]
 
+
+@pytest.mark.parametrize("signal", [SIGKILL, SIGINT])
+def test_a_stopped_process_without_a_cluster_loses_nothing_finished(network, tmp_path, signal):
     scene, rows, expected = network
     out = tmp_path / "out"
-    code = "import sys, creepage; scene, ducts, out, n = sys.argv[1:]; creepage.study(open(scene).read(), ducts, out, ducts_per_part=int(n), threads=2)"
-    arguments = [sys.executable, "-c", code, str(scene), str(rows), str(out), str(PER_PART)]
-    kill_at_random(subprocess.Popen(arguments), out, 0)
+    arguments = alone(scene, rows, out)
+    process = subprocess.Popen(arguments, stderr=subprocess.DEVNULL)
+    wait_for_parts(process, out, 4)
+    process.send_signal(signal)
+    assert process.wait(timeout=10) != 0
     before = finished(out)
     assert len(before) < DUCTS // PER_PART
     subprocess.run(arguments, check=True, timeout=120)

@@ -133,6 +133,9 @@ def test_wrong_ducts_are_told_before_anything_is_computed(quick_scene, tmp_path)
         with pytest.raises(creepage.InputError, match=part):
             creepage.study(quick_scene, rows, tmp_path / "out", samples=samples)
         assert not (tmp_path / "out" / "study.json").exists()
+    with pytest.raises(creepage.InputError, match=r"found normal\(1\); allowed: normal") as raised:
+        creepage.study(quick_scene, ducts(2, "normal(1)"), tmp_path / "out", samples=5)
+    assert raised.value.key == "friction.dynamic_coefficient"
     with pytest.raises(creepage.InputError, match=".parquet or .csv"):
         creepage.study(quick_scene, tmp_path / "ducts.txt", tmp_path / "out")
     with pytest.raises(creepage.InputError, match="found no study"):

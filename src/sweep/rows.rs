@@ -39,7 +39,7 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Unfit`] where there is no key, no row, a column twice or a distribution without samples; [`SweepError::Axis`] where a
+    /// [`SweepError::Unfit`] where there is no key, no row, a column twice or a distribution without samples; [`SweepError::Cell`] where a
     /// distribution is not written as it has to be; [`SweepError::Scene`] where a scene has no such key.
     pub fn of_table(
         file: SceneFile,
@@ -164,10 +164,10 @@ impl Axis {
 pub fn distribution(key: &str, text: &str) -> Option<Result<Distribution, SweepError>> {
     let is_name = NAMES.contains(&key.rsplit('.').next().unwrap_or(key));
     let found = Distribution::parse(text).filter(|_| !is_name)?;
-    Some(found.map_err(|allowed| SweepError::Axis {
-        text: format!("{key}={text}"),
+    Some(found.map_err(|allowed| SweepError::Cell {
+        key: key.to_owned(),
         found: text.to_owned(),
-        allowed: allowed.to_owned(),
+        allowed,
     }))
 }
 
@@ -175,7 +175,7 @@ pub fn distribution(key: &str, text: &str) -> Option<Result<Distribution, SweepE
 ///
 /// # Errors
 ///
-/// [`SweepError::Axis`] where a distribution is not written as it has to be.
+/// [`SweepError::Cell`] where a distribution is not written as it has to be.
 pub fn drawn_keys(file: &SceneFile) -> Result<Vec<String>, SweepError> {
     let texts = file.texts().into_iter();
     texts

@@ -25,7 +25,7 @@ def on_this_machine(
     """Computes the parts in so many threads, each of which computes one part after the other."""
     if not parts:
         return
-    threads = threads or os.cpu_count() or 1
+    threads = threads or _cores()
     workers = min(threads, len(parts))
     stopped = threading.Event()
 
@@ -48,6 +48,13 @@ def on_this_machine(
                     running |= {pool.submit(compute, out, part, threads // workers, go_on) for part in islice(todo, 1)}
         finally:
             stopped.set()
+
+
+def _cores() -> int:
+    """Cores that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
 
 
 def on_dask(client: Any, compute: Callable[..., bool], out: str, parts: Sequence[int], tell: Callable[[int], None]) -> None:

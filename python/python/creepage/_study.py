@@ -22,6 +22,7 @@ from typing import Any, Callable, Optional, Union
 from . import _creepage
 from ._engines import on_dask, on_this_machine
 from ._errors import InputError
+from ._progress import callback
 from ._scene import Scene, Source, source
 
 #: Rows that a part has at least, if there are as many: about half a minute of one core.
@@ -45,13 +46,14 @@ def study(
     ducts_per_part: Optional[int] = None,
     client: Any = None,
     threads: Optional[int] = None,
-    progress: Optional[Callable[[float], Any]] = None,
+    progress: Any = None,
 ) -> "Study":
     """Computes every duct of a table, each with so many samples, into the folder ``out``. Run again, it computes what is missing.
 
     ducts: a Parquet or CSV file, or anything with ``__arrow_c_stream__``; a row a duct, columns named as keys of the scene, and ``id``.
     A cell, or a value of the scene, may be a distribution: ``normal(0.25, 0.03)``. client: a client of Dask whose workers see the
-    folder; without one, this machine computes in so many threads. progress: called with the share of the parts that are done.
+    folder; without one, this machine computes in so many threads. progress: called with the share of the parts that are done, or a bar
+    of tqdm.
 
     Samples are as exact as their scatter asks for: to ``solver.tolerance``, or to a quarter of the standard deviation of the duct's
     largest force where that is more, up to 5 %. Each says its error in ``error_estimate``.
@@ -59,10 +61,11 @@ def study(
     made = Study.create(scene, ducts, out, samples=samples, seed=seed, ducts_per_part=ducts_per_part)
     missing = made.missing()
     done = made.parts - len(missing)
+    show = callback(progress)
 
     def tell(count: int) -> None:
-        if progress is not None:
-            progress((done + count) / made.parts)
+        if show is not None:
+            show((done + count) / made.parts)
 
     tell(0)
     if client is None:
@@ -303,7 +306,7 @@ def _copy_ducts(scene: Source, ducts: Any, path: str, samples: int, per_part: in
     group = _ducts_per_group(per_part)
     drawn = set(_creepage.drawn(scene))
     count = 0
-    heads = None
+    heads: Any = None
 
     def copy(beside: str) -> None:
         nonlocal count, heads
