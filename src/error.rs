@@ -92,6 +92,9 @@ pub enum Error {
     /// The [`Progress`](crate::Progress) callback stopped the computation.
     #[error("stopped before it was done")]
     Stopped,
+    /// There is no pass whose answer could be told.
+    #[error("no pass was computed")]
+    NoPass,
     /// The computation gave a number that is not finite: no answer holds one.
     #[error("the computation failed: {field} came out as {value}")]
     NotFinite {
@@ -154,6 +157,26 @@ impl Error {
                 error: Box::new(self),
             },
             None => self,
+        }
+    }
+
+    /// Where in a scene file the cause stands, if it stands in one.
+    pub fn location(&self) -> Option<&Location> {
+        match self {
+            Self::Scene(error) => error.location(),
+            Self::Located { location, .. } => Some(location),
+            _ => None,
+        }
+    }
+
+    /// The scene's key at fault, if one is.
+    pub fn key(&self) -> Option<&str> {
+        match self {
+            Self::Scene(SceneError::Wrong(wrong)) => Some(&wrong.key),
+            Self::Unfit { key, .. } => Some(key),
+            Self::TooManyNodes { .. } => Some("duct.length"),
+            Self::Located { error, .. } => error.key(),
+            _ => None,
         }
     }
 

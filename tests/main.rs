@@ -55,6 +55,10 @@ mod several_kinds;
 mod slope;
 #[path = "sweep.rs"]
 mod sweep;
+#[path = "sweep_rows.rs"]
+mod sweep_rows;
+#[path = "threads.rs"]
+mod threads;
 #[path = "workbook.rs"]
 mod workbook;
 #[path = "../crates/figure/tests/xml/mod.rs"]

@@ -644,7 +644,7 @@ fn rows(name: &str, table: &str) -> (PathBuf, Result<Sweep, SweepError>) {
         .unwrap()
         .with(&["traffic.passes=1"])
         .unwrap();
-    (output, Sweep::of_rows(file, &ducts))
+    (output, Sweep::of_rows(file, &ducts, Samples::default()))
 }
 
 #[test]
@@ -757,7 +757,7 @@ fn rows_in_parquet_are_those_in_csv() {
         .unwrap()
         .with(&["traffic.passes=1"])
         .unwrap();
-    let parquet = Sweep::of_rows(file, &ducts).unwrap();
+    let parquet = Sweep::of_rows(file, &ducts, Samples::default()).unwrap();
     let csv = csv.unwrap();
     assert_eq!(parquet.axes(), csv.axes());
     for index in 0..2 {

@@ -7,7 +7,7 @@ use std::sync::Once;
 use super::failure::Failure;
 use super::progress::{HowFar, Now, stopped, watched};
 use super::readings::ReadArguments;
-use super::shared::{Input, OutputArguments, SceneArguments};
+use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
 use crate::Readings;
 use crate::calibration::{
@@ -72,6 +72,8 @@ pub struct Arguments {
     /// Maximum number of model runs, without those of the bootstrap
     #[arg(long, value_name = "N", default_value_t = 2000)]
     max_evaluations: usize,
+    #[command(flatten)]
+    threads: Threads,
     #[command(flatten)]
     output: OutputArguments,
     #[command(flatten)]

@@ -101,15 +101,28 @@ fn command_line() -> clap::Command {
 
 /// Runs the command with the process's arguments. Exit status: 0 done; 1 the computation failed; 2 bad input or usage; 130 stopped by Ctrl-C.
 pub fn main() -> ExitCode {
-    let parsed = command_line()
-        .try_get_matches()
-        .and_then(|mut matches| Arguments::from_arg_matches_mut(&mut matches));
+    let parsed = command_line().try_get_matches().and_then(|mut matches| {
+        limit_threads(&matches);
+        Arguments::from_arg_matches_mut(&mut matches)
+    });
     match parsed.map_or_else(
         |error| failure::unparsed(&error),
         |arguments| execute(&arguments.command),
     ) {
         Ok(()) => ExitCode::SUCCESS,
         Err(failure) => failure.end(),
+    }
+}
+
+/// Makes rayon's threads, in which everything is computed, as many as `--threads` says.
+fn limit_threads(matches: &clap::ArgMatches) {
+    let command = matches.subcommand().map(|(_, command)| command);
+    let threads = command.and_then(|command| command.try_get_one::<u16>("threads").ok()?);
+    if let Some(&threads) = threads {
+        // There are none yet, so they can be made.
+        let _ = rayon::ThreadPoolBuilder::new()
+            .num_threads(usize::from(threads))
+            .build_global();
     }
 }
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::progress::{HowFar, Now, stopped, watched};
-use super::shared::{Input, OutputArguments, SceneArguments};
+use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
 use crate::Profile;
 use crate::output::Kind;
@@ -22,6 +22,8 @@ pub struct Arguments {
     /// Positions along the duct, measured from the vehicle, in m: 0,0.5,1
     #[arg(long, value_delimiter = ',', allow_hyphen_values = true, value_parser = finite)]
     positions: Option<Vec<f64>>,
+    #[command(flatten)]
+    threads: Threads,
     #[command(flatten)]
     output: OutputArguments,
 }

@@ -1,7 +1,7 @@
 //! How far a computation is, and what happens when it is stopped.
 //!
-//! The command computes in a thread of its own, while this one shows how far it is and heeds Ctrl-C: whatever the computation does, the
-//! process ends at once, and what it had finished is printed before.
+//! The command computes in rayon's threads, as many as `--threads` says, while this one shows how far it is and heeds Ctrl-C: whatever the
+//! computation does, the process ends at once, and what it had finished is printed before.
 
 use std::cell::Cell;
 use std::io::{self, IsTerminal, Write};
@@ -104,7 +104,8 @@ pub fn watched<A: Send>(
         let (send, receive) = channel();
         let progress = Progress::new(&report);
         let worker = scope.spawn(move || {
-            let _ = send.send(compute(progress));
+            // A scope runs in one of rayon's threads; the one that is left only waits.
+            let _ = send.send(rayon::scope(|_| compute(progress)));
         });
         let begun = Instant::now();
         let screen = Screen::default();

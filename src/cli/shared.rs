@@ -34,11 +34,21 @@ fn key_and_value(text: &str) -> Result<String, String> {
     ))
 }
 
+/// How many threads compute. [`limit_threads`](super::limit_threads) finds it in the arguments of whatever command has it.
+#[derive(Debug, clap::Args)]
+pub struct Threads {
+    /// Compute in at most N threads; on all cores if omitted
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    threads: Option<u16>,
+}
+
 /// A scene whose traffic may be given in years.
 #[derive(Debug, clap::Args)]
 pub struct TrafficArguments {
     #[command(flatten)]
     pub file: SceneArguments,
+    #[command(flatten)]
+    threads: Threads,
     /// Years of traffic in place of the scene's passes, as traffic.years; of 365.25 days. Also "30 days" or "6 months"
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = |text: &str| years(text, "years"))]
     years: Option<f64>,

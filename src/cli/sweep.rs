@@ -45,8 +45,8 @@ pub struct Arguments {
     )]
     vary: Vec<String>,
     /// A table with one row a duct (CSV, Parquet or Excel), its columns named as keys, with units or in SI; an empty cell leaves the scene's own
-    /// value, and a column `id` is carried over
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["vary", "samples"])]
+    /// value, and a column `id` is carried over. With --samples a cell, or a value of the scene, may be a distribution as in --vary
+    #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     rows: Option<PathBuf>,
     /// Table to write, FILE.csv, FILE.parquet or FILE.xlsx
     #[arg(long, value_name = "FILE")]
@@ -57,9 +57,6 @@ pub struct Arguments {
     /// Random seed
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
-    /// Number of threads; all cores if omitted
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    threads: Option<u16>,
     /// Draw a map over two varied keys to this file (SVG)
     #[cfg(feature = "plot")]
     #[arg(long, value_name = "FILE.svg", conflicts_with = "rows")]
@@ -83,7 +80,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         seed: arguments.seed,
     };
     let sweep = match rows {
-        Some(rows) => Sweep::of_rows(file, rows)?,
+        Some(rows) => Sweep::of_rows(file, rows, samples)?,
         None => Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?,
     };
     warn_of_slips(&sweep.file_at(0)?);
@@ -112,7 +109,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let summary = watched(how_far, keep, |progress| {
         let options = SweepOptions {
-            threads: arguments.threads.map(usize::from),
             force: arguments.force.force,
             progress,
             #[cfg(feature = "plot")]

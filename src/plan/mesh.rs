@@ -91,6 +91,15 @@ impl Levels {
         }
     }
 
+    /// The same with no other level than this one.
+    pub fn alone(self, level: usize) -> Self {
+        Self {
+            first: level,
+            finest: level,
+            ..self
+        }
+    }
+
     /// The level to begin with.
     pub fn first(&self) -> usize {
         self.first

@@ -11,6 +11,7 @@ mod report;
 mod stand_ins;
 mod warnings;
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use ground_field::GroundField;
@@ -26,7 +27,7 @@ pub use report::{Candidate, Part, PlanReport};
 #[derive(Debug)]
 pub struct Plan<'a> {
     pub(crate) scene: &'a Scene,
-    pub(crate) ground: Ground,
+    pub(crate) ground: Arc<Ground>,
     pub(crate) period: Period,
     pub(crate) choice: MethodChoice,
     pub(crate) levels: Levels,
@@ -53,7 +54,20 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Pl
     let begun = Instant::now();
     scene.validate()?;
     let ground = Ground::new(scene, own, road::reach(scene))?;
-    let levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
+    plan_over(scene, Arc::new(ground), None, begun)
+}
+
+/// Plans how to compute a valid `scene` over a `ground` that is known to be its own, on the mesh of `level` alone if there is one.
+pub(crate) fn plan_over(
+    scene: &Scene,
+    ground: Arc<Ground>,
+    level: Option<usize>,
+    begun: Instant,
+) -> Result<Plan<'_>, Error> {
+    let mut levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
+    if let Some(level) = level {
+        levels = levels.alone(level);
+    }
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first())?;
     let period = Period::new(scene, &ground.motions)?;

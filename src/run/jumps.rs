@@ -101,21 +101,7 @@ pub fn find<'a>(
         .checked_sub(1)
         .filter(|&below| !is_short && plan.levels.mesh(below).is_ok());
     let mut level = below.unwrap_or(first);
-    let first_periods = if plan.period.len() < LONG {
-        FIRST_PERIODS
-    } else {
-        FIRST_LONG_PERIODS
-    };
-    let mut taken = Jumping {
-        period: &plan.period,
-        tolerance: (FIRST.0 * tolerance).min(LARGEST),
-        first_periods,
-        first_jump: FIRST.1,
-        most_passes: 0,
-        guide: Guide::Free,
-        simulated: None,
-        beyond: false,
-    };
+    let mut taken = largest(plan);
     let mut statistics = Statistics::default();
     let mut coarse = if let Some(found) = before {
         level = found.level;
@@ -184,6 +170,35 @@ pub fn find<'a>(
     let mut found = best.expect("the first pair of runs is an answer");
     found.error = found.error + mix_error(plan, &found, scale, simulate, &mut statistics)?;
     Ok((found, statistics))
+}
+
+/// The largest jumps over the passes of `plan` that are tried.
+fn largest<'a>(plan: &'a Plan<'_>) -> Jumping<'a> {
+    let first_periods = if plan.period.len() < LONG {
+        FIRST_PERIODS
+    } else {
+        FIRST_LONG_PERIODS
+    };
+    Jumping {
+        period: &plan.period,
+        tolerance: (FIRST.0 * plan.scene.solver.tolerance).min(LARGEST),
+        first_periods,
+        first_jump: FIRST.1,
+        most_passes: 0,
+        guide: Guide::Free,
+        simulated: None,
+        beyond: false,
+    }
+}
+
+/// Jumps over the passes of `plan` that are good enough as a rule: the second that are tried.
+pub fn usual<'a>(plan: &'a Plan<'_>) -> Jumping<'a> {
+    let largest = largest(plan);
+    Jumping {
+        tolerance: FINER.0 * largest.tolerance,
+        first_jump: FINER.1 * largest.first_jump,
+        ..largest
+    }
 }
 
 /// What a mix that stands in for the traffic's own changes: its share of what a mix on the other side changes.

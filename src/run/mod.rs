@@ -5,6 +5,7 @@ mod days;
 mod forecast;
 mod judge;
 mod jumps;
+mod known;
 mod listing;
 mod lived;
 mod locked_law;
@@ -17,10 +18,15 @@ mod solver;
 mod underway;
 mod work;
 
-use crate::plan::{PassMethod, Plan, plan, plan_on};
+use std::sync::Arc;
+use std::time::Instant;
+
+use crate::ground::{Ground, road};
+use crate::plan::{PassMethod, Plan, plan, plan_over};
 use crate::{Error, Run, Scene, finite};
 use assemble::RunBuilder;
 pub use forecast::{Forecast, forecast};
+pub use known::KnownMesh;
 pub use options::RunOptions;
 use refine::Refinement;
 pub use underway::{CutShort, HowFar, Underway};
@@ -40,7 +46,28 @@ pub fn run(scene: &Scene) -> Result<Run, Error> {
 ///
 /// As for [`run`].
 pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
-    run_plan(&plan_on(scene, options.ground)?, options)
+    scene.validate()?;
+    let begun = Instant::now();
+    let ground = Ground::new(scene, options.ground, road::reach(scene))?;
+    run_over(scene, Arc::new(ground), options, begun)
+}
+
+/// Computes all passes of a valid `scene` over a `ground` that is known to be its own.
+pub(crate) fn run_over(
+    scene: &Scene,
+    ground: Arc<Ground>,
+    options: &RunOptions<'_>,
+    begun: Instant,
+) -> Result<Run, Error> {
+    run_plan(
+        &plan_over(
+            scene,
+            ground,
+            KnownMesh::of(scene, options.mesh).map(|mesh| mesh.level),
+            begun,
+        )?,
+        options,
+    )
 }
 
 /// Checks that `scene` can be computed, without computing its passes.
@@ -81,6 +108,7 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
             plan,
             method,
             options,
+            known: KnownMesh::of(plan.scene, options.mesh),
         };
         refinement.solve(warnings)
     };

@@ -1,17 +1,16 @@
 //! The passes of a scene on one mesh after the other, until their error is within the tolerance.
 
-use std::thread;
-
 use cable_dem::{CableError, Mesh, Statistics};
 use cycle_jump::Record;
 
 use super::judge::{judge, mesh_reason};
 use super::jumps::{self, Found};
+use super::known::KnownMesh;
 use super::options::RunOptions;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
-use crate::answer::{DayExtremes, HeatRecord, RandomSpread, simulated};
+use crate::answer::{DayExtremes, HeatRecord, RandomSpread, listed, simulated};
 use crate::ground::{peak, road};
 use crate::plan::{Levels, PassMethod, Plan};
 use crate::{Error, Progress, Scene};
@@ -32,6 +31,8 @@ pub struct Refinement<'a> {
     pub plan: &'a Plan<'a>,
     pub method: PassMethod,
     pub options: &'a RunOptions<'a>,
+    /// The only mesh, where its error is known.
+    pub known: Option<KnownMesh>,
 }
 
 /// Passes on the mesh that was good enough.
@@ -69,17 +70,25 @@ impl Refinement<'_> {
         let mut statistics = Statistics::default();
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
         let mut found = match self.method {
-            PassMethod::Jumps(_) => Some(self.jumps(jumps::share(self.plan), None, &mut statistics)?),
-            PassMethod::EveryPass(_) => None,
+            PassMethod::Jumps(_) if self.known.is_none() => {
+                Some(self.jumps(jumps::share(self.plan), None, &mut statistics)?)
+            }
+            _ => None,
         };
         let left = found.as_ref().map_or(0.0, |_| FINDING);
         let mut parts = self.options.progress.part(left, 1.0).refining();
-        let (level, mut passes) = self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?;
+        let (level, mut passes) = match self.known {
+            Some(known) => {
+                error.mesh = Shares::both(known.error);
+                (levels.first(), vec![self.on_known_mesh(parts())?])
+            }
+            None => self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?,
+        };
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
         statistics += work_of(&passes);
         // One mesh alone does not show its error; and no mesh that the scene names is refused for what coarser ones show.
-        let alone = passes.len() == 1;
+        let alone = passes.len() == 1 && self.known.is_none();
         let doubtful = levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
         let mesh = levels.mesh(level)?;
         let finest = passes.pop().expect("the first level was computed");
@@ -172,6 +181,12 @@ impl Refinement<'_> {
                 level += 1;
             }
         }
+    }
+
+    /// All passes on the only mesh, with jumps as large as they usually may be: what they leave wrong is part of the mesh's known error.
+    fn on_known_mesh(&self, progress: Progress<'_>) -> Result<Passes, Error> {
+        let way = matches!(self.method, PassMethod::Jumps(_)).then(|| jumps::usual(self.plan));
+        self.simulate(self.plan.levels.first(), way.as_ref(), progress, true)
     }
 
     /// Smaller jumps than those of `found`, if there are any with a smaller error.
@@ -317,6 +332,10 @@ impl Refinement<'_> {
             most_passes: affordable as u64,
             ..*way
         });
+        if let (Some(_), Some(way)) = (self.known, &way) {
+            // Nobody looks at every pass.
+            return task.with_jumps(way, &listed(task.scene.traffic.passes));
+        }
         carry_out(&task, way.as_ref())
     }
 }
@@ -343,18 +362,11 @@ fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error
     }
 }
 
-/// Runs two computations side by side; the first error wins.
+/// Runs two computations side by side where a thread is free; the first error wins.
 pub(super) fn both<A: Send, B: Send>(
     first: impl FnOnce() -> Result<A, Error> + Send,
     second: impl FnOnce() -> Result<B, Error> + Send,
 ) -> Result<(A, B), Error> {
-    thread::scope(|scope| {
-        let handle = scope.spawn(second);
-        let first = first();
-        // A panic of the other thread goes on in this one.
-        let second = handle
-            .join()
-            .unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        Ok((first?, second?))
-    })
+    let (first, second) = rayon::join(first, second);
+    Ok((first?, second?))
 }

@@ -48,6 +48,34 @@ pub struct Entry {
     pub value: Node,
 }
 
+#[cfg(feature = "sweep")]
+impl Node {
+    /// Adds all texts below the node at `key`, with their keys.
+    pub fn texts(&self, key: String, texts: &mut Vec<(String, String)>) {
+        let inner = |name: &str| {
+            if key.is_empty() {
+                name.to_owned()
+            } else {
+                format!("{key}.{name}")
+            }
+        };
+        match &self.content {
+            Content::Text(text) => texts.push((key, text.clone())),
+            Content::Array(items) => {
+                for (index, item) in items.iter().enumerate() {
+                    item.texts(inner(&index.to_string()), texts);
+                }
+            }
+            Content::Table(entries) => {
+                for entry in entries {
+                    entry.value.texts(inner(&entry.key), texts);
+                }
+            }
+            Content::Number { .. } | Content::Other => {}
+        }
+    }
+}
+
 // Neither shows its place: equal texts are equal contents.
 
 impl fmt::Debug for Node {

@@ -120,6 +120,14 @@ impl SceneFile {
         slips::unit_slips(&self.document)
     }
 
+    /// All texts of the file with their keys.
+    #[cfg(feature = "sweep")]
+    pub(crate) fn texts(&self) -> Vec<(String, String)> {
+        let mut texts = Vec::new();
+        self.document.root.texts(String::new(), &mut texts);
+        texts
+    }
+
     /// The table of axle loads that the scene reads too, if it names one.
     pub fn histogram(&self) -> Option<PathBuf> {
         histogram::path(&self.name, &self.document)

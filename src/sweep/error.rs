@@ -20,6 +20,16 @@ pub enum SweepError {
         /// What is allowed.
         allowed: String,
     },
+    /// A distribution in a cell of a table, or in the scene, is not written as it has to be.
+    #[error("`{key}`: found {found}; allowed: {allowed}")]
+    Cell {
+        /// The column or the scene's key.
+        key: String,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: &'static str,
+    },
     /// The table of rows of this name cannot be read, and why.
     #[error(
         "{0}: found no table of ducts that can be read; allowed: CSV, Parquet or an Excel workbook, a row a duct, its columns named as scene keys"

@@ -1,7 +1,5 @@
 //! The points of a sweep: every combination of the values of its keys.
 
-use std::path::Path;
-
 use super::axis::{Axis, AxisValues};
 use super::error::SweepError;
 use super::list;
@@ -13,9 +11,11 @@ use crate::{Scene, SceneFile};
 const MOST_POINTS: usize = 10_000_000;
 
 /// How drawn keys are sampled.
+///
+/// A sample's value follows from the seed, the row (its `id`, or else its number), the key and the number of the sample alone.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Samples {
-    /// Samples at every point of the grid; 0 where nothing is drawn.
+    /// Samples at every point of the grid, or of every row; 0 where nothing is drawn.
     pub count: usize,
     /// Another seed gives other samples.
     pub seed: u64,
@@ -27,9 +27,9 @@ pub struct Sweep {
     pub(super) file: SceneFile,
     pub(super) axes: Vec<Axis>,
     pub(super) samples: Samples,
-    count: usize,
+    pub(super) count: usize,
     /// Whether a point takes one value of each key, those of a row, in place of every combination.
-    by_row: bool,
+    pub(super) by_row: bool,
 }
 
 impl Sweep {
@@ -83,50 +83,8 @@ impl Sweep {
         Ok(sweep)
     }
 
-    /// The ducts of a table, `.csv`, `.parquet` or `.xlsx`: a row is the scene in `file` with the values of its columns, which are named as keys. An
-    /// empty cell leaves the scene's own value; a column `id` is carried over.
-    ///
-    /// # Errors
-    ///
-    /// [`SweepError::Rows`] where there is no such table; [`SweepError::Unfit`] where it has no key, no row, a column twice or more than ten
-    /// million rows; [`SweepError::Scene`] where a scene has no such key.
-    pub fn of_rows(file: SceneFile, table: &Path) -> Result<Self, SweepError> {
-        let axes = list::read(table)?;
-        let unfit = |found: String, allowed| Err(SweepError::Unfit { found, allowed });
-        for (index, axis) in axes.iter().enumerate() {
-            if axes[..index].iter().any(|other| other.key == axis.key) {
-                return unfit(format!("two columns `{}`", axis.key), "every key once");
-            }
-        }
-        if axes.iter().all(|axis| axis.key == list::ID) {
-            return unfit(
-                "no column that is named as a key".into(),
-                "one or more, such as duct.depth",
-            );
-        }
-        let count = axes[0].count();
-        if !(1..=MOST_POINTS).contains(&count) {
-            return unfit(format!("{count} rows"), "from one to ten million rows");
-        }
-        let sweep = Self {
-            file,
-            axes,
-            samples: Samples::default(),
-            count,
-            by_row: true,
-        };
-        for axis in &sweep.axes {
-            if let AxisValues::List(list) = &axis.values
-                && let Some(given) = list.iter().position(|value| !value.is_empty())
-            {
-                sweep.knows_keys(given)?;
-            }
-        }
-        Ok(sweep)
-    }
-
     /// An unknown key fails everywhere; what fails at some points only is recorded there.
-    fn knows_keys(&self, index: usize) -> Result<(), SweepError> {
+    pub(super) fn knows_keys(&self, index: usize) -> Result<(), SweepError> {
         match self.scene(index) {
             Err(SceneError::Wrong(wrong))
                 if matches!(wrong.kind, WrongKind::UnknownKey { .. } | WrongKind::Override) =>
@@ -164,15 +122,12 @@ impl Sweep {
 
     /// The value of each varied key at a point.
     pub fn values(&self, index: usize) -> Vec<String> {
-        if self.by_row {
-            let of = |axis: &Axis| match &axis.values {
-                AxisValues::List(list) => list[index].clone(),
-                AxisValues::Drawn(_) => String::new(),
-            };
-            return self.axes.iter().map(of).collect();
-        }
         let samples = self.samples.count.max(1);
         let (mut group, sample) = (index / samples, index % samples);
+        if self.by_row {
+            let id = self.id(group);
+            return self.row_values(group, |key| share(self.samples.seed, key, &id, sample));
+        }
         let mut values: Vec<String> = self
             .axes
             .iter()
@@ -184,7 +139,7 @@ impl Sweep {
                     value
                 }
                 AxisValues::Drawn(distribution) => {
-                    let share = share(self.samples.seed, &axis.key, sample);
+                    let share = share(self.samples.seed, &axis.key, "", sample);
                     distribution.quantile(share).1
                 }
             })
@@ -208,10 +163,15 @@ impl Sweep {
     ///
     /// [`SceneError`] where there is nothing at a varied key.
     pub fn file_at(&self, index: usize) -> Result<SceneFile, SceneError> {
+        self.file_with(self.values(index))
+    }
+
+    /// The scene file with a value for every axis.
+    pub(super) fn file_with(&self, values: Vec<String>) -> Result<SceneFile, SceneError> {
         let overrides: Vec<String> = self
             .axes
             .iter()
-            .zip(self.values(index))
+            .zip(values)
             // What a row leaves out is the scene's own.
             .filter(|(axis, value)| !self.by_row || !(value.is_empty() || axis.key == list::ID))
             .map(|(axis, value)| format!("{}={value}", axis.key))
@@ -231,10 +191,15 @@ impl Sweep {
     }
 }
 
-/// A number in (0, 1), evenly distributed: that of one sample of one key.
-fn share(seed: u64, key: &str, sample: usize) -> f64 {
+/// A number in (0, 1), evenly distributed: that of one sample of one key of the row `id`.
+fn share(seed: u64, key: &str, id: &str, sample: usize) -> f64 {
     /// Half the distance between two numbers of the generator: keeps 0 out.
     const HALF: f64 = 1.0 / (1_u64 << 54) as f64;
-    let stream = fastrand::Rng::with_seed(seed ^ checksum(key.as_bytes())).u64(..);
+    let name = if id.is_empty() {
+        key.to_owned()
+    } else {
+        format!("{key}\0{id}")
+    };
+    let stream = fastrand::Rng::with_seed(seed ^ checksum(name.as_bytes())).u64(..);
     fastrand::Rng::with_seed(stream.wrapping_add(sample as u64)).f64() + HALF
 }

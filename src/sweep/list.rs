@@ -4,7 +4,6 @@ use std::fs::File;
 use std::io::{Error, ErrorKind};
 use std::path::Path;
 
-use super::axis::{Axis, AxisValues};
 use super::error::SweepError;
 use super::sink::Cells;
 use super::table::Format;
@@ -13,7 +12,7 @@ use super::table::Format;
 pub const ID: &str = "id";
 
 /// The columns of the table in `file`, `.csv`, `.parquet` or `.xlsx`, each with a value a row; empty where the row has none.
-pub fn read(file: &Path) -> Result<Vec<Axis>, SweepError> {
+pub fn read(file: &Path) -> Result<Vec<(String, Vec<String>)>, SweepError> {
     let name = file.display().to_string();
     let unreadable = |source| SweepError::Rows(name.clone(), source);
     let (keys, rows) = match Format::of(file)? {
@@ -24,9 +23,9 @@ pub fn read(file: &Path) -> Result<Vec<Axis>, SweepError> {
         Format::Xlsx => super::xlsx::read(file),
     }
     .map_err(unreadable)?;
-    let column = |(index, key): (usize, String)| Axis {
-        key,
-        values: AxisValues::List(rows.iter().map(|row| row[index].clone()).collect()),
+    let column = |(index, key): (usize, String)| {
+        let values = rows.iter().map(|row| row[index].clone()).collect();
+        (key, values)
     };
     Ok(keys.into_iter().enumerate().map(column).collect())
 }

@@ -8,8 +8,11 @@
 //! that was interrupted or killed goes on where it was and ends with the same file, byte for byte. The table stands in the order
 //! of the grid; a point that fails is a row with its error. Memory: about 100 bytes a point.
 //!
-//! Samples: the number u of a sample follows from the seed, the key and the sample's number alone, and its value is the quantile of
-//! u, so nothing depends on the threads or on the other keys.
+//! In place of a grid a sweep may have rows ([`Sweep::of_rows`], [`Sweep::of_table`]): a table of ducts, each with its own values, of which any
+//! part can be computed anywhere. [`Evaluator`] computes single rows.
+//!
+//! Samples: the number u of a sample follows from the seed, the key, the row's id and the sample's number alone, and its value is the quantile of
+//! u, so nothing depends on the threads, on the other keys or on the other rows.
 //!
 //! ```
 //! use creepage::SceneFile;
@@ -23,33 +26,44 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod answers;
 mod axis;
 mod bands;
+mod columns;
+mod compute;
 mod distribution;
 mod error;
+mod evaluator;
 mod grid;
 mod journal;
 mod list;
 #[cfg(feature = "plot")]
 mod map;
 mod numbers;
+mod options;
 #[cfg(feature = "parquet")]
 mod parquet;
+mod pilots;
 mod row;
+mod rows;
 mod run;
 mod sink;
 mod table;
 #[cfg(feature = "xlsx")]
 mod xlsx;
 
+pub use answers::{AnswerColumn, AnswerValues};
 pub use axis::{Axis, AxisValues};
 pub use bands::{Band, Quantiles};
 pub use distribution::Distribution;
 pub use error::SweepError;
+pub use evaluator::Evaluator;
 pub use grid::{Samples, Sweep};
 #[cfg(feature = "plot")]
 pub use map::{MapValue, SweepMap};
+pub use options::{Evaluate, SweepOptions};
 pub use row::{Answer, HeatAnswer, PointError, Row};
-pub use run::{Evaluate, SweepOptions, SweepSummary};
+pub use rows::drawn_keys;
+pub use run::SweepSummary;
 #[cfg(feature = "cli")]
 pub(crate) use table::Format;

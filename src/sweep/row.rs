@@ -68,7 +68,7 @@ pub struct Row {
 
 impl Answer {
     /// The last pass of a run; `None` for a run without passes.
-    pub(super) fn of(run: &Run) -> Option<Self> {
+    pub fn of(run: &Run) -> Option<Self> {
         let last = run.passes.last()?;
         Some(Self {
             downstream_force_n: last.downstream_force_n,

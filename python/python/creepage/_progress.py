@@ -1,0 +1,17 @@
+"""Progress as a callback or a bar of tqdm."""
+
+from typing import Any, Callable, Optional
+
+
+def callback(progress: Any) -> Optional[Callable[[float], Any]]:
+    """What is called with the share that is done. A bar of tqdm shows it as a percentage."""
+    if progress is None or not hasattr(progress, "refresh"):
+        return progress
+    bar = progress
+    bar.total = 100
+
+    def show(share: float) -> None:
+        bar.n = round(100 * share)
+        bar.refresh()
+
+    return show

@@ -1,0 +1,60 @@
+"""A scene as path, TOML text or dict, for the native module."""
+
+import json
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, NamedTuple, Optional, Union
+
+from ._errors import InputError
+
+Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+
+
+class Source(NamedTuple):
+    """What the native module takes for a scene: the name that errors give it, its text, and what is set on top."""
+
+    name: str
+    text: str
+    overrides: list
+
+
+def source(scene: Scene, overrides: Optional[Mapping[str, Any]] = None) -> Source:
+    """The scene's text. A text is a path unless it holds a line break or ``=``, which every scene does."""
+    keys = [f"{key}={'' if value is None else _override(value)}" for key, value in (overrides or {}).items()]
+    if isinstance(scene, Source):
+        return Source(scene.name, scene.text, [*scene.overrides, *keys])
+    if isinstance(scene, Mapping):
+        return Source("scene", _toml(scene), keys)
+    if isinstance(scene, str) and ("\n" in scene or "=" in scene):
+        return Source("scene", scene, keys)
+    path = os.fspath(scene)
+    try:
+        return Source(path, Path(path).read_text(encoding="utf-8-sig"), keys)
+    except (OSError, UnicodeDecodeError) as error:
+        message = f"{path}: cannot be read as a scene, a path, a TOML text or a dict: {error}"
+        raise InputError(message, file=path) from error
+
+
+def _override(value: Any) -> str:
+    return value if isinstance(value, str) else _value(value)
+
+
+def _toml(scene: Mapping[str, Any]) -> str:
+    return "".join(f"{json.dumps(key)} = {_value(value)}\n" for key, value in scene.items() if value is not None)
+
+
+def _value(value: Any) -> str:
+    """A value as TOML on one line."""
+    if isinstance(value, (bool, str)):
+        return json.dumps(value)
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{json.dumps(k)} = {_value(v)}" for k, v in value.items() if v is not None) + " }"
+    if isinstance(value, Sequence):
+        return "[" + ", ".join(map(_value, value)) + "]"
+    if hasattr(value, "item"):
+        # A number of numpy.
+        return _value(value.item())
+    if isinstance(value, (int, float)):
+        return repr(value)
+    raise InputError(f"found {value!r} in the scene; allowed: texts, numbers, lists and dicts")

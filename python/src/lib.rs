@@ -1,0 +1,164 @@
+//! The native module of the Python package `creepage`: each function takes a scene as text and calls the Rust library, without the GIL.
+
+mod arrow;
+mod call;
+mod failure;
+
+use creepage::calibration::{BootstrapOptions, Loss, Unknown};
+use creepage::report::{Report, ReportOptions};
+use creepage::sweep::{Evaluator, Samples, Sweep, SweepOptions};
+use creepage::{CalibrateOptions, Readings, RunOptions, SceneFile, Series};
+use pyo3::prelude::*;
+use pyo3::types::PyAny;
+
+use arrow::Table;
+use call::{Call, watched};
+use failure::Failure;
+
+/// A scene: the name that errors give it, its text, and what is set on top.
+#[derive(FromPyObject)]
+struct Source(String, String, Vec<String>);
+
+impl Source {
+    fn file(&self) -> Result<SceneFile, Failure> {
+        let Self(name, text, overrides) = self;
+        Ok(SceneFile::from_toml(name, text)?.with(overrides)?)
+    }
+}
+
+fn json(answer: &impl serde::Serialize) -> Result<String, Failure> {
+    serde_json::to_string(answer).map_err(|error| Failure::computation(&error))
+}
+
+/// What looks like a slip in the scene, before the warnings of an answer, as the command line tells them.
+fn with_slips(file: &SceneFile, warnings: &mut Vec<String>) {
+    warnings.splice(0..0, file.unit_slips().iter().map(ToString::to_string));
+}
+
+/// The run of a scene as JSON.
+#[pyfunction]
+fn run(py: Python<'_>, scene: Source, verify: bool, call: Call) -> PyResult<String> {
+    watched(py, call, |progress| {
+        let file = scene.file()?;
+        let options = RunOptions {
+            verify,
+            progress,
+            ..RunOptions::default()
+        };
+        let mut run = Evaluator::new(file.clone()).run::<&str>(&[], &options)?;
+        with_slips(&file, &mut run.warnings);
+        json(&run)
+    })
+}
+
+/// The report of a scene as a page of HTML.
+#[pyfunction]
+fn report(py: Python<'_>, scene: Source, call: Call) -> PyResult<String> {
+    watched(py, call, |progress| {
+        let file = scene.file()?;
+        let options = ReportOptions {
+            progress,
+            ..ReportOptions::default()
+        };
+        let report = Report::new(&file.scene()?, &options).map_err(|error| error.located(&file))?;
+        Ok(report.to_html())
+    })
+}
+
+fn sweep_of(scene: &Source, rows: arrow::Columns, samples: usize, seed: u64) -> Result<Sweep, Failure> {
+    let samples = Samples { count: samples, seed };
+    Ok(Sweep::of_table(scene.file()?, rows, samples)?)
+}
+
+/// A row a duct, computed: the table of the command `sweep --rows`.
+#[pyfunction]
+fn sweep(
+    py: Python<'_>,
+    scene: Source,
+    rows: &Bound<'_, PyAny>,
+    samples: usize,
+    seed: u64,
+    call: Call,
+) -> PyResult<Table> {
+    let rows = arrow::columns(rows)?;
+    watched(py, call, |progress| {
+        let options = SweepOptions {
+            progress,
+            ..SweepOptions::default()
+        };
+        let columns = sweep_of(&scene, rows, samples, seed)?.answers(&options)?;
+        Table::of(columns)
+    })
+}
+
+/// The columns of that table without rows, once all keys and distributions are checked.
+#[pyfunction]
+fn heads(py: Python<'_>, scene: Source, rows: &Bound<'_, PyAny>, samples: usize) -> PyResult<Table> {
+    let rows = arrow::columns(rows)?;
+    watched(py, Call::default(), |_| {
+        Table::of(sweep_of(&scene, rows, samples, 0)?.heads())
+    })
+}
+
+/// The names of columns, and their cells as they would be typed.
+#[pyfunction]
+fn texts(rows: &Bound<'_, PyAny>) -> PyResult<(Vec<String>, Vec<Vec<String>>)> {
+    Ok(arrow::columns(rows)?.into_iter().unzip())
+}
+
+/// The keys for which the scene has a distribution.
+#[pyfunction]
+fn drawn(py: Python<'_>, scene: Source) -> PyResult<Vec<String>> {
+    let keys = || Ok(creepage::sweep::drawn_keys(&scene.file()?)?);
+    keys().map_err(|failure: Failure| failure.raised(py))
+}
+
+/// Parameters fitted to readings, as JSON. The readings are the bytes of a table in whatever form the command line reads.
+#[pyfunction]
+#[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
+fn calibrate(
+    py: Python<'_>,
+    scene: Source,
+    name: &str,
+    readings: &[u8],
+    fit: Vec<String>,
+    robust: bool,
+    bootstrap: Option<usize>,
+    seed: u64,
+    call: Call,
+) -> PyResult<String> {
+    watched(py, call, |progress| {
+        let file = scene.file()?;
+        let readings = Readings::from_csv(name, readings).map_err(creepage::Error::from)?;
+        let unknown = |name: &String| name.parse::<Unknown>().map_err(|error| Failure::input(&error));
+        let options = CalibrateOptions {
+            unknowns: fit.iter().map(unknown).collect::<Result<_, _>>()?,
+            loss: if robust { Loss::TUKEY } else { Loss::Squares },
+            bootstrap: bootstrap.map(|replicates| BootstrapOptions { replicates, seed }),
+            progress,
+            ..CalibrateOptions::default()
+        };
+        let scene = file.scene()?;
+        let series = Series {
+            scene: &scene,
+            readings: &readings,
+        };
+        let fitted = creepage::calibrate_jointly(&[series], &options);
+        let mut fitted = fitted.map_err(|error| error.located(&file))?;
+        with_slips(&file, &mut fitted.warnings);
+        json(&fitted)
+    })
+}
+
+#[pymodule]
+fn _creepage(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_class::<Table>()?;
+    module.add_function(wrap_pyfunction!(run, module)?)?;
+    module.add_function(wrap_pyfunction!(report, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep, module)?)?;
+    module.add_function(wrap_pyfunction!(heads, module)?)?;
+    module.add_function(wrap_pyfunction!(texts, module)?)?;
+    module.add_function(wrap_pyfunction!(drawn, module)?)?;
+    module.add_function(wrap_pyfunction!(calibrate, module)?)?;
+    module.add("__version__", env!("CARGO_PKG_VERSION"))
+}

@@ -1,0 +1,163 @@
+//! Computing the points of a sweep, each in one thread after the other's.
+
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use rayon::prelude::*;
+
+use super::error::SweepError;
+use super::evaluator::Evaluator;
+use super::grid::Sweep;
+use super::options::{Evaluate, SweepOptions};
+use super::pilots::Sampling;
+use super::row::{Answer, PointError, Row};
+use crate::{Error, Progress, Run, RunOptions, Scene, finite};
+
+/// What was locked, whatever became of the thread that had it before.
+pub fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Takes finished points, from several threads.
+type Keep<'a> = dyn Fn(Row) -> Result<(), SweepError> + Sync + 'a;
+
+impl Sweep {
+    /// Computes all points that are not `finished` and gives them to `keep`.
+    pub(super) fn compute(
+        &self,
+        finished: &[bool],
+        options: &SweepOptions<'_>,
+        keep: &Keep<'_>,
+    ) -> Result<(), SweepError> {
+        let (progress, evaluate) = (options.progress, options.evaluate);
+        let compute = || self.compute_here(finished, progress, evaluate, keep);
+        let Some(threads) = options.threads else {
+            return compute();
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.map_err(|error| SweepError::File("threads".into(), std::io::Error::other(error)))?
+            .install(compute)
+    }
+
+    fn compute_here(
+        &self,
+        finished: &[bool],
+        progress: Progress<'_>,
+        evaluate: Option<&Evaluate<'_>>,
+        keep: &Keep<'_>,
+    ) -> Result<(), SweepError> {
+        let done = AtomicUsize::new(finished.iter().filter(|done| **done).count());
+        let report = || progress.report(done.load(Ordering::Relaxed) as f64 / finished.len() as f64);
+        // A point that takes long can be stopped too.
+        let within = |_| report().map_or(ControlFlow::Break(()), ControlFlow::Continue);
+        let within = Progress::new(&within);
+        report().map_err(|_| SweepError::Stopped)?;
+        let samplings = match evaluate {
+            None => self.samplings(finished, within)?,
+            Some(_) => Vec::new(),
+        };
+        let next = AtomicUsize::new(0);
+        let failure = Mutex::new(None);
+        let one = |rows: &Evaluator, index: usize| {
+            let sampling = samplings
+                .get(index / self.samples.count.max(1))
+                .copied()
+                .flatten();
+            let row = self.row(index, |scene| match evaluate {
+                Some(evaluate) => evaluate(scene),
+                None => run(rows, scene, sampling, within),
+            })?;
+            keep(row)?;
+            done.fetch_add(1, Ordering::Relaxed);
+            report().map_err(|_| SweepError::Stopped)
+        };
+        rayon::broadcast(|_| {
+            let rows = Evaluator::new(self.file.clone());
+            loop {
+                let index = next.fetch_add(1, Ordering::Relaxed);
+                match finished.get(index) {
+                    None => return,
+                    Some(true) => {}
+                    Some(false) => {
+                        if let Err(error) = one(&rows, index) {
+                            next.store(finished.len(), Ordering::Relaxed);
+                            lock(&failure).get_or_insert(error);
+                        }
+                    }
+                }
+            }
+        });
+        failure
+            .into_inner()
+            .unwrap_or_else(PoisonError::into_inner)
+            .map_or(Ok(()), Err)
+    }
+
+    /// How the samples of each row are computed; nothing where there are no rows with samples.
+    fn samplings(
+        &self,
+        finished: &[bool],
+        progress: Progress<'_>,
+    ) -> Result<Vec<Option<Sampling>>, SweepError> {
+        if !self.by_row || self.samples.count == 0 {
+            return Ok(Vec::new());
+        }
+        finished
+            .par_chunks(self.samples.count)
+            .enumerate()
+            .map(|(row, finished)| {
+                if finished.iter().all(|done| *done) {
+                    return Ok(None);
+                }
+                let pilots = || Sampling::of(self, row, progress);
+                // A panic comes again at the samples, and is their answer.
+                catch_unwind(AssertUnwindSafe(pilots)).unwrap_or(Ok(None))
+            })
+            .collect::<Result<_, Error>>()
+            .map_err(|_| SweepError::Stopped)
+    }
+
+    /// Computes one point. Whatever goes wrong there is its answer.
+    fn row(&self, index: usize, run: impl Fn(&Scene) -> Result<Run, Error>) -> Result<Row, SweepError> {
+        let compute = || -> Result<Answer, Error> {
+            let run = run(&self.scene(index)?)?;
+            finite::check(&run)?;
+            Answer::of(&run).ok_or(Error::NoPass)
+        };
+        let outcome = match catch_unwind(AssertUnwindSafe(compute)) {
+            Ok(Err(Error::Stopped)) => return Err(SweepError::Stopped),
+            Ok(outcome) => outcome.map_err(PointError::from),
+            Err(_) => Err(PointError::Failed("the computation broke off".into())),
+        };
+        Ok(Row { index, outcome })
+    }
+}
+
+/// Runs a scene, as its row's pilots say where there are any.
+fn run(
+    rows: &Evaluator,
+    scene: &Scene,
+    sampling: Option<Sampling>,
+    progress: Progress<'_>,
+) -> Result<Run, Error> {
+    let mut options = RunOptions {
+        progress,
+        ..RunOptions::default()
+    };
+    let Some(Sampling { tolerance, mesh }) = sampling else {
+        return rows.run_scene(scene, &options);
+    };
+    let mut scene = scene.clone();
+    scene.solver.tolerance = tolerance;
+    options.mesh = mesh;
+    match rows.run_scene(&scene, &options) {
+        // Too coarse for this sample.
+        Err(error) if mesh.is_some() && !matches!(error, Error::Stopped) => {
+            options.mesh = None;
+            rows.run_scene(&scene, &options)
+        }
+        run => run,
+    }
+}

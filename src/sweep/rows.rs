@@ -1,0 +1,220 @@
+//! Rows in place of a grid: each is a duct with its own values, and each may be sampled.
+
+use std::path::Path;
+
+use super::axis::{Axis, AxisValues};
+use super::distribution::Distribution;
+use super::error::SweepError;
+use super::grid::{Samples, Sweep};
+use super::list;
+use crate::SceneFile;
+
+/// Keys whose text is never a distribution.
+const NAMES: [&str; 3] = ["title", "name", list::ID];
+
+impl Sweep {
+    /// The ducts of a table, `.csv`, `.parquet` or `.xlsx`, as [`Sweep::of_table`] takes them.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError::Rows`] where there is no such table, and as for [`Sweep::of_table`]; [`SweepError::Unfit`] too where samples are asked
+    /// and nothing is drawn.
+    pub fn of_rows(file: SceneFile, table: &Path, samples: Samples) -> Result<Self, SweepError> {
+        let sweep = Self::of_table(file, list::read(table)?, samples)?;
+        if samples.count > 0 && !(0..sweep.rows()).any(|row| sweep.draws(row)) {
+            return Err(SweepError::Unfit {
+                found: "samples and no distribution".into(),
+                allowed: "a distribution with them, in a cell of the table or in the scene",
+            });
+        }
+        Ok(sweep)
+    }
+
+    /// A table of ducts: a row is the scene in `file` with the values of the columns, which are named as keys and equally long. An empty cell
+    /// leaves the scene's own value; a column `id` is carried over.
+    ///
+    /// With samples, a cell or a value of the scene may be a distribution ([`Axis::parse`]): each row is computed so many times. Then a row's
+    /// tolerance is `solver.tolerance`, or a quarter of the standard deviation of its largest force where that is more, up to 5 %:
+    /// an error of a quarter widens the scatter by a thirtieth.
+    ///
+    /// # Errors
+    ///
+    /// [`SweepError::Unfit`] where there is no key, no row, a column twice or a distribution without samples; [`SweepError::Cell`] where a
+    /// distribution is not written as it has to be; [`SweepError::Scene`] where a scene has no such key.
+    pub fn of_table(
+        file: SceneFile,
+        columns: Vec<(String, Vec<String>)>,
+        samples: Samples,
+    ) -> Result<Self, SweepError> {
+        let unfit = |found: String, allowed| Err(SweepError::Unfit { found, allowed });
+        let mut axes: Vec<Axis> = Vec::with_capacity(columns.len());
+        for (key, values) in columns {
+            if axes.iter().any(|other| other.key == key) {
+                return unfit(format!("two columns `{key}`"), "every key once");
+            }
+            let values = AxisValues::List(values);
+            axes.push(Axis { key, values });
+        }
+        let file = with_medians(file, &mut axes, samples)?;
+        if axes.iter().all(|axis| axis.key == list::ID) {
+            return unfit(
+                "no column that is named as a key".into(),
+                "one or more, such as duct.depth",
+            );
+        }
+        let lists = || axes.iter().filter_map(Axis::list);
+        let rows = lists().next().map_or(0, <[String]>::len);
+        let Some(count) = rows.checked_mul(samples.count.max(1)).filter(|&count| count > 0) else {
+            return unfit(format!("{rows} rows"), "one or more");
+        };
+        if lists().any(|list| list.len() != rows) {
+            return unfit(
+                "columns of different lengths".into(),
+                "a value a row, which may be empty",
+            );
+        }
+        let sweep = Self {
+            file,
+            axes,
+            samples,
+            count,
+            by_row: true,
+        };
+        for axis in &sweep.axes {
+            let given = axis
+                .list()
+                .and_then(|list| list.iter().position(|value| !value.is_empty()));
+            if let Some(row) = given {
+                sweep.knows_keys(row * samples.count.max(1))?;
+            }
+            for value in axis.list().unwrap_or_default() {
+                sweep.check_cell(&axis.key, value)?;
+            }
+        }
+        Ok(sweep)
+    }
+
+    /// Refuses a distribution that is none, or that nobody draws from.
+    fn check_cell(&self, key: &str, value: &str) -> Result<(), SweepError> {
+        match distribution(key, value) {
+            Some(Ok(_)) if self.samples.count == 0 => Err(SweepError::Unfit {
+                found: format!("`{key}` with a distribution and no samples"),
+                allowed: "a number of samples with it",
+            }),
+            Some(Err(error)) => Err(error),
+            _ => Ok(()),
+        }
+    }
+
+    /// How many rows there are.
+    pub(super) fn rows(&self) -> usize {
+        self.count / self.samples.count.max(1)
+    }
+
+    /// What names a row: its `id`, or else its number.
+    pub(super) fn id(&self, row: usize) -> String {
+        let id = self.axes.iter().find(|axis| axis.key == list::ID);
+        let id = id.and_then(|axis| axis.list()?.get(row).filter(|id| !id.is_empty()));
+        id.map_or_else(|| row.to_string(), Clone::clone)
+    }
+
+    /// The values of a row, with those that are drawn at the `share` of their keys.
+    pub(super) fn row_values(&self, row: usize, share: impl Fn(&str) -> f64) -> Vec<String> {
+        let value = |axis: &Axis| match (axis.distribution(row), &axis.values) {
+            (Some(distribution), _) => distribution.quantile(share(&axis.key)).1,
+            (None, AxisValues::List(list)) => list[row].clone(),
+            (None, AxisValues::Drawn(_)) => String::new(),
+        };
+        self.axes.iter().map(value).collect()
+    }
+
+    /// The keys that a row draws.
+    pub(super) fn drawn(&self, row: usize) -> impl Iterator<Item = &str> {
+        let drawn = self
+            .axes
+            .iter()
+            .filter(move |axis| axis.distribution(row).is_some());
+        drawn.map(|axis| &*axis.key)
+    }
+
+    fn draws(&self, row: usize) -> bool {
+        self.drawn(row).next().is_some()
+    }
+}
+
+impl Axis {
+    /// Its values, where they are listed.
+    pub(super) fn list(&self) -> Option<&[String]> {
+        match &self.values {
+            AxisValues::List(list) => Some(list),
+            AxisValues::Drawn(_) => None,
+        }
+    }
+
+    /// What a row draws from.
+    fn distribution(&self, row: usize) -> Option<Distribution> {
+        match &self.values {
+            AxisValues::List(list) => distribution(&self.key, list.get(row)?)?.ok(),
+            AxisValues::Drawn(distribution) => Some(distribution.clone()),
+        }
+    }
+}
+
+/// The distribution that stands at `key`, if one does.
+pub fn distribution(key: &str, text: &str) -> Option<Result<Distribution, SweepError>> {
+    let is_name = NAMES.contains(&key.rsplit('.').next().unwrap_or(key));
+    let found = Distribution::parse(text).filter(|_| !is_name)?;
+    Some(found.map_err(|allowed| SweepError::Cell {
+        key: key.to_owned(),
+        found: text.to_owned(),
+        allowed,
+    }))
+}
+
+/// The keys for which `file` holds a distribution: each row that has no value of its own draws them.
+///
+/// # Errors
+///
+/// [`SweepError::Cell`] where a distribution is not written as it has to be.
+pub fn drawn_keys(file: &SceneFile) -> Result<Vec<String>, SweepError> {
+    let texts = file.texts().into_iter();
+    texts
+        .filter_map(|(key, text)| Some(distribution(&key, &text)?.map(|_| key)))
+        .collect()
+}
+
+/// The scene with the median where a distribution stood: that one is drawn in rows that have no value of their own.
+fn with_medians(file: SceneFile, axes: &mut Vec<Axis>, samples: Samples) -> Result<SceneFile, SweepError> {
+    let mut medians = Vec::new();
+    for (key, text) in file.texts() {
+        let Some(found) = distribution(&key, &text) else {
+            continue;
+        };
+        let found = found?;
+        if samples.count == 0 {
+            return Err(SweepError::Unfit {
+                found: format!("`{key}` with a distribution and no samples"),
+                allowed: "a number of samples with it",
+            });
+        }
+        medians.push(format!("{key}={}", found.quantile(0.5).1));
+        match axes
+            .iter_mut()
+            .find(|axis| axis.key == key)
+            .map(|axis| &mut axis.values)
+        {
+            Some(AxisValues::List(list)) => {
+                let empty = list.iter_mut().filter(|value| value.is_empty());
+                empty.for_each(|value| value.clone_from(&text));
+            }
+            _ => axes.push(Axis {
+                key,
+                values: AxisValues::Drawn(found),
+            }),
+        }
+    }
+    if medians.is_empty() {
+        return Ok(file);
+    }
+    Ok(file.with(&medians)?)
+}

@@ -1,0 +1,169 @@
+//! Rows of a sweep: any part can be computed anywhere, samples follow from their row alone, and coarse meshes are as good as they say.
+
+#![cfg(feature = "sweep")]
+
+use std::ops::ControlFlow;
+
+use creepage::sweep::{
+    Answer, AnswerColumn, AnswerValues, Evaluator, Samples, Sweep, SweepError, SweepOptions,
+};
+use creepage::{Progress, RunOptions, SceneFile};
+
+const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+const FRICTION: &str = "friction.dynamic_coefficient";
+
+fn file(overrides: &[&str]) -> SceneFile {
+    SceneFile::read(UPPER).unwrap().with(overrides).unwrap()
+}
+
+fn table(columns: &[(&str, &[&str])]) -> Vec<(String, Vec<String>)> {
+    let texts = |values: &[&str]| values.iter().map(|value| (*value).to_owned()).collect();
+    columns
+        .iter()
+        .map(|(key, values)| ((*key).to_owned(), texts(values)))
+        .collect()
+}
+
+fn answers(sweep: &Sweep) -> Vec<AnswerColumn> {
+    sweep.answers(&SweepOptions::default()).unwrap()
+}
+
+fn numbers<'a>(columns: &'a [AnswerColumn], name: &str) -> &'a [Option<f64>] {
+    match &columns.iter().find(|column| column.name == name).unwrap().values {
+        AnswerValues::Numbers(numbers) => numbers,
+        _ => panic!("{name} holds no numbers"),
+    }
+}
+
+/// With the ground that another row has left behind, too.
+#[test]
+fn a_row_is_the_run_of_its_scene_to_the_last_bit() {
+    let rows = Evaluator::new(file(&["traffic.passes=2", "solver.tolerance=0.1"]));
+    for row in [
+        vec!["friction.dynamic_coefficient=0.3"],
+        vec!["cable.axial_stiffness=9e6", "duct.length=40 m"],
+        vec!["duct.depth=2 m"],
+        vec!["vehicles.0.load=10 tf"],
+        vec!["ground.layers.0.young_modulus=400 MPa"],
+        vec!["vehicles.0.lateral_offset=1 m"],
+        vec!["ground.vertical_peak=90 um"],
+        vec!["duct.depth=1.2 m"],
+    ] {
+        let alone = file(&["traffic.passes=2", "solver.tolerance=0.1"])
+            .with(&row)
+            .unwrap();
+        let alone = creepage::run(&alone.scene().unwrap()).unwrap();
+        let seen = rows.run(&row, &RunOptions::default()).unwrap();
+        assert_eq!(seen.passes, alone.passes, "{row:?}");
+        assert_eq!(seen.duct_motion, alone.duct_motion, "{row:?}");
+    }
+}
+
+#[test]
+fn an_error_of_a_row_names_its_key_and_line() {
+    let rows = Evaluator::new(file(&[]));
+    let error = rows
+        .run(&["duct.depth=1 kN"], &RunOptions::default())
+        .unwrap_err();
+    assert_eq!(error.key(), Some("duct.depth"));
+    let text = std::fs::read_to_string(UPPER)
+        .unwrap()
+        .replace("\"1.2 m\"", "\"1.2 kN\"");
+    let line = 1 + text.lines().position(|line| line.contains("1.2 kN")).unwrap();
+    let wrong = Evaluator::new(SceneFile::from_toml("wrong.toml", &text).unwrap());
+    let error = wrong.run::<&str>(&[], &RunOptions::default()).unwrap_err();
+    assert_eq!(error.location().and_then(|location| location.line), Some(line));
+}
+
+#[test]
+fn samples_follow_from_the_seed_the_id_the_key_and_their_number_alone() {
+    let base = || file(&["traffic.passes=1", "solver.tolerance=0.1"]);
+    let samples = Samples { count: 3, seed: 7 };
+    let law = "normal(0.25, 0.03)";
+    let both = table(&[
+        ("id", &["A", "B"]),
+        ("duct.depth", &["1.2", "2"]),
+        (FRICTION, &[law, law]),
+    ]);
+    let both = answers(&Sweep::of_table(base(), both, samples).unwrap());
+    // Another part, other columns, the distribution in the scene in place of the table.
+    let file = base().with(&[format!("{FRICTION}={law}")]).unwrap();
+    let alone = table(&[("duct.depth", &["2"]), ("id", &["B"])]);
+    let alone = answers(&Sweep::of_table(file, alone, samples).unwrap());
+    for name in [FRICTION, "downstream_force_n"] {
+        assert_eq!(numbers(&both, name)[3..], *numbers(&alone, name), "{name}");
+        assert_ne!(numbers(&both, name)[..3], numbers(&both, name)[3..], "{name}");
+    }
+    let other = table(&[("id", &["B"]), ("duct.depth", &["2"]), (FRICTION, &[law])]);
+    let other = Sweep::of_table(base(), other, Samples { count: 3, seed: 8 }).unwrap();
+    assert_ne!(numbers(&answers(&other), FRICTION), numbers(&alone, FRICTION));
+}
+
+#[test]
+fn distributions_of_rows_that_do_not_fit_are_refused() {
+    let none = Samples::default();
+    let two = Samples { count: 2, seed: 1 };
+    let depths = ("duct.depth", &["1", "2"][..]);
+    let law = &["normal(0.2, 0.1)", ""][..];
+    for (columns, samples, part) in [
+        (vec![depths, (FRICTION, law)], none, "no samples"),
+        (
+            vec![depths, (FRICTION, &["normal(0.2)", ""])],
+            two,
+            "normal(MEAN, SD)",
+        ),
+        (vec![depths, (FRICTION, &["0.2"])], none, "different lengths"),
+        (
+            vec![("id", &["1", "2"][..])],
+            none,
+            "no column that is named as a key",
+        ),
+    ] {
+        let error = Sweep::of_table(file(&[]), table(&columns), samples).unwrap_err();
+        assert!(error.to_string().contains(part), "{error}");
+    }
+}
+
+/// The errors that samples on coarse meshes state, against runs that find theirs out.
+#[test]
+fn samples_on_a_coarse_mesh_are_as_good_as_they_say_and_cheap() {
+    let base = || file(&["solver.tolerance=0.02"]);
+    let law = "normal(0.25, 0.04)";
+    let samples = Samples { count: 60, seed: 3 };
+    let sweep = Sweep::of_table(base(), table(&[(FRICTION, &[law])]), samples).unwrap();
+    let answers = answers(&sweep);
+    let rows = Evaluator::new(base());
+    let exact = RunOptions::default();
+    for sample in (0..60).step_by(6) {
+        let of = |name| numbers(&answers, name)[sample].unwrap();
+        let row = [
+            format!("{FRICTION}={}", of(FRICTION)),
+            "solver.tolerance=0.005".to_owned(),
+        ];
+        let run = rows.run(&row, &exact).unwrap();
+        assert!(run.cost.node_updates > 10_000_000);
+        let exact = Answer::of(&run).unwrap();
+        let off = (of("max_compression_n") / exact.max_compression_n - 1.0).abs();
+        let stated = of("error_estimate");
+        assert!(
+            off <= stated && stated <= 0.05,
+            "sample {sample}: {off} where {stated} is stated"
+        );
+        assert_ne!(off, 0.0, "it was computed on the same mesh");
+    }
+}
+
+#[test]
+fn rows_that_take_long_can_be_stopped_in_between() {
+    let sweep = Sweep::of_table(file(&[]), table(&[("duct.depth", &["1.2"])]), Samples::default()).unwrap();
+    let calls = std::sync::atomic::AtomicUsize::new(0);
+    let stop = |_| match calls.fetch_add(1, std::sync::atomic::Ordering::Relaxed) {
+        0..4 => ControlFlow::Continue(()),
+        _ => ControlFlow::Break(()),
+    };
+    let options = SweepOptions {
+        progress: Progress::new(&stop),
+        ..SweepOptions::default()
+    };
+    assert!(matches!(sweep.answers(&options), Err(SweepError::Stopped)));
+}

@@ -1,0 +1,89 @@
+//! A command takes no more threads than it is told, and a computation none beside those of the pool it is called in.
+
+use std::collections::HashSet;
+use std::ops::ControlFlow;
+use std::process::Command;
+use std::sync::Mutex;
+
+use creepage::{Progress, RunOptions, Scene};
+
+const UPPER: &str = "examples/scenes/full-scale-upper.toml";
+
+/// Elapsed and processor time of a command \[s\].
+fn times(threads: &str, arguments: &[&str]) -> (f64, f64) {
+    let shell = "TIMEFORMAT='%R %U %S'; time \"$@\" >/dev/null 2>&1";
+    let output = Command::new("bash")
+        .args(["-c", shell, "bash", env!("CARGO_BIN_EXE_creepage")])
+        .args(arguments)
+        .args(["--threads", threads])
+        .output()
+        .expect("bash starts");
+    assert!(output.status.success(), "{arguments:?}");
+    let text = String::from_utf8(output.stderr).unwrap();
+    let times: Vec<f64> = text
+        .split_whitespace()
+        .map(|time| time.parse().unwrap())
+        .collect();
+    (times[0], times[1] + times[2])
+}
+
+#[test]
+fn one_thread_takes_one_core() {
+    let out = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("threads.csv");
+    let out = out.to_str().unwrap();
+    let commands: [&[&str]; 4] = [
+        &["run", UPPER, "--set", "solver.tolerance=0.003"],
+        &["plan", UPPER, "--set", "solver.tolerance=0.001"],
+        &[
+            "design",
+            UPPER,
+            "--limit-force",
+            "500 N",
+            "--set",
+            "solver.tolerance=0.1",
+        ],
+        &[
+            "sweep",
+            UPPER,
+            "--vary",
+            "duct.depth=1m,1.2m,1.4m",
+            "--out",
+            out,
+            "--force",
+        ],
+    ];
+    for arguments in commands {
+        let (elapsed, processor) = times("1", arguments);
+        // A clock tick of 10 ms for each of the two times.
+        assert!(
+            processor <= 1.05 * elapsed + 0.02,
+            "{arguments:?}: {processor} s in {elapsed} s"
+        );
+    }
+}
+
+#[test]
+fn a_run_stays_in_its_pool() {
+    let scene = Scene::from_file(UPPER).unwrap();
+    for threads in [1, 2] {
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
+        let seen = Mutex::new(HashSet::new());
+        let see = |_| {
+            seen.lock().unwrap().insert(std::thread::current().id());
+            assert_eq!(rayon::current_num_threads(), threads);
+            ControlFlow::Continue(())
+        };
+        let options = RunOptions {
+            progress: Progress::new(&see),
+            ..RunOptions::default()
+        };
+        let own = pool.install(|| {
+            creepage::run_with(&scene, &options).unwrap();
+            pool.broadcast(|_| std::thread::current().id())
+        });
+        assert!(seen.lock().unwrap().iter().all(|thread| own.contains(thread)));
+    }
+}
