@@ -1,7 +1,7 @@
 //! Meshes of a scene, from coarse to fine.
 //!
 //! The natural length is the duct's depth. Level 0 has three nodes per depth and two steps of the vehicle per node spacing; each
-//! further level halves both, but that fine ones take one step per node spacing. Every tolerance takes the same levels and stops at its own, so that a looser one never costs
+//! further level halves both. Every tolerance takes the same levels and stops at its own, so that a looser one never costs
 //! more, and the coarser levels give the error of the last.
 
 use cable_dem::{CableError, Mesh};
@@ -13,13 +13,12 @@ use crate::scene::{Scene, SolverMethod};
 const COARSEST: f64 = 3.0;
 /// Fewest elements of a short duct on level 0.
 const FEWEST: f64 = 8.0;
-/// Steps of the vehicle per node spacing, below 24 nodes a depth. From there on one is nearly as good, at 0.6 of the work: errors
-/// are 1.3 times as large in the median of 18 random scenes. With 12 nodes it makes the next mesh necessary in two scenes of three.
+/// Steps of the vehicle per node spacing. One alone is as good on fine meshes, at 0.6 of the work, but then the difference between two meshes
+/// does not show the error of the step.
 const STEPS_PER_SPACING: f64 = 2.0;
-const ONE_STEP: usize = 3;
 /// Typical errors of the force on each level: medians of 200 random scenes, rounded up, measured against far finer runs
 /// (`tests/planner/honest.rs`). No error is stated below them.
-const TYPICAL: [f64; 7] = [5e-2, 3e-2, 6e-3, 1.8e-3, 4e-4, 1e-4, 2e-5];
+const TYPICAL: [f64; 7] = [5e-2, 3e-2, 6e-3, 1.5e-3, 4e-4, 1e-4, 2e-5];
 /// The finest level that is tried.
 const FINEST: usize = TYPICAL.len() - 1;
 /// The level that a mesh named by the scene counts as: two coarser ones tell its error.
@@ -119,17 +118,11 @@ impl Levels {
     pub fn spacing(&self, level: usize) -> (f64, f64) {
         let share = 0.5_f64.powi(level as i32);
         let step = if self.steps_follow {
-            let one = !self.named && level >= ONE_STEP;
-            share * self.step * if one { STEPS_PER_SPACING } else { 1.0 }
+            share * self.step
         } else {
             self.step
         };
         (share * self.spacing, step)
-    }
-
-    /// Steps of the vehicle on `level`, beside twice those on the level below.
-    pub fn steps_doubled(&self, level: usize) -> f64 {
-        0.5 * self.spacing(level - 1).1 / self.spacing(level).1
     }
 
     /// The mesh of `level`; an error where the duct is too short for one so coarse, or what the scene asks for is out of

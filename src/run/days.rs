@@ -74,10 +74,9 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<(Work
     let nodes = plan.levels.mesh(coarse)?.nodes();
     let work = Work::new(&lived.passes.statistics, nodes, periods, 0.0);
     // That level and the one below; before them, with as many real periods a day and with twice as many, the coarse one.
-    let on = |work: Work, level| work.refined(&plan.levels, coarse, level);
     let meshes = |work: Work| match (level - coarse).checked_sub(1) {
-        Some(below) => on(work, coarse + below) + on(work, level),
-        None => on(work, level),
+        Some(below) => work.refined(below) + work.refined(below + 1),
+        None => work.refined(level - coarse),
     };
     let all = match method {
         PassMethod::EveryPass(_) => meshes(work.times(plan.scene.traffic.passes as f64 / periods)),

@@ -126,7 +126,7 @@ impl<'a> Probe<'a> {
             }
         };
         if self.plan.scene.friction_limit() == 0.0 {
-            let work = early.work.refined(levels, coarsest, first);
+            let work = early.work.refined(first - coarsest);
             return Ok(Outlook {
                 level: first,
                 work,
@@ -187,10 +187,9 @@ impl<'a> Probe<'a> {
         let pass = known.early[0].work.times(1.0 / self.early.traffic.passes as f64);
         let periods = PERIODS.min(known.simulated / self.plan.period.len() as f64);
         let passes = pass.times(periods * self.plan.period.len() as f64);
-        let levels = &self.plan.levels;
-        let on = |level: usize| passes.refined(levels, known.coarsest, level);
+        let cheap = |level: usize| self.seconds(passes.refined(level)) < SECONDS_OF_JUMPS;
         let lowered = (0..first - known.coarsest)
-            .find(|lowered| self.seconds(on(first - lowered)) < SECONDS_OF_JUMPS)
+            .find(|lowered| cheap(first - known.coarsest - lowered))
             .unwrap_or(first.saturating_sub(known.coarsest + 1));
         let total = Cell::new(Work::default());
         let (found, _) = jumps::find(
@@ -203,11 +202,11 @@ impl<'a> Probe<'a> {
                 let lower = level.saturating_sub(lowered).max(known.coarsest);
                 let simulated = self.simulate(self.plan.scene, lower, Some(*jumping));
                 if let Err(Error::Jumps(_)) = simulated {
-                    let pass = pass.refined(levels, known.coarsest, level);
+                    let pass = pass.refined(level - known.coarsest);
                     total.set(total.get() + pass.times(self.affordable(level)));
                 }
                 let (mut passes, work) = simulated?;
-                let work = work.refined(levels, lower, level);
+                let work = work.refined(level - lower);
                 passes.statistics.node_updates = work.0[0] as usize;
                 passes.statistics.corners = work.0[2] as usize;
                 total.set(total.get() + work);

@@ -52,7 +52,7 @@ fn remedy(error: &ErrorParts, scene: &Scene, mesh: &Mesh) -> String {
     if of(error.mesh) >= others.max(of(error.passes)) {
         let spacing = 0.5 * mesh.spacing();
         return format!(
-            ": solver.node_spacing = \"{spacing:.2e} m\" takes nodes half as far apart, and four to eight times as long"
+            ": solver.node_spacing = \"{spacing:.2e} m\" takes nodes half as far apart, and about four times as long"
         );
     }
     if of(error.passes) >= others && scene.traffic.passes <= MOST_PASSES {

@@ -15,7 +15,7 @@ pub struct RunOptions<'a> {
     pub progress: Progress<'a>,
     /// A ground model of one's own, in place of the scene's.
     pub ground: Option<&'a dyn GroundField>,
-    /// Passes at which to look at the cable, for [`Run::stages`]; those beyond the scene's are left out.
+    /// Passes at which to look at the cable, for [`crate::Run::stages`]; those beyond the scene's are left out.
     pub stages: &'a [u64],
     /// What another thread looks at while the run goes on.
     pub underway: Option<&'a Underway>,

@@ -12,7 +12,7 @@ use cycle_jump::Record;
 
 use super::jumps::SMALLER_SHARE;
 use super::refine::{MAX_NODE_UPDATES, REFINEMENT_COST, SHARP, allowed};
-use super::work::Work;
+use super::work::{GROWTH, Work};
 use crate::answer::error_estimate::{Scale, Shares, difference, of_differences};
 use crate::plan::{Levels, Plan};
 
@@ -120,18 +120,16 @@ impl Known<'_> {
 
     /// Growth of the work from the level below to `level`, or as far as known.
     fn growth(&self, level: usize) -> Work {
-        let usual = |place: usize| Work::usual_growth(&self.plan.levels, self.coarsest + place);
         let known = |levels: &[Level], place: usize| {
-            (1..levels.len()).contains(&place).then(|| {
-                let growth = levels[place].work.growth(levels[place - 1].work, usual(place));
-                growth * usual(level - self.coarsest) / usual(place)
-            })
+            (1..levels.len())
+                .contains(&place)
+                .then(|| levels[place].work.growth(levels[place - 1].work))
         };
         let place = level - self.coarsest;
         known(&self.early, place)
             .or_else(|| known(&self.full, self.full.len().wrapping_sub(1)))
             .or_else(|| known(&self.early, self.early.len() - 1))
-            .unwrap_or(usual(place))
+            .unwrap_or(GROWTH)
     }
 
     /// Difference between `level` and the one below, and the standard deviation of its ln.

@@ -4,7 +4,7 @@ use std::ops::{Add, AddAssign, Div, Mul};
 
 use cable_dem::Statistics;
 
-use crate::plan::{CableMethod, Levels};
+use crate::plan::CableMethod;
 
 /// Time of a node's update, a window, a corner, a node's part in one jump, and in one pass that is listed within a jump \[s\] without
 /// inertia; of a node's update with it, and of an explicit one.
@@ -12,7 +12,7 @@ const SECONDS: Work = Work([5.8e-9, 1.4e-7, 5e-9, 1.4e-6, 4.5e-8]);
 const DYNAMIC: Work = Work([6e-8, 0.0, 0.0, 1.4e-6, 4.5e-8]);
 const EXPLICIT: Work = Work([1e-9, 0.0, 0.0, 1.4e-6, 4.5e-8]);
 /// What they multiply by from one level to the next, where that is not measured; and the bounds of what is believed.
-const GROWTH: Work = Work([4.6, 2.1, 4.6, 2.0, 2.0]);
+pub const GROWTH: Work = Work([4.6, 2.1, 4.6, 2.0, 2.0]);
 const BELIEVED: (f64, f64) = (0.8, 1.3);
 
 /// Counts of work: node updates, windows, corners, nodes times periods, and nodes times passes within jumps.
@@ -41,15 +41,9 @@ impl Work {
         (self * cost).0.iter().sum()
     }
 
-    /// What the counts on the level below multiply by on `level`, usually.
-    pub fn usual_growth(levels: &Levels, level: usize) -> Self {
-        let steps = levels.steps_doubled(level);
-        GROWTH * Self([steps, steps, steps, 1.0, 1.0])
-    }
-
-    /// This work, of the level `from`, on a finer one.
-    pub fn refined(self, levels: &Levels, from: usize, to: usize) -> Self {
-        (from + 1..=to).fold(self, |work, level| work * Self::usual_growth(levels, level))
+    /// On a mesh so many levels finer.
+    pub fn refined(self, levels: usize) -> Self {
+        (0..levels).fold(self, |work, _| work * GROWTH)
     }
 
     pub fn times(self, factor: f64) -> Self {
@@ -65,9 +59,9 @@ impl Work {
         Self(std::array::from_fn(|i| f(self.0[i], other.0[i])))
     }
 
-    /// Growth from `coarser` to this, as far as it is believed beside the `usual` one.
-    pub fn growth(self, coarser: Self, usual: Self) -> Self {
-        (self / coarser).map(usual, |growth, usual| {
+    /// Growth from `coarser` to this, as far as it is believed.
+    pub fn growth(self, coarser: Self) -> Self {
+        (self / coarser).map(GROWTH, |growth, usual| {
             if growth.is_finite() {
                 growth.clamp(BELIEVED.0 * usual, BELIEVED.1 * usual)
             } else {
