@@ -125,7 +125,7 @@ def test_another_study_is_not_written_over(finished, tmp_path):
 
 def test_wrong_ducts_are_told_before_anything_is_computed(quick_scene, tmp_path):
     for rows, samples, part in [
-        (pyarrow.table({"duct.depht": ["1 m"]}), 0, "did you mean `depth`"),
+        (pyarrow.table({"duct.depht": ["1 m"]}), 0, "did you mean `duct.depth`"),
         (ducts(2), 5, "samples and no distribution"),
         (ducts(2, "normal(1)"), 5, "normal"),
         (ducts(0), 0, "no row"),
