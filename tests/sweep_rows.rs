@@ -167,3 +167,19 @@ fn rows_that_take_long_can_be_stopped_in_between() {
     };
     assert!(matches!(sweep.answers(&options), Err(SweepError::Stopped)));
 }
+
+/// What a row says of an end as a whole counts, also where the scene draws that end's spring.
+#[test]
+fn a_row_replaces_a_section_in_which_the_scene_draws() {
+    let file = file(&[
+        "traffic.passes=1",
+        "solver.tolerance=0.1",
+        "ends.downstream={ spring = \"normal(0.3 MN/m, 0.03 MN/m)\" }",
+    ]);
+    let rows = table(&[("ends.downstream", &["fixed", ""])]);
+    let sweep = Sweep::of_table(file, rows, Samples { count: 2, seed: 1 }).unwrap();
+    let columns = answers(&sweep);
+    let forces = numbers(&columns, "downstream_force_n");
+    assert!(forces[..2].iter().all(|force| *force > Some(90.0)), "{forces:?}");
+    assert!(forces[2..].iter().all(|force| *force < Some(30.0)), "{forces:?}");
+}

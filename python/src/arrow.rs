@@ -92,6 +92,9 @@ fn texts(name: &str, array: &ArrayRef) -> PyResult<Vec<String>> {
         DataType::Dictionary(..) => {
             let dictionary = array.as_any_dictionary();
             let values = texts(name, dictionary.values())?;
+            if values.is_empty() {
+                return Ok(vec![String::new(); array.len()]);
+            }
             let keys = dictionary.normalized_keys();
             let cell = |(row, key): (usize, usize)| {
                 if array.is_null(row) {

@@ -181,3 +181,22 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
         peaks.append(float(subprocess.run(arguments, check=True, capture_output=True, text=True).stdout))
     print(f"{peaks[0]:.0f} MB and {peaks[1]:.0f} MB")
     assert peaks[1] < 1.3 * peaks[0]
+
+
+def test_blank_ids_are_numbers_of_rows_whatever_the_parts(quick_scene, tmp_path):
+    rows = ducts(4).set_column(0, "id", pyarrow.array(["", " ", None, "a"]))
+    study = creepage.study(quick_scene, rows, tmp_path / "out", ducts_per_part=1)
+    assert [row["id"] for row in study.summary()] == ["0", "1", "2", "a"]
+
+
+def test_a_study_of_another_version_is_refused(quick_scene, tmp_path):
+    study = creepage.study(quick_scene, ducts(1), tmp_path / "out")
+    manifest = tmp_path / "out" / "study.json"
+    manifest.write_text(manifest.read_text().replace(f'"version": "{creepage.__version__}"', '"version": "9.9"'))
+    with pytest.raises(creepage.InputError, match="9.9"):
+        creepage.compute_part(study.out, 0)
+
+
+def test_a_title_of_any_characters_is_read(quick_scene):
+    tomllib = pytest.importorskip("tomllib")
+    assert creepage.run({**tomllib.loads(quick_scene), "title": "🚚 é"})["title"] == "🚚 é"

@@ -1,9 +1,10 @@
 //! How the samples of a row are computed: by few runs, the pilots, that show how far its answers scatter and what a coarse mesh leaves wrong.
 //!
 //! With all drawn keys at their medians, and each in turn at its 5 % and its 95 % quantile, the largest force F gives the standard deviation
-//! σ² = Σ ((F₉₅ − F₀₅)/2z)² of a linear answer. An error of σ/4 widens the scatter by √(1 + 1/16), a thirtieth: no sample needs less. On a
+//! σ² = Σ ((F₉₅ − F₀₅)/2z)² of a linear answer. An error of σ/4 is a seventh of the distance from the median to the 95 % quantile. On a
 //! coarse mesh of its own, without the finer and coarser ones that a single run needs to know its error, a sample then costs a tenth; what
-//! that mesh leaves wrong is what it leaves wrong of the pilots.
+//! that mesh leaves wrong is what it leaves wrong of the pilots, and half as much again: of samples beyond them, or with several keys far
+//! out, a few are off by more than the pilots.
 
 use rayon::prelude::*;
 
@@ -22,6 +23,8 @@ const MOST: f64 = 0.05;
 const EXACT: f64 = 0.01;
 /// Fewer samples a pilot are computed as single runs are.
 const WORTHWHILE: usize = 10;
+/// Samples may be off by this many times what the pilots are.
+const BEYOND: f64 = 1.5;
 /// The meshes that are tried, from coarse to fine.
 const LEVELS: std::ops::RangeInclusive<usize> = 1..=3;
 /// Forces that are smaller beside the largest count as this share of it.
@@ -111,6 +114,7 @@ impl Sampling {
                 .map(|(coarse, pilot)| difference(&coarse.0, &pilot.0));
             let error = known + off.fold(0.0, f64::max);
             if error <= tolerance {
+                let error = known + BEYOND * (error - known);
                 sampling.mesh = Some(KnownMesh { level, error });
                 break;
             }

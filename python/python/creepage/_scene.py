@@ -41,15 +41,20 @@ def _override(value: Any) -> str:
 
 
 def _toml(scene: Mapping[str, Any]) -> str:
-    return "".join(f"{json.dumps(key)} = {_value(value)}\n" for key, value in scene.items() if value is not None)
+    return "".join(f"{_text(key)} = {_value(value)}\n" for key, value in scene.items() if value is not None)
+
+
+def _text(text: str) -> str:
+    """A text as TOML has it: like JSON, but without its pairs for one character."""
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def _value(value: Any) -> str:
     """A value as TOML on one line."""
     if isinstance(value, (bool, str)):
-        return json.dumps(value)
+        return json.dumps(value) if isinstance(value, bool) else _text(value)
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{json.dumps(k)} = {_value(v)}" for k, v in value.items() if v is not None) + " }"
+        return "{ " + ", ".join(f"{_text(k)} = {_value(v)}" for k, v in value.items() if v is not None) + " }"
     if isinstance(value, Sequence):
         return "[" + ", ".join(map(_value, value)) + "]"
     if hasattr(value, "item"):

@@ -25,6 +25,8 @@ from ._errors import InputError
 from ._progress import callback
 from ._scene import Scene, Source, source
 
+#: What the folder looks like.
+FORMAT = 1
 #: Rows that a part has at least, if there are as many: about half a minute of one core.
 ROWS_OF_A_PART = 2000
 #: Rows of ducts that are read at once.
@@ -113,7 +115,7 @@ class Study:
             own = own._replace(name=os.path.abspath(own.name))
         per_part = ducts_per_part or max(1, ROWS_OF_A_PART // max(1, samples))
         wanted = {
-            "format": 1,
+            "format": FORMAT,
             "version": _creepage.__version__,
             "scene": own._asdict(),
             "samples": samples,
@@ -237,18 +239,26 @@ def _read_manifest(path: str, changed: int) -> dict:
 def _manifest(out: str) -> dict:
     path = os.path.join(out, "study.json")
     try:
-        return _read_manifest(path, os.stat(path).st_mtime_ns)
-    except OSError as error:
+        found = _read_manifest(path, os.stat(path).st_mtime_ns)
+    except (OSError, ValueError) as error:
         raise InputError(f"{out}: found no study: {error}; allowed: a folder that `study` made") from error
+    if (found.get("format"), found.get("version")) != (FORMAT, _creepage.__version__):
+        raise InputError(f"{out}: found a study of creepage {found.get('version')}; allowed: one of {_creepage.__version__}, lest two versions mix")
+    return found
 
 
 def _write(path: str, write: Callable[[str], Any]) -> None:
     """Writes beside the place and renames: a file is there whole or not at all, also after a loss of power."""
     beside = f"{path}.{uuid.uuid4().hex}.tmp"
     write(beside)
-    with open(beside, "rb") as file:
-        os.fsync(file.fileno())
-    os.replace(beside, path)
+    try:
+        with open(beside, "rb") as file:
+            os.fsync(file.fileno())
+        os.replace(beside, path)
+    except FileNotFoundError:
+        # Somebody else has written the same, and tidied up.
+        if not os.path.exists(path):
+            raise
 
 
 def _ducts_per_group(per_part: int) -> int:
@@ -367,5 +377,6 @@ def _with_ids(table: Any, first: int) -> Any:
     numbers = pyarrow.array([str(number) for number in range(first, first + len(table))])
     if "id" not in table.column_names:
         return table.add_column(0, "id", numbers)
-    own = table["id"].cast("string")
+    own = compute.utf8_trim_whitespace(table["id"].cast("string"))
+    own = compute.if_else(compute.equal(own, ""), None, own)
     return table.set_column(table.column_names.index("id"), "id", compute.coalesce(own, numbers))
