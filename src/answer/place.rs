@@ -83,8 +83,19 @@ impl Run {
     /// The same in the pass at `index` of the listed ones.
     pub(super) fn in_pass(&self, place: Place, quantity: Limited, index: usize) -> f64 {
         let record = &self.passes[index];
+        // A row of random traffic that is not simulated is a mean: single vehicles scatter around it.
+        let scatter = |end: CableEnd| {
+            let random = self.random.as_ref().filter(|_| record.interpolated);
+            random.map_or(0.0, |random| {
+                let of = match end {
+                    CableEnd::Upstream => random.upstream,
+                    CableEnd::Downstream => random.downstream,
+                };
+                (of.max_n.abs() - of.q50_n.abs()).max(0.0)
+            })
+        };
         let at_end = |end: CableEnd| match quantity {
-            Limited::Force => end.largest_force(record),
+            Limited::Force => end.largest_force(record) + scatter(end),
             Limited::Movement => end.movement(record),
         };
         match place {
