@@ -21,6 +21,9 @@ pub fn mass(scene: &Scene) -> f64 {
     scene.cable.weight / GRAVITY
 }
 
+/// Passes of a traffic that does not repeat itself whose vehicles are followed one by one.
+pub const LONGEST_ORDER: u64 = 1_000_000;
+
 /// A scene's vehicles one after the other in `order`, by their place in the scene.
 pub fn traffic(scene: &Scene, order: Order) -> Result<Traffic, CableError> {
     let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();

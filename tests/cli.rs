@@ -85,6 +85,25 @@ fn assert_fails(arguments: &[&str], status: i32, parts: &[&str]) {
     }
 }
 
+/// Who drives in a pass of millions is known where vehicles come by turns.
+#[test]
+fn rows_of_long_traffic_name_their_vehicle() {
+    let vehicles = "vehicles=[{ name = \"there\", speed = 10, load = \"20 tf\" }, { name = \"back\", speed = 10, load = \"10 tf\" }]";
+    let long = ["traffic.passes=3000001", "duct.length=6", "solver.tolerance=0.05"];
+    let mut arguments = vec!["run", UPPER, "--set", vehicles];
+    arguments.extend(long.iter().flat_map(|set| ["--set", set]));
+    let printed = printed(&arguments);
+    let row = |pass: &str| printed.lines().find(|line| line.trim_start().starts_with(pass));
+    assert!(
+        row("2000000 ").is_some_and(|row| row.ends_with("back")),
+        "{printed}"
+    );
+    assert!(
+        row("3000001 ").is_some_and(|row| row.ends_with("there")),
+        "{printed}"
+    );
+}
+
 /// A place for files of one test.
 fn folder(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cli").join(test);

@@ -7,6 +7,8 @@ use crate::scene::Traffic;
 const GROWTH: f64 = 1.03;
 /// A run lists all passes up to this number.
 const ALL_LISTED: u64 = 10_000;
+/// Of longer traffic the last passes are listed too: the most vehicles of a period, of which each leaves another force.
+const LAST: u64 = 12;
 /// How far it is followed where forces lead: this number of passes, and this many times those of the traffic.
 const FAR: u64 = 1_000_000_000;
 const TIMES: u64 = 100;
@@ -42,6 +44,7 @@ pub fn simulated(traffic: &Traffic) -> Vec<u64> {
     }
     let mut passes = listed(traffic.passes);
     passes.extend(calendar(traffic).into_iter().map(|(pass, _)| pass));
+    passes.extend(traffic.passes - LAST + 1..traffic.passes);
     passes.sort_unstable();
     passes.dedup();
     passes

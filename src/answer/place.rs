@@ -69,7 +69,8 @@ impl std::fmt::Display for Place {
 
 impl Run {
     /// The largest force \[N\] or movement \[m\] at `place` in size, of all listed passes and all days: of an end also the force during
-    /// passes, of a clamp that after them. Zero where there is no such clamp.
+    /// passes, of a clamp that after them; in random order, where passes between jumps are means, with the scatter of single ones. Zero
+    /// where there is no such clamp.
     pub fn largest(&self, place: impl Into<Place>, quantity: Limited) -> f64 {
         let place = place.into();
         let passes = (0..self.passes.len()).map(|index| self.in_pass(place, quantity, index));
@@ -83,19 +84,8 @@ impl Run {
     /// The same in the pass at `index` of the listed ones.
     pub(super) fn in_pass(&self, place: Place, quantity: Limited, index: usize) -> f64 {
         let record = &self.passes[index];
-        // A row of random traffic that is not simulated is a mean: single vehicles scatter around it.
-        let scatter = |end: CableEnd| {
-            let random = self.random.as_ref().filter(|_| record.interpolated);
-            random.map_or(0.0, |random| {
-                let of = match end {
-                    CableEnd::Upstream => random.upstream,
-                    CableEnd::Downstream => random.downstream,
-                };
-                (of.max_n.abs() - of.q50_n.abs()).max(0.0)
-            })
-        };
         let at_end = |end: CableEnd| match quantity {
-            Limited::Force => end.largest_force(record) + scatter(end),
+            Limited::Force => end.largest_force(record) + self.scatter(end, record),
             Limited::Movement => end.movement(record),
         };
         match place {

@@ -186,15 +186,70 @@ pub struct ForceRange {
     pub upstream_max_n: f64,
 }
 
-impl ForceRange {
-    /// The ends on which vehicles that differ leave noticeably different forces by turns: the least and the largest \[N\].
-    pub fn by_turns(&self) -> impl Iterator<Item = (CableEnd, f64, f64)> {
-        let ends = [
-            (CableEnd::Upstream, self.upstream_min_n, self.upstream_max_n),
-            (CableEnd::Downstream, self.downstream_min_n, self.downstream_max_n),
-        ];
-        ends.into_iter()
-            .filter(|(_, least, most)| most - least > NOTICEABLE * most.abs().max(least.abs()))
+impl Run {
+    /// The ends on which vehicles that differ leave noticeably different forces once nothing else changes: the least and the largest \[N\].
+    /// In random order, where their scatter is known, what one pass in twenty leaves less and more than.
+    pub fn by_turns(&self) -> Vec<(CableEnd, f64, f64)> {
+        let of_random = self.random.map(|random| {
+            CableEnd::ALL.map(|end| {
+                let Quantiles { q05_n, q95_n, .. } = *random.of(end);
+                (end, q05_n, q95_n)
+            })
+        });
+        let of_period = self.range.map(|range| {
+            [
+                (CableEnd::Upstream, range.upstream_min_n, range.upstream_max_n),
+                (
+                    CableEnd::Downstream,
+                    range.downstream_min_n,
+                    range.downstream_max_n,
+                ),
+            ]
+        });
+        let ends = of_random.or(of_period).into_iter().flatten();
+        ends.filter(|(_, least, most)| most - least > NOTICEABLE * most.abs().max(least.abs()))
+            .collect()
+    }
+
+    /// How much larger single passes may be than the mean of many that `record` shows, on one end \[N\]: zero but in random order.
+    pub fn scatter(&self, end: CableEnd, record: &PassRecord) -> f64 {
+        let random = self.random.as_ref().filter(|_| record.interpolated);
+        random.map_or(0.0, |random| random.of(end).scatter())
+    }
+}
+
+impl Saturation {
+    /// Whether it is noticeably larger than all of `passes` leave.
+    pub fn is_beyond(&self, passes: &[PassRecord]) -> bool {
+        let reached = |record: &PassRecord| {
+            let forces = [
+                record.upstream_force_n,
+                record.downstream_force_n,
+                record.max_compression_n,
+            ];
+            forces
+                .into_iter()
+                .fold(0.0, |most: f64, force| most.max(force.abs()))
+        };
+        let reached = passes.iter().map(reached).fold(0.0, f64::max);
+        self.force_n.abs() > (1.0 + NOTICEABLE) * reached
+    }
+}
+
+impl RandomSpread {
+    /// That of one end.
+    pub fn of(&self, end: CableEnd) -> &Quantiles {
+        match end {
+            CableEnd::Upstream => &self.upstream,
+            CableEnd::Downstream => &self.downstream,
+        }
+    }
+}
+
+impl Quantiles {
+    /// How much larger than the median a single pass leaves the force at most \[N\].
+    pub fn scatter(&self) -> f64 {
+        (self.max_n.abs() - self.q50_n.abs()).max(0.0)
     }
 }
 

@@ -20,6 +20,8 @@ const LARGEST_RATIO: f64 = 0.5;
 const LARGEST_REMAINDER: f64 = 0.03;
 /// Fewest passes from which anything can be said.
 const FEWEST_PASSES: usize = 12;
+/// One in so many of the passes, the last of them, shows the largest force now, and what vehicles in random order do.
+const WINDOW: usize = 12;
 /// Share of the saturated force whose pass is stated.
 pub const LEVEL: f64 = 0.95;
 /// A force already reached may exceed the saturation by this share of it, which is no more than an extrapolation's error.
@@ -33,9 +35,10 @@ const NOTHING: f64 = 1e-3;
 type Range = (f64, f64);
 
 /// Where the forces of a run lead: over `records`, all passes or listed ones, and `beyond` them; and the forces on the ends once nothing
-/// changes any more.
+/// changes any more, over the vehicles of a `period`.
 pub fn saturation(
     scene: &Scene,
+    period: usize,
     records: &[Record],
     beyond: Option<&Beyond>,
 ) -> (Option<Saturation>, Option<ForceRange>) {
@@ -43,6 +46,11 @@ pub fn saturation(
         .iter()
         .map(|record| peak(&record.outcome))
         .fold(0.0, f64::max);
+    // Vehicles in random order show what they do in many passes only.
+    let period = match scene.traffic.order {
+        Order::Random { .. } => period.max(records.len() / WINDOW),
+        _ => period,
+    };
     let level = |force: fn(&PassOutcome) -> f64| {
         if let Some(beyond) = beyond {
             range(beyond.period.iter().map(force))
@@ -55,7 +63,7 @@ pub fn saturation(
                 return None;
             }
             let forces: Vec<f64> = records.iter().map(|record| force(&record.outcome)).collect();
-            extrapolate(&forces, scale)
+            extrapolate(&forces, period, scale)
         }
     };
     let at = |end, force| {
@@ -90,13 +98,14 @@ pub fn saturation(
     (saturation, Some(range))
 }
 
-/// The range with the largest force that was reached, if that is nearly in it.
+/// The range with the largest force that was reached, if that is hardly larger than all in it.
 fn at_least_reached((least, most): Range, records: &[Record], force: fn(&PassOutcome) -> f64) -> Range {
     let reached = records
         .iter()
         .map(|record| force(&record.outcome))
         .fold(0.0, larger);
-    if reached.abs() <= (1.0 + NEARLY) * larger(least, most).abs() {
+    let largest = larger(least, most).abs();
+    if (largest..=(1.0 + NEARLY) * largest).contains(&reached.abs()) {
         (least.min(reached), most.max(reached))
     } else {
         (least, most)
@@ -193,15 +202,15 @@ fn range(values: impl Iterator<Item = f64>) -> Option<Range> {
     })
 }
 
-/// Range over the last passes of `forces` \[N\], one entry a pass, with what is still to come; `scale` \[N\] is a force that counts
+/// Range over the last `period` of `forces` \[N\], one entry a pass, with what is still to come; `scale` \[N\] is a force that counts
 /// as large here.
-fn extrapolate(forces: &[f64], scale: f64) -> Option<Range> {
+fn extrapolate(forces: &[f64], period: usize, scale: f64) -> Option<Range> {
     let count = forces.len();
-    if count < FEWEST_PASSES {
+    if count < FEWEST_PASSES.max(3 * period) {
         return None;
     }
     // The largest of a few passes: of vehicles that alternate, each leaves another force.
-    let width = (count / 12).max(1);
+    let width = (count / WINDOW).max(period);
     let largest = |end: usize| forces[end - width..end].iter().copied().fold(0.0, larger);
     let (first, second, third) = (largest(count / 3), largest(2 * count / 3), largest(count));
     let (early, late) = (second - first, third - second);
@@ -217,7 +226,7 @@ fn extrapolate(forces: &[f64], scale: f64) -> Option<Range> {
     if remainder.abs() > LARGEST_REMAINDER * (third + remainder).abs() {
         return None;
     }
-    range(forces[count - width..].iter().map(|force| force + remainder))
+    range(forces[count - period..].iter().map(|force| force + remainder))
 }
 
 /// The larger in size of two forces.
@@ -232,22 +241,22 @@ mod tests {
     #[test]
     fn a_geometric_approach_is_extrapolated_to_its_limit() {
         let forces: Vec<f64> = (1..=60).map(|n| 500.0 * (1.0 - 0.93_f64.powi(n))).collect();
-        let (_, most) = extrapolate(&forces, 500.0).expect("it levels off");
+        let (_, most) = extrapolate(&forces, 1, 500.0).expect("it levels off");
         assert!((most / 500.0 - 1.0).abs() < 0.01, "{most}");
     }
 
     #[test]
     fn growth_with_the_root_of_the_passes_does_not_level_off() {
         let forces: Vec<f64> = (1..=2000).map(|n| f64::from(n).sqrt()).collect();
-        assert_eq!(extrapolate(&forces, 1.0), None);
-        assert_eq!(extrapolate(&forces[..5], 1.0), None);
+        assert_eq!(extrapolate(&forces, 1, 1.0), None);
+        assert_eq!(extrapolate(&forces[..5], 1, 1.0), None);
     }
 
     #[test]
     fn tension_levels_off_like_compression_and_nothing_like_nothing() {
         let forces: Vec<f64> = (1..=60).map(|n| -500.0 * (1.0 - 0.9_f64.powi(n))).collect();
-        let (least, _) = extrapolate(&forces, 500.0).expect("it levels off");
+        let (least, _) = extrapolate(&forces, 1, 500.0).expect("it levels off");
         assert!((least + 500.0).abs() < 5.0);
-        assert_eq!(extrapolate(&[0.0; 60], 500.0), Some((0.0, 0.0)));
+        assert_eq!(extrapolate(&[0.0; 60], 1, 500.0), Some((0.0, 0.0)));
     }
 }

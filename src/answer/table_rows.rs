@@ -4,7 +4,8 @@ use super::calendar::calendar;
 use super::heat::DayExtremes;
 use super::listed::ROUND;
 use super::record::PassRecord;
-use crate::cable::traffic;
+use crate::cable::{LONGEST_ORDER, traffic};
+use crate::plan::Period;
 use crate::scene::{Scene, Traffic};
 use crate::shown::ROWS;
 
@@ -24,9 +25,6 @@ pub fn table_rows<'r>(passes: &'r [PassRecord], traffic: &Traffic) -> Vec<&'r Pa
     shown.map(|(_, record)| record).collect()
 }
 
-/// Passes of a traffic whose vehicles are followed one by one.
-const LONGEST_ORDER: u64 = 1_000_000;
-
 /// In what `rows` differ beside the number of the pass, and what that is in each: the hour of the day where the cable is heated and there are
 /// `a_day` passes, else the vehicle. `None` where they do not, and where rows are means over many vehicles.
 pub fn in_rows(
@@ -43,10 +41,22 @@ pub fn in_rows(
     if scene.vehicles.len() == 1 || are_means {
         return None;
     }
-    let last = rows.last().map_or(0, |record| record.pass).min(LONGEST_ORDER);
+    let last = rows.last().map_or(0, |record| record.pass);
     let order = traffic(scene, scene.traffic.order.clone()).ok()?;
-    let vehicles: Vec<usize> = order.take(last as usize).collect();
-    let name = |record: &&PassRecord| match vehicles.get(record.pass as usize - 1) {
+    let period = Period::own(scene).ok()?;
+    let first = if period.is_some() {
+        0
+    } else {
+        last.min(LONGEST_ORDER)
+    };
+    let first: Vec<usize> = order.take(first as usize).collect();
+    let vehicle = |pass: u64| {
+        let place = pass as usize - 1;
+        period
+            .as_ref()
+            .map_or_else(|| first.get(place), |period| period.get(place % period.len()))
+    };
+    let name = |record: &&PassRecord| match vehicle(record.pass) {
         Some(vehicle) => scene.vehicles[*vehicle].vehicle.name().to_owned(),
         None => "mean".to_owned(),
     };

@@ -13,13 +13,13 @@ use super::shared::{Destination, Input, OutputArguments, TrafficArguments};
 use super::terminal;
 #[cfg(feature = "xlsx")]
 use super::workbook::WorkbookArguments;
-use crate::answer::{after, in_rows, table_rows};
+use crate::answer::{Place, after, in_rows, table_rows};
 use crate::output::Kind;
 use crate::scene::Traffic;
 use crate::shown::{exact, percent};
 use crate::{
-    CutShort, DuctMotionSummary, Limits, PassRecord, Reached, Run, RunOptions, Scene, Underway, Units,
-    Verdict,
+    CutShort, DuctMotionSummary, Limited, Limits, PassRecord, Reached, Run, RunOptions, Scene, Underway,
+    Units, Verdict,
 };
 
 #[derive(Debug, clap::Args)]
@@ -204,9 +204,14 @@ fn print(run: &Run, scene: &Scene, units: &Units) -> Result<(), Failure> {
         _ if run.heat.is_some() => {}
         Some(saturation) => writeln!(
             out,
-            "saturation: {} {}, 95 % of {} after {} passes{}",
+            "saturation: {} {}{}, 95 % of {} after {} passes{}",
             force(saturation.force_n),
             units.force.symbol(),
+            if saturation.is_beyond(&run.passes) {
+                " beyond these passes"
+            } else {
+                ""
+            },
             if run.random.is_some() { "the mean" } else { "it" },
             saturation.passes_to_95_percent,
             in_time(&scene.traffic, saturation.passes_to_95_percent)
@@ -214,26 +219,32 @@ fn print(run: &Run, scene: &Scene, units: &Units) -> Result<(), Failure> {
         None if run.range.is_some() => writeln!(out, "saturation: none, the force was larger before")?,
         None => writeln!(out, "saturation: not reached within these passes")?,
     }
-    if let Some(range) = run.range {
-        for (end, least, most) in range.by_turns() {
-            writeln!(
-                out,
-                "in the end the {} end shows {} to {} {} by turns",
-                end.name(),
-                force(least),
-                force(most),
-                units.force.symbol()
-            )?;
-        }
-    }
-    for restraint in &run.restraints {
+    for (end, least, most) in run.by_turns() {
+        let how = if run.random.is_some() {
+            "in nine passes of ten"
+        } else {
+            "by turns"
+        };
         writeln!(
             out,
-            "clamp at {} {metres}: {} {}, moved {} {}",
+            "in the end the {} end shows {} to {} {} {how}",
+            end.name(),
+            force(least),
+            force(most),
+            units.force.symbol()
+        )?;
+    }
+    for restraint in &run.restraints {
+        let largest = |quantity| run.largest(Place::Clamp(restraint.position_m), quantity);
+        writeln!(
+            out,
+            "clamp at {} {metres}: {} {} after the last pass; at most {} {}, moved {} {}",
             exact(length(restraint.position_m)),
             force(restraint.force_n),
             units.force.symbol(),
-            units.movement(restraint.force_n / restraint.stiffness_n_per_m),
+            force(largest(Limited::Force)),
+            units.force.symbol(),
+            units.movement(largest(Limited::Movement)),
             units.movement.symbol()
         )?;
     }

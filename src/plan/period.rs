@@ -37,18 +37,16 @@ pub struct Period {
 impl Period {
     /// The period of the scene's traffic, whose vehicles move the duct by `motions`.
     pub fn new(scene: &Scene, motions: &[DuctMotion]) -> Result<Self, Error> {
+        if let Some(vehicles) = Self::own(scene)? {
+            return Ok(Self {
+                vehicles,
+                other: None,
+                reordered: false,
+            });
+        }
         let traffic = &scene.traffic;
-        let exact = |vehicles| Self {
-            vehicles,
-            other: None,
-            reordered: false,
-        };
         let shares: Vec<f64> = match &traffic.order {
             Order::Sequence(sequence) => {
-                let fits = FIRST_PERIODS * sequence.len() as u64 <= traffic.passes;
-                if sequence.len() <= LONGEST || fits && sequence.len() <= LONGEST_SEQUENCE {
-                    return Ok(exact(sequence.clone()));
-                }
                 let count = |vehicle| sequence.iter().filter(|&&one| one == vehicle).count();
                 (0..scene.vehicles.len())
                     .map(|vehicle| count(vehicle) as f64)
@@ -56,17 +54,7 @@ impl Period {
             }
             _ => scene.vehicles.iter().map(|vehicle| vehicle.share).collect(),
         };
-        let total: f64 = shares.iter().sum();
-        let shares: Vec<f64> = shares.iter().map(|share| share / total).collect();
-        let mut mixes: Vec<Mix> = (1..=LONGEST)
-            .map(|length| Mix::nearest(&shares, length))
-            .collect();
-        // The shortest of the nearest.
-        mixes.sort_by(|a, b| {
-            (a.distance / SAME)
-                .round()
-                .total_cmp(&(b.distance / SAME).round())
-        });
+        let (shares, mixes) = Mix::all(&shares);
         let first = &mixes[0];
         let reordered = traffic.order != Order::Interleaved;
         if first.distance > SAME
@@ -90,6 +78,25 @@ impl Period {
         })
     }
 
+    /// The vehicles after which the scene's own traffic repeats itself, one after the other, if it does and they are few.
+    pub fn own(scene: &Scene) -> Result<Option<Vec<usize>>, Error> {
+        let traffic = &scene.traffic;
+        match &traffic.order {
+            Order::Sequence(sequence) => {
+                let fits = FIRST_PERIODS * sequence.len() as u64 <= traffic.passes;
+                let is_own = sequence.len() <= LONGEST || fits && sequence.len() <= LONGEST_SEQUENCE;
+                Ok(is_own.then(|| sequence.clone()))
+            }
+            Order::Interleaved => {
+                let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
+                let (_, mixes) = Mix::all(&shares);
+                let exact = mixes.first().filter(|mix| mix.distance <= SAME);
+                exact.map(Mix::interleaved).transpose()
+            }
+            Order::Random { .. } => Ok(None),
+        }
+    }
+
     /// Number of its passes.
     pub fn len(&self) -> usize {
         self.vehicles.len()
@@ -106,6 +113,22 @@ struct Mix {
 }
 
 impl Mix {
+    /// The shares of vehicles of which so many pass, and the mixes of ever more vehicles that come nearest to these: first the shortest of
+    /// the nearest.
+    fn all(weights: &[f64]) -> (Vec<f64>, Vec<Self>) {
+        let total: f64 = weights.iter().sum();
+        let shares: Vec<f64> = weights.iter().map(|weight| weight / total).collect();
+        let mut mixes: Vec<Self> = (1..=LONGEST)
+            .map(|length| Self::nearest(&shares, length))
+            .collect();
+        mixes.sort_by(|a, b| {
+            (a.distance / SAME)
+                .round()
+                .total_cmp(&(b.distance / SAME).round())
+        });
+        (shares, mixes)
+    }
+
     /// The nearest mix of `length` vehicles: those with the largest remainders are rounded up.
     fn nearest(shares: &[f64], length: usize) -> Self {
         let wanted: Vec<f64> = shares.iter().map(|share| share * length as f64).collect();

@@ -6,7 +6,7 @@ use super::figure::MICRO;
 use super::html::Html;
 use super::measures::pressed_end;
 use super::quantity::{count, significant};
-use crate::answer::{CableEnd, ForceRange, after};
+use crate::answer::{CableEnd, after};
 use crate::design::Place;
 use crate::scene::{End, Scene};
 use crate::shown::percent;
@@ -121,7 +121,12 @@ fn forces(html: &mut Html, report: &Report, last: &PassRecord) {
     }
     if let Some(saturation) = &run.saturation {
         let place = levelled(&report.scene, saturation);
-        let note = format!("{}, {AFTER}{}", on(place), tension(saturation.force_n));
+        let later = if saturation.is_beyond(&run.passes) {
+            BEYOND
+        } else {
+            ""
+        };
+        let note = format!("{}, {AFTER}{later}{}", on(place), tension(saturation.force_n));
         html.headline("Saturated force", &shown.force(saturation.force_n), &note);
         let reached = saturation.passes_to_95_percent;
         let time = report.scene.traffic.years_after(reached);
@@ -192,8 +197,7 @@ fn not_level(run: &Run) -> &'static str {
 /// What vehicles that differ leave by turns, once nothing changes any more.
 fn by_turns(report: &Report) -> String {
     let shown = &report.shown;
-    let ends = report.run.range.iter().flat_map(ForceRange::by_turns);
-    let each = ends.map(|(end, least, most)| {
+    let each = report.run.by_turns().into_iter().map(|(end, least, most)| {
         let (end, least, most) = (end.name(), shown.force_number(least), shown.force(most));
         format!("the {end} end shows {least} to {most}")
     });
@@ -201,10 +205,12 @@ fn by_turns(report: &Report) -> String {
     if each.is_empty() {
         return String::new();
     }
-    format!(
-        " In the end {} after passes by turns, as vehicles differ.",
-        each.join(" and ")
-    )
+    let how = if report.run.random.is_some() {
+        "in nine passes of ten"
+    } else {
+        "after passes by turns"
+    };
+    format!(" In the end {} {how}, as vehicles differ.", each.join(" and "))
 }
 
 /// How far both ends have moved.
@@ -251,18 +257,20 @@ type At = Option<CableEnd>;
 
 /// When a force acts.
 const AFTER: &str = "after a pass";
+const BEYOND: &str = " beyond those computed";
 const DURING: &str = "during a pass";
 const IN_HEAT: &str = "in the heat of a day";
 
 /// The force that is largest in size on an end, after passes and during them and in all heat, or in the cable where no end is held; and when.
 fn hardest(run: &Run) -> (f64, At, &'static str) {
     let of_passes = run.passes.iter().flat_map(|record| {
-        [
+        let forces = [
             (record.downstream_peak_n, CableEnd::Downstream, DURING),
             (record.upstream_peak_n, CableEnd::Upstream, DURING),
             (record.downstream_force_n, CableEnd::Downstream, AFTER),
             (record.upstream_force_n, CableEnd::Upstream, AFTER),
-        ]
+        ];
+        forces.map(|(force, end, when)| (force + run.scatter(end, record).copysign(force), end, when))
     });
     let days = run.heat.iter().map(|heat| &heat.all_days);
     let of_days = days.clone().flat_map(|days| {

@@ -110,7 +110,8 @@ impl<'a> RunBuilder<'a> {
         let (saturation, range) = if heat.is_some() {
             (None, None)
         } else {
-            saturation(self.plan.scene, &solved.passes.records, beyond)
+            let period = self.plan.period.len();
+            saturation(self.plan.scene, period, &solved.passes.records, beyond)
         };
         Ok(Run {
             title: self.plan.scene.title.clone(),

@@ -9,7 +9,7 @@ use cable_dem::{Order, PassOutcome};
 use cycle_jump::Record;
 
 use crate::Error;
-use crate::cable::traffic;
+use crate::cable::{LONGEST_ORDER, traffic};
 use crate::plan::Period;
 use crate::scene::Scene;
 
@@ -138,9 +138,6 @@ impl Listing {
         self.rows.iter().filter_map(row).collect()
     }
 }
-
-/// Passes of a traffic whose vehicles are followed one by one.
-const LONGEST_ORDER: u64 = 1_000_000;
 
 /// The pass near `pass` that follows the vehicles `recent` as far back as possible in the period's traffic.
 fn alike(period: &Period, recent: &[usize], pass: u64, count: u64) -> u64 {

@@ -130,6 +130,45 @@ fn two_way(upstream: &str, returning: &str) -> Scene {
     ])
 }
 
+/// What an end shows by turns in the end is nothing of how the force grows before.
+#[test]
+fn what_alternates_in_the_end_is_foreseen_from_early_passes() {
+    let vehicles = "vehicles = [{ name = \"a\", speed = \"40 km/h\", load = \"20 tf\" }, \
+                    { name = \"b\", speed = \"40 km/h\", load = \"19 tf\" }]";
+    let mut scene = by(&upper(&[vehicles]), SolverMethod::PassLaw);
+    scene.solver.tolerance = 0.05;
+    scene.traffic.passes = 400;
+    let late = answer(&scene).expect("an answer");
+    let period: Vec<f64> = late.passes[398..].iter().map(at_the_ends).collect();
+    let (least, largest) = (period[0].min(period[1]), period[0].max(period[1]));
+    scene.traffic.passes = 100;
+    let early = answer(&scene).expect("an answer");
+    assert!(
+        reached(&scene, &early.passes) < 0.99 * least,
+        "the force still rises"
+    );
+    let range = early.range.expect("it levels off");
+    for (found, wanted) in [(range.downstream_min_n, least), (range.downstream_max_n, largest)] {
+        assert!((found / wanted - 1.0).abs() < 0.02, "{range:?}, {period:?}");
+    }
+}
+
+/// Of millions of passes the largest force of an end is that of the vehicle that leaves most, whichever comes last.
+#[test]
+fn the_largest_of_long_traffic_is_that_of_all_its_vehicles() {
+    let mut scene = two_way("free", "12 tf");
+    scene.solver.method = SolverMethod::Auto;
+    scene.traffic.passes = 3_000_000;
+    let run = answer(&scene).expect("an answer");
+    let range = run.range.expect("it levels off");
+    let after = |record: &PassRecord| record.downstream_force_n;
+    let last = run.passes.iter().rev().take(2).map(after).fold(0.0, f64::max);
+    assert!(
+        (last / range.downstream_max_n - 1.0).abs() < 1e-3,
+        "{last}, {range:?}"
+    );
+}
+
 /// Near shakedown the force falls from the first pass on: it has no level that it rises to.
 #[test]
 fn a_falling_force_has_none() {
