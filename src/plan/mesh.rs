@@ -6,6 +6,7 @@
 
 use cable_dem::{CableError, Mesh};
 
+use super::known::KnownMesh;
 use crate::Error;
 use crate::scene::{Scene, SolverMethod};
 
@@ -45,6 +46,8 @@ pub struct Levels {
     named: bool,
     /// Whether the spacing follows from the duct's depth and length.
     spacing_follows: bool,
+    /// Error of the only level, where other runs have shown it.
+    known: Option<f64>,
 }
 
 impl Levels {
@@ -87,14 +90,16 @@ impl Levels {
             finest: if named { NAMED } else { FINEST },
             named,
             spacing_follows: solver.node_spacing.is_none(),
+            known: None,
         }
     }
 
-    /// The same with no other level than this one.
-    pub fn alone(self, level: usize) -> Self {
+    /// The same with no other level than that of `mesh`.
+    pub fn alone(self, mesh: KnownMesh) -> Self {
         Self {
-            first: level,
-            finest: level,
+            first: mesh.level,
+            finest: mesh.level,
+            known: Some(mesh.error),
             ..self
         }
     }
@@ -107,6 +112,11 @@ impl Levels {
     /// The finest level to try.
     pub fn finest(&self) -> usize {
         self.finest
+    }
+
+    /// Error of the only level, where other runs have shown it.
+    pub fn known(&self) -> Option<f64> {
+        self.known
     }
 
     /// Whether the scene says how fine to be.

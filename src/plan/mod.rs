@@ -3,6 +3,7 @@
 //! A plan is made from the motion of the duct and from estimates: how far inertia can matter, what the passes will cost.
 //! The run measures what the estimates promise, and refines where they promise too much.
 
+mod known;
 mod mesh;
 mod method;
 pub mod occurrence;
@@ -18,6 +19,7 @@ use ground_field::GroundField;
 
 use crate::ground::{Ground, road};
 use crate::{Error, Scene};
+pub use known::KnownMesh;
 pub use mesh::Levels;
 pub use method::{CableMethod, MOST_PASSES, MethodChoice, PassMethod};
 pub use period::Period;
@@ -57,16 +59,17 @@ pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Pl
     plan_over(scene, Arc::new(ground), None, begun)
 }
 
-/// Plans how to compute a valid `scene` over a `ground` that is known to be its own, on the mesh of `level` alone if there is one.
+/// Plans how to compute a valid `scene` over a `ground` that is known to be its own, on the `mesh` alone whose error is known if
+/// there is one that fits it.
 pub(crate) fn plan_over(
     scene: &Scene,
     ground: Arc<Ground>,
-    level: Option<usize>,
+    mesh: Option<KnownMesh>,
     begun: Instant,
 ) -> Result<Plan<'_>, Error> {
     let mut levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
-    if let Some(level) = level {
-        levels = levels.alone(level);
+    if let Some(mesh) = mesh.filter(|_| KnownMesh::fits(scene)) {
+        levels = levels.alone(mesh);
     }
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first())?;

@@ -5,7 +5,6 @@ mod days;
 mod forecast;
 mod judge;
 mod jumps;
-mod known;
 mod listing;
 mod lived;
 mod locked_law;
@@ -22,11 +21,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use crate::ground::{Ground, road};
-use crate::plan::{PassMethod, Plan, plan, plan_over};
+use crate::plan::{KnownMesh, PassMethod, Plan, plan, plan_over};
 use crate::{Error, Run, Scene, finite};
 use assemble::RunBuilder;
 pub use forecast::{Forecast, forecast};
-pub use known::KnownMesh;
 pub use options::RunOptions;
 use refine::Refinement;
 pub use underway::{CutShort, HowFar, Underway};
@@ -49,25 +47,18 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
     scene.validate()?;
     let begun = Instant::now();
     let ground = Ground::new(scene, options.ground, road::reach(scene))?;
-    run_over(scene, Arc::new(ground), options, begun)
+    run_over(scene, Arc::new(ground), None, options, begun)
 }
 
-/// Computes all passes of a valid `scene` over a `ground` that is known to be its own.
+/// Computes all passes of a valid `scene` over a `ground` that is known to be its own, on the `mesh` whose error is known if there is one.
 pub(crate) fn run_over(
     scene: &Scene,
     ground: Arc<Ground>,
+    mesh: Option<KnownMesh>,
     options: &RunOptions<'_>,
     begun: Instant,
 ) -> Result<Run, Error> {
-    run_plan(
-        &plan_over(
-            scene,
-            ground,
-            KnownMesh::of(scene, options.mesh).map(|mesh| mesh.level),
-            begun,
-        )?,
-        options,
-    )
+    run_plan(&plan_over(scene, ground, mesh, begun)?, options)
 }
 
 /// Checks that `scene` can be computed, without computing its passes.
@@ -108,7 +99,6 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
             plan,
             method,
             options,
-            known: KnownMesh::of(plan.scene, options.mesh),
         };
         refinement.solve(warnings)
     };

@@ -2,7 +2,6 @@
 
 use ground_field::GroundField;
 
-use super::known::KnownMesh;
 use super::underway::Underway;
 use crate::Progress;
 
@@ -19,6 +18,4 @@ pub struct RunOptions<'a> {
     pub stages: &'a [u64],
     /// What another thread looks at while the run goes on.
     pub underway: Option<&'a Underway>,
-    /// A mesh whose error is known, in place of ever finer ones until it is; not where the cable is heated, or the scene says how fine to be.
-    pub mesh: Option<KnownMesh>,
 }

@@ -5,7 +5,6 @@ use cycle_jump::Record;
 
 use super::judge::{judge, mesh_reason};
 use super::jumps::{self, Found};
-use super::known::KnownMesh;
 use super::options::RunOptions;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
@@ -31,8 +30,6 @@ pub struct Refinement<'a> {
     pub plan: &'a Plan<'a>,
     pub method: PassMethod,
     pub options: &'a RunOptions<'a>,
-    /// The only mesh, where its error is known.
-    pub known: Option<KnownMesh>,
 }
 
 /// Passes on the mesh that was good enough.
@@ -70,16 +67,16 @@ impl Refinement<'_> {
         let mut statistics = Statistics::default();
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
         let mut found = match self.method {
-            PassMethod::Jumps(_) if self.known.is_none() => {
+            PassMethod::Jumps(_) if levels.known().is_none() => {
                 Some(self.jumps(jumps::share(self.plan), None, &mut statistics)?)
             }
             _ => None,
         };
         let left = found.as_ref().map_or(0.0, |_| FINDING);
         let mut parts = self.options.progress.part(left, 1.0).refining();
-        let (level, mut passes) = match self.known {
+        let (level, mut passes) = match levels.known() {
             Some(known) => {
-                error.mesh = Shares::both(known.error);
+                error.mesh = Shares::both(known);
                 (levels.first(), vec![self.on_known_mesh(parts())?])
             }
             None => self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?,
@@ -88,7 +85,7 @@ impl Refinement<'_> {
         let way = way.as_ref();
         statistics += work_of(&passes);
         // One mesh alone does not show its error; and no mesh that the scene names is refused for what coarser ones show.
-        let alone = passes.len() == 1 && self.known.is_none();
+        let alone = passes.len() == 1 && levels.known().is_none();
         let doubtful = levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
         let mesh = levels.mesh(level)?;
         let finest = passes.pop().expect("the first level was computed");
@@ -332,7 +329,7 @@ impl Refinement<'_> {
             most_passes: affordable as u64,
             ..*way
         });
-        if let (Some(_), Some(way)) = (self.known, &way) {
+        if let (Some(_), Some(way)) = (self.plan.levels.known(), &way) {
             // Nobody looks at every pass.
             return task.with_jumps(way, &listed(task.scene.traffic.passes));
         }

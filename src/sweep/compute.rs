@@ -142,21 +142,19 @@ fn run(
     sampling: Option<Sampling>,
     progress: Progress<'_>,
 ) -> Result<Run, Error> {
-    let mut options = RunOptions {
+    let options = RunOptions {
         progress,
         ..RunOptions::default()
     };
     let Some(Sampling { tolerance, mesh }) = sampling else {
-        return rows.run_scene(scene, &options);
+        return rows.run_scene(scene, None, &options);
     };
     let mut scene = scene.clone();
     scene.solver.tolerance = tolerance;
-    options.mesh = mesh;
-    match rows.run_scene(&scene, &options) {
+    match rows.run_scene(&scene, mesh, &options) {
         // Too coarse for this sample.
         Err(error) if mesh.is_some() && !matches!(error, Error::Stopped) => {
-            options.mesh = None;
-            rows.run_scene(&scene, &options)
+            rows.run_scene(&scene, None, &options)
         }
         run => run,
     }

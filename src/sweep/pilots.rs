@@ -11,7 +11,8 @@ use rayon::prelude::*;
 use super::evaluator::Evaluator;
 use super::grid::Sweep;
 use super::row::Answer;
-use crate::{Error, KnownMesh, Progress, RunOptions, Scene};
+use crate::plan::KnownMesh;
+use crate::{Error, Progress, RunOptions, Scene};
 
 /// Quantiles of the pilots, and how many standard deviations they lie from the median.
 const QUANTILES: [f64; 2] = [0.05, 0.95];
@@ -77,10 +78,9 @@ impl Sampling {
                 scene.solver.tolerance = tolerance;
                 let options = RunOptions {
                     progress,
-                    mesh,
                     ..RunOptions::default()
                 };
-                let run = rows.run_scene(&scene, &options)?;
+                let run = rows.run_scene(&scene, mesh, &options)?;
                 let answer = Answer::of(&run).ok_or(Error::NoPass)?;
                 let parts = run.error_estimate.parts;
                 Ok((answer, parts.mesh + if alone { 0.0 } else { parts.passes }))

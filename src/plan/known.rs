@@ -20,9 +20,4 @@ impl KnownMesh {
         let is_random = matches!(scene.traffic.order, Order::Random { .. });
         !is_named && !is_random && scene.friction.law.has_memory() && scene.warming().is_none()
     }
-
-    /// `mesh`, where `scene` may be computed on it.
-    pub(super) fn of(scene: &Scene, mesh: Option<Self>) -> Option<Self> {
-        mesh.filter(|_| Self::fits(scene))
-    }
 }
