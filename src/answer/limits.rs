@@ -58,6 +58,9 @@ pub struct Verdict {
     pub limit: f64,
     /// The largest in size of all listed passes \[N or m\].
     pub largest: f64,
+    /// Whether it is larger than all that passes and heat leave: while a vehicle is above the duct.
+    #[serde(default)]
+    pub during_a_pass: bool,
     /// The first pass that exceeds the limit; `None` where none does.
     pub reached_after: Option<Reached>,
     /// Whether limit and largest are nearer to each other than the estimated error.
@@ -67,11 +70,19 @@ pub struct Verdict {
 impl CableEnd {
     /// Largest force on it after a pass and during it, in size \[N\].
     pub fn largest_force(self, record: &PassRecord) -> f64 {
-        let [after, during] = match self {
-            Self::Upstream => [record.upstream_force_n, record.upstream_peak_n],
-            Self::Downstream => [record.downstream_force_n, record.downstream_peak_n],
+        let during = match self {
+            Self::Upstream => record.upstream_peak_n,
+            Self::Downstream => record.downstream_peak_n,
         };
-        after.abs().max(during.abs())
+        self.force_after(record).max(during.abs())
+    }
+
+    /// Force on it after a pass, in size \[N\].
+    pub fn force_after(self, record: &PassRecord) -> f64 {
+        match self {
+            Self::Upstream => record.upstream_force_n.abs(),
+            Self::Downstream => record.downstream_force_n.abs(),
+        }
     }
 
     /// How far it is displaced after a pass, whichever way \[m\].
@@ -187,6 +198,7 @@ impl Limits {
                 quantity,
                 limit,
                 largest,
+                during_a_pass: largest > run.largest_at_rest(end, quantity),
                 reached_after: first.map(|pass| Reached {
                     pass,
                     years: years(pass),
@@ -206,14 +218,17 @@ impl Verdict {
 
     /// The same with the `largest` in words.
     pub(crate) fn shown_with(&self, units: &Units, largest: &str) -> String {
+        let when = if self.during_a_pass { " during a pass" } else { "" };
         let limit = self.quantity.given_in(units, self.limit);
         let what = self.quantity.at_in(units, self.end);
         let verdict = match self.reached_after {
             Some(Reached { pass, years }) => {
                 let time = years.map_or_else(String::new, |years| format!(", {}", super::after(years)));
-                format!("limit exceeded: {what} above {limit} from pass {pass} on{time}; largest {largest}")
+                format!(
+                    "limit exceeded: {what} above {limit} from pass {pass} on{time}; largest {largest}{when}"
+                )
             }
-            None => format!("limit kept: {what} at most {largest} of {limit}"),
+            None => format!("limit kept: {what} at most {largest}{when} of {limit}"),
         };
         if self.doubtful {
             return format!("{verdict}; nearer to the limit than the estimated error");

@@ -81,6 +81,19 @@ impl Run {
         passes.chain(days).fold(0.0, f64::max)
     }
 
+    /// The same without what happens while a vehicle is above the duct.
+    pub(super) fn largest_at_rest(&self, place: Place, quantity: Limited) -> f64 {
+        let end = match (place, quantity) {
+            (Place::Upstream, Limited::Force) => CableEnd::Upstream,
+            (Place::Downstream, Limited::Force) => CableEnd::Downstream,
+            _ => return self.largest(place, quantity),
+        };
+        let passes = self.passes.iter();
+        let passes = passes.map(|record| end.force_after(record) + self.scatter(end, record));
+        let days = self.heat.iter().map(|heat| heat.all_days.largest_force(end));
+        passes.chain(days).fold(0.0, f64::max)
+    }
+
     /// The same in the pass at `index` of the listed ones.
     pub(super) fn in_pass(&self, place: Place, quantity: Limited, index: usize) -> f64 {
         let record = &self.passes[index];

@@ -178,13 +178,18 @@ fn answer(report: &Report, last: &PassRecord) -> String {
     };
     let level = shown.force(saturation.force_n);
     let reached = passes(saturation.passes_to_95_percent);
+    let that = if report.run.random.is_some() {
+        "the mean"
+    } else {
+        "that"
+    };
     if saturation.passes_to_95_percent > last.pass {
         return format!(
-            "{now}. It levels off at {level}; 95 % of that takes {reached}, more than were computed.{moved}"
+            "{now}. It levels off at {level}; 95 % of {that} takes {reached}, more than were computed.{moved}"
         );
     }
     format!(
-        "The {} levels off at {level}. 95 % of that is reached after {reached}.{moved}",
+        "The {} levels off at {level}. 95 % of {that} is reached after {reached}.{moved}",
         force_of(levelled(scene, saturation))
     )
 }

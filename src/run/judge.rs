@@ -20,11 +20,11 @@ pub fn judge(
     let exceeds = [(total.force, ""), (total.movement, " of the movement")]
         .into_iter()
         .filter(|(share, _)| *share > tolerance)
-        .map(|(share, of)| format!("the estimated error{of} of {}", percent(share)));
+        .map(|(share, of)| format!("the estimated error{of} is {}", percent(share)));
     let exceeds: Vec<String> = exceeds.collect();
     if !exceeds.is_empty() {
         warnings.push(format!(
-            "{} exceeds the tolerance of {}{}",
+            "{}, above the tolerance of {}{}",
             exceeds.join(" and "),
             exact_percent(tolerance),
             remedy(error, scene, mesh)

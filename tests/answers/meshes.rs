@@ -72,7 +72,7 @@ fn assert_covered(scene: &Scene, exact: &Run, tolerance: f64) {
     let warned = run
         .warnings
         .iter()
-        .any(|warning| warning.contains("exceeds the tolerance"));
+        .any(|warning| warning.contains("above the tolerance"));
     let within = stated.relative.max(stated.parts.movement) <= tolerance;
     assert!(within != warned, "{:?}: {stated:?}", run.warnings);
 }
