@@ -64,6 +64,11 @@ def test_more_wrong_arguments_are_told(quick_scene, study, tmp_path):
     for rows in (5, None, [{"duct.depth": 1}]):
         with pytest.raises(creepage.InputError, match="__arrow_c_stream__"):
             creepage.study(quick_scene, rows, tmp_path / "other")
+    with pytest.raises(creepage.InputError, match="found client = 5"):
+        creepage.study(quick_scene, ducts(1), tmp_path / "other", client=5)
+    (tmp_path / "empty.csv").write_text("")
+    with pytest.raises(creepage.InputError, match="empty.csv.* it is empty"):
+        creepage.study(quick_scene, tmp_path / "empty.csv", tmp_path / "other")
     for scene in (5, None, b"scene.toml", ["a"], "a\0b"):
         with pytest.raises(creepage.InputError, match="scene"):
             creepage.run(scene)
@@ -249,11 +254,11 @@ def test_parts_of_nobody_are_not_taken_for_the_studys(study, quick_scene):
 def test_other_files_in_the_folder_are_left_alone(quick_scene, tmp_path):
     out = tmp_path / "out"
     (out / "parts").mkdir(parents=True)
-    for name in ("notes.txt", "parts/notes.parquet"):
+    for name in ("notes.txt", "parts/notes.parquet", "parts/notes.tmp"):
         (out / name).write_text("mine")
     study = creepage.study(quick_scene, ducts(2), out)
     assert len(list(study.summary())) == study.dataset().to_table().num_rows == 2
-    assert (out / "parts/notes.parquet").read_text() == "mine"
+    assert all((out / f"parts/notes.{kind}").read_text() == "mine" for kind in ("parquet", "tmp"))
 
 
 def test_a_part_that_was_cut_off_is_named(study):
@@ -263,6 +268,9 @@ def test_a_part_that_was_cut_off_is_named(study):
     for read in (lambda: list(study.summary()), lambda: list(study.failures())):
         with pytest.raises(creepage.InputError, match="part-0000000.parquet.*remove it"):
             read()
+    (Path(study.out) / "ducts.parquet").write_bytes(b"PAR1")
+    with pytest.raises(creepage.InputError, match="ducts.parquet"):
+        study.compute(1)
 
 
 def test_wrong_ducts_leave_nothing_half_written(quick_scene, tmp_path):

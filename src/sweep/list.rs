@@ -27,6 +27,9 @@ pub fn read(file: &Path) -> Result<Vec<(String, Vec<String>)>, SweepError> {
         Format::Xlsx => super::xlsx::read(file),
     }
     .map_err(unreadable)?;
+    if keys.is_empty() {
+        return Err(unreadable(Error::other("it is empty")));
+    }
     let column = |(index, key): (usize, String)| {
         let values = rows.iter().map(|row| row[index].clone()).collect();
         (key, values)

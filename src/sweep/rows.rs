@@ -57,7 +57,7 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// As for [`Sweep::of_table`].
+    /// As for [`Sweep::of_table`], but for samples without a distribution.
     pub fn of_part(
         file: SceneFile,
         columns: Vec<(String, Vec<String>)>,

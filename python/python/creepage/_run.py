@@ -64,7 +64,7 @@ def run(
     Raises InputError or ComputationError, with ``line`` and ``key`` where a key of the scene is at fault.
     """
     own = source(scene, overrides)
-    return Run(json.loads(_creepage.run(own, verify, (threads_of(threads), callback(progress)))), own)
+    return Run(json.loads(_creepage.run(own, bool(verify), (threads_of(threads), callback(progress)))), own)
 
 
 def sweep(
@@ -123,8 +123,8 @@ def calibrate(
     if bootstrap is not None:
         bootstrap = whole("bootstrap", bootstrap, 1, MOST_SAMPLES)
     own = source(scene, overrides)
-    names = [fit] if isinstance(fit, str) else list(fit)
-    return json.loads(_creepage.calibrate(own, name, readings, names, robust, bootstrap, seed, call))
+    names = [fit] if isinstance(fit, str) else [str(name) for name in fit or ()]
+    return json.loads(_creepage.calibrate(own, name, readings, names, bool(robust), bootstrap, seed, call))
 
 
 def _stream(rows: Any) -> Any:

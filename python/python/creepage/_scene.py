@@ -63,9 +63,9 @@ def _value(value: Any) -> str:
         return "{ " + ", ".join(f"{_text(k)} = {_value(v)}" for k, v in value.items() if v is not None) + " }"
     if isinstance(value, Sequence) and not isinstance(value, (bytes, bytearray)):
         return "[" + ", ".join(map(_value, value)) + "]"
-    if hasattr(value, "item"):
-        # A number of numpy.
-        return _value(value.item())
+    if hasattr(value, "tolist"):
+        # A number or an array of numpy.
+        return _value(value.tolist())
     if isinstance(value, (int, float)):
         return repr(value)
     raise InputError(f"found {value!r} in the scene; allowed: texts, numbers, lists and dicts")

@@ -8,21 +8,21 @@ rerun computes what is missing and nothing else, whatever was killed, and the by
     parts/part-*.parquet    a row a sample: id, what was drawn, sample, answer, status, error
 """
 
-import hashlib
 import heapq
 import json
 import os
-import uuid
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, Callable, Optional, Union
+from typing import Any, Optional, Union
 
 from . import _creepage
 from ._arguments import LARGEST_SEED, MOST_SAMPLES, path_of, threads_of, whole
+from ._ducts import copy_ducts, ducts_per_group, fingerprint, lasting
 from ._engines import on_dask, on_this_machine
 from ._errors import InputError
+from ._files import check_files, whole_file, write
 from ._progress import callback
 from ._scene import Scene, Source, source
 
@@ -30,16 +30,11 @@ from ._scene import Scene, Source, source
 FORMAT = 2
 #: Rows that a part has at least, if there are as many: about half a minute of one core.
 ROWS_OF_A_PART = 2000
-#: Rows of ducts that are read at once.
-DUCTS_AT_ONCE = 8192
 #: More is a slip.
 MOST_DUCTS = 10**12
 #: What the rows of a summary say of the samples of a duct.
 FORCES = ("downstream_force_n", "upstream_force_n", "max_compression_n")
 QUANTILES = (0.05, 0.5, 0.95)
-
-#: What ducts may be.
-TABLES = "a file that ends in .parquet or .csv, or a table with __arrow_c_stream__ (pyarrow, polars, pandas from 3 on)"
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -68,6 +63,8 @@ def study(
     largest force where that is more, up to 5 %. Each says its error in ``error_estimate``.
     """
     threads, show = threads_of(threads), callback(progress)
+    if client is not None and not hasattr(client, "nthreads"):
+        raise InputError(f"found client = {client!r}; allowed: a client of Dask, or None for this machine")
     made = Study.create(scene, ducts, out, samples=samples, seed=seed, ducts_per_part=ducts_per_part)
     missing = made.missing()
     done = made.parts - len(missing)
@@ -126,7 +123,7 @@ class Study:
         per_part = max(1, ROWS_OF_A_PART // max(1, samples))
         if ducts_per_part is not None:
             per_part = whole("ducts_per_part", ducts_per_part, 1, MOST_DUCTS)
-        ducts = _lasting(ducts)
+        ducts = lasting(ducts)
         wanted = {
             "format": FORMAT,
             "version": _creepage.__version__,
@@ -134,7 +131,7 @@ class Study:
             "samples": samples,
             "seed": seed,
             "ducts_per_part": per_part,
-            "source": _fingerprint(ducts),
+            "source": fingerprint(ducts),
         }
         # In this order: the parts of a study come after its manifest.
         strange = any(Path(out, "parts").glob("part-*.parquet"))
@@ -143,7 +140,7 @@ class Study:
             other = [key for key, value in wanted.items() if found.get(key) != value]
             if other:
                 raise InputError(f"{out}: found another study, with another {' and '.join(other)}; allowed: the same study, or an empty folder")
-            _check_files(found["files"])
+            check_files(found["files"])
             return cls(out)
         if strange:
             raise InputError(f"{out}: found parts of a study without its manifest, study.json; allowed: a folder without them")
@@ -151,10 +148,10 @@ class Study:
             os.makedirs(os.path.join(out, "parts"), exist_ok=True)
         except OSError as error:
             raise InputError(f"{out}: cannot be the folder of a study: {error}; allowed: a folder that can be written") from error
-        checked = _copy_ducts(own, ducts, os.path.join(out, "ducts.parquet"), samples, per_part)
+        checked = copy_ducts(own, ducts, os.path.join(out, "ducts.parquet"), samples, per_part)
         # The manifest comes last: where it is, all else is.
         text = json.dumps({**wanted, **checked}, indent=1)
-        _write(os.path.join(out, "study.json"), lambda path: Path(path).write_text(text, encoding="utf-8"))
+        write(os.path.join(out, "study.json"), lambda path: Path(path).write_text(text, encoding="utf-8"))
         return cls(out)
 
     @property
@@ -180,13 +177,13 @@ class Study:
         call = (threads_of(threads), callback(progress))
         if os.path.exists(path):
             return False
-        _check_files(self._files)
+        check_files(self._files)
         schema = self._schema()
         drawn = schema.names[1 : schema.names.index("sample")]
         rows = pyarrow.table(_creepage.sweep(self._scene, self._ducts(number), self.samples, self.seed, drawn, call))
         rows = rows.append_column("sample", pyarrow.nulls(len(rows), "int64")) if "sample" not in rows.column_names else rows
         rows = rows.select(schema.names).cast(schema)
-        _write(path, lambda path: pyarrow.parquet.write_table(rows, path, compression="snappy"))
+        write(path, lambda path: pyarrow.parquet.write_table(rows, path, compression="snappy"))
         return True
 
     def _schema(self) -> Any:
@@ -198,17 +195,16 @@ class Study:
         """The ducts of a part."""
         import pyarrow.parquet
 
-        group = _ducts_per_group(self.ducts_per_part)
+        group = ducts_per_group(self.ducts_per_part)
         first = number * self.ducts_per_part
-        with pyarrow.parquet.ParquetFile(os.path.join(self.out, "ducts.parquet")) as file:
+        with whole_file(os.path.join(self.out, "ducts.parquet"), "the ducts of this study") as path, pyarrow.parquet.ParquetFile(path) as file:
             return file.read_row_group(first // group).slice(first % group, self.ducts_per_part)
 
     def tidy(self) -> None:
         """Removes what killed processes have left half written, once no part is missing."""
         if not self.missing():
-            for entry in os.scandir(os.path.join(self.out, "parts")):
-                if entry.name.endswith(".tmp"):
-                    os.remove(entry.path)
+            for left in Path(self.out, "parts").glob("part-*.tmp"):
+                left.unlink(missing_ok=True)
 
     def dataset(self) -> Any:
         """All finished parts as a pyarrow dataset, which reads only what is asked of it."""
@@ -222,14 +218,10 @@ class Study:
 
     def _read(self, number: int, columns: list) -> Any:
         """Columns of a finished part."""
-        import pyarrow
         import pyarrow.parquet
 
-        path = self.part(number)
-        try:
+        with whole_file(self.part(number), "a whole part: remove it, and the same study computes it again") as path:
             return pyarrow.parquet.read_table(path, columns=columns)
-        except pyarrow.ArrowException as error:
-            raise InputError(f"{path}: found no whole part: {error}; remove it, and the same study computes it again") from error
 
     def summary(self) -> Iterator[dict]:
         """A row a duct, one part in memory at a time: ``id``, ``samples`` with an answer, ``failed``, and of each force the mean,
@@ -279,7 +271,7 @@ def _name(quantile: float) -> str:
 
 @lru_cache(maxsize=16)
 def _read_manifest(path: str, changed: int) -> dict:
-    return json.loads(Path(path).read_text(encoding="utf-8"))
+    return dict(json.loads(Path(path).read_text(encoding="utf-8")))
 
 
 def _manifest(out: str) -> dict:
@@ -291,172 +283,3 @@ def _manifest(out: str) -> dict:
     if (found.get("format"), found.get("version")) != (FORMAT, _creepage.__version__):
         raise InputError(f"{out}: found a study of creepage {found.get('version')}; allowed: one of {_creepage.__version__}, lest two versions mix")
     return found
-
-
-def _write(path: str, write: Callable[[str], Any]) -> None:
-    """Writes beside the place and renames: a file is there whole or not at all, also after a loss of power."""
-    beside = f"{path}.{uuid.uuid4().hex}.tmp"
-    try:
-        write(beside)
-        with open(beside, "rb") as file:
-            os.fsync(file.fileno())
-        os.replace(beside, path)
-    except FileNotFoundError:
-        # Somebody else has written the same, and tidied up.
-        if not os.path.exists(path):
-            raise
-    finally:
-        Path(beside).unlink(missing_ok=True)
-
-
-def _ducts_per_group(per_part: int) -> int:
-    """No part lies in two groups of ducts."""
-    return per_part * -(-DUCTS_AT_ONCE // per_part)
-
-
-def _lasting(ducts: Any) -> Any:
-    """The ducts as a table in memory, or as the path of a Parquet file: both can be read twice."""
-    import pyarrow
-
-    if hasattr(ducts, "__arrow_c_stream__"):
-        return pyarrow.RecordBatchReader.from_stream(ducts).read_all()
-    path = path_of("ducts", ducts, TABLES)
-    if not os.path.isfile(path):
-        raise InputError(f"{path}: found no such file of ducts; allowed: {TABLES}")
-    if path.lower().endswith(".parquet"):
-        return path
-    if path.lower().endswith(".csv"):
-        return pyarrow.table(_creepage.read_rows(path))
-    raise InputError(f"{path}: found no table of ducts; allowed: {TABLES}")
-
-
-def _batches(ducts: Any, size: int) -> Iterator[Any]:
-    """The ducts in tables of so many rows."""
-    import pyarrow
-    import pyarrow.parquet
-
-    if isinstance(ducts, pyarrow.Table):
-        yield from (ducts.slice(first, size) for first in range(0, len(ducts), size))
-        return
-    try:
-        with pyarrow.parquet.ParquetFile(ducts) as file:
-            yield from _groups(file.iter_batches(size), size)
-    except pyarrow.ArrowException as error:
-        raise InputError(f"{ducts}: found no table of ducts that can be read: {error}; allowed: {TABLES}") from error
-
-
-def _groups(batches: Iterable, size: int) -> Iterator[Any]:
-    """The rows of the batches in tables of so many rows."""
-    import pyarrow
-
-    waiting: list = []
-    rows = 0
-    for batch in batches:
-        waiting.append(batch)
-        rows += len(batch)
-        while rows >= size:
-            table = pyarrow.Table.from_batches(waiting)
-            yield table.slice(0, size)
-            waiting = table.slice(size).to_batches()
-            rows -= size
-    if rows:
-        yield pyarrow.Table.from_batches(waiting)
-
-
-def _fingerprint(ducts: Any) -> str:
-    """What distinguishes this table of ducts from another."""
-    if isinstance(ducts, str):
-        return _digest(ducts)
-    found = hashlib.sha256()
-    for table in _batches(ducts, DUCTS_AT_ONCE):
-        found.update(repr(_creepage.texts(table)).encode())
-    return found.hexdigest()
-
-
-def _digest(path: str) -> str:
-    """What distinguishes this content of a file from another; empty where there is none."""
-    found = hashlib.sha256()
-    try:
-        with open(path, "rb") as file:
-            for block in iter(lambda: file.read(1 << 20), b""):
-                found.update(block)
-    except OSError:
-        return ""
-    return found.hexdigest()
-
-
-def _check_files(files: dict) -> None:
-    """Refuses to go on where a file that the scene or the ducts name is not what it was."""
-    for path, digest in files.items():
-        if _digest(path) != digest:
-            raise InputError(f"{path}: found that it has changed since the study was made; allowed: what it was, or another folder")
-
-
-def _copy_ducts(scene: Source, ducts: Any, path: str, samples: int, per_part: int) -> dict:
-    """Copies the ducts with their ids, a few thousand in memory at a time, and checks them: how many, the columns of the parts, and the
-    files that they or the scene name."""
-    import pyarrow
-    import pyarrow.parquet
-
-    group = _ducts_per_group(per_part)
-    drawn: set = set()
-    files: set = set()
-    unnamed: list = []
-    count = 0
-    heads: Any = None
-
-    def copy(beside: str) -> None:
-        nonlocal count, heads
-        writer = None
-        for rows in _batches(ducts, group):
-            table = _with_ids(rows, count, unnamed)
-            heads, keys, named = _creepage.heads(scene, table, samples)
-            drawn.update(keys)
-            files.update(map(str, named))
-            if writer is None:
-                writer = pyarrow.parquet.ParquetWriter(beside, table.schema)
-            writer.write_table(table, row_group_size=group)
-            count += len(table)
-        if writer is None:
-            raise InputError("found no row in the table of ducts; allowed: one or more")
-        writer.close()
-        if unnamed:
-            _check_ids(beside, unnamed)
-        if samples and not drawn:
-            raise InputError("found samples and no distribution; allowed: a distribution with them, in a cell of the table or in the scene")
-
-    _write(path, copy)
-    keys = [("id", "string"), *((key, "double") for key in sorted(drawn)), ("sample", "int64")]
-    schema = pyarrow.table(heads).schema
-    answers = list(schema)[schema.get_field_index("downstream_force_n") :]
-    columns = keys + [(field.name, str(field.type)) for field in answers]
-    return {"ducts": count, "columns": columns, "files": {file: _digest(file) for file in sorted(files)}}
-
-
-def _with_ids(rows: Any, first: int, unnamed: list) -> Any:
-    """The rows as texts, with an id each: its own, or else its number, which is added to the unnamed where others have ids."""
-    import pyarrow
-
-    names, columns = _creepage.texts(rows)
-    numbers = [str(number) for number in range(first, first + len(rows))]
-    if "id" in names:
-        own = columns[names.index("id")]
-        columns[names.index("id")] = [name or number for name, number in zip(own, numbers)]
-        unnamed.extend(number for name, number in zip(own, numbers) if not name)
-    else:
-        names, columns = ["id", *names], [numbers, *columns]
-    return pyarrow.table([pyarrow.array(column, "string") for column in columns], names=names)
-
-
-def _check_ids(path: str, unnamed: list) -> None:
-    """Refuses a row without an id whose number is the id of another: both would draw the same samples."""
-    import pyarrow
-    import pyarrow.parquet
-
-    ids = Counter(pyarrow.parquet.read_table(path, columns=["id"])["id"].to_pylist())
-    twice = next((number for number in unnamed if ids[number] > 1), None)
-    if twice is not None:
-        raise InputError(
-            f"found the id `{twice}`, by which a row without an id is known too, as its number from 0 is {twice}; "
-            "allowed: an id in every row, or ids that are no such numbers"
-        )
