@@ -123,8 +123,7 @@ impl From<JumpError> for Error {
 }
 
 /// The error's message with those of its causes. Some errors repeat their cause: it is not added again.
-#[cfg(feature = "sweep")]
-pub(crate) fn with_causes(error: &dyn std::error::Error) -> String {
+pub fn with_causes(error: &dyn std::error::Error) -> String {
     let mut message = error.to_string();
     let mut cause = error.source();
     while let Some(error) = cause {

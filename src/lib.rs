@@ -102,7 +102,7 @@ pub use answer::{
 };
 #[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
-pub use error::Error;
+pub use error::{Error, with_causes};
 pub use ground::profile::{Profile, profile, profile_at};
 pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
 pub use progress::Progress;

@@ -696,7 +696,7 @@ fn bad_rows_are_told() {
         ("id\nA\n", "no column that is named as a key"),
         ("duct.depth,duct.depth\n1,2\n", "two columns `duct.depth`"),
         ("duct.depth\n", "0 rows"),
-        ("", "no column"),
+        ("", "found no table of ducts"),
         ("duct.depth,duct.length\n1\n", "found no table of ducts"),
     ] {
         let (_, sweep) = rows("bad rows", table);

@@ -183,3 +183,84 @@ fn a_row_replaces_a_section_in_which_the_scene_draws() {
     assert!(forces[..2].iter().all(|force| *force > Some(90.0)), "{forces:?}");
     assert!(forces[2..].iter().all(|force| *force < Some(30.0)), "{forces:?}");
 }
+
+/// A table of axle loads that only the rows name is part of the sweep: answers of two tables do not mix.
+#[test]
+fn a_sweep_does_not_go_on_with_another_table_of_axles() {
+    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("rows_of_axles");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    let text = std::fs::read_to_string(UPPER).unwrap();
+    let text = text[..text.find("[[vehicles]]").unwrap()].to_owned()
+        + "[traffic]\npasses = 2\nspeed = \"40 km/h\"\n[solver]\ntolerance = 0.1\n";
+    let axles =
+        |load: &str| std::fs::write(folder.join("axles.csv"), format!("load,count\n{load},1\n")).unwrap();
+    let run = |stop: bool| {
+        let name = folder.join("scene.toml");
+        let file = SceneFile::from_toml(name.to_str().unwrap(), &text).unwrap();
+        let rows = table(&[
+            ("traffic.histogram", &["axles.csv"; 2]),
+            ("duct.depth", &["1.2", "2"]),
+        ]);
+        let sweep = Sweep::of_table(file, rows, Samples::default()).unwrap();
+        assert_eq!(
+            sweep.files().into_iter().collect::<Vec<_>>(),
+            [folder.join("axles.csv")]
+        );
+        let halt = |share| {
+            if stop && share > 0.0 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        let options = SweepOptions {
+            progress: Progress::new(&halt),
+            threads: Some(1),
+            ..SweepOptions::default()
+        };
+        sweep.run(&folder.join("out.csv"), &options)
+    };
+    axles("100 kN");
+    assert!(matches!(run(true), Err(SweepError::Stopped)));
+    axles("120 kN");
+    assert!(matches!(run(false), Err(SweepError::OtherJournal(..))));
+    axles("100 kN");
+    let summary = run(false).unwrap();
+    assert_eq!((summary.resumed, summary.failed), (1, 0));
+}
+
+#[test]
+fn a_text_where_others_draw_fails_in_its_row_alone() {
+    let base = || file(&["traffic.passes=1", "solver.tolerance=0.1"]);
+    let samples = Samples { count: 2, seed: 1 };
+    let cells = table(&[("id", &["A", "B"]), (FRICTION, &["normal(0.25, 0.03)", "much"])]);
+    let whole = answers(&Sweep::of_table(base(), cells, samples).unwrap());
+    assert!(numbers(&whole, FRICTION)[..2].iter().all(Option::is_some));
+    assert_eq!(numbers(&whole, FRICTION)[2..], [None, None]);
+    // A part of it in which nothing is drawn has the same columns.
+    let cells = table(&[("id", &["B"]), (FRICTION, &["much"])]);
+    assert!(Sweep::of_table(base(), cells.clone(), samples).is_err());
+    let part = Sweep::of_part(base(), cells, samples, [FRICTION.to_owned()]).unwrap();
+    for (one, all) in answers(&part).iter().zip(&whole) {
+        assert_eq!(one.name, all.name);
+        assert_eq!(
+            std::mem::discriminant(&one.values),
+            std::mem::discriminant(&all.values)
+        );
+    }
+}
+
+#[test]
+fn no_row_has_the_number_of_another_for_its_id() {
+    let base = || file(&["traffic.passes=1", "solver.tolerance=0.1"]);
+    let law = "normal(0.25, 0.03)";
+    let drawn = |ids: &[&str]| {
+        let cells = table(&[("id", ids), (FRICTION, &[law; 2])]);
+        let sweep = Sweep::of_table(base(), cells, Samples { count: 1, seed: 1 })?;
+        Ok::<_, SweepError>([sweep.values(0)[1].clone(), sweep.values(1)[1].clone()])
+    };
+    let error = drawn(&["1", ""]).unwrap_err().to_string();
+    assert!(error.contains("the id `1`"), "{error}");
+    assert_eq!(drawn(&["", "0 "]).unwrap()[0], drawn(&["0", "1"]).unwrap()[0]);
+}

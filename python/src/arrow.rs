@@ -7,13 +7,12 @@ use std::sync::Arc;
 use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::{FFI_ArrowArrayStream, RecordBatchStreamReader};
 use arrow_array::types::{
-    Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type, UInt32Type,
-    UInt64Type,
+    Decimal128Type, Decimal256Type, Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type,
+    UInt8Type, UInt16Type, UInt32Type, UInt64Type,
 };
 use arrow_array::{Array, ArrayRef, Float64Array, Int64Array, RecordBatch, RecordBatchIterator, StringArray};
 use arrow_schema::{DataType, Field, Schema};
 use creepage::sweep::{AnswerColumn, AnswerValues};
-use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyCapsule, PyCapsuleMethods};
 
@@ -21,6 +20,9 @@ use crate::failure::Failure;
 
 /// Name of a stream's capsule.
 const STREAM: &CStr = c"arrow_array_stream";
+
+/// How pandas names the column of an index without a name.
+const INDEX: &str = "__index_level_";
 
 /// Columns by name, each cell as it would be typed; empty where it is null.
 pub type Columns = Vec<(String, Vec<String>)>;
@@ -30,14 +32,14 @@ pub type Columns = Vec<(String, Vec<String>)>;
     unsafe_code,
     reason = "the stream is a C structure, which the capsule's name vouches for"
 )]
-pub fn columns(rows: &Bound<'_, PyAny>) -> PyResult<Columns> {
+pub fn columns(py: Python<'_>, rows: &Bound<'_, PyAny>) -> PyResult<Columns> {
     let capsule = rows.call_method0("__arrow_c_stream__")?;
     let capsule = capsule.cast::<PyCapsule>()?;
     let pointer = capsule.pointer_checked(Some(STREAM))?;
     // SAFETY: a capsule of this name holds a valid stream, which is moved out of it.
     let stream =
         unsafe { RecordBatchStreamReader::from_raw(pointer.as_ptr().cast::<FFI_ArrowArrayStream>()) };
-    let wrong = |error: arrow_schema::ArrowError| PyValueError::new_err(error.to_string());
+    let wrong = |error: arrow_schema::ArrowError| Failure::input(&error).raised(py);
     let stream = stream.map_err(wrong)?;
     let schema = arrow_array::RecordBatchReader::schema(&stream);
     let names = schema.fields().iter().map(|field| field.name().clone());
@@ -45,14 +47,15 @@ pub fn columns(rows: &Bound<'_, PyAny>) -> PyResult<Columns> {
     for batch in stream {
         let batch = batch.map_err(wrong)?;
         for ((name, cells), array) in columns.iter_mut().zip(batch.columns()) {
-            cells.extend(texts(name, array)?);
+            cells.extend(texts(name, array).map_err(|failure| failure.raised(py))?);
         }
     }
+    columns.retain(|(name, _)| !name.starts_with(INDEX));
     Ok(columns)
 }
 
 /// The cells of an array.
-fn texts(name: &str, array: &ArrayRef) -> PyResult<Vec<String>> {
+fn texts(name: &str, array: &ArrayRef) -> Result<Vec<String>, Failure> {
     macro_rules! shown {
         ($values:expr) => {
             $values
@@ -72,6 +75,19 @@ fn texts(name: &str, array: &ArrayRef) -> PyResult<Vec<String>> {
                 .collect()
         };
     }
+    macro_rules! decimal {
+        ($values:expr) => {
+            (0..array.len())
+                .map(|row| {
+                    if array.is_null(row) {
+                        String::new()
+                    } else {
+                        $values.value_as_string(row)
+                    }
+                })
+                .collect()
+        };
+    }
     let trimmed = |text: Option<&str>| text.unwrap_or_default().trim().to_owned();
     Ok(match array.data_type() {
         DataType::Null => vec![String::new(); array.len()],
@@ -81,6 +97,8 @@ fn texts(name: &str, array: &ArrayRef) -> PyResult<Vec<String>> {
         DataType::Utf8View => array.as_string_view().iter().map(trimmed).collect(),
         DataType::Float64 => real!(array.as_primitive::<Float64Type>()),
         DataType::Float32 => real!(array.as_primitive::<Float32Type>()),
+        DataType::Decimal128(..) => decimal!(array.as_primitive::<Decimal128Type>()),
+        DataType::Decimal256(..) => decimal!(array.as_primitive::<Decimal256Type>()),
         DataType::Int8 => shown!(array.as_primitive::<Int8Type>()),
         DataType::Int16 => shown!(array.as_primitive::<Int16Type>()),
         DataType::Int32 => shown!(array.as_primitive::<Int32Type>()),
@@ -105,11 +123,7 @@ fn texts(name: &str, array: &ArrayRef) -> PyResult<Vec<String>> {
             };
             keys.into_iter().enumerate().map(cell).collect()
         }
-        other => {
-            let message =
-                format!("column `{name}`: found {other}; allowed: texts, numbers, or a dictionary of them");
-            return Err(PyTypeError::new_err(message));
-        }
+        other => return Err(Failure::column(name, other)),
     })
 }
 

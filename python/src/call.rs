@@ -1,13 +1,15 @@
 //! A computation without the GIL, in threads of Rust, while Python's own thread tells how far it is and heeds Ctrl-C.
 
 use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use creepage::Progress;
 use pyo3::prelude::*;
-use rayon::{Scope, ThreadPool};
+use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
 use crate::failure::Failure;
 
@@ -36,14 +38,10 @@ pub fn watched<T: Send>(
     compute: impl FnOnce(Progress<'_>) -> Result<T, Failure> + Send,
 ) -> PyResult<T> {
     let pool = match call.0 {
-        None => None,
-        Some(threads) => Some(
-            rayon::ThreadPoolBuilder::new()
-                .num_threads(threads)
-                .build()
-                .map_err(|error| Failure::computation(&error).raised(py))?,
-        ),
+        None => threads_of_this_process(),
+        Some(threads) => pool(threads),
     };
+    let pool = pool.map_err(|error| Failure::computation(&error).raised(py))?;
     let share = AtomicU64::new(0.0_f64.to_bits());
     let stopped = AtomicBool::new(false);
     let report = |now: f64| {
@@ -58,9 +56,12 @@ pub fn watched<T: Send>(
         let (send, receive) = sync_channel(1);
         let (report, share, stopped, call) = (&report, &share, &stopped, &call);
         // In rayon's threads; this one only waits.
-        in_scope(pool.as_ref(), |scope| {
-            // Whoever waits lives as long as this.
-            scope.spawn(move |_| drop(send.send(compute(Progress::new(report)))));
+        pool.in_place_scope(|scope| {
+            scope.spawn(move |_| {
+                let answer = catch_unwind(AssertUnwindSafe(|| compute(Progress::new(report))));
+                // Whoever waits lives as long as this.
+                drop(send.send(answer.unwrap_or_else(|_| Err(Failure::broken()))));
+            });
             let mut raised = None;
             loop {
                 match receive.recv_timeout(TICK) {
@@ -72,28 +73,42 @@ pub fn watched<T: Send>(
                         }
                     }
                     Err(RecvTimeoutError::Timeout) => {}
-                    Ok(answer) => break (Some(answer), raised),
-                    Err(RecvTimeoutError::Disconnected) => break (None, raised),
+                    Ok(answer) => break (answer, raised),
+                    Err(RecvTimeoutError::Disconnected) => break (Err(Failure::broken()), raised),
                 }
             }
         })
     });
     match (answer, raised) {
         (_, Some(error)) => Err(error),
-        (Some(answer), None) => {
+        (answer, None) => {
             let answer = answer.map_err(|failure| failure.raised(py))?;
             call.tell(py, 1.0)?;
             Ok(answer)
         }
-        // The scope has panicked with it.
-        (None, None) => Err(Failure::broken().raised(py)),
     }
 }
 
-/// Calls `wait` in this thread, with a scope whose tasks run in the threads of `pool`, or in rayon's own.
-fn in_scope<'s, T>(pool: Option<&ThreadPool>, wait: impl FnOnce(&Scope<'s>) -> T) -> T {
-    match pool {
-        Some(pool) => pool.in_place_scope(wait),
-        None => rayon::in_place_scope(wait),
+/// So many threads; as many as there are cores for 0.
+fn pool(threads: usize) -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
+    ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map(Arc::new)
+}
+
+/// The threads that calls of one process share. A forked process has none of its parent's threads and makes its own, which rayon's global
+/// pool cannot. The lock is never held in a fork: whoever forks has the GIL, as who asks here.
+fn threads_of_this_process() -> Result<Arc<ThreadPool>, ThreadPoolBuildError> {
+    static SHARED: Mutex<Option<(u32, Arc<ThreadPool>)>> = Mutex::new(None);
+    let mut shared = SHARED.lock().unwrap_or_else(PoisonError::into_inner);
+    match &*shared {
+        Some((process, pool)) if *process == std::process::id() => Ok(Arc::clone(pool)),
+        _ => {
+            let own = pool(0)?;
+            // To end the parent's pool would wait for its threads.
+            std::mem::forget(shared.replace((std::process::id(), Arc::clone(&own))));
+            Ok(own)
+        }
     }
 }

@@ -1,7 +1,7 @@
 //! Errors of Rust as exceptions of `creepage._errors`.
 
 use creepage::sweep::SweepError;
-use creepage::{Error, SceneError};
+use creepage::{Error, SceneError, with_causes};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 
@@ -16,16 +16,7 @@ pub struct Failure {
 }
 
 impl Failure {
-    fn of(class: &'static str, error: &dyn std::error::Error) -> Self {
-        let mut message = error.to_string();
-        let mut cause = error.source();
-        while let Some(error) = cause {
-            let text = error.to_string();
-            if !message.contains(&text) {
-                message = format!("{message}: {text}");
-            }
-            cause = error.source();
-        }
+    fn of(class: &'static str, message: String) -> Self {
         Self {
             class,
             message,
@@ -37,23 +28,27 @@ impl Failure {
 
     /// Bad input.
     pub fn input(error: &dyn std::error::Error) -> Self {
-        Self::of("InputError", error)
+        Self::of("InputError", with_causes(error))
+    }
+
+    /// A column of a type that no cell has.
+    pub fn column(name: &str, found: &impl std::fmt::Display) -> Self {
+        let message =
+            format!("column `{name}`: found {found}; allowed: texts, numbers, or a dictionary of them");
+        Self {
+            key: Some(name.to_owned()),
+            ..Self::of("InputError", message)
+        }
     }
 
     /// A computation that failed.
     pub fn computation(error: &dyn std::error::Error) -> Self {
-        Self::of("ComputationError", error)
+        Self::of("ComputationError", with_causes(error))
     }
 
     /// A computation that broke off.
     pub fn broken() -> Self {
-        Self {
-            class: "ComputationError",
-            message: "the computation broke off".into(),
-            file: None,
-            line: None,
-            key: None,
-        }
+        Self::of("ComputationError", "the computation broke off".into())
     }
 
     /// The exception.

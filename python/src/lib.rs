@@ -4,9 +4,12 @@ mod arrow;
 mod call;
 mod failure;
 
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
 use creepage::calibration::{BootstrapOptions, Loss, Unknown};
 use creepage::report::{Report, ReportOptions};
-use creepage::sweep::{Evaluator, Samples, Sweep, SweepOptions};
+use creepage::sweep::{AnswerColumn, AnswerValues, Evaluator, Samples, Sweep, SweepOptions};
 use creepage::{CalibrateOptions, Readings, RunOptions, SceneFile, Series};
 use pyo3::prelude::*;
 use pyo3::types::PyAny;
@@ -65,12 +68,7 @@ fn report(py: Python<'_>, scene: Source, call: Call) -> PyResult<String> {
     })
 }
 
-fn sweep_of(scene: &Source, rows: arrow::Columns, samples: usize, seed: u64) -> Result<Sweep, Failure> {
-    let samples = Samples { count: samples, seed };
-    Ok(Sweep::of_table(scene.file()?, rows, samples)?)
-}
-
-/// A row a duct, computed: the table of the command `sweep --rows`.
+/// A row a duct, computed: the table of the command `sweep --rows`. The rows may be a part of a table which draws the keys `drawn`.
 #[pyfunction]
 fn sweep(
     py: Python<'_>,
@@ -78,39 +76,70 @@ fn sweep(
     rows: &Bound<'_, PyAny>,
     samples: usize,
     seed: u64,
+    drawn: Option<Vec<String>>,
     call: Call,
 ) -> PyResult<Table> {
-    let rows = arrow::columns(rows)?;
+    let rows = arrow::columns(py, rows)?;
+    let samples = Samples { count: samples, seed };
     watched(py, call, |progress| {
         let options = SweepOptions {
             progress,
             ..SweepOptions::default()
         };
-        let columns = sweep_of(&scene, rows, samples, seed)?.answers(&options)?;
-        Table::of(columns)
+        let file = scene.file()?;
+        let sweep = match drawn {
+            None => Sweep::of_table(file, rows, samples)?,
+            Some(drawn) => Sweep::of_part(file, rows, samples, drawn)?,
+        };
+        Table::of(sweep.answers(&options)?)
     })
 }
 
-/// The columns of that table without rows, once all keys and distributions are checked.
+/// The columns of the table of a part without rows, the keys that it draws and the files that it names, once all keys and distributions
+/// are checked.
 #[pyfunction]
-fn heads(py: Python<'_>, scene: Source, rows: &Bound<'_, PyAny>, samples: usize) -> PyResult<Table> {
-    let rows = arrow::columns(rows)?;
+fn heads(
+    py: Python<'_>,
+    scene: Source,
+    rows: &Bound<'_, PyAny>,
+    samples: usize,
+) -> PyResult<(Table, BTreeSet<String>, BTreeSet<PathBuf>)> {
+    let rows = arrow::columns(py, rows)?;
+    let samples = Samples {
+        count: samples,
+        seed: 0,
+    };
     watched(py, Call::default(), |_| {
-        Table::of(sweep_of(&scene, rows, samples, 0)?.heads())
+        let sweep = Sweep::of_part(scene.file()?, rows, samples, [])?;
+        Ok((
+            Table::of(sweep.heads())?,
+            sweep.drawn_keys().clone(),
+            sweep.files(),
+        ))
     })
 }
 
 /// The names of columns, and their cells as they would be typed.
 #[pyfunction]
-fn texts(rows: &Bound<'_, PyAny>) -> PyResult<(Vec<String>, Vec<Vec<String>>)> {
-    Ok(arrow::columns(rows)?.into_iter().unzip())
+fn texts(py: Python<'_>, rows: &Bound<'_, PyAny>) -> PyResult<(Vec<String>, Vec<Vec<String>>)> {
+    Ok(arrow::columns(py, rows)?.into_iter().unzip())
 }
 
-/// The keys for which the scene has a distribution.
+/// The table of ducts in a file, as the command `sweep --rows` reads it.
 #[pyfunction]
-fn drawn(py: Python<'_>, scene: Source) -> PyResult<Vec<String>> {
-    let keys = || Ok(creepage::sweep::drawn_keys(&scene.file()?)?);
-    keys().map_err(|failure: Failure| failure.raised(py))
+fn read_rows(py: Python<'_>, file: PathBuf) -> PyResult<Table> {
+    watched(py, Call::default(), |_| {
+        let column = |(name, cells): (String, Vec<String>)| AnswerColumn {
+            name,
+            values: AnswerValues::Texts(cells.into_iter().map(Some).collect()),
+        };
+        Table::of(
+            creepage::sweep::read_rows(&file)?
+                .into_iter()
+                .map(column)
+                .collect(),
+        )
+    })
 }
 
 /// Parameters fitted to readings, as JSON. The readings are the bytes of a table in whatever form the command line reads.
@@ -158,7 +187,7 @@ fn _creepage(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(sweep, module)?)?;
     module.add_function(wrap_pyfunction!(heads, module)?)?;
     module.add_function(wrap_pyfunction!(texts, module)?)?;
-    module.add_function(wrap_pyfunction!(drawn, module)?)?;
+    module.add_function(wrap_pyfunction!(read_rows, module)?)?;
     module.add_function(wrap_pyfunction!(calibrate, module)?)?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))
 }

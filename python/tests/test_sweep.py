@@ -109,7 +109,7 @@ def test_wrong_rows_are_told(columns, part):
 def test_rows_that_are_none_are_told():
     with pytest.raises(creepage.InputError, match="__arrow_c_stream__"):
         creepage.sweep(UPPER, [{"duct.depth": 1}])
-    with pytest.raises(TypeError, match="column `duct.depth`: found List"):
+    with pytest.raises(creepage.InputError, match="column `duct.depth`: found List"):
         creepage.sweep(UPPER, pyarrow.table({"duct.depth": [[1]]}))
 
 

@@ -84,9 +84,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         None => Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?,
     };
     warn_of_slips(&sweep.file_at(0)?);
-    let table = sweep.file_at(0)?.histogram();
-    let read = [Some(&*arguments.scene.file.scene), table.as_deref(), rows];
-    let mut files = arguments.force.files(read.into_iter().flatten());
+    let tables = sweep.files();
+    let read = [Some(&*arguments.scene.file.scene), rows].into_iter().flatten();
+    let mut files = arguments
+        .force
+        .files(read.chain(tables.iter().map(PathBuf::as_path)));
     files.output(&arguments.out, Format::of(&arguments.out)?.kind())?;
     #[cfg(feature = "plot")]
     let map = match &arguments.map {

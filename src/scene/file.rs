@@ -133,11 +133,11 @@ impl SceneFile {
         histogram::path(&self.name, &self.document)
     }
 
-    /// All keys and values of the file, its overrides and its table, without comments: two files with the same text make the same scenes.
+    /// All keys and values of the file and its overrides, without comments: two files with the same text make the same scenes, where what
+    /// they name is the same.
     #[cfg(feature = "sweep")]
     pub(crate) fn values(&self) -> String {
-        let table = self.histogram().and_then(|file| std::fs::read(file).ok());
-        format!("{:?}{:?}", self.document.root, table.unwrap_or_default())
+        format!("{:?}", self.document.root)
     }
 }
 

@@ -5,7 +5,6 @@ use super::grid::Sweep;
 use super::list;
 use super::numbers::si;
 use super::row::Row;
-use super::rows::distribution;
 use super::sink::{Cell, Column, Kind};
 use crate::Units;
 use crate::answer::si_of_field;
@@ -55,7 +54,10 @@ impl Sweep {
 
         let varied = self.axes.iter().map(|axis| match &axis.values {
             _ if axis.key == list::ID => column(&axis.key, Kind::Text),
-            AxisValues::List(list) if !list.iter().all(|value| is_number(&axis.key, value)) => {
+            // What is drawn is a number: a text beside it fails in its row.
+            AxisValues::List(list)
+                if !self.drawn_keys.contains(&axis.key) && !list.iter().all(|value| is_number(value)) =>
+            {
                 column(&axis.key, Kind::Text)
             }
             _ => Column {
@@ -99,6 +101,6 @@ impl Sweep {
 }
 
 /// Whether a cell stands for a number, or for none.
-fn is_number(key: &str, cell: &str) -> bool {
-    cell.is_empty() || si(cell).is_some() || distribution(key, cell).is_some()
+fn is_number(cell: &str) -> bool {
+    cell.is_empty() || si(cell).is_some()
 }

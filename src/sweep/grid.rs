@@ -1,5 +1,8 @@
 //! The points of a sweep: every combination of the values of its keys.
 
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+
 use super::axis::{Axis, AxisValues};
 use super::error::SweepError;
 use super::list;
@@ -30,6 +33,8 @@ pub struct Sweep {
     pub(super) count: usize,
     /// Whether a point takes one value of each key, those of a row, in place of every combination.
     pub(super) by_row: bool,
+    /// Keys that rows draw, here or in other parts of their table.
+    pub(super) drawn_keys: BTreeSet<String>,
 }
 
 impl Sweep {
@@ -78,6 +83,7 @@ impl Sweep {
             samples,
             count,
             by_row: false,
+            drawn_keys: BTreeSet::new(),
         };
         sweep.knows_keys(0)?;
         Ok(sweep)
@@ -179,12 +185,37 @@ impl Sweep {
         self.file.with(&overrides)
     }
 
-    /// What distinguishes this sweep from another: program, scene, keys and values.
+    /// The files that its scenes read beside their own: tables of axle loads.
+    pub fn files(&self) -> BTreeSet<PathBuf> {
+        let named = self
+            .axes
+            .iter()
+            .filter(|axis| matches!(&*axis.key, "traffic" | "traffic.histogram"));
+        let values: BTreeSet<String> = named
+            .flat_map(|axis| {
+                axis.list()
+                    .unwrap_or_default()
+                    .iter()
+                    .map(|value| format!("{}={value}", axis.key))
+            })
+            .collect();
+        let of_values = values
+            .iter()
+            .filter_map(|value| self.file.with(&[value]).ok()?.histogram());
+        self.file.histogram().into_iter().chain(of_values).collect()
+    }
+
+    /// What distinguishes this sweep from another: program, scene, keys, values, and what stands in the files that they name.
     pub(super) fn name(&self) -> u64 {
         let version = env!("CARGO_PKG_VERSION");
         let scene = self.file.values();
+        let files: Vec<_> = self
+            .files()
+            .into_iter()
+            .map(|file| std::fs::read(file).ok())
+            .collect();
         let text = format!(
-            "{version}\0{scene}\0{:?}\0{:?}\0{}",
+            "{version}\0{scene}\0{:?}\0{:?}\0{}\0{files:?}",
             self.axes, self.samples, self.by_row
         );
         checksum(text.as_bytes())

@@ -11,7 +11,11 @@ use super::table::Format;
 /// The column that is carried over: it names a row and is no key of a scene.
 pub const ID: &str = "id";
 
-/// The columns of the table in `file`, `.csv`, `.parquet` or `.xlsx`, each with a value a row; empty where the row has none.
+/// The columns of the table of ducts in `file`, `.csv`, `.parquet` or `.xlsx`, each with a value a row; empty where the row has none.
+///
+/// # Errors
+///
+/// [`SweepError::Rows`] where there is no such table, [`SweepError::Unfit`] where the name ends otherwise.
 pub fn read(file: &Path) -> Result<Vec<(String, Vec<String>)>, SweepError> {
     let name = file.display().to_string();
     let unreadable = |source| SweepError::Rows(name.clone(), source);
@@ -23,6 +27,9 @@ pub fn read(file: &Path) -> Result<Vec<(String, Vec<String>)>, SweepError> {
         Format::Xlsx => super::xlsx::read(file),
     }
     .map_err(unreadable)?;
+    if keys.is_empty() {
+        return Err(unreadable(Error::other("it is empty")));
+    }
     let column = |(index, key): (usize, String)| {
         let values = rows.iter().map(|row| row[index].clone()).collect();
         (key, values)

@@ -59,11 +59,11 @@ pub use distribution::Distribution;
 pub use error::SweepError;
 pub use evaluator::Evaluator;
 pub use grid::{Samples, Sweep};
+pub use list::read as read_rows;
 #[cfg(feature = "plot")]
 pub use map::{MapValue, SweepMap};
 pub use options::{Evaluate, SweepOptions};
 pub use row::{Answer, HeatAnswer, PointError, Row};
-pub use rows::drawn_keys;
 pub use run::SweepSummary;
 #[cfg(feature = "cli")]
 pub(crate) use table::Format;

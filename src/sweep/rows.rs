@@ -1,5 +1,6 @@
 //! Rows in place of a grid: each is a duct with its own values, and each may be sampled.
 
+use std::collections::{BTreeSet, HashSet};
 use std::path::Path;
 
 use super::axis::{Axis, AxisValues};
@@ -9,6 +10,8 @@ use super::grid::{Samples, Sweep};
 use super::list;
 use crate::SceneFile;
 
+/// Most samples of a row.
+const MOST_SAMPLES: usize = 1_000_000;
 /// Keys whose text is never a distribution.
 const NAMES: [&str; 3] = ["title", "name", list::ID];
 
@@ -17,17 +20,9 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Rows`] where there is no such table, and as for [`Sweep::of_table`]; [`SweepError::Unfit`] too where samples are asked
-    /// and nothing is drawn.
+    /// [`SweepError::Rows`] where there is no such table, and as for [`Sweep::of_table`].
     pub fn of_rows(file: SceneFile, table: &Path, samples: Samples) -> Result<Self, SweepError> {
-        let sweep = Self::of_table(file, list::read(table)?, samples)?;
-        if samples.count > 0 && !(0..sweep.rows()).any(|row| sweep.draws(row)) {
-            return Err(SweepError::Unfit {
-                found: "samples and no distribution".into(),
-                allowed: "a distribution with them, in a cell of the table or in the scene",
-            });
-        }
-        Ok(sweep)
+        Self::of_table(file, list::read(table)?, samples)
     }
 
     /// A table of ducts: a row is the scene in `file` with the values of the columns, which are named as keys and equally long. An empty cell
@@ -39,14 +34,43 @@ impl Sweep {
     ///
     /// # Errors
     ///
-    /// [`SweepError::Unfit`] where there is no key, no row, a column twice or a distribution without samples; [`SweepError::Cell`] where a
-    /// distribution is not written as it has to be; [`SweepError::Scene`] where a scene has no such key.
+    /// [`SweepError::Unfit`] where there is no key, no row, a column twice, a distribution without samples, more than a million samples, samples
+    /// without a distribution, or a row without an id whose number is another's id; [`SweepError::Cell`] where a distribution is not written as
+    /// it has to be; [`SweepError::Scene`] where a scene has no such key.
     pub fn of_table(
         file: SceneFile,
         columns: Vec<(String, Vec<String>)>,
         samples: Samples,
     ) -> Result<Self, SweepError> {
+        let sweep = Self::of_part(file, columns, samples, [])?;
+        if samples.count > 0 && sweep.drawn_keys.is_empty() {
+            return Err(SweepError::Unfit {
+                found: "samples and no distribution".into(),
+                allowed: "a distribution with them, in a cell of the table or in the scene",
+            });
+        }
+        Ok(sweep)
+    }
+
+    /// Some rows of a table of ducts, in which nothing needs to be drawn: `drawn` are the keys that others of its rows draw, and whose columns
+    /// hold numbers in all parts.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Sweep::of_table`], but for samples without a distribution.
+    pub fn of_part(
+        file: SceneFile,
+        columns: Vec<(String, Vec<String>)>,
+        samples: Samples,
+        drawn: impl IntoIterator<Item = String>,
+    ) -> Result<Self, SweepError> {
         let unfit = |found: String, allowed| Err(SweepError::Unfit { found, allowed });
+        if samples.count > MOST_SAMPLES {
+            return unfit(
+                format!("{} samples", samples.count),
+                "at most a million of each row",
+            );
+        }
         let mut axes: Vec<Axis> = Vec::with_capacity(columns.len());
         for (key, values) in columns {
             if axes.iter().any(|other| other.key == key) {
@@ -73,13 +97,15 @@ impl Sweep {
                 "a value a row, which may be empty",
             );
         }
-        let sweep = Self {
+        let mut sweep = Self {
             file,
             axes,
             samples,
             count,
             by_row: true,
+            drawn_keys: drawn.into_iter().collect(),
         };
+        sweep.check_ids()?;
         for axis in &sweep.axes {
             let given = axis
                 .list()
@@ -91,7 +117,38 @@ impl Sweep {
                 sweep.check_cell(&axis.key, value)?;
             }
         }
+        let own: BTreeSet<&str> = (0..rows).flat_map(|row| sweep.drawn(row)).collect();
+        let own: Vec<String> = own.into_iter().map(str::to_owned).collect();
+        sweep.drawn_keys.extend(own);
         Ok(sweep)
+    }
+
+    /// Refuses a row without an id whose number is the id of another: both would draw the same samples.
+    fn check_ids(&self) -> Result<(), SweepError> {
+        let ids = self
+            .axes
+            .iter()
+            .find(|axis| axis.key == list::ID)
+            .and_then(Axis::list);
+        let ids = ids.filter(|_| self.samples.count > 0).unwrap_or_default();
+        let known: HashSet<&str> = ids.iter().map(String::as_str).collect();
+        let unnamed = ids.iter().zip(0_usize..).filter(|(id, _)| id.is_empty());
+        let twice = unnamed
+            .map(|(_, row)| row.to_string())
+            .find(|row| known.contains(&**row));
+        twice.map_or(Ok(()), |row| {
+            Err(SweepError::Unfit {
+                found: format!(
+                    "the id `{row}`, by which a row without an id is known too, as its number from 0 is {row}"
+                ),
+                allowed: "an id in every row, or ids that are no such numbers",
+            })
+        })
+    }
+
+    /// The keys that rows draw, here or in the parts that [`Sweep::of_part`] was told of.
+    pub fn drawn_keys(&self) -> &BTreeSet<String> {
+        &self.drawn_keys
     }
 
     /// Refuses a distribution that is none, or that nobody draws from.
@@ -104,11 +161,6 @@ impl Sweep {
             Some(Err(error)) => Err(error),
             _ => Ok(()),
         }
-    }
-
-    /// How many rows there are.
-    pub(super) fn rows(&self) -> usize {
-        self.count / self.samples.count.max(1)
     }
 
     /// What names a row: its `id`, or else its number.
@@ -147,10 +199,6 @@ impl Sweep {
                     && other.list().is_some_and(|list| !list[row].is_empty())
             })
     }
-
-    fn draws(&self, row: usize) -> bool {
-        self.drawn(row).next().is_some()
-    }
 }
 
 impl Axis {
@@ -180,18 +228,6 @@ pub fn distribution(key: &str, text: &str) -> Option<Result<Distribution, SweepE
         found: text.to_owned(),
         allowed,
     }))
-}
-
-/// The keys for which `file` holds a distribution: each row that has no value of its own draws them.
-///
-/// # Errors
-///
-/// [`SweepError::Cell`] where a distribution is not written as it has to be.
-pub fn drawn_keys(file: &SceneFile) -> Result<Vec<String>, SweepError> {
-    let texts = file.texts().into_iter();
-    texts
-        .filter_map(|(key, text)| Some(distribution(&key, &text)?.map(|_| key)))
-        .collect()
 }
 
 /// The scene with the median where a distribution stood: that one is drawn in rows that have no value of their own.

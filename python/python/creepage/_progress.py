@@ -2,10 +2,16 @@
 
 from typing import Any, Callable, Optional
 
+from ._errors import InputError
+
 
 def callback(progress: Any) -> Optional[Callable[[float], Any]]:
     """What is called with the share that is done. A bar of tqdm shows it as a percentage."""
-    if progress is None or not hasattr(progress, "refresh"):
+    if progress is None:
+        return None
+    if not hasattr(progress, "refresh"):
+        if not callable(progress):
+            raise InputError(f"found progress = {progress!r}; allowed: a function of the share that is done, or a bar of tqdm")
         return progress
     bar = progress
     bar.total = 100

@@ -4,9 +4,11 @@ import html
 import json
 import os
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import Any, Optional
 
 from . import _creepage
+from ._arguments import LARGEST_SEED, MOST_SAMPLES, threads_of, whole
 from ._errors import InputError
 from ._progress import callback
 from ._scene import Scene, Source, source
@@ -62,7 +64,7 @@ def run(
     Raises InputError or ComputationError, with ``line`` and ``key`` where a key of the scene is at fault.
     """
     own = source(scene, overrides)
-    return Run(json.loads(_creepage.run(own, verify, (_threads(threads), callback(progress)))), own)
+    return Run(json.loads(_creepage.run(own, bool(verify), (threads_of(threads), callback(progress)))), own)
 
 
 def sweep(
@@ -84,8 +86,10 @@ def sweep(
 
     A row that fails has its error in the column ``error``. Raises as run does.
     """
-    call = (_threads(threads), callback(progress))
-    table = _creepage.sweep(source(scene, overrides), _stream(rows), samples, seed, call)
+    call = (threads_of(threads), callback(progress))
+    samples = whole("samples", samples, 0, MOST_SAMPLES)
+    seed = whole("seed", seed, 0, LARGEST_SEED)
+    table = _creepage.sweep(source(scene, overrides), _stream(rows), samples, seed, None, call)
     return _as_given(rows, table)
 
 
@@ -108,19 +112,19 @@ def calibrate(
     """
     if isinstance(rows, (str, os.PathLike)):
         name = os.fspath(rows)
-        with open(name, "rb") as file:
-            readings = file.read()
+        try:
+            readings = Path(name).read_bytes()
+        except (OSError, ValueError) as error:
+            raise InputError(f"{name}: found no readings that can be read: {error}; allowed: a table of them", file=name) from error
     else:
         name, readings = "rows", _csv(rows)
-    call = (_threads(threads), callback(progress))
+    call = (threads_of(threads), callback(progress))
+    seed = whole("seed", seed, 0, LARGEST_SEED)
+    if bootstrap is not None:
+        bootstrap = whole("bootstrap", bootstrap, 1, MOST_SAMPLES)
     own = source(scene, overrides)
-    return json.loads(_creepage.calibrate(own, name, readings, list(fit), robust, bootstrap, seed, call))
-
-
-def _threads(threads: Optional[int]) -> Optional[int]:
-    if threads is not None and threads < 1:
-        raise InputError(f"found threads = {threads}; allowed: 1 or more, or None for all cores")
-    return threads
+    names = [fit] if isinstance(fit, str) else [str(name) for name in fit or ()]
+    return json.loads(_creepage.calibrate(own, name, readings, names, bool(robust), bootstrap, seed, call))
 
 
 def _stream(rows: Any) -> Any:
