@@ -421,3 +421,29 @@ fn a_sequence_longer_than_a_day_is_answered() {
             .any(|warning| warning.contains("began the sequence anew"))
     );
 }
+
+/// With few real periods a day this short duct never comes to days that are alike: it takes more of them, and many days end as few do.
+#[test]
+fn days_that_few_real_periods_keep_restless_settle_with_more() {
+    let restless = [
+        "duct = { length = 4.2, depth = 2.2, slope = -0.06 }",
+        "ground = { layers = [{ thickness = 0.1, young_modulus = \"37 MPa\", poisson_ratio = 0.4 }, \
+         { thickness = 0.4, young_modulus = \"0.1 MPa\", poisson_ratio = 0.4 }, { young_modulus = \"130 MPa\", poisson_ratio = 0.27 }] }",
+        "cable = { weight = 390, axial_stiffness = 1.1e8 }",
+        "friction = { law = \"coulomb\", dynamic_coefficient = 0.18 }",
+        "ends = { upstream = { spring = 5e4 }, downstream = { spring = 3e6 } }",
+        "heat = { expansion = 16e-6, daily_swing = 11.5 }",
+        "solver = { tolerance = 0.03 }",
+    ];
+    let lived = |passes: &str| run(&[&restless[..], &[passes]].concat());
+    let few = lived("traffic = { passes = 2780, per_day = 278 }");
+    let many = lived("traffic = { passes = 1112000, per_day = 278 }");
+    let allowed = few.error_estimate.relative + many.error_estimate.relative;
+    let (few, many) = (day(&few, 10), day(&many, 4000));
+    for (few, many) in [
+        (few.downstream_max_n, many.downstream_max_n),
+        (few.downstream_min_n, many.downstream_min_n),
+    ] {
+        assert!((few / many - 1.0).abs() < allowed, "{few} {many} {allowed}");
+    }
+}

@@ -5,6 +5,7 @@
 //! doubled on a coarse mesh until twice as many change little; then meshes are refined as for every run.
 
 use cable_dem::{CableError, Statistics};
+use cycle_jump::JumpError;
 
 use super::judge::{judge, mesh_reason};
 use super::lived::{Lived, Living};
@@ -100,20 +101,25 @@ impl Living<'_> {
         let mut level = self.first_level();
         let Found { knots, left, coarse } = self.knots(level, &mut statistics)?;
         error.temperature = left;
-        let coarse = coarse
+        let mut coarse = coarse
             .filter(|(coarse, _)| coarse + 1 == level)
             .map(|(_, lived)| lived);
         let known = coarse.is_some();
         let mut parts = self.progress.part(FINDING, 1.0).refining();
-        let now = parts();
-        let (mut below, mut finest) = both(
-            || match (coarse, level.checked_sub(1)) {
-                (None, Some(below)) => self.on_coarse(below, knots),
-                (coarse, _) => Ok(coarse),
-            },
-            || self.live(level, knots, now),
-        )?;
-        if let Some(below) = below.as_ref().filter(|_| !known) {
+        let found = knots;
+        let (knots, (mut below, mut finest)) = self.settling(knots, |knots| {
+            // With as many real periods a day as they were found with.
+            let known = coarse.take();
+            let now = parts();
+            both(
+                || match (known, level.checked_sub(1)) {
+                    (None, Some(below)) => self.on_coarse(below, knots),
+                    (known, _) => Ok(known),
+                },
+                || self.live(level, knots, now),
+            )
+        })?;
+        if let Some(below) = below.as_ref().filter(|_| !known || knots != found) {
             statistics += below.passes.statistics;
         }
         loop {
@@ -165,6 +171,22 @@ impl Living<'_> {
             statistics,
             random: None,
         })
+    }
+
+    /// What `days` come to with so many real periods a day, `knots` at least, that each becomes like the one before: too few never settle.
+    fn settling<T>(
+        &self,
+        mut knots: u64,
+        mut days: impl FnMut(u64) -> Result<T, Error>,
+    ) -> Result<(u64, T), Error> {
+        loop {
+            match days(knots) {
+                Err(Error::Jumps(JumpError::NeverPeriodic { .. })) if !self.day(knots).is_simulated() => {
+                    knots *= 2
+                }
+                days => return Ok((knots, days?)),
+            }
+        }
     }
 
     /// Place in [`TYPICAL`] of the mesh of `level`.
@@ -241,12 +263,12 @@ impl Living<'_> {
             return Ok(Found::exact(all));
         }
         let allowed = Shares::both(SHARE * self.plan.scene.solver.tolerance);
-        let mut knots = FIRST_KNOTS;
-        let (level, mut fewer) = self.coarse(level, knots)?;
+        let (mut knots, (level, mut fewer)) =
+            self.settling(FIRST_KNOTS, |knots| self.coarse(level, knots))?;
         let mut parts = self.progress.part(0.0, FINDING).halving();
         *statistics += fewer.passes.statistics;
         loop {
-            let more = self.live(level, 2 * knots, parts())?;
+            let (doubled, more) = self.settling(2 * knots, |knots| self.live(level, knots, parts()))?;
             *statistics += more.passes.statistics;
             let difference = self.difference(&more, &fewer);
             if difference.times(CAUTION).is_within(allowed) {
@@ -256,7 +278,7 @@ impl Living<'_> {
                     coarse: Some((level, fewer)),
                 });
             }
-            knots *= 2;
+            knots = doubled;
             if self.day(knots).is_simulated() {
                 return Ok(Found::exact(knots));
             }

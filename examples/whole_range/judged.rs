@@ -1,0 +1,189 @@
+//! What a run makes of a scene, and whether that can be true.
+
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::{Duration, Instant};
+
+use creepage::scene::End;
+use creepage::{Error, PassRecord, Progress, Run, RunOptions, Scene};
+
+/// Scenes that are foreseen to take longer \[s\] are not run.
+const LONGEST: f64 = 10.0;
+/// A run may take so many times what is foreseen, and this much in any case \[nodes\].
+const TIMES: f64 = 3.0;
+const NEGLIGIBLE: f64 = 5e7;
+/// Time after which a run that was to take less than [`LONGEST`] is given up.
+const GIVEN_UP: Duration = Duration::from_secs(60);
+/// Interpolation of forces within jumps, as a share of the largest.
+const ROUNDING: f64 = 0.01;
+/// A fixed end stays where it is \[m\].
+const STILL: f64 = 1e-9;
+
+/// What comes of a scene.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Outcome {
+    /// An answer that can be true.
+    Right,
+    /// An answer that cannot, or a panic.
+    Wrong(String),
+    /// The scene is wrong.
+    Input(String),
+    /// No answer within 10 %, or none that jumps find.
+    Refused(String),
+    /// More work than three times what was foreseen.
+    Late(String),
+    /// Foreseen to take too long for this test.
+    Long(f64),
+}
+
+impl Outcome {
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Wrong(_) => "wrong",
+            Self::Input(_) => "input",
+            Self::Refused(_) => "refused",
+            Self::Late(_) => "late",
+            Self::Long(_) => "long",
+        }
+    }
+}
+
+/// What comes of the scene `text`, and its error as a share of the forces where there is an answer.
+pub fn judged(text: &str) -> (Outcome, Option<f64>) {
+    match catch_unwind(AssertUnwindSafe(|| outcome(text))) {
+        Ok(judged) => judged,
+        Err(_) => (Outcome::Wrong("panic".to_owned()), None),
+    }
+}
+
+fn outcome(text: &str) -> (Outcome, Option<f64>) {
+    let scene = match Scene::from_toml("scene.toml", text) {
+        Ok(scene) => scene,
+        Err(error) => return (Outcome::Input(error.to_string()), None),
+    };
+    let foreseen = creepage::plan(&scene).and_then(|plan| creepage::forecast(&plan));
+    let foreseen = match foreseen {
+        Ok(foreseen) => foreseen,
+        Err(error) => return (refused(&error), None),
+    };
+    if foreseen.seconds > LONGEST {
+        return (Outcome::Long(foreseen.seconds), None);
+    }
+    let run = match run(&scene) {
+        Ok(run) => run,
+        Err(Error::Stopped) => return (Outcome::Late(format!("foreseen {:.1} s", foreseen.seconds)), None),
+        Err(error) => return (refused(&error), None),
+    };
+    let stated = Some(run.error_estimate.relative);
+    if let Err(reason) = possible(&scene, &run) {
+        return (Outcome::Wrong(reason), stated);
+    }
+    let taken = run.cost.node_updates as f64;
+    if taken > TIMES * foreseen.node_updates + NEGLIGIBLE {
+        let late = format!("{taken:.2e} nodes, foreseen {:.2e}", foreseen.node_updates);
+        return (Outcome::Late(late), stated);
+    }
+    (Outcome::Right, stated)
+}
+
+/// The run of a scene, given up after a minute.
+pub fn run(scene: &Scene) -> Result<Run, Error> {
+    let begun = Instant::now();
+    let watch = |_: f64| {
+        if begun.elapsed() > GIVEN_UP {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    };
+    let options = RunOptions {
+        progress: Progress::new(&watch),
+        ..RunOptions::default()
+    };
+    creepage::run_with(scene, &options)
+}
+
+fn refused(error: &Error) -> Outcome {
+    match error {
+        Error::Scene(_) | Error::Unfit { .. } | Error::TooManyNodes { .. } => {
+            Outcome::Input(error.to_string())
+        }
+        _ => Outcome::Refused(error.to_string()),
+    }
+}
+
+/// Whether an answer can be true; else why not.
+fn possible(scene: &Scene, run: &Run) -> Result<(), String> {
+    let stated = run.error_estimate.relative;
+    let allowed = scene.solver.tolerance.max(0.1);
+    if !(0.0..=allowed).contains(&stated) {
+        return Err(format!("an error of {stated}"));
+    }
+    let (first, last) = (&run.passes[0], &run.passes[run.passes.len() - 1]);
+    if (first.pass, last.pass) != (1, scene.traffic.passes) {
+        return Err("passes are missing".to_owned());
+    }
+    let largest = run.passes.iter().map(largest).fold(1e-9, f64::max);
+    for (index, record) in run.passes.iter().enumerate() {
+        let clamps = run
+            .restraints
+            .iter()
+            .map(|clamp| clamp.after_passes_n[index].abs());
+        can_be(scene, record, clamps.sum(), largest).map_err(|why| format!("pass {}: {why}", record.pass))?;
+    }
+    Ok(())
+}
+
+fn largest(record: &PassRecord) -> f64 {
+    let forces = [
+        record.upstream_force_n,
+        record.downstream_force_n,
+        record.max_compression_n,
+    ];
+    forces.into_iter().fold(0.0, |most, force| most.max(force.abs()))
+}
+
+/// Each end carries what holds it, and both together no more than friction, weight and `clamps` leave between them.
+fn can_be(scene: &Scene, record: &PassRecord, clamps: f64, largest: f64) -> Result<(), String> {
+    let numbers = [
+        record.upstream_peak_n,
+        record.downstream_peak_n,
+        record.upstream_displacement_m,
+        record.downstream_displacement_m,
+    ];
+    if numbers.iter().any(|number| !number.is_finite()) {
+        return Err("what is not finite".to_owned());
+    }
+    let ends = [
+        (
+            scene.ends.upstream,
+            record.upstream_force_n,
+            -record.upstream_displacement_m,
+        ),
+        (
+            scene.ends.downstream,
+            record.downstream_force_n,
+            record.downstream_displacement_m,
+        ),
+    ];
+    for (end, force, inward) in ends {
+        let holds = match end {
+            End::Free => force.abs() <= ROUNDING * largest,
+            End::Fixed => inward.abs() <= STILL,
+            End::Spring(stiffness) => (force - stiffness * inward).abs() <= ROUNDING * largest,
+        };
+        if !holds {
+            return Err(format!("{end:?} with {force} N at {inward} m"));
+        }
+    }
+    let friction = scene.friction.dynamic_coefficient * scene.cable.normal_load();
+    let slope = scene.duct.slope.atan();
+    let weight = scene.cable.weight * slope.sin().abs();
+    let carried = (friction + weight) * scene.duct.length + clamps;
+    let between = (record.downstream_force_n - record.upstream_force_n).abs();
+    if between > (1.0 + ROUNDING) * carried {
+        return Err(format!("{between} N between the ends, {carried} N at most"));
+    }
+    Ok(())
+}
