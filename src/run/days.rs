@@ -182,7 +182,7 @@ impl Living<'_> {
         loop {
             match days(knots) {
                 Err(Error::Jumps(JumpError::NeverPeriodic { .. })) if !self.day(knots).is_simulated() => {
-                    knots *= 2
+                    knots *= 2;
                 }
                 days => return Ok((knots, days?)),
             }
