@@ -81,7 +81,13 @@ fn rows(numbers: std::ops::Range<u64>) -> Result<Vec<Row>, Box<dyn std::error::E
     let next = || Some(next.fetch_add(1, Ordering::Relaxed)).filter(|number| *number < numbers.end);
     let own = || {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
-        Ok(pool.install(|| std::iter::from_fn(next).map(row).collect()))
+        let told = |number| {
+            eprintln!("scene {number} begins");
+            let row = row(number);
+            eprintln!("scene {number}: {}, {:.1} s", row.outcome.name(), row.seconds);
+            row
+        };
+        Ok(pool.install(|| std::iter::from_fn(next).map(told).collect()))
     };
     let cores = available_parallelism()?.get();
     let mut rows = scope(|threads| {

@@ -149,7 +149,7 @@ fn held(draw: &mut Draw, text: &mut String, length: f64) {
         line(text, end, held);
     }
     if draw.chance(0.2) {
-        for _ in 0..1 + draw.rng.u8(..4) {
+        for _ in 0..=draw.rng.u8(..4) {
             text.push_str("[[restraints]]\n");
             let position = draw.between([0.0, length]);
             line(text, "position", position);

@@ -20,7 +20,7 @@ use super::work::Work;
 use crate::answer::error_estimate::{Scale, Shares, is_doubtful};
 use crate::answer::simulated;
 use crate::ground::{peak, road};
-use crate::plan::{PassMethod, Plan};
+use crate::plan::{CableMethod, PassMethod, Plan};
 use crate::scene::Order;
 use crate::{Error, Progress, Scene};
 
@@ -33,6 +33,10 @@ const PERIODS: f64 = 100.0;
 /// The first passes, by which two meshes are compared: so many periods, and passes at most.
 const EARLY_PERIODS: u64 = 8;
 const EARLY_PASSES: u64 = 16;
+/// A run with inertia that is to take longer than this on one mesh \[s\] is not tried: even its first passes take long. It is expected to take
+/// so many times that, on two meshes and where its jumps are looked for.
+const LONGEST_PROBE: f64 = 10.0;
+const MESHES: f64 = 2.0;
 /// Periods after which jumps do not get on.
 const PATIENCE: u64 = 400;
 /// What a process takes besides \[s\].
@@ -76,6 +80,12 @@ pub fn forecast(plan: &Plan<'_>) -> Result<Forecast, Error> {
     if let Some(heat) = plan.scene.warming() {
         let (work, level) = days::outlook(plan, heat, method)?;
         return Ok(told(work, level));
+    }
+    let cable = method.cable_method();
+    let expected = plan.choice.estimates.seconds(method);
+    if cable != CableMethod::QuasiStatic && expected > LONGEST_PROBE {
+        let work = Work::of_time(expected * MESHES, cable);
+        return Ok(told(work, plan.levels.first()));
     }
     let outlook = match Probe::new(plan, method).outlook() {
         // The run simulates every pass then.

@@ -31,14 +31,24 @@ impl Work {
         ])
     }
 
+    /// Node updates that take so much processor time \[s\].
+    pub fn of_time(seconds: f64, method: CableMethod) -> Self {
+        let mut work = Self::default();
+        work.0[0] = seconds / Self::cost(method).0[0];
+        work
+    }
+
     /// Processor time \[s\].
     pub fn seconds(self, method: CableMethod) -> f64 {
-        let cost = match method {
+        (self * Self::cost(method)).0.iter().sum()
+    }
+
+    fn cost(method: CableMethod) -> Self {
+        match method {
             CableMethod::QuasiStatic => SECONDS,
             CableMethod::Dynamic => DYNAMIC,
             CableMethod::Explicit => EXPLICIT,
-        };
-        (self * cost).0.iter().sum()
+        }
     }
 
     /// On a mesh so many levels finer.

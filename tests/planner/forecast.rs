@@ -94,3 +94,23 @@ fn forecasts_on_many_scenes() {
     assert!(share(&all, |ratio| ratio < 2.0) >= 0.9);
     assert!(share(&all, |ratio| (1.0 / 3.0..3.0).contains(&ratio)) >= 0.85);
 }
+
+/// Where even the first passes take minutes, as with inertia in a duct of a kilometre, nothing is tried: the forecast is an estimate.
+#[test]
+fn hours_with_inertia_are_foreseen_at_once() {
+    let long = r#"
+        duct = { length = 1000, depth = 0.7 }
+        ground = { layers = [{ young_modulus = "100 MPa", poisson_ratio = 0.4 }] }
+        cable = { weight = 25, axial_stiffness = 2e7 }
+        friction = { law = "coulomb", dynamic_coefficient = 0.3 }
+        ends = { upstream = "free", downstream = "fixed" }
+        vehicles = [{ speed = 10, load = "20 tf" }]
+        traffic = { passes = 100000 }
+        solver = { method = "explicit" }
+    "#;
+    let scene = Scene::from_toml("scene", long).expect("a valid scene");
+    let begun = std::time::Instant::now();
+    let forecast = creepage::forecast(&creepage::plan(&scene).expect("a plan")).expect("a forecast");
+    assert!(forecast.seconds > 3600.0, "{forecast:?}");
+    assert!(begun.elapsed().as_secs() < 10);
+}
