@@ -108,7 +108,7 @@ fn row(number: u64) -> Row {
     let (outcome, stated) = judged(&text);
     let seconds = begun.elapsed().as_secs_f64();
     let is_answer = matches!(outcome, Outcome::Right | Outcome::Late(_)) && stated.is_some();
-    let off = if is_answer && number % AGAIN == 0 {
+    let off = if is_answer && number.is_multiple_of(AGAIN) {
         again(&text)
     } else {
         None
