@@ -70,7 +70,7 @@ pub fn solve(
 pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<(Work, usize), Error> {
     let living = Living::new(plan, heat, false, Progress::default());
     let level = living.first_level();
-    let (coarse, lived) = living.coarse(level, FIRST_KNOTS)?;
+    let (_, (coarse, lived)) = living.settling(FIRST_KNOTS, |knots| living.coarse(level, knots))?;
     let periods = lived.passes.simulated as f64;
     let nodes = plan.levels.mesh(coarse)?.nodes();
     let work = Work::new(&lived.passes.statistics, nodes, periods, 0.0);
