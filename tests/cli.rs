@@ -300,7 +300,7 @@ fn years_and_vehicles_a_day_give_the_passes_a_time() {
     assert_fails(
         &["run", UPPER, "--years", "-1", "--trucks-per-day", "3"],
         2,
-        &["`traffic.years`"],
+        &["'-1' for '--years <N>'"],
     );
     let few = printed(&["run", UPPER, "--trucks-per-day", "2", "--set", "traffic.passes=3"]);
     assert!(few.contains("        3   1.5 days"), "{few}");
@@ -782,7 +782,7 @@ fn presets_are_listed_with_their_sources() {
         "{one}"
     );
     assert_eq!(json(&["presets", "t-25"]).as_array().map(Vec::len), Some(1));
-    assert_fails(&["presets", "t-52"], 2, &["`t-52`", "allowed: t-25"]);
+    assert_fails(&["presets", "t-52"], 2, &["`t-52`", "lists: t-25"]);
 }
 
 // sweep
