@@ -51,16 +51,16 @@ weight = "110 N/m" → weight = "11 kg/m" | 17 | `cable.weight`: unknown unit `k
 axial_stiffness = "60 MN" → axial_stiffness = "60 kN" | 18 | `cable.axial_stiffness` is 0.06 MN, but that of power cables is from 0.5 to 1000 MN
 axial_stiffness = "60 MN" → axial_stiffness = 8e9 | 18 | `cable.axial_stiffness` is 8000 MN
 weight = "110 N/m" → weight = "1088 N/m" | 17 | `cable.weight` is 1088 N/m, but that of power cables is from 5 to 600 N/m
-load = "50 kN" → load = "2500 kN" | 31 | `vehicles.0.wheels.0.load` is 2500 kN, but a wheel on a road carries from 1 to 200 kN
+load = "50 kN" → load = "2500 kN" | 31 | `vehicles.0.wheels.0.load` (vehicle 1, wheel 1) is 2500 kN, but a wheel on a road carries from 1 to 200 kN
 length = "180 m" → length = "1 m" | 5 | `duct.depth` is 1.3 m, more than the duct is long, 1 m: were they exchanged?
-young_modulus = "4000 MPa" → young_modulus = "3 MPa" | 9 | of the first layer, is 27 times less than that of the last, 80 MPa: layers stand from the top down
-speed = "50 km/h" → speed = "500 km/h" | 30 | `vehicles.0.speed` is 500 km/h, but trucks drive at 20 to 100 km/h
+young_modulus = "4000 MPa" → young_modulus = "3 MPa" | 9 | `ground.layers.0.young_modulus` (layer 1) is 27 times less than that of the last layer, 80 MPa: layers stand from the top down
+speed = "50 km/h" → speed = "500 km/h" | 30 | `vehicles.0.speed` (vehicle 1) is 500 km/h, but trucks drive at 20 to 100 km/h
 speed = "50 km/h" → speed = "30 mi/h" | 30 | unknown unit `mi/h`: found "30 mi/h" (did you mean `mph`?)
 axial_stiffness = "60 MN" → axial_stiffness = "120 GPa" | 18 | `cable.axial_stiffness`: wrong dimension: found "120 GPa", a pressure or modulus; allowed: a force
-speed = "50 km/h" → speed = 50 | 30 | `vehicles.0.speed`: 50 without a unit is 50 m/s, 180 km/h: did you mean "50 km/h"?
-load = 50e3 → load = 5 | 31 | `vehicles.0.wheels.1.load`: 5 without a unit is 5 N | did you mean "5 tf" or "5 kN"?
+speed = "50 km/h" → speed = 50 | 30 | `vehicles.0.speed` (vehicle 1): 50 without a unit is 50 m/s, 180 km/h: did you mean "50 km/h"?
+load = 50e3 → load = 5 | 31 | `vehicles.0.wheels.1.load` (vehicle 1, wheel 2): 5 without a unit is 5 N | did you mean "5 tf" or "5 kN"?
 load = "50 kN" → load = "5 t" | 31 | unknown unit `t`: found "5 t" (did you mean `tf`?)
-contact_radius = "0.15 m" → contact_radius = 15 | 31 | `vehicles.0.wheels.0.contact_radius` is 15 m: that of tyres is from 0.1 to 0.3 m
+contact_radius = "0.15 m" → contact_radius = 15 | 31 | `vehicles.0.wheels.0.contact_radius` (vehicle 1, wheel 1) is 15 m: that of tyres is from 0.1 to 0.3 m
 shape_factor = "7e6 1/m" → shape_factor = 7 | 22 | `friction.shape_factor` is 7 1/m: friction builds up over 285.7 mm
 depth = "1.3 m" → depth = 130 | 5 | `duct.depth` is 130 m, but ducts lie below roads at depths from 0.2 to 20 m
 depth = "1.3 m" → depth = "130 mm" | 5 | `duct.depth` is 0.13 m
@@ -71,7 +71,7 @@ passes = 20 → passes = "292 000" | 34 | `traffic.passes`: found the text "292 
 passes = 20 → per_day = 800¶years = "20 years" | 35 | `traffic.years`: found the text "20 years"; allowed: 20: a number
 passes = 20 → per_day = 800¶years = 2026 | 33 | lasts 2026 years | a number of years, not a date
 passes = 20 → passes = 20¶per_day = 5844000 | 35 | `traffic.per_day` is 5844000: no road has more than 200000 vehicles a day
-poisson_ratio = 0.4 → poisson_ratio = 40 | 14 | `ground.layers.1.poisson_ratio`: out of range: found 40; allowed: a number from 0 to 0.5 | did you mean 0.4?
+poisson_ratio = 0.4 → poisson_ratio = 40 | 14 | `ground.layers.1.poisson_ratio` (layer 2): out of range: found 40; allowed: a number from 0 to 0.5 | did you mean 0.4?
 dynamic_coefficient = 0.3 → dynamic_coefficient = 30 | 21 | found 30; allowed: a number from 0 to 10 | did you mean 0.3?
 [[ground.layers]]  # soil → [[ground.layer]] | 12 | unknown key `ground.layer` (did you mean `layers`?)
 [[vehicles]] → [[vehicle]] | 28 | unknown key `vehicle` (did you mean `vehicles`?)
@@ -88,8 +88,8 @@ load = 50e3 → load = "5000 kg" | 31 | unknown unit `kg`: found "5000 kg" (did 
 passes = 20 → passes = 20¶[solver]¶tolerance = 5 | 36 | found 5; allowed: a ratio greater than 0 and at most 0.5 | did you mean "5 %"?
 dynamic_coefficient = 0.3 → mu = 0.3 | 21 | unknown key `friction.mu` (did you mean `dynamic_coefficient`?)
 axial_stiffness = "60 MN" → EA = "60 MN" | 18 | unknown key `cable.EA` (did you mean `axial_stiffness`?)
-young_modulus = "80 MPa" → E = "80 MPa" | 13 | unknown key `ground.layers.1.E` (did you mean `young_modulus`?)
-speed = "50 km/h" → velocity = "50 km/h" | 30 | unknown key `vehicles.0.velocity` (did you mean `speed`?)
+young_modulus = "80 MPa" → E = "80 MPa" | 13 | unknown key `ground.layers.1.E` (layer 2) (did you mean `young_modulus`?)
+speed = "50 km/h" → velocity = "50 km/h" | 30 | unknown key `vehicles.0.velocity` (vehicle 1) (did you mean `speed`?)
 passes = 20 → years = 20¶trucks_per_day = 800 | 35 | unknown key `traffic.trucks_per_day` (did you mean `per_day`?)
 length = "180 m" → length = "180 m"¶diameter = "200 mm" | 5 | unknown key `duct.diameter` (did you mean `inner_diameter`?)
 depth = "1.3 m" → Depth = "1.3 m" | 5 | unknown key `duct.Depth` (did you mean `depth`?)

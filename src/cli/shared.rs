@@ -215,7 +215,7 @@ impl Input {
         key.is_some_and(|key| {
             self.warnings
                 .iter()
-                .any(|slip| slip.contains(&format!("`{key}`: ")))
+                .any(|slip| slip.contains(&format!("`{key}`")))
         })
     }
 }

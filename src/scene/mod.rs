@@ -42,6 +42,7 @@
 //! ```
 
 mod arrangement;
+mod counted;
 mod data;
 mod document;
 mod error;
