@@ -300,7 +300,7 @@ fn years_and_vehicles_a_day_give_the_passes_a_time() {
     assert_fails(
         &["run", UPPER, "--years", "-1", "--trucks-per-day", "3"],
         2,
-        &["`traffic.years`"],
+        &["'-1' for '--years <N>'"],
     );
     let few = printed(&["run", UPPER, "--trucks-per-day", "2", "--set", "traffic.passes=3"]);
     assert!(few.contains("        3   1.5 days"), "{few}");
@@ -782,7 +782,7 @@ fn presets_are_listed_with_their_sources() {
         "{one}"
     );
     assert_eq!(json(&["presets", "t-25"]).as_array().map(Vec::len), Some(1));
-    assert_fails(&["presets", "t-52"], 2, &["`t-52`", "allowed: t-25"]);
+    assert_fails(&["presets", "t-52"], 2, &["`t-52`", "lists: t-25"]);
 }
 
 // sweep
@@ -1513,7 +1513,8 @@ fn bare_numbers_that_look_like_slips_are_told() {
     assert_eq!(output.status.code(), Some(0));
     let errors = String::from_utf8(output.stderr).expect("UTF-8");
     let run: Value = serde_json::from_slice(&output.stdout).expect("JSON and nothing else");
-    let warning = "`vehicles.0.speed`: 40 without a unit is 40 m/s, 144 km/h: did you mean \"40 km/h\"?";
+    let warning =
+        "`vehicles.0.speed` (vehicle 1): 40 without a unit is 40 m/s, 144 km/h: did you mean \"40 km/h\"?";
     assert!(errors.contains(warning) && errors.contains("^^"), "{errors}");
     assert!(
         run["warnings"][0].as_str().expect("a text").ends_with(warning),

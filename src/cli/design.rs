@@ -13,7 +13,8 @@ use super::progress::{HowFar, stopped, watched};
 use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
 use crate::design::{Design, DesignError, DesignOptions, Place, TradeOff, best, design, sort};
-use crate::scene::{End, Restraint};
+use crate::scene::{End, Restraint, did_you_mean, nearest};
+use crate::shown::exact;
 use crate::{Limits, Scene};
 
 #[derive(Debug, clap::Args)]
@@ -41,7 +42,7 @@ pub struct Arguments {
     limits: LimitArguments,
     /// Where the spring is: upstream, downstream (at these ends), or a position for a clamp, "95 m"; two at once with + between them,
     /// upstream+downstream. Repeated, each is designed by itself, and they are compared
-    #[arg(long, value_name = "PLACE[+PLACE]", default_value = "downstream", value_parser = places)]
+    #[arg(long, value_name = "PLACE[+PLACE]", default_value = "downstream", allow_hyphen_values = true, value_parser = places)]
     at: Vec<Places>,
     #[command(flatten)]
     json: Json,
@@ -60,7 +61,10 @@ fn places(text: &str) -> Result<Places, String> {
     };
     let alone = one(text).map(|place| Places(place, None));
     alone.or_else(two).ok_or_else(|| {
-        "allowed: upstream, downstream or a position such as \"20 m\", or two of these with + between them".to_owned()
+        let mut wrong = text.split('+').filter(|text| one(text).is_none());
+        let meant = wrong.find_map(|text| nearest(text.trim(), ["upstream", "downstream"]));
+        let meant = did_you_mean(meant);
+        format!("found `{text}`{meant}; allowed: upstream, downstream or a position such as \"20 m\", or two of these with + between them")
     })
 }
 
@@ -101,6 +105,18 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     arguments.limits.warn_of_slips();
     let ways = &arguments.at;
     let everywhere: Vec<Place> = ways.iter().flat_map(|way| way.all()).collect();
+    let length = input.scene.duct.length;
+    for place in &everywhere {
+        if let Place::Clamp(position) = place
+            && !(0.0..=length).contains(position)
+        {
+            return Err(Failure::Usage {
+                argument: "--at",
+                found: format!("{} m", exact(*position)),
+                allowed: format!("a position in the duct, from 0 m to {} m", exact(length)),
+            });
+        }
+    }
     let limits = |way: &Places| -> Result<Limits, Failure> {
         let limits = arguments
             .limits
@@ -110,7 +126,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         }
         Err(Failure::Usage {
             argument: "--limit-force",
-            found: "no limit of an end that is held".into(),
+            found: if arguments.limits.are_given() {
+                "no limit of an end that is held".into()
+            } else {
+                "no limit".into()
+            },
             allowed: "a force or a movement, such as --limit-force 2kN or --limit-movement upstream=10mm"
                 .into(),
         })

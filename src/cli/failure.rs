@@ -1,12 +1,9 @@
 //! What keeps a command from finishing, what is printed then, and the exit status.
 
-use std::ffi::OsString;
 use std::io::{self, Write};
-use std::path::Path;
 use std::process::ExitCode;
 
-use clap::error::ErrorKind;
-
+use super::advice::advice;
 use super::terminal;
 use crate::output::OutputError;
 
@@ -79,63 +76,25 @@ impl Failure {
     }
 }
 
-/// Prints help, or what is wrong with the arguments.
-pub fn unparsed(error: &clap::Error) -> Result<(), Failure> {
+/// Prints help, or what is wrong with the arguments of `program`.
+pub fn unparsed(mut error: clap::Error, program: &clap::Command) -> Result<(), Failure> {
     if !error.use_stderr() {
         return Ok(error.print()?);
     }
+    let arguments: Vec<String> = std::env::args_os()
+        .map(|argument| argument.to_string_lossy().into_owned())
+        .collect();
+    let advice = advice(&mut error, program, &arguments);
     let text = error.render().to_string();
-    let is_hidden = |argument: OsString| argument.to_string_lossy().contains(terminal::is_hidden);
-    if terminal::cut(&text) == text && !std::env::args_os().any(is_hidden) {
+    let is_hidden = |argument: &String| argument.contains(terminal::is_hidden);
+    if terminal::cut(&text) == text && !arguments.iter().any(is_hidden) {
         // With its colours.
         let _ = error.print();
     } else {
         let _ = writeln!(terminal::err(), "{}", terminal::cut(text.trim_end()));
     }
-    if let Some(advice) = advice(error.kind()) {
+    if let Some(advice) = advice {
         let _ = writeln!(terminal::err(), "\n{advice}");
     }
     Err(Failure::Unparsed)
-}
-
-/// What was probably meant by arguments that are none.
-fn advice(kind: ErrorKind) -> Option<String> {
-    let arguments: Vec<String> = std::env::args_os()
-        .map(|argument| argument.to_string_lossy().into_owned())
-        .collect();
-    match kind {
-        ErrorKind::InvalidSubcommand => {
-            let is_scene =
-                |name: &&String| Path::new(name).extension().is_some_and(|ending| ending == "toml");
-            let scene = arguments.get(1).filter(is_scene)?;
-            Some(format!(
-                "A command stands before the scene: creepage run {}",
-                terminal::line(scene)
-            ))
-        }
-        ErrorKind::UnknownArgument => {
-            let any = |names: &[&str]| {
-                arguments
-                    .iter()
-                    .any(|argument| names.contains(&argument.as_str()))
-            };
-            if any(&["run", "profile"]) && any(&["-o", "--out", "--output"]) {
-                return Some(
-                    "A table is written with --csv FILE; a workbook by `creepage run`, with --xlsx FILE"
-                        .to_owned(),
-                );
-            }
-            if any(&["calibrate"]) && !any(&["--data"]) {
-                return Some("Readings stand behind --data: --data load-cell.csv".to_owned());
-            }
-            let place = arguments.iter().position(|argument| argument == "--set")?;
-            let [key, value] = arguments.get(place + 1..place + 3)? else {
-                return None;
-            };
-            let parted = !key.contains('=') && !value.starts_with('-');
-            let (key, value) = (terminal::line(key), terminal::line(value));
-            parted.then(|| format!("--set takes KEY=VALUE without a space: --set {key}={value}"))
-        }
-        _ => None,
-    }
 }

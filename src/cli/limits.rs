@@ -2,7 +2,7 @@
 
 use super::failure::Failure;
 use super::terminal;
-use crate::scene::{Dimension, End, Unit};
+use crate::scene::{Dimension, End, QuantityError, Unit, did_you_mean, nearest};
 use crate::shown::exact;
 use crate::{CableEnd, ClampLimits, EndLimits, Limits, Place, Scene, SceneFile, Units};
 
@@ -10,10 +10,10 @@ use crate::{CableEnd, ClampLimits, EndLimits, Limits, Place, Scene, SceneFile, U
 pub struct LimitArguments {
     /// Largest force allowed on both ends, 2kN, on one end, downstream=2kN, on the clamp at a position, "20 m=2kN", or on every clamp,
     /// clamp=2kN; may be repeated
-    #[arg(long, value_name = "[PLACE=]FORCE", allow_negative_numbers = true, value_parser = |text: &str| limit(text, Dimension::Force))]
+    #[arg(long, value_name = "[PLACE=]FORCE", allow_hyphen_values = true, value_parser = |text: &str| limit(text, Dimension::Force))]
     limit_force: Vec<Limit>,
     /// Largest movement allowed of the ends that are not free, 10mm, or at a place as above, upstream=10mm; may be repeated
-    #[arg(long, value_name = "[PLACE=]LENGTH", allow_negative_numbers = true, value_parser = |text: &str| limit(text, Dimension::Length))]
+    #[arg(long, value_name = "[PLACE=]LENGTH", allow_hyphen_values = true, value_parser = |text: &str| limit(text, Dimension::Length))]
     limit_movement: Vec<Limit>,
 }
 
@@ -36,14 +36,23 @@ enum Named {
 
 fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
     let (of, value) = match text.split_once('=') {
-        None => (Named::Ends, text),
+        None => match text.split_once(':') {
+            Some((place, value)) if named(place).is_ok() => {
+                return Err(format!("a place stands before `=`: {place}={value}"));
+            }
+            _ => (Named::Ends, text),
+        },
         Some((name, value)) => (named(name.trim())?, value),
     };
     let unit = dimension.unit_of(value);
     let value = dimension.parse_argument(value).map_err(|error| {
         let units: Vec<&str> = dimension.units().collect();
+        let meant = match error {
+            QuantityError::UnknownUnit { nearest, .. } => did_you_mean(nearest),
+            _ => String::new(),
+        };
         format!(
-            "{error}; allowed: {} (units: {}); another limit is another option",
+            "{error}{meant}; allowed: {} (units: {}); another limit is another option",
             dimension.noun(),
             units.join(", ")
         )
@@ -51,7 +60,7 @@ fn limit(text: &str, dimension: Dimension) -> Result<Limit, String> {
     if value > 0.0 && value.is_finite() {
         return Ok(Limit { of, value, unit });
     }
-    Err("allowed: a finite value greater than 0".to_owned())
+    Err("a limit is positive; allowed: a finite value greater than 0".to_owned())
 }
 
 fn named(name: &str) -> Result<Named, String> {
@@ -60,8 +69,10 @@ fn named(name: &str) -> Result<Named, String> {
     }
     let place = place(name).map(Named::One);
     place.ok_or_else(|| {
-        "allowed before `=`: upstream, downstream, clamp, or the position of a clamp such as \"20 m\""
-            .to_owned()
+        let meant = did_you_mean(nearest(name, ["upstream", "downstream", "clamp"]));
+        format!(
+            "found `{name}`{meant}; allowed before `=`: upstream, downstream, clamp, or the position of a clamp such as \"20 m\""
+        )
     })
 }
 

@@ -1,5 +1,6 @@
 //! The command line: parsing, printing, and the exit status. Everything it does is a call of the library.
 
+mod advice;
 mod calibrate;
 mod check;
 mod completions;
@@ -106,7 +107,7 @@ pub fn main() -> ExitCode {
         Arguments::from_arg_matches_mut(&mut matches)
     });
     match parsed.map_or_else(
-        |error| failure::unparsed(&error),
+        |error| failure::unparsed(error, &command_line()),
         |arguments| execute(&arguments.command),
     ) {
         Ok(()) => ExitCode::SUCCESS,

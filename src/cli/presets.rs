@@ -72,7 +72,7 @@ fn find(name: &str) -> Result<&'static Preset, Failure> {
         Failure::Usage {
             argument: "NAME",
             found: format!("`{name}`{}", did_you_mean(nearest(name, names.iter().copied()))),
-            allowed: names.join(", "),
+            allowed: format!("a name that `creepage presets` lists: {}", names.join(", ")),
         }
     })
 }

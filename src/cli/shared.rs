@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::failure::Failure;
 use super::{signals, terminal};
 use crate::output::{Files, Kind, Output, OutputError};
-use crate::scene::DAYS_PER_YEAR;
+use crate::scene::{DAYS_PER_YEAR, PER_DAY, Range, YEARS};
 use crate::{Error, Scene, SceneFile, finite};
 
 /// What stands for standard output in place of a file.
@@ -89,18 +89,19 @@ impl TrafficArguments {
     }
 }
 
-/// Vehicles a day; what the scene's own key refuses is refused there.
+/// Vehicles a day, in the range of the scene's own key.
 fn a_day(text: &str) -> Result<f64, String> {
-    let allowed = "allowed: a number of vehicles a day greater than 0, such as 800";
-    text.parse().map_err(|_| allowed.to_owned())
+    let range = PER_DAY.range;
+    let number = text.parse().ok().filter(|&number| range.contains(number));
+    number.ok_or_else(|| format!("allowed: a number of vehicles a day {}, such as 800", range.words))
 }
 
-/// A time in years, typed with its unit or in `unit`.
+/// A time in years, typed with its unit or in `unit`, in the range of the scene's own key.
 fn years(text: &str, unit: &str) -> Result<f64, String> {
     let end = text.find(|c: char| c.is_alphabetic() && !matches!(c, 'e' | 'E'));
     let (number, written) = text.split_at(end.unwrap_or(text.len()));
     let in_a_year = match if written.is_empty() { unit } else { written } {
-        "year" | "years" | "yr" | "a" => 1.0,
+        "year" | "years" | "yr" | "y" | "a" => 1.0,
         "month" | "months" => 12.0,
         "week" | "weeks" => DAYS_PER_YEAR / 7.0,
         "day" | "days" | "d" => DAYS_PER_YEAR,
@@ -110,12 +111,12 @@ fn years(text: &str, unit: &str) -> Result<f64, String> {
         .trim()
         .parse()
         .map_or(f64::NAN, |number: f64| number / in_a_year);
-    // What the scene's own key refuses is refused there.
-    if years.is_finite() && (years > 0.0 || in_a_year == 1.0) {
+    let Range { least, most, .. } = YEARS.range;
+    if YEARS.range.contains(years) {
         return Ok(years);
     }
     Err(format!(
-        "allowed: a number of {unit} greater than 0, such as 20, or with its unit, such as \"30 days\", \"6 months\" or \"20 years\""
+        "allowed: a number of {unit} greater than 0, such as 20, or with its unit, such as \"30 days\", \"6 months\" or \"20 years\"; in all from {least:e} to {most:e} years"
     ))
 }
 
@@ -214,7 +215,7 @@ impl Input {
         key.is_some_and(|key| {
             self.warnings
                 .iter()
-                .any(|slip| slip.contains(&format!("`{key}`: ")))
+                .any(|slip| slip.contains(&format!("`{key}`")))
         })
     }
 }

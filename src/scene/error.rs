@@ -5,6 +5,7 @@ use std::string::FromUtf8Error;
 
 use ground_field::GroundError;
 
+use super::counted::counted;
 use super::location::Location;
 use super::quantity::QuantityError;
 use crate::shown::shortened;
@@ -85,16 +86,17 @@ impl fmt::Display for Wrong {
         if let Some(location) = &self.location {
             write!(f, "{location}: ")?;
         }
+        let which = counted(&self.key);
         let message = |problem: &str, meant: &str| {
-            format!("`{key}`: {problem}found {found}{meant}; allowed: {allowed}")
+            format!("`{key}`{which}: {problem}found {found}{meant}; allowed: {allowed}")
         };
         f.write_str(&match &self.kind {
             WrongKind::UnknownKey { suggestion } => {
                 let meant = did_you_mean(suggestion.as_deref());
-                format!("found unknown key `{key}`{meant}; allowed: {allowed}")
+                format!("found unknown key `{key}`{which}{meant}; allowed: {allowed}")
             }
-            WrongKind::MissingKey => format!("key `{key}` is missing; allowed: {allowed}"),
-            WrongKind::Rejected(error) => format!("`{key}`: {error}"),
+            WrongKind::MissingKey => format!("key `{key}`{which} is missing; allowed: {allowed}"),
+            WrongKind::Rejected(error) => format!("`{key}`{which}: {error}"),
             WrongKind::Quantity(QuantityError::UnknownUnit { unit, nearest }) => message(
                 &format!("unknown unit `{}`: ", cut(unit)),
                 &did_you_mean(*nearest),

@@ -49,6 +49,11 @@ impl SceneFile {
         let mut bytes = Vec::new();
         let read = File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
         match read {
+            Err(_) if path.is_dir() => {
+                let what = "this is a folder; a scene is a file, such as my-duct.toml";
+                let source = std::io::Error::new(std::io::ErrorKind::IsADirectory, what);
+                return Err(SceneError::Unreadable(file, source));
+            }
             Err(source) => return Err(SceneError::Unreadable(file, source)),
             Ok(length) if length as u64 > LARGEST_FILE => {
                 return Err(SceneError::TooLarge(file, LARGEST_FILE));

@@ -42,6 +42,7 @@
 //! ```
 
 mod arrangement;
+mod counted;
 mod data;
 mod document;
 mod error;
@@ -59,6 +60,7 @@ mod preset;
 mod quantity;
 mod range;
 mod read;
+mod respelled;
 mod slips;
 mod syntax;
 mod table;
@@ -91,6 +93,8 @@ pub(crate) use nearest::nearest;
 pub use quantity::QuantityError;
 #[cfg(feature = "sweep")]
 pub(crate) use quantity::leading_number;
+#[cfg(feature = "cli")]
+pub(crate) use range::{PER_DAY, Range, YEARS};
 pub use slips::UnitSlip;
 pub use typed::{Typed, TypedValue};
 pub use units::{Dimension, Unit};

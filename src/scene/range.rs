@@ -7,10 +7,10 @@ use super::units::Dimension;
 /// A range of finite numbers.
 #[derive(Clone, Copy)]
 pub struct Range {
-    least: f64,
-    most: f64,
+    pub least: f64,
+    pub most: f64,
     /// In words, after "a length".
-    words: &'static str,
+    pub words: &'static str,
 }
 
 /// A quantity of a scene: its range, its dimension if it is not a plain number, and how one is written.

@@ -142,7 +142,8 @@ fn friction(root: &Table) -> Result<Friction, SceneError> {
         table.refuse("shape_factor", "law", allowed)?;
         FrictionLaw::Coulomb
     } else {
-        let shape_factor = table.quantity("shape_factor", SHAPE_FACTOR)?;
+        let allowed = format!("{}; law = \"coulomb\" needs none", SHAPE_FACTOR.allowed());
+        let shape_factor = table.required("shape_factor", &allowed)?.quantity(SHAPE_FACTOR)?;
         if law == SIGMOID {
             FrictionLaw::Sigmoid { shape_factor }
         } else {

@@ -5,6 +5,7 @@
 
 use std::fmt;
 
+use super::counted::counted;
 use super::document::{Content, Document, Node};
 use super::keys::joined;
 use super::location::Location;
@@ -34,8 +35,12 @@ impl fmt::Display for UnitSlip {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
-            "{}: `{}`: {} without a unit is {}",
-            self.location, self.key, self.found, self.meaning
+            "{}: `{}`{}: {} without a unit is {}",
+            self.location,
+            self.key,
+            counted(&self.key),
+            self.found,
+            self.meaning
         )
     }
 }

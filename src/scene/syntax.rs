@@ -41,7 +41,19 @@ pub fn fault(text: &str, error: &toml::de::Error) -> Fault {
     let message = if error.message() == "duplicate key"
         && let Some(first) = first_line(text, &span)
     {
-        format!("duplicate key, which stands on line {first} already")
+        let listed = text
+            .lines()
+            .nth(first - 1)
+            .is_some_and(|line| line.trim().starts_with("[["));
+        let another = match line.trim() {
+            header if listed && header.ends_with(']') => {
+                format!("; another item of the list is written [{header}]")
+            }
+            _ => String::new(),
+        };
+        format!("duplicate key, which stands on line {first} already{another}")
+    } else if text.trim_start().starts_with('{') {
+        "this is JSON; a scene has lines such as length = \"30 m\"".to_owned()
     } else if is_table(text) {
         "this is a table; a scene has lines such as length = \"30 m\"".to_owned()
     } else {
@@ -98,7 +110,12 @@ fn in_plain_words(message: &str) -> &str {
 /// The line on which the key at `second` stands for the first time.
 fn first_line(text: &str, second: &Range<usize>) -> Option<usize> {
     let start = line_start(text, second.start);
-    let same = |line: &str| Some(line.trim()) == text[start..].lines().next().map(str::trim);
+    let name = |line: &str| {
+        let header = line.split('#').next().unwrap_or_default();
+        header.trim().trim_matches(['[', ']']).trim().to_owned()
+    };
+    let wanted = text[start..].lines().next().map(name);
+    let same = |line: &str| line.trim_start().starts_with('[') && Some(name(line)) == wanted;
     let first = if text[start..second.start].trim_start().starts_with('[') {
         text[..start].lines().position(same)?
     } else {
@@ -206,6 +223,9 @@ fn hint(line: &str) -> Option<String> {
                 .all(|c| c.is_alphanumeric() || " _-.,()/".contains(c));
         return is_text.then(|| format!("a text stands in quotes: {key} = \"{value}\""));
     }
+    if value.contains("..") {
+        return Some("a key has one value; `creepage sweep --vary KEY=A:B:STEP` computes a range".to_owned());
+    }
     if let Some(point) = with_point(value) {
         let quotes = if point.parse::<f64>().is_ok() { "" } else { "\"" };
         let how = if point.contains('.') {
@@ -213,7 +233,10 @@ fn hint(line: &str) -> Option<String> {
         } else {
             "nothing parts thousands"
         };
-        return Some(format!("{how}: {key} = {quotes}{point}{quotes}"));
+        let or = without_thousands(value).map_or_else(String::new, |whole| {
+            format!(", or {quotes}{whole}{quotes} if the comma parts thousands")
+        });
+        return Some(format!("{how}: {key} = {quotes}{point}{quotes}{or}"));
     }
     let unit = value.ends_with(|c: char| c.is_alphabetic() || matches!(c, '%' | '2' | '²'));
     unit.then(|| format!("a quantity with its unit stands in quotes: {key} = \"{value}\""))
@@ -241,9 +264,35 @@ pub fn with_point(text: &str) -> Option<String> {
     Some(text.replace(',', if thousands { "" } else { "." }))
 }
 
+/// A number whose only comma may also part thousands, `3,000 MPa`, without it.
+pub fn without_thousands(text: &str) -> Option<String> {
+    let (before, after) = text.split_once(',')?;
+    let digits = after.bytes().take_while(u8::is_ascii_digit).count();
+    let first = before.trim().trim_start_matches(['+', '-']);
+    let groups = (1..=3).contains(&first.len()) && !first.starts_with('0') && digits == 3;
+    (groups && !after.contains([',', '.'])).then(|| format!("{before}{after}"))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{hint, with_point};
+    use super::{hint, with_point, without_thousands};
+
+    #[test]
+    fn only_a_comma_before_three_digits_may_part_thousands() {
+        assert_eq!(without_thousands("3,000 MPa").as_deref(), Some("3000 MPa"));
+        assert_eq!(without_thousands("-12,500").as_deref(), Some("-12500"));
+        for text in [
+            "3,00 m",
+            "0,300 m",
+            "3,0000 m",
+            "1234,500 m",
+            "3,000.5 m",
+            "1,000,000",
+            "3",
+        ] {
+            assert_eq!(without_thousands(text), None, "{text}");
+        }
+    }
 
     #[test]
     fn commas_become_points_or_go() {

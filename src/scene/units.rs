@@ -108,12 +108,14 @@ const MILE: f64 = 1609.344;
 const YARD: f64 = 0.9144;
 
 /// Units in words and other symbols for them, in small letters.
-const IN_WORDS: [(&str, &str); 28] = [
+const IN_WORDS: [(&str, &str); 30] = [
     ("c", "K"),
     ("°c", "K"),
     ("degc", "K"),
     ("celsius", "K"),
     ("kelvin", "K"),
+    ("1/°c", "1/K"),
+    ("/°c", "1/K"),
     ("feet", "ft"),
     ("foot", "ft"),
     ("inch", "in"),

@@ -6,6 +6,7 @@
 use ground_field::{Base, Modulus, SoilProfile};
 
 use super::arrangement::may_jam;
+use super::counted::with_count;
 use super::data::{End, FrictionLaw, Ground, PeakScaling, Scene, TrafficVehicle};
 use crate::shown::four_digits;
 
@@ -59,7 +60,7 @@ pub(crate) fn unusual(scene: &Scene) -> Vec<String> {
     warnings.extend(traffic(scene));
     warnings.extend(far(scene));
     warnings.extend(lanes_scaled_alike(scene));
-    warnings
+    warnings.iter().map(|warning| with_count(warning)).collect()
 }
 
 /// Sizes of the duct and its cable.
@@ -280,7 +281,7 @@ fn contrast(ground: &Ground) -> Option<String> {
     }
     (first.thickness() <= PAVEMENT && base > INVERTED * top).then(|| {
         format!(
-            "`ground.layers.0.young_modulus`, of the first layer, is {:.0} times less than that of the last, {} MPa: layers stand from the top \
+            "`ground.layers.0.young_modulus` is {:.0} times less than that of the last layer, {} MPa: layers stand from the top \
              down, and the last one is rarely as stiff as rock",
             base / top,
             four_digits(base / 1e6)

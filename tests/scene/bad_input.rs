@@ -309,8 +309,8 @@ fn values_out_of_range_are_refused() {
             panic!("{case}")
         };
         let found = new.split_once(" = ").unwrap().1;
-        let start = format!("`{key}`: out of range: found {found}; allowed: ");
-        assert_refused(old, new, new, &[&start, allowed, "^"]);
+        let start = format!(": out of range: found {found}; allowed: ");
+        assert_refused(old, new, new, &[&format!("`{key}`"), &start, allowed, "^"]);
     }
 }
 
@@ -348,7 +348,7 @@ fn a_value_of_the_wrong_kind_is_refused() {
         "name = \"van\"",
         "name = 3",
         "name = 3",
-        &["`vehicles.1.name`: found the number 3"],
+        &["`vehicles.1.name` (vehicle 2): found the number 3"],
     );
     assert_refused(
         "upstream = \"free\"",
@@ -394,8 +394,8 @@ fn an_unknown_word_suggests_the_nearest() {
             panic!("{case}")
         };
         let found = new.split_once(" = ").unwrap().1;
-        let start = format!("`{key}`: found {found} (did you mean `{suggestion}`?); allowed: \"");
-        assert_refused(old, new, new, &[&start, "^"]);
+        let meant = format!(": found {found} (did you mean `{suggestion}`?); allowed: \"");
+        assert_refused(old, new, new, &[&format!("`{key}`"), &meant, "^"]);
     }
     let allowed = "allowed: \"auto\", \"boussinesq\", \"odemark\", \"burmister\", \"fem\"";
     assert_refused("model = \"fem\"", "model = \"winkler\"", "winkler", &[allowed]);

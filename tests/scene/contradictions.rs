@@ -72,7 +72,7 @@ fn layers_have_a_thickness_but_the_last() {
         "thickness = \"50 mm\"",
         "",
         "[[ground.layers]]",
-        &["key `ground.layers.0.thickness` is missing"],
+        &["key `ground.layers.0.thickness` (layer 1) is missing"],
     );
 }
 
@@ -83,8 +83,9 @@ fn a_half_space_has_one_modulus() {
         .replace("\"800 MPa\"", "{ top = 1e6, bottom = 2e6 }");
     let message = read(&text).unwrap_err().to_string();
     assert!(
-        message
-            .starts_with("bad.toml, line 20: `ground.layers.2.young_modulus`: found a modulus that varies"),
+        message.starts_with(
+            "bad.toml, line 20: `ground.layers.2.young_modulus` (layer 3): found a modulus that varies"
+        ),
         "{message}"
     );
     assert!(read(&FULL.replace("\"800 MPa\"", "{ top = 1e6, bottom = 2e6 }")).is_ok());
@@ -100,11 +101,11 @@ fn vehicles_have_different_names() {
     for (new, start) in [
         (
             "name = \"truck\"",
-            "bad.toml, line 43: `vehicles.1.name`: found \"truck\"; allowed: a name",
+            "bad.toml, line 43: `vehicles.1.name` (vehicle 2): found \"truck\"; allowed: a name",
         ),
         (
             "name = \" \"",
-            "bad.toml, line 43: `vehicles.1.name`: found \" \"; allowed: a name",
+            "bad.toml, line 43: `vehicles.1.name` (vehicle 2): found \" \"; allowed: a name",
         ),
     ] {
         assert!(message(new).starts_with(start), "{}", message(new));
@@ -116,7 +117,7 @@ fn vehicles_have_different_names() {
         read(&text)
             .unwrap_err()
             .to_string()
-            .contains("`vehicles.1`: found no name, where \"vehicle 2\" is taken")
+            .contains("`vehicles.1` (vehicle 2): found no name, where \"vehicle 2\" is taken")
     );
 }
 
@@ -196,9 +197,10 @@ fn empty_lists_are_refused() {
     ] {
         assert_override_refused(
             &[&format!("{key}={list}")],
-            &[&format!(
-                "--set {key}=[]: `{key}`: found an empty list; allowed: "
-            )],
+            &[
+                &format!("--set {key}=[]: `{key}`"),
+                ": found an empty list; allowed: ",
+            ],
         );
     }
 }

@@ -235,9 +235,9 @@ fn an_unknown_preset_suggests_the_nearest() {
     ];
     for (old, new, key, suggestion) in cases {
         let message = message(old, new);
-        let place = format!("`{key}`: found {new}");
+        let (place, found) = (format!("`{key}`"), format!(": found {new}"));
         assert!(
-            message.contains(&place) && message.contains(suggestion),
+            message.contains(&place) && message.contains(&found) && message.contains(suggestion),
             "{message}"
         );
         assert!(

@@ -53,7 +53,7 @@ fn each_unusual_value_is_told_with_its_key() {
         (&["ground.rigid_base_depth=1.5 m"], "within the rock"),
         (
             &["ground.layers.2.young_modulus=300 kPa"],
-            "`ground.layers.2.young_modulus` is 0.3 MPa, softer than peat",
+            "`ground.layers.2.young_modulus` (layer 3) is 0.3 MPa, softer than peat",
         ),
         (
             &["ground.layers.1.young_modulus=3000"],
@@ -61,14 +61,14 @@ fn each_unusual_value_is_told_with_its_key() {
         ),
         (
             &["ground.layers.0.young_modulus=300 GPa"],
-            "`ground.layers.0.young_modulus` is 300 GPa, stiffer than granite",
+            "`ground.layers.0.young_modulus` (layer 1) is 300 GPa, stiffer than granite",
         ),
         (
             &[
                 "ground.rigid_base_depth=12 m",
                 "ground.layers.2.young_modulus={ top = \"60 MPa\", bottom = \"600 GPa\" }",
             ],
-            "`ground.layers.2.young_modulus` is 600 GPa",
+            "`ground.layers.2.young_modulus` (layer 3) is 600 GPa",
         ),
         (
             &["ground.layers.2.young_modulus=1.9 MPa"],
