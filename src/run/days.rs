@@ -10,7 +10,7 @@ use cycle_jump::JumpError;
 use super::judge::{judge, mesh_reason};
 use super::lived::{Lived, Living};
 use super::options::RunOptions;
-use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, both};
+use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, allowed, both};
 use super::work::Work;
 use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
@@ -136,7 +136,8 @@ impl Living<'_> {
             }
             let costly =
                 REFINEMENT_COST.saturating_mul(finest.passes.statistics.node_updates) > MAX_NODE_UPDATES;
-            let within = error.total().is_within(Shares::both(tolerance));
+            let others = error.total().less(error.mesh);
+            let within = error.mesh.is_within(allowed(tolerance, others));
             if costly || level >= levels.finest() || below.is_some() && within {
                 break;
             }

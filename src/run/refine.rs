@@ -345,10 +345,10 @@ fn work_of(passes: &[Passes]) -> Statistics {
     work
 }
 
-/// What of the `tolerance` is left to all that is not the error of `passes`: what jumps leave, no finer mesh takes away.
-pub fn allowed(tolerance: f64, passes: Shares) -> Shares {
+/// What of the `tolerance` is left beside `others`, which no finer mesh takes away.
+pub fn allowed(tolerance: f64, others: Shares) -> Shares {
     Shares::both(tolerance)
-        .less(passes)
+        .less(others)
         .max(Shares::both(LEAST_SHARE * tolerance))
 }
 
