@@ -9,7 +9,7 @@ use super::terminal;
 use crate::error::with_causes;
 use crate::occurrence::Occurrence;
 use crate::shown::{four_digits, percent, time};
-use crate::{Candidate, Part, PlanReport};
+use crate::{Forecast, Part, PlanReport};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -26,13 +26,14 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let how_far = |now: Now| HowFar::unknown("choosing ground, method and mesh", now.elapsed);
     let keep = |_| stopped("nothing is planned");
-    let (mut plan, forecast) = watched(how_far, keep, |_| {
+    let (mut plan, solver, forecast) = watched(how_far, keep, |_| {
         let plan = input.located(crate::plan(&input.scene))?;
         let forecast = crate::forecast(&plan);
-        Ok::<_, Failure>((plan.report(), forecast))
+        let solver = plan.choice.method.cable_method().name();
+        Ok::<_, Failure>((plan.report(), solver, forecast))
     })?;
     match forecast {
-        Ok(forecast) => foresee(&mut plan, forecast.seconds),
+        Ok(forecast) => foresee(&mut plan, &forecast, solver),
         Err(error) => plan.warnings.push(format!(
             "the time is a rough estimate, and the run may fail: the first passes on a coarse mesh do ({})",
             with_causes(&error)
@@ -42,14 +43,24 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     arguments.json.print(&plan, || print(&plan))
 }
 
-/// The time of what is chosen is that of the whole run, not of its first mesh.
-fn foresee(plan: &mut PlanReport, seconds: f64) {
-    // It is right within a factor of two: more digits say nothing.
-    let seconds = format!("{seconds:.1e}").parse().unwrap_or(seconds);
-    plan.estimated_seconds = seconds;
-    let chosen = |candidate: &&mut Candidate| candidate.chosen && candidate.part == Part::Cable;
-    if let Some(candidate) = plan.candidates.iter_mut().find(chosen) {
-        candidate.estimated_seconds = Some(seconds);
+/// Times are those of whole runs, not of their first meshes: as many times those of the first as for every pass by the `solver`. The error has
+/// what passes leave wrong that are not simulated.
+fn foresee(plan: &mut PlanReport, forecast: &Forecast, solver: &str) {
+    // They are right within a factor of two: more digits say nothing.
+    let told = |seconds: f64| format!("{seconds:.1e}").parse().unwrap_or(seconds);
+    plan.estimated_seconds = told(forecast.seconds);
+    plan.estimated_error = plan.estimated_error.map(|error| error + forecast.passes_error);
+    let on_first_mesh = plan.candidates.iter().find(|method| method.name == solver);
+    let on_first_mesh = on_first_mesh.and_then(|method| method.estimated_seconds);
+    let meshes = on_first_mesh.map_or(1.0, |seconds| forecast.every_pass_seconds / seconds);
+    let methods = plan.candidates.iter_mut();
+    for method in methods.filter(|method| method.part == Part::Cable) {
+        if method.chosen {
+            method.estimated_seconds = Some(plan.estimated_seconds);
+            method.estimated_error = method.estimated_error.map(|error| error + forecast.passes_error);
+        } else {
+            method.estimated_seconds = method.estimated_seconds.map(|seconds| told(meshes * seconds));
+        }
     }
 }
 

@@ -15,7 +15,7 @@ use super::terminal;
 use super::workbook::WorkbookArguments;
 use crate::answer::{Place, after, in_rows, table_rows};
 use crate::output::Kind;
-use crate::scene::Traffic;
+use crate::scene::{Order, Traffic};
 use crate::shown::{exact, percent};
 use crate::{
     CutShort, DuctMotionSummary, Limited, Limits, PassRecord, Reached, Run, RunOptions, Scene, Underway,
@@ -161,15 +161,31 @@ fn rows(passes: &[PassRecord]) -> impl Iterator<Item = (PassRecord, LastColumn)>
 /// Prints the passes of a run that was stopped. No file is written: an older one is whole.
 fn keep(finished: &CutShort, scene: &Scene, destination: &Destination, units: &Units) -> Result<(), Failure> {
     let last = finished.passes.last().map_or(0, |record| record.pass);
-    let cut = format!(
-        "cut short after pass {last} of {}, on nodes {:.3} m apart: the error is not known",
-        scene.traffic.passes, finished.plan.node_spacing_m
-    );
+    let (passes, spacing) = (scene.traffic.passes, finished.plan.node_spacing_m);
+    let cut = if last < passes {
+        format!(
+            "cut short after pass {last} of {passes}, on nodes {spacing:.3} m apart: the error is not known"
+        )
+    } else {
+        format!(
+            "cut short in refining: all {passes} passes are done on nodes {spacing:.3} m apart, but the error is not known"
+        )
+    };
     destination.print(finished, rows(&finished.passes), || {
         let mut out = terminal::out();
         heading(&mut out, &finished.title, &finished.duct_motion)?;
         writeln!(out, "{cut}")?;
-        Ok(table(&mut out, &finished.passes, scene, (None, false), units)?)
+        let a_day = scene.warming().and(scene.traffic.per_day);
+        let a_day = a_day.map(|per_day| per_day.round().max(1.0) as u64);
+        let are_means = finished.passes.iter().any(|record| record.interpolated)
+            && matches!(scene.traffic.order, Order::Random { .. });
+        Ok(table(
+            &mut out,
+            &finished.passes,
+            scene,
+            (a_day, are_means),
+            units,
+        )?)
     })?;
     stopped(cut)
 }

@@ -10,6 +10,7 @@ use cycle_jump::JumpError;
 use super::judge::{judge, mesh_reason};
 use super::lived::{Lived, Living};
 use super::options::RunOptions;
+use super::outlook::Outlook;
 use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, allowed, both};
 use super::work::Work;
 use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED, is_doubtful};
@@ -66,8 +67,8 @@ pub fn solve(
     living.solve(options.verify, warnings)
 }
 
-/// Work that a run of `plan` is expected to take, and the level that it ends on: one run on a coarse mesh tells.
-pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<(Work, usize), Error> {
+/// What is to be expected of a run of `plan`: one on a coarse mesh tells.
+pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<Outlook, Error> {
     let living = Living::new(plan, heat, false, Progress::default());
     let level = living.first_level();
     let (_, (coarse, lived)) = living.settling(FIRST_KNOTS, |knots| living.coarse(level, knots))?;
@@ -79,11 +80,19 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<(Work
         Some(below) => work.refined(below) + work.refined(below + 1),
         None => work.refined(level - coarse),
     };
-    let all = match method {
-        PassMethod::EveryPass(_) => meshes(work.times(plan.scene.traffic.passes as f64 / periods)),
+    let every_pass = meshes(work.times(plan.scene.traffic.passes as f64 / periods));
+    let work = match method {
+        PassMethod::EveryPass(_) => every_pass,
         PassMethod::Jumps(_) => meshes(work) + work.times(3.0),
     };
-    Ok((all, level))
+    Ok(Outlook {
+        level,
+        work,
+        mean: work,
+        every_pass,
+        passes: Shares::default(),
+        certain: true,
+    })
 }
 
 impl Living<'_> {

@@ -144,7 +144,9 @@ impl<'a> Living<'a> {
             mesh,
             stages: &[],
             progress,
-            seen: self.underway.map(|underway| underway.on_mesh(mesh, true)),
+            seen: self
+                .underway
+                .map(|underway| underway.on_mesh(mesh, self.begin == 0)),
         };
         let mut simulation = Simulation::new(&task)?;
         let day = self.day(knots);
@@ -180,6 +182,7 @@ impl<'a> Living<'a> {
                 simulation.pass(vehicle, next.number, state)
             },
         )?;
+        task.finish(&lived.records);
         let mut passes = simulation.passes(lived.records.clone(), lived.state.clone(), lived.simulated);
         passes.statistics.sweeps += lived.sweeps as usize;
         passes.statistics.node_updates += lived.sweeps as usize * mesh.nodes();

@@ -110,6 +110,14 @@ impl Known<'_> {
         self.level_work(coarser) * self.growth(level)
     }
 
+    /// Work of a run up to `level` in which every pass is simulated; `None` where that is this run.
+    fn every_pass(&self, level: usize) -> Option<Work> {
+        let passes = self.plan.scene.traffic.passes as f64;
+        let meshes = (self.coarsest..=level).map(|level| self.level_work(level));
+        let work = meshes.fold(Work::default(), |all, work| all + work);
+        (self.simulated < passes).then(|| work.times(passes / self.simulated))
+    }
+
     /// Work of the first passes on `level`.
     pub fn early_work(&self, level: usize) -> Work {
         match self.early.get(level - self.coarsest) {
@@ -269,6 +277,10 @@ pub struct Outlook {
     pub level: usize,
     pub work: Work,
     pub mean: Work,
+    /// Work where every pass is simulated.
+    pub every_pass: Work,
+    /// Error of the jumps.
+    pub passes: Shares,
     /// Whether nothing is left to guess.
     pub certain: bool,
 }
@@ -297,12 +309,16 @@ impl Outlook {
         let nearest = ends.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
         let nearest = nearest.unwrap_or(&last);
         let likeliest = ends.iter().max_by(|a, b| a.likely.total_cmp(&b.likely));
+        let level = likeliest.unwrap_or(&last).level;
+        let work = nearest.work.times((told - updates(nearest)).exp());
         Self {
-            level: likeliest.unwrap_or(&last).level,
+            level,
+            every_pass: known.every_pass(level).unwrap_or(work),
+            passes: known.passes,
             mean: ends
                 .iter()
                 .fold(Work::default(), |mean, end| mean + end.work.times(end.likely)),
-            work: nearest.work.times((told - updates(nearest)).exp()),
+            work,
             certain: ends
                 .iter()
                 .all(|end| end.level < known.next() || end.likely == 0.0),

@@ -105,6 +105,7 @@ impl Task<'_> {
             }
             records.push(record);
         }
+        self.finish(&records);
         Ok(simulation.passes(records, state, count))
     }
 
@@ -158,10 +159,18 @@ impl Task<'_> {
             Ok::<_, Error>(outcome)
         })?;
         let records = listing.records(&evolution.records);
+        self.finish(&records);
         let mut passes = simulation.passes(records, evolution.state, evolution.simulated);
         passes.schedule = evolution.schedule;
         passes.beyond = evolution.beyond;
         Ok(passes)
+    }
+
+    /// Shows whoever looks all passes of this mesh.
+    pub fn finish(&self, records: &[Record]) {
+        if let Some(seen) = self.seen {
+            seen.finish(records);
+        }
     }
 }
 

@@ -83,6 +83,8 @@ struct Passes {
     /// Whether its passes may be the answer: some are only for comparison.
     shown: bool,
     reached: u64,
+    /// Whether the records are all that the mesh will give.
+    is_finished: bool,
     /// The listed ones, and the last.
     records: Vec<Record>,
 }
@@ -92,12 +94,12 @@ impl Underway {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The passes that are finished: all on the finest mesh that has them, or else those on the mesh under way. `None` before the first one;
-    /// and where passes are not shown one by one, with heat or in random order.
+    /// The passes that are finished: all on the finest mesh that has them, or else those on the mesh under way. `None` before the first one,
+    /// and where passes are not shown one by one, with heat or in random order, before the first mesh is finished.
     pub fn finished(&self) -> Option<CutShort> {
         let seen = self.seen();
         let (answer, traffic) = seen.answer.as_ref()?;
-        let rank = |passes: &&Passes| (passes.shown, passes.reached == traffic.passes);
+        let rank = |passes: &&Passes| (passes.shown, passes.is_finished);
         let finest = |passes: &&Passes| -passes.mesh.spacing();
         let with_passes = seen.meshes.iter().filter(|passes| !passes.records.is_empty());
         let passes =
@@ -142,6 +144,7 @@ impl Underway {
             mesh,
             shown,
             reached: 0,
+            is_finished: false,
             records: Vec::new(),
         });
         OnMesh {
@@ -182,5 +185,14 @@ impl OnMesh<'_> {
             records.pop();
         }
         records.push(record.clone());
+    }
+
+    /// All passes on this mesh are done: those that an answer lists, of all `records`.
+    pub fn finish(self, records: &[Record]) {
+        let mut seen = self.underway.seen();
+        let listed = |record: &&Record| seen.listed.binary_search(&record.pass).is_ok();
+        let records = records.iter().filter(listed).cloned().collect();
+        seen.meshes[self.place].records = records;
+        seen.meshes[self.place].is_finished = true;
     }
 }

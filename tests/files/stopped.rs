@@ -1,12 +1,15 @@
 //! What a long command says while it goes on, and what is left of it when it is stopped.
 
+use std::ops::ControlFlow;
 use std::os::unix::process::ExitStatusExt;
 use std::process::{ExitStatus, Stdio};
 use std::time::{Duration, Instant};
 
+use creepage::scene::{Heat, SolverMethod, Warming};
+use creepage::{Error, PassRecord, Progress, RunOptions, Scene, Underway};
 use serde_json::Value;
 
-use super::common::{Folder, creepage};
+use super::common::{Folder, SCENE, creepage};
 use super::signals::send;
 
 /// Minutes of work.
@@ -164,6 +167,62 @@ fn a_stopped_sweep_says_what_it_keeps() {
     let names = folder.names();
     assert!(names.iter().any(|name| name == "table.csv.journal"), "{names:?}");
     assert!(!names.iter().any(|name| name == "table.csv"), "{names:?}");
+}
+
+/// All passes of a coarser mesh outlast a finer one that is not finished, with heat and with jumps too.
+#[test]
+fn a_run_that_is_stopped_in_refining_keeps_the_mesh_before() {
+    let mut plain = Scene::from_toml("scene.toml", SCENE).expect("a scene");
+    plain.solver.node_spacing = None;
+    plain.solver.vehicle_step = None;
+    plain.solver.method = SolverMethod::Auto;
+    plain.solver.tolerance = 0.002;
+    plain.traffic.passes = 40;
+    let mut jumps = plain.clone();
+    jumps.traffic.passes = 1_000_000;
+    jumps.solver.method = SolverMethod::PassLaw;
+    let mut heated = plain.clone();
+    heated.traffic.per_day = Some(20.0);
+    heated.heat = Some(Heat {
+        expansion: 1.5e-5,
+        offset: 0.0,
+        warming: Warming::Swing(10.0),
+    });
+    for scene in [plain, jumps, heated] {
+        let underway = Underway::default();
+        let until_refined = |_: f64| match underway.reached() {
+            Some(now) if now.is_refined && now.pass > 0 => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        };
+        let options = RunOptions {
+            progress: Progress::new(&until_refined),
+            underway: Some(&underway),
+            ..RunOptions::default()
+        };
+        let run = creepage::run_with(&scene, &options);
+        assert!(matches!(run, Err(Error::Stopped)), "it did not refine: {run:?}");
+        let kept = underway.finished().expect("a finished mesh");
+        let spacing = underway.reached().expect("a mesh").node_spacing_m;
+        let traffic = &scene.traffic;
+        let last = kept.passes.last().expect("a pass");
+        assert_eq!(last.pass, traffic.passes);
+        assert!(
+            kept.plan.node_spacing_m > spacing,
+            "{} {spacing}",
+            kept.plan.node_spacing_m
+        );
+
+        // The same passes on that mesh alone; and the forces are nearly those.
+        let mut alone = scene.clone();
+        alone.solver.node_spacing = Some(kept.plan.node_spacing_m);
+        alone.solver.tolerance = 0.1;
+        let alone = creepage::run(&alone).expect("a run");
+        let numbers = |passes: &[PassRecord]| passes.iter().map(|record| record.pass).collect::<Vec<_>>();
+        assert_eq!(numbers(&kept.passes), numbers(&alone.passes));
+        let force = |passes: &[PassRecord]| passes[passes.len() - 1].downstream_force_n;
+        let (kept, alone) = (force(&kept.passes), force(&alone.passes));
+        assert!((kept / alone - 1.0).abs() < 0.05, "{kept} N, alone {alone} N");
+    }
 }
 
 /// With jumps too, passes are counted up to those of the traffic.
