@@ -208,5 +208,8 @@ fn days(html: &mut Html, report: &Report, record: &HeatRecord) {
     let head: Vec<&str> = std::iter::once("day")
         .chain(columns.iter().map(|(name, ..)| name.as_str()))
         .collect();
+    html.paragraph(
+        "Each day’s least and largest value after passes and between them; while a vehicle is above the duct a force may be larger.",
+    );
     html.table(0, &head, rows);
 }
