@@ -5,6 +5,10 @@ use cable_dem::{CableError, CableState, Mesh, PassOutcome, RestingCable};
 use crate::flow::Flow;
 use crate::period::Phase;
 
+/// Periods within a jump are computed when they end at most so far apart, as a ratio of their times since the first. Forces change on the
+/// scale of that time: between two such periods they differ from a straight line by (ln 1.03)²/8 = 1e-4 of themselves.
+const APART: f64 = 1.03;
+
 /// The cable after one pass.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Record {
@@ -92,8 +96,35 @@ impl Jumped<'_> {
         Ok((state, self.offset + whole))
     }
 
+    /// What each of `passes`, ascending, did: the few that [`computed`] names from the state after them, those between as a mean of the two
+    /// of the same vehicle on either side.
+    pub fn outcomes(&self, cable: &mut RestingCable, passes: &[u64]) -> Result<Vec<PassOutcome>, CableError> {
+        let mut outcomes = vec![PassOutcome::default(); passes.len()];
+        for phase in 0..self.before.len() {
+            let (of_phase, ends): (Vec<usize>, Vec<f64>) = (0..passes.len())
+                .map(|row| (row, self.place(passes[row])))
+                .filter(|(_, place)| place.0 == phase)
+                .map(|(row, (_, into))| (row, self.begin as f64 + into))
+                .unzip();
+            let computed = computed(&ends);
+            for &k in &computed {
+                let row = of_phase[k];
+                outcomes[row] = self.outcome(cable, passes[row])?;
+            }
+            for pair in computed.windows(2) {
+                let (from, to) = (pair[0], pair[1]);
+                for k in from + 1..to {
+                    let share = (ends[k] - ends[from]) / (ends[to] - ends[from]);
+                    let (before, after) = (&outcomes[of_phase[from]], &outcomes[of_phase[to]]);
+                    outcomes[of_phase[k]] = PassOutcome::combined(&[(1.0 - share, before), (share, after)]);
+                }
+            }
+        }
+        Ok(outcomes)
+    }
+
     /// What `pass` did.
-    pub fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
+    fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
         let (state, offset) = self.state(cable, pass)?;
         let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?;
         outcome.upstream_displacement += offset;
@@ -109,6 +140,19 @@ impl Jumped<'_> {
         outcome.dissipated = between(|o| o.dissipated);
         Ok(outcome)
     }
+}
+
+/// Which of the periods that end at the ascending times `ends` are computed: the first, the last, and others about [`APART`] apart.
+fn computed(ends: &[f64]) -> Vec<usize> {
+    let mut computed: Vec<usize> = Vec::new();
+    for k in 0..ends.len() {
+        let next = ends.get(k + 1);
+        let is_due = |&last: &usize| next.is_none_or(|next| *next > APART * ends[last]);
+        if computed.last().is_none_or(is_due) {
+            computed.push(k);
+        }
+    }
+    computed
 }
 
 /// Takes away what displacements \[m\] of a cable that nothing holds have in common, and returns it: rounding of metres would hide what

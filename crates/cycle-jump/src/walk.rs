@@ -308,8 +308,9 @@ where
         let first = jumped.begin * period as u64;
         let last = (self.done - 1) * period as u64;
         let inside = |pass: &&u64| (first + 1..=last).contains(*pass);
-        for &pass in wanted.iter().chain(beyond).filter(inside) {
-            let outcome = jumped.outcome(&mut self.cable, pass).map_err(wrap)?;
+        let inside: Vec<u64> = wanted.iter().chain(beyond).filter(inside).copied().collect();
+        let outcomes = jumped.outcomes(&mut self.cable, &inside).map_err(wrap)?;
+        for (pass, outcome) in inside.into_iter().zip(outcomes) {
             if looked_at.contains(&pass) {
                 let before = if pass - 1 == first {
                     (jumped.from.clone(), jumped.offset)
