@@ -6,7 +6,7 @@ use super::memory::PassMemory;
 use super::passage::UNBALANCED_SHARE;
 use super::passage::{Passage, Snapshot};
 use super::supports::Supports;
-use super::window::{self, Room, Window};
+use super::window::{self, Needed, Room, Window};
 use crate::ends::{Balance, EndReader};
 use crate::outcome::Recorder;
 use crate::step::{Chain, Contact, Load, Prediction, StepSolver, Stretch, largest};
@@ -125,9 +125,12 @@ impl ForwardSolver {
         self.update_supports(snapshot, false);
         let limit = self.step.chain.limit * (1.0 + UNBALANCED_SHARE);
         let near = self.room.under(snapshot.node, passage.reach);
-        let travelling = window::travelling(self.room, near, travelling, |&i| {
-            (self.g[i] + snapshot.adhesion[i]).abs() > limit
-        });
+        let needed = Needed {
+            friction: &self.g,
+            adhesion: snapshot.adhesion,
+            limit,
+        };
+        let travelling = window::travelling(self.room, near, travelling, &needed);
         let mut windows = std::mem::take(&mut self.windows);
         let known = remembered.map(|(window, _)| window);
         window::collect(&mut windows, travelling, known, self.supports.due());

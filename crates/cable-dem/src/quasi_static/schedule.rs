@@ -18,6 +18,8 @@ use crate::approach::SETTLED;
 const LARGEST_STRIDE_SHARE: f64 = 0.5;
 /// Share of the largest displacement by which the duct has to come back for a turn to count. Less is the noise of a table.
 const TURN: f64 = 1e-4;
+/// Strides to the vehicle from which on a turn between two positions no longer matters.
+const STRIDES: i64 = 100;
 
 /// Vehicle positions in lattice units, ascending, from `approach` before a duct of length `end` to `approach` past it, about
 /// `stride` apart over the duct. `shape` is D on the lattice, `origin` the index of ξ = 0 in it.
@@ -32,7 +34,10 @@ pub(super) fn schedule(shape: &[f64], origin: usize, end: i64, approach: i64, st
         let least = (longer as f64 / LARGEST_STRIDE_SHARE) as i64;
         limits.push((
             longer,
-            [0, 1].map(|side| outermost[side].max(settled[side]).max(least)),
+            [0, 1].map(|side| {
+                let followed = settled[side].min(longer * STRIDES);
+                outermost[side].max(followed).max(least)
+            }),
         ));
         longer *= 2;
     }

@@ -1,9 +1,14 @@
 //! The windows of a step: where the cable moves, and how that zone grows, travels and shrinks.
 
+use std::ops::Range;
+
 use crate::step::Stretch;
 
 /// Most nodes that a disturbed window grows by at once on each side.
 const MAX_GROWTH: usize = 256;
+
+/// Nodes looked at together.
+const BLOCK: usize = 32;
 
 /// A window to solve in this step.
 #[derive(Debug, Clone, Copy)]
@@ -54,20 +59,52 @@ impl Room {
     }
 }
 
-/// The travelling window: the last one, extended to every node `near` the vehicle that `slips`.
+/// Friction that the cable would need all along if it stood still.
+pub(super) struct Needed<'a> {
+    /// Its parts at every node \[N/m\].
+    pub friction: &'a [f64],
+    pub adhesion: &'a [f64],
+    /// What there is of it \[N/m\].
+    pub limit: f64,
+}
+
+impl Needed<'_> {
+    fn slips(&self, node: usize) -> bool {
+        (self.friction[node] + self.adhesion[node]).abs() > self.limit
+    }
+
+    /// Whether any of `nodes` slips: without a jump out of the loop, so that several are seen at once.
+    fn any_slips(&self, nodes: Range<usize>) -> bool {
+        let pairs = self.friction[nodes.clone()].iter().zip(&self.adhesion[nodes]);
+        pairs.fold(false, |any, (friction, adhesion)| any | ((friction + adhesion).abs() > self.limit))
+    }
+
+    fn first(&self, nodes: Range<usize>) -> Option<usize> {
+        let mut blocks = nodes.clone().step_by(BLOCK).map(|lo| lo..nodes.end.min(lo + BLOCK));
+        blocks.find(|block| self.any_slips(block.clone()))?.find(|&node| self.slips(node))
+    }
+
+    fn last(&self, nodes: Range<usize>) -> Option<usize> {
+        let mut blocks = nodes.clone().step_by(BLOCK).map(|lo| lo..nodes.end.min(lo + BLOCK)).rev();
+        blocks.find(|block| self.any_slips(block.clone()))?.rev().find(|&node| self.slips(node))
+    }
+}
+
+/// The travelling window: the last one, extended to every node `near` the vehicle that slips.
 pub(super) fn travelling(
     room: Room,
     near: Stretch,
     last: Option<Stretch>,
-    slips: impl Fn(&usize) -> bool,
+    needed: &Needed<'_>,
 ) -> Option<Stretch> {
+    let end = near.hi + 1;
     let Some(last) = last else {
-        let first = near.nodes().find(&slips)?;
-        let hi = near.nodes().rev().find(&slips).unwrap_or(first);
-        return Some(room.widened(Stretch { lo: first, hi }, room.margin));
+        let lo = needed.first(near.lo..end)?;
+        let hi = needed.last(near.lo..end).unwrap_or(lo);
+        return Some(room.widened(Stretch { lo, hi }, room.margin));
     };
-    let before = (near.lo..last.lo.min(near.hi + 1)).find(&slips);
-    let after = (last.hi.max(near.lo) + 1..=near.hi).rev().find(&slips);
+    let before = needed.first(near.lo..last.lo.min(end));
+    let after = needed.last(last.hi.max(near.lo) + 1..end);
     let slipping = Stretch {
         lo: before.unwrap_or(last.lo),
         hi: after.unwrap_or(last.hi),
