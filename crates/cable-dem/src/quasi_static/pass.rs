@@ -15,6 +15,15 @@ use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 /// A window's edge is quiet when the force its last move put on the next node is below this share of [`UNBALANCED_SHARE`].
 const QUIET: f64 = 0.25;
 
+/// A stretch that was solved.
+struct Solution {
+    solved: Stretch,
+    /// The part of it that still moves.
+    moves: Option<Stretch>,
+    /// Nodes whose contact states those at the same distance from the vehicle did not foretell.
+    surprises: usize,
+}
+
 /// Drives vehicles forward over one cable; allocated once.
 #[derive(Debug, Clone)]
 pub(super) struct ForwardSolver {
@@ -31,6 +40,8 @@ pub(super) struct ForwardSolver {
     thermal_force: f64,
     windows: Vec<Window>,
     prediction: Prediction,
+    /// Whether the last pass foretold the last step better than `prediction` did.
+    recurs: bool,
     /// The last pass of each passage: its windows and contact states. They and `prediction` outlive a pass, so that an answer
     /// depends on earlier passes, by up to 1e-4 of the largest force.
     memories: HashMap<u64, PassMemory>,
@@ -57,6 +68,7 @@ impl ForwardSolver {
             thermal_force: 0.0,
             windows: Vec::new(),
             prediction: Prediction::default(),
+            recurs: true,
             memories: HashMap::new(),
             recorder: Recorder::new(EndForces::default()),
             lattice_step: mesh.lattice_step(),
@@ -82,6 +94,7 @@ impl ForwardSolver {
         self.recorder = Recorder::new(state.ends(&self.cable));
         let last_pass = self.memories.remove(&passage.id).unwrap_or_default();
         let mut this_pass = PassMemory::default();
+        self.recurs = true;
 
         let mut travelling = None;
         for (step, &position) in passage.positions.iter().enumerate() {
@@ -140,9 +153,10 @@ impl ForwardSolver {
             if window.travels {
                 self.predict(window.stretch, passage.first_point(snapshot), remembered);
             }
-            let (solved, still_moving) = self.solve(window.stretch, snapshot, passage)?;
+            let Solution { solved, moves, surprises } = self.solve(window.stretch, snapshot, passage)?;
             if window.travels {
-                moving = still_moving;
+                moving = moves;
+                self.recurs = remembered.is_none_or(|last_pass| self.misses(last_pass) <= surprises);
             }
             let widest = &mut self.recorder.statistics.widest_window;
             *widest = solved.len().max(*widest);
@@ -169,26 +183,31 @@ impl ForwardSolver {
         }
     }
 
-    /// Guesses the contact states of the travelling window: those of the last pass at this vehicle position, in the first pass those
-    /// that a node had where this one now stands relative to the vehicle.
+    /// Guesses the contact states of the travelling window: those of the last pass at this vehicle position, or those that a node had
+    /// where this one now stands relative to the vehicle; whichever was right at more nodes in the last step.
     fn predict(&mut self, window: Stretch, first: usize, remembered: Option<(Stretch, &[Contact])>) {
         let contacts = &mut self.step.trial.contact;
         match remembered {
-            Some((known, states)) if window.lo <= known.lo && known.hi <= window.hi => {
+            Some((known, states)) if self.recurs && window.lo <= known.lo && known.hi <= window.hi => {
                 contacts[known.nodes()].copy_from_slice(states);
             }
             _ => self.prediction.read(first, window, contacts),
         }
     }
 
-    /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returns what was solved, and the part of
-    /// it that still moves.
+    /// At how many nodes the contact states of the last pass differ from those just solved.
+    fn misses(&self, (known, states): (Stretch, &[Contact])) -> usize {
+        let pairs = self.step.trial.contact[known.nodes()].iter().zip(states);
+        pairs.filter(|(now, then)| now != then).count()
+    }
+
+    /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state.
     fn solve(
         &mut self,
         mut stretch: Stretch,
         snapshot: &Snapshot<'_>,
         passage: &Passage,
-    ) -> Result<(Stretch, Option<Stretch>), CableError> {
+    ) -> Result<Solution, CableError> {
         let mut growth = self.room.margin;
         loop {
             self.recorder.statistics.windows += 1;
@@ -222,7 +241,7 @@ impl ForwardSolver {
             (stretch, growth) = (grown, next);
         }
         let StepSolver { chain, trial, .. } = &self.step;
-        let moving = window::shrink(stretch, |edge, inner| {
+        let moves = window::shrink(stretch, |edge, inner| {
             let moved = (trial.r[inner] - self.r[inner]).abs();
             chain.stiffness * moved <= QUIET * UNBALANCED_SHARE * chain.limit * chain.tributary[edge]
         });
@@ -234,9 +253,12 @@ impl ForwardSolver {
         }
         self.r[stretch.nodes()].copy_from_slice(&trial.r[stretch.nodes()]);
         self.g[stretch.nodes()].copy_from_slice(&trial.g[stretch.nodes()]);
-        self.prediction
-            .write(passage.first_point(snapshot), stretch, &trial.contact);
-        Ok((stretch, moving))
+        let first = passage.first_point(snapshot);
+        Ok(Solution {
+            solved: stretch,
+            moves,
+            surprises: self.prediction.write(first, stretch, &trial.contact),
+        })
     }
 
     /// Whether the trial leaves the held node beside the window out of balance.

@@ -28,10 +28,14 @@ impl Prediction {
         }
     }
 
-    /// Remembers the states of the nodes in `stretch` from a step that was solved.
-    pub fn write(&mut self, first: usize, stretch: Stretch, contacts: &[Contact]) {
+    /// Remembers the states of the nodes in `stretch` from a step that was solved. Returned: how many of them it would have got wrong.
+    pub fn write(&mut self, first: usize, stretch: Stretch, contacts: &[Contact]) -> usize {
+        let mut wrong = 0;
         for node in stretch.nodes() {
-            self.by_distance[first + node * self.phases] = contacts[node];
+            let guess = &mut self.by_distance[first + node * self.phases];
+            wrong += usize::from(*guess != contacts[node]);
+            *guess = contacts[node];
         }
+        wrong
     }
 }
