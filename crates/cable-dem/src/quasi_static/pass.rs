@@ -153,7 +153,11 @@ impl ForwardSolver {
             if window.travels {
                 self.predict(window.stretch, passage.first_point(snapshot), remembered);
             }
-            let Solution { solved, moves, surprises } = self.solve(window.stretch, snapshot, passage)?;
+            let Solution {
+                solved,
+                moves,
+                surprises,
+            } = self.solve(window.stretch, snapshot, passage)?;
             if window.travels {
                 moving = moves;
                 self.recurs = remembered.is_none_or(|last_pass| self.misses(last_pass) <= surprises);

@@ -3,7 +3,8 @@
 //! Over the duct it advances by the mesh's vehicle step. A step is an exact solution as long as no node slips both ways within it:
 //! neither may the duct turn, nor may the parts of the duct change the order in which they lead, which decides where a stiff cable
 //! goes. Where that happens far away it happens to the whole duct at once and is felt by the whole cable. So the vehicle keeps its
-//! step beyond the duct too until the shape has turned for the last time, and half as far again: tails that are a sum of two
+//! step beyond the duct too until the shape has turned for the last time, and half as far again, or until it is a hundred steps away: a
+//! turn at the distance d is as wide as d, and a stride of d/100 misses 1e-5 of it. Tails that are a sum of two
 //! powers, −a/ξᵐ + b/ξⁿ, have their steepest slope within 1.5 of the distance of their turn. A wheel on a
 //! half-space (ν = 0.4) pushes the duct away within six depths and pulls it in beyond; the pull is largest at twelve, and changes
 //! fastest after that at eighteen.
@@ -166,6 +167,31 @@ mod tests {
             .map(|(d, noise)| d + noise)
             .collect();
         assert_eq!(outermost_turns(&noisy, 2000), outermost_turns(&shape, 2000));
+    }
+
+    #[test]
+    fn a_turn_far_away_is_passed_in_strides_of_a_hundredth_of_its_distance() {
+        // A wheel over a duct at 10 steps, and a slab that is hundreds of depths wide: ξ (ξ² − c²)/(c² + ξ²)², c = 4000, turns last at 2.4 c.
+        let c = 4000.0_f64;
+        let shape: Vec<f64> = (-40_000..=40_000)
+            .map(f64::from)
+            .map(|xi| xi * (xi * xi - c * c) / (c * c + xi * xi).powi(2) + 0.01 * xi / (100.0 + xi * xi))
+            .collect();
+        let positions = schedule(&shape, 40_000, 100, 30_000, 1);
+        assert!(positions.len() < 2000, "{}", positions.len());
+        let settled = outermost_turns(&shape, 40_000).map(|distance| (SETTLED * distance as f64) as i64);
+        assert!(
+            settled.iter().all(|settled| (14_000..15_000).contains(settled)),
+            "{settled:?}"
+        );
+        for pair in positions.windows(2) {
+            let (stride, distance) = (pair[1] - pair[0], (-pair[1]).max(pair[0] - 100));
+            let is_near = distance < settled[0].min(settled[1]);
+            assert!(
+                !is_near || stride == 1 || STRIDES * stride <= distance,
+                "{pair:?}"
+            );
+        }
     }
 
     #[test]

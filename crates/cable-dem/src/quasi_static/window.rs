@@ -76,17 +76,31 @@ impl Needed<'_> {
     /// Whether any of `nodes` slips: without a jump out of the loop, so that several are seen at once.
     fn any_slips(&self, nodes: Range<usize>) -> bool {
         let pairs = self.friction[nodes.clone()].iter().zip(&self.adhesion[nodes]);
-        pairs.fold(false, |any, (friction, adhesion)| any | ((friction + adhesion).abs() > self.limit))
+        pairs.fold(false, |any, (friction, adhesion)| {
+            any | ((friction + adhesion).abs() > self.limit)
+        })
     }
 
     fn first(&self, nodes: Range<usize>) -> Option<usize> {
-        let mut blocks = nodes.clone().step_by(BLOCK).map(|lo| lo..nodes.end.min(lo + BLOCK));
-        blocks.find(|block| self.any_slips(block.clone()))?.find(|&node| self.slips(node))
+        let mut blocks = nodes
+            .clone()
+            .step_by(BLOCK)
+            .map(|lo| lo..nodes.end.min(lo + BLOCK));
+        blocks
+            .find(|block| self.any_slips(block.clone()))?
+            .find(|&node| self.slips(node))
     }
 
     fn last(&self, nodes: Range<usize>) -> Option<usize> {
-        let mut blocks = nodes.clone().step_by(BLOCK).map(|lo| lo..nodes.end.min(lo + BLOCK)).rev();
-        blocks.find(|block| self.any_slips(block.clone()))?.rev().find(|&node| self.slips(node))
+        let mut blocks = nodes
+            .clone()
+            .step_by(BLOCK)
+            .map(|lo| lo..nodes.end.min(lo + BLOCK))
+            .rev();
+        blocks
+            .find(|block| self.any_slips(block.clone()))?
+            .rev()
+            .find(|&node| self.slips(node))
     }
 }
 
