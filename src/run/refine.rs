@@ -22,7 +22,7 @@ pub const REFINEMENT_COST: usize = 4;
 pub const SHARP: usize = 3;
 /// Share of the work that finding jumps is taken for.
 pub const FINDING: f64 = 0.3;
-/// Share of the tolerance that is left to the mesh at least.
+/// What is left to the mesh at least, as a share of the tolerance, or of the other errors where these are larger.
 const LEAST_SHARE: f64 = 0.5;
 
 /// A plan's passes, on whatever level.
@@ -349,7 +349,7 @@ fn work_of(passes: &[Passes]) -> Statistics {
 pub fn allowed(tolerance: f64, others: Shares) -> Shares {
     Shares::both(tolerance)
         .less(others)
-        .max(Shares::both(LEAST_SHARE * tolerance))
+        .max(Shares::both(tolerance).max(others).times(LEAST_SHARE))
 }
 
 fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
