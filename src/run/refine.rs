@@ -22,7 +22,7 @@ pub const REFINEMENT_COST: usize = 4;
 pub const SHARP: usize = 3;
 /// Share of the work that finding jumps is taken for.
 pub const FINDING: f64 = 0.3;
-/// What is left to the mesh at least, as a share of the tolerance, or of the other errors where these are larger.
+/// What is left to the mesh at least, as a share of the tolerance, or of the largest other error where that is beyond it.
 const LEAST_SHARE: f64 = 0.5;
 
 /// A plan's passes, on whatever level.
@@ -349,7 +349,7 @@ fn work_of(passes: &[Passes]) -> Statistics {
 pub fn allowed(tolerance: f64, others: Shares) -> Shares {
     Shares::both(tolerance)
         .less(others)
-        .max(Shares::both(tolerance).max(others).times(LEAST_SHARE))
+        .max(Shares::both(LEAST_SHARE * tolerance.max(others.force).max(others.movement)))
 }
 
 fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
