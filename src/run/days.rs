@@ -11,7 +11,7 @@ use super::judge::{judge, mesh_reason};
 use super::lived::{Lived, Living};
 use super::options::RunOptions;
 use super::outlook::Outlook;
-use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, allowed, both};
+use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, allowed, both, worth};
 use super::work::Work;
 use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
@@ -143,8 +143,8 @@ impl Living<'_> {
                 let typical = Shares::both(TYPICAL[fineness]);
                 error.mesh = self.difference(&finest, coarse).times(share).max(typical);
             }
-            let costly =
-                REFINEMENT_COST.saturating_mul(finest.passes.statistics.node_updates) > MAX_NODE_UPDATES;
+            let finer = REFINEMENT_COST.saturating_mul(finest.passes.statistics.node_updates);
+            let costly = finer > worth(tolerance);
             let others = error.total().less(error.mesh);
             let within = error.mesh.is_within(allowed(tolerance, others));
             if costly || level >= levels.finest() || below.is_some() && within {

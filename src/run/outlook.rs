@@ -11,7 +11,7 @@ use cable_dem::Statistics;
 use cycle_jump::Record;
 
 use super::jumps::SMALLER_SHARE;
-use super::refine::{MAX_NODE_UPDATES, REFINEMENT_COST, SHARP, allowed};
+use super::refine::{REFINEMENT_COST, SHARP, allowed, worth};
 use super::work::{GROWTH, Work};
 use crate::answer::error_estimate::{Scale, Shares, difference, of_differences};
 use crate::plan::{Levels, Plan};
@@ -213,7 +213,7 @@ impl Known<'_> {
         };
         let work = REFINEMENT_COST as f64 * self.level_work(level).updates();
         let spread = if level < self.next() { 0.0 } else { SPREAD_OF_WORK };
-        let affordable = below((work / MAX_NODE_UPDATES as f64).ln(), spread);
+        let affordable = below((work / worth(tolerance) as f64).ln(), spread);
         [1.0 - smaller - (1.0 - found - smaller) * affordable, smaller]
     }
 

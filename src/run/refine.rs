@@ -14,8 +14,10 @@ use crate::ground::{peak, road};
 use crate::plan::{Levels, PassMethod, Plan};
 use crate::{Error, Progress, Scene};
 
-/// Nodes eliminated in all passes on one mesh beyond which no finer one is tried: about half a minute.
+/// Most nodes eliminated in all passes on one mesh: about ten seconds.
 pub const MAX_NODE_UPDATES: usize = 2_000_000_000;
+/// The same on a mesh finer than the first, at this tolerance.
+const FINER: (usize, f64) = (1_000_000_000, 0.01);
 /// A mesh twice as fine takes about this many times the node updates.
 pub const REFINEMENT_COST: usize = 4;
 /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
@@ -225,7 +227,7 @@ impl Refinement<'_> {
         Seen {
             is_within: is_seen && others.is_within(allowed(tolerance, error.passes)),
             would_be_with_smaller_jumps: is_seen && others.is_within(smaller),
-            is_costly: REFINEMENT_COST.saturating_mul(work) > MAX_NODE_UPDATES,
+            is_costly: REFINEMENT_COST.saturating_mul(work) > worth(tolerance),
         }
     }
 
@@ -345,11 +347,17 @@ fn work_of(passes: &[Passes]) -> Statistics {
     work
 }
 
+/// Node updates that a finer mesh is worth: the more the less error is asked for.
+pub fn worth(tolerance: f64) -> usize {
+    let (updates, at) = FINER;
+    ((updates as f64 * at / tolerance) as usize).clamp(updates, MAX_NODE_UPDATES)
+}
+
 /// What of the `tolerance` is left beside `others`, which no finer mesh takes away.
 pub fn allowed(tolerance: f64, others: Shares) -> Shares {
-    Shares::both(tolerance)
-        .less(others)
-        .max(Shares::both(LEAST_SHARE * tolerance.max(others.force).max(others.movement)))
+    Shares::both(tolerance).less(others).max(Shares::both(
+        LEAST_SHARE * tolerance.max(others.force).max(others.movement),
+    ))
 }
 
 fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
