@@ -3,6 +3,8 @@
 //! Each chart is a file here. Accuracy is measured against independent or far finer answers, cost in seconds and in a count that
 //! knows no machine. Without a name all charts are drawn.
 
+#[path = "../shared/aims.rs"]
+mod computations;
 #[path = "../shared/ground_reference.rs"]
 mod ground_reference;
 #[path = "../shared/passes.rs"]
@@ -10,7 +12,9 @@ mod passes;
 #[path = "../shared/stopwatch.rs"]
 mod stopwatch;
 
+mod aims;
 mod cable;
+mod cost;
 mod discrepancy;
 mod ground;
 mod whole;
@@ -29,6 +33,8 @@ const CHARTS: &[Entry] = &[
     ("cable", cable::run),
     ("whole", whole::run),
     ("discrepancy", discrepancy::run),
+    ("cost", cost::run),
+    ("aims", aims::run),
 ];
 
 fn main() -> Result<(), Box<dyn Error + Send + Sync>> {

@@ -67,12 +67,13 @@ impl PassSolver {
         let mut nearest = f64::INFINITY;
         let mut seen = None;
         let nodes = self.solver.mesh().nodes();
-        let spacing = self.solver.mesh().spacing();
+        let (spacing, step) = (self.solver.mesh().spacing(), self.solver.mesh().vehicle_step());
         let outcome = self
             .solver
             .pass_observed(&self.passages[vehicle], state, |view| {
                 let distance = (view.vehicle_position() - position).abs();
-                if distance < nearest {
+                // A look at all nodes in every step would cost more than a pass of a long duct.
+                if distance <= step && distance < nearest {
                     nearest = distance;
                     seen = Some(FrictionProfile {
                         vehicle,
