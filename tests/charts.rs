@@ -123,6 +123,69 @@ fn seconds(rows: &[Row], panel: &str, method: &str, error: f64) -> f64 {
         .fold(f64::INFINITY, |least, row| least.min(row.seconds))
 }
 
+/// What runs cost in a panel of the chart of costs: work, seconds and node updates where they are counted.
+fn cost(panel: &str, series: &str) -> Result<Vec<(f64, f64)>, Box<dyn Error>> {
+    let mut reader = csv::Reader::from_path(folder().join("cost.csv"))?;
+    let mut points = Vec::new();
+    for record in reader.records() {
+        let record = record?;
+        if &record[0] == panel && &record[1] == series {
+            points.push((record[2].parse()?, record[3].parse()?));
+        }
+    }
+    assert!(points.len() > 1, "{panel}, {series}: {points:?}");
+    Ok(points)
+}
+
+/// How cost grows from one point to the last, as an exponent of the work.
+fn growth(points: &[(f64, f64)], from: f64) -> f64 {
+    let first = points
+        .iter()
+        .find(|(work, _)| *work >= from)
+        .unwrap_or(&points[0]);
+    let last = points[points.len() - 1];
+    (last.1 / first.1).ln() / (last.0 / first.0).ln()
+}
+
+#[test]
+fn no_cost_grows_faster_than_the_page_says() -> Tested {
+    for (panel, series, from, most) in [
+        ("passes", "one way", 1e4, 0.05),
+        ("passes", "two ways", 1e4, 0.05),
+        ("length", "10 passes", 30.0, 1.0),
+        ("length", "1e6 passes", 30.0, 1.1),
+        ("tolerance", "200 passes of 30 m", 20.0, 1.2),
+        ("vehicles", "1000 passes of 30 m", 1.0, 1.0),
+        ("layers", "10 passes of 30 m", 5.0, 0.2),
+        ("threads", "16 runs at once", 1.0, -0.75),
+    ] {
+        let found = growth(&cost(panel, series)?, from);
+        assert!(found <= most, "{panel}, {series}: {found}, not {most}");
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_counted_takes_little_more_than_bare_solves() -> Tested {
+    let mut reader = csv::Reader::from_path(folder().join("aims.csv"))?;
+    let page = page()?;
+    let mut counted = 0;
+    for record in reader.records() {
+        let record = record?;
+        assert!(
+            page.contains(&format!("| {} |", &record[0])),
+            "not on the page: {record:?}"
+        );
+        let seconds: f64 = record[2].parse()?;
+        if let Ok(least) = record[4].parse::<f64>() {
+            assert!(seconds <= 2.0 * least, "{record:?}");
+            counted += 1;
+        }
+    }
+    assert_eq!(counted, 5);
+    Ok(())
+}
+
 #[test]
 fn every_table_is_sound_and_every_figure_on_the_page() -> Tested {
     for name in names("csv")? {

@@ -17,6 +17,8 @@ type Failure = Box<dyn Error + Send + Sync>;
 /// Unknowns of the bare solve: a window of the cable.
 const NODES: usize = 256;
 const SOLVES: usize = 1000;
+/// The least of so many times counts: other work on the machine only adds to it.
+const REPEATED: usize = 3;
 
 pub fn run(out: &Path) -> Result<(), Failure> {
     let price = bare_solve()?;
@@ -30,7 +32,11 @@ pub fn run(out: &Path) -> Result<(), Failure> {
         work,
     } in aims()?
     {
-        let (updates, seconds) = timed(|| one.install(|| work()))?;
+        let (mut updates, mut seconds) = (None, f64::INFINITY);
+        for _ in 0..REPEATED {
+            let (counted, taken) = timed(|| one.install(|| work()))?;
+            (updates, seconds) = (counted, seconds.min(taken));
+        }
         let each = seconds / of as f64;
         let updates = updates.map(|updates| updates as f64 / of as f64);
         let counted = updates.map_or(String::new(), |updates| format!("{updates:.0}"));

@@ -79,12 +79,12 @@ pub fn aims() -> Result<Vec<Aim>, Failure> {
             upper(&["traffic.passes=5000", "duct.length=100 m"])?.scene()?,
         ),
         Aim::run(
-            "292 000 passes of three lanes, 250 m",
+            "292 000 passes of 250 m with three lanes",
             1.0,
             upper(&ROAD)?.scene()?,
         ),
         Aim::run(
-            "20 years with daily heat on a slope, 100 m",
+            "20 years of 100 m with daily heat on a slope",
             3.0,
             upper(&HEATED)?.scene()?,
         ),
@@ -152,7 +152,7 @@ fn pass() -> Result<Aim, Failure> {
     let started = Mutex::new((solver, state));
     Ok(Aim {
         of: PASSES,
-        ..Aim::new("one pass of 300 m, 6 nodes a depth", 1.5e-3, move || {
+        ..Aim::new("one pass of 300 m on 6 nodes a depth", 1.5e-3, move || {
             let (mut solver, mut state) = started.lock().unwrap_or_else(PoisonError::into_inner).clone();
             let mut updates = 0;
             for _ in 0..PASSES {
