@@ -344,7 +344,7 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
     // The free end counts only by its name.
     let kept = printed(&run(&["--limit-movement", "1 um"]));
     assert!(
-        kept.contains("limit kept: movement of the downstream end at most 0.0 µm of 1 µm"),
+        kept.contains("limit kept: movement of the downstream end at most 0.0 µm, limit 1 µm"),
         "{kept}"
     );
     let named = printed(&run(&[
@@ -355,7 +355,7 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
     ]));
     for line in [
         "limit exceeded: movement of the upstream end above 2 µm from pass 1 on, 6 h; largest ",
-        "limit kept: movement of the downstream end at most 0.0 µm of 1 µm",
+        "limit kept: movement of the downstream end at most 0.0 µm, limit 1 µm",
     ] {
         assert!(named.contains(line), "{named}");
     }

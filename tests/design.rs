@@ -310,3 +310,60 @@ fn answers_are_read_as_they_were_written() {
     let text = serde_json::to_string(&run).unwrap();
     assert_eq!(serde_json::from_str::<Run>(&text).unwrap(), run);
 }
+
+#[test]
+fn a_spring_moves_with_the_force_on_it_during_a_pass() {
+    let stiffness = 1e6;
+    let mut held = scene();
+    held.ends.downstream = End::Spring(stiffness);
+    held.traffic.passes = 2;
+    let run = creepage::run(&held).unwrap();
+    let peak = run
+        .passes
+        .iter()
+        .map(|pass| pass.downstream_peak_n)
+        .fold(0.0, f64::max);
+    let after = run
+        .passes
+        .iter()
+        .map(|pass| pass.downstream_force_n)
+        .fold(0.0, f64::max);
+    assert!(peak > 1.005 * after, "{peak} {after}");
+    let limit = 0.5 * (peak + after) / stiffness;
+    let verdicts = Limits::both(None, Some(limit)).verdicts(&run);
+    let spring = verdicts
+        .iter()
+        .find(|verdict| verdict.end == Place::Downstream)
+        .unwrap();
+    assert!(
+        (spring.largest / (peak / stiffness) - 1.0).abs() < 1e-9,
+        "{spring:?}"
+    );
+    assert!(
+        spring.during_a_pass && spring.reached_after.is_some(),
+        "{spring:?}"
+    );
+}
+
+#[test]
+fn a_limit_that_more_passes_exceed_is_told() {
+    let overrides = ["traffic.passes=52", "solver.method=pass-law"];
+    let scene = creepage::SceneFile::read("examples/scenes/full-scale-upper.toml")
+        .and_then(|file| file.with(&overrides)?.scene())
+        .unwrap();
+    let run = creepage::run(&scene).unwrap();
+    let level = run.saturation.as_ref().unwrap().downstream_force_n;
+    let told = |limit: f64| {
+        let verdicts = Limits::both(Some(limit), None).verdicts(&run);
+        let end = verdicts
+            .into_iter()
+            .find(|verdict| verdict.end == Place::Downstream)
+            .unwrap();
+        (end.reached_after.is_some(), end.levels_off_above, end.to_string())
+    };
+    let (exceeded, above, words) = told(level - 1.0);
+    assert!(!exceeded && above == Some(level), "{words}");
+    assert!(words.contains("with more passes it levels off at"), "{words}");
+    assert_eq!(told(level + 1.0).1, None);
+    assert_eq!(told(400.0).1, None, "these passes exceed it");
+}

@@ -860,7 +860,7 @@ fn a_page_is_in_the_units_that_were_typed() {
     assert_eq!(shown[2], format!("{moved:.5}"));
 
     for words in [
-        "of 2 kip",
+        "limit 2 kip",
         "force on the clamp at 50 ft at most",
         "Duct: 98 ft long, 4 ft from the road surface",
         "7.5 lbf/ft heavy, axial stiffness EA 1800 kip",

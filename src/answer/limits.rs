@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cable_end::CableEnd;
 use super::place::{Limited, Place};
-use super::record::{PassRecord, Run};
+use super::record::{PassRecord, Run, Saturation};
 use super::units::Units;
 
 /// What must not be exceeded at one place; of either sign.
@@ -63,6 +63,9 @@ pub struct Verdict {
     pub during_a_pass: bool,
     /// The first pass that exceeds the limit; `None` where none does.
     pub reached_after: Option<Reached>,
+    /// Where no pass exceeds the limit: the force after a pass \[N\] at which more passes level off, if that is above the limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub levels_off_above: Option<f64>,
     /// Whether limit and largest are nearer to each other than the estimated error.
     pub doubtful: bool,
 }
@@ -82,6 +85,18 @@ impl CableEnd {
         match self {
             Self::Upstream => record.upstream_force_n.abs(),
             Self::Downstream => record.downstream_force_n.abs(),
+        }
+    }
+
+    /// How far it is displaced after a pass, and on a spring during it, whichever way \[m\]: a spring moves in proportion to its force.
+    /// How far a free end moves to and fro during a pass, some micrometres, is left out.
+    pub fn largest_movement(self, record: &PassRecord) -> f64 {
+        let (after, during) = (self.force_after(record), self.largest_force(record));
+        let movement = self.movement(record);
+        if after > 0.0 {
+            movement * during / after
+        } else {
+            movement
         }
     }
 
@@ -189,6 +204,13 @@ impl Limits {
                 let listed = run.passes.iter().rfind(|record| record.pass <= pass)?;
                 Some(listed.years? * pass as f64 / listed.pass as f64)
             };
+            let level = run
+                .saturation
+                .as_ref()
+                .and_then(|saturation| level_at(saturation, end));
+            let level = level.filter(|level| {
+                quantity == Limited::Force && first.is_none() && level.abs() > limit && run.heat.is_none()
+            });
             let error = match quantity {
                 Limited::Force => run.error_estimate.relative,
                 Limited::Movement => run.error_estimate.parts.movement,
@@ -203,6 +225,7 @@ impl Limits {
                     pass,
                     years: years(pass),
                 }),
+                levels_off_above: level,
                 doubtful: (largest - limit).abs() <= error * largest,
             }
         };
@@ -210,14 +233,24 @@ impl Limits {
     }
 }
 
+/// The force \[N\] that an end levels off at.
+fn level_at(saturation: &Saturation, place: Place) -> Option<f64> {
+    match place {
+        Place::Upstream => Some(saturation.upstream_force_n),
+        Place::Downstream => Some(saturation.downstream_force_n),
+        Place::Clamp(_) => None,
+    }
+}
+
 impl Verdict {
     /// In words, in units of a reader.
     pub fn shown(&self, units: &Units) -> String {
-        self.shown_with(units, &self.quantity.shown_in(units, self.largest))
+        self.shown_with(units, |value| self.quantity.shown_in(units, value))
     }
 
-    /// The same with the `largest` in words.
-    pub(crate) fn shown_with(&self, units: &Units, largest: &str) -> String {
+    /// The same with values written by `shown`.
+    pub(crate) fn shown_with(&self, units: &Units, shown: impl Fn(f64) -> String) -> String {
+        let largest = shown(self.largest);
         let when = if self.during_a_pass { " during a pass" } else { "" };
         let limit = self.quantity.given_in(units, self.limit);
         let what = self.quantity.at_in(units, self.end);
@@ -228,7 +261,14 @@ impl Verdict {
                     "limit exceeded: {what} above {limit} from pass {pass} on{time}; largest {largest}{when}"
                 )
             }
-            None => format!("limit kept: {what} at most {largest}{when} of {limit}"),
+            None => format!("limit kept: {what} at most {largest}{when}, limit {limit}"),
+        };
+        let verdict = match self.levels_off_above {
+            Some(level) => format!(
+                "{verdict}; with more passes it levels off at {}, above the limit",
+                shown(level)
+            ),
+            None => verdict,
         };
         if self.doubtful {
             return format!("{verdict}; nearer to the limit than the estimated error");

@@ -69,7 +69,7 @@ impl std::fmt::Display for Place {
 
 impl Run {
     /// The largest force \[N\] or movement \[m\] at `place` in size, of all listed passes and all days: of an end also the force during
-    /// passes, of a clamp that after them; in random order, where passes between jumps are means, with the scatter of single ones. Zero
+    /// passes and the movement of its spring, of a clamp those after them; in random order, where passes between jumps are means, with the scatter of single ones. Zero
     /// where there is no such clamp.
     pub fn largest(&self, place: impl Into<Place>, quantity: Limited) -> f64 {
         let place = place.into();
@@ -83,14 +83,18 @@ impl Run {
 
     /// The same without what happens while a vehicle is above the duct.
     pub(super) fn largest_at_rest(&self, place: Place, quantity: Limited) -> f64 {
-        let end = match (place, quantity) {
-            (Place::Upstream, Limited::Force) => CableEnd::Upstream,
-            (Place::Downstream, Limited::Force) => CableEnd::Downstream,
-            _ => return self.largest(place, quantity),
+        let end = match place {
+            Place::Upstream => CableEnd::Upstream,
+            Place::Downstream => CableEnd::Downstream,
+            Place::Clamp(_) => return self.largest(place, quantity),
         };
         let passes = self.passes.iter();
-        let passes = passes.map(|record| end.force_after(record) + self.scatter(end, record));
-        let days = self.heat.iter().map(|heat| heat.all_days.largest_force(end));
+        let passes = passes.map(|record| match quantity {
+            Limited::Force => end.force_after(record) + self.scatter(end, record),
+            Limited::Movement => end.movement(record),
+        });
+        let days = self.heat.iter();
+        let days = days.map(|heat| self.on_day(place, quantity, &heat.all_days));
         passes.chain(days).fold(0.0, f64::max)
     }
 
@@ -99,7 +103,7 @@ impl Run {
         let record = &self.passes[index];
         let at_end = |end: CableEnd| match quantity {
             Limited::Force => end.largest_force(record) + self.scatter(end, record),
-            Limited::Movement => end.movement(record),
+            Limited::Movement => end.largest_movement(record),
         };
         match place {
             Place::Upstream => at_end(CableEnd::Upstream),

@@ -5,8 +5,9 @@ use std::sync::{Mutex, PoisonError};
 
 use serde::Serialize;
 
+use super::design_advice::advice;
 use super::design_units::Shown;
-use super::design_words::{advice, compared, print, tried};
+use super::design_words::{compared, print, tried};
 use super::failure::Failure;
 use super::limits::{LimitArguments, place};
 use super::progress::{HowFar, stopped, watched};

@@ -231,7 +231,28 @@ fn conclusion(out: &mut impl Write, design: &Design, units: &Shown) -> Result<()
             writeln!(out, "{line}")?;
         }
         if is_near(design) {
-            writeln!(out, "nearer to a limit than the estimated error: leave a margin")?;
+            writeln!(
+                out,
+                "nearer to a limit than the estimated error of {}: repeat the search with limits smaller by that",
+                percent(answer.error_estimate)
+            )?;
+        }
+        if answer.still_growing {
+            writeln!(
+                out,
+                "only in these {} passes: the forces still grow after them",
+                design.passes
+            )?;
+        }
+        for later in &answer.exceeded_later {
+            writeln!(
+                out,
+                "only in these {} passes: with more the {} levels off at {}, above its limit of {}",
+                design.passes,
+                later.quantity.at(later.end),
+                units.shown(later.quantity, later.value),
+                units.given(later.quantity, later.limit)
+            )?;
         }
     }
     clamps(out, design, units)?;
@@ -246,7 +267,7 @@ fn is_near(design: &Design) -> bool {
 }
 
 /// That nothing is within the limits, as surely as it is known.
-fn none(design: &Design) -> String {
+pub fn none(design: &Design) -> String {
     let less = match design.doubt() {
         None => return "no stiffness stays within the limits".to_owned(),
         Some(Doubt::Error) => "the estimated error".to_owned(),
@@ -351,40 +372,5 @@ fn reached(design: &Design, point: &TradeOff, units: &Shown) -> String {
         "{}; {}{leaves}; estimated error {error}",
         springs.join(" and "),
         all.join("; ")
-    )
-}
-
-/// Which limits nothing keeps, by how much the nearest exceeds them, and what to try.
-pub fn advice(design: &Design, scene: &Scene, units: &Shown) -> String {
-    let Some(nearest) = &design.nearest else {
-        return String::new();
-    };
-    let fails = |(place, quantity, limit): (Place, Limited, f64)| {
-        let value = nearest.value(place, quantity);
-        (value > limit).then(|| {
-            format!(
-                "the {} exceeds its limit by {} ({})",
-                quantity.at(place),
-                units.shown(quantity, value - limit),
-                percent(value / limit - 1.0)
-            )
-        })
-    };
-    let fails: Vec<String> = design.limits.all().filter_map(fails).collect();
-    let middle = 0.5 * scene.duct.length;
-    let is_clamp = |place: &Place| matches!(place, Place::Clamp(_));
-    let try_next = match &design.places[..] {
-        [place] if is_clamp(place) => format!(
-            "a clamp elsewhere (--at more than once compares), a spring with it (--at \"downstream+{middle} m\")"
-        ),
-        [_] => format!(
-            "springs at both ends (--at upstream+downstream), a clamp (--at \"{middle} m\", or with a spring: --at \"downstream+{middle} m\")"
-        ),
-        _ => "other places (--at), further clamps in the scene".to_owned(),
-    };
-    format!(
-        "{}: at the nearest, which is on standard output, {}; try {try_next}, a larger limit, or less friction or load on the duct",
-        none(design),
-        fails.join(" and ")
     )
 }

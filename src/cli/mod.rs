@@ -6,6 +6,7 @@ mod check;
 mod completions;
 mod days;
 mod design;
+mod design_advice;
 mod design_clamps;
 mod design_units;
 mod design_words;

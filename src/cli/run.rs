@@ -18,8 +18,8 @@ use crate::output::Kind;
 use crate::scene::{Order, Traffic};
 use crate::shown::{exact, percent};
 use crate::{
-    CutShort, DuctMotionSummary, Limited, Limits, PassRecord, Reached, Run, RunOptions, Scene, Underway,
-    Units, Verdict,
+    CableEnd, CutShort, DuctMotionSummary, Limited, Limits, PassRecord, Reached, Run, RunOptions, Scene,
+    Underway, Units, Verdict,
 };
 
 #[derive(Debug, clap::Args)]
@@ -215,6 +215,18 @@ fn print(run: &Run, scene: &Scene, units: &Units) -> Result<(), Failure> {
     table(&mut out, &run.passes, scene, (a_day, run.random.is_some()), units)?;
     if let Some(heat) = &run.heat {
         days::print(&mut out, &run.days, heat, scene.traffic.passes, units)?;
+    }
+    for end in CableEnd::ALL {
+        let largest = run.largest(end, Limited::Force);
+        if run.heat.is_none() && largest > 0.0 {
+            let unit = units.force.symbol();
+            writeln!(
+                out,
+                "largest on the {} end: {} {unit}, during a pass",
+                end.name(),
+                force(largest)
+            )?;
+        }
     }
     match &run.saturation {
         _ if run.heat.is_some() => {}

@@ -57,6 +57,12 @@ pub struct TradeOff {
     pub clamps: Vec<ClampPeak>,
     /// Whether an end moves by more than a hundredth of the duct's length: the cable leaves the duct, and its movement is only that it does.
     pub leaves_duct: bool,
+    /// Limits that these passes keep and more of them would not: at each the force after a pass that they level off at.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub exceeded_later: Vec<Binding>,
+    /// Whether forces still grow after these passes, and how far is not known.
+    #[serde(default)]
+    pub still_growing: bool,
     /// Estimated relative error of the forces.
     pub error_estimate: f64,
     /// Whether it is within all limits.
@@ -205,9 +211,21 @@ impl TradeOff {
             clamp_force_n: clamp.map(|clamp| clamp.force_n),
             clamps: clamps.collect(),
             leaves_duct: movement_m > largest_shown(scene),
+            exceeded_later: Vec::new(),
+            still_growing: run.saturation.is_none() && run.range.is_none() && run.heat.is_none(),
             error_estimate: run.error_estimate.relative,
             within_limits: true,
         };
+        let verdicts = limits.verdicts(run).into_iter();
+        point.exceeded_later = verdicts
+            .filter_map(|verdict| {
+                let limit = (verdict.end, verdict.quantity, verdict.limit);
+                Some(Binding {
+                    value: verdict.levels_off_above?,
+                    ..point.binding(limit, None)
+                })
+            })
+            .collect();
         point.within_limits = point.excess(limits) <= 1.0;
         point
     }

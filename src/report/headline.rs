@@ -10,7 +10,7 @@ use crate::answer::{CableEnd, after};
 use crate::design::Place;
 use crate::scene::{End, Scene};
 use crate::shown::percent;
-use crate::{Limited, PassRecord, Run, Saturation, Verdict};
+use crate::{Limited, PassRecord, Run, Saturation};
 
 /// Title and the most important numbers.
 pub fn headline(html: &mut Html, report: &Report) {
@@ -31,10 +31,9 @@ pub fn headline(html: &mut Html, report: &Report) {
     html.paragraph(&answer(report, last));
     html.raw("</div>");
     html.verdicts(report.verdicts.iter().map(|verdict| {
-        let later = later(report, verdict);
-        let kept = verdict.reached_after.is_none() && later.is_empty();
-        let largest = report.shown.limited(verdict.quantity, verdict.largest);
-        (kept, verdict.shown_with(&report.shown.units, &largest) + &later)
+        let kept = verdict.reached_after.is_none() && verdict.levels_off_above.is_none();
+        let shown = |value| report.shown.limited(verdict.quantity, value);
+        (kept, verdict.shown_with(&report.shown.units, shown))
     }));
     let left = not_judged(report);
     if !left.is_empty() {
@@ -319,26 +318,6 @@ fn levelled(scene: &Scene, saturation: &Saturation) -> At {
         }
         _ => Some(CableEnd::Downstream),
     }
-}
-
-/// What a limit that is kept so far comes to later.
-fn later(report: &Report, verdict: &Verdict) -> String {
-    let Some(saturation) = &report.run.saturation else {
-        return String::new();
-    };
-    let level = match verdict.end {
-        Place::Upstream => saturation.upstream_force_n,
-        Place::Downstream => saturation.downstream_force_n,
-        Place::Clamp(_) => return String::new(),
-    };
-    let exceeds = verdict.quantity == Limited::Force && level.abs() > verdict.limit;
-    if verdict.reached_after.is_some() || !exceeds {
-        return String::new();
-    }
-    format!(
-        " in these passes; more of them exceed it, as the force levels off at {}",
-        report.shown.force(level)
-    )
 }
 
 fn force_of(place: At) -> String {

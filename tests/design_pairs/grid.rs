@@ -2,7 +2,7 @@
 
 use creepage::design::{Design, DesignOptions, design};
 use creepage::scene::{End, Restraint};
-use creepage::{Limited, Limits, Place, Run, Scene, SceneFile};
+use creepage::{Limited, Limits, PassRecord, Place, Run, Scene, SceneFile};
 
 /// A short scene on a mesh that is good enough: limits are kept and broken on the same one.
 pub fn scene(more: &[&str]) -> Scene {
@@ -74,6 +74,13 @@ pub fn reached(run: &Run, place: Place, quantity: Limited) -> f64 {
     let most =
         |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |most: f64, value| most.max(value.abs()));
     let days = || run.heat.iter().map(|heat| &heat.all_days);
+    // What an end's spring moves by per force, as the last pass leaves it; of a free or fixed end nothing.
+    let per_force = |of: fn(&PassRecord) -> (f64, f64)| {
+        run.passes.last().map(of).map_or(
+            0.0,
+            |(moved, force)| if force == 0.0 { 0.0 } else { moved / force },
+        )
+    };
     match (place, quantity) {
         (Place::Upstream, Limited::Force) => most(
             &mut run
@@ -90,15 +97,31 @@ pub fn reached(run: &Run, place: Place, quantity: Limited) -> f64 {
                 .chain(days().flat_map(|day| [day.downstream_max_n, day.downstream_min_n])),
         ),
         (Place::Upstream, Limited::Movement) => most(
-            &mut run.passes.iter().map(|pass| pass.upstream_displacement_m).chain(
-                days().flat_map(|day| [day.upstream_displacement_max_m, day.upstream_displacement_min_m]),
-            ),
+            &mut run
+                .passes
+                .iter()
+                .flat_map(|pass| {
+                    [
+                        pass.upstream_displacement_m,
+                        pass.upstream_peak_n
+                            * per_force(|last| (last.upstream_displacement_m, last.upstream_force_n)),
+                    ]
+                })
+                .chain(
+                    days().flat_map(|day| [day.upstream_displacement_max_m, day.upstream_displacement_min_m]),
+                ),
         ),
         (Place::Downstream, Limited::Movement) => most(
             &mut run
                 .passes
                 .iter()
-                .map(|pass| pass.downstream_displacement_m)
+                .flat_map(|pass| {
+                    [
+                        pass.downstream_displacement_m,
+                        pass.downstream_peak_n
+                            * per_force(|last| (last.downstream_displacement_m, last.downstream_force_n)),
+                    ]
+                })
                 .chain(days().flat_map(|day| {
                     [
                         day.downstream_displacement_max_m,
