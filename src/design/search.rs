@@ -61,10 +61,14 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         stiffnesses: &stiffnesses,
         curve: &curve,
     };
-    let mut range = Some((stiffnesses[0], f64::INFINITY));
+    let widest = search.widest(&limits)?;
+    let mut range = widest.map(|_| (stiffnesses[0], f64::INFINITY));
     let mut edges = Vec::new();
-    for limit in &limits {
-        let kept = search.kept(limit)?;
+    for (limit, widest) in widest
+        .iter()
+        .flat_map(|widest| limits.iter().map(move |limit| (limit, *widest)))
+    {
+        let kept = search.kept(limit, widest)?;
         edges.push((limit, kept));
         range = range
             .zip(kept)
@@ -111,6 +115,14 @@ fn choice(place: Place, (from, to): (f64, f64)) -> f64 {
         _ if to.is_infinite() || from == 0.0 => to,
         _ => (from * to).sqrt(),
     }
+}
+
+/// Where a curve crosses a limit: between the stiffness of this number and the one before.
+enum Crossing {
+    AllKeep,
+    NoneKeeps,
+    StifferKeep(usize),
+    SofterKeep(usize),
 }
 
 struct Search<'a> {
@@ -175,28 +187,57 @@ impl Search<'_> {
         edges.iter().filter_map(of).collect()
     }
 
-    /// The least and the largest stiffness within one limit; `None` where there is none.
-    fn kept(&self, limit: &Limit) -> Result<Option<(f64, f64)>, DesignError> {
-        let Self {
-            stiffnesses, curve, ..
-        } = self;
-        let kept: Vec<bool> = curve.iter().map(|point| point.share(*limit) <= 1.0).collect();
+    /// What of the curve keeps a limit, and where it is crossed.
+    fn crossing(&self, limit: &Limit) -> Result<Crossing, DesignError> {
+        let kept: Vec<bool> = self
+            .curve
+            .iter()
+            .map(|point| point.share(*limit) <= 1.0)
+            .collect();
         let crossings: Vec<usize> = (1..kept.len()).filter(|&i| kept[i] != kept[i - 1]).collect();
         match crossings[..] {
-            [] => Ok(kept[0].then_some((stiffnesses[0], f64::INFINITY))),
-            [at] => {
-                let edge = self.edge(stiffnesses[at - 1], stiffnesses[at], kept[at], limit)?;
-                Ok(Some(if kept[at] {
-                    (edge, f64::INFINITY)
-                } else {
-                    (stiffnesses[0], edge)
-                }))
-            }
+            [] if kept[0] => Ok(Crossing::AllKeep),
+            [] => Ok(Crossing::NoneKeeps),
+            [at] if kept[at] => Ok(Crossing::StifferKeep(at)),
+            [at] => Ok(Crossing::SofterKeep(at)),
             _ => Err(DesignError::NotMonotone {
                 what: limit.1.at(limit.0),
                 crossings: crossings.len(),
             }),
         }
+    }
+
+    /// The stiffnesses beside which nothing keeps all `limits`, as far as the curve shows; `None` where nothing does.
+    fn widest(&self, limits: &[Limit]) -> Result<Option<(f64, f64)>, DesignError> {
+        let (mut from, mut to) = (self.stiffnesses[0], f64::INFINITY);
+        let mut any = true;
+        for limit in limits {
+            match self.crossing(limit)? {
+                Crossing::AllKeep => {}
+                Crossing::NoneKeeps => any = false,
+                Crossing::StifferKeep(at) => from = from.max(self.stiffnesses[at - 1]),
+                Crossing::SofterKeep(at) => to = to.min(self.stiffnesses[at]),
+            }
+        }
+        Ok((any && from < to).then_some((from, to)))
+    }
+
+    /// The least and the largest stiffness within one limit, as exactly as it matters where all limits leave what is `widest`.
+    fn kept(&self, limit: &Limit, widest: (f64, f64)) -> Result<Option<(f64, f64)>, DesignError> {
+        let stiffnesses = self.stiffnesses;
+        let edge = |at: usize, kept_above| self.edge(stiffnesses[at - 1], stiffnesses[at], kept_above, limit);
+        Ok(match self.crossing(limit)? {
+            Crossing::AllKeep => Some((stiffnesses[0], f64::INFINITY)),
+            Crossing::NoneKeeps => None,
+            Crossing::StifferKeep(at) if stiffnesses[at] <= widest.0 => {
+                Some((stiffnesses[at], f64::INFINITY))
+            }
+            Crossing::StifferKeep(at) => Some((edge(at, true)?, f64::INFINITY)),
+            Crossing::SofterKeep(at) if stiffnesses[at - 1] >= widest.1 => {
+                Some((stiffnesses[0], stiffnesses[at - 1]))
+            }
+            Crossing::SofterKeep(at) => Some((stiffnesses[0], edge(at, false)?)),
+        })
     }
 
     /// The last stiffness within the limit, where it is crossed between two.
