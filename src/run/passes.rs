@@ -271,7 +271,9 @@ impl<'a> Simulation<'a> {
         }
     }
 
-    pub fn passes(self, records: Vec<Record>, state: CableState, simulated: u64) -> Passes {
+    pub fn passes(mut self, records: Vec<Record>, state: CableState, simulated: u64) -> Passes {
+        // Those within a jump are looked at after the passes at its end.
+        self.stages.sort_by_key(|stage| stage.pass);
         Passes {
             records,
             state,
