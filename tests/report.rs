@@ -213,10 +213,21 @@ fn every_candidate_is_shown_with_its_fate() {
     let page = page(&layered, &ReportOptions::default());
     let scene = scene(&[&["traffic.passes=6"], &layered[..]].concat());
     let plan = creepage::plan(&scene).expect("a plan").report();
-    let rows = table(&page, &["model", "error, time", "why, or why not"]);
+    let rows = table(
+        &page,
+        &[
+            "model",
+            "before the run: error, time on the first mesh",
+            "why, or why not",
+        ],
+    );
     assert_eq!(rows.len(), plan.candidates.len());
     for (row, candidate) in rows.iter().zip(&plan.candidates) {
-        let fate = if candidate.chosen { "chosen" } else { "rejected" };
+        let fate = match candidate.part {
+            _ if candidate.chosen => "chosen",
+            creepage::Part::Mesh => "not taken at first",
+            _ => "rejected",
+        };
         assert_eq!(row[0], format!("{} {}: {fate}", candidate.part, candidate.name));
         assert_eq!(row[2], candidate.reason);
     }

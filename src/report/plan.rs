@@ -2,6 +2,7 @@
 
 use super::content::Report;
 use super::html::Html;
+use crate::Part;
 use crate::shown::{percent, time};
 
 pub fn plan(html: &mut Html, report: &Report) {
@@ -36,14 +37,26 @@ fn detail(html: &mut Html, report: &Report) {
             candidate.estimated_error.map(percent),
             candidate.estimated_seconds.map(time),
         ];
-        let fate = if candidate.chosen { "chosen" } else { "rejected" };
+        let fate = match candidate.part {
+            _ if candidate.chosen => "chosen",
+            Part::Mesh => "not taken at first",
+            _ => "rejected",
+        };
         vec![
             format!("{} {}: {fate}", candidate.part, candidate.name),
             cost.into_iter().flatten().collect::<Vec<_>>().join(", "),
             candidate.reason.clone(),
         ]
     });
-    html.table(3, &["model", "error, time", "why, or why not"], rows);
+    html.table(
+        3,
+        &[
+            "model",
+            "before the run: error, time on the first mesh",
+            "why, or why not",
+        ],
+        rows,
+    );
     html.element("h3", "Error of the forces");
     let error = &run.error_estimate;
     html.paragraph(&format!("{} in all, {}.", percent(error.relative), error.method));
