@@ -224,10 +224,16 @@ impl Refinement<'_> {
         let is_seen = self.is_known(passes) && (!still || level >= SHARP);
         let others = error.total().less(error.passes);
         let smaller = Shares::both((1.0 - jumps::SMALLER_SHARE) * tolerance);
+        // Any answer is worth more than none.
+        let most = if error_estimate::is_doubtful(error.total().force, tolerance) {
+            MAX_NODE_UPDATES
+        } else {
+            worth(tolerance)
+        };
         Seen {
             is_within: is_seen && others.is_within(allowed(tolerance, error.passes)),
             would_be_with_smaller_jumps: is_seen && others.is_within(smaller),
-            is_costly: REFINEMENT_COST.saturating_mul(work) > worth(tolerance),
+            is_costly: REFINEMENT_COST.saturating_mul(work) > most,
         }
     }
 
