@@ -232,9 +232,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
             grid.map(
                 name,
                 Axis::logarithmic("shape factor b, 1/m").cells(grid.x.clone()),
-                Axis::logarithmic("vehicle step")
-                    .cells(grid.y.clone())
-                    .prefixes("m"),
+                Axis::logarithmic("vehicle step, m").cells(grid.y.clone()),
             ),
         );
         table += &grid.csv(name);
