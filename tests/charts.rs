@@ -356,6 +356,31 @@ fn with_guards_no_cell_of_a_map_is_wrong() -> Tested {
     Ok(())
 }
 
+/// No fit that identifies the shape factor is wrong, and few intervals miss it; a noise of 30 N hides it.
+#[test]
+fn an_identified_shape_factor_is_right() -> Tested {
+    let mut reader = csv::Reader::from_path(folder().join("stability-calibration.csv"))?;
+    let header = reader.headers()?.clone();
+    let (mut identified, mut missed) = (0, 0);
+    for record in reader.records() {
+        let record = record?;
+        let count = |name: &str| -> Result<usize, Box<dyn Error>> {
+            let column = header.iter().position(|found| found == name);
+            Ok(record[column.ok_or_else(|| name.to_owned())?].parse()?)
+        };
+        assert_eq!((count("wrong")?, count("failed")?), (0, 0), "{record:?}");
+        let here = count("right")? + count("missed_the_interval")?;
+        assert!(record[1].parse::<f64>()? < 30.0 || here == 0, "{record:?}");
+        identified += here;
+        missed += count("missed_the_interval")?;
+    }
+    assert!(
+        identified > 6000 && missed < identified / 20,
+        "{identified} {missed}"
+    );
+    Ok(())
+}
+
 /// A row of the chart `discrepancy`: the model, whether it is wrong, whether a discrepancy was allowed, and shares of the draws.
 struct Draws {
     model: String,
