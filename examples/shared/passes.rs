@@ -14,10 +14,8 @@ use ground_field::{DuctLine, DuctMotion, GroundField};
 
 /// Standard acceleration of gravity \[m/s²\].
 const GRAVITY: f64 = 9.80665;
-/// How far beyond the duct's ends vehicles come from \[m\]: the scenes of the charts say so themselves, see [`APPROACH_KEY`].
+/// How far beyond the duct's ends vehicles come from \[m\], where the scene names nothing else.
 pub const APPROACH: f64 = 15.0;
-/// The same as an override of a scene.
-pub const APPROACH_KEY: &str = "solver.approach=15 m";
 /// Look of what is right, in every figure.
 const BLACK: usize = 6;
 /// Passes after which it is known what all of them will take.
@@ -38,9 +36,9 @@ impl Solver {
     /// out everywhere.
     fn updates_per_second(self) -> f64 {
         match self {
-            Self::QuasiStatic => 7e7,
-            Self::ExactStep => 4e7,
-            Self::Dynamic => 2e7,
+            Self::QuasiStatic => 1e8,
+            Self::ExactStep => 7e7,
+            Self::Dynamic => 8e7,
             Self::Explicit => 3e8,
         }
     }
@@ -51,6 +49,10 @@ impl Solver {
 pub struct Answer {
     pub forces: Vec<f64>,
     pub node_updates: usize,
+}
+
+fn approach(scene: &Scene) -> f64 {
+    scene.solver.approach.unwrap_or(APPROACH)
 }
 
 /// The cable of `scene`.
@@ -78,7 +80,7 @@ pub fn motion(
     accuracy: f64,
 ) -> Result<DuctMotion, Box<dyn Error + Send + Sync>> {
     let line = DuctLine::new(scene.duct.depth, scene.offset_from(&scene.vehicles[0]))?;
-    let reach = scene.duct.length + 2.0 * APPROACH;
+    let reach = scene.duct.length + 2.0 * approach(scene);
     Ok(DuctMotion::new(
         field,
         &scene.vehicles[0].vehicle,
@@ -108,7 +110,7 @@ pub fn simulate(
     let mut state = CableState::at_rest(&mesh);
     let mut pass: Box<dyn FnMut() -> Result<PassOutcome, cable_dem::CableError>> = match solver {
         Solver::QuasiStatic | Solver::ExactStep => {
-            let passage = Passage::new(&cable, &mesh, motion, APPROACH)?;
+            let passage = Passage::new(&cable, &mesh, motion, approach(scene))?;
             let mut quasi_static = QuasiStatic::new(cable, mesh)?;
             if solver == Solver::ExactStep {
                 quasi_static = quasi_static.without_iteration();
@@ -116,12 +118,12 @@ pub fn simulate(
             Box::new(move || quasi_static.pass(&passage, &mut state))
         }
         Solver::Dynamic => {
-            let duct = MovingDuct::new(&cable, &mesh, motion, APPROACH)?;
+            let duct = MovingDuct::new(&cable, &mesh, motion, approach(scene))?;
             let mut solver = Dynamic::new(cable, mesh, mass)?;
             Box::new(move || Ok(solver.pass(&duct, &mut state)?.pass))
         }
         Solver::Explicit => {
-            let duct = MovingDuct::new(&cable, &mesh, motion, APPROACH)?;
+            let duct = MovingDuct::new(&cable, &mesh, motion, approach(scene))?;
             let mut solver = Explicit::new(cable, mesh, mass, ExplicitOptions::default())?;
             Box::new(move || Ok(solver.pass(&duct, &mut state)?.pass))
         }

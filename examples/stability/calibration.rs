@@ -1,7 +1,7 @@
 //! Map 6: where a calibration can tell the shape factor b of friction, over the true b and the noise of the load cell.
 //!
 //! The full-scale experiment's upper cable, read after every second of 60 passes; μ_d and b are fitted and the noise is estimated from
-//! the residuals. The model is a table of forces over ln μ_d and ln b with cubics between, so that a fit takes a millisecond: what is
+//! the residuals. The model is a table of forces over ln μ_d and ln b with cubics between, so that a fit takes milliseconds: what is
 //! mapped is the fit's judgement, not a mesh. Every cell is drawn many times, with seeds of its own.
 //!
 //! *Outcomes of a draw.* Identified where the intervals of 95 % of both parameters are closed, else not identifiable, which the fit says.
@@ -292,7 +292,9 @@ fn fit(table: &Table, b: f64, noise: f64, seed: u64) -> Result<Draw, String> {
         (Draw::Right | Draw::Missed, false) => Draw::HalfOpen,
         (draw, _) => draw,
     };
-    Ok(calibration.fit().map_or(Draw::Failed, outcome))
+    // As `creepage calibrate` fits.
+    let fitted = calibration.fit_emulated(None);
+    Ok(fitted.map_or(Draw::Failed, |(fit, _)| outcome(fit)))
 }
 
 fn judge(estimate: &Estimate, truth: f64) -> Draw {

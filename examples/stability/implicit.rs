@@ -228,15 +228,11 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         .zip(["plain Newton", "quasi-static solver"])
     {
         println!("{name}: {}", grid.summary());
-        figure = figure.with(
-            grid.map(
-                name,
-                Axis::logarithmic("shape factor b, 1/m").cells(grid.x.clone()),
-                Axis::logarithmic("vehicle step")
-                    .cells(grid.y.clone())
-                    .prefixes("m"),
-            ),
-        );
+        figure = figure.with(grid.map(
+            name,
+            Axis::logarithmic("shape factor b, 1/m").cells(grid.x.clone()),
+            Axis::logarithmic("vehicle step, m").cells(grid.y.clone()),
+        ));
         table += &grid.csv(name);
     }
     std::fs::write(out.join("stability-implicit.csv"), table)?;

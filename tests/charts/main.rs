@@ -1,10 +1,18 @@
 //! The tables behind docs/charts.md: they are sound, each has its figure on the page, and what the page concludes holds in them.
 
+mod maps;
+
 use std::collections::BTreeSet;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
 type Tested = Result<(), Box<dyn Error>>;
+
+/// Names of series.
+const RUN: &str = "creepage run, tolerance 10 % to 0.1 %";
+const CHAIN: &str = "fem and explicit";
+const JUMPS: &str = "quasi-static with jumps";
+const SIGMOID: &str = "explicit, sigmoid over b";
 
 /// A row of a chart: where it belongs, what was set, its error and what it cost.
 #[derive(Debug, Clone)]
@@ -113,7 +121,7 @@ fn panels(rows: &[Row]) -> BTreeSet<&str> {
 /// The rows of a method in a panel.
 fn of<'a>(rows: &'a [Row], panel: &'a str, method: &'a str) -> impl Iterator<Item = &'a Row> {
     rows.iter()
-        .filter(move |row| row.panel == panel && row.method.starts_with(method))
+        .filter(move |row| row.panel == panel && row.method == method)
 }
 
 /// The least time in which a method is at most so wrong; infinite where it never is.
@@ -221,21 +229,37 @@ fn the_truth_is_finer_than_what_it_judges() -> Tested {
         for panel in panels(&rows) {
             let truth: Vec<&Row> = of(&rows, panel, "truth").collect();
             assert_eq!(truth.len(), 1, "{panel}");
-            // The long term is judged at 1 % and more, all else at 0.1 % too.
+            // The long term is judged at 0.5 % and more, all else at 0.1 % too.
             let most = if panel.ends_with("5000 passes") {
-                1e-3
+                3e-4
             } else {
                 2e-4
             };
             assert!(truth[0].error <= most, "{panel}: {truth:?}");
         }
     }
+    // The mesh of a run stands in its row; every duct of this chart is 1.2 m deep.
+    let mut reader = csv::Reader::from_path(folder().join("whole.csv"))?;
+    let mut density = 0.0;
+    for record in reader.records() {
+        let record = record?;
+        if &record[1] == "truth" {
+            density = record[2].parse()?;
+        } else if &record[1] == RUN {
+            let spacing = record[7]
+                .split(" at ")
+                .nth(1)
+                .and_then(|rest| rest.split(' ').next());
+            let spacing: f64 = spacing.ok_or("no mesh")?.parse()?;
+            assert!(density * spacing >= 2.0 * 1.2 - 1e-9, "{record:?}");
+        }
+    }
     // Two methods of another kind, on meshes of their own, come to the same.
     let rows = cable()?;
     for method in ["explicit", "dynamic"] {
-        let finest = of(&rows, "30, 10", method).find(|row| row.method == method && row.knob == 24.0);
+        let finest = of(&rows, "30, 10", method).find(|row| row.knob == 24.0);
         assert!(
-            finest.is_some_and(|row| row.error <= 2e-4),
+            finest.is_some_and(|row| row.error <= 3e-4),
             "{method}: {finest:?}"
         );
     }
@@ -249,13 +273,13 @@ fn on_layers_burmister_is_cheaper_and_more_accurate_than_elements() -> Tested {
         .into_iter()
         .filter(|panel| !panel.starts_with("homogeneous"))
     {
-        for share in [1e-2, 1e-3, 1e-4] {
+        for (share, times) in [(1e-2, 20.0), (1e-3, 50.0), (1e-4, 100.0)] {
             let (transform, elements) = (
                 seconds(&rows, panel, "burmister", share),
                 seconds(&rows, panel, "fem", share),
             );
             assert!(
-                50.0 * transform < elements,
+                times * transform < elements,
                 "{panel}, {share}: {transform} s, {elements} s"
             );
         }
@@ -269,9 +293,11 @@ fn on_layers_burmister_is_cheaper_and_more_accurate_than_elements() -> Tested {
 fn the_planner_keeps_its_word_and_is_never_beaten_by_the_papers_chain() -> Tested {
     let rows = whole()?;
     for panel in panels(&rows) {
-        let rivals: Vec<&Row> = of(&rows, panel, "fem").collect();
-        for choice in of(&rows, panel, "creepage run") {
+        let rivals: Vec<&Row> = of(&rows, panel, CHAIN).collect();
+        for choice in of(&rows, panel, RUN) {
             assert!(choice.error <= choice.knob, "{choice:?}");
+            // At the tolerance that the page advises.
+            assert!(choice.knob != 1e-2 || choice.error <= 2e-3, "{choice:?}");
             for rival in rivals.iter().filter(|rival| rival.error < choice.error) {
                 assert!(rival.seconds >= choice.seconds, "{rival:?} beats {choice:?}");
                 assert!(rival.count >= choice.count, "{rival:?} beats {choice:?}");
@@ -281,16 +307,16 @@ fn the_planner_keeps_its_word_and_is_never_beaten_by_the_papers_chain() -> Teste
     Ok(())
 }
 
-/// Where the chain gets below 1 % and 0.1 % at all, the planner is there in a tenth and a twentieth of the time.
+/// Where the chain gets below 1 % and 0.1 % at all, the planner is there in a thirtieth and an eighth of the time.
 #[test]
 fn one_percent_and_a_tenth_of_it_cost_the_planner_a_small_part_of_the_chain() -> Tested {
     let rows = whole()?;
     let mut compared = 0;
     for panel in panels(&rows) {
-        for (error, times) in [(1e-2, 10.0), (1e-3, 20.0)] {
-            let chain = seconds(&rows, panel, "fem", error);
+        for (error, times) in [(1e-2, 30.0), (1e-3, 8.0)] {
+            let chain = seconds(&rows, panel, CHAIN, error);
             if chain.is_finite() {
-                let planner = seconds(&rows, panel, "creepage run", error);
+                let planner = seconds(&rows, panel, RUN, error);
                 assert!(
                     times * planner <= chain,
                     "{panel}, {error}: {planner} s, {chain} s"
@@ -304,102 +330,60 @@ fn one_percent_and_a_tenth_of_it_cost_the_planner_a_small_part_of_the_chain() ->
 }
 
 #[test]
-fn few_passes_go_quasi_statically_and_many_by_the_law() -> Tested {
+fn few_passes_go_quasi_statically_and_many_with_jumps() -> Tested {
     let rows = cable()?;
     let time = |panel, method, error| seconds(&rows, panel, method, error);
     for panel in ["30, 10", "30, 100", "300, 10"] {
-        for method in ["exact step", "dynamic", "explicit", "pass law"] {
+        for method in ["exact step", "dynamic", "explicit"] {
             for error in [1e-2, 1e-3] {
                 let (best, other) = (time(panel, "quasi-static", error), time(panel, method, error));
                 assert!(best <= other, "{panel}, {method}, {error}: {best} s, {other} s");
             }
         }
     }
-    for error in [1e-2, 1e-3] {
-        let (law, one_by_one) = (
-            time("300, 1000", "pass law", error),
-            time("300, 1000", "quasi-static", error),
+    for (panel, error, times) in [
+        ("30, 1000", 1e-3, 8.0),
+        ("300, 1000", 1e-2, 4.0),
+        ("300, 1000", 1e-3, 8.0),
+    ] {
+        let (jumps, one_by_one) = (time(panel, JUMPS, error), time(panel, "quasi-static", error));
+        assert!(
+            one_by_one.is_finite() && times * jumps <= one_by_one,
+            "{panel}, {error}: {jumps} s, {one_by_one} s"
         );
-        assert!(5.0 * law <= one_by_one, "{error}: {law} s, {one_by_one} s");
     }
     for panel in panels(&rows) {
         for row in of(&rows, panel, "quasi-static") {
-            assert!(row.knob < 6.0 || row.error <= 1e-2, "{row:?}");
+            assert!(row.knob < 8.0 || row.error <= 1e-2, "{row:?}");
             assert!(row.knob < 12.0 || row.error <= 1e-3, "{row:?}");
         }
     }
     Ok(())
 }
 
-/// A row of the chart `discrepancy`: the model, whether it is wrong, whether a discrepancy was allowed, and shares of the draws.
-struct Draws {
-    model: String,
-    wrong: bool,
-    allowed: bool,
-    held: f64,
-    claimed: f64,
-    width: f64,
-}
-
-fn draws() -> Result<Vec<Draws>, Box<dyn Error>> {
-    let mut reader = csv::Reader::from_path(folder().join("discrepancy.csv"))?;
-    let mut rows: Vec<Draws> = Vec::new();
-    for record in reader.records() {
-        let record = record?;
-        let number = |column: usize| record[column].parse::<f64>();
-        let (model, draws) = (record[0].to_owned(), number(4)?);
-        // The first value of each model is the truth.
-        let before = rows.iter().filter(|row| row.model == model).count();
-        rows.push(Draws {
-            wrong: before > 1,
-            allowed: &record[3] == "with",
-            held: number(5)? / draws,
-            claimed: number(6)? / draws,
-            width: number(7)?,
-            model,
-        });
-    }
-    Ok(rows)
-}
-
-/// Where the model is wrong, an interval without a discrepancy seldom holds the truth; with one it nearly always does.
+/// On the same mesh, jumps change the error by a small part of 0.1 %.
 #[test]
-fn a_discrepancy_keeps_intervals_honest_where_the_model_is_wrong() -> Tested {
-    let rows = draws()?;
-    let of = |allowed: bool, wrong: bool| {
-        rows.iter()
-            .filter(move |row| (row.allowed, row.wrong) == (allowed, wrong))
-    };
-    let mean = |allowed: bool, wrong: bool| {
-        let shares: Vec<f64> = of(allowed, wrong).map(|row| row.held).collect();
-        shares.iter().sum::<f64>() / shares.len() as f64
-    };
-    assert_eq!((of(true, true).count(), of(false, true).count()), (9, 9));
-    assert!(mean(false, true) < 0.3, "{}", mean(false, true));
-    assert!(mean(true, true) > 0.85, "{}", mean(true, true));
-    assert!(of(true, true).filter(|row| row.held > 0.9).count() >= 7);
-    // Ground a fifth too stiff, and axles so far apart that no friction gives the forces: that is not called identifiable.
-    for row in of(true, true) {
-        assert!(
-            row.held > 0.7 || row.claimed == 0.0,
-            "{}: {}",
-            row.model,
-            row.held
-        );
+fn jumps_leave_the_error_of_the_mesh() -> Tested {
+    let rows = cable()?;
+    let mut compared = 0;
+    for panel in panels(&rows) {
+        for jumps in of(&rows, panel, JUMPS) {
+            if let Some(every) = of(&rows, panel, "quasi-static").find(|row| row.knob == jumps.knob) {
+                assert!((jumps.error - every.error).abs() <= 3e-4, "{jumps:?} {every:?}");
+                compared += 1;
+            }
+        }
     }
-    assert!(of(true, true).map(|row| row.claimed).sum::<f64>() < 0.05 * 9.0);
-    // What it costs where the model is right.
-    for (with, without) in of(true, false)
-        .zip(of(false, false))
-        .filter(|(_, without)| without.held > 0.9)
-    {
-        assert!(
-            with.width < 3.0 * without.width,
-            "{}: {} {}",
-            with.model,
-            with.width,
-            without.width
-        );
-    }
+    assert!(compared >= 20, "{compared} comparisons");
+    Ok(())
+}
+
+/// However large its b, it has lost most of the force.
+#[test]
+fn the_sigmoid_law_does_not_converge() -> Tested {
+    let rows = cable()?;
+    let sigmoid: Vec<&Row> = rows.iter().filter(|row| row.method == SIGMOID).collect();
+    assert!(sigmoid.iter().any(|row| row.knob >= 1e10));
+    assert!(sigmoid.iter().all(|row| row.error > 0.7), "{sigmoid:?}");
     Ok(())
 }
