@@ -34,7 +34,7 @@ pub fn run(out: &Path) -> Result<(), Failure> {
     {
         let (mut updates, mut seconds) = (None, f64::INFINITY);
         for _ in 0..REPEATED {
-            let (counted, taken) = timed(|| one.install(|| work()))?;
+            let (counted, taken) = timed(|| one.install(&work))?;
             (updates, seconds) = (counted, seconds.min(taken));
         }
         let each = seconds / of as f64;

@@ -16,6 +16,7 @@ use rayon::prelude::*;
 use crate::stopwatch::timed;
 
 type Failure = Box<dyn Error + Send + Sync>;
+type Work<'a> = &'a (dyn Fn() -> Result<(), creepage::Error> + Sync);
 
 /// Second vehicle of a road with traffic in both directions.
 const BACK: &str = "vehicles=[{ name = \"there\", load = \"20 tf\", speed = \"40 km/h\", share = 0.6 }, \
@@ -183,7 +184,7 @@ fn threads(points: &mut Vec<Point>) -> Result<(), Failure> {
             ))
         })
         .collect::<Result<_, _>>()?;
-    let works: [(&str, &(dyn Fn() -> Result<(), creepage::Error> + Sync)); 2] = [
+    let works: [(&str, Work<'_>); 2] = [
         ("one run at 0.2 %", &|| creepage::run(&fine).map(drop)),
         ("16 runs at once", &|| {
             many.par_iter()
