@@ -354,7 +354,7 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
         "upstream=2 um",
     ]));
     for line in [
-        "limit exceeded: movement of the upstream end above 2 µm from pass 1 on, 6 h; largest ",
+        "limit exceeded: movement of the upstream end above 2 µm, first at pass 1, 6 h; largest ",
         "limit kept: movement of the downstream end at most 0.0 µm, limit 1 µm",
     ] {
         assert!(named.contains(line), "{named}");

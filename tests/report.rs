@@ -318,7 +318,7 @@ fn the_page_begins_with_the_answer_and_a_verdict() {
     for words in [
         "After 6 passes (3 days) the force on the downstream end is ",
         "limit kept: force on the downstream end at most ",
-        "limit exceeded: movement of the upstream end above 0.001 mm from pass 1 on, 12 h; largest ",
+        "limit exceeded: movement of the upstream end above 0.001 mm, first at pass 1, 12 h; largest ",
     ] {
         assert!(before.contains(words), "{words}: {before}");
     }

@@ -258,7 +258,7 @@ impl Verdict {
             Some(Reached { pass, years }) => {
                 let time = years.map_or_else(String::new, |years| format!(", {}", super::after(years)));
                 format!(
-                    "limit exceeded: {what} above {limit} from pass {pass} on{time}; largest {largest}{when}"
+                    "limit exceeded: {what} above {limit}, first at pass {pass}{time}; largest {largest}{when}"
                 )
             }
             None => format!("limit kept: {what} at most {largest}{when}, limit {limit}"),

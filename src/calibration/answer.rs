@@ -13,6 +13,7 @@ use super::result::{
 };
 use crate::Error;
 use crate::readings::Measured;
+use crate::shown::four_digits;
 
 pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Calibrated, Error> {
     let fit = &found.fit;
@@ -151,8 +152,8 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
 fn intervals(fit: &Fit) -> String {
     let noise = if fit.noise_estimated {
         format!(
-            ", Student's t with {:.1} degrees of freedom",
-            fit.degrees_of_freedom
+            ", Student's t with {} degrees of freedom",
+            four_digits(fit.degrees_of_freedom)
         )
     } else {
         " with the given sigmas".into()

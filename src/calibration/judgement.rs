@@ -14,6 +14,7 @@ use super::terms::cells;
 use super::unknown::Quantity;
 use crate::Error;
 use crate::readings::Reading;
+use crate::scene::FrictionLaw;
 
 /// Probability below which chance is no longer believed. Four tests then call about three clean series in a hundred suspicious.
 const CHANCE: f64 = 0.01;
@@ -154,15 +155,19 @@ fn explanation(
             best = Some(found);
         }
     }
+    let is_fitted = |wanted| problem.unknowns.iter().any(|unknown| unknown.quantity == wanted);
+    // A wrong shape factor looks like an error of the cell.
+    let is_elastic = problem
+        .series
+        .iter()
+        .any(|one| one.scene.friction.law != FrictionLaw::Coulomb);
+    let held = (is_elastic && !is_fitted(Quantity::ShapeFactor)).then_some(Quantity::ShapeFactor);
     let fit_it = |quantity: Quantity| {
-        let names = problem
-            .unknowns
-            .iter()
-            .map(|unknown| unknown.quantity.to_string());
-        let mut names: Vec<String> = names
-            .chain(problem.terms.iter().map(|term| term.quantity.to_string()))
-            .collect();
-        names.push(quantity.to_string());
+        let fitted = problem.unknowns.iter().map(|unknown| unknown.quantity);
+        let fitted = fitted
+            .chain(held)
+            .chain(problem.terms.iter().map(|term| term.quantity));
+        let mut names: Vec<String> = fitted.chain([quantity]).map(|one| one.to_string()).collect();
         names.dedup();
         names.join(",")
     };

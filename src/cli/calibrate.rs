@@ -16,7 +16,7 @@ use crate::calibration::{
 };
 use crate::output::Kind;
 use crate::scene::{Dimension, FrictionLaw};
-use crate::shown::{ROWS, percent};
+use crate::shown::{ROWS, four_digits, percent};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -264,9 +264,9 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     let residuals: Vec<String> = answer.residuals.iter().map(ToString::to_string).collect();
     writeln!(
         out,
-        "residuals: {}{explained}, {:.1} degrees of freedom",
+        "residuals: {}{explained}, {} degrees of freedom",
         residuals.join(", "),
-        answer.degrees_of_freedom
+        four_digits(answer.degrees_of_freedom)
     )?;
     let lack = &answer.lack_of_fit;
     let chance = |p: Option<f64>| p.map_or_else(|| "-".into(), |p| format!("{p:.2}"));

@@ -170,7 +170,7 @@ impl Living<'_> {
         error.temperature = error.temperature + self.sequence_error(level, knots, &mut statistics)?;
         error.road = self.road_error(level, knots, &mut statistics)?;
         let mesh = levels.mesh(level)?;
-        judge(&error, scene, &mesh, warnings)?;
+        judge(&error, self.plan, &mesh, warnings)?;
         warnings.extend(self.broken_sequence());
         Ok(Solved {
             reasons: vec![mesh_reason(self.plan, &mesh), self.reason(&finest, knots)],

@@ -10,7 +10,7 @@ use crate::{Error, Scene};
 /// Refuses an answer that is none, and warns of one that is not as good as asked.
 pub fn judge(
     error: &ErrorParts,
-    scene: &Scene,
+    Plan { scene, period, .. }: &Plan<'_>,
     mesh: &Mesh,
     warnings: &mut Vec<String>,
 ) -> Result<(), Error> {
@@ -27,7 +27,7 @@ pub fn judge(
             "{}, above the tolerance of {}{}",
             exceeds.join(" and "),
             exact_percent(tolerance),
-            remedy(error, scene, mesh)
+            remedy(error, scene, period.other.is_some(), mesh)
         ));
     }
     if !scene.friction.law.has_memory() {
@@ -39,8 +39,8 @@ pub fn judge(
     Ok(())
 }
 
-/// What makes the largest part of an error smaller.
-fn remedy(error: &ErrorParts, scene: &Scene, mesh: &Mesh) -> String {
+/// What makes the largest part of an error smaller, where the period of the traffic is its own or only `stands_in`.
+fn remedy(error: &ErrorParts, scene: &Scene, stands_in: bool, mesh: &Mesh) -> String {
     let of = |part: Shares| part.force.max(part.movement);
     let others = [
         error.ground,
@@ -57,6 +57,10 @@ fn remedy(error: &ErrorParts, scene: &Scene, mesh: &Mesh) -> String {
     }
     if of(error.passes) >= others && scene.traffic.passes <= MOST_PASSES {
         return ": solver.method = \"quasi-static\" simulates every pass".to_owned();
+    }
+    if of(error.passes) >= others && stands_in {
+        return ": most of it comes from twelve vehicles that stand for all kinds; shares in whole twelfths need no such stand-ins"
+            .to_owned();
     }
     ", and no finer mesh makes it much smaller".to_owned()
 }

@@ -1,11 +1,12 @@
 //! Traffic in random order: how far its forces scatter around their mean.
 //!
 //! Many passes later the cable lies as the mean of the traffic has left it, and only the last few tens of vehicles scatter around
-//! that. So a few short random runs from there show the spread, on the mesh that the jumps were found on: it is an estimate.
+//! that. So a few short random runs from there show the spread, on the mesh that the jumps were found on: it is an estimate. Their own mean
+//! is that of a coarse mesh and of some more passes, so the spread is laid around the mean of the answer.
 
 use cable_dem::{CableState, Order, Statistics};
 
-use super::passes::{Simulation, Task};
+use super::passes::{Passes, Simulation, Task};
 use crate::Error;
 use crate::answer::{Quantiles, RandomSpread, larger};
 use crate::cable::traffic;
@@ -17,8 +18,12 @@ const FORGOTTEN: usize = 30;
 /// All of them.
 pub const PASSES_IN_ALL: f64 = RUNS as f64 * PASSES as f64;
 
-/// The spread of the forces around the cable in `state`, and what it cost.
-pub fn spread(task: &Task<'_>, state: &CableState) -> Result<(Option<RandomSpread>, Statistics), Error> {
+/// The spread of the forces around the last ones of the `answer`, from runs that begin in `state`, and what it cost.
+pub fn spread(
+    task: &Task<'_>,
+    state: &CableState,
+    answer: &Passes,
+) -> Result<(Option<RandomSpread>, Statistics), Error> {
     let Order::Random { seed } = task.scene.traffic.order else {
         return Ok((None, Statistics::default()));
     };
@@ -37,14 +42,18 @@ pub fn spread(task: &Task<'_>, state: &CableState) -> Result<(Option<RandomSprea
             }
         }
     }
-    let spread = RandomSpread {
-        downstream: quantiles(downstream),
-        upstream: quantiles(upstream),
-    };
-    Ok((Some(spread), simulation.statistics()))
+    let last = answer.records.last().map(|record| &record.outcome.force);
+    let spread = last.map(|last| RandomSpread {
+        downstream: quantiles(downstream, last.downstream),
+        upstream: quantiles(upstream, last.upstream),
+    });
+    Ok((spread, simulation.statistics()))
 }
 
-fn quantiles(mut forces: Vec<f64>) -> Quantiles {
+/// Of `forces`, moved so that their mean is `mean`.
+fn quantiles(mut forces: Vec<f64>, mean: f64) -> Quantiles {
+    let off = mean - forces.iter().sum::<f64>() / forces.len() as f64;
+    forces.iter_mut().for_each(|force| *force += off);
     forces.sort_by(f64::total_cmp);
     let at = |share: f64| forces[(share * (forces.len() - 1) as f64).round() as usize];
     Quantiles {

@@ -98,11 +98,11 @@ impl Refinement<'_> {
             error.mesh = measured(&finest.records, &finer.records, self.scale());
             error.measured = true;
         }
-        judge(&error, scene, &mesh, warnings)?;
+        judge(&error, self.plan, &mesh, warnings)?;
         let mut random = None;
         if let Some(found) = &found {
             let task = self.task(scene, levels.mesh(found.level)?);
-            let (spread, work) = random::spread(&task, &found.passes.state)?;
+            let (spread, work) = random::spread(&task, &found.passes.state, &finest)?;
             statistics += work;
             random = spread;
         }

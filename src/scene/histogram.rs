@@ -15,7 +15,28 @@ use super::value::Value;
 const MOST: usize = 1000;
 const LARGEST_FILE: u64 = 1 << 20;
 const COLUMNS: [&str; 3] = ["load", "count", "contact_radius"];
-const TABLE: &str = "a table whose first line names the columns load, count and, if wanted, contact_radius";
+/// Other names of these, in small letters.
+const NAMES: [&[&str]; 3] = [
+    &[
+        "load",
+        "axle load",
+        "axle_load",
+        "achslast",
+        "last",
+        "charge",
+        "carico",
+        "carga",
+        "軸重",
+    ],
+    &[
+        "count", "number", "axles", "anzahl", "nombre", "numero", "número", "台数",
+    ],
+    &["contact_radius", "contact radius", "radius"],
+];
+const TABLE: &str = "a table whose first line names the columns load, count and, if wanted, contact_radius, with units in the cells or in the \
+                     name, such as \"load [kN]\"";
+/// A heaviest axle below this, without a unit, is one that was meant in larger units \[N\]: a bicycle's wheel.
+const LIGHTEST: f64 = 1e3;
 
 /// The file that a document names, from the folder of the scene's file `name` on.
 pub fn path(name: &str, document: &Document) -> Option<PathBuf> {
@@ -77,17 +98,32 @@ impl Table<'_> {
             let cell = |cell: &str| cell.trim().trim_matches('"').trim().to_owned();
             row.split(separator).map(cell).collect()
         };
-        let heads: Vec<String> = cells(head).iter().map(|head| head.to_lowercase()).collect();
-        let places = COLUMNS.map(|column| heads.iter().position(|head| head == column));
-        let [Some(load), Some(count), radius] = places else {
+        let heads = cells(head);
+        let heads: Vec<(String, &str)> = heads.iter().map(|head| name_and_unit(head)).collect();
+        let column = |names: &[&str]| {
+            let place = heads
+                .iter()
+                .position(|(head, _)| names.contains(&head.as_str()))?;
+            Some((place, heads[place].1))
+        };
+        let [Some(load), Some(count), radius] = NAMES.map(column) else {
             return Err(self.wrong(line, &format!("\"{}\"", head.trim()), TABLE));
         };
         let mut axles: Vec<TrafficVehicle> = Vec::new();
+        let mut heaviest = (0.0, line, String::new());
         for (row, line) in rows {
             let cells = cells(row);
-            let at = |place: usize, column, quantity| {
+            let at = |(place, unit): (usize, &str), column, quantity| {
                 let cell = cells.get(place).map_or("", String::as_str);
-                self.quantity(line, column, cell, quantity)
+                let decimal_comma = separator != ',' && !cell.contains('.');
+                let cell = if decimal_comma {
+                    &cell.replacen(',', ".", 1)
+                } else {
+                    cell
+                };
+                let bare = cell.parse::<f64>().is_ok();
+                let with_unit = if bare { &format!("{cell} {unit}") } else { cell };
+                self.quantity(line, column, with_unit.trim(), quantity)
             };
             let share = at(count, COLUMNS[1], AXLE_COUNT)?;
             let force = at(load, COLUMNS[0], AXLE_LOAD)?;
@@ -95,6 +131,9 @@ impl Table<'_> {
             // Classes that nothing was counted in are common.
             if share == 0.0 {
                 continue;
+            }
+            if force > heaviest.0 {
+                heaviest = (force, line, cells.get(load.0).cloned().unwrap_or_default());
             }
             let name = format!("axle {}", axles.len() + 1);
             let rejected = |error| self.value.wrong(WrongKind::Rejected(error), "", "");
@@ -109,6 +148,15 @@ impl Table<'_> {
                 share,
                 lateral_offset: 0.0,
             });
+        }
+        let (force, at, cell) = heaviest;
+        if force < LIGHTEST && load.1.is_empty() && cell.parse::<f64>().is_ok() {
+            let found = format!("{} \"{cell}\", in N, as the heaviest axle", COLUMNS[0]);
+            return Err(self.wrong(
+                at,
+                &found,
+                format!("a load with its unit, such as \"{cell} kN\", or a column \"load [kN]\""),
+            ));
         }
         match axles.len() {
             0 => Err(self.wrong(line, "no row with axles below the names", TABLE)),
@@ -131,4 +179,13 @@ impl Table<'_> {
         let value = value.filter(|value| quantity.range.contains(*value));
         value.ok_or_else(|| self.wrong(line, &format!("{column} \"{cell}\""), quantity.allowed()))
     }
+}
+
+/// A column's name in small letters, and the unit in brackets behind it.
+fn name_and_unit(head: &str) -> (String, &str) {
+    let (name, unit) = head.split_once(['[', '(']).unwrap_or((head, ""));
+    (
+        name.trim().to_lowercase(),
+        unit.trim_end_matches([']', ')']).trim(),
+    )
 }

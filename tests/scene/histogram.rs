@@ -66,6 +66,7 @@ fn every_row_is_an_axle_with_its_share() {
         "load,count,contact_radius\n50 kN,300,0.15 m\n80 kN,0,0.15 m\n100 kN,100,20 cm\n",
         "\u{feff}# counted in May\nCount; Load; contact_radius\r\n\"300\"; 50000 ; 150 mm\r\n\r\n100;0.1 MN;0.2\r\n",
         "site\tload\tcount\tcontact_radius\nA\t50 kN\t3\t0.15\nA\t100 kN\t1\t0.2\n",
+        "Achslast [kN];Anzahl;contact_radius (cm)\n50,0;300;15\n100;100;0,2 m\n",
     ] {
         let scene = read("rows", table, &[]).unwrap();
         assert_eq!(classes(&scene), expected, "{table}");
@@ -101,6 +102,16 @@ fn a_bad_table_is_refused_with_its_line() {
         ("load,count\n5 kN,-3\n", &["found count \"-3\"", "at least 0"]),
         ("load,count\n5 kN,nan\n", &["found count \"nan\""]),
         ("load,count\n5 kN\n", &["found count \"\""]),
+        (
+            "load,count\n40,3\n130,1\n80,2\n",
+            &[
+                "found load \"130\", in N,",
+                "line 3",
+                "\"130 kN\"",
+                "\"load [kN]\"",
+            ],
+        ),
+        ("load [m],count\n40,3\n", &["found load \"40 m\"", "a force"]),
         (
             "load,count,contact_radius\n5 kN,1,1 km\n",
             &["found contact_radius \"1 km\""],

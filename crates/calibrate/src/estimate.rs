@@ -29,7 +29,8 @@ pub struct Estimate {
     pub name: String,
     /// Best value.
     pub value: f64,
-    /// Standard error by the curvature at the optimum; `None` where the data say nothing about the parameter there.
+    /// Standard error by the slopes of the model at the optimum, by the interval where these contradict it; `None` where the data say
+    /// nothing about the parameter there.
     pub standard_error: Option<f64>,
     /// Interval at the level of confidence asked.
     pub interval: Interval,

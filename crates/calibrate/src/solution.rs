@@ -119,6 +119,7 @@ impl Calibration<'_> {
             scan: route.scan_others,
         };
         let mut estimates = Vec::new();
+        let mut shares = vec![1.0; self.parameters.len()];
         let mut witnesses: Vec<Witness> = rival
             .map(|point| Witness {
                 point: point.clone(),
@@ -146,10 +147,15 @@ impl Calibration<'_> {
             let value = |coordinate: f64| parameter.value(coordinate);
             let [lower, upper] = profile.ends.map(|end| end.map(value));
             let interval = Interval { lower, upper };
+            let by_slopes = error.map(|error| error * parameter.value_slope(coordinate));
+            let error = consistent(by_slopes, interval, profiler.wanted);
+            if let (Some(by_slopes), Some(error)) = (by_slopes, error) {
+                shares[k] = error / by_slopes;
+            }
             estimates.push(Estimate {
                 name: parameter.name().to_owned(),
                 value: value(coordinate),
-                standard_error: error.map(|error| error * parameter.value_slope(coordinate)),
+                standard_error: error,
                 interval,
                 identifiable: interval.is_closed(),
                 profile: profile
@@ -163,7 +169,7 @@ impl Calibration<'_> {
         }
         Ok(Solution {
             optimum: optimum.clone(),
-            covariance,
+            covariance: covariance.times(&shares),
             estimates,
             rival: rival.cloned(),
             witnesses,
@@ -171,6 +177,23 @@ impl Calibration<'_> {
             misfit: None,
             sizes,
         })
+    }
+}
+
+/// The standard error from the slopes of the model, unless it reaches, `quantile` times, beyond the whole interval to either side: where the
+/// model is steepest nowhere near, as at its largest value, only the interval tells how exactly the parameter is known.
+fn consistent(error: Option<f64>, interval: Interval, quantile: f64) -> Option<f64> {
+    let Interval {
+        lower: Some(lower),
+        upper: Some(upper),
+    } = interval
+    else {
+        return error;
+    };
+    let width = upper - lower;
+    match error {
+        Some(error) if quantile * error <= width => Some(error),
+        _ => Some(0.5 * width / quantile),
     }
 }
 

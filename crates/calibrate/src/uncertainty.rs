@@ -58,6 +58,13 @@ impl Covariance {
         Self { matrix, known }
     }
 
+    /// The same with the standard error of each multiplied by its share.
+    pub fn times(mut self, shares: &[f64]) -> Self {
+        let scaled = |i: usize, j: usize, value| shares[i] * shares[j] * value;
+        self.matrix = self.matrix.map_with_location(scaled);
+        self
+    }
+
     /// Standard error of a free variable.
     pub fn standard_error(&self, k: usize) -> Option<f64> {
         self.known[k].then(|| self.matrix[(k, k)].max(0.0).sqrt())

@@ -87,6 +87,37 @@ fn straight_line_has_the_textbook_errors() {
     assert!((fit.degrees_of_freedom - 10.0).abs() < 1e-6);
 }
 
+/// Readings beyond the largest value that a model can take: its slope vanishes there, but its curvature still tells the parameter. With the
+/// noise from n - 1 degrees of freedom, the rise of the deviance is (n - 1)(2 r c d² + c² d⁴)/r² at a distance d.
+#[test]
+fn a_standard_error_never_contradicts_its_interval() {
+    let (largest, curvature, residual, count) = (550.0, 4000.0, 50.0, 12.0_f64);
+    let model = |p: &[f64]| -> Result<Vec<f64>, ModelError> {
+        Ok(vec![largest - curvature * (p[0] - 0.3).powi(2); 12])
+    };
+    let parameter = Parameter::new("mu", 0.01, 1.0, Scale::Linear).unwrap();
+    let fit = Calibration::new(&model, vec![parameter], vec![largest + residual; 12])
+        .unwrap()
+        .fit()
+        .unwrap();
+    // t for 11 degrees of freedom at 97.5 %, from tables.
+    let t = 2.200_985_f64;
+    let square = ((1.0 + t * t / (count - 1.0)).sqrt() - 1.0) * residual / curvature;
+    let estimate = &fit.estimates[0];
+    let reach = 0.5 * (estimate.interval.upper.unwrap() - estimate.interval.lower.unwrap());
+    assert!(
+        (reach / square.sqrt() - 1.0).abs() < 0.05,
+        "{reach} for {}",
+        square.sqrt()
+    );
+    let error = estimate.standard_error.unwrap();
+    assert!(
+        (error * t / reach - 1.0).abs() < 0.05,
+        "{error} for {}",
+        reach / t
+    );
+}
+
 /// Standard errors against those of the analytic Jacobian.
 #[test]
 fn covariance_is_that_of_the_analytic_jacobian() {
