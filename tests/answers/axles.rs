@@ -114,3 +114,35 @@ fn stand_ins_keep_the_mean_force_and_the_spread_of_all_axles() {
         "{largest:?} {width}"
     );
 }
+
+/// The rows of a cable that still creeps lie within the spread of single axles, which is not that of a later time.
+#[test]
+fn the_spread_is_that_of_the_last_passes() {
+    let run = creepage::run(&scene(
+        "creeps",
+        &["solver.method=pass-law", "traffic.passes=60", "duct.length=60 m"],
+    ))
+    .expect("an answer");
+    let last = run.passes.last().expect("a pass").downstream_force_n;
+    let spread = run.random.expect("a spread").downstream;
+    assert!(
+        run.saturation
+            .is_none_or(|saturation| saturation.force_n > 1.1 * last)
+    );
+    assert!(spread.q05_n < last && last < spread.q95_n, "{spread:?} {last}");
+}
+
+/// What twelve stand-ins cannot answer as exactly as asked, all axles do where they are few.
+#[test]
+fn few_axles_are_simulated_one_by_one() {
+    let method = |overrides: &[&str]| {
+        let scene = scene("few", overrides);
+        creepage::plan(&scene).expect("a plan").report().cable
+    };
+    assert_eq!(method(&["solver.tolerance=0.01"]), "quasi-static");
+    assert_eq!(method(&["solver.tolerance=0.05"]), "pass-law");
+    assert_eq!(
+        method(&["solver.tolerance=0.01", "traffic.passes=1000000"]),
+        "pass-law"
+    );
+}

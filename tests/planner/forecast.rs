@@ -1,6 +1,7 @@
 //! What `forecast` says before a run against what the run did, by counts that do not depend on the machine.
 
 use creepage::{Error, Scene};
+use rayon::prelude::*;
 
 use super::scenes;
 use crate::answers::long_term;
@@ -113,4 +114,52 @@ fn hours_with_inertia_are_foreseen_at_once() {
     let forecast = creepage::forecast(&creepage::plan(&scene).expect("a plan")).expect("a forecast");
     assert!(forecast.seconds > 3600.0, "{forecast:?}");
     assert!(begun.elapsed().as_secs() < 10);
+}
+
+/// Passes after which the shares of a scene repeat themselves: at most twelve in these scenes.
+fn period(scene: &Scene) -> u64 {
+    let total: f64 = scene.vehicles.iter().map(|vehicle| vehicle.share).sum();
+    let is_whole = |number: f64| (number - number.round()).abs() < 1e-9;
+    let repeats = |passes: &u64| {
+        let mut numbers = scene
+            .vehicles
+            .iter()
+            .map(|vehicle| vehicle.share / total * *passes as f64);
+        numbers.all(is_whole)
+    };
+    (1..=12).find(repeats).expect("shares of one to four")
+}
+
+#[test]
+#[ignore = "120 random scenes with a million passes: minutes; FIRST chooses other seeds"]
+fn few_of_a_million_passes_are_simulated() {
+    let first = std::env::var("FIRST")
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(0);
+    let simulated: Vec<(u64, u64)> = (first..first + 120)
+        .into_par_iter()
+        .filter_map(|seed| {
+            let mut scene = long_term::random(seed);
+            scene.traffic.passes = 1_000_000;
+            let run = match creepage::run(&scene) {
+                Err(Error::Inaccurate { .. }) => return None,
+                run => run.unwrap_or_else(|error| panic!("scene {seed}: {error}")),
+            };
+            let (period, simulated) = (period(&scene), run.cost.simulated_passes);
+            println!("{seed}: period {period}, {simulated} passes simulated");
+            Some((period, simulated))
+        })
+        .collect();
+    let short: Vec<u64> = simulated
+        .iter()
+        .filter(|(period, _)| *period <= 5)
+        .map(|(_, simulated)| *simulated)
+        .collect();
+    let few = short.iter().filter(|&&simulated| simulated <= 150).count();
+    println!(
+        "{few} of {} with a period of at most 5 simulate at most 150",
+        short.len()
+    );
+    assert!(few as f64 >= 0.8 * short.len() as f64);
 }
