@@ -53,7 +53,9 @@ pub fn spread(
 /// Of `forces`, moved so that their mean is `mean`.
 fn quantiles(mut forces: Vec<f64>, mean: f64) -> Quantiles {
     let off = mean - forces.iter().sum::<f64>() / forces.len() as f64;
-    forces.iter_mut().for_each(|force| *force += off);
+    for force in &mut forces {
+        *force += off;
+    }
     forces.sort_by(f64::total_cmp);
     let at = |share: f64| forces[(share * (forces.len() - 1) as f64).round() as usize];
     Quantiles {
