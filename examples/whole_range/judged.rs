@@ -8,7 +8,7 @@ use creepage::scene::End;
 use creepage::{Error, PassRecord, Progress, Run, RunOptions, Scene};
 
 /// Scenes that are foreseen to take longer \[s\] are not run.
-const LONGEST: f64 = 10.0;
+const LONGEST: f64 = 3.0;
 /// A run may take so many times what is foreseen, and this much in any case \[nodes\].
 const TIMES: f64 = 3.0;
 const NEGLIGIBLE: f64 = 5e7;
