@@ -1155,7 +1155,7 @@ fn design_takes_pairs_several_places_and_limits_of_clamps() {
     let clamp = ["--limit-force", "13m=1N", "--limit-movement", "clamp=1m"];
     let said = printed(&[&run[..], &clamp].concat());
     assert!(
-        said.contains("limit exceeded: force on the clamp at 13 m above 1 N from pass "),
+        said.contains("limit exceeded: force on the clamp at 13 m above 1 N, first at pass "),
         "{said}"
     );
     assert!(
