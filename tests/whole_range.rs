@@ -4,7 +4,7 @@
 #[allow(dead_code, reason = "the example names outcomes in its table")]
 mod judged;
 #[path = "../examples/whole_range/scenes.rs"]
-mod scenes;
+pub mod scenes;
 
 use judged::{Outcome, judged};
 

@@ -34,6 +34,9 @@ const COARSEST: f64 = 3.0;
 const RESOLVED: usize = 2;
 const LEFT: f64 = 0.4;
 const LEFT_UNRESOLVED: f64 = 2.0;
+/// What a difference falls to from one level to the next as a rule; and what a second coarse mesh may take before a run [s].
+const FALL: f64 = 0.25;
+const AFFORDABLE: f64 = 1.0;
 
 /// Real periods a day that are enough, what they leave wrong, and the days they were found on, with their level.
 struct Found {
@@ -67,23 +70,39 @@ pub fn solve(
     living.solve(options.verify, warnings)
 }
 
-/// What is to be expected of a run of `plan`: one on a coarse mesh tells.
+/// What is to be expected of a run of `plan`: its real periods a day are looked for as the run does, and two coarse meshes tell which one is
+/// fine enough.
 pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<Outlook, Error> {
     let living = Living::new(plan, heat, false, Progress::default());
-    let level = living.first_level();
-    let (_, (coarse, lived)) = living.settling(FIRST_KNOTS, |knots| living.coarse(level, knots))?;
+    let levels = &plan.levels;
+    let first = living.first_level();
+    let mut search = Statistics::default();
+    let Found { knots, left, .. } = living.knots(first, &mut search)?;
+    let (knots, (coarse, lived)) = living.settling(knots, |knots| living.coarse(first, knots))?;
     let periods = lived.passes.simulated as f64;
     let nodes = plan.levels.mesh(coarse)?.nodes();
     let work = Work::new(&lived.passes.statistics, nodes, periods, 0.0);
-    // That level and the one below; before them, with as many real periods a day and with twice as many, the coarse one.
-    let meshes = |work: Work| match (level - coarse).checked_sub(1) {
-        Some(below) => work.refined(below) + work.refined(below + 1),
-        None => work.refined(level - coarse),
-    };
+    let mut level = first;
+    if coarse < first && work.refined(1).seconds(method.cable_method()) < AFFORDABLE {
+        let (more, finer) =
+            living.settling(knots, |knots| living.live(coarse + 1, knots, Progress::default()))?;
+        if more == knots {
+            let worth = worth(plan.scene.solver.tolerance) as f64 / REFINEMENT_COST as f64;
+            let is_costly = |level: usize| work.refined(level - coarse).0[0] > worth;
+            let is_fine = living.is_fine(coarse + 1, living.difference(&finer, &lived), left);
+            level = (first..levels.finest())
+                .find(|&level| is_fine(level) || is_costly(level))
+                .unwrap_or(levels.finest());
+        }
+    }
+    // Every level from that below the first on.
+    let begin = first.saturating_sub(1).max(coarse);
+    let meshes =
+        |work: Work| (begin..=level).fold(Work::default(), |all, one| all + work.refined(one - coarse));
     let every_pass = meshes(work.times(plan.scene.traffic.passes as f64 / periods));
     let work = match method {
         PassMethod::EveryPass(_) => every_pass,
-        PassMethod::Jumps(_) => meshes(work) + work.times(3.0),
+        PassMethod::Jumps(_) => meshes(work) + Work::new(&search, nodes, 0.0, 0.0),
     };
     Ok(Outlook {
         level,
@@ -134,14 +153,9 @@ impl Living<'_> {
         loop {
             statistics += finest.passes.statistics;
             if let Some(coarse) = &below {
-                let fineness = self.fineness(level);
-                let share = if fineness < RESOLVED {
-                    LEFT_UNRESOLVED
-                } else {
-                    LEFT
-                };
-                let typical = Shares::both(TYPICAL[fineness]);
-                error.mesh = self.difference(&finest, coarse).times(share).max(typical);
+                let typical = Shares::both(TYPICAL[self.fineness(level)]);
+                let difference = self.difference(&finest, coarse);
+                error.mesh = difference.times(self.left(level)).max(typical);
             }
             let finer = REFINEMENT_COST.saturating_mul(finest.passes.statistics.node_updates);
             let costly = finer > worth(tolerance);
@@ -196,6 +210,33 @@ impl Living<'_> {
                 }
                 days => return Ok((knots, days?)),
             }
+        }
+    }
+
+    /// Which levels should be fine enough, where that of `seen` differs by `difference` from the one below it, and few real periods a
+    /// day leave `left` wrong.
+    fn is_fine(&self, seen: usize, difference: Shares, left: Shares) -> impl Fn(usize) -> bool {
+        let Plan {
+            scene,
+            ground,
+            choice,
+            ..
+        } = self.plan;
+        let mut others = ErrorParts::new(ground.accuracy, choice.inertia);
+        others.temperature = left;
+        let allowed = allowed(scene.solver.tolerance, others.total());
+        move |level| {
+            let falls = FALL.powi(level as i32 - seen as i32);
+            difference.times(self.left(level) * falls).is_within(allowed)
+        }
+    }
+
+    /// Share of the difference to a mesh half as fine that the mesh of `level` leaves wrong.
+    fn left(&self, level: usize) -> f64 {
+        if self.fineness(level) < RESOLVED {
+            LEFT_UNRESOLVED
+        } else {
+            LEFT
         }
     }
 

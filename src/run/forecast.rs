@@ -104,8 +104,16 @@ pub fn forecast(plan: &Plan<'_>) -> Result<Forecast, Error> {
     let outlook = match Probe::new(plan, method).outlook() {
         // The run simulates every pass then.
         Err(Error::Jumps(_)) if plan.choice.may_simulate && matches!(method, PassMethod::Jumps(_)) => {
-            let every_pass = PassMethod::EveryPass(method.cable_method());
-            Probe::new(plan, every_pass).outlook()?
+            Probe::new(plan, PassMethod::EveryPass(cable)).outlook()?
+        }
+        Ok(outlook)
+            if plan.choice.may_simulate && is_doubtful(outlook.passes.force, plan.scene.solver.tolerance) =>
+        {
+            let every_pass = Probe::new(plan, PassMethod::EveryPass(cable)).outlook()?;
+            Outlook {
+                work: outlook.work + every_pass.work,
+                ..every_pass
+            }
         }
         outlook => outlook?,
     };

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::scenes;
 use crate::answers::long_term;
+use crate::whole_range;
 
 /// Passes of the scenes: few enough for every one to be simulated, and far more.
 const PASSES: [u64; 3] = [10_000, 1_000_000, 100_000_000];
@@ -63,6 +64,15 @@ fn a_forecast_does_not_depend_on_the_machine_and_foresees_more_for_more() {
     let far = foresee(1_000_000, 0.01);
     assert!(foresee(10, 0.01) < far);
     assert!(foresee(1_000_000, 0.001) > 4.0 * far);
+}
+
+/// Nine vehicles at random, for which no twelve stand in: every pass is simulated after all.
+#[test]
+fn what_jumps_cannot_answer_is_foreseen() {
+    let mut scene = Scene::from_toml("scene", &whole_range::scenes::scene(161)).expect("a valid scene");
+    scene.traffic.passes = 2000;
+    let ratio = compare(&scene).expect("an answer");
+    assert!((1.0 / 3.0..3.0).contains(&ratio), "{ratio}");
 }
 
 #[test]
