@@ -17,6 +17,7 @@ mod cable;
 mod cost;
 mod discrepancy;
 mod ground;
+mod opensees;
 mod whole;
 
 use std::error::Error;
@@ -32,6 +33,7 @@ const CHARTS: &[Entry] = &[
     ("ground", ground::run),
     ("cable", cable::run),
     ("whole", whole::run),
+    ("opensees", opensees::run),
     ("discrepancy", discrepancy::run),
     ("cost", cost::run),
     ("aims", aims::run),
