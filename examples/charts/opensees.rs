@@ -19,13 +19,13 @@ const SERIES: [(&str, usize); 4] = [
 ];
 const TRUTH: &str = "truth";
 /// Processor time \[s\] and shares of the force that are drawn.
-const TIMES: (f64, f64) = (1e-3, 200.0);
+const TIMES: (f64, f64) = (3e-3, 200.0);
 const ERRORS: (f64, f64) = (5e-6, 0.1);
 
 /// Columns of the table.
 const NAME: usize = 0;
-const ERROR: usize = 5;
-const SECONDS: usize = 6;
+const ERROR: usize = 6;
+const SECONDS: usize = 7;
 
 pub fn run(out: &Path) -> Result<(), Box<dyn Error + Send + Sync>> {
     let mut reader = csv::Reader::from_path(out.join("opensees.csv"))?;

@@ -66,7 +66,7 @@ def paths(nodes, step):
 
 
 def opensees(density, steps_per_node):
-    """Forces on the load cell after every pass, and how many steps were solved."""
+    """Forces on the load cell after every pass, and how many steps and nodes were solved for (iterations are not counted)."""
     elements = round(LENGTH / DEPTH * density)
     spacing = LENGTH / elements
     nodes = spacing * np.arange(elements + 1)
@@ -117,7 +117,7 @@ def opensees(density, steps_per_node):
             ops.algorithm(*NEWTON)
         ops.reactions()
         forces.append(-ops.nodeReaction(elements, 1))
-    return forces, PASSES * steps
+    return forces, PASSES * steps, PASSES * steps * len(nodes)
 
 
 def creepage(program, command, *settings):
@@ -133,7 +133,8 @@ def run(program, *settings):
     """As `opensees`, and the mesh's nodes a depth."""
     answer = creepage(program, "run", f"traffic.passes={PASSES}", f"solver.approach={APPROACH} m", *settings)
     forces = [record["downstream_force_n"] for record in answer["passes"]]
-    return forces, answer["cost"]["steps"], DEPTH / answer["plan"]["node_spacing_m"]
+    cost = answer["cost"]
+    return forces, cost["steps"], cost["node_updates"], DEPTH / answer["plan"]["node_spacing_m"]
 
 
 def on_mesh(program, density):
@@ -168,35 +169,36 @@ def main():
     ours = duct_motion(np.array(profile["positions_m"]))
     assert np.abs(ours - theirs).max() < 1e-8 * np.abs(theirs).max(), "not the same motion of the duct"
 
-    truth, _, _ = on_mesh(program, TRUE_DENSITY)
-    coarser, _, _ = on_mesh(program, TRUE_DENSITY / 2)
+    truth, *_ = on_mesh(program, TRUE_DENSITY)
+    coarser, *_ = on_mesh(program, TRUE_DENSITY / 2)
 
-    header = ["series", "knob", "knob_unit", "nodes_a_depth", "steps", "error_share_of_force", "processor_seconds"]
+    header = ["series", "knob", "knob_unit", "nodes_a_depth", "steps", "node_updates", "error_share_of_force", "processor_seconds"]
     with TABLE.open("w", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
 
-        def add(series, knob, unit, density, steps, error, seconds, forces):
-            row = [series, knob, unit, f"{density:g}", steps, f"{error:.3e}", seconds, *(f"{force:.5f}" for force in forces)]
+        def write(series, knob, unit, density, steps, nodes, error, seconds, forces):
+            row = [series, knob, unit, f"{density:g}", steps, nodes, f"{error:.3e}", seconds]
+            row += [f"{force:.5f}" for force in forces]
             table.writerow(row)
             file.flush()
             print(*row, flush=True)
 
+        def measure(series, knob, unit, work):
+            (forces, steps, nodes, density), seconds = timed(work)
+            write(series, knob, unit, density, steps, nodes, error(forces, truth), f"{seconds:.3e}", forces)
+
         table.writerow(header + [f"force_{number}_n" for number in range(1, PASSES + 1)])
         # What a scheme of second order leaves.
-        add("truth", TRUE_DENSITY, "nodes a depth", TRUE_DENSITY, "", error(coarser, truth) / 3, "", truth)
+        write("truth", TRUE_DENSITY, "nodes a depth", TRUE_DENSITY, "", "", error(coarser, truth) / 3, "", truth)
         for tolerance in TOLERANCES:
-            (forces, steps, density), seconds = timed(lambda: run(program, f"solver.tolerance={tolerance}"))
-            row = (tolerance, "tolerance", density, steps, error(forces, truth), f"{seconds:.3e}", forces)
-            add("creepage run, tolerance 10 % to 0.1 %", *row)
+            work = lambda: run(program, f"solver.tolerance={tolerance}")
+            measure("creepage run, tolerance 10 % to 0.1 %", tolerance, "tolerance", work)
         for density in DENSITIES:
-            (forces, steps, _), seconds = timed(lambda: on_mesh(program, density))
-            row = (density, "nodes a depth", density, steps, error(forces, truth), f"{seconds:.3e}", forces)
-            add("creepage run, same mesh", *row)
+            measure("creepage run, same mesh", density, "nodes a depth", lambda: on_mesh(program, density))
         for series, steps_per_node in [("OpenSees", 2), ("OpenSees, half as many steps", 1)]:
             for density in DENSITIES:
-                (forces, steps), seconds = timed(lambda: opensees(density, steps_per_node))
-                row = (density, "nodes a depth", density, steps, error(forces, truth), f"{seconds:.3e}", forces)
-                add(series, *row)
+                work = lambda: (*opensees(density, steps_per_node), density)
+                measure(series, density, "nodes a depth", work)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 //! The tables behind docs/charts.md: they are sound, each has its figure on the page, and what the page concludes holds in them.
 
 mod maps;
+mod opensees;
 
 use std::collections::BTreeSet;
 use std::error::Error;
