@@ -70,7 +70,7 @@ fn the_general_code_takes_many_times_as_long() -> Tested {
         let ours = of(&table, "", MESH).find(|row| row.knob == theirs.knob);
         let ratio = theirs.seconds / ours.ok_or("no such mesh")?.seconds;
         let least = if theirs.knob >= 12.0 { 95.0 } else { 30.0 };
-        assert!((least..=160.0).contains(&ratio), "{theirs:?}: {ratio}");
+        assert!((least..=175.0).contains(&ratio), "{theirs:?}: {ratio}");
     }
     for error in [1e-2, 1e-3] {
         let general = GENERAL.map(|series| seconds(&table, "", series, error));
