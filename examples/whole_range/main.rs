@@ -15,12 +15,14 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread::{available_parallelism, scope};
 use std::time::Instant;
 
-use creepage::Scene;
+use creepage::{PassRecord, Scene};
 use judged::{Outcome, judged};
 
 /// One scene in so many is computed again with a smaller tolerance, and by what factor that is smaller.
 const AGAIN: u64 = 20;
 const FINER: f64 = 4.0;
+/// What friction holds on this length of cable counts as nothing \[m\].
+const SHORT: f64 = 0.01;
 
 #[derive(Clone)]
 struct Row {
@@ -122,32 +124,33 @@ fn row(number: u64) -> Row {
     }
 }
 
-/// How far the forces on ends and in the cable lie from those of a run that is to be [`FINER`] times as exact, by the measure of the stated
-/// error; `None` where that one gives no answer in time.
+/// How far the forces lie from those of a run that is to be [`FINER`] times as exact, by the measure of the stated error: those on the ends and
+/// the largest in the cable, beside the largest of their pass or a tenth of the largest of all; with heat those on the ends, beside the largest of
+/// all. `None` where that run gives no answer in time.
 fn again(text: &str) -> Option<f64> {
     let scene = Scene::from_toml("scene.toml", text).ok()?;
     let own = judged::run(&scene).ok()?;
     let mut finer = scene;
     finer.solver.tolerance = own.error_estimate.relative.max(1e-3) / FINER;
+    let heated = finer.heat.is_some();
+    let nothing = SHORT * finer.friction_limit();
     let finer = judged::run(&finer).ok()?;
-    let forces = |run: &creepage::Run| -> Vec<[f64; 3]> {
-        let passes = run.passes.iter();
-        passes
-            .map(|pass| {
-                [
-                    pass.upstream_force_n,
-                    pass.downstream_force_n,
-                    pass.max_compression_n,
-                ]
-            })
-            .collect()
+    let forces = |pass: &PassRecord| {
+        let inside = if heated { 0.0 } else { pass.max_compression_n };
+        [pass.upstream_force_n, pass.downstream_force_n, inside]
     };
-    let (own, finer) = (forces(&own), forces(&finer));
-    let largest = finer
-        .iter()
-        .flatten()
-        .fold(0.0_f64, |most, force| most.max(force.abs()));
-    let pairs = own.iter().flatten().zip(finer.iter().flatten());
-    let off = pairs.map(|(own, finer)| (own - finer).abs() / finer.abs().max(0.1 * largest).max(1e-9));
-    Some(off.fold(0.0, f64::max))
+    let largest = |pass: &PassRecord| {
+        let peaks = [pass.upstream_peak_n, pass.downstream_peak_n];
+        let all = forces(pass).into_iter().chain(peaks);
+        all.fold(nothing, |most, force| most.max(force.abs()))
+    };
+    let most = finer.passes.iter().map(largest).fold(nothing, f64::max);
+    let least = if heated { most } else { 0.1 * most };
+    let of_pass = |(own, finer): (&PassRecord, &PassRecord)| {
+        let pairs = forces(own).into_iter().zip(forces(finer));
+        let apart = pairs.fold(0.0_f64, |most, (own, finer)| most.max((own - finer).abs()));
+        apart / largest(finer).max(least).max(f64::MIN_POSITIVE)
+    };
+    let passes = own.passes.iter().zip(&finer.passes);
+    Some(passes.map(of_pass).fold(0.0, f64::max))
 }

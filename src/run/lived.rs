@@ -234,9 +234,12 @@ impl<'a> Living<'a> {
         let lasting = periodic_from.map_or_else(String::new, |day| {
             format!("; from day {day} on every day is like the one before")
         });
-        format!(
-            "days: {corrected} of {days} were simulated with {real} each, the others follow from them{lasting}"
-        )
+        let others = if corrected < days {
+            ", the others follow from them"
+        } else {
+            ""
+        };
+        format!("days: {corrected} of {days} were simulated with {real} each{others}{lasting}")
     }
 
     pub fn record(&self, lived: &Lived) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {
