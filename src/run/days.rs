@@ -34,9 +34,9 @@ const COARSEST: f64 = 3.0;
 const RESOLVED: usize = 2;
 const LEFT: f64 = 0.4;
 const LEFT_UNRESOLVED: f64 = 2.0;
-/// What a difference falls to from one level to the next as a rule; and what a second coarse mesh may take before a run [s].
+/// What a difference falls to from one level to the next as a rule; and what an outlook may take [s].
 const FALL: f64 = 0.25;
-const AFFORDABLE: f64 = 1.0;
+const AFFORDABLE: f64 = 2.0;
 
 /// Real periods a day that are enough, what they leave wrong, and the days they were found on, with their level.
 struct Found {
@@ -82,8 +82,10 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<Outlo
     let periods = lived.passes.simulated as f64;
     let nodes = plan.levels.mesh(coarse)?.nodes();
     let work = Work::new(&lived.passes.statistics, nodes, periods, 0.0);
+    let cable = method.cable_method();
+    let spent = work + Work::new(&search, nodes, 0.0, 0.0);
     let mut level = first;
-    if coarse < first && work.refined(1).seconds(method.cable_method()) < AFFORDABLE {
+    if coarse < first && (spent + work.refined(1)).seconds(cable) < AFFORDABLE {
         let (more, finer) =
             living.settling(knots, |knots| living.live(coarse + 1, knots, Progress::default()))?;
         if more == knots {
@@ -100,9 +102,18 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<Outlo
     let meshes =
         |work: Work| (begin..=level).fold(Work::default(), |all, one| all + work.refined(one - coarse));
     let every_pass = meshes(work.times(plan.scene.traffic.passes as f64 / periods));
+    let few = meshes(work) + Work::new(&search, nodes, 0.0, 0.0);
     let work = match method {
         PassMethod::EveryPass(_) => every_pass,
-        PassMethod::Jumps(_) => meshes(work) + Work::new(&search, nodes, 0.0, 0.0),
+        // Where days in another sequence differ too much, every pass is simulated after all.
+        PassMethod::Jumps(_)
+            if plan.choice.may_simulate && (spent + work + work).seconds(cable) < AFFORDABLE =>
+        {
+            let sequence = living.sequence_error(first, knots, &mut search)?;
+            let is_none = is_doubtful((left + sequence).force, plan.scene.solver.tolerance);
+            if is_none { few + every_pass } else { few }
+        }
+        PassMethod::Jumps(_) => few,
     };
     Ok(Outlook {
         level,
