@@ -114,7 +114,7 @@ impl Case {
             tolerance: JUMP,
             first_periods: 8,
             first_jump: 0.25,
-            depth,
+            length_scale: depth,
             motion,
             least: (0.01 * cable.friction().limit(), 0.1 * motion),
             most_passes: (passes as u64, passes as u64),

@@ -97,7 +97,7 @@ impl Case {
             tolerance: TOLERANCE,
             first_periods: 8,
             first_jump: 0.25,
-            depth: DEPTH,
+            length_scale: DEPTH,
             motion,
             least: (0.01 * LIMIT, 0.1 * motion),
             most_passes: (1000, 1000),

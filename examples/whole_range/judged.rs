@@ -13,7 +13,7 @@ const LONGEST: f64 = 3.0;
 const TIMES: f64 = 3.0;
 const NEGLIGIBLE: f64 = 5e7;
 /// Time after which a run that was to take less than [`LONGEST`] is given up.
-const GIVEN_UP: Duration = Duration::from_secs(60);
+const GIVEN_UP: Duration = Duration::from_secs(30);
 /// Interpolation of forces within jumps, as a share of the largest.
 const ROUNDING: f64 = 0.01;
 /// A fixed end stays where it is \[m\].
@@ -87,7 +87,7 @@ fn outcome(text: &str) -> (Outcome, Option<f64>) {
     (Outcome::Right, stated)
 }
 
-/// The run of a scene, given up after a minute.
+/// The run of a scene, unless it takes longer than [`GIVEN_UP`].
 pub fn run(scene: &Scene) -> Result<Run, Error> {
     let begun = Instant::now();
     let watch = |_: f64| {

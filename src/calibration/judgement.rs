@@ -3,7 +3,7 @@
 //! Residuals of a model that holds, read by a cell without faults, are noise: their signs change as coins do, they are as large as
 //! neighbouring readings differ, no constant and no line explains a part of them, and none is far from all others.
 
-use calibrate::{Fit, Loss, probability_of_signs, probability_of_size};
+use calibrate::{Fit, Loss, probability_of_scatter, probability_of_signs, probability_of_size};
 use serde::Serialize;
 
 use super::alternatives::{Alternative, alternatives};
@@ -41,6 +41,8 @@ pub struct LackOfFit {
     pub p_offset: Option<f64>,
     /// Probability of residuals so much larger than neighbouring readings differ: of an R² below what the noise explains.
     pub p_noise: Option<f64>,
+    /// Probability of residuals so much larger than the sigmas of the readings; null where these have none.
+    pub p_sigma: Option<f64>,
     /// Whether any of these is below 0.01 (0.03 of the second and third), readings are outliers, or the data look mistaken: then no parameter is called identifiable.
     pub suspicious: bool,
 }
@@ -69,11 +71,13 @@ pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Res
         alternatives(problem, found, &cells, &judged)?
     };
     let [trend, offset] = [0, 1].map(|place| alternatives[place].as_ref().map(|found| found.probability));
+    let used = rows.list.len() as f64 - fit.degrees_of_freedom;
     let mut lack_of_fit = LackOfFit {
         p_runs: probability_of_signs(&sequences),
         p_trend: trend,
         p_offset: offset,
-        p_noise: probability_of_size(&sequences, rows.list.len() as f64 - fit.degrees_of_freedom),
+        p_noise: probability_of_size(&sequences, used),
+        p_sigma: (!fit.noise_estimated).then(|| probability_of_scatter(&sequences, used)),
         suspicious: false,
     };
     let misses = lack_of_fit.misses();
@@ -103,6 +107,7 @@ impl LackOfFit {
         let strikes = |p: Option<f64>, chance: f64| p.is_some_and(|p| p < chance);
         strikes(Some(self.p_runs), CHANCE)
             || strikes(self.p_noise, CHANCE)
+            || strikes(self.p_sigma, CHANCE)
             || strikes(self.p_trend, CHANCE_OF_ERRORS)
             || strikes(self.p_offset, CHANCE_OF_ERRORS)
     }
@@ -127,6 +132,12 @@ fn explanation(
     if let Some(p) = lack.p_noise.filter(|&p| p < CHANCE) {
         shown.push(format!(
             "they are larger than neighbouring readings differ (by chance {})",
+            chance(p)
+        ));
+    }
+    if let Some(p) = lack.p_sigma.filter(|&p| p < CHANCE) {
+        shown.push(format!(
+            "they are larger than their sigmas (by chance {})",
             chance(p)
         ));
     }

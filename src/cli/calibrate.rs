@@ -272,11 +272,12 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     let chance = |p: Option<f64>| p.map_or_else(|| "-".into(), |p| format!("{p:.2}"));
     writeln!(
         out,
-        "whether they are noise: by chance signs {:.2}, drift {}, zero {}, size {}: {}",
+        "whether they are noise: by chance signs {:.2}, drift {}, zero {}, size {}, sigmas {}: {}",
         lack.p_runs,
         chance(lack.p_trend),
         chance(lack.p_offset),
         chance(lack.p_noise),
+        chance(lack.p_sigma),
         if lack.suspicious { "SUSPICIOUS" } else { "yes" }
     )?;
     for assumption in &answer.assumptions {

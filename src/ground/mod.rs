@@ -6,4 +6,4 @@ pub mod profile;
 pub mod road;
 
 pub use model::Ground;
-pub use motion::{load_ratio, peak};
+pub use motion::{length_scale, load_ratio, peak};

@@ -8,6 +8,8 @@ use crate::scene::{PeakScaling, Scene, TrafficVehicle};
 /// Points at which two motions are compared, this far on either side of the vehicle \[depths\].
 const COMPARED: (usize, f64) = (241, 12.0);
 
+/// A motion that is less wider than this than its duct is deep counts as so wide: a coarser mesh would save little.
+const SMOOTHER: f64 = 1.25;
 /// Loads in the same ratio to this share are so but for rounding.
 const SAME: f64 = 1e-12;
 
@@ -60,6 +62,14 @@ pub fn peak(motions: &[DuctMotion]) -> f64 {
         .iter()
         .map(DuctMotion::peak_longitudinal)
         .fold(0.0, f64::max)
+}
+
+/// Length over which a duct at `depth` moves differently under the vehicle that moves it most sharply \[m\]: its depth, or more where that is
+/// worth a mesh of its own.
+pub fn length_scale(motions: &[DuctMotion], depth: f64) -> f64 {
+    let scales = motions.iter().map(DuctMotion::length_scale);
+    let least = scales.fold(f64::INFINITY, f64::min);
+    if least > SMOOTHER * depth { least } else { depth }
 }
 
 fn scale(scene: &Scene, motions: Vec<DuctMotion>) -> Result<Vec<DuctMotion>, Error> {

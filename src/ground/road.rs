@@ -35,7 +35,8 @@ pub fn farthest(scene: &Scene) -> f64 {
 /// Vehicles are followed so many times as far as the farthest place where the motion turns.
 const BEYOND_THE_TURN: f64 = 1.5;
 
-/// Length of the cable on which the advance against locked friction is measured where heat makes that necessary \[depths\].
+/// Length of the cable on which the advance against locked friction is measured where heat makes that necessary, as a multiple of that over which the
+/// duct's motion changes.
 pub const LAW_LENGTH: f64 = 24.0;
 
 /// How far from a vehicle's origin its motion of the duct has to be known \[m\].

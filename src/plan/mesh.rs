@@ -1,16 +1,19 @@
 //! Meshes of a scene, from coarse to fine.
 //!
-//! The natural length is the duct's depth. Level 0 has three nodes per depth and two steps of the vehicle per node spacing; each
-//! further level halves both. Every tolerance takes the same levels and stops at its own, so that a looser one never costs
+//! The length scale is that over which the duct's motion changes: its depth right under the wheels, more beside the lane or under a stiff slab,
+//! where the cable slips far enough to see it.
+//! Level 0 has three nodes per length scale and two steps of the vehicle per node spacing; each further level halves both. Every tolerance takes the same levels and stops at its own, so that a looser one never costs
 //! more, and the coarser levels give the error of the last.
 
 use cable_dem::{CableError, Mesh};
+use ground_field::DuctMotion;
 
 use super::known::KnownMesh;
 use crate::Error;
+use crate::ground::{length_scale, peak};
 use crate::scene::{Scene, SolverMethod};
 
-/// Nodes per depth of the duct on level 0.
+/// Nodes per length scale on level 0.
 const COARSEST: f64 = 3.0;
 /// Fewest elements of a short duct on level 0.
 const FEWEST: f64 = 8.0;
@@ -20,11 +23,13 @@ const STEPS_PER_SPACING: f64 = 2.0;
 /// Typical errors of the force on each level: medians of 200 random scenes, rounded up, measured against far finer runs
 /// (`tests/planner/honest.rs`). No error is stated below them.
 const TYPICAL: [f64; 7] = [5e-2, 3e-2, 6e-3, 1.5e-3, 4e-4, 1e-4, 2e-5];
+/// A length scale is at most so many slip lengths.
+const SLIPS: f64 = 2.0;
 /// The finest level that is tried.
 const FINEST: usize = TYPICAL.len() - 1;
 /// The level that a mesh named by the scene counts as: two coarser ones tell its error.
 const NAMED: usize = 2;
-/// Length of cable solved per vehicle step, averaged over repeated solves \[depths\]; right within a factor of three.
+/// Length of cable solved per vehicle step, averaged over repeated solves \[length scales\]; right within a factor of three.
 const MOVED: f64 = 8.0;
 
 /// The meshes that a scene may be computed on.
@@ -32,6 +37,8 @@ const MOVED: f64 = 8.0;
 pub struct Levels {
     length: f64,
     depth: f64,
+    /// Over which the duct's motion changes \[m\].
+    length_scale: f64,
     /// How far vehicles drive in one pass \[m\].
     road: f64,
     /// Spacing and vehicle step on level 0 \[m\].
@@ -51,7 +58,7 @@ pub struct Levels {
 }
 
 impl Levels {
-    pub fn new(scene: &Scene, approach: f64) -> Self {
+    pub fn new(scene: &Scene, motions: &[DuctMotion], approach: f64) -> Self {
         let solver = &scene.solver;
         let length = scene.duct.length;
         let steps_follow = scene.friction.law.has_memory();
@@ -59,11 +66,12 @@ impl Levels {
         // The answer of a law without memory depends on its time step: there is no limit to refine towards.
         let named =
             solver.node_spacing.is_some() || solver.vehicle_step.is_some() || by_time_step || !steps_follow;
-        let natural = (scene.duct.depth / COARSEST).min(length / FEWEST);
+        let length_scale = resolved(scene, motions);
+        let coarsest = (length_scale / COARSEST).min(length / FEWEST);
         let refinement = f64::from(1 << NAMED);
         let (spacing, step) = if named {
             let spacing = solver.node_spacing.unwrap_or_else(|| {
-                (natural / refinement)
+                (coarsest / refinement)
                     .max(solver.vehicle_step.unwrap_or(0.0))
                     .min(length / FEWEST)
             });
@@ -73,7 +81,7 @@ impl Levels {
                 if steps_follow { refinement * step } else { step },
             )
         } else {
-            (natural, natural / STEPS_PER_SPACING)
+            (coarsest, coarsest / STEPS_PER_SPACING)
         };
         let wanted = TYPICAL
             .iter()
@@ -82,6 +90,7 @@ impl Levels {
         Self {
             length,
             depth: scene.duct.depth,
+            length_scale,
             road: length + 2.0 * approach,
             spacing,
             step,
@@ -107,6 +116,11 @@ impl Levels {
     /// The level to begin with.
     pub fn first(&self) -> usize {
         self.first
+    }
+
+    /// Length over which the duct's motion changes under the vehicle that moves it most sharply \[m\].
+    pub fn length_scale(&self) -> f64 {
+        self.length_scale
     }
 
     /// The finest level to try.
@@ -162,7 +176,7 @@ impl Levels {
 
     /// About how many nodes are solved for in `passes` passes on `level`, without inertia.
     pub fn node_updates(&self, level: usize, passes: u64) -> f64 {
-        let moved = (MOVED * self.depth).min(self.length);
+        let moved = (MOVED * self.length_scale).min(self.length);
         self.updates(level, passes, moved)
     }
 
@@ -175,4 +189,11 @@ impl Levels {
         let (spacing, step) = self.spacing(level);
         passes as f64 * self.road / step * moved / spacing
     }
+}
+
+/// Length that meshes resolve \[m\]: a cable slips past a duct that is displaced by D over the slip length √(2 EA D/q), which no mesh may pass over.
+fn resolved(scene: &Scene, motions: &[DuctMotion]) -> f64 {
+    let depth = scene.duct.depth;
+    let slip = (2.0 * scene.cable.axial_stiffness * peak(motions) / scene.friction_limit()).sqrt();
+    length_scale(motions, depth).min(SLIPS * slip).max(depth)
 }

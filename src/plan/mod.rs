@@ -67,7 +67,8 @@ pub(crate) fn plan_over(
     mesh: Option<KnownMesh>,
     begun: Instant,
 ) -> Result<Plan<'_>, Error> {
-    let mut levels = Levels::new(scene, road::approach(scene, &ground.motions)?);
+    let approach = road::approach(scene, &ground.motions)?;
+    let mut levels = Levels::new(scene, &ground.motions, approach);
     if let Some(mesh) = mesh.filter(|_| KnownMesh::fits(scene)) {
         levels = levels.alone(mesh);
     }

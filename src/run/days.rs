@@ -37,6 +37,8 @@ const LEFT_UNRESOLVED: f64 = 2.0;
 /// What a difference falls to from one level to the next as a rule; and what an outlook may take [s].
 const FALL: f64 = 0.25;
 const AFFORDABLE: f64 = 2.0;
+/// Days of more node updates than this are not computed a second time for an outlook.
+const LOOKED_AT: usize = 200_000_000;
 
 /// Real periods a day that are enough, what they leave wrong, and the days they were found on, with their level.
 struct Found {
@@ -77,8 +79,12 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<Outlo
     let levels = &plan.levels;
     let first = living.first_level();
     let mut search = Statistics::default();
-    let Found { knots, left, .. } = living.knots(first, &mut search)?;
-    let (knots, (coarse, lived)) = living.settling(knots, |knots| living.coarse(first, knots))?;
+    let found = living.knots(first, Some(LOOKED_AT), &mut search)?;
+    let Found { knots, left, .. } = found;
+    let (knots, (coarse, lived)) = match found.coarse {
+        Some(known) => (knots, known),
+        None => living.settling(knots, |knots| living.coarse(first, knots))?,
+    };
     let periods = lived.passes.simulated as f64;
     let nodes = plan.levels.mesh(coarse)?.nodes();
     let work = Work::new(&lived.passes.statistics, nodes, periods, 0.0);
@@ -138,7 +144,7 @@ impl Living<'_> {
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
         let mut statistics = Statistics::default();
         let mut level = self.first_level();
-        let Found { knots, left, coarse } = self.knots(level, &mut statistics)?;
+        let Found { knots, left, coarse } = self.knots(level, None, &mut statistics)?;
         error.temperature = left;
         let mut coarse = coarse
             .filter(|(coarse, _)| coarse + 1 == level)
@@ -254,7 +260,7 @@ impl Living<'_> {
     /// Place in [`TYPICAL`] of the mesh of `level`.
     fn fineness(&self, level: usize) -> usize {
         let (spacing, _) = self.plan.levels.spacing(level);
-        let nodes = 1.001 * self.plan.scene.duct.depth / spacing;
+        let nodes = 1.001 * self.plan.levels.length_scale() / spacing;
         ((nodes / COARSEST).log2() as usize).min(TYPICAL.len() - 1)
     }
 
@@ -318,8 +324,9 @@ impl Living<'_> {
         Ok((level, self.live(level, knots, Progress::default())?))
     }
 
-    /// Real periods a day that are enough for `level`, found on a coarser one, and what they leave wrong.
-    fn knots(&self, level: usize, statistics: &mut Statistics) -> Result<Found, Error> {
+    /// Real periods a day that are enough for `level`, found on a coarser one, and what they leave wrong. Where days take more than `most` node
+    /// updates they count as enough, unseen, and `statistics` has what it would take to see it.
+    fn knots(&self, level: usize, most: Option<usize>, statistics: &mut Statistics) -> Result<Found, Error> {
         let all = self.day(u64::MAX).periods();
         if self.every_pass || self.day(FIRST_KNOTS).is_simulated() {
             return Ok(Found::exact(all));
@@ -330,6 +337,15 @@ impl Living<'_> {
         let mut parts = self.progress.part(0.0, FINDING).halving();
         *statistics += fewer.passes.statistics;
         loop {
+            if most.is_some_and(|most| fewer.passes.statistics.node_updates > most) {
+                *statistics += fewer.passes.statistics;
+                *statistics += fewer.passes.statistics;
+                return Ok(Found {
+                    knots,
+                    left: Shares::default(),
+                    coarse: Some((level, fewer)),
+                });
+            }
             let (doubled, more) = self.settling(2 * knots, |knots| self.live(level, knots, parts()))?;
             *statistics += more.passes.statistics;
             let difference = self.difference(&more, &fewer);

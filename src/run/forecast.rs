@@ -60,7 +60,7 @@ pub struct Forecast {
 
 /// Predicts what the run of `plan` will take, without `verify`: in nine of ten scenes its processor time is at most twice
 /// [`Forecast::seconds`]. The prediction itself takes a tenth of that, or two seconds: on meshes that
-/// take no longer the run is made. With heat it looks for the real periods of a day as the run does, which may take a third of it.
+/// take no longer the run is made. With heat the days of a coarse mesh are computed once at least.
 ///
 /// # Errors
 ///

@@ -68,11 +68,17 @@ fn remedy(error: &ErrorParts, scene: &Scene, stands_in: bool, mesh: &Mesh) -> St
 /// Why this mesh.
 pub fn mesh_reason(plan: &Plan<'_>, mesh: &Mesh) -> String {
     let Plan { scene, levels, .. } = plan;
-    let nodes = scene.duct.depth / mesh.spacing();
+    let (depth, scale) = (scene.duct.depth, levels.length_scale());
     let why = if levels.named() {
         "as the scene asks".to_owned()
     } else {
         format!("for the requested {}", exact_percent(scene.solver.tolerance))
     };
-    format!("node spacing and vehicle step: {nodes:.0} nodes per duct depth, {why}")
+    let of = if scale > depth {
+        format!("per {scale:.1} m, over which the duct's motion changes")
+    } else {
+        "per duct depth".to_owned()
+    };
+    let nodes = scale / mesh.spacing();
+    format!("node spacing and vehicle step: {nodes:.0} nodes {of}, {why}")
 }

@@ -2,11 +2,12 @@
 
 use cable_dem::{CableState, DuctedCable, Mesh, QuasiStatic};
 use cycle_jump::days::LockedLaw;
+use ground_field::DuctMotion;
 
 use super::passes::Task;
 use crate::Error;
 use crate::cable::cable;
-use crate::ground::road;
+use crate::ground::{length_scale, road};
 use crate::plan::Period;
 
 /// Periods that it takes: the first one brings the cable into the state that lasts.
@@ -19,7 +20,14 @@ pub fn locked_law(task: &Task<'_>, traffic: &Period, passes: usize) -> Result<Lo
     } = task;
     let limit = scene.friction_limit();
     let spacing = mesh.spacing();
-    let elements = (road::LAW_LENGTH * scene.duct.depth / spacing).floor();
+    let approach = road::needed(scene, motions)?;
+    // Vehicles are to stay within the reach of the motions.
+    let reach = motions
+        .iter()
+        .map(DuctMotion::reach)
+        .fold(f64::INFINITY, f64::min);
+    let length = (road::LAW_LENGTH * length_scale(motions, scene.duct.depth)).min(reach - approach);
+    let elements = (length / spacing).floor();
     let length = elements * spacing;
     let mesh = Mesh::new(length, spacing, mesh.vehicle_step())?;
     let whole = cable(scene)?;
@@ -27,7 +35,6 @@ pub fn locked_law(task: &Task<'_>, traffic: &Period, passes: usize) -> Result<Lo
         DuctedCable::new(length, whole.axial_stiffness(), whole.friction())
             .and_then(|cable| cable.with_body_force(body_force))
     };
-    let approach = road::needed(scene, motions)?;
     let solver = QuasiStatic::new(short(0.0)?, mesh)?;
     let passages = motions
         .iter()

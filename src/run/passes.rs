@@ -10,7 +10,7 @@ use super::underway::OnMesh;
 use crate::answer::error_estimate::Scale;
 use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
 use crate::cable::{cable, traffic};
-use crate::ground::peak;
+use crate::ground::{length_scale, peak};
 use crate::plan::{CableMethod, Period};
 use crate::scene::{End, Scene};
 use crate::{Error, Progress};
@@ -122,7 +122,7 @@ impl Task<'_> {
             tolerance: jumping.tolerance,
             first_periods: jumping.first_periods,
             first_jump: jumping.first_jump,
-            depth: scene.duct.depth,
+            length_scale: length_scale(self.motions, scene.duct.depth),
             motion,
             least: (scale.force, scale.movement),
             most_passes: (patience, jumping.most_passes.max(patience)),

@@ -25,6 +25,8 @@ const ANCHORS: usize = 2;
 /// Distance between prediction and run at an end, in standard errors of all readings together. Without a limit, five of 2400 fits took
 /// fewer runs than they needed, and lost the truth (tests/calibration_coverage.rs).
 const FOLLOWED: f64 = 0.5;
+/// Deviance by which a prediction may be off at an optimum: a third of a standard error.
+const TOLD: f64 = 0.1;
 /// Standard error of the readings by the emulator of a difference to a coarser model, in those of all readings together, up to which it is
 /// believed without a run. Runs were off by up to twice as much, which moves the end of an interval by less than its accuracy.
 const SURE: f64 = 0.15;
@@ -253,12 +255,16 @@ impl Emulation<'_> {
             .learn(runs.into_iter().map(|run| (run.point.free, run.predicted)));
     }
 
-    /// Whether the optimum would hardly move if the emulator knew what the model said there. Where it has `learned` that, what is
-    /// left is ripple between runs.
+    /// Whether the optimum would hardly move if the emulator knew what the model said there, and predicts it: where readings are out of
+    /// reach, the sensitivities that tell a move vanish. Where it has `learned` that, what is left is ripple between runs.
     fn is_settled(&self, solution: &Solution, seen: &Run, shift: f64, learned: bool) -> bool {
         let off = distance(solution, &solution.optimum.point, &seen.point);
+        let noise = self.noise(solution);
         let tolerance = self.calibration.options.tolerance;
-        shift <= tolerance || (learned && off <= RIPPLE * self.noise(solution))
+        let deviance = |point: &Point| solution.optimum.deviance.total(&point.residuals);
+        let expected = deviance(&solution.optimum.point);
+        let is_told = (deviance(&seen.point) - expected).abs() <= TOLD.max(noise);
+        (shift <= tolerance && is_told) || (learned && off <= RIPPLE * noise)
     }
 
     /// Whether the emulator predicts the readings at the end of an interval; at a bound and at a rival only the rise counts.

@@ -129,9 +129,27 @@ pub fn probability_of_size(series: &[Vec<f64>], used: f64) -> Option<f64> {
     Some(1.0 - FisherSnedecor::new(freedom, half).ok()?.cdf(ratio))
 }
 
+/// Probability that noise of known sigmas makes residuals so large, which are in units of these, and of which `used` are determined by
+/// parameters: χ² with what is left, or with one where nothing is, which is cautious.
+pub fn probability_of_scatter(series: &[Vec<f64>], used: f64) -> f64 {
+    let all = series.iter().flatten();
+    let (count, square) = all.fold((0.0, 0.0), |(count, square), r| (count + 1.0, square + r * r));
+    let freedom: f64 = count - used;
+    ChiSquared::new(freedom.max(1.0)).map_or(1.0, |squares| 1.0 - squares.cdf(square))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{probability_of_signs, probability_of_size};
+    use super::{probability_of_scatter, probability_of_signs, probability_of_size};
+
+    #[test]
+    fn sigmas_bound_the_scatter() {
+        // 1.96 standard deviations of one residual, and the 95 % quantile of χ² with two degrees of freedom, −2 ln 0.05.
+        assert!((probability_of_scatter(&[vec![1.959_963_984_540_054]], 1.0) - 0.05).abs() < 1e-9);
+        let root = (-0.05_f64.ln()).sqrt();
+        assert!((probability_of_scatter(&[vec![root, -root], vec![0.0]], 1.0) - 0.05).abs() < 1e-9);
+        assert_eq!(probability_of_scatter(&[], 0.0), 1.0);
+    }
 
     #[test]
     fn a_curve_is_larger_than_its_neighbours_differ() {

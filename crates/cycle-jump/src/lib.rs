@@ -41,7 +41,7 @@
 //!     tolerance: 5e-3,
 //!     first_periods: 8,
 //!     first_jump: 0.25,
-//!     depth: 1.2,
+//!     length_scale: 1.2,
 //!     motion: 15.4e-6,
 //!     least: (0.01 * limit, 1.5e-6),
 //!     most_passes: (150, 1000),

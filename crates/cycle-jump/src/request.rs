@@ -10,8 +10,8 @@ pub struct Jumps {
     pub first_periods: u64,
     /// Length of the first jump as a share of these. Runs that are to show each other's error begin differently: 0.5 and 0.25.
     pub first_jump: f64,
-    /// Depth of the duct \[m\], over which the slope is averaged.
-    pub depth: f64,
+    /// Length over which the duct's motion changes \[m\], at least its depth: the slope is averaged over it.
+    pub length_scale: f64,
     /// max |D_l| of all vehicles \[m\].
     pub motion: f64,
     /// Force \[N\] and movement \[m\] below which all is nothing.

@@ -15,7 +15,7 @@ use crate::slope::{Change, Slope};
 /// Substeps of a jump, and of the look ahead over all that is left.
 const SUBSTEPS: i32 = 8;
 const SUBSTEPS_AHEAD: i32 = 40;
-/// Length of the slope's sliding mean \[depths\].
+/// Length of the slope's sliding mean \[length scales of the duct's motion\].
 const WIDTH: f64 = 2.5;
 /// A jump shorter than this is not worth its check: a period is simulated.
 const SHORTEST: u64 = 4;
@@ -160,7 +160,7 @@ where
         let (Some(half), Some(period), true) = (half, last, self.done == first) else {
             return Ok(None);
         };
-        let width = (WIDTH * self.jumps.depth / self.mesh.spacing()) as usize;
+        let width = (WIDTH * self.jumps.length_scale / self.mesh.spacing()) as usize;
         let rate = difference(&period.rate, &half.rate);
         let friction = period.friction_from(&half.middle, &self.cable);
         let change = Change {

@@ -25,7 +25,7 @@ fn jumps(tolerance: f64) -> Jumps {
         tolerance,
         first_periods: 8,
         first_jump: 0.25,
-        depth: 1.2,
+        length_scale: 1.2,
         motion: 37e-6,
         least: (0.01 * LIMIT, 4e-6),
         most_passes: (1000, 1000),

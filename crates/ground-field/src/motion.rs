@@ -8,6 +8,10 @@ use crate::{Displacement, GroundError, GroundField, RadialProfile, SurfaceLoad, 
 const LEAST_REACH: f64 = 8.0;
 /// Largest share of the peak that the outer half of the sampled range may hold, should the peak not lie beyond it.
 const FADED: f64 = 0.5;
+/// The curvature of D_l is read over so many depths to either side.
+const SECANT: f64 = 0.1;
+/// √(max |D″| / max |D|) of D = ξ/(1 + ξ²)^{3/2}, which is D_l at depth 1 below a concentrated load on an incompressible half-space.
+const CONCENTRATED: f64 = 2.2145;
 /// Radii beyond, each twice the last, at which a second rise is looked for: a thousand times the sampled range.
 const OUTPOSTS: i32 = 10;
 /// Extensions of the sampled range in search of the peak.
@@ -105,6 +109,7 @@ pub struct DuctMotion {
     samples: usize,
     peak_longitudinal: f64,
     peak_vertical: f64,
+    length_scale: f64,
 }
 
 /// One wheel as the duct sees it.
@@ -152,6 +157,7 @@ impl DuctMotion {
             samples: 0,
             peak_longitudinal: 0.0,
             peak_vertical: 0.0,
+            length_scale: line.depth,
         };
         for _ in 0..=MAX_EXTENSIONS {
             let radius = |wheel: &WheelLine| (motion.reach + wheel.x.abs()).hypot(wheel.side);
@@ -166,6 +172,7 @@ impl DuctMotion {
             } else if let Some(radius) = motion.rise_beyond(field, contact_radii[0], line.depth, farthest)? {
                 motion.reach = 2.0 * radius;
             } else {
+                motion.length_scale = motion.smooth_over(line.depth);
                 return Ok(motion);
             }
         }
@@ -242,6 +249,14 @@ impl DuctMotion {
         self.wheels.iter().map(|wheel| wheel.x.abs()).fold(0.0, f64::max)
     }
 
+    /// Length over which D_l changes \[m\]: √(max |D_l| / max |D_l″|), multiplied so that it is the depth of a duct right below a
+    /// concentrated load on an incompressible half-space, and that depth at least.
+    ///
+    /// Beside the lane, under a stiff slab or a wide wheel the duct moves more smoothly than its depth says.
+    pub fn length_scale(&self) -> f64 {
+        self.length_scale
+    }
+
     /// How many radii the ground model was asked for.
     pub fn samples(&self) -> usize {
         self.samples
@@ -290,6 +305,18 @@ impl DuctMotion {
             let (along, down) = self.sizes(xi);
             along <= FADED * self.peak_longitudinal && down <= FADED * self.peak_vertical
         })
+    }
+
+    /// [`DuctMotion::length_scale`] of a duct at `depth`.
+    fn smooth_over(&self, depth: f64) -> f64 {
+        let apart = SECANT * depth;
+        let bend = |xi: f64| {
+            let across = self.longitudinal_gradient(xi + apart) - self.longitudinal_gradient(xi - apart);
+            across.abs() / (2.0 * apart)
+        };
+        let sharpest = self.positions().into_iter().map(bend).fold(0.0, f64::max);
+        // Not a number where nothing moves.
+        depth.max(CONCENTRATED * (self.peak_longitudinal / sharpest).sqrt())
     }
 
     /// A radius beyond `farthest` where the wheels together might still move the duct more than a share of the peaks: a stiff slab's own

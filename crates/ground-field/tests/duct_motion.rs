@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use approx::assert_relative_eq;
 use ground_field::{
     Direction, Displacement, DuctLine, DuctMotion, GroundError, GroundField, RadialProfile, SurfaceLoad,
     Vehicle, Wheel,
@@ -182,6 +183,34 @@ fn peaks_are_those_of_the_closed_form() {
         doubled.longitudinal_gradient(0.7),
         -2.0 * motion.longitudinal_gradient(0.7)
     );
+}
+
+/// In incompressible soil D_l ∝ ξ/(ξ² + R²)^{3/2}, at the distance R of the duct from the wheel path: a shape as wide as R.
+#[test]
+fn the_motion_is_as_smooth_as_the_wheel_path_is_far() {
+    let clay = Radial(|radius: f64| {
+        let distance = radius.hypot(DEPTH);
+        Displacement {
+            radial: radius * DEPTH / distance.powi(3),
+            vertical: DEPTH * DEPTH / distance.powi(3) + 1.0 / distance,
+        }
+    });
+    let scale = |vehicle: &Vehicle, offset: f64| {
+        let motion = DuctMotion::new(&clay, vehicle, line(offset), 40.0, 1e-8).expect("a smooth field");
+        motion.length_scale()
+    };
+    let alone = vehicle(&[(0.0, 0.0, FORCE)], Direction::Reverse);
+    for offset in [0.0, 0.5, 2.0, 6.0] {
+        let distance = DEPTH.hypot(offset);
+        // The curvature is read over a tenth of a depth, which sees a sharper bend a little less.
+        assert_relative_eq!(scale(&alone, offset), distance, max_relative = 1e-2);
+    }
+    // A second axle far away changes nothing; neither do loads that are all larger.
+    let far = vehicle(
+        &[(0.0, 0.0, 3.0 * FORCE), (-30.0, 0.0, 3.0 * FORCE)],
+        Direction::Forward,
+    );
+    assert_relative_eq!(scale(&far, 2.0), DEPTH.hypot(2.0), max_relative = 2e-2);
 }
 
 #[test]

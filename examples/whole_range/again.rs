@@ -1,0 +1,84 @@
+//! The same scene once more, on far finer terms and seen in a mirror: what that says of the first answer.
+
+use std::mem::swap;
+
+use creepage::{PassRecord, Run, Scene};
+use ground_field::Direction;
+
+use crate::judged::run;
+
+/// By what factor the tolerance of the finer run is smaller.
+const FINER: f64 = 4.0;
+/// What friction holds on this length of cable counts as nothing \[m\].
+const SHORT: f64 = 0.01;
+
+/// How far the forces of an answer lie from those of other runs, by the measure of the stated error; `None` where such a run gives no answer in time.
+#[derive(Clone, Copy, Default)]
+pub struct Again {
+    /// From those of a run that is to be [`FINER`] times as exact.
+    pub finer: Option<f64>,
+    /// From those of the same duct, looked at from its other side.
+    pub mirror: Option<f64>,
+}
+
+/// What further runs of the scene `text` say of its answer.
+pub fn again(text: &str) -> Option<Again> {
+    let scene = Scene::from_toml("scene.toml", text).ok()?;
+    let own = run(&scene).ok()?;
+    let off = |other: Run| apart(&scene, &own.passes, &other.passes);
+    let mut finer = scene.clone();
+    finer.solver.tolerance = own.error_estimate.relative.max(1e-3) / FINER;
+    Some(Again {
+        finer: run(&finer).ok().map(off),
+        mirror: run(&mirrored(scene.clone())).ok().map(|mut run| {
+            run.passes.iter_mut().for_each(turn);
+            off(run)
+        }),
+    })
+}
+
+/// The scene as seen from the other side of the road, where left is right.
+fn mirrored(mut scene: Scene) -> Scene {
+    scene.duct.slope = -scene.duct.slope;
+    swap(&mut scene.ends.upstream, &mut scene.ends.downstream);
+    for clamp in &mut scene.restraints {
+        clamp.position = scene.duct.length - clamp.position;
+    }
+    for of_traffic in &mut scene.vehicles {
+        let driving = match of_traffic.vehicle.direction() {
+            Direction::Forward => Direction::Reverse,
+            Direction::Reverse => Direction::Forward,
+        };
+        of_traffic.vehicle = of_traffic.vehicle.clone().driving(driving);
+    }
+    scene
+}
+
+fn turn(pass: &mut PassRecord) {
+    swap(&mut pass.upstream_force_n, &mut pass.downstream_force_n);
+    swap(&mut pass.upstream_peak_n, &mut pass.downstream_peak_n);
+}
+
+/// How far forces lie from those that another run finds: those on the ends and the largest in the cable, beside the largest of their pass or a tenth
+/// of the largest of all; with heat those on the ends, beside the largest of all.
+fn apart(scene: &Scene, own: &[PassRecord], other: &[PassRecord]) -> f64 {
+    let heated = scene.heat.is_some();
+    let nothing = SHORT * scene.friction_limit();
+    let forces = |pass: &PassRecord| {
+        let inside = if heated { 0.0 } else { pass.max_compression_n };
+        [pass.upstream_force_n, pass.downstream_force_n, inside]
+    };
+    let largest = |pass: &PassRecord| {
+        let peaks = [pass.upstream_peak_n, pass.downstream_peak_n];
+        let all = forces(pass).into_iter().chain(peaks);
+        all.fold(nothing, |most, force| most.max(force.abs()))
+    };
+    let most = other.iter().map(largest).fold(nothing, f64::max);
+    let least = if heated { most } else { 0.1 * most };
+    let of_pass = |(own, other): (&PassRecord, &PassRecord)| {
+        let pairs = forces(own).into_iter().zip(forces(other));
+        let apart = pairs.fold(0.0_f64, |most, (own, other)| most.max((own - other).abs()));
+        apart / largest(other).max(least).max(f64::MIN_POSITIVE)
+    };
+    own.iter().zip(other).map(of_pass).fold(0.0, f64::max)
+}
