@@ -94,6 +94,29 @@ fn friction_comes_back_from_another_solver() {
 }
 
 /// From 1e9 1/m on, forces differ from Coulomb's by less than any load cell shows.
+/// No friction makes the force that was read: a fit goes where the model comes nearest, and says that this is not near.
+#[test]
+fn a_force_out_of_reach_is_met_as_nearly_as_can_be() {
+    let mut scene = Scene::from_file("examples/scenes/full-scale-lower.toml").unwrap();
+    scene.ground.scaling = Some(PeakScaling::Vertical(90e-6));
+    let read = Reading {
+        sigma: Some(45.0),
+        ..Reading::force(200, 900.0)
+    };
+    let mut options = CalibrateOptions::default();
+    options.unknowns = vec![Unknown::shared(Quantity::DynamicCoefficient)];
+    let answer = calibrate(&scene, &[read].into_iter().collect(), &options).unwrap();
+    scene.solver.node_spacing = Some(answer.method.node_spacing_m[0]);
+    let force = |k: u8| {
+        scene.friction.dynamic_coefficient = 0.05 * f64::from(k);
+        creepage::run(&scene).unwrap().passes[199].downstream_force_n
+    };
+    let most = (4..=10).map(force).fold(0.0, f64::max);
+    let fitted = answer.fit[0].fitted;
+    assert!((most - 0.5..900.0).contains(&fitted), "{fitted} N, but {most} N are possible");
+    assert!(answer.lack_of_fit.suspicious && !answer.parameters[0].identifiable);
+}
+
 #[test]
 fn a_steep_law_is_called_not_identifiable() {
     let exact = forces(0.25, 1e9, 25);
