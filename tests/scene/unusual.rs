@@ -162,7 +162,7 @@ fn too_long_a_duct_for_its_depth_is_told_with_both_keys() {
     let long = SCENE.replace("30 m", "100 km").replace("1.5 m", "0.1 m");
     // Under a concentrated load and no slab, which would spread it: the duct moves as sharply as it is deep.
     let even = long.replace("3000 MPa", "60 MPa").replace("200 MPa", "60 MPa");
-    let text = even.replace("preset = \"t-25\"", "load = \"5 tf\"");
+    let text = even.replace("preset = \"t-25\"", "speed = \"40 km/h\"\nload = \"5 tf\"");
     let file = creepage::SceneFile::from_toml("long.toml", &text).expect("a file");
     let scene = file.scene().expect("a scene");
     let error = creepage::plan(&scene).expect_err("too many nodes");
