@@ -103,8 +103,10 @@ fn a_force_out_of_reach_is_met_as_nearly_as_can_be() {
         sigma: Some(45.0),
         ..Reading::force(200, 900.0)
     };
-    let mut options = CalibrateOptions::default();
-    options.unknowns = vec![Unknown::shared(Quantity::DynamicCoefficient)];
+    let options = CalibrateOptions {
+        unknowns: vec![Unknown::shared(Quantity::DynamicCoefficient)],
+        ..CalibrateOptions::default()
+    };
     let answer = calibrate(&scene, &[read].into_iter().collect(), &options).unwrap();
     scene.solver.node_spacing = Some(answer.method.node_spacing_m[0]);
     let force = |k: u8| {
@@ -113,7 +115,10 @@ fn a_force_out_of_reach_is_met_as_nearly_as_can_be() {
     };
     let most = (4..=10).map(force).fold(0.0, f64::max);
     let fitted = answer.fit[0].fitted;
-    assert!((most - 0.5..900.0).contains(&fitted), "{fitted} N, but {most} N are possible");
+    assert!(
+        (most - 0.5..900.0).contains(&fitted),
+        "{fitted} N, but {most} N are possible"
+    );
     assert!(answer.lack_of_fit.suspicious && !answer.parameters[0].identifiable);
 }
 

@@ -117,9 +117,10 @@ fn row(number: u64) -> Row {
     let (outcome, stated) = judged(&text);
     let seconds = begun.elapsed().as_secs_f64();
     let is_answer = matches!(outcome, Outcome::Right | Outcome::Late(_)) && stated.is_some();
-    let again = match is_answer && number.is_multiple_of(AGAIN) {
-        true => again(&text).unwrap_or_default(),
-        false => Again::default(),
+    let again = if is_answer && number.is_multiple_of(AGAIN) {
+        again(&text).unwrap_or_default()
+    } else {
+        Again::default()
     };
     Row {
         number,

@@ -84,10 +84,10 @@ fn draws() -> Result<Vec<Draws>, Box<dyn Error>> {
         let record = record?;
         let number = |column: usize| record[column].parse::<f64>();
         let (model, draws) = (record[0].to_owned(), number(4)?);
-        // The first value of each model is the truth.
+        // The first value of each model is the truth, but Coulomb's law is never that of a cable that gives.
         let before = rows.iter().filter(|row| row.model == model).count();
         rows.push(Draws {
-            wrong: before > 1,
+            wrong: before > 1 || model.starts_with("Coulomb"),
             allowed: &record[3] == "with",
             held: number(5)? / draws,
             claimed: number(6)? / draws,
@@ -110,10 +110,10 @@ fn a_discrepancy_keeps_intervals_honest_where_the_model_is_wrong() -> Tested {
         let shares: Vec<f64> = of(allowed, wrong).map(|row| row.held).collect();
         shares.iter().sum::<f64>() / shares.len() as f64
     };
-    assert_eq!((of(true, true).count(), of(false, true).count()), (9, 9));
+    assert_eq!((of(true, true).count(), of(false, true).count()), (10, 10));
     assert!(mean(false, true) < 0.3, "{}", mean(false, true));
     assert!(mean(true, true) > 0.85, "{}", mean(true, true));
-    assert!(of(true, true).filter(|row| row.held > 0.9).count() >= 7);
+    assert!(of(true, true).filter(|row| row.held > 0.9).count() >= 8);
     // Ground a fifth too stiff, and axles so far apart that no friction gives the forces: that is not called identifiable.
     for row in of(true, true) {
         assert!(
@@ -123,14 +123,11 @@ fn a_discrepancy_keeps_intervals_honest_where_the_model_is_wrong() -> Tested {
             row.held
         );
     }
-    assert!(of(true, true).map(|row| row.claimed).sum::<f64>() < 0.05 * 9.0);
+    assert!(of(true, true).map(|row| row.claimed).sum::<f64>() < 0.05 * 10.0);
     // What it costs where the model is right.
-    for (with, without) in of(true, false)
-        .zip(of(false, false))
-        .filter(|(_, without)| without.held > 0.9)
-    {
+    for (with, without) in of(true, false).zip(of(false, false)) {
         assert!(
-            with.width < 3.0 * without.width,
+            without.held > 0.9 && with.width < 3.0 * without.width,
             "{}: {} {}",
             with.model,
             with.width,
