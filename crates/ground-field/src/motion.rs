@@ -10,7 +10,8 @@ const LEAST_REACH: f64 = 8.0;
 const FADED: f64 = 0.5;
 /// The curvature of D_l is read over so many depths to either side.
 const SECANT: f64 = 0.1;
-/// √(max |D″| / max |D|) of D = ξ/(1 + ξ²)^{3/2}, which is D_l at depth 1 below a concentrated load on an incompressible half-space.
+/// √(max |D″| / max |D|) of D = ξ/(1 + ξ²)^{3/2}, which is D_l at depth 1 below a concentrated load on an incompressible half-space,
+/// with D″ read over [`SECANT`] (2.2406 without).
 const CONCENTRATED: f64 = 2.2145;
 /// Radii beyond, each twice the last, at which a second rise is looked for: a thousand times the sampled range.
 const OUTPOSTS: i32 = 10;

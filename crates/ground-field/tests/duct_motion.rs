@@ -202,8 +202,10 @@ fn the_motion_is_as_smooth_as_the_wheel_path_is_far() {
     let alone = vehicle(&[(0.0, 0.0, FORCE)], Direction::Reverse);
     for offset in [0.0, 0.5, 2.0, 6.0] {
         let distance = DEPTH.hypot(offset);
-        // The curvature is read over a tenth of a depth, which sees a sharper bend a little less.
-        assert_relative_eq!(scale(&alone, offset), distance, max_relative = 1e-2);
+        // The curvature is read over a tenth of a depth, which sees the bend of a duct right below the load 2.4 % less (by D itself)
+        // and wider ones in full: √1.024 is the most that a distance may come out small.
+        let ratio = scale(&alone, offset) / distance;
+        assert!((0.988..1.001).contains(&ratio), "{offset} m: {ratio}");
     }
     // A second axle far away changes nothing; neither do loads that are all larger.
     let far = vehicle(
