@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use std::sync::Mutex;
 
 use cable_dem::Mesh;
-use calibrate::{Model, ModelError};
+use calibrate::{Model, ModelError, Part};
 use cycle_jump::Guide;
 use ground_field::DuctMotion;
 use rayon::prelude::*;
@@ -219,6 +219,16 @@ impl Model for CableModel<'_> {
             }
         }
         Ok(forces)
+    }
+
+    fn parts(&self) -> Vec<Part> {
+        let of_series = |(index, series): (usize, &SeriesModel)| Part {
+            predictions: series.observed.len(),
+            parameters: (0..self.unknowns.len())
+                .filter(|&unknown| self.unknowns[unknown].acts_on(index))
+                .collect(),
+        };
+        self.series.iter().enumerate().map(of_series).collect()
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use nalgebra::DVector;
 
 use crate::whitening::Whitening;
-use crate::{CalibrationError, Discrepancy, Loss, Model, Options, Parameter};
+use crate::{CalibrationError, Discrepancy, Loss, Model, Options, Parameter, Part};
 
 /// Scanned points for each parameter and one more: 24 for two, of which the emulator learns as well.
 const SCAN: usize = 8;
@@ -188,6 +188,35 @@ impl<'a> Calibration<'a> {
 
     pub(crate) fn scan(&self) -> usize {
         self.options.scan.unwrap_or(SCAN * (1 + self.of_model().len()))
+    }
+
+    /// What acts on which predictions: by default every parameter of the model on all.
+    pub(crate) fn parts(&self) -> Result<Vec<Part>, CalibrationError> {
+        let (observations, parameters) = (self.observations.len(), self.of_model().len());
+        let parts = self.model.parts();
+        if parts.is_empty() {
+            return Ok(vec![Part {
+                predictions: observations,
+                parameters: (0..parameters).collect(),
+            }]);
+        }
+        let predictions: usize = parts.iter().map(|part| part.predictions).sum();
+        if predictions != observations {
+            return Err(CalibrationError::InvalidOption {
+                name: "predictions of the model's parts",
+                value: predictions as f64,
+                allowed: "as many as there are observations",
+            });
+        }
+        let indices = || parts.iter().flat_map(|part| &part.parameters);
+        if let Some(&index) = indices().find(|&&index| index >= parameters) {
+            return Err(CalibrationError::InvalidOption {
+                name: "index of a parameter of the model's parts",
+                value: index as f64,
+                allowed: "below the number of the model's parameters",
+            });
+        }
+        Ok(parts)
     }
 
     /// Indices of the parameters that the model takes.

@@ -8,7 +8,7 @@
 //! B = Σψ²(u)/(n − p) (P. J. Huber, Robust Statistics, 1981, section 7.6; for least squares κ is 1/σ̂²). The inverse
 //! covariance is then κ A JᵀJ/s² plus that of the priors.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DVectorView};
 use statrs::statistics::{Data, OrderStatistics};
 
 use crate::Loss;
@@ -33,12 +33,12 @@ pub(crate) struct Deviance {
 impl Deviance {
     /// D of the residuals; infinite where the model has no answer.
     pub fn total(&self, residuals: &DVector<f64>) -> f64 {
-        let data: f64 = residuals
-            .iter()
-            .take(self.data)
-            .map(|r| 2.0 * self.loss.value(r / self.spread))
-            .sum();
-        let priors: f64 = residuals.iter().skip(self.data).map(|r| r * r).sum();
+        let (data, priors) = residuals.as_slice().split_at(self.data.min(residuals.len()));
+        let data: f64 = match self.loss {
+            Loss::Squares => squares(data) / (self.spread * self.spread),
+            loss => data.iter().map(|r| 2.0 * loss.value(r / self.spread)).sum(),
+        };
+        let priors = squares(priors);
         let total = self.normalisation * data + priors;
         if total.is_nan() { f64::INFINITY } else { total }
     }
@@ -114,6 +114,10 @@ impl Deviance {
             self.spread * (self.mean_curvature(residuals) / self.normalisation).sqrt()
         }
     }
+}
+
+fn squares(residuals: &[f64]) -> f64 {
+    DVectorView::from_slice(residuals, residuals.len()).norm_squared()
 }
 
 /// Jᵀ diag(w) J.

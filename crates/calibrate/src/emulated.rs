@@ -16,7 +16,7 @@ use crate::interval::{ACCURACY, EXCLUSION, Witness};
 use crate::point::{Point, all_over, score};
 use crate::search::MAX_ROUNDS;
 use crate::solution::{Route, Solution};
-use crate::{Calibration, CalibrationError, Emulator, Fit, Profiles};
+use crate::{Calibration, CalibrationError, Emulator, Fit, Part, Profiles};
 
 /// Points of the emulator that are scanned for each parameter and one more, and for each of the others along a profile.
 const SCAN: usize = 64;
@@ -71,22 +71,23 @@ impl Calibration<'_> {
     /// As for [`fit`](Self::fit), and [`CalibrationError::InvalidOption`] for a `coarse` of other parameters or observations.
     pub fn fit_emulated(&self, coarse: Option<&Emulator>) -> Result<(Fit, Emulator), CalibrationError> {
         self.check_count()?;
-        let (dimensions, observations) = (self.parameters.len(), self.observations.len());
+        let parts = self.parts()?;
         // One that could not follow its model has nothing to teach.
         let coarse = coarse.filter(|coarse| coarse.runs() > 0);
-        if coarse.is_some_and(|coarse| !coarse.is_of(&self.parameters, observations)) {
+        if coarse.is_some_and(|coarse| !coarse.is_of(&self.parameters, &parts)) {
             return Err(CalibrationError::InvalidOption {
                 name: "coarse emulator's parameters",
-                value: dimensions as f64,
+                value: self.parameters.len() as f64,
                 allowed: "those of this calibration, and its observations",
             });
         }
-        self.with_size(|one, known| one.emulate(coarse, known))
+        self.with_size(|one, known| one.emulate(&parts, coarse, known))
     }
 
     /// The fit by an emulator that may have learned before.
     fn emulate(
         &self,
+        parts: &[Part],
         coarse: Option<&Emulator>,
         known: Option<Emulator>,
     ) -> Result<(Fit, Emulator), CalibrationError> {
@@ -94,7 +95,7 @@ impl Calibration<'_> {
         let (dimensions, observations) = (self.parameters.len(), self.observations.len());
         let mut emulation = Emulation {
             calibration: self,
-            emulator: known.unwrap_or_else(|| Emulator::new(&self.parameters, coarse)),
+            emulator: known.unwrap_or_else(|| Emulator::new(&self.parameters, parts.to_vec(), coarse)),
             runs: &runs,
         };
         let start = self.start();
@@ -307,7 +308,7 @@ impl Emulation<'_> {
             return left;
         };
         let place = |witness: &Witness| self.emulator.place(&witness.point.free);
-        doubt.without(self.emulator.place(&optimum.point.free));
+        doubt.without(&self.emulator.place(&optimum.point.free));
         let mut asked = Vec::new();
         loop {
             let size = |witness: &&Witness| doubt.at(&place(witness)) / self.allowed(solution, witness);
@@ -316,7 +317,7 @@ impl Emulation<'_> {
                 return asked;
             };
             let witness = left.swap_remove(most);
-            doubt.without(place(witness));
+            doubt.without(&place(witness));
             asked.push(witness);
         }
     }

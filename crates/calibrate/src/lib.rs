@@ -52,6 +52,7 @@ mod estimate;
 mod evaluator;
 mod fit;
 mod interval;
+mod kriging;
 mod lack_of_fit;
 mod loss;
 mod model;
@@ -80,7 +81,7 @@ pub use lack_of_fit::{
     TermTest, probability_of_gain, probability_of_scatter, probability_of_signs, probability_of_size,
 };
 pub use loss::Loss;
-pub use model::{Model, ModelError};
+pub use model::{Model, ModelError, Part};
 pub use observer::{Observer, Progress};
 pub use options::{Options, Profiles};
 pub use parameter::{Parameter, Prior, Scale};
