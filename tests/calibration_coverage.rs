@@ -4,10 +4,11 @@
 //! cargo test --release --test calibration_coverage --test main calibration -- --ignored --nocapture
 //! ```
 //!
-//! Readings are those of the solver with inertia: 60, after every second of 119 passes, with Gaussian noise of 2.5 N. Two hundred fits of each
+//! Readings are those of the solver with inertia: 60, after every second of 119 passes, with Gaussian noise of 2.5 N. A thousand fits of each
 //! need a fast model: the quasi-static solver tabulated over friction and shape factor. As in the calibration of a scene, the
-//! difference to the solver itself at one point, here the true one, corrects it. Both have 24 nodes a depth: with 6, forces are off by up
-//! to 5 N where the shape factor is 2.5e7 1/m and by 1 N where it is 1e7 1/m, and a second optimum appears.
+//! difference to the solver itself at one point, here the true one, corrects it. Both have 48 nodes a depth: with 6, forces are off by up
+//! to 5 N where the shape factor is 2.5e7 1/m and by 1 N where it is 1e7 1/m, and a second optimum appears; with 24, the two solvers are 0.1 to 0.25 N
+//! apart where friction or the shape factor is large, which is up to three quarters of what the noise leaves of a force. With 48 it is 0.04 N at most.
 
 use std::fmt::Write;
 use std::sync::OnceLock;
@@ -22,11 +23,12 @@ use creepage::Scene;
 use ground_field::{DuctLine, DuctMotion};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
+use statrs::distribution::{ContinuousCDF, Normal};
 
 const NOISE: f64 = 2.5;
 /// What counts as close, in ln b.
 const CLOSE: f64 = 0.1;
-const REPETITIONS: u64 = 200;
+const REPETITIONS: u64 = 1000;
 const READINGS: usize = 60;
 /// One reading in so many passes.
 const EVERY: usize = 2;
@@ -34,7 +36,7 @@ const EVERY: usize = 2;
 const GRAVITY: f64 = 9.80665;
 const APPROACH: f64 = 20.0;
 /// Node spacing \[m\].
-const SPACING: f64 = 0.05;
+const SPACING: f64 = 0.025;
 /// Degree of the polynomial in each.
 const DEGREE: usize = 9;
 const FRICTION: Range = Range {
@@ -194,7 +196,8 @@ struct Count {
     shape_identifiable: usize,
     shape_claimed: usize,
     shape_close: usize,
-    /// Most model runs of one fit.
+    /// Model runs of all fits, and most of one.
+    runs: usize,
     most_runs: usize,
 }
 
@@ -207,7 +210,7 @@ enum Method {
 }
 
 #[test]
-#[ignore = "ten minutes in release mode: a table of 567 simulations and 4800 fits"]
+#[ignore = "ten minutes on four cores in release mode: a table of 567 simulations and 24000 fits"]
 fn intervals_cover_the_truth() {
     let table = Table::new();
     // The table against the solver between its nodes.
@@ -221,21 +224,29 @@ fn intervals_cover_the_truth() {
         .into_iter()
         .flat_map(|friction| [1e6, 1e7, 1e8].map(|shape_factor| (friction, shape_factor)))
         .collect();
+    let share = |count: usize| count as f64 / REPETITIONS as f64;
     let mut report = String::new();
     let mut wrong = Vec::new();
     let cases: Vec<(Method, (f64, f64))> = [Method::Directly, Method::Emulated]
         .into_iter()
         .flat_map(|method| truths.iter().map(move |&truth| (method, truth)))
         .collect();
+    let solved: Vec<[Vec<f64>; 2]> = truths
+        .par_iter()
+        .map(|&(friction, shape_factor)| [true, false].map(|inertia| forces(inertia, friction, shape_factor)))
+        .collect();
     let counts: Vec<Count> = cases
         .par_iter()
-        .map(|&(method, (friction, shape_factor))| repeat(&table, method, friction, shape_factor))
+        .map(|&(method, truth)| {
+            let place = truths.iter().position(|&other| other == truth).unwrap();
+            repeat(&table, method, truth, &solved[place])
+        })
         .collect();
     for ((method, (friction, shape_factor)), count) in cases.into_iter().zip(counts) {
         let _ = writeln!(
             report,
             "{method:?} mu {friction} b {shape_factor:.0e}: mu covered {} within 2 % {}; b covered {} identifiable {} to 10 % {} and \
-             right {}; failed {}; runs {}",
+             right {}; failed {}; runs {:.0}, at most {}",
             count.friction_covered,
             count.friction_close,
             count.shape_covered,
@@ -243,26 +254,32 @@ fn intervals_cover_the_truth() {
             count.shape_claimed,
             count.shape_close,
             count.failed,
+            share(count.runs),
             count.most_runs
         );
-        let covers = |covered: usize| (180..=198).contains(&covered);
+        // Direct fits look in fewer places, and miss a valley where the law is steep.
+        let least = match method {
+            Method::Directly => 0.90,
+            Method::Emulated => 0.91,
+        };
+        let covers = |covered: usize| (least..=0.99).contains(&share(covered));
         // Where the upper end is open, the interval holds nearly all that can be true.
-        let shape_covers = if count.shape_identifiable > 190 {
+        let shape_covers = if share(count.shape_identifiable) > 0.95 {
             covers(count.shape_covered)
         } else {
-            count.shape_covered >= 180
+            share(count.shape_covered) >= least
         };
         // One of twenty may miss what its interval claims, three standard deviations of the binomial more are chance.
         let claimed = count.shape_claimed as f64;
         let missed = claimed - count.shape_close as f64;
         let claims_hold = missed <= 0.05 * claimed + 3.0 * (0.05 * 0.95 * claimed).sqrt();
-        let friction_close = count.friction_close >= 190;
+        let friction_close = count.friction_close as f64 >= least_close(&table, friction, shape_factor);
         if !(covers(count.friction_covered)
             && friction_close
             && shape_covers
             && claims_hold
             && count.failed == 0
-            && (count.most_runs <= 200 || matches!(method, Method::Directly)))
+            && (share(count.runs) <= 80.0 || matches!(method, Method::Directly)))
         {
             wrong.push((method, friction, shape_factor));
         }
@@ -271,9 +288,31 @@ fn intervals_cover_the_truth() {
     assert!(wrong.is_empty(), "{wrong:?}\n{report}");
 }
 
-fn repeat(table: &Table, method: Method, friction: f64, shape_factor: f64) -> Count {
-    let truth = forces(true, friction, shape_factor);
-    let solver = forces(false, friction, shape_factor);
+/// How many of the repetitions have the friction within 2 % at least: what the noise allows the best estimate, by the information in
+/// the readings, less three standard deviations of the binomial.
+fn least_close(table: &Table, friction: f64, shape_factor: f64) -> f64 {
+    const STEP: f64 = 1e-3;
+    let slopes = |up: (f64, f64), down: (f64, f64)| -> DVector<f64> {
+        let (up, down) = (table.at(up.0, up.1), table.at(down.0, down.1));
+        (DVector::from_vec(up) - DVector::from_vec(down)) / (2.0 * STEP * NOISE)
+    };
+    let (up, down) = (STEP.exp(), (-STEP).exp());
+    let of_friction = slopes((friction * up, shape_factor), (friction * down, shape_factor));
+    let of_shape = slopes((friction, shape_factor * up), (friction, shape_factor * down));
+    // What of the friction's slope the shape factor cannot imitate.
+    let own = &of_friction - &of_shape * (of_friction.dot(&of_shape) / of_shape.norm_squared());
+    let error = Normal::new(0.0, 1.0 / own.norm()).unwrap();
+    let within = error.cdf(0.02) - error.cdf(-0.02);
+    let count = REPETITIONS as f64;
+    count * within - 3.0 * (count * within * (1.0 - within)).sqrt()
+}
+
+fn repeat(
+    table: &Table,
+    method: Method,
+    (friction, shape_factor): (f64, f64),
+    [truth, solver]: &[Vec<f64>; 2],
+) -> Count {
     let correction: Vec<f64> = solver
         .iter()
         .zip(table.at(friction, shape_factor))
@@ -288,8 +327,10 @@ fn repeat(table: &Table, method: Method, friction: f64, shape_factor: f64) -> Co
             .collect())
     };
     let mut count = Count::default();
-    for seed in 0..REPETITIONS {
-        let mut random = fastrand::Rng::with_seed(seed);
+    // Generators of neighbouring seeds would begin with numbers at much the same distances.
+    let mut seeds = fastrand::Rng::with_seed(1);
+    for _ in 0..REPETITIONS {
+        let mut random = seeds.fork();
         let data = truth
             .iter()
             .map(|force| force + NOISE * testkit::gaussian(&mut random))
@@ -312,6 +353,7 @@ fn repeat(table: &Table, method: Method, friction: f64, shape_factor: f64) -> Co
             count.failed += 1;
             continue;
         };
+        count.runs += fit.evaluations;
         count.most_runs = count.most_runs.max(fit.evaluations);
         let [mu, b] = &fit.estimates[..] else {
             unreachable!("two parameters were fitted")

@@ -69,7 +69,8 @@ fn file(fault: Fault, seed: u64) -> String {
         Fault::Ground(stiffness) => SOFT.get_or_init(|| forces(stiffness)),
         _ => HERE.get_or_init(|| forces(1.0)),
     };
-    let mut random = fastrand::Rng::with_seed(seed);
+    // A fork: generators of neighbouring seeds begin with related numbers.
+    let mut random = fastrand::Rng::with_seed(seed).fork();
     let count = if fault == Fault::TwoRuns {
         2 * PASSES
     } else {

@@ -108,7 +108,8 @@ impl Wrong {
     }
 
     fn fit(&self, forces: &[f64], seed: u64, discrepancy: Option<f64>) -> Result<Calibrated, Failure> {
-        let mut random = fastrand::Rng::with_seed(seed);
+        // A fork: generators of neighbouring seeds begin with related numbers.
+        let mut random = fastrand::Rng::with_seed(seed).fork();
         let readings: Readings = (1..)
             .zip(forces)
             .map(|(pass, force)| Reading::force(pass, force + NOISE * testkit::gaussian(&mut random)))

@@ -275,7 +275,8 @@ impl Grid {
 
 /// Fits one series with noise; an error is one of the map itself.
 fn fit(table: &Table, b: f64, noise: f64, seed: u64) -> Result<Draw, String> {
-    let mut random = Rng::with_seed(seed);
+    // A fork: generators of neighbouring seeds begin with related numbers.
+    let mut random = Rng::with_seed(seed).fork();
     let measured = table
         .readings(TRUE_COEFFICIENT, b)
         .into_iter()

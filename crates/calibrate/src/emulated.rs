@@ -10,7 +10,8 @@ use nalgebra::DVector;
 use rayon::prelude::*;
 
 use crate::deviance::information;
-use crate::emulator::least_sure;
+use crate::elsewhere;
+use crate::emulator::{Doubt, least_sure};
 use crate::evaluator::Evaluator;
 use crate::interval::{ACCURACY, EXCLUSION, Witness};
 use crate::point::{Point, all_over, score};
@@ -30,6 +31,8 @@ const TOLD: f64 = 0.1;
 /// Standard error of the readings by the emulator of a difference to a coarser model, in those of all readings together, up to which it is
 /// believed without a run. Runs were off by up to twice as much, which moves the end of an interval by less than its accuracy.
 const SURE: f64 = 0.15;
+/// Distance between optima, in free variables, at which other places might be hidden from each.
+const MOVED: f64 = 0.1;
 /// Distance between ends of intervals, in standard errors of all parameters together, at which a finer model is asked at both.
 const NEAR: f64 = 0.5;
 /// Distance, in the model's own noise, that an optimum may be off where the model has run: three standard deviations.
@@ -168,6 +171,7 @@ impl Emulation<'_> {
             return Ok(None);
         };
         self.learn(first);
+        let mut checked: Option<DVector<f64>> = None;
         for _ in 0..MAX_ROUNDS {
             let Some(mut solution) = self.solve(start.take(), profiles)? else {
                 return Ok(None);
@@ -180,18 +184,26 @@ impl Emulation<'_> {
             let Some(seen) = self.run(places)? else {
                 return Ok(None);
             };
-            let shift = shift(&solution, &seen[0].point);
+            let shift = solution.shift(&seen[0].point);
             let settled = self.is_settled(&solution, &seen[0], shift, learned);
             let mut agreed = settled;
             for (witness, run) in witnesses.iter().zip(&seen[1..]) {
-                let found = root(&solution, &run.point, &seen[0].point);
+                let found = solution.root(&run.point, &seen[0].point);
                 agreed &= self.agrees(&solution, witness, found) && self.is_followed(&solution, witness, run);
                 if let (Some(bound), true) = (witness.bound, settled && found > EXCLUSION * witness.threshold)
                 {
                     self.emulator.excluded.push(bound);
                 }
             }
-            if agreed && profiles == wanted {
+            let found = agreed && profiles == wanted;
+            let moved = |before: &DVector<f64>| (before - &optimum).amax() > MOVED;
+            let hidden = if found && checked.as_ref().is_none_or(moved) {
+                checked = Some(optimum.clone());
+                self.hidden(&solution)?
+            } else {
+                Vec::new()
+            };
+            if found && hidden.is_empty() {
                 solution.optimum.point.residuals = seen[0].point.residuals.clone();
                 solution.optimum.offset = solution.optimum.offset.max(shift);
                 self.emulator.ends = self.ends(&solution);
@@ -201,6 +213,10 @@ impl Emulation<'_> {
             start = Some(optimum);
             let runs = self.emulator.runs();
             self.learn(seen);
+            match self.run(hidden)? {
+                Some(seen) => self.learn(seen),
+                None => return Ok(None),
+            }
             if self.emulator.runs() == runs && (profiles == wanted || !settled) {
                 // It knows all that it asks for and still says otherwise.
                 return Ok(None);
@@ -259,7 +275,7 @@ impl Emulation<'_> {
     /// Whether the optimum would hardly move if the emulator knew what the model said there, and predicts it: where readings are out of
     /// reach, the sensitivities that tell a move vanish. Where it has `learned` that, what is left is ripple between runs.
     fn is_settled(&self, solution: &Solution, seen: &Run, shift: f64, learned: bool) -> bool {
-        let off = distance(solution, &solution.optimum.point, &seen.point);
+        let off = solution.distance(&solution.optimum.point, &seen.point);
         let noise = self.noise(solution);
         let tolerance = self.calibration.options.tolerance;
         let deviance = |point: &Point| solution.optimum.deviance.total(&point.residuals);
@@ -270,7 +286,7 @@ impl Emulation<'_> {
 
     /// Whether the emulator predicts the readings at the end of an interval; at a bound and at a rival only the rise counts.
     fn is_followed(&self, solution: &Solution, witness: &Witness, seen: &Run) -> bool {
-        let off = distance(solution, &witness.point, &seen.point);
+        let off = solution.distance(&witness.point, &seen.point);
         witness.bound.is_some() || off <= FOLLOWED.max(self.noise(solution))
     }
 
@@ -283,7 +299,7 @@ impl Emulation<'_> {
 
     /// Whether the witness stands at a bound that the model itself, or a coarser one, was seen to exclude by far, as the emulator says.
     fn is_excluded(&self, solution: &Solution, witness: &Witness) -> bool {
-        let rise = root(solution, &witness.point, &solution.optimum.point);
+        let rise = solution.root(&witness.point, &solution.optimum.point);
         witness
             .bound
             .is_some_and(|bound| self.emulator.excluded.contains(&bound))
@@ -296,19 +312,12 @@ impl Emulation<'_> {
         let mut left: Vec<&Witness> = left
             .filter(|witness| !self.is_excluded(solution, witness))
             .collect();
-        let optimum = &solution.optimum;
-        let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
-        let weights = |k: usize| curvatures[k] / self.calibration.sigmas[k].powi(2);
-        // All finer models rest on the coarsest, which is asked wherever an answer rests on it.
-        let doubt = self
-            .emulator
-            .doubt(weights)
-            .filter(|_| self.emulator.coarse.is_some());
-        let Some(mut doubt) = doubt else {
+        // The coarsest model is asked wherever an answer rests on it.
+        let Some(mut doubt) = self.doubt(solution).filter(|_| self.emulator.coarse.is_some()) else {
             return left;
         };
         let place = |witness: &Witness| self.emulator.place(&witness.point.free);
-        doubt.without(&self.emulator.place(&optimum.point.free));
+        doubt.without(&self.emulator.place(&solution.optimum.point.free));
         let mut asked = Vec::new();
         loop {
             let size = |witness: &&Witness| doubt.at(&place(witness)) / self.allowed(solution, witness);
@@ -324,13 +333,31 @@ impl Emulation<'_> {
 
     /// Standard error of an emulator at a witness up to which it is believed.
     fn allowed(&self, solution: &Solution, witness: &Witness) -> f64 {
-        let rise = root(solution, &witness.point, &solution.optimum.point);
+        let rise = solution.root(&witness.point, &solution.optimum.point);
         let sure = match witness.bound {
             // Half of what would make it another answer, for two standard errors.
             Some(_) => SURE.max(0.25 * (rise - witness.threshold).abs()),
             None => SURE,
         };
         sure.max(0.5 * self.calibration.options.tolerance)
+    }
+
+    /// Where the model might fit as well, for all that the emulator knows. All finer models rest on the coarsest.
+    fn hidden(&self, solution: &Solution) -> Result<Vec<DVector<f64>>, CalibrationError> {
+        let Some(doubt) = self.doubt(solution).filter(|_| self.emulator.coarse.is_none()) else {
+            return Ok(Vec::new());
+        };
+        let evaluator = Evaluator::emulated(self.calibration, &self.emulator);
+        let least = FOLLOWED.max(self.noise(solution));
+        elsewhere::places(&evaluator, &self.emulator, &solution.optimum, doubt, least)
+    }
+
+    /// The emulator's own error, in standard errors of all readings together.
+    fn doubt(&self, solution: &Solution) -> Option<Doubt> {
+        let optimum = &solution.optimum;
+        let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
+        self.emulator
+            .doubt(|k| curvatures[k] / self.calibration.sigmas[k].powi(2))
     }
 
     /// Where a finer model is asked beside the optimum: at the ends of intervals, each at some distance from the others.
@@ -357,34 +384,10 @@ impl Emulation<'_> {
 
     /// Whether the model found a root of the rise at a witness that means what the emulator's does.
     fn agrees(&self, solution: &Solution, witness: &Witness, found: f64) -> bool {
-        let expected = root(solution, &witness.point, &solution.optimum.point);
+        let expected = solution.root(&witness.point, &solution.optimum.point);
         // Half of what would make it another answer.
         let margin = 0.5 * (expected - witness.threshold).abs();
         let accuracy = (ACCURACY * witness.threshold).max(self.noise(solution));
         (expected - found).abs() <= margin.max(accuracy)
     }
-}
-
-/// Distance between prediction and run, in standard errors of all readings together.
-fn distance(solution: &Solution, expected: &Point, seen: &Point) -> f64 {
-    let off = &expected.residuals - &seen.residuals;
-    let weights = solution.optimum.deviance.weights(&expected.residuals);
-    off.component_mul(&off).dot(&weights).sqrt()
-}
-
-/// Root of the rise of the deviance from the optimum.
-fn root(solution: &Solution, point: &Point, optimum: &Point) -> f64 {
-    let deviance = &solution.optimum.deviance;
-    let rise = deviance.total(&point.residuals) - deviance.total(&optimum.residuals);
-    rise.max(0.0).sqrt()
-}
-
-/// How far the optimum would move, in standard errors, if the model everywhere missed the emulator as it does there.
-fn shift(solution: &Solution, seen: &Point) -> f64 {
-    let optimum = &solution.optimum;
-    let off = &seen.residuals - &optimum.point.residuals;
-    let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
-    let gradient = optimum.jacobian.tr_mul(&off.component_mul(&curvatures));
-    let square = gradient.dot(&(&solution.covariance.matrix * &gradient));
-    square.max(0.0).sqrt()
 }

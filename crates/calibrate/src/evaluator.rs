@@ -188,8 +188,9 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Steps of derivatives; where derivatives `near` here are known, so long that the model's noise stays small beside the change.
-    pub fn steps(&self, weights: &DVector<f64>, near: Option<&DMatrix<f64>>) -> Vec<f64> {
+    /// Steps of derivatives, or a `share` of them; where derivatives `near` here are known, so long that the model's noise stays small beside
+    /// the change.
+    pub fn steps(&self, weights: &DVector<f64>, near: Option<&DMatrix<f64>>, share: f64) -> Vec<f64> {
         let least = self.relative_noise.cbrt().clamp(STEPS.0, STEPS.1);
         let noise = CHANGE_TO_NOISE * self.noise(weights);
         let slope = |near: &DMatrix<f64>, k: usize| {
@@ -202,6 +203,7 @@ impl<'a> Evaluator<'a> {
                 Some(_) => STEPS.1,
                 None => least,
             })
+            .map(|step| (share * step).max(STEPS.0))
             .collect()
     }
 

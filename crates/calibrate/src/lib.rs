@@ -45,6 +45,7 @@ mod calibration;
 mod descent;
 mod deviance;
 mod discrepancy;
+mod elsewhere;
 mod emulated;
 mod emulator;
 mod error;

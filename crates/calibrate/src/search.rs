@@ -19,13 +19,13 @@ const FEW_ITERATIONS: u64 = 12;
 /// a direct fit takes 10 runs less and one end in a hundred moves by a sixth of its interval (the same fits).
 pub(crate) const ROUGH: f64 = 0.1;
 /// Next step in standard errors at which a descent may stop where no step lowers the deviance: noise of the model hides the rest.
-const NOISY: f64 = 0.5;
+pub(crate) const NOISY: f64 = 0.5;
 /// Change of the noise's scale, as a share, at which the rounds of fit and scale end: far below what 40 readings know of it.
 const SCALE_TOLERANCE: f64 = 0.01;
 /// Fall of the deviance that makes another optimum the better one: a quarter of a standard error.
 pub(crate) const BETTER: f64 = 0.05;
 /// Rise of the deviance up to which another minimum counts as a rival: two standard errors.
-const RIVAL: f64 = 4.0;
+pub(crate) const RIVAL: f64 = 4.0;
 /// Distance from an optimum, in free variables, of a start worth a second descent: a sixth of a range from its middle.
 const ELSEWHERE: f64 = 0.7;
 /// Descents from elsewhere; the tests' models have two minima, and a wave as many as the scan shows.

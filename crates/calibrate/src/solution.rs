@@ -44,6 +44,32 @@ pub(crate) struct Solution {
     pub sizes: Option<Sizes>,
 }
 
+impl Solution {
+    /// Distance between prediction and run, in standard errors of all readings together.
+    pub fn distance(&self, expected: &Point, seen: &Point) -> f64 {
+        let off = &expected.residuals - &seen.residuals;
+        let weights = self.optimum.deviance.weights(&expected.residuals);
+        off.component_mul(&off).dot(&weights).sqrt()
+    }
+
+    /// Root of the rise of the deviance from `optimum`.
+    pub fn root(&self, point: &Point, optimum: &Point) -> f64 {
+        let deviance = &self.optimum.deviance;
+        let rise = deviance.total(&point.residuals) - deviance.total(&optimum.residuals);
+        rise.max(0.0).sqrt()
+    }
+
+    /// How far the optimum would move, in standard errors, if the model everywhere missed the emulator as it does there.
+    pub fn shift(&self, seen: &Point) -> f64 {
+        let optimum = &self.optimum;
+        let off = &seen.residuals - &optimum.point.residuals;
+        let curvatures = optimum.deviance.curvatures(&optimum.point.residuals);
+        let gradient = optimum.jacobian.tr_mul(&off.component_mul(&curvatures));
+        let square = gradient.dot(&(&self.covariance.matrix * &gradient));
+        square.max(0.0).sqrt()
+    }
+}
+
 impl Calibration<'_> {
     /// Searches the optimum and describes it.
     pub(crate) fn solve(

@@ -10,6 +10,7 @@ use calibrate::{
     Profiles, Scale, Warning,
 };
 use common::{noisy, options, passes, saturation, saturation_parameters, two_minima};
+use fastrand::Rng;
 
 #[test]
 fn exact_data_return_the_parameters() {
@@ -161,9 +162,10 @@ fn intervals_cover_the_truth() {
     let cases: u64 = 400;
     for known in [false, true] {
         let mut covered = [0; 2];
-        for seed in 0..cases {
-            let mut calibration =
-                Calibration::new(&model, saturation_parameters(), noisy(&exact, 8.0, 1000 + seed)).unwrap();
+        let mut seeds = Rng::with_seed(1000);
+        for _ in 0..cases {
+            let data = noisy(&exact, 8.0, seeds.u64(..));
+            let mut calibration = Calibration::new(&model, saturation_parameters(), data).unwrap();
             if known {
                 calibration = calibration.with_sigmas(vec![8.0; exact.len()]).unwrap();
             }
@@ -291,8 +293,10 @@ fn robust_intervals_cover_the_truth() {
     let truth = [550.0, 12.0];
     let exact = model.predict(&truth).unwrap();
     let mut covered = [0; 2];
-    for seed in 0..200 {
-        let fit = Calibration::new(&model, saturation_parameters(), noisy(&exact, 8.0, 7000 + seed))
+    let mut seeds = Rng::with_seed(7000);
+    for _ in 0..200 {
+        let data = noisy(&exact, 8.0, seeds.u64(..));
+        let fit = Calibration::new(&model, saturation_parameters(), data)
             .unwrap()
             .with_options(options(|options| options.loss = Loss::HUBER))
             .unwrap()

@@ -21,7 +21,8 @@ fn covariance(i: usize, j: usize) -> f64 {
 
 /// The truth's line through the origin, a function of the process with this size, and noise.
 fn measured(size: f64, seed: u64) -> Vec<f64> {
-    let mut random = fastrand::Rng::with_seed(seed);
+    // A fork: generators of neighbouring seeds begin with related numbers.
+    let mut random = fastrand::Rng::with_seed(seed).fork();
     let nodes: Vec<f64> = (0..60).map(|_| common::gaussian(&mut random)).collect();
     // Gaussian noise folded with a Gaussian is a process of twice its variance, whose correlation falls as `covariance` does.
     let step = 0.25;
