@@ -43,8 +43,8 @@ fn scene(stiffness: f64) -> Scene {
     let file = SceneFile::read("examples/scenes/full-scale-upper.toml").unwrap();
     let mut scene = file.with(&[modulus]).unwrap().scene().unwrap();
     // Coarse, for the mesh is not what is tried: what the next one says more is added, and the readings are of that one.
-    scene.solver.node_spacing = Some(0.4);
-    scene.solver.vehicle_step = Some(0.2);
+    scene.solver.node_spacing = Some(0.2);
+    scene.solver.vehicle_step = Some(0.1);
     scene
 }
 
@@ -55,7 +55,7 @@ fn forces(stiffness: f64) -> Vec<f64> {
     scene.friction.law = FrictionLaw::ElasticPlastic {
         shape_factor: SHAPE_FACTOR,
     };
-    (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(0.2), Some(0.1));
+    (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(0.1), Some(0.05));
     scene.traffic.passes = 2 * PASSES as u64;
     let run = creepage::run(&scene).unwrap();
     run.passes.iter().map(|pass| pass.downstream_force_n).collect()
@@ -161,14 +161,16 @@ fn count(fault: Fault, words: &[&str], draws: u64) -> Count {
     count
 }
 
-/// Of so many draws of each kind at most 7 % claim a wrong interval, and at least 90 % are warned of; `spare` draws more may fail by chance.
+/// Of so many draws of each kind at most 7 % claim a wrong interval, or 9 % where nothing is wrong and all are identifiable, and at least 90 % are
+/// warned of; `spare` draws more may fail by chance.
 fn judge(draws: u64, spare: f64) {
     let mut wrong = Vec::new();
     for (fault, words) in KINDS {
         let found = count(fault, words, draws);
         println!("{fault:?}: {found:?}");
         let all = found.draws as f64;
-        let claims = found.claimed as f64 > 0.07 * all + spare;
+        let most = if fault == Fault::None { 0.09 } else { 0.07 };
+        let claims = found.claimed as f64 > most * all + spare;
         let silent = fault != Fault::None && (found.warned as f64) < 0.9 * all - spare;
         if claims || silent || found.told < found.draws {
             wrong.push(format!("{fault:?}: {found:?}"));
@@ -183,7 +185,7 @@ fn faults_are_told_and_never_called_identifiable() {
 }
 
 #[test]
-#[ignore = "400 fits: see CONTRIBUTING.md for the command"]
-fn faults_are_told_in_four_hundred_series() {
-    judge(40, 0.0);
+#[ignore = "1000 fits: see CONTRIBUTING.md for the command"]
+fn faults_are_told_in_a_thousand_series() {
+    judge(100, 0.0);
 }

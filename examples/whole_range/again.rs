@@ -25,11 +25,14 @@ pub struct Again {
 pub fn again(text: &str) -> Option<Again> {
     let scene = Scene::from_toml("scene.toml", text).ok()?;
     let own = run(&scene).ok()?;
-    let off = |other: Run| apart(&scene, &own.passes, &other.passes);
+    let off = |other: Run| apart(&scene, &own, &other);
+    let stated = own.error_estimate.relative.max(1e-3);
     let mut finer = scene.clone();
-    finer.solver.tolerance = own.error_estimate.relative.max(1e-3) / FINER;
+    finer.solver.tolerance = stated / FINER;
+    // One that does not come to its tolerance proves nothing.
+    let is_finer = |other: &Run| other.error_estimate.relative < 2.0 * stated / FINER;
     Some(Again {
-        finer: run(&finer).ok().map(off),
+        finer: run(&finer).ok().filter(is_finer).map(off),
         mirror: run(&mirrored(scene.clone())).ok().map(|mut run| {
             run.passes.iter_mut().for_each(turn);
             off(run)
@@ -60,8 +63,9 @@ fn turn(pass: &mut PassRecord) {
 }
 
 /// How far forces lie from those that another run finds: those on the ends and the largest in the cable, beside the largest of their pass or a tenth
-/// of the largest of all; with heat those on the ends, beside the largest of all.
-fn apart(scene: &Scene, own: &[PassRecord], other: &[PassRecord]) -> f64 {
+/// of the largest of all; with heat those on the ends, beside the largest of all. So are those of a cable that is pulled more than it is pressed,
+/// whose tension is known after the last pass only.
+fn apart(scene: &Scene, own: &Run, other: &Run) -> f64 {
     let heated = scene.heat.is_some();
     let nothing = SHORT * scene.friction_limit();
     let forces = |pass: &PassRecord| {
@@ -73,12 +77,22 @@ fn apart(scene: &Scene, own: &[PassRecord], other: &[PassRecord]) -> f64 {
         let all = forces(pass).into_iter().chain(peaks);
         all.fold(nothing, |most, force| most.max(force.abs()))
     };
-    let most = other.iter().map(largest).fold(nothing, f64::max);
-    let least = if heated { most } else { 0.1 * most };
+    let of_passes = other.passes.iter().map(largest).fold(nothing, f64::max);
+    let along = &other.force_profile.force_n;
+    let most = along.iter().fold(of_passes, |most, force| most.max(force.abs()));
+    let least = if heated || most > of_passes {
+        most
+    } else {
+        0.1 * most
+    };
     let of_pass = |(own, other): (&PassRecord, &PassRecord)| {
         let pairs = forces(own).into_iter().zip(forces(other));
         let apart = pairs.fold(0.0_f64, |most, (own, other)| most.max((own - other).abs()));
         apart / largest(other).max(least).max(f64::MIN_POSITIVE)
     };
-    own.iter().zip(other).map(of_pass).fold(0.0, f64::max)
+    own.passes
+        .iter()
+        .zip(&other.passes)
+        .map(of_pass)
+        .fold(0.0, f64::max)
 }

@@ -233,14 +233,15 @@ impl<'a> Probe<'a> {
             None,
             Progress::default(),
             |level, jumping: &Jumping<'_>, _| {
+                // Higher than `level`, if that is refused as too coarse.
                 let lower = level.saturating_sub(lowered).max(known.coarsest);
                 let simulated = self.simulate(self.plan.scene, lower, Some(*jumping));
                 if let Err(Error::Jumps(_)) = simulated {
-                    let pass = pass.refined(level - known.coarsest);
+                    let pass = pass.refined(level.saturating_sub(known.coarsest));
                     total.set(total.get() + pass.times(self.affordable(level)));
                 }
                 let (mut passes, work) = simulated?;
-                let work = work.refined(level - lower);
+                let work = work.refined(level.saturating_sub(lower));
                 passes.statistics.node_updates = work.0[0] as usize;
                 passes.statistics.corners = work.0[2] as usize;
                 total.set(total.get() + work);

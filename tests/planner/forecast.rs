@@ -75,6 +75,14 @@ fn what_jumps_cannot_answer_is_foreseen() {
     assert!((1.0 / 3.0..3.0).contains(&ratio), "{ratio}");
 }
 
+/// A mesh that is refused as too coarse, below the one that the scene names, is not where the forecast begins.
+#[test]
+fn a_named_spacing_far_above_the_motion_is_foreseen() {
+    let scene = Scene::from_toml("scene", &whole_range::scenes::scene(2838)).expect("a valid scene");
+    let ratio = compare(&scene).expect("an answer");
+    assert!((1.0 / 3.0..3.0).contains(&ratio), "{ratio}");
+}
+
 #[test]
 #[ignore = "120 random scenes with three numbers of passes, all of them run: an hour; FIRST chooses other seeds"]
 fn forecasts_on_many_scenes() {
