@@ -35,9 +35,10 @@ const SHAPE_FACTORS: (f64, f64, usize) = (1e5, 1e8, 19);
 const TRUE_SHAPE_FACTORS: (f64, f64) = (2e5, 5e7);
 /// Standard deviations of the noise \[N\]; the force levels off near 550 N.
 const NOISES: (f64, f64) = (0.03, 100.0);
-/// An estimate this near is right whatever its interval, and one so many intervals off is wrong.
+/// An estimate this near is right whatever its interval.
 const NEAR: f64 = 0.1;
-const WRONG: f64 = 3.0;
+/// Rise of the deviance up to which true values lie inside of every 95 % interval: the square of Student's t is 4.2 with 28 degrees of freedom.
+const FITS: f64 = 4.0;
 /// Shares of the draws from which, and up to which, b counts as identified and as not identifiable.
 const MOST: f64 = 0.9;
 const FEWEST: f64 = 0.1;
@@ -143,8 +144,9 @@ fn weights((from, to, count): (f64, f64, usize), value: f64) -> (usize, [f64; 4]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Draw {
     Right,
-    /// Outside of the interval, as one of twenty may be.
+    /// Outside of the interval, as one of twenty may be: other values fit far better.
     Missed,
+    /// Outside of the interval, although it fits.
     Wrong,
     NotIdentifiable,
     /// μ_d is not identifiable, and said so; the interval of b is closed nevertheless, and this b right or missed, or wrong.
@@ -168,7 +170,7 @@ pub enum Outcome {
 
 const NAMES: [&str; 5] = [
     "b identified in 90 % or more of the draws, and right",
-    "wrong: a b more than three intervals off",
+    "wrong: an interval without a b that fits",
     "identified in some draws, and right there",
     "some draws without a fit: a typed error",
     "not identifiable, and said so",
@@ -277,9 +279,9 @@ impl Grid {
 fn fit(table: &Table, b: f64, noise: f64, seed: u64) -> Result<Draw, String> {
     // A fork: generators of neighbouring seeds begin with related numbers.
     let mut random = Rng::with_seed(seed).fork();
-    let measured = table
-        .readings(TRUE_COEFFICIENT, b)
-        .into_iter()
+    let exact = table.readings(TRUE_COEFFICIENT, b);
+    let measured = exact
+        .iter()
         .map(|force| force + noise * testkit::gaussian(&mut random))
         .collect();
     let model = |p: &[f64]| Ok::<_, ModelError>(table.readings(p[0], p[1]));
@@ -288,29 +290,32 @@ fn fit(table: &Table, b: f64, noise: f64, seed: u64) -> Result<Draw, String> {
         .and_then(|coefficient| Ok(vec![coefficient, parameter("shape_factor", SHAPE_FACTORS)?]))
         .and_then(|parameters| Calibration::new(&model, parameters, measured))
         .map_err(|error| error.to_string())?;
-    let outcome = |fit: Fit| match (judge(&fit.estimates[1], b), fit.estimates[0].identifiable) {
-        (Draw::Wrong, false) => Draw::HalfOpenWrong,
-        (Draw::Right | Draw::Missed, false) => Draw::HalfOpen,
-        (draw, _) => draw,
+    let squares = |residuals: &[f64]| residuals.iter().map(|r| r * r).sum::<f64>();
+    let of_truth: Vec<f64> = exact
+        .iter()
+        .zip(calibration.observations())
+        .map(|(a, b)| a - b)
+        .collect();
+    let outcome = |fit: Fit| {
+        let rise = fit.degrees_of_freedom * (squares(&of_truth) / squares(&fit.residuals) - 1.0);
+        match (judge(&fit.estimates[1], b, rise), fit.estimates[0].identifiable) {
+            (Draw::Wrong, false) => Draw::HalfOpenWrong,
+            (Draw::Right | Draw::Missed, false) => Draw::HalfOpen,
+            (draw, _) => draw,
+        }
     };
     // As `creepage calibrate` fits.
     let fitted = calibration.fit_emulated(None);
     Ok(fitted.map_or(Draw::Failed, |(fit, _)| outcome(fit)))
 }
 
-fn judge(estimate: &Estimate, truth: f64) -> Draw {
-    let (Some(lower), Some(upper)) = (estimate.interval.lower, estimate.interval.upper) else {
-        return Draw::NotIdentifiable;
-    };
-    let off = (truth / estimate.value).ln();
-    let reach = if off > 0.0 {
-        (upper / estimate.value).ln()
-    } else {
-        (estimate.value / lower).ln()
-    };
-    if off.abs() <= reach || off.abs() <= NEAR {
+/// `rise` is that of the deviance from the fit to the true values.
+fn judge(estimate: &Estimate, truth: f64, rise: f64) -> Draw {
+    if !estimate.interval.is_closed() {
+        Draw::NotIdentifiable
+    } else if estimate.interval.contains(truth) || (truth / estimate.value).ln().abs() <= NEAR {
         Draw::Right
-    } else if off.abs() <= WRONG * reach {
+    } else if rise > FITS {
         Draw::Missed
     } else {
         Draw::Wrong

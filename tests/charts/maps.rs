@@ -136,3 +136,35 @@ fn a_discrepancy_keeps_intervals_honest_where_the_model_is_wrong() -> Tested {
     }
     Ok(())
 }
+
+/// Random scenes over the whole range of every key: no answer is wrong, few are missing or late, and what is stated holds.
+#[test]
+fn answers_over_the_whole_range_can_be_true() -> Tested {
+    let mut reader = csv::Reader::from_path(folder().join("whole-range.csv"))?;
+    let mut counts = std::collections::BTreeMap::<String, f64>::new();
+    let (mut compared, mut beyond) = (0.0, 0.0);
+    for record in reader.records() {
+        let record = record?;
+        *counts.entry(record[1].to_owned()).or_default() += 1.0;
+        let farther = |column: usize| -> Result<Option<bool>, Box<dyn Error>> {
+            let text = &record[column];
+            if text.is_empty() {
+                return Ok(None);
+            }
+            Ok(Some(text.parse::<f64>()? > record[2].parse::<f64>()?))
+        };
+        let (finer, mirror) = (farther(3)?, farther(4)?);
+        assert_ne!(mirror, Some(true), "{record:?}");
+        compared += f64::from(u8::from(finer.is_some()));
+        beyond += f64::from(u8::from(finer == Some(true)));
+    }
+    let all: f64 = counts.values().sum();
+    let share = |name: &str| counts.get(name).map_or(0.0, |count| count / all);
+    assert!(all >= 2500.0 && share("wrong") == 0.0, "{counts:?}");
+    assert!(share("refused") < 0.02 && share("late") < 0.01, "{counts:?}");
+    assert!(
+        compared > 60.0 && beyond <= 0.05 * compared,
+        "{beyond} of {compared}"
+    );
+    Ok(())
+}
