@@ -14,10 +14,11 @@ use crate::evaluator::Evaluator;
 use crate::observer::{Observer, Progress};
 use crate::parameter::physical;
 use crate::point::Point;
-use crate::search::NOISY;
 use crate::step::{Damping, Quadratic};
 use crate::{CalibrationError, Parameter};
 
+/// Next step in standard errors at which a descent may stop where no step lowers the deviance: noise of the model hides the rest.
+pub(crate) const NOISY: f64 = 0.5;
 /// Share of the usual steps of derivatives where no step lowers the deviance: they were too long for a model that bends, in direction of a
 /// parameter that the data hardly know. Of 200 direct fits of a steep law 39 failed without it (tests/calibration_coverage.rs).
 const SHORTER: f64 = 0.25;

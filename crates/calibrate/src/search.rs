@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::descent::{Descent, Optimum};
+use crate::descent::{Descent, NOISY, Optimum};
 use crate::deviance::Deviance;
 use crate::evaluator::{Evaluator, feasible};
 use crate::point::{Point, all_over, score};
@@ -18,8 +18,6 @@ const FEW_ITERATIONS: u64 = 12;
 /// Next step in standard errors at which a descent that is only compared has converged, and above which the user is warned. With 0.35,
 /// a direct fit takes 10 runs less and one end in a hundred moves by a sixth of its interval (the same fits).
 pub(crate) const ROUGH: f64 = 0.1;
-/// Next step in standard errors at which a descent may stop where no step lowers the deviance: noise of the model hides the rest.
-pub(crate) const NOISY: f64 = 0.5;
 /// Change of the noise's scale, as a share, at which the rounds of fit and scale end: far below what 40 readings know of it.
 const SCALE_TOLERANCE: f64 = 0.01;
 /// Fall of the deviance that makes another optimum the better one: a quarter of a standard error.
