@@ -21,6 +21,9 @@ use crate::{Error, Progress};
 
 /// Real periods a day to begin with.
 const FIRST_KNOTS: u64 = 16;
+/// More than so many make no days settle that fewer do not, of 52 random scenes; and an outlook that takes seconds tries fewer.
+const MOST_KNOTS: u64 = 2048;
+const MOST_LOOKED_FOR: u64 = 256;
 /// They are looked for so many levels below the first, where a pass costs a sixteenth.
 const COARSER: usize = 2;
 /// What twice as many real periods a day change, times this, is the error of as many: it halves, or nearly so.
@@ -83,7 +86,7 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<Outlo
     let Found { knots, left, .. } = found;
     let (knots, (coarse, lived)) = match found.coarse {
         Some(known) => (knots, known),
-        None => living.settling(knots, |knots| living.coarse(first, knots))?,
+        None => living.settling(knots, MOST_LOOKED_FOR, |knots| living.coarse(first, knots))?,
     };
     let periods = lived.passes.simulated as f64;
     let nodes = plan.levels.mesh(coarse)?.nodes();
@@ -93,7 +96,7 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<Outlo
     let mut level = first;
     if coarse < first && (spent + work.refined(1)).seconds(cable) < AFFORDABLE {
         let (more, finer) =
-            living.settling(knots, |knots| living.live(coarse + 1, knots, Progress::default()))?;
+            living.settling(knots, MOST_LOOKED_FOR, |knots| living.live(coarse + 1, knots, Progress::default()))?;
         if more == knots {
             let worth = worth(plan.scene.solver.tolerance) as f64 / REFINEMENT_COST as f64;
             let is_costly = |level: usize| work.refined(level - coarse).0[0] > worth;
@@ -152,7 +155,7 @@ impl Living<'_> {
         let known = coarse.is_some();
         let mut parts = self.progress.part(FINDING, 1.0).refining();
         let found = knots;
-        let (knots, (mut below, mut finest)) = self.settling(knots, |knots| {
+        let (knots, (mut below, mut finest)) = self.settling(knots, MOST_KNOTS, |knots| {
             // With as many real periods a day as they were found with.
             let known = coarse.take();
             let now = parts();
@@ -214,15 +217,18 @@ impl Living<'_> {
         })
     }
 
-    /// What `days` come to with so many real periods a day, `knots` at least, that each becomes like the one before: too few never settle.
+    /// What `days` come to with so many real periods a day, from `knots` to `most`, that each becomes like the one before: too few never
+    /// settle.
     fn settling<T>(
         &self,
         mut knots: u64,
+        most: u64,
         mut days: impl FnMut(u64) -> Result<T, Error>,
     ) -> Result<(u64, T), Error> {
         loop {
+            let may_double = 2 * knots <= most && !self.day(knots).is_simulated();
             match days(knots) {
-                Err(Error::Jumps(JumpError::NeverPeriodic { .. })) if !self.day(knots).is_simulated() => {
+                Err(Error::Jumps(JumpError::NeverPeriodic { .. })) if may_double => {
                     knots *= 2;
                 }
                 days => return Ok((knots, days?)),
@@ -332,8 +338,9 @@ impl Living<'_> {
             return Ok(Found::exact(all));
         }
         let allowed = Shares::both(SHARE * self.plan.scene.solver.tolerance);
+        let settled_by = most.map_or(MOST_KNOTS, |_| MOST_LOOKED_FOR);
         let (mut knots, (level, mut fewer)) =
-            self.settling(FIRST_KNOTS, |knots| self.coarse(level, knots))?;
+            self.settling(FIRST_KNOTS, settled_by, |knots| self.coarse(level, knots))?;
         let mut parts = self.progress.part(0.0, FINDING).halving();
         *statistics += fewer.passes.statistics;
         loop {
@@ -346,7 +353,7 @@ impl Living<'_> {
                     coarse: Some((level, fewer)),
                 });
             }
-            let (doubled, more) = self.settling(2 * knots, |knots| self.live(level, knots, parts()))?;
+            let (doubled, more) = self.settling(2 * knots, settled_by, |knots| self.live(level, knots, parts()))?;
             *statistics += more.passes.statistics;
             let difference = self.difference(&more, &fewer);
             if difference.times(CAUTION).is_within(allowed) {
