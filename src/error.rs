@@ -8,6 +8,7 @@ use calibrate::CalibrationError;
 use cycle_jump::JumpError;
 use ground_field::GroundError;
 
+use crate::error_source::ErrorSource;
 #[cfg(feature = "calibrate")]
 use crate::readings::DataError;
 use crate::scene::SceneError;
@@ -42,16 +43,19 @@ pub enum Error {
     Calibration(#[from] CalibrationError),
     /// The finest affordable mesh leaves too large an error.
     #[error(
-        "the estimated error of {} is too far above the tolerance of {}: an error of more than 10 % is no answer; a larger \
-         tolerance (solver.tolerance), a finer mesh (solver.node_spacing) or solver.method = \"quasi-static\" may help",
+        "the estimated error of {}, from {}, is too far above the tolerance of {}: an error of more than 10 % is no answer; {}",
         percent(*.reached),
-        exact_percent(*.asked)
+        cause.name(),
+        exact_percent(*.asked),
+        cause.remedy()
     )]
     Inaccurate {
         /// Estimated error, as a share of the forces.
         reached: f64,
         /// Tolerance asked.
         asked: f64,
+        /// Without this there would be an answer; else the largest part of the error.
+        cause: ErrorSource,
     },
     /// The forces of an answer do not balance: friction cannot carry them.
     #[error(

@@ -62,6 +62,7 @@ pub mod cli;
 #[cfg(feature = "design")]
 pub mod design;
 mod error;
+mod error_source;
 mod finite;
 mod ground;
 #[cfg(feature = "sweep")]
@@ -103,6 +104,7 @@ pub use answer::{
 #[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
 pub use error::{Error, with_causes};
+pub use error_source::ErrorSource;
 pub use ground::profile::{Profile, profile, profile_at};
 pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
 pub use progress::Progress;

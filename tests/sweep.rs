@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use creepage::sweep::{
     Axis, AxisValues, Band, Quantiles, Samples, Sweep, SweepError, SweepOptions, SweepSummary,
 };
-use creepage::{Error, Progress, Run, Scene, SceneFile};
+use creepage::{Error, ErrorSource, Progress, Run, Scene, SceneFile};
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
 const FRICTION: &str = "friction.dynamic_coefficient";
@@ -216,6 +216,7 @@ fn wherever_a_sweep_was_cut_off_it_ends_with_the_same_file() {
             return Err(Error::Inaccurate {
                 reached: 1.0,
                 asked: 0.1,
+                cause: ErrorSource::Mesh,
             });
         }
         force(scene)

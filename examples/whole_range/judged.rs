@@ -4,8 +4,9 @@ use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant};
 
+use creepage::cable_dem::CableError;
 use creepage::scene::End;
-use creepage::{Error, PassRecord, Progress, Run, RunOptions, Scene};
+use creepage::{Error, ErrorSource, PassRecord, Progress, Run, RunOptions, Scene};
 
 /// Scenes that are foreseen to take longer \[s\] are not run.
 const LONGEST: f64 = 3.0;
@@ -13,7 +14,7 @@ const LONGEST: f64 = 3.0;
 const TIMES: f64 = 3.0;
 const NEGLIGIBLE: f64 = 5e7;
 /// Time after which a run that was to take less than [`LONGEST`] is given up.
-const GIVEN_UP: Duration = Duration::from_secs(30);
+const GIVEN_UP: Duration = Duration::from_secs(100);
 /// Interpolation of forces within jumps, as a share of the largest.
 const ROUNDING: f64 = 0.01;
 /// A fixed end stays where it is \[m\].
@@ -26,7 +27,7 @@ pub enum Outcome {
     Right,
     /// An answer that cannot, or a panic.
     Wrong(String),
-    /// The scene is wrong.
+    /// The scene is wrong, names a mesh that is too coarse, or has inertia that its method leaves out.
     Input(String),
     /// No answer within 10 %, or none that jumps find.
     Refused(String),
@@ -65,7 +66,7 @@ fn outcome(text: &str) -> (Outcome, Option<f64>) {
     let foreseen = creepage::plan(&scene).and_then(|plan| creepage::forecast(&plan));
     let foreseen = match foreseen {
         Ok(foreseen) => foreseen,
-        Err(error) => return (refused(&error), None),
+        Err(error) => return (refused(&scene, &error), None),
     };
     if foreseen.seconds > LONGEST {
         return (Outcome::Long(foreseen.seconds), None);
@@ -73,7 +74,7 @@ fn outcome(text: &str) -> (Outcome, Option<f64>) {
     let run = match run(&scene) {
         Ok(run) => run,
         Err(Error::Stopped) => return (Outcome::Late(format!("foreseen {:.1} s", foreseen.seconds)), None),
-        Err(error) => return (refused(&error), None),
+        Err(error) => return (refused(&scene, &error), None),
     };
     let stated = Some(run.error_estimate.relative);
     if let Err(reason) = possible(&scene, &run) {
@@ -104,12 +105,23 @@ pub fn run(scene: &Scene) -> Result<Run, Error> {
     creepage::run_with(scene, &options)
 }
 
-fn refused(error: &Error) -> Outcome {
-    match error {
-        Error::Scene(_) | Error::Unfit { .. } | Error::TooManyNodes { .. } => {
-            Outcome::Input(error.to_string())
-        }
-        _ => Outcome::Refused(error.to_string()),
+fn refused(scene: &Scene, error: &Error) -> Outcome {
+    let solver = &scene.solver;
+    let has_own_mesh = solver.node_spacing.is_some() || solver.vehicle_step.is_some();
+    let is_due_to_scene = match error {
+        Error::Scene(_) | Error::Unfit { .. } | Error::TooManyNodes { .. } => true,
+        Error::Inaccurate { cause, .. } => match cause {
+            ErrorSource::Inertia => true,
+            ErrorSource::Mesh => has_own_mesh,
+            _ => false,
+        },
+        Error::Cable(CableError::CoarseMesh { .. }) => has_own_mesh,
+        _ => false,
+    };
+    if is_due_to_scene {
+        Outcome::Input(error.to_string())
+    } else {
+        Outcome::Refused(error.to_string())
     }
 }
 

@@ -13,6 +13,7 @@ use cable_dem::PassOutcome;
 use cycle_jump::Record;
 
 use crate::Error;
+use crate::error_source::ErrorSource;
 use crate::shown::percent;
 
 /// What counts of the differences between meshes as error: of the last one, the one before, and so on. Fitted to 200 random
@@ -138,6 +139,28 @@ impl ErrorParts {
     pub fn total(&self) -> Shares {
         self.mesh + self.ground + self.road + self.passes + self.temperature + Shares::both(self.inertia)
     }
+
+    /// What keeps the forces from being an answer: passes or days that could be simulated, if that would do, else the largest part.
+    fn cause(&self, tolerance: f64) -> ErrorSource {
+        let simulated = self.total().less(self.passes).less(self.temperature);
+        let not_simulated = [
+            (ErrorSource::Passes, self.passes.force),
+            (ErrorSource::Days, self.temperature.force),
+        ];
+        let others = [
+            (ErrorSource::Mesh, self.mesh.force),
+            (ErrorSource::Ground, self.ground.force),
+            (ErrorSource::Inertia, self.inertia),
+            (ErrorSource::Road, self.road.force),
+        ];
+        let parts = if is_doubtful(simulated.force, tolerance) {
+            &others[..]
+        } else {
+            &not_simulated
+        };
+        let largest = parts.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        largest.map_or(ErrorSource::Mesh, |(source, _)| *source)
+    }
 }
 
 impl std::fmt::Display for ErrorParts {
@@ -203,12 +226,14 @@ pub fn is_doubtful(reached: f64, tolerance: f64) -> bool {
     reached.is_nan() || reached > tolerance.max(DOUBTFUL)
 }
 
-/// Refuses an answer whose error of the force, `reached`, is too large to be one.
-pub fn judge(reached: f64, tolerance: f64) -> Result<(), Error> {
+/// Refuses an answer whose error of the force is too large to be one.
+pub fn judge(error: &ErrorParts, tolerance: f64) -> Result<(), Error> {
+    let reached = error.total().force;
     if is_doubtful(reached, tolerance) {
         return Err(Error::Inaccurate {
             reached,
             asked: tolerance,
+            cause: error.cause(tolerance),
         });
     }
     Ok(())

@@ -4,7 +4,7 @@ use ground_field::GroundError;
 use serde::Serialize;
 
 use super::Ground;
-use crate::answer::error_estimate;
+use crate::answer::error_estimate::{self, ErrorParts};
 use crate::{Error, Scene};
 
 /// Farthest position from the vehicle \[m\].
@@ -54,7 +54,7 @@ pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
         .iter()
         .fold(scene.duct.depth, |reach, xi| reach.max(xi.abs()));
     let ground = Ground::new(scene, None, reach)?;
-    error_estimate::judge(ground.accuracy, scene.solver.tolerance)?;
+    error_estimate::judge(&ErrorParts::new(ground.accuracy, 0.0), scene.solver.tolerance)?;
     let first = &ground.motions[0];
     Ok(Profile {
         ground: ground.name.into(),

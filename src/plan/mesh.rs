@@ -25,8 +25,8 @@ const STEPS_PER_SPACING: f64 = 2.0;
 const TYPICAL: [f64; 7] = [5e-2, 3e-2, 6e-3, 1.5e-3, 4e-4, 1e-4, 2e-5];
 /// A length scale is at most so many slip lengths.
 const SLIPS: f64 = 2.0;
-/// The finest level that is tried.
-const FINEST: usize = TYPICAL.len() - 1;
+/// The finest level that is tried where it is affordable: a cable that slips a tenth of a metre on a deep duct needs it.
+const FINEST: usize = 10;
 /// The level that a mesh named by the scene counts as: two coarser ones tell its error.
 const NAMED: usize = 2;
 /// Length of cable solved per vehicle step, averaged over repeated solves \[length scales\]; right within a factor of three.
@@ -86,7 +86,7 @@ impl Levels {
         let wanted = TYPICAL
             .iter()
             .position(|&error| error <= solver.tolerance)
-            .unwrap_or(FINEST);
+            .unwrap_or(TYPICAL.len() - 1);
         Self {
             length,
             depth: scene.duct.depth,
@@ -166,7 +166,7 @@ impl Levels {
 
     /// Typical error of the force on `level`, as a share of it.
     pub fn typical_error(level: usize) -> f64 {
-        TYPICAL[level.min(FINEST)]
+        TYPICAL[level.min(TYPICAL.len() - 1)]
     }
 
     /// Error to expect on `level` before anything is computed; `None` on a mesh that the scene names.

@@ -8,6 +8,9 @@ use super::Plan;
 use super::method::{CableMethod, PassMethod};
 use super::occurrence::Occurrence;
 
+/// Meshes that a plan shows.
+const LISTED: usize = 7;
+
 /// What a candidate models.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -194,6 +197,7 @@ impl Plan<'_> {
         };
         (0..=levels.finest())
             .filter(|&level| levels.mesh(level).is_ok())
+            .take(LISTED)
             .map(candidate)
             .collect()
     }

@@ -13,7 +13,7 @@ use super::options::RunOptions;
 use super::outlook::Outlook;
 use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, allowed, both, worth};
 use super::work::Work;
-use crate::answer::error_estimate::{ErrorParts, Shares, VERIFIED, is_doubtful};
+use crate::answer::error_estimate::{self, ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
 use crate::plan::{PassMethod, Plan};
 use crate::scene::{Heat, Scene};
@@ -145,6 +145,8 @@ impl Living<'_> {
         } = self.plan;
         let tolerance = scene.solver.tolerance;
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
+        // What no mesh makes smaller.
+        error_estimate::judge(&error, tolerance)?;
         let mut statistics = Statistics::default();
         let mut level = self.first_level();
         let Found { knots, left, coarse } = self.knots(level, None, &mut statistics)?;

@@ -16,7 +16,7 @@ pub fn judge(
 ) -> Result<(), Error> {
     let tolerance = scene.solver.tolerance;
     let total = error.total();
-    error_estimate::judge(total.force, tolerance)?;
+    error_estimate::judge(error, tolerance)?;
     let exceeds = [(total.force, ""), (total.movement, " of the movement")]
         .into_iter()
         .filter(|(share, _)| *share > tolerance)

@@ -20,6 +20,7 @@ mod work;
 use std::sync::Arc;
 use std::time::Instant;
 
+use crate::error_source::ErrorSource;
 use crate::ground::{Ground, road};
 use crate::plan::{KnownMesh, PassMethod, Plan, plan, plan_over};
 use crate::{Error, Run, Scene, finite};
@@ -81,6 +82,15 @@ pub fn run_plan(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error>
     Ok(run)
 }
 
+/// Whether there may be an answer where every pass is simulated.
+fn may_help(error: &Error) -> bool {
+    match error {
+        Error::Jumps(_) => true,
+        Error::Inaccurate { cause, .. } => matches!(cause, ErrorSource::Passes | ErrorSource::Days),
+        _ => false,
+    }
+}
+
 fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
     let mut answer = RunBuilder::new(plan);
     if plan.scene.friction_limit() == 0.0 {
@@ -103,8 +113,8 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
         refinement.solve(warnings)
     };
     let solved = match solve(plan.choice.method, &mut answer) {
-        Err(error @ (Error::Jumps(_) | Error::Inaccurate { .. }))
-            if plan.choice.may_simulate && matches!(plan.choice.method, PassMethod::Jumps(_)) =>
+        Err(error) if may_help(&error)
+            && plan.choice.may_simulate && matches!(plan.choice.method, PassMethod::Jumps(_)) =>
         {
             answer.gives_up_jumps(&error);
             let every_pass = PassMethod::EveryPass(plan.choice.method.cable_method());

@@ -68,6 +68,8 @@ impl Refinement<'_> {
         let tolerance = scene.solver.tolerance;
         let mut statistics = Statistics::default();
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
+        // What no mesh makes smaller.
+        error_estimate::judge(&error, tolerance)?;
         let mut found = match self.method {
             PassMethod::Jumps(_) if levels.known().is_none() => {
                 Some(self.jumps(jumps::share(self.plan), None, &mut statistics)?)
