@@ -1,7 +1,7 @@
 //! The vehicles after which traffic repeats itself.
 //!
-//! Shares such as 2:1 have a period of their own: 3 vehicles. Others get the nearest mix of at most twelve, and a second one
-//! on the other side of theirs shows what that changes. Of many kinds that differ by their load alone, as axles of a histogram do, twelve
+//! Shares such as 2:1 have a period of their own: 3 vehicles, and up to 48 where the traffic is long. Others get the nearest mix of at
+//! most twelve, and a second one on the other side of theirs shows what that changes. Of many kinds that differ by their load alone, as axles of a histogram do, twelve
 //! stand in for all (`stand_ins`).
 
 use cable_dem::{Order, Traffic};
@@ -15,6 +15,8 @@ use crate::scene::Scene;
 const LONGEST: usize = 12;
 /// Periods that are simulated at the start: a sequence that is shorter than the traffic by this factor is its own period.
 const FIRST_PERIODS: u64 = 8;
+/// Most vehicles in a period that shares have of their own, where the traffic is longer by the factor above.
+const LONGEST_OWN: usize = 48;
 /// Longest sequence that is its own period: a run simulates some fifty periods.
 const LONGEST_SEQUENCE: usize = 200;
 /// Rounding of shares.
@@ -54,7 +56,7 @@ impl Period {
             }
             _ => scene.vehicles.iter().map(|vehicle| vehicle.share).collect(),
         };
-        let (shares, mixes) = Mix::all(&shares);
+        let (shares, mixes) = Mix::all(&shares, traffic.passes);
         let first = &mixes[0];
         let reordered = traffic.order != Order::Interleaved;
         if first.distance > SAME
@@ -89,7 +91,7 @@ impl Period {
             }
             Order::Interleaved => {
                 let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
-                let (_, mixes) = Mix::all(&shares);
+                let (_, mixes) = Mix::all(&shares, traffic.passes);
                 let exact = mixes.first().filter(|mix| mix.distance <= SAME);
                 exact.map(Mix::interleaved).transpose()
             }
@@ -113,9 +115,9 @@ struct Mix {
 }
 
 impl Mix {
-    /// The shares of vehicles of which so many pass, and the mixes of ever more vehicles that come nearest to these: first the shortest of
-    /// the nearest.
-    fn all(weights: &[f64]) -> (Vec<f64>, Vec<Self>) {
+    /// The shares of vehicles of which so many pass, `passes` in all, and the mixes of ever more vehicles that come nearest to these: first
+    /// the shortest of the nearest.
+    fn all(weights: &[f64], passes: u64) -> (Vec<f64>, Vec<Self>) {
         let total: f64 = weights.iter().sum();
         let shares: Vec<f64> = weights.iter().map(|weight| weight / total).collect();
         let mut mixes: Vec<Self> = (1..=LONGEST)
@@ -126,6 +128,13 @@ impl Mix {
                 .round()
                 .total_cmp(&(b.distance / SAME).round())
         });
+        if mixes[0].distance > SAME {
+            let most = LONGEST_OWN.min((passes / FIRST_PERIODS) as usize);
+            let exact = (LONGEST + 1..=most)
+                .map(|length| Self::nearest(&shares, length))
+                .find(|mix| mix.distance <= SAME);
+            mixes.splice(0..0, exact);
+        }
         (shares, mixes)
     }
 
@@ -180,5 +189,25 @@ impl Mix {
             .take(self.counts.iter().sum())
             .map(|index| present[index])
             .collect())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whole_shares_have_a_period_of_their_own_where_eight_fit_in_the_traffic() {
+        let of = |weights: &[f64], passes| {
+            let (_, mixes) = Mix::all(weights, passes);
+            (mixes[0].counts.iter().sum::<usize>(), mixes[0].distance <= SAME)
+        };
+        assert_eq!(of(&[2.0, 1.0], 3), (3, true));
+        let many = [3.0, 2.0, 2.0, 1.0, 3.0, 1.0, 2.0, 1.0, 2.0];
+        assert_eq!(of(&many, 8 * 17), (17, true));
+        let (length, is_own) = of(&many, 8 * 17 - 1);
+        assert!(length <= LONGEST && !is_own);
+        let (length, is_own) = of(&[3.0, 2.0, 2.0, 1.03], 1_000_000);
+        assert!(length <= LONGEST && !is_own);
     }
 }

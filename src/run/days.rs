@@ -10,9 +10,7 @@ use cycle_jump::JumpError;
 use super::judge::{judge, mesh_reason};
 use super::lived::{Lived, Living};
 use super::options::RunOptions;
-use super::outlook::Outlook;
 use super::refine::{FINDING, MAX_NODE_UPDATES, REFINEMENT_COST, Solved, allowed, both, worth};
-use super::work::Work;
 use crate::answer::error_estimate::{self, ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
 use crate::plan::{PassMethod, Plan};
@@ -20,12 +18,12 @@ use crate::scene::{Heat, Scene};
 use crate::{Error, Progress};
 
 /// Real periods a day to begin with.
-const FIRST_KNOTS: u64 = 16;
+pub(super) const FIRST_KNOTS: u64 = 16;
 /// More than so many make no days settle that fewer do not, of 52 random scenes; and an outlook that takes seconds tries fewer.
 const MOST_KNOTS: u64 = 2048;
-const MOST_LOOKED_FOR: u64 = 256;
+pub(super) const MOST_LOOKED_FOR: u64 = 256;
 /// They are looked for so many levels below the first, where a pass costs a sixteenth.
-const COARSER: usize = 2;
+pub(super) const COARSER: usize = 2;
 /// What twice as many real periods a day change, times this, is the error of as many: it halves, or nearly so.
 const CAUTION: f64 = 3.0;
 /// Share of the tolerance that days with few real periods may take.
@@ -37,17 +35,14 @@ const COARSEST: f64 = 3.0;
 const RESOLVED: usize = 2;
 const LEFT: f64 = 0.4;
 const LEFT_UNRESOLVED: f64 = 2.0;
-/// What a difference falls to from one level to the next as a rule; and what an outlook may take [s].
+/// What a difference falls to from one level to the next as a rule.
 const FALL: f64 = 0.25;
-const AFFORDABLE: f64 = 2.0;
-/// Days of more node updates than this are not computed a second time for an outlook.
-const LOOKED_AT: usize = 200_000_000;
 
 /// Real periods a day that are enough, what they leave wrong, and the days they were found on, with their level.
-struct Found {
-    knots: u64,
-    left: Shares,
-    coarse: Option<(usize, Lived)>,
+pub(super) struct Found {
+    pub knots: u64,
+    pub left: Shares,
+    pub coarse: Option<(usize, Lived)>,
 }
 
 impl Found {
@@ -73,65 +68,6 @@ pub fn solve(
     let mut living = Living::new(plan, heat, every_pass, options.progress);
     living.underway = options.underway;
     living.solve(options.verify, warnings)
-}
-
-/// What is to be expected of a run of `plan`: its real periods a day are looked for as the run does, and two coarse meshes tell which one is
-/// fine enough.
-pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<Outlook, Error> {
-    let living = Living::new(plan, heat, false, Progress::default());
-    let levels = &plan.levels;
-    let first = living.first_level();
-    let mut search = Statistics::default();
-    let found = living.knots(first, Some(LOOKED_AT), &mut search)?;
-    let Found { knots, left, .. } = found;
-    let (knots, (coarse, lived)) = match found.coarse {
-        Some(known) => (knots, known),
-        None => living.settling(knots, MOST_LOOKED_FOR, |knots| living.coarse(first, knots))?,
-    };
-    let periods = lived.passes.simulated as f64;
-    let nodes = plan.levels.mesh(coarse)?.nodes();
-    let work = Work::new(&lived.passes.statistics, nodes, periods, 0.0);
-    let cable = method.cable_method();
-    let spent = work + Work::new(&search, nodes, 0.0, 0.0);
-    let mut level = first;
-    if coarse < first && (spent + work.refined(1)).seconds(cable) < AFFORDABLE {
-        let (more, finer) =
-            living.settling(knots, MOST_LOOKED_FOR, |knots| living.live(coarse + 1, knots, Progress::default()))?;
-        if more == knots {
-            let worth = worth(plan.scene.solver.tolerance) as f64 / REFINEMENT_COST as f64;
-            let is_costly = |level: usize| work.refined(level - coarse).0[0] > worth;
-            let is_fine = living.is_fine(coarse + 1, living.difference(&finer, &lived), left);
-            level = (first..levels.finest())
-                .find(|&level| is_fine(level) || is_costly(level))
-                .unwrap_or(levels.finest());
-        }
-    }
-    // Every level from that below the first on.
-    let begin = first.saturating_sub(1).max(coarse);
-    let meshes =
-        |work: Work| (begin..=level).fold(Work::default(), |all, one| all + work.refined(one - coarse));
-    let every_pass = meshes(work.times(plan.scene.traffic.passes as f64 / periods));
-    let few = meshes(work) + Work::new(&search, nodes, 0.0, 0.0);
-    let work = match method {
-        PassMethod::EveryPass(_) => every_pass,
-        // Where days in another sequence differ too much, every pass is simulated after all.
-        PassMethod::Jumps(_)
-            if plan.choice.may_simulate && (spent + work + work).seconds(cable) < AFFORDABLE =>
-        {
-            let sequence = living.sequence_error(first, knots, &mut search)?;
-            let is_none = is_doubtful((left + sequence).force, plan.scene.solver.tolerance);
-            if is_none { few + every_pass } else { few }
-        }
-        PassMethod::Jumps(_) => few,
-    };
-    Ok(Outlook {
-        level,
-        work,
-        mean: work,
-        every_pass,
-        passes: Shares::default(),
-        certain: true,
-    })
 }
 
 impl Living<'_> {
@@ -221,7 +157,7 @@ impl Living<'_> {
 
     /// What `days` come to with so many real periods a day, from `knots` to `most`, that each becomes like the one before: too few never
     /// settle.
-    fn settling<T>(
+    pub(super) fn settling<T>(
         &self,
         mut knots: u64,
         most: u64,
@@ -240,7 +176,7 @@ impl Living<'_> {
 
     /// Which levels should be fine enough, where that of `seen` differs by `difference` from the one below it, and few real periods a
     /// day leave `left` wrong.
-    fn is_fine(&self, seen: usize, difference: Shares, left: Shares) -> impl Fn(usize) -> bool {
+    pub(super) fn is_fine(&self, seen: usize, difference: Shares, left: Shares) -> impl Fn(usize) -> bool {
         let Plan {
             scene,
             ground,
@@ -273,7 +209,12 @@ impl Living<'_> {
     }
 
     /// What days change that begin the sequence of vehicles where another has left it, on a level that is coarse beside `level`.
-    fn sequence_error(&self, level: usize, knots: u64, statistics: &mut Statistics) -> Result<Shares, Error> {
+    pub(super) fn sequence_error(
+        &self,
+        level: usize,
+        knots: u64,
+        statistics: &mut Statistics,
+    ) -> Result<Shares, Error> {
         if !self.breaks_sequence() {
             return Ok(Shares::default());
         }
@@ -301,7 +242,7 @@ impl Living<'_> {
     }
 
     /// The level to begin with: the first whose typical error leaves room for the other parts.
-    fn first_level(&self) -> usize {
+    pub(super) fn first_level(&self) -> usize {
         let levels = &self.plan.levels;
         if levels.named() {
             return levels.first();
@@ -323,7 +264,7 @@ impl Living<'_> {
     }
 
     /// The same on a level that is coarse beside `level`, where there is one, and that level.
-    fn coarse(&self, level: usize, knots: u64) -> Result<(usize, Lived), Error> {
+    pub(super) fn coarse(&self, level: usize, knots: u64) -> Result<(usize, Lived), Error> {
         for coarser in level.saturating_sub(COARSER)..level {
             if let Some(lived) = self.on_coarse(coarser, knots)? {
                 return Ok((coarser, lived));
@@ -334,7 +275,12 @@ impl Living<'_> {
 
     /// Real periods a day that are enough for `level`, found on a coarser one, and what they leave wrong. Where days take more than `most` node
     /// updates they count as enough, unseen, and `statistics` has what it would take to see it.
-    fn knots(&self, level: usize, most: Option<usize>, statistics: &mut Statistics) -> Result<Found, Error> {
+    pub(super) fn knots(
+        &self,
+        level: usize,
+        most: Option<usize>,
+        statistics: &mut Statistics,
+    ) -> Result<Found, Error> {
         let all = self.day(u64::MAX).periods();
         if self.every_pass || self.day(FIRST_KNOTS).is_simulated() {
             return Ok(Found::exact(all));
@@ -355,7 +301,8 @@ impl Living<'_> {
                     coarse: Some((level, fewer)),
                 });
             }
-            let (doubled, more) = self.settling(2 * knots, settled_by, |knots| self.live(level, knots, parts()))?;
+            let (doubled, more) =
+                self.settling(2 * knots, settled_by, |knots| self.live(level, knots, parts()))?;
             *statistics += more.passes.statistics;
             let difference = self.difference(&more, &fewer);
             if difference.times(CAUTION).is_within(allowed) {

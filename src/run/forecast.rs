@@ -10,7 +10,7 @@ use std::cell::Cell;
 
 use cable_dem::CableError;
 
-use super::days;
+use super::days_outlook;
 use super::jumps::{self, Found};
 use super::outlook::{Known, Level, Outlook};
 use super::passes::{Jumping, Passes, Task};
@@ -60,7 +60,7 @@ pub struct Forecast {
 
 /// Predicts what the run of `plan` will take, without `verify`: in nine of ten scenes its processor time is at most twice
 /// [`Forecast::seconds`]. The prediction itself takes a tenth of that, or two seconds: on meshes that
-/// take no longer the run is made. With heat the days of a coarse mesh are computed once at least.
+/// take no longer the run is made. With heat the days of a coarse mesh are computed once, unless they take long themselves.
 ///
 /// # Errors
 ///
@@ -85,7 +85,7 @@ pub fn forecast(plan: &Plan<'_>) -> Result<Forecast, Error> {
         every_pass_seconds: seconds(outlook.every_pass),
     };
     if let Some(heat) = plan.scene.warming() {
-        return days::outlook(plan, heat, method).map(told);
+        return days_outlook::outlook(plan, heat, method).map(told);
     }
     let cable = method.cable_method();
     let expected = plan.choice.estimates.seconds(method);

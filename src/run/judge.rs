@@ -59,7 +59,7 @@ fn remedy(error: &ErrorParts, scene: &Scene, stands_in: bool, mesh: &Mesh) -> St
         return ": solver.method = \"quasi-static\" simulates every pass".to_owned();
     }
     if of(error.passes) >= others && stands_in {
-        return ": most of it comes from twelve vehicles that stand for all kinds; shares in whole twelfths need no such stand-ins"
+        return ": most of it comes from twelve vehicles that stand for all kinds; shares in whole numbers, of at most 48 vehicles in all, need none"
             .to_owned();
     }
     ", and no finer mesh makes it much smaller".to_owned()

@@ -2,6 +2,7 @@
 
 mod assemble;
 mod days;
+mod days_outlook;
 mod forecast;
 mod judge;
 mod jumps;
@@ -113,8 +114,10 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
         refinement.solve(warnings)
     };
     let solved = match solve(plan.choice.method, &mut answer) {
-        Err(error) if may_help(&error)
-            && plan.choice.may_simulate && matches!(plan.choice.method, PassMethod::Jumps(_)) =>
+        Err(error)
+            if may_help(&error)
+                && plan.choice.may_simulate
+                && matches!(plan.choice.method, PassMethod::Jumps(_)) =>
         {
             answer.gives_up_jumps(&error);
             let every_pass = PassMethod::EveryPass(plan.choice.method.cable_method());

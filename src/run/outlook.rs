@@ -228,7 +228,10 @@ impl Known<'_> {
                 difference
             })
             .collect();
-        let listed = self.early[0].records.len().max(self.simulated as usize);
+        let listed = match self.full.last() {
+            Some(known) => known.records.len(),
+            None => self.early[0].records.len().max(self.simulated as usize),
+        };
         (
             of_differences(&differences, listed, Levels::typical_error(level)),
             spread,

@@ -108,7 +108,7 @@ pub fn random(seed: u64) -> Scene {
 }
 
 /// Largest difference of a force on any listed pass, as a share of the largest then or of a tenth of the largest at all; and on the last.
-fn difference(scene: &Scene, every: &Run, jumps: &Run) -> (f64, f64) {
+pub fn difference(scene: &Scene, every: &Run, jumps: &Run) -> (f64, f64) {
     let forces = |record: &PassRecord| {
         let PassRecord {
             upstream_force_n,

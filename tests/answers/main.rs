@@ -5,6 +5,7 @@ mod balance;
 mod common;
 pub mod long_term;
 mod meshes;
+mod mixes;
 mod random;
 mod road;
 mod saturation;

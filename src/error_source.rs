@@ -1,0 +1,44 @@
+//! What the error of an answer comes from.
+
+/// What the estimated error of an answer comes from, or most of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum ErrorSource {
+    /// Node spacing and vehicle step.
+    Mesh,
+    /// The ground's displacement.
+    Ground,
+    /// Inertia, where it is left out.
+    Inertia,
+    /// The road beyond where vehicles are followed.
+    Road,
+    /// Passes that are not simulated.
+    Passes,
+    /// Days of which few passes are simulated, or none.
+    Days,
+}
+
+impl ErrorSource {
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Mesh => "the mesh",
+            Self::Ground => "the ground",
+            Self::Inertia => "inertia, which is left out",
+            Self::Road => "a short solver.approach",
+            Self::Passes => "passes that are not simulated",
+            Self::Days => "days that are not simulated",
+        }
+    }
+
+    /// What makes it smaller.
+    pub(crate) fn remedy(self) -> &'static str {
+        match self {
+            Self::Mesh => "a smaller solver.node_spacing may help, or a larger solver.tolerance",
+            Self::Ground => "another ground.model may help, or a larger solver.tolerance",
+            Self::Inertia => "solver.method = \"dynamic\" computes it",
+            Self::Road => "without solver.approach vehicles are followed far enough",
+            Self::Passes | Self::Days => "solver.method = \"quasi-static\" simulates every one",
+        }
+    }
+}

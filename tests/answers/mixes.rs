@@ -1,0 +1,61 @@
+//! Many kinds of vehicles: shares that are whole numbers of up to 48 vehicles have a period of their own.
+
+use creepage::Scene;
+
+use super::long_term::difference;
+
+/// Nine kinds of very different loads, two of three one way: a round takes 17 vehicles.
+fn scene() -> Scene {
+    let kinds = [
+        ("a", "2 tf", 3, "forward"),
+        ("b", "4 tf", 2, "reverse"),
+        ("c", "6 tf", 2, "forward"),
+        ("d", "9 tf", 1, "forward"),
+        ("e", "12 tf", 3, "reverse"),
+        ("f", "15 tf", 1, "forward"),
+        ("g", "18 tf", 2, "forward"),
+        ("h", "22 tf", 1, "reverse"),
+    ];
+    let others = kinds.map(|(name, load, share, direction)| {
+        format!(
+            ", {{ name = \"{name}\", load = \"{load}\", speed = \"40 km/h\", share = {share}, direction = \"{direction}\" }}"
+        )
+    });
+    let others = others.concat();
+    let text = format!(
+        "duct = {{ length = 8, depth = 1.2 }}
+ground = {{ layers = [{{ young_modulus = 5e7, poisson_ratio = 0.35 }}] }}
+cable = {{ weight = 100, axial_stiffness = 8e6 }}
+friction = {{ dynamic_coefficient = 0.3, shape_factor = 1e7 }}
+ends = {{ upstream = \"free\", downstream = \"fixed\" }}
+vehicles = [{{ name = \"first\", load = \"25 tf\", speed = \"30 km/h\", share = 2 }}{others}]
+traffic = {{ passes = 1700 }}
+solver = {{ tolerance = 0.01 }}"
+    );
+    Scene::from_toml("mix", &text).expect("a valid scene")
+}
+
+#[test]
+fn whole_shares_of_many_kinds_leave_nothing_to_a_mix_that_stands_in() {
+    let mut scene = scene();
+    let spacing = scene.duct.depth / 12.0;
+    (scene.solver.node_spacing, scene.solver.vehicle_step) = (Some(spacing), Some(0.5 * spacing));
+    let mut run = |method| {
+        scene.solver.method = method;
+        creepage::run(&scene).expect("an answer")
+    };
+    let jumps = run(creepage::scene::SolverMethod::PassLaw);
+    let every = run(creepage::scene::SolverMethod::QuasiStatic);
+    assert!(
+        jumps.cost.simulated_passes < 600,
+        "{}",
+        jumps.cost.simulated_passes
+    );
+    let (worst, last) = difference(&scene, &every, &jumps);
+    assert!(worst.max(last) < 0.01, "{worst} {last}");
+    assert!(
+        jumps.error_estimate.parts.passes < 0.01,
+        "{:?}",
+        jumps.error_estimate
+    );
+}
