@@ -56,7 +56,7 @@ impl Period {
             }
             _ => scene.vehicles.iter().map(|vehicle| vehicle.share).collect(),
         };
-        let (shares, mixes) = Mix::all(&shares, traffic.passes);
+        let (shares, mixes) = Mix::all(&shares, until_anew(scene));
         let first = &mixes[0];
         let reordered = traffic.order != Order::Interleaved;
         if first.distance > SAME
@@ -91,7 +91,7 @@ impl Period {
             }
             Order::Interleaved => {
                 let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
-                let (_, mixes) = Mix::all(&shares, traffic.passes);
+                let (_, mixes) = Mix::all(&shares, until_anew(scene));
                 let exact = mixes.first().filter(|mix| mix.distance <= SAME);
                 exact.map(Mix::interleaved).transpose()
             }
@@ -103,6 +103,15 @@ impl Period {
     pub fn len(&self) -> usize {
         self.vehicles.len()
     }
+}
+
+/// Passes before the vehicles begin their round anew: with heat they do so every day.
+fn until_anew(scene: &Scene) -> u64 {
+    let traffic = &scene.traffic;
+    let a_day = traffic.per_day.filter(|_| scene.warming().is_some());
+    traffic
+        .passes
+        .min(a_day.map_or(u64::MAX, |per_day| per_day as u64))
 }
 
 /// Whole numbers of vehicles.

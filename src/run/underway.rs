@@ -116,14 +116,16 @@ impl Underway {
     pub fn reached(&self) -> Option<HowFar> {
         let seen = self.seen();
         let (_, traffic) = seen.answer.as_ref()?;
-        let shown = seen.meshes.iter().rfind(|passes| passes.shown);
-        let before = seen.meshes.iter().filter(|passes| passes.shown).count();
-        let last = shown.or(seen.meshes.last())?;
+        // Meshes are computed side by side, so the last one begun need not be the finest; of several runs on that it is the last.
+        let shown = || seen.meshes.iter().rev().filter(|passes| passes.shown);
+        let finest = shown().min_by(|a, b| a.mesh.spacing().total_cmp(&b.mesh.spacing()));
+        let last = finest.or(seen.meshes.last())?;
+        let is_coarser = |passes: &Passes| passes.mesh.spacing() > last.mesh.spacing();
         Some(HowFar {
             pass: last.reached,
             passes: traffic.passes,
             node_spacing_m: last.mesh.spacing(),
-            is_refined: before > 1,
+            is_refined: shown().any(|passes| passes.is_finished && is_coarser(passes)),
             node_updates: seen.node_updates,
         })
     }
