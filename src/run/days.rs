@@ -20,7 +20,7 @@ use crate::{Error, Progress};
 /// Real periods a day to begin with.
 pub(super) const FIRST_KNOTS: u64 = 16;
 /// More than so many make no days settle that fewer do not, of 52 random scenes; and an outlook that takes seconds tries fewer.
-const MOST_KNOTS: u64 = 2048;
+pub(super) const MOST_KNOTS: u64 = 2048;
 pub(super) const MOST_LOOKED_FOR: u64 = 256;
 /// They are looked for so many levels below the first, where a pass costs a sixteenth.
 pub(super) const COARSER: usize = 2;

@@ -2,7 +2,7 @@
 
 use cable_dem::Statistics;
 
-use super::days::{COARSER, FIRST_KNOTS, Found, MOST_LOOKED_FOR};
+use super::days::{COARSER, FIRST_KNOTS, Found, MOST_KNOTS, MOST_LOOKED_FOR};
 use super::lived::Living;
 use super::outlook::Outlook;
 use super::refine::{REFINEMENT_COST, worth};
@@ -24,12 +24,22 @@ const DAYS: u64 = 30;
 /// fine enough.
 pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<Outlook, Error> {
     let living = Living::new(plan, heat, false, Progress::default());
-    let levels = &plan.levels;
     let first = living.first_level();
-    let looked_at = rough(&living, first.saturating_sub(COARSER));
+    let looked_at = rough(&living, first.saturating_sub(COARSER), FIRST_KNOTS);
     if looked_at.work.0[0] > MOST_UPDATES {
-        return Ok(rough(&living, first));
+        return Ok(rough(&living, first, FIRST_KNOTS));
     }
+    match seen(&living, method, first) {
+        // The run tries more real periods a day.
+        Err(Error::Jumps(_)) => Ok(rough(&living, first, MOST_KNOTS)),
+        outlook => outlook,
+    }
+}
+
+/// What coarse meshes tell of a run that begins on the level `first`.
+fn seen(living: &Living<'_>, method: PassMethod, first: usize) -> Result<Outlook, Error> {
+    let plan = living.plan;
+    let levels = &plan.levels;
     let mut search = Statistics::default();
     let found = living.knots(first, Some(LOOKED_AT), &mut search)?;
     let Found { knots, left, .. } = found;
@@ -84,10 +94,10 @@ pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<Outlo
     })
 }
 
-/// What days take at most on `level` as a rule, before any is computed: heat moves the whole cable.
-fn rough(living: &Living<'_>, level: usize) -> Outlook {
+/// What days with so many real periods each take at most on `level` as a rule, before any is computed: heat moves the whole cable.
+fn rough(living: &Living<'_>, level: usize, knots: u64) -> Outlook {
     let Plan { scene, levels, .. } = living.plan;
-    let day = living.day(FIRST_KNOTS);
+    let day = living.day(knots);
     let days = scene.traffic.passes.div_ceil(day.passes);
     // Two numbers of real periods a day are tried.
     let simulated = 3 * days.min(DAYS) * day.knots * day.period as u64;
