@@ -7,6 +7,7 @@
 //! forecast does not depend on what else the machine does.
 
 use std::cell::Cell;
+use std::ops::ControlFlow;
 
 use cable_dem::CableError;
 
@@ -16,6 +17,7 @@ use super::outlook::{Known, Level, Outlook};
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use super::refine::MAX_NODE_UPDATES;
+use super::underway::Underway;
 use super::work::Work;
 use crate::answer::error_estimate::{Scale, Shares, is_doubtful};
 use crate::answer::simulated;
@@ -39,6 +41,8 @@ const LONGEST_PROBE: f64 = 10.0;
 const MESHES: f64 = 2.0;
 /// Periods after which jumps do not get on.
 const PATIENCE: u64 = 400;
+/// Nodes eliminated on one mesh at most: some six seconds.
+const MOST_UPDATES: f64 = 1e9;
 /// What a process takes besides \[s\].
 const START: f64 = 4e-3;
 
@@ -154,6 +158,14 @@ impl<'a> Probe<'a> {
         let early = loop {
             match self.early(coarsest) {
                 Err(Error::Cable(CableError::CoarseMesh { .. })) if coarsest < first => coarsest += 1,
+                Err(Error::Stopped) => {
+                    let work = |passes: f64| {
+                        let mut work = Work::default();
+                        work.0[0] = levels.whole_cable_updates(first, 1) * passes;
+                        work
+                    };
+                    return Ok(self.long(work));
+                }
                 early => break early?,
             }
         };
@@ -180,7 +192,14 @@ impl<'a> Probe<'a> {
             stuck: None,
         };
         let found = match self.method {
-            PassMethod::Jumps(_) => Some(self.jumps(&mut known)?),
+            PassMethod::Jumps(_) => match self.jumps(&mut known) {
+                Err(Error::Stopped) => {
+                    let early = &known.early[0];
+                    let pass = early.work.times(1.0 / self.early.traffic.passes as f64);
+                    return Ok(self.long(|passes| pass.times(passes).refined(first - coarsest)));
+                }
+                found => Some(found?),
+            },
             PassMethod::EveryPass(_) => None,
         };
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
@@ -201,6 +220,7 @@ impl<'a> Probe<'a> {
                             .times(1.0 / self.early.traffic.passes as f64);
                         known.stuck = Some(pass.times(self.affordable(next)));
                     }
+                    Err(Error::Stopped) => return self.with_extras(outlook, &known),
                     Err(error) => return Err(error),
                 }
             } else if known.next_early() <= next + 1
@@ -212,6 +232,25 @@ impl<'a> Probe<'a> {
             } else {
                 return self.with_extras(outlook, &known);
             }
+        }
+    }
+
+    /// What a run takes that is not even made on a coarse mesh in time, where so many passes on its first mesh take this `work`.
+    fn long(&self, work: impl Fn(f64) -> Work) -> Outlook {
+        let all = self.plan.scene.traffic.passes as f64;
+        let jumps = matches!(self.method, PassMethod::Jumps(_));
+        let simulated = if jumps {
+            all.min(PERIODS * self.plan.period.len() as f64)
+        } else {
+            all
+        };
+        Outlook {
+            level: self.plan.levels.first(),
+            work: work(simulated),
+            mean: work(simulated),
+            every_pass: work(all),
+            passes: Shares::default(),
+            certain: false,
         }
     }
 
@@ -276,14 +315,23 @@ impl<'a> Probe<'a> {
         level: usize,
         way: Option<Jumping<'_>>,
     ) -> Result<(Passes, Work), Error> {
+        let underway = Underway::default();
+        let watch = |_: f64| {
+            if underway.node_updates() > MOST_UPDATES {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        };
+        let mesh = self.plan.levels.mesh(level)?;
         let task = Task {
             scene,
             method: self.method.cable_method(),
             motions: &self.plan.ground.motions,
-            mesh: self.plan.levels.mesh(level)?,
+            mesh,
             stages: &[],
-            progress: Progress::default(),
-            seen: None,
+            progress: Progress::new(&watch),
+            seen: Some(underway.on_mesh(mesh, false)),
         };
         let period = self.plan.period.len() as u64;
         let passes = match way {

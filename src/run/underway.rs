@@ -130,6 +130,11 @@ impl Underway {
         })
     }
 
+    /// Nodes eliminated so far.
+    pub(super) fn node_updates(&self) -> f64 {
+        self.seen().node_updates
+    }
+
     /// A run begins.
     pub(super) fn begin(&self, answer: CutShort, traffic: &Traffic) {
         *self.seen() = Seen {
