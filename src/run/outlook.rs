@@ -27,10 +27,11 @@ const SPREAD: f64 = 0.8;
 const SPREAD_ALONE: f64 = 1.0;
 /// Standard deviation of ln of the work on a level that is not known.
 const SPREAD_OF_WORK: f64 = 0.25;
-/// What is told is most likely within a factor of two of the truth, where a truth of less than twice of it counts so much besides; the
+/// What is told is most likely within a factor of two of the truth, where a truth of less than three times of it counts so much besides; the
 /// standard deviation of ln of the work for a given last level; and what is tried to find it.
 const WORTH_OF_ENOUGH: f64 = 0.3;
 const TWICE: f64 = std::f64::consts::LN_2;
+const THRICE: f64 = 1.0986;
 const SPREAD_OF_END: f64 = 0.1;
 const MARGIN: f64 = 0.3;
 const TRIED: u32 = 200;
@@ -298,7 +299,7 @@ impl Outlook {
             let of_end = |end: &End| {
                 let more = updates(end) - told;
                 let within = below(more.abs() - TWICE, SPREAD_OF_END);
-                let enough = below(more - TWICE, SPREAD_OF_END);
+                let enough = below(more - THRICE, SPREAD_OF_END);
                 end.likely * (within + WORTH_OF_ENOUGH * enough)
             };
             ends.iter().map(of_end).sum()
