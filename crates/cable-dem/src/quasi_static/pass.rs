@@ -162,6 +162,8 @@ impl ForwardSolver {
                 moving = moves;
                 self.recurs = remembered.is_none_or(|last_pass| self.misses(last_pass) <= surprises);
             }
+            let around_supports = if window.travels { None } else { moves };
+            self.supports.remember(window.stretch, around_supports);
             let widest = &mut self.recorder.statistics.widest_window;
             *widest = solved.len().max(*widest);
         }

@@ -29,7 +29,7 @@ pub(super) struct Rows<'a> {
     pub held: (f64, f64),
     stuck: &'a [(f64, f64)],
     slipping: &'a [f64],
-    weight: &'a [f64],
+    pub weight: &'a [f64],
     per_stiffness: f64,
 }
 
@@ -82,6 +82,13 @@ impl Side {
     }
 }
 
+impl Eliminated {
+    /// Whether it says the same as `other`, but for `negligible` \[m\] and rounding.
+    fn is_near(self, other: Self, negligible: f64) -> bool {
+        (self.value - other.value).abs() <= negligible && (self.factor - other.factor).abs() <= f64::EPSILON
+    }
+}
+
 impl<'a> Rows<'a> {
     pub fn new(chain: &'a Chain, load: &Load<'a>, stretch: Stretch, r: &[f64]) -> Self {
         let nodes = stretch.nodes();
@@ -126,18 +133,20 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Solves for `r`; only nodes between the `changed` two are in other contact states than when `eliminated` was last written. False
-    /// where the system is singular.
+    /// Solves for `r`; only nodes between the `changed` two are in other contact states than when `r` and `eliminated` were last written.
+    /// Returned are the first and last node up to which that moves the cable, by more than `negligible` \[m\]; `None` where the system is
+    /// singular.
     pub fn solve(
         &self,
         contact: &[Contact],
         changed: (usize, usize),
+        negligible: f64,
         eliminated: &mut [Eliminated],
         r: &mut [f64],
-    ) -> bool {
+    ) -> Option<(usize, usize)> {
         let count = r.len();
         let (contact, eliminated) = (&contact[..count], &mut eliminated[..count]);
-        let (middle, last) = (count / 2, count - 1);
+        let middle = count / 2;
         let held = |value| Eliminated { value, factor: 0.0 };
         // Rows that stay as they were eliminated, on both sides.
         let (mut i, mut j) = (changed.0.min(middle), changed.1.max(middle));
@@ -158,37 +167,72 @@ impl<'a> Rows<'a> {
         }
         while i < middle {
             let end = middle.min(i + RESCALED);
-            for (i, done) in eliminated.iter_mut().enumerate().take(end).skip(i) {
-                (below, *done) = below.eliminate(&self.row(contact, i));
+            for i in i..end {
+                let row = eliminated[i];
+                (below, eliminated[i]) = below.eliminate(&self.row(contact, i));
+                if i > changed.1 && eliminated[i].is_near(row, negligible) {
+                    return Some((downwards(changed.0, i, negligible, eliminated, r), i));
+                }
             }
             (i, below) = (end, below.rescaled());
         }
         while j > middle {
             let end = middle.max(j.saturating_sub(RESCALED));
             for j in (end + 1..=j).rev() {
+                let row = eliminated[j];
                 (above, eliminated[j]) = above.eliminate(&self.row(contact, j));
+                if j < changed.0 && eliminated[j].is_near(row, negligible) {
+                    return Some((j, upwards(changed.1, j, negligible, eliminated, r)));
+                }
             }
             (j, above) = (end, above.rescaled());
         }
         let met = self.row(contact, middle);
         let pivot = 1.0 - met.a * (below.minor + above.minor);
-        // A comparison that NaN fails.
-        let is_regular = pivot > SINGULAR;
         let solved = (met.b + met.a * (below.value + above.value)) / pivot;
+        // A comparison that NaN fails.
+        let is_regular = pivot > SINGULAR && solved.is_finite();
         r[middle] = solved;
         let (mut left, mut right) = (solved, solved);
-        let pairs = last - middle;
+        let pairs = (middle - changed.0.min(middle)).min(changed.1.max(middle) - middle);
         for k in 1..=pairs {
             let (low, high) = (eliminated[middle - k], eliminated[middle + k]);
             left = low.value + low.factor * left;
             right = high.value + high.factor * right;
             (r[middle - k], r[middle + k]) = (left, right);
         }
-        if pairs < middle {
-            r[0] = eliminated[0].value + eliminated[0].factor * left;
-        }
-        is_regular && solved.is_finite()
+        let first = downwards(changed.0, middle - pairs, negligible, eliminated, r);
+        let last = upwards(changed.1, middle + pairs, negligible, eliminated, r);
+        is_regular.then_some((first, last))
     }
+}
+
+/// Solves for the nodes below `from`, at least down to `to`, and on until one moves by no more than `negligible` \[m\]; returns the last one.
+fn downwards(to: usize, from: usize, negligible: f64, eliminated: &[Eliminated], r: &mut [f64]) -> usize {
+    let mut neighbour = r[from];
+    for i in (0..from).rev() {
+        let moved = eliminated[i].value + eliminated[i].factor * neighbour;
+        if i < to && (moved - r[i]).abs() <= negligible {
+            return i + 1;
+        }
+        r[i] = moved;
+        neighbour = moved;
+    }
+    0
+}
+
+/// The same for the nodes above.
+fn upwards(to: usize, from: usize, negligible: f64, eliminated: &[Eliminated], r: &mut [f64]) -> usize {
+    let mut neighbour = r[from];
+    for i in from + 1..r.len() {
+        let moved = eliminated[i].value + eliminated[i].factor * neighbour;
+        if i > to && (moved - r[i]).abs() <= negligible {
+            return i - 1;
+        }
+        r[i] = moved;
+        neighbour = moved;
+    }
+    r.len() - 1
 }
 
 #[cfg(test)]
@@ -234,7 +278,10 @@ mod tests {
             let rows = Rows::new(&chain, &load, stretch, &[0.0; NODES]);
             let mut eliminated = vec![Eliminated::default(); NODES];
             let mut r = vec![0.0; NODES];
-            assert!(rows.solve(&contact, (0, NODES - 1), &mut eliminated, &mut r));
+            assert!(
+                rows.solve(&contact, (0, NODES - 1), 0.0, &mut eliminated, &mut r)
+                    .is_some()
+            );
             for changed in [(30, 35), (900, 1290), (640, 660), (0, 0), (NODES - 1, NODES - 1)] {
                 for state in &mut contact[changed.0..=changed.1] {
                     *state = match state {
@@ -242,7 +289,17 @@ mod tests {
                         _ => Contact::Stuck,
                     };
                 }
-                assert!(rows.solve(&contact, changed, &mut eliminated, &mut r));
+                let old = r.clone();
+                let moved = rows.solve(&contact, changed, 0.0, &mut eliminated, &mut r);
+                let (first, last) = moved.expect("a regular system");
+                if law == FrictionLaw::Coulomb {
+                    // A stuck node holds fast and shields what lies beyond it: there are 40 in a row, each 120.
+                    assert!(
+                        first + 120 > changed.0 && last < changed.1 + 120,
+                        "{first} to {last}"
+                    );
+                }
+                assert!((0..first).chain(last + 1..NODES).all(|i| old[i] == r[i]));
                 let size = r.iter().fold(0.0_f64, |most, r| most.max(r.abs()));
                 for i in 0..NODES {
                     let Row { a, b } = rows.row(&contact, i);
@@ -270,8 +327,14 @@ mod tests {
         let rows = Rows::new(&chain, &load, Stretch { lo: 0, hi: 20 }, &zeros);
         let mut eliminated = [Eliminated::default(); 21];
         let mut contact = [Contact::Forward; 21];
-        assert!(!rows.solve(&contact, (0, 20), &mut eliminated, &mut [0.0; 21]));
+        assert!(
+            rows.solve(&contact, (0, 20), 0.0, &mut eliminated, &mut [0.0; 21])
+                .is_none()
+        );
         contact[3] = Contact::Stuck;
-        assert!(rows.solve(&contact, (3, 3), &mut eliminated, &mut [0.0; 21]));
+        assert!(
+            rows.solve(&contact, (3, 3), 0.0, &mut eliminated, &mut [0.0; 21])
+                .is_some()
+        );
     }
 }

@@ -78,10 +78,10 @@ impl StepSolver {
     /// Runs the active set from the trial's contact states.
     fn iterate(&mut self, load: &Load<'_>, stretch: Stretch) -> Result<(), f64> {
         let (chain, trial) = (&self.chain, &mut self.trial);
-        let (outcome, sweeps) = active_set::iterate(chain, load, stretch, self.tolerance, trial);
-        self.statistics.sweeps += sweeps;
-        self.statistics.node_updates += sweeps * stretch.len();
-        outcome
+        let iterated = active_set::iterate(chain, load, stretch, self.tolerance, trial);
+        self.statistics.sweeps += iterated.sweeps;
+        self.statistics.node_updates += iterated.node_updates;
+        iterated.outcome
     }
 
     /// Leads the contact states from those of a softer sheath, whose energy is smoother, to those of the real one.

@@ -39,23 +39,17 @@ fn a_quasi_static_pass() -> Outcome {
                     "one step a vehicle position, one from rest and one to it"
                 );
                 // Where the vehicle is, at either end, and now and then once more for a window that has grown.
-                assert_at_most("windows a step", work.windows, 2.6, work.steps, work);
-                // One linear solve where the prediction of the contact states is right: mostly, from the second pass on.
-                let solves = if passes == 1 { 2.0 } else { 1.4 };
-                assert_at_most("solves a window", work.sweeps, solves, work.windows, work);
+                assert_at_most("windows a step", work.windows, 2.2, work.steps, work);
+                // One linear solve a window where the prediction of the contact states is right: mostly, from the second pass on.
+                let solves = if passes == 1 { 4.0 } else { 2.5 };
+                assert_at_most("solves a step", work.sweeps, solves, work.steps, work);
                 // The zone that slips is some 20 m long, whatever the duct, all along the road.
-                let zone = 20.0 / spacing * 1.25;
+                let zone = 20.0 / spacing;
                 let single_steps = ((length + 2.0 * APPROACH) / step).round() as usize;
                 assert_at_most("nodes a step", work.node_updates, zone, single_steps, work);
                 // The iteration cycles where contact begins, and next to never once the last pass is remembered.
-                let cycles = if passes == 1 { 0.01 } else { 0.001 };
-                assert_at_most(
-                    "exact steps a window",
-                    work.exact_steps,
-                    cycles,
-                    work.windows,
-                    work,
-                );
+                let cycles = if passes == 1 { 0.025 } else { 0.001 };
+                assert_at_most("exact steps a step", work.exact_steps, cycles, work.steps, work);
             }
         }
     }
@@ -98,7 +92,7 @@ fn a_dynamic_pass() -> Outcome {
             let work = scene.dynamic(passes)?.pass.statistics;
             assert_eq!(work.steps, positions, "one step a vehicle position");
             assert_at_most("solves a step", work.sweeps, solves, work.steps, work);
-            // The whole cable in every one.
+            // At most the whole cable in every one.
             assert!(work.node_updates <= work.sweeps * scene.mesh.nodes(), "{work:?}");
             assert_eq!(work.exact_steps, 0);
         }
