@@ -14,7 +14,8 @@ use crate::{Error, Progress};
 
 /// What an outlook may take \[s\].
 const AFFORDABLE: f64 = 2.0;
-/// Days of more node updates than this are not computed a second time, and of more than the other not once.
+/// Days of more node updates than this are not computed a second time; those that balance more nodes between real periods are not computed
+/// to their end; and days of more than the other are not computed once.
 const LOOKED_AT: usize = 200_000_000;
 const MOST_UPDATES: f64 = 5e9;
 /// Days with real periods after which days mostly repeat.
@@ -23,7 +24,10 @@ const DAYS: u64 = 30;
 /// What is to be expected of a run of `plan`: its real periods a day are looked for as the run does, and two coarse meshes tell which one is
 /// fine enough.
 pub fn outlook(plan: &Plan<'_>, heat: &Heat, method: PassMethod) -> Result<Outlook, Error> {
-    let living = Living::new(plan, heat, false, Progress::default());
+    let living = Living {
+        most_balanced: LOOKED_AT,
+        ..Living::new(plan, heat, false, Progress::default())
+    };
     let first = living.first_level();
     let looked_at = rough(&living, first.saturating_sub(COARSER), FIRST_KNOTS);
     if looked_at.work.0[0] > MOST_UPDATES {

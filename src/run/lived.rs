@@ -19,6 +19,8 @@ use crate::{Error, Progress};
 const FROZEN_SHARE: f64 = 0.5;
 /// Up to so many passes a day all are simulated on a day with real ones; and where a day has no whole sequence.
 const FEW: u64 = 100;
+/// Nodes that may be balanced between real periods before each day is like the one before: minutes.
+const MOST_BALANCED: usize = 20_000_000_000;
 const SECONDS_A_DAY: f64 = 86_400.0;
 
 /// Passes and days on one mesh.
@@ -37,6 +39,8 @@ pub struct Living<'a> {
     pub every_pass: bool,
     /// Place in the period of the traffic with which days begin.
     pub begin: usize,
+    /// Nodes balanced between real periods after which days ought to repeat.
+    pub most_balanced: usize,
 }
 
 impl<'a> Living<'a> {
@@ -49,6 +53,7 @@ impl<'a> Living<'a> {
             underway: None,
             every_pass,
             begin: 0,
+            most_balanced: MOST_BALANCED,
         }
     }
 
@@ -161,6 +166,7 @@ impl<'a> Living<'a> {
             tolerance: FROZEN_SHARE * scene.solver.tolerance,
             least: (scale.force, scale.movement),
             every_day: self.every_pass,
+            most_balances: (self.most_balanced / mesh.nodes()) as u64,
         };
         let vehicles = &period.vehicles;
         // Where every pass is simulated the vehicles come in their own order.

@@ -33,13 +33,13 @@ fn work_is_foreseen_within_a_factor_of_three_and_mostly_of_two() {
         scene.traffic.passes = scene.traffic.passes.min(200);
         scene
     });
-    let far = [5, 7, 15, 18, 33, 41].into_iter().map(|seed| {
+    let far = (0..10).map(|seed| {
         let mut scene = long_term::random(seed);
         scene.traffic.passes = PASSES[1];
         scene
     });
     let ratios: Vec<f64> = ordinary.chain(far).filter_map(|scene| compare(&scene)).collect();
-    assert!(ratios.len() >= 16, "{ratios:?}");
+    assert!(ratios.len() >= 20, "{ratios:?}");
     assert!(share(&ratios, |ratio| ratio < 2.0) >= 0.9, "{ratios:?}");
     assert!(
         share(&ratios, |ratio| (0.5..2.0).contains(&ratio)) >= 0.8,

@@ -81,6 +81,7 @@ fn days(criterion: &mut Criterion) {
             tolerance: 5e-3,
             least: (0.01 * LIMIT, 1e-6),
             every_day: false,
+            most_balances: u64::MAX,
         };
         live(&cable, &mesh, &day, law.clone(), &request, |_, state| {
             solver.pass(&passage, state).map_err(JumpError::from)

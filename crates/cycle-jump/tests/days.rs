@@ -33,6 +33,7 @@ struct Scene {
     law: FrictionLaw,
     days: u64,
     knots: u64,
+    most_balances: u64,
 }
 
 impl Default for Scene {
@@ -52,6 +53,7 @@ impl Default for Scene {
             law: FrictionLaw::ElasticPlastic { shape_factor: 0.0 },
             days: 3,
             knots: 24,
+            most_balances: u64::MAX,
         }
     }
 }
@@ -131,6 +133,7 @@ impl Scene {
             tolerance: 5e-3,
             least: (0.01 * limit, 1e-6),
             every_day,
+            most_balances: self.most_balances,
         };
         let one_pass = |next: Next, state: &mut CableState| {
             solver.pass(&passages[next.phase], state).map_err(JumpError::from)
@@ -347,6 +350,22 @@ fn without_traffic_only_heat_moves_the_cable() -> Outcome {
 }
 
 #[test]
+fn days_that_take_too_long_are_given_up() -> Outcome {
+    let scene = Scene {
+        days: 400,
+        most_balances: 100,
+        ..Scene::default()
+    };
+    let lived = scene.live(24, false);
+    let error = lived.expect_err("100 balances are no day");
+    assert!(
+        error.to_string().contains("still differ from day to day"),
+        "{error}"
+    );
+    Ok(())
+}
+
+#[test]
 fn what_is_no_day_is_refused() -> Outcome {
     let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * WEIGHT)?;
     let mesh = Mesh::new(6.0, 0.3, 0.15)?;
@@ -367,6 +386,7 @@ fn what_is_no_day_is_refused() -> Outcome {
         tolerance: 5e-3,
         least: (1.0, 1e-6),
         every_day: false,
+        most_balances: u64::MAX,
     };
     let lived = |day: &Day| {
         let law = LockedLaw::new([0.0; LockedLaw::SHARES.len()], friction.limit());

@@ -53,6 +53,8 @@ pub struct DaysRequest<'a> {
     pub least: (f64, f64),
     /// Whether every day is lived with real periods.
     pub every_day: bool,
+    /// Balances of the whole cable between real periods after which days ought to repeat: at least one a linear solve.
+    pub most_balances: u64,
 }
 
 /// A day's extremes.
@@ -224,7 +226,7 @@ where
         };
         let mut beside = today.less(&self.again(before)?);
         while self.done < count {
-            if self.corrected > PATIENCE {
+            if self.corrected > PATIENCE || self.living.rate.balances > self.request.most_balances {
                 return Err(JumpError::NeverPeriodic { days: self.done }.into());
             }
             for _ in 0..block.min(count - self.done - 1) {
@@ -320,6 +322,9 @@ where
 
     /// A frozen day, whose extremes real passes would move by `beside`.
     fn frozen(&mut self, beside: &Extremes) -> Result<Extremes, E> {
+        if self.living.rate.balances > self.request.most_balances {
+            return Err(JumpError::NeverPeriodic { days: self.done }.into());
+        }
         let lived = self.living.frozen()?;
         self.done += 1;
         let extremes = lived.extremes.plus(beside);

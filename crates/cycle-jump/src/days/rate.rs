@@ -28,8 +28,9 @@ pub struct Drive {
 #[derive(Debug)]
 pub struct RateStep {
     pub law: LockedLaw,
-    /// Linear solves so far.
+    /// Linear solves so far, and balances: one a solve, and more where the line search asks for them.
     pub sweeps: u64,
+    pub balances: u64,
     limit: f64,
     /// The last advance, from which the next is sought.
     advance: Vec<f64>,
@@ -46,6 +47,7 @@ impl RateStep {
         Self {
             law,
             sweeps: 0,
+            balances: 0,
             limit,
             advance: zeros(),
             place: zeros(),
@@ -172,6 +174,7 @@ impl RateStep {
             residual,
             slope,
             step,
+            balances,
             ..
         } = self;
         let moved = advance.iter().zip(&*step).map(|(v, step)| v + share * step);
@@ -179,6 +182,7 @@ impl RateStep {
             *place = base + reach * v;
         }
         cable.needed(place, drive.thermal_force, friction);
+        *balances += 1;
         let mut largest = 0.0_f64;
         for i in cable.free() {
             let (found, steepness) = law.with_defect(advance[i] + share * step[i], drive.defect[i]);
