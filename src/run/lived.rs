@@ -155,7 +155,7 @@ impl<'a> Living<'a> {
         };
         let mut simulation = Simulation::new(&task)?;
         let day = self.day(knots);
-        let law = locked_law(&task, period, day.period)?;
+        let (law, of_law) = locked_law(&task, period, day.period)?;
         let count = scene.traffic.passes;
         let scale = Scale::new(scene.friction_limit(), peak(&ground.motions));
         let days = count.div_ceil(day.passes);
@@ -190,6 +190,7 @@ impl<'a> Living<'a> {
         )?;
         task.finish(&lived.records);
         let mut passes = simulation.passes(lived.records.clone(), lived.state.clone(), lived.simulated);
+        passes.statistics += of_law;
         passes.statistics.sweeps += lived.sweeps as usize;
         passes.statistics.node_updates += lived.sweeps as usize * mesh.nodes();
         Ok(Lived { passes, days: lived })
