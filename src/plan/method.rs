@@ -4,7 +4,7 @@
 //! by at most (v/c)². Long traffic is simulated in part: its passes change the cable ever more slowly, and jumps between
 //! simulated ones follow that (crate `cycle-jump`). Explicit steps are taken only where the scene names them.
 
-use cable_dem::{Order, inertia_ratio};
+use cable_dem::{Explicit, ExplicitOptions, Order, inertia_ratio};
 
 use super::mesh::Levels;
 use super::period::Period;
@@ -16,7 +16,7 @@ use crate::scene::{Scene, SolverMethod};
 const QUASI_STATIC_SECONDS: f64 = 1.1e-8;
 const DYNAMIC_SECONDS: f64 = 6e-8;
 const EXPLICIT_SECONDS: f64 = 1e-9;
-/// Speed of waves in the cable beside the vehicle's time step, for the explicit solver's share of the work.
+/// Time steps of the explicit solver per step of a vehicle, as a rule.
 const EXPLICIT_STEPS: f64 = 40.0;
 /// Periods that are simulated at the start, and then for every factor e of periods: half of all scenes need fewer, and nearly all.
 const TYPICAL_PERIODS: (f64, f64) = (12.0, 2.2);
@@ -197,6 +197,24 @@ pub struct Estimates {
     explicit: f64,
 }
 
+/// Time steps per step of a vehicle where the scene names the explicit method: they follow waves in the cable, stiff ends and slow vehicles.
+fn explicit_steps(scene: &Scene, levels: &Levels) -> Option<f64> {
+    if scene.solver.method != SolverMethod::Explicit {
+        return None;
+    }
+    let first = levels.first();
+    let (mesh, cable) = (levels.mesh(first).ok()?, cable::cable(scene).ok()?);
+    let solver = Explicit::new(cable, mesh, cable::mass(scene), ExplicitOptions::default()).ok()?;
+    let time_step = scene.solver.time_step.unwrap_or(solver.limits().advised());
+    let (_, step) = levels.spacing(first);
+    let all: f64 = scene.vehicles.iter().map(|of_traffic| of_traffic.share).sum();
+    let steps = scene.vehicles.iter().map(|of_traffic| {
+        let advance = of_traffic.vehicle.speed() * time_step;
+        of_traffic.share / all * (step / advance).max(1.0)
+    });
+    Some(steps.sum())
+}
+
 impl Estimates {
     fn new(scene: &Scene, levels: &Levels, period: &Period) -> Result<Self, Error> {
         let cable = cable::cable(scene)?;
@@ -222,7 +240,7 @@ impl Estimates {
             drawn: period.other.is_some() && matches!(scene.traffic.order, Order::Random { .. }),
             quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(first, 1),
             dynamic: DYNAMIC_SECONDS * lattice,
-            explicit: EXPLICIT_SECONDS * EXPLICIT_STEPS * lattice,
+            explicit: EXPLICIT_SECONDS * explicit_steps(scene, levels).unwrap_or(EXPLICIT_STEPS) * lattice,
         })
     }
 
