@@ -1,7 +1,7 @@
 //! Random scenes over the whole allowed range of every key: what comes of each, and whether it can be true.
 //!
 //! ```sh
-//! cargo run --release --example whole_range -- 4500 docs/charts/whole-range.csv
+//! cargo run --release --example whole_range -- 10000 docs/charts/whole-range.csv
 //! ```
 //!
 //! The first number says how many scenes, the file takes a row of each; `scene 13` prints one of them. One in twenty is computed again, on far finer

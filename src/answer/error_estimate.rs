@@ -101,6 +101,15 @@ impl Scale {
             movement: SMALL * peak,
         }
     }
+
+    /// Whether nothing slips in any of these passes, or so little that the forces it leaves count as nothing: on a coarse mesh a spring at
+    /// the end may move where elsewhere a finer one would show slip.
+    pub fn is_still(&self, records: &[Record]) -> bool {
+        records.iter().all(|record| {
+            let outcome = &record.outcome;
+            outcome.dissipated == 0.0 || outcome.max_compression.max(outcome.max_tension) < self.force
+        })
+    }
 }
 
 /// The error of a run by its parts.

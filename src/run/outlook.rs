@@ -183,10 +183,7 @@ impl Known<'_> {
         if level >= levels.finest() || levels.mesh(level + 1).is_err() {
             return [1.0, 0.0];
         }
-        let still = self.early[0]
-            .records
-            .iter()
-            .all(|record| record.outcome.dissipated == 0.0);
+        let still = self.scale.is_still(&self.early[0].records);
         if level == self.coarsest || still && level < SHARP {
             return [0.0; 2];
         }

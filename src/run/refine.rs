@@ -222,7 +222,7 @@ impl Refinement<'_> {
         // A corner of an exact step is about as much work as a node.
         let work = last.statistics.node_updates + last.statistics.corners;
         // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
-        let still = last.records.iter().all(|record| record.outcome.dissipated == 0.0);
+        let still = self.scale().is_still(&last.records);
         let is_seen = self.is_known(passes) && (!still || level >= SHARP);
         let others = error.total().less(error.passes);
         let smaller = Shares::both((1.0 - jumps::SMALLER_SHARE) * tolerance);
