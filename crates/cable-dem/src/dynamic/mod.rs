@@ -161,7 +161,10 @@ impl Moving {
         };
         let steps = (duct.duration() / time_step).round() as usize;
         let mut prediction = Prediction::default();
-        prediction.fit(steps * mesh.stride() + nodes * mesh.phases(), mesh.phases());
+        prediction.fit(
+            (steps * mesh.stride()).div_ceil(mesh.phases()) + nodes,
+            mesh.phases(),
+        );
         solver.start(largest(&state.displacement, duct.peak()));
         duct.displacement(0.0, &mut self.duct);
         let elastic = lumped.elastic_energy(&state.displacement);

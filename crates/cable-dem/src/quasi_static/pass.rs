@@ -9,7 +9,7 @@ use super::supports::Supports;
 use super::window::{self, Needed, Room, Window};
 use crate::ends::{Balance, EndReader};
 use crate::outcome::Recorder;
-use crate::step::{Chain, Contact, Load, Prediction, StepSolver, Stretch, largest};
+use crate::step::{Chain, Contact, Load, Prediction, StepSolver, Stretch, count_different, largest};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
 /// A window's edge is quiet when the force its last move put on the next node is below this share of [`UNBALANCED_SHARE`].
@@ -184,8 +184,10 @@ impl ForwardSolver {
 
     /// Anchors of the nodes in `stretch`; their contact states stay those last solved.
     fn anchor(&mut self, stretch: Stretch) {
-        for i in stretch.nodes() {
-            self.anchor[i] = self.r[i] + self.step.chain.compliance * self.g[i];
+        let nodes = stretch.nodes();
+        let state = self.r[nodes.clone()].iter().zip(&self.g[nodes.clone()]);
+        for (anchor, (r, g)) in self.anchor[nodes].iter_mut().zip(state) {
+            *anchor = r + self.step.chain.compliance * g;
         }
     }
 
@@ -203,8 +205,7 @@ impl ForwardSolver {
 
     /// At how many nodes the contact states of the last pass differ from those just solved.
     fn misses(&self, (known, states): (Stretch, &[Contact])) -> usize {
-        let pairs = self.step.trial.contact[known.nodes()].iter().zip(states);
-        pairs.filter(|(now, then)| now != then).count()
+        count_different(&self.step.trial.contact[known.nodes()], states)
     }
 
     /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state.
@@ -251,14 +252,25 @@ impl ForwardSolver {
             let moved = (trial.r[inner] - self.r[inner]).abs();
             chain.stiffness * moved <= QUIET * UNBALANCED_SHARE * chain.limit * chain.tributary[edge]
         });
-        for i in stretch.nodes() {
-            if trial.contact[i] != Contact::Stuck {
-                let slip = self.anchor[i] - trial.r[i] - chain.compliance * trial.g[i];
-                self.recorder.dissipated += chain.tributary[i] * chain.limit * slip.abs();
-            }
-        }
-        self.r[stretch.nodes()].copy_from_slice(&trial.r[stretch.nodes()]);
-        self.g[stretch.nodes()].copy_from_slice(&trial.g[stretch.nodes()]);
+        let nodes = stretch.nodes();
+        let (r, g) = (&trial.r[nodes.clone()], &trial.g[nodes.clone()]);
+        // What slips beside the anchor; zero, but for rounding, where a node sticks.
+        let slips = trial.contact[nodes.clone()]
+            .iter()
+            .zip(&self.anchor[nodes.clone()])
+            .zip(r.iter().zip(g))
+            .zip(&chain.tributary[nodes.clone()])
+            .map(|(((contact, anchor), (r, g)), weight)| {
+                let slip = (anchor - r - chain.compliance * g).abs();
+                if *contact == Contact::Stuck {
+                    0.0
+                } else {
+                    weight * slip
+                }
+            });
+        self.recorder.dissipated += chain.limit * slips.sum::<f64>();
+        self.r[nodes.clone()].copy_from_slice(r);
+        self.g[nodes].copy_from_slice(g);
         let first = passage.first_point(snapshot);
         Ok(Solution {
             solved: stretch,

@@ -186,10 +186,9 @@ impl Passage {
         self.positions.len()
     }
 
-    /// Number of lattice points in the vehicle's frame, and of those per node spacing.
+    /// Number of lattice points of each phase, and of phases.
     pub(super) fn lattice(&self) -> (usize, usize) {
-        let phases = self.phases.len();
-        (phases * self.phases[0].adherent.len(), phases)
+        (self.phases[0].adherent.len(), self.phases.len())
     }
 
     /// Lattice point in the vehicle's frame at which node 0 stands.

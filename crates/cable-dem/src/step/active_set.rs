@@ -9,8 +9,9 @@ use super::chain::{Chain, Contact, Load, Stretch, Trial};
 use super::elimination::Rows;
 use super::tolerance::Tolerance;
 
-/// Linear solves after which the iteration counts as cycling.
-const MAX_SWEEPS: usize = 24;
+/// Linear solves after which the iteration counts as cycling: nine in ten steps take one, and what takes more than a few costs more than the
+/// exact step. Node updates of five scenes under Coulomb's law, beside 24 solves: 3 to 25 % fewer.
+const MAX_SWEEPS: usize = 8;
 
 /// What an iteration came to.
 pub(super) struct Iterated {

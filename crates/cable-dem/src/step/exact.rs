@@ -8,7 +8,7 @@
 //!
 //! At the right end the graph meets what holds the chain, and the corners passed on the way back tell which contact
 //! states hold. The method is direct: it cannot cycle. Each node touches the corners between its own slip limits and the
-//! last node's only ([`super::graph`]), except where supports are; the way there and back still costs as much as tens of
+//! last node's only ([`super::graph`]), except where supports are; the way there and back still costs as much as a few
 //! linear solves, so that [`super::active_set`] goes first. Graphs of this kind are known from total-variation filtering
 //! (N. A. Johnson, J. Comput. Graph. Stat. 22 (2013) 246).
 

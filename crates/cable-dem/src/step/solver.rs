@@ -1,6 +1,6 @@
 //! Solving a step: iterate; where that cycles, take the exact step.
 //!
-//! The exact step costs tens of linear solves. With a mass at every node its work grows with the square of the nodes; there the
+//! The exact step costs a few linear solves. With a mass at every node its work grows with the square of the nodes; there the
 //! contact states are first led from those of a softer sheath to those of the real one: under Coulomb's law with inertia the work is
 //! 1.3 to 2.3 times as much without that, measured on three cables over six passes.
 

@@ -47,9 +47,9 @@ fn a_quasi_static_pass() -> Outcome {
                 let zone = 20.0 / spacing;
                 let single_steps = ((length + 2.0 * APPROACH) / step).round() as usize;
                 assert_at_most("nodes a step", work.node_updates, zone, single_steps, work);
-                // The iteration cycles where contact begins, and next to never once the last pass is remembered.
-                let cycles = if passes == 1 { 0.025 } else { 0.001 };
-                assert_at_most("exact steps a step", work.exact_steps, cycles, work.steps, work);
+                // The iteration is given up where contact begins, and next to never once the last pass is remembered.
+                let given_up = if passes == 1 { 0.035 } else { 0.001 };
+                assert_at_most("exact steps a step", work.exact_steps, given_up, work.steps, work);
             }
         }
     }
@@ -57,7 +57,7 @@ fn a_quasi_static_pass() -> Outcome {
 }
 
 /// A cable so stiff that it slides as a whole, under Coulomb's law: half the duct is one window, and the iteration cycles
-/// often. What it then costs is the failed iteration (24 solves) and the exact step.
+/// often. What it then costs is the failed iteration (8 solves) and the exact step.
 #[test]
 fn a_quasi_static_pass_of_a_stiff_cable() -> Outcome {
     let size = (300.0, 0.2, 0.1);
@@ -71,8 +71,8 @@ fn a_quasi_static_pass_of_a_stiff_cable() -> Outcome {
     for passes in [1, 2, 3] {
         let work = scene.quasi_static(passes)?.statistics;
         assert_at_most("exact steps a window", work.exact_steps, 0.08, work.windows, work);
-        // One, and 24 and one more where it cycles.
-        let solves = 1.25 + 25.0 * 0.08;
+        // One, and 8 and one more where it cycles.
+        let solves = 1.25 + 9.0 * 0.08;
         assert_at_most("solves a window", work.sweeps, solves, work.windows, work);
         let nodes = 2.5 * scene.mesh.nodes() as f64;
         assert_at_most("nodes a step", work.node_updates, nodes, work.steps, work);
