@@ -17,8 +17,7 @@ use crate::scene::{Scene, SolverMethod};
 const COARSEST: f64 = 3.0;
 /// Fewest elements of a short duct on level 0.
 const FEWEST: f64 = 8.0;
-/// Steps of the vehicle per node spacing. One alone is as good on fine meshes, at 0.6 of the work, but then the difference between two meshes
-/// does not show the error of the step.
+/// Steps of the vehicle per node spacing. On fine meshes a run takes more or fewer where that is measured to be better.
 const STEPS_PER_SPACING: f64 = 2.0;
 /// Typical errors of the force on each level: medians of 200 random scenes, rounded up, measured against far finer runs
 /// (`tests/planner/honest.rs`). No error is stated below them.
@@ -109,6 +108,14 @@ impl Levels {
             first: mesh.level,
             finest: mesh.level,
             known: Some(mesh.error),
+            ..self
+        }
+    }
+
+    /// The same with so many times as many steps of the vehicle per node spacing.
+    pub fn with_steps(self, factor: f64) -> Self {
+        Self {
+            step: self.step / factor,
             ..self
         }
     }

@@ -19,8 +19,8 @@ use crate::{Error, Progress};
 const FIRST: (f64, f64) = (6.0, 0.8);
 const LARGEST: f64 = 0.06;
 /// What both are multiplied by, and how often at most.
-const FINER: (f64, f64) = (1.0 / 3.0, 0.5);
-const FINEST: usize = 4;
+const FINER: (f64, f64) = (0.5, 0.5);
+const FINEST: usize = 8;
 /// Share of the tolerance that jumps may take; and where a mesh would keep the tolerance with smaller ones.
 const SHARE: f64 = 0.5;
 pub const SMALLER_SHARE: f64 = 0.35;
@@ -37,7 +37,7 @@ const SHORT: f64 = 20.0;
 const COST_OF_A_LEVEL: usize = 4;
 /// Finer jumps take about so many times the passes. No finer ones are looked for where they would take more nodes than this on the
 /// first level: some ten seconds.
-const COST_OF_FINER: usize = 3;
+const COST_OF_FINER: usize = 2;
 const MAX_NODE_UPDATES: usize = 1_000_000_000;
 
 /// Jumps that are good enough.

@@ -16,7 +16,9 @@ mod random;
 mod refine;
 mod solver;
 mod underway;
+mod vehicle_steps;
 mod work;
+mod worth;
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -108,6 +110,7 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
         }
         let refinement = Refinement {
             plan,
+            levels: plan.levels,
             method,
             options,
         };

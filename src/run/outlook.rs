@@ -11,8 +11,9 @@ use cable_dem::Statistics;
 use cycle_jump::Record;
 
 use super::jumps::SMALLER_SHARE;
-use super::refine::{REFINEMENT_COST, SHARP, allowed, worth};
+use super::refine::SHARP;
 use super::work::{GROWTH, Work};
+use super::worth::{REFINEMENT_COST, allowed, worth};
 use crate::answer::error_estimate::{Scale, Shares, difference, of_differences};
 use crate::plan::{Levels, Plan};
 

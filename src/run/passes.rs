@@ -8,7 +8,7 @@ use super::listing::Listing;
 use super::solver::PassSolver;
 use super::underway::OnMesh;
 use crate::answer::error_estimate::Scale;
-use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
+use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond, simulated};
 use crate::cable::{cable, traffic};
 use crate::ground::{length_scale, peak};
 use crate::plan::{CableMethod, Period};
@@ -86,6 +86,14 @@ pub fn force_profile(cable: &DuctedCable, state: &CableState) -> Result<ForcePro
 }
 
 impl Task<'_> {
+    /// Simulates every pass, or few where there is a `way` to jump over the others.
+    pub fn carry_out(&self, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
+        match way {
+            Some(way) => self.with_jumps(way, &simulated(&self.scene.traffic)),
+            None => self.every_pass(),
+        }
+    }
+
     /// Simulates every pass.
     pub fn every_pass(&self) -> Result<Passes, Error> {
         let mut simulation = Simulation::new(self)?;

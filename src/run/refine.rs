@@ -8,28 +8,25 @@ use super::jumps::{self, Found};
 use super::options::RunOptions;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
+use super::vehicle_steps::{FAR, SEEN_BELOW, Steps, VehicleSteps};
+use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, both, worth};
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
-use crate::answer::{DayExtremes, HeatRecord, RandomSpread, listed, simulated};
+use crate::answer::{DayExtremes, HeatRecord, RandomSpread, listed};
 use crate::ground::{peak, road};
-use crate::plan::{Levels, PassMethod, Plan};
+use crate::plan::{CableMethod, Levels, PassMethod, Plan};
 use crate::{Error, Progress, Scene};
 
-/// Most nodes eliminated in all passes on one mesh: about ten seconds.
-pub const MAX_NODE_UPDATES: usize = 2_000_000_000;
-/// The same on a mesh finer than the first, at this tolerance.
-const FINER: (usize, f64) = (1_000_000_000, 0.01);
-/// A mesh twice as fine takes about this many times the node updates.
-pub const REFINEMENT_COST: usize = 4;
 /// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
 pub const SHARP: usize = 3;
 /// Share of the work that finding jumps is taken for.
 pub const FINDING: f64 = 0.3;
-/// What is left to the mesh at least, as a share of the tolerance, or of the largest other error where that is beyond it.
-const LEAST_SHARE: f64 = 0.5;
 
 /// A plan's passes, on whatever level.
+#[derive(Clone, Copy)]
 pub struct Refinement<'a> {
     pub plan: &'a Plan<'a>,
+    /// The plan's, but for the vehicle's steps on fine meshes.
+    pub levels: Levels,
     pub method: PassMethod,
     pub options: &'a RunOptions<'a>,
 }
@@ -62,9 +59,9 @@ impl Refinement<'_> {
             scene,
             ground,
             choice,
-            levels,
             ..
         } = self.plan;
+        let levels = &self.levels;
         let tolerance = scene.solver.tolerance;
         let mut statistics = Statistics::default();
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
@@ -78,10 +75,10 @@ impl Refinement<'_> {
         };
         let left = found.as_ref().map_or(0.0, |_| FINDING);
         let mut parts = self.options.progress.part(left, 1.0).refining();
-        let (level, mut passes) = match levels.known() {
+        let (at, level, mut passes) = match levels.known() {
             Some(known) => {
                 error.mesh = Shares::both(known);
-                (levels.first(), vec![self.on_known_mesh(parts())?])
+                (*self, levels.first(), vec![self.on_known_mesh(parts())?])
             }
             None => self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?,
         };
@@ -91,11 +88,11 @@ impl Refinement<'_> {
         // One mesh alone does not show its error; and no mesh that the scene names is refused for what coarser ones show.
         let alone = passes.len() == 1 && levels.known().is_none();
         let doubtful = levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
-        let mesh = levels.mesh(level)?;
+        let mesh = at.levels.mesh(level)?;
         let finest = passes.pop().expect("the first level was computed");
         error.road = self.road_error(&finest, mesh, way, &mut statistics)?;
         if self.options.verify || alone || doubtful {
-            let finer = self.simulate(level + 1, way, parts(), true)?;
+            let finer = at.simulate(level + 1, way, parts(), true)?;
             statistics += finer.statistics;
             error.mesh = measured(&finest.records, &finer.records, self.scale());
             error.measured = true;
@@ -119,17 +116,18 @@ impl Refinement<'_> {
         })
     }
 
-    /// The passes on mesh after mesh, up to one that is good enough, and its level; with smaller jumps than those `found` where these
-    /// spare a finer mesh.
+    /// The passes on mesh after mesh, up to one that is good enough, its level and the levels it is one of; with smaller jumps than those
+    /// `found` where these spare a finer mesh.
     fn meshes<'p>(
         &self,
         found: &mut Option<Found>,
         error: &mut ErrorParts,
         statistics: &mut Statistics,
         parts: &mut impl FnMut() -> Progress<'p>,
-    ) -> Result<(usize, Vec<Passes>), Error> {
-        let levels = &self.plan.levels;
-        let mut level = levels.first();
+    ) -> Result<(Self, usize, Vec<Passes>), Error> {
+        let mut level = self.levels.first();
+        let mut at = *self;
+        let mut steps = VehicleSteps::default();
         let mut may_be_smaller = true;
         // The passes with larger jumps, until there are some with smaller ones.
         let mut before: Option<(Found, Vec<Passes>)> = None;
@@ -159,24 +157,33 @@ impl Refinement<'_> {
                 }
             };
             loop {
-                let seen = self.look(&passes, level, error);
+                let seen = at.look(&passes, level, steps, error);
                 if seen.is_within {
-                    return Ok((level, passes));
+                    return Ok((at, level, passes));
                 }
                 if seen.would_be_with_smaller_jumps
                     && std::mem::take(&mut may_be_smaller)
                     && let Some(smaller) = self.smaller_jumps(found.as_ref(), statistics)?
                 {
+                    (at, steps) = (*self, VehicleSteps::default());
                     before = found.replace(smaller).map(|larger| (larger, passes));
                     continue 'jumps;
                 }
-                if seen.is_costly || level >= levels.finest() {
-                    return Ok((level, passes));
+                if seen.is_costly || level >= self.levels.finest() {
+                    return Ok((at, level, passes));
                 }
                 let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
-                match self.simulate(level + 1, way.as_ref(), parts(), true) {
+                let may_choose = level >= SHARP && self.method.cable_method() == CableMethod::QuasiStatic;
+                if may_choose && steps.chosen().is_none() {
+                    steps = self.choose_steps(level, way.as_ref(), &mut passes, error, statistics)?;
+                    at.levels = self.levels.with_steps(steps.per_usual());
+                    if steps.chosen() == Some(Steps::Twice) {
+                        level -= SEEN_BELOW;
+                    }
+                }
+                match at.simulate(level + 1, way.as_ref(), parts(), true) {
                     // What is known of coarser meshes counts.
-                    Err(Error::Jumps(_)) if self.is_known(&passes) => return Ok((level, passes)),
+                    Err(Error::Jumps(_)) if self.is_known(&passes) => return Ok((at, level, passes)),
                     finer => passes.push(finer?),
                 }
                 level += 1;
@@ -184,10 +191,42 @@ impl Refinement<'_> {
         }
     }
 
+    /// The vehicle's steps on levels beyond `level`, from the `passes` up to it and a run with half the step on a coarser one. Where twice as
+    /// many are chosen the passes begin anew with that run.
+    fn choose_steps(
+        &self,
+        level: usize,
+        way: Option<&Jumping<'_>>,
+        passes: &mut Vec<Passes>,
+        error: &ErrorParts,
+        statistics: &mut Statistics,
+    ) -> Result<VehicleSteps, Error> {
+        let [.., coarse, fine, _] = &passes[..] else {
+            return Ok(VehicleSteps::default());
+        };
+        let levels = self.levels.with_steps(2.0);
+        let twice = Self { levels, ..*self };
+        let half_step = match twice.simulate(level - SEEN_BELOW, way, Progress::default(), false) {
+            Err(Error::Jumps(_)) => return Ok(VehicleSteps::default()),
+            half_step => half_step?,
+        };
+        let from_coarse = |passes: &Passes| difference(&coarse.records, &passes.records, self.scale());
+        let allowed = allowed(self.plan.scene.solver.tolerance, error.passes);
+        let is_far = !error.mesh.is_within(allowed.times(FAR));
+        let steps = VehicleSteps::new(level, is_far, from_coarse(fine), from_coarse(&half_step));
+        if steps.chosen() == Some(Steps::Twice) {
+            *statistics += work_of(passes);
+            *passes = vec![half_step];
+        } else {
+            *statistics += half_step.statistics;
+        }
+        Ok(steps)
+    }
+
     /// All passes on the only mesh, with jumps as large as they usually may be: what they leave wrong is part of the mesh's known error.
     fn on_known_mesh(&self, progress: Progress<'_>) -> Result<Passes, Error> {
         let way = matches!(self.method, PassMethod::Jumps(_)).then(|| jumps::usual(self.plan));
-        self.simulate(self.plan.levels.first(), way.as_ref(), progress, true)
+        self.simulate(self.levels.first(), way.as_ref(), progress, true)
     }
 
     /// Smaller jumps than those of `found`, if there are any with a smaller error.
@@ -208,15 +247,16 @@ impl Refinement<'_> {
 
     /// Whether `passes` show their error: on one mesh alone they do not.
     fn is_known(&self, passes: &[Passes]) -> bool {
-        passes.len() > 1 || self.plan.levels.named()
+        passes.len() > 1 || self.levels.named()
     }
 
     /// What the `passes` on all meshes up to `level` say, and the mesh's part of their `error`.
-    fn look(&self, passes: &[Passes], level: usize, error: &mut ErrorParts) -> Seen {
+    fn look(&self, passes: &[Passes], level: usize, steps: VehicleSteps, error: &mut ErrorParts) -> Seen {
         let tolerance = self.plan.scene.solver.tolerance;
         if passes.len() > 1 {
             let records: Vec<&[Record]> = passes.iter().map(|p| &p.records[..]).collect();
-            error.mesh = of_mesh(&records, Levels::typical_error(level), self.scale());
+            error.mesh =
+                of_mesh(&records, Levels::typical_error(level), self.scale()) + steps.hidden_error(level);
         }
         let last = &passes[passes.len() - 1];
         // A corner of an exact step is about as much work as a node.
@@ -277,7 +317,7 @@ impl Refinement<'_> {
         }
         let mut scene: Scene = self.plan.scene.clone();
         scene.solver.approach = None;
-        let farther = carry_out(&self.task(&scene, mesh), way)?;
+        let farther = self.task(&scene, mesh).carry_out(way)?;
         *statistics += farther.statistics;
         Ok(difference(&passes.records, &farther.records, self.scale()))
     }
@@ -290,7 +330,7 @@ impl Refinement<'_> {
         known: Option<(usize, &Passes)>,
     ) -> Result<Vec<Passes>, Error> {
         (0..level)
-            .filter(|&coarser| self.plan.levels.mesh(coarser).is_ok())
+            .filter(|&coarser| self.levels.mesh(coarser).is_ok())
             .map(|coarser| match known {
                 Some((level, passes)) if level == coarser => Ok(Passes {
                     // Their work is counted already.
@@ -324,7 +364,7 @@ impl Refinement<'_> {
         progress: Progress<'_>,
         shown: bool,
     ) -> Result<Passes, Error> {
-        let mut task = self.task(self.plan.scene, self.plan.levels.mesh(level)?);
+        let mut task = self.task(self.plan.scene, self.levels.mesh(level)?);
         task.progress = progress;
         task.seen = self
             .options
@@ -333,17 +373,17 @@ impl Refinement<'_> {
         if shown {
             task.stages = self.options.stages;
         }
-        let affordable = MAX_NODE_UPDATES as f64 / self.plan.levels.node_updates(level, 1);
+        let affordable = MAX_NODE_UPDATES as f64 / self.levels.node_updates(level, 1);
         let way = way.map(|way| Jumping {
             beyond: shown,
             most_passes: affordable as u64,
             ..*way
         });
-        if let (Some(_), Some(way)) = (self.plan.levels.known(), &way) {
+        if let (Some(_), Some(way)) = (self.levels.known(), &way) {
             // Nobody looks at every pass.
             return task.with_jumps(way, &listed(task.scene.traffic.passes));
         }
-        carry_out(&task, way.as_ref())
+        task.carry_out(way.as_ref())
     }
 }
 
@@ -353,33 +393,4 @@ fn work_of(passes: &[Passes]) -> Statistics {
         work += passes.statistics;
     }
     work
-}
-
-/// Node updates that a finer mesh is worth: the more the less error is asked for.
-pub fn worth(tolerance: f64) -> usize {
-    let (updates, at) = FINER;
-    ((updates as f64 * at / tolerance) as usize).clamp(updates, MAX_NODE_UPDATES)
-}
-
-/// What of the `tolerance` is left beside `others`, which no finer mesh takes away.
-pub fn allowed(tolerance: f64, others: Shares) -> Shares {
-    Shares::both(tolerance).less(others).max(Shares::both(
-        LEAST_SHARE * tolerance.max(others.force).max(others.movement),
-    ))
-}
-
-fn carry_out(task: &Task<'_>, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
-    match way {
-        Some(way) => task.with_jumps(way, &simulated(&task.scene.traffic)),
-        None => task.every_pass(),
-    }
-}
-
-/// Runs two computations side by side where a thread is free; the first error wins.
-pub(super) fn both<A: Send, B: Send>(
-    first: impl FnOnce() -> Result<A, Error> + Send,
-    second: impl FnOnce() -> Result<B, Error> + Send,
-) -> Result<(A, B), Error> {
-    let (first, second) = rayon::join(first, second);
-    Ok((first?, second?))
 }

@@ -5,3 +5,4 @@ mod cost;
 mod forecast;
 mod honest;
 mod scenes;
+mod vehicle_steps;

@@ -124,17 +124,37 @@ impl RestingCable {
         let (lo, hi) = (chain.free.lo, chain.free.hi);
         y[..lo].fill(0.0);
         y[hi + 1..].fill(0.0);
-        let (mut above, mut before) = (0.0, 0.0);
-        for i in lo..=hi {
-            let off = slope(i) * chain.stiffness / chain.tributary[i];
+        let off = |i: usize| slope(i) * chain.stiffness * chain.per_tributary[i];
+        // Row i, beside the one before it: its factor, and what it makes of b.
+        let eliminated = |i: usize, b: f64, (above, before): (f64, f64)| {
+            let off = off(i);
             let inverse = 1.0 / (1.0 + off * (chain.diagonal[i] - above));
-            above = off * inverse;
-            before = y[i] * inverse + above * before;
-            factor[i] = above;
-            y[i] = before;
+            (off * inverse, (b + off * before) * inverse)
+        };
+        // From both ends to the middle: each row waits for the one before it, and two can wait at once.
+        let middle = lo + (hi - lo) / 2;
+        let (mut below, mut above) = ((0.0, 0.0), (0.0, 0.0));
+        let mut j = hi;
+        for i in lo..middle {
+            below = eliminated(i, y[i], below);
+            above = eliminated(j, y[j], above);
+            (factor[i], y[i]) = below;
+            (factor[j], y[j]) = above;
+            j -= 1;
         }
-        for i in (lo..hi).rev() {
+        while j > middle {
+            above = eliminated(j, y[j], above);
+            (factor[j], y[j]) = above;
+            j -= 1;
+        }
+        let off = off(middle);
+        let pivot = 1.0 + off * (chain.diagonal[middle] - below.0 - above.0);
+        y[middle] = (y[middle] + off * (below.1 + above.1)) / pivot;
+        for i in (lo..middle).rev() {
             y[i] += factor[i] * y[i + 1];
+        }
+        for i in middle + 1..=hi {
+            y[i] += factor[i] * y[i - 1];
         }
     }
 
