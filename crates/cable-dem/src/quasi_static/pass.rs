@@ -309,8 +309,8 @@ fn slipped(
     };
     let whole = count - count % 4;
     for i in (0..whole).step_by(4) {
-        for lane in 0..4 {
-            sums[lane] += of(i + lane);
+        for (lane, sum) in sums.iter_mut().enumerate() {
+            *sum += of(i + lane);
         }
     }
     sums.iter().sum::<f64>() + (whole..count).map(of).sum::<f64>()
