@@ -212,7 +212,8 @@ impl Refinement<'_> {
         };
         let from_coarse = |passes: &Passes| difference(&coarse.records, &passes.records, self.scale());
         let allowed = allowed(self.plan.scene.solver.tolerance, error.passes);
-        let is_far = !error.mesh.is_within(allowed.times(FAR));
+        // Between runs with jumps the step is not all that differs.
+        let is_far = way.is_none() && !error.mesh.is_within(allowed.times(FAR));
         let steps = VehicleSteps::new(level, is_far, from_coarse(fine), from_coarse(&half_step));
         if steps.chosen() == Some(Steps::Twice) {
             *statistics += work_of(passes);
