@@ -8,7 +8,7 @@ use super::jumps::{self, Found};
 use super::options::RunOptions;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
-use super::vehicle_steps::{FAR, SEEN_BELOW, Steps, VehicleSteps};
+use super::vehicle_steps::{SEEN_BELOW, VehicleSteps};
 use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, both, worth};
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use crate::answer::{DayExtremes, HeatRecord, RandomSpread, listed};
@@ -175,11 +175,8 @@ impl Refinement<'_> {
                 let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
                 let may_choose = level >= SHARP && self.method.cable_method() == CableMethod::QuasiStatic;
                 if may_choose && steps.chosen().is_none() {
-                    steps = self.choose_steps(level, way.as_ref(), &mut passes, error, statistics)?;
+                    steps = self.choose_steps(level, way.as_ref(), &passes, statistics)?;
                     at.levels = self.levels.with_steps(steps.per_usual());
-                    if steps.chosen() == Some(Steps::Twice) {
-                        level -= SEEN_BELOW;
-                    }
                 }
                 match at.simulate(level + 1, way.as_ref(), parts(), true) {
                     // What is known of coarser meshes counts.
@@ -191,17 +188,15 @@ impl Refinement<'_> {
         }
     }
 
-    /// The vehicle's steps on levels beyond `level`, from the `passes` up to it and a run with half the step on a coarser one. Where twice as
-    /// many are chosen the passes begin anew with that run.
+    /// The vehicle's steps on levels beyond `level`, from the `passes` up to it and a run with half the step on a coarser one.
     fn choose_steps(
         &self,
         level: usize,
         way: Option<&Jumping<'_>>,
-        passes: &mut Vec<Passes>,
-        error: &ErrorParts,
+        passes: &[Passes],
         statistics: &mut Statistics,
     ) -> Result<VehicleSteps, Error> {
-        let [.., coarse, fine, _] = &passes[..] else {
+        let [.., coarse, fine, _] = passes else {
             return Ok(VehicleSteps::default());
         };
         let levels = self.levels.with_steps(2.0);
@@ -211,17 +206,12 @@ impl Refinement<'_> {
             half_step => half_step?,
         };
         let from_coarse = |passes: &Passes| difference(&coarse.records, &passes.records, self.scale());
-        let allowed = allowed(self.plan.scene.solver.tolerance, error.passes);
-        // Between runs with jumps the step is not all that differs.
-        let is_far = way.is_none() && !error.mesh.is_within(allowed.times(FAR));
-        let steps = VehicleSteps::new(level, is_far, from_coarse(fine), from_coarse(&half_step));
-        if steps.chosen() == Some(Steps::Twice) {
-            *statistics += work_of(passes);
-            *passes = vec![half_step];
-        } else {
-            *statistics += half_step.statistics;
-        }
-        Ok(steps)
+        *statistics += half_step.statistics;
+        Ok(VehicleSteps::new(
+            level,
+            from_coarse(fine),
+            from_coarse(&half_step),
+        ))
     }
 
     /// All passes on the only mesh, with jumps as large as they usually may be: what they leave wrong is part of the mesh's known error.

@@ -1,22 +1,16 @@
 //! How many steps the vehicle takes per node spacing on fine meshes.
 //!
 //! Each level halves the spacing and the step together, so that two levels differ by the errors of both. One more run on a coarse
-//! level, with half the step, shows the step's part alone. Where that is most of what the levels differ by, twice as many steps on coarser meshes are
-//! worth more than finer meshes: half the work. Where it is next to nothing, half as many steps do, at half the work too; then the levels
-//! no longer show what the step leaves, and it is counted as what the run has shown, halved with every further level.
+//! level, with half the step, shows the step's part alone. Where that is next to nothing, half as many steps do, at half the work; then the
+//! levels no longer show what the step leaves, and it is counted as what the run has shown, halved with every further level.
 //!
-//! Of 23 random scenes over the whole range that need 48 nodes per length scale and more, the step's part on 12 nodes is above 0.6 in four and
-//! below 0.1 in thirteen; of the eleven that need 96 and more it is below 0.1 in ten.
+//! Of 23 random scenes over the whole range that need 48 nodes per length scale and more, the step's part on 12 nodes is below 0.1 in
+//! thirteen; of the eleven that need 96 and more in ten.
 
 use crate::answer::error_estimate::Shares;
 
-/// Share of the difference between two levels from which on it is the step that counts, and below which it does not.
-const DECIDES: f64 = 0.6;
+/// Share of the difference between two levels below which the step does not count.
 const NEGLIGIBLE: f64 = 0.1;
-
-/// How many times the error that is allowed a level leaves where two more of the usual kind would be needed at least: twice as many steps
-/// cost half as much then, and twice as much where one more level would do.
-pub const FAR: f64 = 2.5;
 
 /// How many levels below the last one the step is looked at: there a run costs a thirtieth of that on the next level.
 pub const SEEN_BELOW: usize = 2;
@@ -27,8 +21,6 @@ pub enum Steps {
     /// As many.
     #[default]
     Usual,
-    /// Twice as many.
-    Twice,
     /// Half as many.
     Half,
 }
@@ -42,12 +34,10 @@ pub struct VehicleSteps {
 }
 
 impl VehicleSteps {
-    /// For the levels beyond `level`: the one [`SEEN_BELOW`] it differs from the next by `levels`, and half the step changes it by `step`;
-    /// whether the error `is_far` above what is allowed.
-    pub fn new(level: usize, is_far: bool, levels: Shares, step: Shares) -> Self {
+    /// For the levels beyond `level`: the one [`SEEN_BELOW`] it differs from the next by `levels`, and half the step changes it by `step`.
+    pub fn new(level: usize, levels: Shares, step: Shares) -> Self {
         let largest = |shares: Shares| shares.force.max(shares.movement);
         let steps = match largest(step) / largest(levels) {
-            share if share > DECIDES && is_far => Steps::Twice,
             share if share < NEGLIGIBLE => Steps::Half,
             _ => Steps::Usual,
         };
@@ -55,7 +45,7 @@ impl VehicleSteps {
         // the step left there.
         let hidden = match steps {
             Steps::Half => step.times(0.5),
-            _ => Shares::default(),
+            Steps::Usual => Shares::default(),
         };
         Self {
             chosen: Some(steps),
@@ -72,7 +62,6 @@ impl VehicleSteps {
     pub fn per_usual(self) -> f64 {
         match self.chosen.unwrap_or_default() {
             Steps::Usual => 1.0,
-            Steps::Twice => 2.0,
             Steps::Half => 0.5,
         }
     }
@@ -91,29 +80,22 @@ mod tests {
     #[test]
     fn steps_follow_what_they_change() {
         let levels = Shares::both(1e-2);
-        let chosen = |is_far, step: f64| VehicleSteps::new(3, is_far, levels, Shares::both(step));
-        for (is_far, step, expected, per_usual) in [
-            (true, 7e-3, Steps::Twice, 2.0),
-            // One more level will do.
-            (false, 7e-3, Steps::Usual, 1.0),
-            (true, 3e-3, Steps::Usual, 1.0),
-            (false, 9e-4, Steps::Half, 0.5),
-        ] {
-            let steps = chosen(is_far, step);
+        for (step, expected, per_usual) in [(3e-3, Steps::Usual, 1.0), (9e-4, Steps::Half, 0.5)] {
+            let steps = VehicleSteps::new(3, levels, Shares::both(step));
             assert_eq!((steps.chosen(), steps.per_usual()), (Some(expected), per_usual));
         }
         // Nothing moves on either level.
-        let still = VehicleSteps::new(3, false, Shares::default(), Shares::default());
+        let still = VehicleSteps::new(3, Shares::default(), Shares::default());
         assert_eq!(still.chosen(), Some(Steps::Usual));
     }
 
     #[test]
     fn what_half_as_many_steps_leave_is_counted() {
         // At first order a step h leaves 8e-4 on level 1. Half of it changes that by 4e-4. Level 4 has the steps of level 3, h/4.
-        let half = VehicleSteps::new(3, true, Shares::both(1e-2), Shares::both(4e-4));
+        let half = VehicleSteps::new(3, Shares::both(1e-2), Shares::both(4e-4));
         assert!((half.hidden_error(4).force / 2e-4 - 1.0).abs() < 1e-12);
         assert!((half.hidden_error(5).movement / 1e-4 - 1.0).abs() < 1e-12);
-        let twice = VehicleSteps::new(3, true, Shares::both(1e-2), Shares::both(8e-3));
-        assert_eq!(twice.hidden_error(4), Shares::default());
+        let usual = VehicleSteps::new(3, Shares::both(1e-2), Shares::both(8e-3));
+        assert_eq!(usual.hidden_error(4), Shares::default());
     }
 }
