@@ -17,7 +17,7 @@ use crate::scene::{Scene, SolverMethod};
 const COARSEST: f64 = 3.0;
 /// Fewest elements of a short duct on level 0.
 const FEWEST: f64 = 8.0;
-/// Steps of the vehicle per node spacing. On fine meshes a run takes more or fewer where that is measured to be better.
+/// Steps of the vehicle per node spacing. On fine meshes a run takes one where that is measured to do.
 const STEPS_PER_SPACING: f64 = 2.0;
 /// Typical errors of the force on each level: medians of 200 random scenes, rounded up, measured against far finer runs
 /// (`tests/planner/honest.rs`). No error is stated below them.
@@ -45,6 +45,8 @@ pub struct Levels {
     step: f64,
     /// Whether the vehicle's step follows the spacing; a law without memory depends on it.
     steps_follow: bool,
+    /// The level from which on there are half as many steps per node spacing.
+    half_as_many_from: usize,
     /// The level to begin with, and the finest one to try.
     first: usize,
     finest: usize,
@@ -94,6 +96,7 @@ impl Levels {
             spacing,
             step,
             steps_follow,
+            half_as_many_from: usize::MAX,
             first: if named { NAMED } else { wanted.max(1) },
             finest: if named { NAMED } else { FINEST },
             named,
@@ -112,10 +115,18 @@ impl Levels {
         }
     }
 
-    /// The same with so many times as many steps of the vehicle per node spacing.
-    pub fn with_steps(self, factor: f64) -> Self {
+    /// The same with half the step of the vehicle on every level.
+    pub fn with_half_the_step(self) -> Self {
         Self {
-            step: self.step / factor,
+            step: 0.5 * self.step,
+            ..self
+        }
+    }
+
+    /// The same with half as many steps of the vehicle per node spacing from `level` on.
+    pub fn with_half_as_many_steps_from(self, level: usize) -> Self {
+        Self {
+            half_as_many_from: level,
             ..self
         }
     }
@@ -148,8 +159,9 @@ impl Levels {
     /// Node spacing and vehicle step on `level` \[m\].
     pub fn spacing(&self, level: usize) -> (f64, f64) {
         let share = 0.5_f64.powi(level as i32);
+        let wider = if level >= self.half_as_many_from { 2.0 } else { 1.0 };
         let step = if self.steps_follow {
-            share * self.step
+            wider * share * self.step
         } else {
             self.step
         };

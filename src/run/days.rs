@@ -7,11 +7,12 @@
 use cable_dem::{CableError, Statistics};
 use cycle_jump::JumpError;
 
+use super::both::both;
 use super::judge::{judge, mesh_reason};
 use super::lived::{Lived, Living};
 use super::options::RunOptions;
 use super::refine::{FINDING, Solved};
-use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, both, worth};
+use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, worth};
 use crate::answer::error_estimate::{self, ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
 use crate::plan::{PassMethod, Plan};

@@ -1,6 +1,7 @@
 //! Carrying a plan out: the passes on ever finer meshes, and the answer.
 
 mod assemble;
+mod both;
 mod days;
 mod days_outlook;
 mod forecast;

@@ -3,13 +3,14 @@
 use cable_dem::{CableError, Mesh, Statistics};
 use cycle_jump::Record;
 
+use super::both::both;
 use super::judge::{judge, mesh_reason};
 use super::jumps::{self, Found};
 use super::options::RunOptions;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use super::vehicle_steps::{SEEN_BELOW, VehicleSteps};
-use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, both, worth};
+use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, worth};
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use crate::answer::{DayExtremes, HeatRecord, RandomSpread, listed};
 use crate::ground::{peak, road};
@@ -54,31 +55,31 @@ struct Seen {
 
 impl Refinement<'_> {
     /// Refines until the estimated error is within the tolerance, unless the scene says how fine to be.
-    pub fn solve(&self, warnings: &mut Vec<String>) -> Result<Solved, Error> {
+    pub fn solve(mut self, warnings: &mut Vec<String>) -> Result<Solved, Error> {
         let Plan {
             scene,
             ground,
             choice,
             ..
         } = self.plan;
-        let levels = &self.levels;
         let tolerance = scene.solver.tolerance;
         let mut statistics = Statistics::default();
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
         // What no mesh makes smaller.
         error_estimate::judge(&error, tolerance)?;
         let mut found = match self.method {
-            PassMethod::Jumps(_) if levels.known().is_none() => {
+            PassMethod::Jumps(_) if self.levels.known().is_none() => {
                 Some(self.jumps(jumps::share(self.plan), None, &mut statistics)?)
             }
             _ => None,
         };
         let left = found.as_ref().map_or(0.0, |_| FINDING);
         let mut parts = self.options.progress.part(left, 1.0).refining();
-        let (at, level, mut passes) = match levels.known() {
+        let known = self.levels.known();
+        let (level, mut passes) = match known {
             Some(known) => {
                 error.mesh = Shares::both(known);
-                (*self, levels.first(), vec![self.on_known_mesh(parts())?])
+                (self.levels.first(), vec![self.on_known_mesh(parts())?])
             }
             None => self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?,
         };
@@ -86,13 +87,13 @@ impl Refinement<'_> {
         let way = way.as_ref();
         statistics += work_of(&passes);
         // One mesh alone does not show its error; and no mesh that the scene names is refused for what coarser ones show.
-        let alone = passes.len() == 1 && levels.known().is_none();
-        let doubtful = levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
-        let mesh = at.levels.mesh(level)?;
+        let alone = passes.len() == 1 && known.is_none();
+        let doubtful = self.levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
+        let mesh = self.levels.mesh(level)?;
         let finest = passes.pop().expect("the first level was computed");
         error.road = self.road_error(&finest, mesh, way, &mut statistics)?;
         if self.options.verify || alone || doubtful {
-            let finer = at.simulate(level + 1, way, parts(), true)?;
+            let finer = self.simulate(level + 1, way, parts(), true)?;
             statistics += finer.statistics;
             error.mesh = measured(&finest.records, &finer.records, self.scale());
             error.measured = true;
@@ -100,7 +101,7 @@ impl Refinement<'_> {
         judge(&error, self.plan, &mesh, warnings)?;
         let mut random = None;
         if let Some(found) = &found {
-            let task = self.task(scene, levels.mesh(found.level)?);
+            let task = self.task(scene, self.levels.mesh(found.level)?);
             let (spread, work) = random::spread(&task, &found.passes.state, &finest)?;
             statistics += work;
             random = spread;
@@ -116,17 +117,16 @@ impl Refinement<'_> {
         })
     }
 
-    /// The passes on mesh after mesh, up to one that is good enough, its level and the levels it is one of; with smaller jumps than those
-    /// `found` where these spare a finer mesh.
+    /// The passes on mesh after mesh, up to one that is good enough, and its level; with smaller jumps than those `found` where these
+    /// spare a finer mesh.
     fn meshes<'p>(
-        &self,
+        &mut self,
         found: &mut Option<Found>,
         error: &mut ErrorParts,
         statistics: &mut Statistics,
         parts: &mut impl FnMut() -> Progress<'p>,
-    ) -> Result<(Self, usize, Vec<Passes>), Error> {
+    ) -> Result<(usize, Vec<Passes>), Error> {
         let mut level = self.levels.first();
-        let mut at = *self;
         let mut steps = VehicleSteps::default();
         let mut may_be_smaller = true;
         // The passes with larger jumps, until there are some with smaller ones.
@@ -157,30 +157,31 @@ impl Refinement<'_> {
                 }
             };
             loop {
-                let seen = at.look(&passes, level, steps, error);
+                let seen = self.look(&passes, level, steps, error);
                 if seen.is_within {
-                    return Ok((at, level, passes));
+                    return Ok((level, passes));
                 }
                 if seen.would_be_with_smaller_jumps
                     && std::mem::take(&mut may_be_smaller)
                     && let Some(smaller) = self.smaller_jumps(found.as_ref(), statistics)?
                 {
-                    (at, steps) = (*self, VehicleSteps::default());
                     before = found.replace(smaller).map(|larger| (larger, passes));
                     continue 'jumps;
                 }
                 if seen.is_costly || level >= self.levels.finest() {
-                    return Ok((at, level, passes));
+                    return Ok((level, passes));
                 }
                 let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
                 let may_choose = level >= SHARP && self.method.cable_method() == CableMethod::QuasiStatic;
-                if may_choose && steps.chosen().is_none() {
+                if may_choose && steps == VehicleSteps::Unknown {
                     steps = self.choose_steps(level, way.as_ref(), &passes, statistics)?;
-                    at.levels = self.levels.with_steps(steps.per_usual());
+                    if let VehicleSteps::Half { from, .. } = steps {
+                        self.levels = self.levels.with_half_as_many_steps_from(from);
+                    }
                 }
-                match at.simulate(level + 1, way.as_ref(), parts(), true) {
+                match self.simulate(level + 1, way.as_ref(), parts(), true) {
                     // What is known of coarser meshes counts.
-                    Err(Error::Jumps(_)) if self.is_known(&passes) => return Ok((at, level, passes)),
+                    Err(Error::Jumps(_)) if self.is_known(&passes) => return Ok((level, passes)),
                     finer => passes.push(finer?),
                 }
                 level += 1;
@@ -199,10 +200,11 @@ impl Refinement<'_> {
         let [.., coarse, fine, _] = passes else {
             return Ok(VehicleSteps::default());
         };
-        let levels = self.levels.with_steps(2.0);
-        let twice = Self { levels, ..*self };
-        let half_step = match twice.simulate(level - SEEN_BELOW, way, Progress::default(), false) {
-            Err(Error::Jumps(_)) => return Ok(VehicleSteps::default()),
+        let levels = self.levels.with_half_the_step();
+        let halved = Self { levels, ..*self };
+        let half_step = match halved.simulate(level - SEEN_BELOW, way, Progress::default(), false) {
+            // No reason to refuse what goes on without.
+            Err(Error::Jumps(_) | Error::Cable(_)) => return Ok(VehicleSteps::Usual),
             half_step => half_step?,
         };
         let from_coarse = |passes: &Passes| difference(&coarse.records, &passes.records, self.scale());

@@ -15,61 +15,40 @@ const NEGLIGIBLE: f64 = 0.1;
 /// How many levels below the last one the step is looked at: there a run costs a thirtieth of that on the next level.
 pub const SEEN_BELOW: usize = 2;
 
-/// Steps beside the usual number per node spacing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Steps {
-    /// As many.
+/// The steps per node spacing on fine meshes.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum VehicleSteps {
+    /// Not yet looked at.
     #[default]
+    Unknown,
+    /// As many as on coarse meshes.
     Usual,
-    /// Half as many.
-    Half,
-}
-
-/// The choice, once it is made.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct VehicleSteps {
-    chosen: Option<Steps>,
-    /// What half as many leave on a level \[share\] that the difference between levels does not show.
-    hidden: (usize, Shares),
+    /// Half as many from a level on, where they leave an `error` that the difference between levels does not show.
+    Half { from: usize, error: Shares },
 }
 
 impl VehicleSteps {
     /// For the levels beyond `level`: the one [`SEEN_BELOW`] it differs from the next by `levels`, and half the step changes it by `step`.
     pub fn new(level: usize, levels: Shares, step: Shares) -> Self {
         let largest = |shares: Shares| shares.force.max(shares.movement);
-        let steps = match largest(step) / largest(levels) {
-            share if share < NEGLIGIBLE => Steps::Half,
-            _ => Steps::Usual,
-        };
-        // On the next level half as many steps are an eighth of those that were seen to change so much. At first order that change is half of what
-        // the step left there.
-        let hidden = match steps {
-            Steps::Half => step.times(0.5),
-            Steps::Usual => Shares::default(),
-        };
-        Self {
-            chosen: Some(steps),
-            hidden: (level + 1, hidden),
-        }
-    }
-
-    /// The choice, if it is made.
-    pub fn chosen(self) -> Option<Steps> {
-        self.chosen
-    }
-
-    /// Steps beside the usual number.
-    pub fn per_usual(self) -> f64 {
-        match self.chosen.unwrap_or_default() {
-            Steps::Usual => 1.0,
-            Steps::Half => 0.5,
+        // False where nothing moves on either level.
+        if largest(step) / largest(levels) < NEGLIGIBLE {
+            // On the next level the step is then a quarter of the one that was halved. At first order it leaves half of what that changed.
+            Self::Half {
+                from: level + 1,
+                error: step.times(0.5),
+            }
+        } else {
+            Self::Usual
         }
     }
 
     /// What the step leaves on `level` beside what the difference between levels shows.
     pub fn hidden_error(self, level: usize) -> Shares {
-        let (from, error) = self.hidden;
-        error.times(0.5_f64.powi(level.saturating_sub(from) as i32))
+        match self {
+            Self::Half { from, error } if level >= from => error.times(0.5_f64.powi((level - from) as i32)),
+            _ => Shares::default(),
+        }
     }
 }
 
@@ -80,13 +59,12 @@ mod tests {
     #[test]
     fn steps_follow_what_they_change() {
         let levels = Shares::both(1e-2);
-        for (step, expected, per_usual) in [(3e-3, Steps::Usual, 1.0), (9e-4, Steps::Half, 0.5)] {
-            let steps = VehicleSteps::new(3, levels, Shares::both(step));
-            assert_eq!((steps.chosen(), steps.per_usual()), (Some(expected), per_usual));
-        }
+        let chosen = |step: f64| VehicleSteps::new(3, levels, Shares::both(step));
+        assert_eq!(chosen(3e-3), VehicleSteps::Usual);
+        assert!(matches!(chosen(9e-4), VehicleSteps::Half { from: 4, .. }));
         // Nothing moves on either level.
         let still = VehicleSteps::new(3, Shares::default(), Shares::default());
-        assert_eq!(still.chosen(), Some(Steps::Usual));
+        assert_eq!(still, VehicleSteps::Usual);
     }
 
     #[test]
@@ -95,6 +73,7 @@ mod tests {
         let half = VehicleSteps::new(3, Shares::both(1e-2), Shares::both(4e-4));
         assert!((half.hidden_error(4).force / 2e-4 - 1.0).abs() < 1e-12);
         assert!((half.hidden_error(5).movement / 1e-4 - 1.0).abs() < 1e-12);
+        assert_eq!(half.hidden_error(3), Shares::default());
         let usual = VehicleSteps::new(3, Shares::both(1e-2), Shares::both(8e-3));
         assert_eq!(usual.hidden_error(4), Shares::default());
     }

@@ -1,6 +1,5 @@
 //! What a finer mesh may cost, and what error is left to it.
 
-use crate::Error;
 use crate::answer::error_estimate::Shares;
 
 /// Most nodes eliminated in all passes on one mesh: about ten seconds.
@@ -23,13 +22,4 @@ pub fn allowed(tolerance: f64, others: Shares) -> Shares {
     Shares::both(tolerance).less(others).max(Shares::both(
         LEAST_SHARE * tolerance.max(others.force).max(others.movement),
     ))
-}
-
-/// Runs two computations side by side where a thread is free; the first error wins.
-pub fn both<A: Send, B: Send>(
-    first: impl FnOnce() -> Result<A, Error> + Send,
-    second: impl FnOnce() -> Result<B, Error> + Send,
-) -> Result<(A, B), Error> {
-    let (first, second) = rayon::join(first, second);
-    Ok((first?, second?))
 }

