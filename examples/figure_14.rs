@@ -2,7 +2,7 @@
 //!
 //! K. Kashiro et al., section 5: 300 m of duct, held at both ends, at 0.6, 1.5 and 2.0 m depth, under vehicles that move the duct by 35.7 µm
 //! at every depth (Table 3); a single-core cable with μ_d = 0.3, 0.4, 0.5 and a triplex cable with 0.3, 0.4 (Table 2). Figure
-//! 14 shows the largest force in the cable against the passes; its numbers are lost. Table 4 states the tendencies, which are checked here.
+//! 14 shows the largest force in the cable against the passes; its numbers are not published. Table 4 states the tendencies, which are checked here.
 //!
 //! `cargo run --release --example figure_14`
 

@@ -17,6 +17,16 @@ pub fn four_digits(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
 }
 
+/// A node spacing or a vehicle step: three decimals, and two digits of one that is smaller.
+pub fn spacing(length: f64) -> String {
+    let decimals = if length > 0.0 && length < 0.01 {
+        (1.0 - length.log10().floor()) as usize
+    } else {
+        3
+    };
+    format!("{length:.decimals$}")
+}
+
 /// An estimated share as a percentage.
 pub fn percent(share: f64) -> String {
     if share > 0.0 && share < 5e-5 {
@@ -58,6 +68,20 @@ pub fn time(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn no_spacing_is_shown_as_nothing() {
+        let shown = [
+            (12.3456, "12.346"),
+            (0.05, "0.050"),
+            (0.0081, "0.0081"),
+            (0.00032, "0.00032"),
+            (0.0, "0.000"),
+        ];
+        for (length, text) in shown {
+            assert_eq!(spacing(length), text);
+        }
+    }
 
     #[test]
     fn percentages_show_what_is_known() {

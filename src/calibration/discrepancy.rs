@@ -15,7 +15,7 @@ use crate::Error;
 
 /// Length of correlation, in the logarithm of the passes: forces of a wrong law or ground miss the readings by one broad curve over all passes.
 /// Found by the chart `discrepancy` (docs/charts.md). With 1, fits of Coulomb's law to a cable that gives hold the truth in 62 to 82 % of the
-/// draws, with 2 in 93 to 97 %; the other way round, on ground a fifth too stiff they do so in 100 and 73 %.
+/// draws, with 2 in 93 to 97 %; the other way round, where the true ground is a fifth softer they do so in 100 and 73 %.
 pub const LENGTH: f64 = 2.0;
 
 /// Shares that may be asked for: below is less than an instrument shows, above is no knowledge.

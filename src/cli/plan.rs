@@ -8,7 +8,7 @@ use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
 use crate::error::with_causes;
 use crate::occurrence::Occurrence;
-use crate::shown::{four_digits, percent, time};
+use crate::shown::{four_digits, percent, spacing, time};
 use crate::{Forecast, Part, PlanReport};
 
 #[derive(Debug, clap::Args)]
@@ -74,11 +74,11 @@ fn print(plan: &PlanReport) -> Result<(), Failure> {
     );
     writeln!(
         out,
-        "ground {}, cable {}, node spacing {:.3} m, vehicle step {:.3} m; error {error}, time {}",
+        "ground {}, cable {}, node spacing {} m, vehicle step {} m; error {error}, time {}",
         plan.ground,
         plan.cable,
-        plan.node_spacing_m,
-        plan.vehicle_step_m,
+        spacing(plan.node_spacing_m),
+        spacing(plan.vehicle_step_m),
         time(plan.estimated_seconds)
     )?;
     if let Some(occurrence) = &plan.occurrence {

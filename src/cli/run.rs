@@ -16,7 +16,7 @@ use super::workbook::WorkbookArguments;
 use crate::answer::{Place, after, in_rows, table_rows};
 use crate::output::Kind;
 use crate::scene::{Order, Traffic};
-use crate::shown::{exact, percent};
+use crate::shown::{exact, percent, spacing};
 use crate::{
     CableEnd, CutShort, DuctMotionSummary, Limited, Limits, PassRecord, Reached, Run, RunOptions, Scene,
     Underway, Units, Verdict,
@@ -161,14 +161,12 @@ fn rows(passes: &[PassRecord]) -> impl Iterator<Item = (PassRecord, LastColumn)>
 /// Prints the passes of a run that was stopped. No file is written: an older one is whole.
 fn keep(finished: &CutShort, scene: &Scene, destination: &Destination, units: &Units) -> Result<(), Failure> {
     let last = finished.passes.last().map_or(0, |record| record.pass);
-    let (passes, spacing) = (scene.traffic.passes, finished.plan.node_spacing_m);
+    let (passes, apart) = (scene.traffic.passes, spacing(finished.plan.node_spacing_m));
     let cut = if last < passes {
-        format!(
-            "cut short after pass {last} of {passes}, on nodes {spacing:.3} m apart: the error is not known"
-        )
+        format!("cut short after pass {last} of {passes}, on nodes {apart} m apart: the error is not known")
     } else {
         format!(
-            "cut short in refining: all {passes} passes are done on nodes {spacing:.3} m apart, but the error is not known"
+            "cut short in refining: all {passes} passes are done on nodes {apart} m apart, but the error is not known"
         )
     };
     destination.print(finished, rows(&finished.passes), || {
@@ -292,11 +290,11 @@ fn print(run: &Run, scene: &Scene, units: &Units) -> Result<(), Failure> {
     )?;
     writeln!(
         out,
-        "plan: ground {}, cable {}, node spacing {:.3} {metres}, vehicle step {:.3} {metres}",
+        "plan: ground {}, cable {}, node spacing {} {metres}, vehicle step {} {metres}",
         run.plan.ground,
         run.plan.cable,
-        length(run.plan.node_spacing_m),
-        length(run.plan.vehicle_step_m)
+        spacing(length(run.plan.node_spacing_m)),
+        spacing(length(run.plan.vehicle_step_m))
     )?;
     for reason in &run.plan.reasons {
         writeln!(out, "  {}", terminal::sentence(reason))?;

@@ -2,6 +2,7 @@
 
 use super::progress::{HowFar, Now};
 use crate::Underway;
+use crate::shown::spacing;
 
 /// How far the run `underway` is.
 pub fn how_far(underway: &Underway, now: Now) -> HowFar {
@@ -14,8 +15,10 @@ pub fn how_far(underway: &Underway, now: Now) -> HowFar {
         ""
     };
     let words = format!(
-        "pass {} of {} on nodes {:.3} m apart{finer}",
-        reached.pass, reached.passes, reached.node_spacing_m
+        "pass {} of {} on nodes {} m apart{finer}",
+        reached.pass,
+        reached.passes,
+        spacing(reached.node_spacing_m)
     );
     HowFar::new(now, &words)
 }

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::Plan;
 use super::method::{CableMethod, PassMethod};
 use super::occurrence::Occurrence;
+use crate::shown::spacing;
 
 /// Meshes that a plan shows.
 const LISTED: usize = 7;
@@ -184,7 +185,7 @@ impl Plan<'_> {
         let levels = &self.levels;
         let candidate = |level: usize| Candidate {
             part: Part::Mesh,
-            name: format!("{:.3} m", levels.spacing(level).0),
+            name: format!("{} m", spacing(levels.spacing(level).0)),
             chosen: level == levels.first(),
             estimated_error: levels.expected_error(level),
             estimated_seconds: None,

@@ -3,7 +3,7 @@
 use super::content::Report;
 use super::html::Html;
 use crate::Part;
-use crate::shown::{percent, time};
+use crate::shown::{percent, spacing, time};
 
 pub fn plan(html: &mut Html, report: &Report) {
     let error = &report.run.error_estimate;
@@ -23,11 +23,11 @@ fn detail(html: &mut Html, report: &Report) {
     let (run, plan) = (&report.run, &report.plan);
     let length = report.shown.units.length;
     html.paragraph(&format!(
-        "Ground {}, cable {}, node spacing {:.3} {metres}, vehicle step {:.3} {metres}.",
+        "Ground {}, cable {}, node spacing {} {metres}, vehicle step {} {metres}.",
         run.plan.ground,
         run.plan.cable,
-        length.of_si(run.plan.node_spacing_m),
-        length.of_si(run.plan.vehicle_step_m),
+        spacing(length.of_si(run.plan.node_spacing_m)),
+        spacing(length.of_si(run.plan.vehicle_step_m)),
         metres = length.symbol(),
     ));
     html.list(&run.plan.reasons);
