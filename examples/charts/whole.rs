@@ -82,7 +82,7 @@ const PANELS: [Panel; 4] = [
             "ground={ preset = \"n6-cbr6\" }",
             "vehicles.0={ preset = \"t-25\", speed = \"40 km/h\" }",
         ],
-        density: 96.0,
+        density: 128.0,
         tightest: 1e-3,
     },
     Panel {

@@ -297,8 +297,8 @@ fn the_planner_keeps_its_word_and_is_never_beaten_by_the_papers_chain() -> Teste
         let rivals: Vec<&Row> = of(&rows, panel, CHAIN).collect();
         for choice in of(&rows, panel, RUN) {
             assert!(choice.error <= choice.knob, "{choice:?}");
-            // At the tolerance that the page advises.
-            assert!(choice.knob != 1e-2 || choice.error <= 2e-3, "{choice:?}");
+            // A third of the tolerance that the page advises.
+            assert!(choice.knob != 1e-2 || choice.error <= 1e-2 / 3.0, "{choice:?}");
             for rival in rivals.iter().filter(|rival| rival.error < choice.error) {
                 assert!(rival.seconds >= choice.seconds, "{rival:?} beats {choice:?}");
                 assert!(rival.count >= choice.count, "{rival:?} beats {choice:?}");
@@ -308,13 +308,13 @@ fn the_planner_keeps_its_word_and_is_never_beaten_by_the_papers_chain() -> Teste
     Ok(())
 }
 
-/// Where the chain gets below 1 % and 0.1 % at all, the planner is there in a thirtieth and an eighth of the time.
+/// Where the chain gets below 1 % and 0.1 % at all, the planner is there in a fortieth and a ninth of the time.
 #[test]
 fn one_percent_and_a_tenth_of_it_cost_the_planner_a_small_part_of_the_chain() -> Tested {
     let rows = whole()?;
     let mut compared = 0;
     for panel in panels(&rows) {
-        for (error, times) in [(1e-2, 30.0), (1e-3, 8.0)] {
+        for (error, times) in [(1e-2, 40.0), (1e-3, 9.0)] {
             let chain = seconds(&rows, panel, CHAIN, error);
             if chain.is_finite() {
                 let planner = seconds(&rows, panel, RUN, error);
