@@ -83,7 +83,7 @@ fn without_friction(cable: &DuctedCable, mesh: &Mesh) -> Vec<f64> {
     u[hi + 1..].fill(0.0);
     let (mut factors, mut factor, mut before) = (vec![0.0; u.len()], 0.0, 0.0);
     for i in lo..=hi {
-        factor = 1.0 / (chain.diagonal[i] - factor);
+        factor = 1.0 / (chain.nodes[i].diagonal - factor);
         before = (u[i] / chain.stiffness + before) * factor;
         factors[i] = factor;
         u[i] = before;

@@ -1,7 +1,7 @@
 //! The cable between two passes, when duct and cable are at rest.
 
 use crate::error::checked;
-use crate::step::{Chain, Load, StepSolver, Support, largest};
+use crate::step::{Chain, Load, StepSolver, Stretch, Support, largest};
 use crate::{CableError, CableState, DuctedCable, Mesh};
 
 /// One cable on one mesh, at rest in a duct at rest.
@@ -38,8 +38,9 @@ pub struct RestingCable {
     load: Vec<f64>,
     /// Without heat that of both end nodes.
     weight: [f64; 2],
-    /// What elimination leaves above the diagonal.
+    /// What [`Self::diffuse`] solved last, eliminated: of every row the factor of its neighbour, and what its right side is divided by.
     factor: Vec<f64>,
+    inverse: Vec<f64>,
 }
 
 impl RestingCable {
@@ -63,6 +64,7 @@ impl RestingCable {
             weight: [load[0], load[mesh.elements()]],
             load,
             factor: zeros(),
+            inverse: zeros(),
         })
     }
 
@@ -78,7 +80,7 @@ impl RestingCable {
 
     /// Length of cable \[m\] that belongs to `node`.
     pub fn tributary(&self, node: usize) -> f64 {
-        self.step.chain.tributary[node]
+        self.step.chain.nodes[node].tributary
     }
 
     /// Whether an end spring, a clamp or a fixed end holds the cable: otherwise it may be moved as a whole.
@@ -119,43 +121,71 @@ impl RestingCable {
     /// Solves (1 + s K/w) y = b for slopes s ≥ 0 \[m²/N\] at every node: what diffuses b along the cable. `y` holds b before and
     /// the answer after; it is zero at fixed ends.
     pub fn diffuse(&mut self, slope: impl Fn(usize) -> f64, y: &mut [f64]) {
-        let Self { step, factor, .. } = self;
+        let (lo, hi, middle) = self.halves();
+        let Self {
+            step,
+            factor,
+            inverse,
+            ..
+        } = self;
         let chain = &step.chain;
-        let (lo, hi) = (chain.free.lo, chain.free.hi);
+        // Row i beside the one before it, whose factor is `before`: what each row waits for is one product, one difference and one ratio.
+        let mut eliminate = |i: usize, before: f64| {
+            let off = slope(i) * chain.stiffness * chain.nodes[i].per_tributary;
+            let pivot = (1.0 + off * chain.nodes[i].diagonal) - off * before;
+            (factor[i], inverse[i]) = (off / pivot, 1.0 / pivot);
+            factor[i]
+        };
+        // From both ends to the middle, so that two rows can wait at once.
+        let (mut below, mut above) = (0.0, 0.0);
+        for k in 0..middle - lo {
+            (below, above) = (eliminate(lo + k, below), eliminate(hi - k, above));
+        }
+        for i in (middle + 1..=hi + lo - middle).rev() {
+            above = eliminate(i, above);
+        }
+        eliminate(middle, below + above);
+        self.diffuse_again(y);
+    }
+
+    /// Solves the equation of the last [`RestingCable::diffuse`] for another b.
+    pub fn diffuse_again(&self, y: &mut [f64]) {
+        let (factor, inverse) = (&self.factor[..], &self.inverse[..]);
+        let (lo, hi, middle) = self.halves();
         y[..lo].fill(0.0);
         y[hi + 1..].fill(0.0);
-        let off = |i: usize| slope(i) * chain.stiffness * chain.per_tributary[i];
-        // Row i, beside the one before it: its factor, and what it makes of b.
-        let eliminated = |i: usize, b: f64, (above, before): (f64, f64)| {
-            let off = off(i);
-            let inverse = 1.0 / (1.0 + off * (chain.diagonal[i] - above));
-            (off * inverse, (b + off * before) * inverse)
-        };
-        // From both ends to the middle: each row waits for the one before it, and two can wait at once.
-        let middle = lo + (hi - lo) / 2;
-        let (mut below, mut above) = ((0.0, 0.0), (0.0, 0.0));
+        let (mut below, mut above) = (0.0, 0.0);
         let mut j = hi;
         for i in lo..middle {
-            below = eliminated(i, y[i], below);
-            above = eliminated(j, y[j], above);
-            (factor[i], y[i]) = below;
-            (factor[j], y[j]) = above;
+            below = inverse[i] * y[i] + factor[i] * below;
+            above = inverse[j] * y[j] + factor[j] * above;
+            (y[i], y[j]) = (below, above);
             j -= 1;
         }
         while j > middle {
-            above = eliminated(j, y[j], above);
-            (factor[j], y[j]) = above;
+            above = inverse[j] * y[j] + factor[j] * above;
+            y[j] = above;
             j -= 1;
         }
-        let off = off(middle);
-        let pivot = 1.0 + off * (chain.diagonal[middle] - below.0 - above.0);
-        y[middle] = (y[middle] + off * (below.1 + above.1)) / pivot;
-        for i in (lo..middle).rev() {
-            y[i] += factor[i] * y[i + 1];
+        y[middle] = inverse[middle] * y[middle] + factor[middle] * (below + above);
+        let (mut left, mut right) = (y[middle], y[middle]);
+        let pairs = middle - lo;
+        for k in 1..=pairs {
+            let (i, j) = (middle - k, middle + k);
+            left = y[i] + factor[i] * left;
+            right = y[j] + factor[j] * right;
+            (y[i], y[j]) = (left, right);
         }
-        for i in middle + 1..=hi {
-            y[i] += factor[i] * y[i - 1];
+        for j in middle + pairs + 1..=hi {
+            right = y[j] + factor[j] * right;
+            y[j] = right;
         }
+    }
+
+    /// The first and last node that can move, and one in the middle of them.
+    fn halves(&self) -> (usize, usize, usize) {
+        let Stretch { lo, hi } = self.step.chain.free;
+        (lo, hi, lo + (hi - lo) / 2)
     }
 
     /// Lets the cable come to rest: friction beyond its limit yields, and the cable moves as little as equilibrium needs.

@@ -216,15 +216,18 @@ impl CableState {
             .collect();
         let (mut least, mut largest) = (f64::INFINITY, f64::NEG_INFINITY);
         let mut note = |force: f64| {
-            least = least.min(force);
-            largest = largest.max(force);
+            least = if force < least { force } else { least };
+            largest = if force > largest { force } else { largest };
         };
+        let mut left = drag(0);
         for element in 0..mesh.elements() {
+            let (middle, right) = (force(element), drag(element + 1));
             if !places.iter().any(|(clamped, _)| *clamped == element) {
-                note(after(element));
-                note(force(element));
-                note(before(element + 1));
+                note(middle - 0.5 * h * left);
+                note(middle);
+                note(middle + 0.5 * h * right);
             }
+            left = right;
         }
         for (element, share) in places {
             if element > 0 {

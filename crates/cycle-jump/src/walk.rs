@@ -12,9 +12,10 @@ use crate::request::{Guide, Jumps, Next, Request};
 use crate::scale::Scale;
 use crate::slope::{Change, Slope};
 
-/// Substeps of a jump, and of the look ahead over all that is left.
+/// Substeps of a jump, and of the look ahead over all that is left. Where a flow ends depends on its last and longest substeps; more than these
+/// only show its beginning better.
 const SUBSTEPS: i32 = 8;
-const SUBSTEPS_AHEAD: i32 = 40;
+const SUBSTEPS_AHEAD: i32 = 12;
 /// Length of the slope's sliding mean \[length scales of the duct's motion\].
 const WIDTH: f64 = 2.5;
 /// A jump shorter than this is not worth its check: a period is simulated.

@@ -139,7 +139,7 @@ impl Supports {
                     forcing.adherent - followed.adherent + gamma * (forcing.adhesion - followed.adhesion);
                 let before = g[node] + followed.adhesion;
                 let after = self.law.after_slip(before, slip);
-                heat += chain.tributary[node] * after * (slip - gamma * (after - before));
+                heat += chain.nodes[node].tributary * after * (slip - gamma * (after - before));
                 g[node] = after - forcing.adhesion;
                 watched.followed = forcing;
             }

@@ -8,7 +8,7 @@ use crate::step::Stretch;
 const MAX_GROWTH: usize = 256;
 
 /// Nodes looked at together.
-const BLOCK: usize = 32;
+const BLOCK: usize = 64;
 
 /// A window to solve in this step.
 #[derive(Debug, Clone, Copy)]

@@ -15,8 +15,9 @@ const MAX_SWEEPS: usize = 8;
 
 /// What an iteration came to.
 pub(super) struct Iterated {
-    /// On success the trial is the step's one answer; else the largest violation as a share of the friction limit.
-    pub outcome: Result<(), f64>,
+    /// On success the trial is the step's one answer, and this is the slip beside the anchors, each times its node's length of cable, together
+    /// \[m²\]; else the largest violation as a share of the friction limit.
+    pub outcome: Result<f64, f64>,
     /// Linear solves, and nodes solved for in all of them.
     pub sweeps: usize,
     pub node_updates: usize,
@@ -29,6 +30,8 @@ struct Violations {
     /// The first and last node out of balance, and those whose contact states were corrected; the first lies beyond the last where there are none.
     unbalanced: (usize, usize),
     corrected: (usize, usize),
+    /// Slip of the nodes that were looked at, each times its length of cable \[m²\].
+    slip: f64,
 }
 
 /// Iterates from the trial's contact states. After the first solve only nodes that a corrected contact state moves are solved for again.
@@ -49,6 +52,7 @@ pub(super) fn iterate(
         worst: f64::INFINITY,
         unbalanced: (0, last),
         corrected: (0, last),
+        slip: 0.0,
     };
     let mut node_updates = 0;
     let ended = |outcome, sweeps, node_updates| Iterated {
@@ -67,7 +71,12 @@ pub(super) fn iterate(
         node_updates += nodes.1 + 1 - nodes.0;
         found = correct(&rows, tolerance, nodes, r, g, contact);
         if found.worst == 0.0 {
-            return ended(Ok(()), sweep, node_updates);
+            let slip = if nodes == (0, last) {
+                found.slip
+            } else {
+                slip(chain, load, stretch, trial)
+            };
+            return ended(Ok(slip), sweep, node_updates);
         }
         if found.corrected.0 > found.corrected.1 {
             // Rounding alone: the same rows give the same answer.
@@ -93,22 +102,18 @@ fn correct(
     let beyond = r.get(end).copied().unwrap_or(rows.held.1);
     // Of one length, so that no access is checked in the loop.
     let count = end - first;
-    let (diagonal, per_tributary) = (&rows.diagonal[first..end], &rows.per_tributary[first..end]);
-    let (adhesion, support, anchor) = (
-        &rows.adhesion[first..end],
-        &rows.support[first..end],
-        &rows.anchor[first..end],
-    );
+    let (nodes, adhesion) = (&rows.nodes[first..end], &rows.adhesion[first..end]);
+    let (support, anchor) = (&rows.support[first..end], &rows.anchor[first..end]);
     let r = &r[first..end];
     let (g, contact) = (&mut g[first..end], &mut contact[first..end]);
-    let mut worst = 0.0_f64;
+    let (mut worst, mut all_slip) = (0.0_f64, 0.0);
     let none = (usize::MAX, 0);
     let (mut unbalanced, mut corrected) = (none, none);
     let with = |(low, high): (usize, usize), k: usize| (low.min(first + k), high.max(first + k));
     for k in 0..count {
         let right = if k + 1 < count { r[k + 1] } else { beyond };
-        let force = chain.stiffness * (diagonal[k] * here - left - right) - support[k];
-        let balancing = force * per_tributary[k];
+        let force = chain.stiffness * (nodes[k].diagonal * here - left - right) - support[k];
+        let balancing = force * nodes[k].per_tributary;
         let state = contact[k];
         if state == Contact::Stuck {
             let total = balancing + adhesion[k];
@@ -140,6 +145,7 @@ fn correct(
                 unbalanced = with(unbalanced, k);
             }
             let slip = anchor[k] - here - chain.compliance * bound;
+            all_slip += nodes[k].tributary * slip.abs();
             let along = if state == Contact::Forward { slip } else { -slip };
             let slips_along = along >= -tolerance.slip;
             if !slips_along {
@@ -154,7 +160,24 @@ fn correct(
         worst,
         unbalanced,
         corrected,
+        slip: all_slip,
     }
+}
+
+/// Slip of the nodes in `stretch` beside their anchors, each times its length of cable, together \[m²\].
+pub(super) fn slip(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &Trial) -> f64 {
+    let nodes = stretch.nodes();
+    let state = trial.r[nodes.clone()].iter().zip(&trial.g[nodes.clone()]);
+    let slips = trial.contact[nodes.clone()]
+        .iter()
+        .zip(&load.anchor[nodes.clone()])
+        .zip(state)
+        .zip(&chain.nodes[nodes])
+        .map(|(((contact, anchor), (r, g)), node)| {
+            let slip = node.tributary * (anchor - r - chain.compliance * g).abs();
+            if *contact == Contact::Stuck { 0.0 } else { slip }
+        });
+    slips.sum()
 }
 
 /// Lets nodes beside those that slip slip too, as many as it takes to bear the force on the first of them; returns the first and last
@@ -178,9 +201,9 @@ fn advance(
             continue;
         }
         let direction = total(k).signum();
-        let mut force = (total(k).abs() - limit) * rows.weight[k];
+        let mut force = (total(k).abs() - limit) * rows.nodes[k].tributary;
         let mut yields = |contact: &mut [Contact], k: usize| {
-            force -= (limit - direction * total(k)) * rows.weight[k];
+            force -= (limit - direction * total(k)) * rows.nodes[k].tributary;
             let yields = force >= 0.0 && contact[k] == Contact::Stuck;
             if yields {
                 contact[k] = state;

@@ -10,7 +10,7 @@
 //! d_i/d_{i−1} would have every row wait for a division. Rounding changes them as if it had changed the rows by a few units in the
 //! last place.
 
-use super::chain::{Chain, Contact, Eliminated, Load, Stretch};
+use super::chain::{Chain, Contact, Eliminated, Load, Node, Stretch};
 
 /// Rows after which determinants are made of size 1 again: each is at least half the one before.
 const RESCALED: usize = 256;
@@ -20,16 +20,12 @@ const SINGULAR: f64 = 1e-14;
 /// The nodes of a stretch, as slices of one length.
 pub(super) struct Rows<'a> {
     pub chain: &'a Chain,
-    pub diagonal: &'a [f64],
-    pub per_tributary: &'a [f64],
+    pub nodes: &'a [Node],
     pub adhesion: &'a [f64],
     pub support: &'a [f64],
     pub anchor: &'a [f64],
     /// Neighbours beyond the ends: a held one enters as a known value, a missing one as none at all.
     pub held: (f64, f64),
-    stuck: &'a [(f64, f64)],
-    slipping: &'a [f64],
-    pub weight: &'a [f64],
     per_stiffness: f64,
 }
 
@@ -94,18 +90,14 @@ impl<'a> Rows<'a> {
         let nodes = stretch.nodes();
         Self {
             chain,
-            diagonal: &chain.diagonal[nodes.clone()],
-            per_tributary: &chain.per_tributary[nodes.clone()],
+            nodes: &chain.nodes[nodes.clone()],
             adhesion: &load.adhesion[nodes.clone()],
             support: &load.support[nodes.clone()],
-            anchor: &load.anchor[nodes.clone()],
+            anchor: &load.anchor[nodes],
             held: (
                 stretch.lo.checked_sub(1).map_or(0.0, |i| r[i]),
                 r.get(stretch.hi + 1).copied().unwrap_or(0.0),
             ),
-            stuck: &chain.stuck[nodes.clone()],
-            slipping: &chain.per_diagonal[nodes.clone()],
-            weight: &chain.tributary[nodes],
             per_stiffness: 1.0 / chain.stiffness,
         }
     }
@@ -113,21 +105,21 @@ impl<'a> Rows<'a> {
     #[allow(clippy::inline_always, reason = "a call a row costs half of the time")]
     #[inline(always)]
     fn row(&self, contact: &[Contact], k: usize) -> Row {
-        let support = self.per_stiffness * self.support[k];
+        let (node, support) = (&self.nodes[k], self.per_stiffness * self.support[k]);
         match contact[k] {
             Contact::Stuck => {
-                let (a, share) = self.stuck[k];
+                let (a, share) = node.stuck;
                 Row {
                     a,
                     b: share * self.anchor[k] + a * support,
                 }
             }
             slipping => {
-                let a = self.slipping[k];
+                let a = node.per_diagonal;
                 let bound = self.chain.bound(slipping, self.adhesion[k]);
                 Row {
                     a,
-                    b: a * (self.per_stiffness * self.weight[k] * bound + support),
+                    b: a * (self.per_stiffness * node.tributary * bound + support),
                 }
             }
         }

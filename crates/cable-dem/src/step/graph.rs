@@ -67,7 +67,8 @@ struct Added {
 /// The graph; beyond its corners it goes on with one slope on either side.
 #[derive(Debug, Clone)]
 pub(super) struct Graph {
-    stiffness: f64,
+    /// 1/k \[m/N\].
+    softness: f64,
     below: Stack,
     above: Stack,
     /// Slope outside the corners; infinite for a held displacement.
@@ -80,18 +81,20 @@ pub(super) struct Graph {
 }
 
 impl Graph {
-    /// A single corner at (u, 0) on a chain of springs of `stiffness` k \[N/m\].
-    pub fn new(stiffness: f64, u: f64, outer: f64) -> Self {
-        let below = Stack {
-            corners: vec![Corner { u, p: 0.0 }],
+    /// A single corner at (u, 0) on a chain of springs of `stiffness` k \[N/m\], with room for so many `nodes`.
+    pub fn new(stiffness: f64, u: f64, outer: f64, nodes: usize) -> Self {
+        let stack = || Stack {
+            corners: Vec::with_capacity(2 * nodes + 1),
             map: Map::default(),
         };
+        let mut below = stack();
+        below.corners.push(Corner { u, p: 0.0 });
         Self {
-            stiffness,
+            softness: 1.0 / stiffness,
             below,
-            above: Stack::default(),
+            above: stack(),
             outer,
-            added: Vec::new(),
+            added: Vec::with_capacity(nodes),
             sloped: Vec::new(),
             touched: 0,
         }
@@ -99,10 +102,10 @@ impl Graph {
 
     /// The graph behind one more spring.
     pub fn add_spring(&mut self) {
-        self.outer = 1.0 / (1.0 / self.outer + 1.0 / self.stiffness);
+        self.outer = 1.0 / (1.0 / self.outer + self.softness);
         for stack in [&mut self.below, &mut self.above] {
             stack.map.springs += 1.0;
-            stack.map.u += stack.map.p / self.stiffness;
+            stack.map.u += stack.map.p * self.softness;
         }
     }
 
@@ -111,7 +114,7 @@ impl Graph {
         self.outer = self.added.last().map_or(self.outer, |added| added.outer[1]);
         for stack in [&mut self.below, &mut self.above] {
             stack.map.springs -= 1.0;
-            stack.map.u -= stack.map.p / self.stiffness;
+            stack.map.u -= stack.map.p * self.softness;
         }
     }
 
@@ -121,7 +124,7 @@ impl Graph {
         if stiffness == 0.0 && load == 0.0 {
             return None;
         }
-        let k = self.stiffness;
+        let k = self.softness;
         let before = [self.below.clone(), self.above.clone()];
         for stack in [&mut self.below, &mut self.above] {
             let map = std::mem::take(&mut stack.map);
@@ -145,7 +148,7 @@ impl Graph {
             upper,
             lower,
         } = friction;
-        let k = self.stiffness;
+        let k = self.softness;
         let mut passed = 0_isize;
         while self.below.top(k).is_some_and(|corner| corner.u >= forward) {
             self.below.hand_over(&mut self.above, k);
@@ -155,19 +158,22 @@ impl Graph {
             self.above.hand_over(&mut self.below, k);
             passed += 1;
         }
+        let mut left = self.below.top(k);
+        let mut right = self.above.top(k);
         let start = Corner {
             u: forward,
-            p: self.force(forward) - upper,
-        };
-        let stop = Corner {
-            u: backward,
-            p: self.force(backward) - lower,
+            p: self.force(left, right, forward) - upper,
         };
         let known = self.sloped.len();
-        while let Some(corner) = self.above.top(k).filter(|corner| corner.u <= backward) {
+        while let Some(corner) = right.filter(|corner| corner.u <= backward) {
             self.above.corners.pop();
             self.sloped.push(corner);
+            (left, right) = (Some(corner), self.above.top(k));
         }
+        let stop = Corner {
+            u: backward,
+            p: self.force(left, right, backward) - lower,
+        };
         self.below.map.p -= upper;
         self.above.map.p -= lower;
         self.below.push(start, k);
@@ -230,7 +236,7 @@ impl Graph {
             self.sloped.truncate(left);
             return;
         }
-        let k = self.stiffness;
+        let k = self.softness;
         self.above.corners.pop();
         self.below
             .corners
@@ -253,8 +259,8 @@ impl Graph {
 
     /// The u for which u + p(u)/k is `beyond`, the displacement behind a spring.
     pub fn displacement_before_spring(&self, beyond: f64) -> f64 {
-        let k = self.stiffness;
-        self.crossing(|corner| corner.u + corner.p / k - beyond, 1.0 + self.outer / k)
+        let k = self.softness;
+        self.crossing(|corner| corner.u + corner.p * k - beyond, 1.0 + self.outer * k)
     }
 
     /// The u for which p(u) = 0; of a whole range, the one nearest to `wanted`.
@@ -287,19 +293,15 @@ impl Graph {
         }
     }
 
-    /// p at `u`.
-    fn force(&self, u: f64) -> f64 {
-        let index = self.partition_point(|corner| corner.u < u);
-        let left = index.checked_sub(1).map(|i| self.corner(i));
-        let right = (index < self.len()).then(|| self.corner(index));
+    /// p at `u` between the corners `left` and `right`, or beyond one of them where there is no other.
+    fn force(&self, left: Option<Corner>, right: Option<Corner>, u: f64) -> f64 {
         match (left, right) {
             (Some(left), Some(right)) if right.u > left.u => {
                 left.p + (right.p - left.p) * (u - left.u) / (right.u - left.u)
             }
-            (_, Some(right)) if right.u == u => right.p,
-            (_, Some(right)) if index == 0 => right.p + self.outer * (u - right.u),
-            (Some(left), _) => left.p + self.outer * (u - left.u),
-            _ => 0.0,
+            (Some(corner), Some(_)) => corner.p,
+            (Some(corner), None) | (None, Some(corner)) => corner.p + self.outer * (u - corner.u),
+            (None, None) => 0.0,
         }
     }
 
@@ -328,55 +330,59 @@ impl Graph {
         } else {
             (&self.above, self.len() - 1 - index)
         };
-        stack.map.forth(stack.corners[place], self.stiffness)
+        stack.map.forth(stack.corners[place], self.softness)
     }
 
-    /// How many corners come before the first that does not satisfy `holds`.
+    /// How many corners come before the first that does not satisfy `holds`. It is looked for from the gap on, in strides that double.
     fn partition_point(&self, holds: impl Fn(&Corner) -> bool) -> usize {
         let (mut low, mut high) = (0, self.len());
+        let (mut at, mut stride) = (self.below.corners.len(), 1);
         while low < high {
-            let middle = usize::midpoint(low, high);
-            if holds(&self.corner(middle)) {
-                low = middle + 1;
+            at = at.min(high - 1);
+            if holds(&self.corner(at)) {
+                low = at + 1;
+                at = (low + stride).min(usize::midpoint(low, high));
             } else {
-                high = middle;
+                high = at;
+                at = high.saturating_sub(stride + 1).max(usize::midpoint(low, high));
             }
+            stride *= 2;
         }
         low
     }
 }
 
 impl Stack {
-    fn top(&self, stiffness: f64) -> Option<Corner> {
+    fn top(&self, softness: f64) -> Option<Corner> {
         self.corners
             .last()
-            .map(|&corner| self.map.forth(corner, stiffness))
+            .map(|&corner| self.map.forth(corner, softness))
     }
 
-    fn push(&mut self, corner: Corner, stiffness: f64) {
-        self.corners.push(self.map.back(corner, stiffness));
+    fn push(&mut self, corner: Corner, softness: f64) {
+        self.corners.push(self.map.back(corner, softness));
     }
 
     /// Gives its top corner to `other`.
-    fn hand_over(&mut self, other: &mut Self, stiffness: f64) {
+    fn hand_over(&mut self, other: &mut Self, softness: f64) {
         if let Some(corner) = self.corners.pop() {
-            other.push(self.map.forth(corner, stiffness), stiffness);
+            other.push(self.map.forth(corner, softness), softness);
         }
     }
 }
 
 impl Map {
-    fn forth(self, corner: Corner, stiffness: f64) -> Corner {
+    fn forth(self, corner: Corner, softness: f64) -> Corner {
         Corner {
-            u: corner.u + self.springs * corner.p / stiffness + self.u,
+            u: corner.u + self.springs * corner.p * softness + self.u,
             p: corner.p + self.p,
         }
     }
 
-    fn back(self, corner: Corner, stiffness: f64) -> Corner {
+    fn back(self, corner: Corner, softness: f64) -> Corner {
         let p = corner.p - self.p;
         Corner {
-            u: corner.u - self.springs * p / stiffness - self.u,
+            u: corner.u - self.springs * p * softness - self.u,
             p,
         }
     }

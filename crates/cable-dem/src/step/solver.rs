@@ -32,7 +32,7 @@ pub(crate) struct StepSolver {
 
 impl StepSolver {
     pub fn new(chain: Chain) -> Self {
-        let nodes = chain.tributary.len();
+        let nodes = chain.nodes.len();
         Self {
             trial: Trial::new(nodes),
             statistics: Statistics::default(),
@@ -54,29 +54,32 @@ impl StepSolver {
         self.tolerance.friction
     }
 
-    /// Solves `stretch` from the trial's contact states. On failure, the largest violation as a share of the friction limit.
-    pub fn solve(&mut self, load: &Load<'_>, stretch: Stretch) -> Result<(), f64> {
+    /// Solves `stretch` from the trial's contact states: the slip beside the anchors, each times its node's length of cable, together \[m²\].
+    /// On failure, the largest violation as a share of the friction limit.
+    pub fn solve(&mut self, load: &Load<'_>, stretch: Stretch) -> Result<f64, f64> {
         if !self.without_iteration {
-            if self.iterate(load, stretch).is_ok() {
-                return Ok(());
+            if let Ok(slip) = self.iterate(load, stretch) {
+                return Ok(slip);
             }
             if self.chain.has_inertia {
                 self.soften(load, stretch);
-                if self.iterate(load, stretch).is_ok() {
-                    return Ok(());
+                if let Ok(slip) = self.iterate(load, stretch) {
+                    return Ok(slip);
                 }
             }
         }
         self.statistics.corners += exact::set_contacts(&self.chain, load, stretch, &mut self.trial);
         self.statistics.exact_steps += 1;
         match self.iterate(load, stretch) {
-            Err(violation) if violation <= ROUNDED => Ok(()),
+            Err(violation) if violation <= ROUNDED => {
+                Ok(active_set::slip(&self.chain, load, stretch, &self.trial))
+            }
             solved => solved,
         }
     }
 
     /// Runs the active set from the trial's contact states.
-    fn iterate(&mut self, load: &Load<'_>, stretch: Stretch) -> Result<(), f64> {
+    fn iterate(&mut self, load: &Load<'_>, stretch: Stretch) -> Result<f64, f64> {
         let (chain, trial) = (&self.chain, &mut self.trial);
         let iterated = active_set::iterate(chain, load, stretch, self.tolerance, trial);
         self.statistics.sweeps += iterated.sweeps;
@@ -87,7 +90,7 @@ impl StepSolver {
     /// Leads the contact states from those of a softer sheath, whose energy is smoother, to those of the real one.
     fn soften(&mut self, load: &Load<'_>, stretch: Stretch) {
         let own = self.chain.compliance;
-        let per_softness = self.chain.tributary[1] / self.chain.stiffness;
+        let per_softness = self.chain.nodes[1].tributary / self.chain.stiffness;
         self.trial.contact[stretch.nodes()].fill(Contact::Stuck);
         let mut anchor = load.anchor.to_vec();
         for compliance in SOFTNESSES.map(|softness| softness * per_softness) {

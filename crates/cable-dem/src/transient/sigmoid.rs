@@ -117,9 +117,9 @@ impl Newton {
             if !self.chain.free.nodes().contains(&i) {
                 continue;
             }
-            let w = self.chain.tributary[i];
+            let w = self.chain.nodes[i].tributary;
             let tanh = (self.half_shape * (duct[i] - r)).tanh();
-            let residual = k * self.chain.diagonal[i] * r - k * (left + right) - load[i] - w * q * tanh;
+            let residual = k * self.chain.nodes[i].diagonal * r - k * (left + right) - load[i] - w * q * tanh;
             self.residual[i] = residual;
             self.slope[i] = w * q * self.half_shape * (1.0 - tanh * tanh);
             let violation = residual.abs() / w;
@@ -140,7 +140,7 @@ impl Newton {
         self.direction.fill(0.0);
         let (mut upper, mut before) = (0.0, 0.0);
         for i in lo..=hi {
-            let inverse = 1.0 / (k * self.chain.diagonal[i] + self.slope[i] - k * upper);
+            let inverse = 1.0 / (k * self.chain.nodes[i].diagonal + self.slope[i] - k * upper);
             upper = k * inverse;
             before = (k * before - self.residual[i]) * inverse;
             self.upper[i] = upper;
