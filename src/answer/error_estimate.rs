@@ -200,15 +200,20 @@ impl std::fmt::Display for ErrorParts {
     }
 }
 
-/// Error of the last of `levels`, the same passes on two or more meshes from coarse to fine; at least `typical`.
-pub fn of_mesh(levels: &[&[Record]], typical: f64, scale: Scale) -> Shares {
+/// Error of the last of `levels`, the same passes on two or more meshes from coarse to fine; at least `typical`. And what will at least be
+/// counted on a mesh twice as fine, whatever it shows.
+pub fn of_mesh(levels: &[&[Record]], typical: f64, scale: Scale) -> (Shares, Shares) {
     let differences: Vec<Shares> = levels
         .windows(2)
         .rev()
         .map(|pair| difference(pair[1], pair[0], scale))
         .collect();
     let passes = levels.last().map_or(0, |finest| finest.len());
-    of_differences(&differences, passes, typical)
+    let next = [&[Shares::default()], &differences[..]].concat();
+    (
+        of_differences(&differences, passes, typical),
+        of_differences(&next, passes, 0.0),
+    )
 }
 
 /// The same from the differences between neighbouring levels, the finest first, of so many `passes`.

@@ -10,7 +10,7 @@ use super::options::RunOptions;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use super::vehicle_steps::{SEEN_BELOW, VehicleSteps};
-use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, worth};
+use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, WORTH_A_THREAD, allowed, worth};
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
 use crate::answer::{DayExtremes, HeatRecord, RandomSpread, listed};
 use crate::ground::{peak, road};
@@ -51,6 +51,8 @@ struct Seen {
     is_within: bool,
     would_be_with_smaller_jumps: bool,
     is_costly: bool,
+    /// Whether the next mesh takes long and cannot be good enough, whatever it shows, and the one after it is affordable.
+    takes_two_more: bool,
 }
 
 impl Refinement<'_> {
@@ -172,6 +174,7 @@ impl Refinement<'_> {
                     return Ok((level, passes));
                 }
                 let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
+                let progress = parts();
                 let may_choose = level >= SHARP && self.method.cable_method() == CableMethod::QuasiStatic;
                 if may_choose && steps == VehicleSteps::Unknown {
                     steps = self.choose_steps(level, way.as_ref(), &passes, statistics)?;
@@ -179,7 +182,16 @@ impl Refinement<'_> {
                         self.levels = self.levels.with_half_as_many_steps_from(from);
                     }
                 }
-                match self.simulate(level + 1, way.as_ref(), parts(), true) {
+                if seen.takes_two_more && way.is_none() {
+                    let (finest, finer) = both(
+                        || self.simulate(level + 2, None, progress, true),
+                        || self.simulate(level + 1, None, Progress::default(), false),
+                    )?;
+                    passes.extend([finer, finest]);
+                    level += 2;
+                    continue;
+                }
+                match self.simulate(level + 1, way.as_ref(), progress, true) {
                     // What is known of coarser meshes counts.
                     Err(Error::Jumps(_)) if self.is_known(&passes) => return Ok((level, passes)),
                     finer => passes.push(finer?),
@@ -246,10 +258,13 @@ impl Refinement<'_> {
     /// What the `passes` on all meshes up to `level` say, and the mesh's part of their `error`.
     fn look(&self, passes: &[Passes], level: usize, steps: VehicleSteps, error: &mut ErrorParts) -> Seen {
         let tolerance = self.plan.scene.solver.tolerance;
+        let mut at_least_next = Shares::default();
         if passes.len() > 1 {
             let records: Vec<&[Record]> = passes.iter().map(|p| &p.records[..]).collect();
-            error.mesh =
-                of_mesh(&records, Levels::typical_error(level), self.scale()) + steps.hidden_error(level);
+            let typical = Levels::typical_error(level);
+            let of_level: Shares;
+            (of_level, at_least_next) = of_mesh(&records, typical, self.scale());
+            error.mesh = of_level + steps.hidden_error(level);
         }
         let last = &passes[passes.len() - 1];
         // A corner of an exact step is about as much work as a node.
@@ -265,7 +280,16 @@ impl Refinement<'_> {
         } else {
             worth(tolerance)
         };
+        let next = ErrorParts {
+            mesh: at_least_next,
+            ..*error
+        };
+        let next = next.total().less(error.passes);
         Seen {
+            takes_two_more: level + 2 <= self.levels.finest()
+                && REFINEMENT_COST.saturating_mul(work) > WORTH_A_THREAD
+                && REFINEMENT_COST.pow(2).saturating_mul(work) <= worth(tolerance)
+                && !next.is_within(allowed(tolerance, error.passes)),
             is_within: is_seen && others.is_within(allowed(tolerance, error.passes)),
             would_be_with_smaller_jumps: is_seen && others.is_within(smaller),
             is_costly: REFINEMENT_COST.saturating_mul(work) > most,
