@@ -11,6 +11,7 @@ use super::period::Period;
 use crate::Error;
 use crate::cable;
 use crate::scene::{Scene, SolverMethod};
+use crate::shown;
 
 /// Measured time a node's update takes \[s\] on one core of about 3 GHz: without inertia, with it, and explicit.
 const QUASI_STATIC_SECONDS: f64 = 1.1e-8;
@@ -28,6 +29,8 @@ const DAYS: f64 = 9.0;
 const SPARED: f64 = 0.3;
 /// Where every pass is simulated although jumps are possible, it takes no longer than this \[s\].
 const LONGEST_SECONDS: f64 = 60.0;
+/// Longest run with the sigmoid law that is begun without the scene naming a method \[s\].
+const LONGEST_WITHOUT_REST: f64 = 600.0;
 /// What twelve vehicles that stand for all kinds leave wrong as a rule where vehicles come in random order: 3 to 4 % of early forces.
 const DRAWN_ERROR: f64 = 0.04;
 /// Share of the tolerance that leaving inertia out may cost.
@@ -126,6 +129,15 @@ pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodC
             format!("at most 1 000 000 are simulated, and jumps over passes need a state of rest: {NO_REST}")
         };
         return Err(unfit("traffic.passes", "more than a million passes", reason));
+    }
+    let seconds = estimates.seconds(method);
+    if scene.solver.method == SolverMethod::Auto && !has_rest && seconds > LONGEST_WITHOUT_REST {
+        let reason = format!(
+            "without a state of rest the whole cable moves in every step and no pass can be left out, which would take {} or more; \
+             solver.method = \"dynamic\" computes it all the same, and the law \"elastic-plastic\" has a state of rest",
+            shown::time(seconds)
+        );
+        return Err(unfit("friction.law", "\"sigmoid\"", reason));
     }
     Ok(MethodChoice {
         inertia: if method.has_inertia() {

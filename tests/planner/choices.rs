@@ -43,6 +43,32 @@ fn a_homogeneous_ground_never_takes_more_than_the_closed_form() {
     }
 }
 
+/// Nobody waits a day for a law that forgets without having asked for it.
+#[test]
+fn long_runs_without_a_state_of_rest_are_asked_for_by_name() {
+    let text = |length: f64, solver: &str| {
+        let text = on(SOIL, POINT, &format!("{PASSES}{solver}"))
+            .replace("length = 60", &format!("length = {length}"));
+        text.replace("dynamic_coefficient", "law = \"sigmoid\"\ndynamic_coefficient")
+    };
+    let planned = |text: &str| {
+        creepage::plan(&Scene::from_toml("scene", text).expect("a valid scene")).map(|plan| plan.report())
+    };
+    assert_eq!(planned(&text(60.0, "")).expect("a plan").cable, "dynamic");
+    let error = planned(&text(20_000.0, "")).expect_err("more than a day");
+    assert!(error.is_bad_input(), "{error}");
+    let message = error.to_string();
+    for part in [
+        "friction.law: \"sigmoid\"",
+        "would take 27 h or more",
+        "solver.method = \"dynamic\"",
+    ] {
+        assert!(message.contains(part), "{message}");
+    }
+    let named = planned(&text(20_000.0, "[solver]\nmethod = \"dynamic\"\n")).expect("a plan");
+    assert!(named.estimated_seconds > 600.0);
+}
+
 #[test]
 fn forty_km_per_hour_never_needs_inertia() {
     for tolerance in [0.1, 0.01, 0.002] {
