@@ -57,6 +57,7 @@ fn the_quasi_static_solver_is_right_where_plain_newton_cycles() -> Tested {
 }
 
 #[test]
+#[ignore = "half a minute: .ci/run runs it"]
 fn jumps_over_passes_are_right_or_say_that_they_are_not() -> Tested {
     let mut unguarded = 0;
     for (name, mix) in long_term::MIXES {

@@ -27,6 +27,7 @@ fn share(ratios: &[f64], good: impl Fn(f64) -> bool) -> f64 {
 }
 
 #[test]
+#[ignore = "half a minute: .ci/run runs it"]
 fn work_is_foreseen_within_a_factor_of_three_and_mostly_of_two() {
     let ordinary = scenes::KINDS.iter().enumerate().map(|(seed, kind)| {
         let mut scene = Scene::from_toml("scene", &scenes::scene(kind, seed as u64)).expect("a valid scene");
