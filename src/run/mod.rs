@@ -15,6 +15,7 @@ mod outlook;
 pub mod passes;
 mod random;
 mod refine;
+mod seen;
 mod solver;
 mod underway;
 mod vehicle_steps;

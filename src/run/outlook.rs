@@ -11,7 +11,7 @@ use cable_dem::Statistics;
 use cycle_jump::Record;
 
 use super::jumps::SMALLER_SHARE;
-use super::refine::SHARP;
+use super::seen::SHARP;
 use super::work::{GROWTH, Work};
 use super::worth::{REFINEMENT_COST, allowed, worth};
 use crate::answer::error_estimate::{Scale, Shares, difference, of_differences};

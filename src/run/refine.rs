@@ -1,7 +1,6 @@
 //! The passes of a scene on one mesh after the other, until their error is within the tolerance.
 
 use cable_dem::{CableError, Mesh, Statistics};
-use cycle_jump::Record;
 
 use super::both::both;
 use super::judge::{judge, mesh_reason};
@@ -9,16 +8,15 @@ use super::jumps::{self, Found};
 use super::options::RunOptions;
 use super::passes::{Jumping, Passes, Task};
 use super::random;
+use super::seen::{SHARP, Seen, is_known};
 use super::vehicle_steps::{SEEN_BELOW, VehicleSteps};
-use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, WORTH_A_THREAD, allowed, worth};
-use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
+use super::worth::MAX_NODE_UPDATES;
+use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured};
 use crate::answer::{DayExtremes, HeatRecord, RandomSpread, listed};
 use crate::ground::{peak, road};
 use crate::plan::{CableMethod, Levels, PassMethod, Plan};
 use crate::{Error, Progress, Scene};
 
-/// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
-pub const SHARP: usize = 3;
 /// Share of the work that finding jumps is taken for.
 pub const FINDING: f64 = 0.3;
 
@@ -44,15 +42,6 @@ pub struct Solved {
     pub random: Option<RandomSpread>,
     /// Of a cable that is heated every day.
     pub heat: Option<(Vec<DayExtremes>, HeatRecord)>,
-}
-
-/// What passes on some meshes say of the last.
-struct Seen {
-    is_within: bool,
-    would_be_with_smaller_jumps: bool,
-    is_costly: bool,
-    /// Whether the next mesh takes long and cannot be good enough, whatever it shows, and the one after it is affordable.
-    takes_two_more: bool,
 }
 
 impl Refinement<'_> {
@@ -128,6 +117,7 @@ impl Refinement<'_> {
         statistics: &mut Statistics,
         parts: &mut impl FnMut() -> Progress<'p>,
     ) -> Result<(usize, Vec<Passes>), Error> {
+        let tolerance = self.plan.scene.solver.tolerance;
         let mut level = self.levels.first();
         let mut steps = VehicleSteps::default();
         let mut may_be_smaller = true;
@@ -159,7 +149,8 @@ impl Refinement<'_> {
                 }
             };
             loop {
-                let seen = self.look(&passes, level, steps, error);
+                let scale = (tolerance, self.scale());
+                let seen = Seen::on(&passes, &self.levels, (level, steps), scale, error);
                 if seen.is_within {
                     return Ok((level, passes));
                 }
@@ -170,7 +161,7 @@ impl Refinement<'_> {
                     before = found.replace(smaller).map(|larger| (larger, passes));
                     continue 'jumps;
                 }
-                if seen.is_costly || level >= self.levels.finest() {
+                if seen.more == 0 {
                     return Ok((level, passes));
                 }
                 let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
@@ -182,7 +173,7 @@ impl Refinement<'_> {
                         self.levels = self.levels.with_half_as_many_steps_from(from);
                     }
                 }
-                if seen.takes_two_more && way.is_none() {
+                if seen.more == 2 && way.is_none() {
                     let (finest, finer) = both(
                         || self.simulate(level + 2, None, progress, true),
                         || self.simulate(level + 1, None, Progress::default(), false),
@@ -193,7 +184,7 @@ impl Refinement<'_> {
                 }
                 match self.simulate(level + 1, way.as_ref(), progress, true) {
                     // What is known of coarser meshes counts.
-                    Err(Error::Jumps(_)) if self.is_known(&passes) => return Ok((level, passes)),
+                    Err(Error::Jumps(_)) if is_known(&passes, &self.levels) => return Ok((level, passes)),
                     finer => passes.push(finer?),
                 }
                 level += 1;
@@ -247,52 +238,6 @@ impl Refinement<'_> {
             Err(Error::Jumps(_)) => Ok(None),
             smaller => Ok(Some(smaller?)
                 .filter(|smaller| smaller.error != found.error && smaller.error.is_within(found.error))),
-        }
-    }
-
-    /// Whether `passes` show their error: on one mesh alone they do not.
-    fn is_known(&self, passes: &[Passes]) -> bool {
-        passes.len() > 1 || self.levels.named()
-    }
-
-    /// What the `passes` on all meshes up to `level` say, and the mesh's part of their `error`.
-    fn look(&self, passes: &[Passes], level: usize, steps: VehicleSteps, error: &mut ErrorParts) -> Seen {
-        let tolerance = self.plan.scene.solver.tolerance;
-        let mut at_least_next = Shares::default();
-        if passes.len() > 1 {
-            let records: Vec<&[Record]> = passes.iter().map(|p| &p.records[..]).collect();
-            let typical = Levels::typical_error(level);
-            let of_level: Shares;
-            (of_level, at_least_next) = of_mesh(&records, typical, self.scale());
-            error.mesh = of_level + steps.hidden_error(level);
-        }
-        let last = &passes[passes.len() - 1];
-        // A corner of an exact step is about as much work as a node.
-        let work = last.statistics.node_updates + last.statistics.corners;
-        // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
-        let still = self.scale().is_still(&last.records);
-        let is_seen = self.is_known(passes) && (!still || level >= SHARP);
-        let others = error.total().less(error.passes);
-        let smaller = Shares::both((1.0 - jumps::SMALLER_SHARE) * tolerance);
-        // Any answer is worth more than none.
-        let most = if error_estimate::is_doubtful(error.total().force, tolerance) {
-            MAX_NODE_UPDATES
-        } else {
-            worth(tolerance)
-        };
-        let next = ErrorParts {
-            mesh: at_least_next,
-            ..*error
-        };
-        let next = next.total().less(error.passes);
-        Seen {
-            takes_two_more: level + 2 <= self.levels.finest()
-                && REFINEMENT_COST.saturating_mul(work) > WORTH_A_THREAD
-                && REFINEMENT_COST.pow(2).saturating_mul(work) <= worth(tolerance)
-                && !next.is_within(allowed(tolerance, error.passes)),
-            is_within: is_seen && others.is_within(allowed(tolerance, error.passes)),
-            would_be_with_smaller_jumps: is_seen && others.is_within(smaller),
-            is_costly: REFINEMENT_COST.saturating_mul(work) > most,
         }
     }
 
