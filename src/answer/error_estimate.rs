@@ -200,8 +200,8 @@ impl std::fmt::Display for ErrorParts {
     }
 }
 
-/// Error of the last of `levels`, the same passes on two or more meshes from coarse to fine; at least `typical`. And what will at least be
-/// counted on a mesh twice as fine, whatever it shows.
+/// Error of the last of `levels`, the same passes on two or more meshes from coarse to fine; at least `typical`. And what these
+/// differences will at least leave on a mesh twice as fine, whatever it shows.
 pub fn of_mesh(levels: &[&[Record]], typical: f64, scale: Scale) -> (Shares, Shares) {
     let differences: Vec<Shares> = levels
         .windows(2)

@@ -131,7 +131,8 @@ pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodC
         return Err(unfit("traffic.passes", "more than a million passes", reason));
     }
     let seconds = estimates.seconds(method);
-    if scene.solver.method == SolverMethod::Auto && !has_rest && seconds > LONGEST_WITHOUT_REST {
+    let slips = scene.friction_limit() > 0.0;
+    if scene.solver.method == SolverMethod::Auto && slips && !has_rest && seconds > LONGEST_WITHOUT_REST {
         let reason = format!(
             "without a state of rest the whole cable moves in every step and no pass can be left out, which would take {} or more; \
              solver.method = \"dynamic\" computes it all the same, and the law \"elastic-plastic\" has a state of rest",

@@ -166,17 +166,20 @@ impl Refinement<'_> {
                 }
                 let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
                 let progress = parts();
-                let may_choose = level >= SHARP && self.method.cable_method() == CableMethod::QuasiStatic;
+                let chooses = self.method.cable_method() == CableMethod::QuasiStatic;
+                let may_choose = chooses && level >= SHARP;
                 if may_choose && steps == VehicleSteps::Unknown {
                     steps = self.choose_steps(level, way.as_ref(), &passes, statistics)?;
                     if let VehicleSteps::Half { from, .. } = steps {
                         self.levels = self.levels.with_half_as_many_steps_from(from);
                     }
                 }
-                if seen.more == 2 && way.is_none() {
+                let is_chosen = !chooses || steps != VehicleSteps::Unknown;
+                if seen.more == 2 && is_chosen && way.is_none() {
+                    // The coarser one may be stopped, but does not count in the progress shown.
                     let (finest, finer) = both(
                         || self.simulate(level + 2, None, progress, true),
-                        || self.simulate(level + 1, None, Progress::default(), false),
+                        || self.simulate(level + 1, None, progress.part(0.0, 0.0), true),
                     )?;
                     passes.extend([finer, finest]);
                     level += 2;

@@ -5,7 +5,7 @@ use cycle_jump::Record;
 use super::jumps;
 use super::passes::Passes;
 use super::vehicle_steps::VehicleSteps;
-use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, WORTH_A_THREAD, allowed, worth};
+use super::worth::{MAX_NODE_UPDATES, MOST_REFINEMENT_COST, REFINEMENT_COST, WORTH_A_THREAD, allowed, worth};
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, of_mesh};
 use crate::plan::Levels;
 
@@ -53,7 +53,9 @@ impl Seen {
         } else {
             worth(tolerance)
         };
-        let takes_long = next > WORTH_A_THREAD && REFINEMENT_COST.saturating_mul(next) <= worth(tolerance);
+        // So that the mesh after the next would not be too costly once the next is computed.
+        let after_next = MOST_REFINEMENT_COST.saturating_mul(next);
+        let takes_long = next > WORTH_A_THREAD && after_next <= worth(tolerance);
         let may_do = (others.less(error.mesh) + of_next).is_within(allowed);
         let more = match levels.finest().saturating_sub(level) {
             0 => 0,

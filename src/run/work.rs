@@ -8,7 +8,7 @@ use crate::plan::CableMethod;
 
 /// Time of a node's update, a window, a corner, a node's part in one jump, and in one pass that is listed within a jump \[s\] without
 /// inertia; of a node's update with it, and of an explicit one.
-const SECONDS: Work = Work([5.8e-9, 1.4e-7, 5e-9, 1.4e-6, 4.5e-8]);
+const SECONDS: Work = Work([5e-9, 1.2e-7, 2.7e-9, 1.2e-6, 3.5e-8]);
 const DYNAMIC: Work = Work([6e-8, 0.0, 0.0, 1.4e-6, 4.5e-8]);
 const EXPLICIT: Work = Work([1e-9, 0.0, 0.0, 1.4e-6, 4.5e-8]);
 /// What they multiply by from one level to the next, where that is not measured; and the bounds of what is believed.

@@ -8,8 +8,9 @@ pub const MAX_NODE_UPDATES: usize = 2_000_000_000;
 const FINER: (usize, f64) = (1_000_000_000, 0.01);
 /// A mesh twice as fine takes about this many times the node updates.
 pub const REFINEMENT_COST: usize = 4;
-/// Node updates of a mesh beside which the next one is begun where both are needed: a third of a second. The later of two pairs is the one to
-/// take side by side.
+/// And at most about this many.
+pub const MOST_REFINEMENT_COST: usize = 6;
+/// Node updates that a mesh takes at least for the mesh after it to be begun beside it, on another thread: a third of a second.
 pub const WORTH_A_THREAD: usize = 50_000_000;
 /// What is left to the mesh at least, as a share of the tolerance, or of the largest other error where that is beyond it.
 const LEAST_SHARE: f64 = 0.5;

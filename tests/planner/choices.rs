@@ -65,6 +65,9 @@ fn long_runs_without_a_state_of_rest_are_asked_for_by_name() {
     ] {
         assert!(message.contains(part), "{message}");
     }
+    // Without friction there is nothing to simulate.
+    let free = text(20_000.0, "").replace("dynamic_coefficient = 0.25", "dynamic_coefficient = 0");
+    assert!(planned(&free).is_ok());
     let named = planned(&text(20_000.0, "[solver]\nmethod = \"dynamic\"\n")).expect("a plan");
     assert!(named.estimated_seconds > 600.0);
 }

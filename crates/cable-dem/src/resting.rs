@@ -148,7 +148,7 @@ impl RestingCable {
         self.diffuse_again(y);
     }
 
-    /// Solves the equation of the last [`RestingCable::diffuse`] for another b.
+    /// Solves the equation of the last [`RestingCable::diffuse`] for another b; before the first one y comes out as zero.
     pub fn diffuse_again(&self, y: &mut [f64]) {
         let (factor, inverse) = (&self.factor[..], &self.inverse[..]);
         let (lo, hi, middle) = self.halves();

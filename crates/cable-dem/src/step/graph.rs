@@ -124,12 +124,12 @@ impl Graph {
         if stiffness == 0.0 && load == 0.0 {
             return None;
         }
-        let k = self.softness;
+        let softness = self.softness;
         let before = [self.below.clone(), self.above.clone()];
         for stack in [&mut self.below, &mut self.above] {
             let map = std::mem::take(&mut stack.map);
             for corner in &mut stack.corners {
-                *corner = map.forth(*corner, k);
+                *corner = map.forth(*corner, softness);
                 corner.p += stiffness * corner.u - load;
             }
             self.touched += stack.corners.len();
@@ -148,18 +148,18 @@ impl Graph {
             upper,
             lower,
         } = friction;
-        let k = self.softness;
+        let softness = self.softness;
         let mut passed = 0_isize;
-        while self.below.top(k).is_some_and(|corner| corner.u >= forward) {
-            self.below.hand_over(&mut self.above, k);
+        while self.below.top(softness).is_some_and(|corner| corner.u >= forward) {
+            self.below.hand_over(&mut self.above, softness);
             passed -= 1;
         }
-        while self.above.top(k).is_some_and(|corner| corner.u < forward) {
-            self.above.hand_over(&mut self.below, k);
+        while self.above.top(softness).is_some_and(|corner| corner.u < forward) {
+            self.above.hand_over(&mut self.below, softness);
             passed += 1;
         }
-        let mut left = self.below.top(k);
-        let mut right = self.above.top(k);
+        let mut left = self.below.top(softness);
+        let mut right = self.above.top(softness);
         let start = Corner {
             u: forward,
             p: self.force(left, right, forward) - upper,
@@ -168,7 +168,7 @@ impl Graph {
         while let Some(corner) = right.filter(|corner| corner.u <= backward) {
             self.above.corners.pop();
             self.sloped.push(corner);
-            (left, right) = (Some(corner), self.above.top(k));
+            (left, right) = (Some(corner), self.above.top(softness));
         }
         let stop = Corner {
             u: backward,
@@ -176,7 +176,7 @@ impl Graph {
         };
         self.below.map.p -= upper;
         self.above.map.p -= lower;
-        self.below.push(start, k);
+        self.below.push(start, softness);
         for &corner in &self.sloped[known..] {
             let share = if backward > forward {
                 (corner.u - forward) / (backward - forward)
@@ -184,9 +184,9 @@ impl Graph {
                 0.5
             };
             let p = corner.p - upper + share * (upper - lower);
-            self.below.push(Corner { p, ..corner }, k);
+            self.below.push(Corner { p, ..corner }, softness);
         }
-        self.above.push(stop, k);
+        self.above.push(stop, softness);
         let sloped = self.sloped.len() - known;
         self.touched += passed.unsigned_abs() + sloped + 2;
         self.added.push(Added {
@@ -236,7 +236,7 @@ impl Graph {
             self.sloped.truncate(left);
             return;
         }
-        let k = self.softness;
+        let softness = self.softness;
         self.above.corners.pop();
         self.below
             .corners
@@ -245,22 +245,25 @@ impl Graph {
         self.above.map.p += friction.lower;
         for _ in 0..sloped {
             if let Some(corner) = self.sloped.pop() {
-                self.above.push(corner, k);
+                self.above.push(corner, softness);
             }
         }
         for _ in 0..passed.unsigned_abs() {
             if passed < 0 {
-                self.above.hand_over(&mut self.below, k);
+                self.above.hand_over(&mut self.below, softness);
             } else {
-                self.below.hand_over(&mut self.above, k);
+                self.below.hand_over(&mut self.above, softness);
             }
         }
     }
 
     /// The u for which u + p(u)/k is `beyond`, the displacement behind a spring.
     pub fn displacement_before_spring(&self, beyond: f64) -> f64 {
-        let k = self.softness;
-        self.crossing(|corner| corner.u + corner.p * k - beyond, 1.0 + self.outer * k)
+        let softness = self.softness;
+        self.crossing(
+            |corner| corner.u + corner.p * softness - beyond,
+            1.0 + self.outer * softness,
+        )
     }
 
     /// The u for which p(u) = 0; of a whole range, the one nearest to `wanted`.
@@ -341,12 +344,15 @@ impl Graph {
             at = at.min(high - 1);
             if holds(&self.corner(at)) {
                 low = at + 1;
-                at = (low + stride).min(usize::midpoint(low, high));
+                at = low.saturating_add(stride).min(usize::midpoint(low, high));
             } else {
                 high = at;
-                at = high.saturating_sub(stride + 1).max(usize::midpoint(low, high));
+                at = high
+                    .saturating_sub(stride)
+                    .saturating_sub(1)
+                    .max(usize::midpoint(low, high));
             }
-            stride *= 2;
+            stride = stride.saturating_mul(2);
         }
         low
     }

@@ -60,3 +60,17 @@ pub(crate) fn count_different(a: &[Contact], b: &[Contact]) -> usize {
         .map(|(a, b)| usize::from(a.iter().zip(b).map(|(a, b)| u8::from(a != b)).sum::<u8>()))
         .sum()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_number_of_different_states_is_counted() {
+        for nodes in [0, 1, 255, 256, 600] {
+            let (stuck, slipping) = (vec![Contact::Stuck; nodes], vec![Contact::Backward; nodes]);
+            assert_eq!(count_different(&stuck, &slipping), nodes);
+            assert_eq!(count_different(&stuck, &stuck), 0);
+        }
+    }
+}
