@@ -8,6 +8,8 @@ use std::fmt::Write as _;
 use std::hint::black_box;
 use std::path::Path;
 
+use testkit::tridiagonal;
+
 use crate::computations::{Aim, aims};
 use crate::cost::pool;
 use crate::stopwatch::timed;
@@ -48,24 +50,12 @@ pub fn run(out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Time per unknown of solving r_i − a (r_{i−1} + r_{i+1}) = b_i \[s\].
+/// Time per unknown of solving r_i − a (r_{i−1} + r_{i+1}) = b \[s\], in a crate that is fully optimised.
 fn bare_solve() -> Result<f64, Failure> {
-    let mut factor = [0.0; NODES];
-    let mut value = [0.0; NODES];
+    let (mut factor, mut value) = ([0.0; NODES], [0.0; NODES]);
     let solves = || -> Result<(), Failure> {
         for _ in 0..SOLVES {
-            let (a, b) = (black_box(0.499), black_box(1.0));
-            let (mut above, mut before) = (0.0, 0.0);
-            for i in 0..NODES {
-                let inverse = 1.0 / (1.0 - a * above);
-                above = a * inverse;
-                before = (b + a * before) * inverse;
-                factor[i] = above;
-                value[i] = before;
-            }
-            for i in (0..NODES - 1).rev() {
-                value[i] += factor[i] * value[i + 1];
-            }
+            tridiagonal::solve(black_box(0.499), black_box(1.0), &mut factor, &mut value);
             black_box(&value);
         }
         Ok(())

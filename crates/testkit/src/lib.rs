@@ -2,6 +2,8 @@
 
 #![allow(clippy::missing_panics_doc, reason = "a test may panic")]
 
+pub mod tridiagonal;
+
 use ground_field::{
     Base, DuctLine, DuctMotion, GroundError, GroundField, Soil, SoilLayer, SoilProfile, Vehicle,
 };
