@@ -57,12 +57,12 @@ impl Seen {
         let after_next = MOST_REFINEMENT_COST.saturating_mul(next);
         let takes_long = next > WORTH_A_THREAD && after_next <= worth(tolerance);
         let may_do = (others.less(error.mesh) + of_next).is_within(allowed);
-        let more = match levels.finest().saturating_sub(level) {
-            0 => 0,
-            _ if next > most => 0,
-            1 => 1,
-            _ if takes_long && !may_do => 2,
-            _ => 1,
+        let more = if next > most || level >= levels.finest() {
+            0
+        } else if takes_long && !may_do && level + 2 <= levels.finest() {
+            2
+        } else {
+            1
         };
         Self {
             is_within: is_seen && others.is_within(allowed),
