@@ -1,7 +1,7 @@
 //! Jumps that are good enough: how large they may be, and what they leave wrong.
 //!
 //! Two runs that differ in the error of a single jump and in the length of the first one differ by about the error of either. Where
-//! only early passes are off, every one of them is simulated; else both are made smaller.
+//! only early passes are off, every one of them is simulated in the next run; else jumps are smaller there. Each is held to the one before.
 
 use std::cell::RefCell;
 
@@ -93,6 +93,7 @@ pub fn find<'a>(
         carry_out(level, jumping, part)
     };
     let tolerance = plan.scene.solver.tolerance;
+    let length = plan.period.len() as u64;
     let allowed = Shares::both(share * tolerance);
     let duct = plan.scene.duct;
     let first = plan.levels.first();
@@ -121,51 +122,46 @@ pub fn find<'a>(
         coarse
     };
     let mut best = None;
-    for finer in 1..=FINEST {
-        taken.tolerance *= FINER.0;
-        taken.first_jump *= FINER.1;
+    // Periods of which every pass is to be simulated, where only those are off.
+    let mut early = None;
+    for _ in 0..FINEST {
+        if let Some(periods) = early {
+            taken.first_periods = periods;
+        } else {
+            taken.tolerance *= FINER.0;
+            taken.first_jump *= FINER.1;
+        }
         let fine = match simulate(level, &taken) {
             Err(Error::Jumps(_)) if best.is_some() => break,
             fine => fine?,
         };
         statistics += fine.statistics;
-        let errors = differences(&fine.records, &coarse.records, scale);
+        let start = taken.first_periods * length;
+        let jumped = fine.records.partition_point(|record| record.pass <= start);
+        let errors = &differences(&fine.records, &coarse.records, scale)[jumped..];
         let bad = errors.iter().rposition(|error| !error.is_within(allowed));
-        let last_bad = bad.map_or(0, |bad| fine.records[bad].pass);
-        let periods = last_bad / plan.period.len() as u64 + 1;
-        let is_early = periods <= MOST_FIRST_PERIODS && last_bad <= MOST_FIRST_PASSES;
-        let mut found = Found {
-            level,
-            error: errors.iter().copied().fold(Shares::default(), Shares::max),
-            passes: fine,
-            tolerance: taken.tolerance,
-            first_periods: taken.first_periods,
-            first_jump: taken.first_jump,
-        };
-        if let Some(bad) = bad.filter(|_| is_early) {
-            taken.first_periods = periods.max(taken.first_periods);
-            found.first_periods = taken.first_periods;
-            found.error = errors[bad + 1..]
-                .iter()
-                .copied()
-                .fold(Shares::default(), Shares::max);
-            found.passes = simulate(level, &taken)?;
-            statistics += found.passes.statistics;
-        }
-        let work = found.passes.statistics.node_updates + found.passes.statistics.corners;
+        let last_bad = bad.map_or(0, |bad| fine.records[jumped + bad].pass);
+        let periods = last_bad / length + 1;
+        early = (periods <= MOST_FIRST_PERIODS && last_bad <= MOST_FIRST_PASSES).then_some(periods);
+        let work = fine.statistics.node_updates + fine.statistics.corners;
         let next = COST_OF_FINER
             * if level < first {
                 COST_OF_A_LEVEL * work
             } else {
                 work
             };
-        let enough = bad.is_none() || is_early || next > MAX_NODE_UPDATES;
-        if enough || finer == FINEST {
-            best = Some(found);
+        coarse = fine.clone();
+        best = Some(Found {
+            level,
+            error: errors.iter().copied().fold(Shares::default(), Shares::max),
+            passes: fine,
+            tolerance: taken.tolerance,
+            first_periods: taken.first_periods,
+            first_jump: taken.first_jump,
+        });
+        if bad.is_none() || early.is_none() && next > MAX_NODE_UPDATES {
             break;
         }
-        coarse = found.passes.clone();
-        best = Some(found);
     }
     let mut found = best.expect("the first pair of runs is an answer");
     found.error = found.error + mix_error(plan, &found, scale, simulate, &mut statistics)?;

@@ -28,6 +28,8 @@ const CAUTION: f64 = 0.85;
 /// Error of a jump beside the tolerance above which it is taken back, and of one that another run took on another mesh.
 const REJECTED: f64 = 2.0;
 const REJECTED_AS_GUIDED: f64 = 4.0;
+/// Tolerance of a jump to the end beside that of others: no passes after it mend what it leaves.
+const AT_END: f64 = 0.125;
 /// Change of all forces still to come, beside the tolerance, below which all that is left is one jump.
 const STEADY: f64 = 0.1;
 /// Simulated periods at the end of a jump: its check, and one that heals what the correction left rough.
@@ -203,8 +205,11 @@ where
                 known.period = next;
                 known.length = (GROWTH_BETWEEN * known.length).max(2.0);
                 self.schedule.push(0);
-            } else if !self.jump(known, &rate, length)? && whole {
-                known.length = known.length.min((self.done as f64).max(SHORTEST as f64));
+            } else {
+                let share = if length + CHECKED == left { AT_END } else { 1.0 };
+                if !self.jump(known, &rate, length, share * self.tolerance)? && whole {
+                    known.length = known.length.min((self.done as f64).max(SHORTEST as f64));
+                }
             }
         }
         Ok(true)
@@ -225,10 +230,9 @@ where
         self.scale.shares(&self.cable, ahead.end()).force < STEADY * self.tolerance
     }
 
-    /// Jumps over `length` periods, simulates two more and chooses the next length; false where the error is so large that the jump
-    /// is taken back.
-    fn jump(&mut self, known: &mut Knowledge, rate: &[f64], length: u64) -> Result<bool, E> {
-        let tolerance = self.tolerance;
+    /// Jumps over `length` periods, simulates two more and chooses the next length; false where the error is so large beside the
+    /// `tolerance` that the jump is taken back.
+    fn jump(&mut self, known: &mut Knowledge, rate: &[f64], length: u64, tolerance: f64) -> Result<bool, E> {
         let (from, offset) = (self.state.clone(), self.offset);
         let slope = known.slope.values().to_vec();
         let at_end = length + CHECKED;
