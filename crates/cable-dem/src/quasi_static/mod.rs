@@ -6,6 +6,7 @@ mod passage;
 mod schedule;
 mod supports;
 mod view;
+mod watch;
 mod window;
 
 pub use passage::Passage;

@@ -2,27 +2,19 @@
 
 use std::collections::HashMap;
 
-use super::memory::PassMemory;
+use super::memory::{PassMemory, Recalled};
 use super::passage::UNBALANCED_SHARE;
 use super::passage::{Passage, Snapshot};
 use super::supports::Supports;
-use super::window::{self, Needed, Room, Window};
+use super::watch::Watch;
+use super::window::{self, Room, Window};
 use crate::ends::{Balance, EndReader};
 use crate::outcome::Recorder;
-use crate::step::{Chain, Contact, Load, Prediction, StepSolver, Stretch, count_different, largest};
+use crate::step::{Chain, Load, Prediction, StepSolver, Stretch, count_different, largest};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
-/// A window's edge is quiet when the force its last move put on the next node is below this share of [`UNBALANCED_SHARE`].
+/// A node is quiet when the force that its last move put on the next node is below this share of [`UNBALANCED_SHARE`].
 const QUIET: f64 = 0.25;
-
-/// A stretch that was solved.
-struct Solution {
-    solved: Stretch,
-    /// The part of it that still moves.
-    moves: Option<Stretch>,
-    /// Nodes whose contact states those at the same distance from the vehicle did not foretell.
-    surprises: usize,
-}
 
 /// Drives vehicles forward over one cable; allocated once.
 #[derive(Debug, Clone)]
@@ -32,6 +24,8 @@ pub(super) struct ForwardSolver {
     ends: EndReader,
     supports: Supports,
     room: Room,
+    /// A node moves if it does so by more than this in a step \[m\].
+    quiet: f64,
     /// State in the adherent frame: r \[m\] and g \[N/m\].
     r: Vec<f64>,
     g: Vec<f64>,
@@ -39,12 +33,17 @@ pub(super) struct ForwardSolver {
     /// Of the cable in the current pass \[N\].
     thermal_force: f64,
     windows: Vec<Window>,
+    /// What moved in the last step, apart from what moves around supports alone.
+    moving: Vec<Stretch>,
+    watch: Watch,
     prediction: Prediction,
     /// Whether the last pass foretold the last step better than `prediction` did.
     recurs: bool,
     /// The last pass of each passage: its windows and contact states. They and `prediction` outlive a pass, so that an answer
     /// depends on earlier passes, by up to 1e-4 of the largest force.
     memories: HashMap<u64, PassMemory>,
+    /// That of the pass before the last: room for the next one.
+    spare: PassMemory,
     /// What the current pass gathers.
     recorder: Recorder,
     lattice_step: f64,
@@ -60,6 +59,7 @@ impl ForwardSolver {
             supports: Supports::new(&cable, mesh, &chain, room, screening),
             ends: EndReader::new(&cable, mesh),
             room,
+            quiet: QUIET * UNBALANCED_SHARE * chain.limit * mesh.spacing() / chain.stiffness,
             cable,
             step: StepSolver::new(chain),
             r: vec![0.0; nodes],
@@ -67,9 +67,12 @@ impl ForwardSolver {
             anchor: vec![0.0; nodes],
             thermal_force: 0.0,
             windows: Vec::new(),
+            moving: Vec::new(),
+            watch: Watch::new(nodes),
             prediction: Prediction::default(),
             recurs: true,
             memories: HashMap::new(),
+            spare: PassMemory::default(),
             recorder: Recorder::new(EndForces::default()),
             lattice_step: mesh.lattice_step(),
         }
@@ -93,25 +96,25 @@ impl ForwardSolver {
         self.prediction.fit(points, phases);
         self.recorder = Recorder::new(state.ends(&self.cable));
         let last_pass = self.memories.remove(&passage.id).unwrap_or_default();
-        let mut this_pass = PassMemory::default();
+        let mut this_pass = std::mem::take(&mut self.spare);
+        this_pass.clear();
         self.recurs = true;
 
-        let mut travelling = None;
         for (step, &position) in passage.positions.iter().enumerate() {
             let snapshot = passage.snapshot(position);
             if step == 0 {
-                self.step_whole(&snapshot, passage)?;
+                self.step_whole(&snapshot)?;
             } else {
-                let remembered = last_pass.recall(step - 1);
-                travelling = self.step_windows(&snapshot, passage, travelling, remembered)?;
-                this_pass.push(travelling, &self.step.trial.contact);
+                self.step_windows(&snapshot, passage, last_pass.recall(step - 1))?;
+                this_pass.push(&self.moving, &self.step.trial.contact);
             }
             observe(&self.r, &self.g, snapshot);
         }
         self.memories.insert(passage.id, this_pass);
+        self.spare = last_pass;
 
         // The ground comes to rest. What the windows left out of account is settled by the same step.
-        self.step_whole(&passage.still(), passage)?;
+        self.step_whole(&passage.still())?;
         state.displacement.copy_from_slice(&self.r);
         state.friction.copy_from_slice(&self.g);
         self.recorder.statistics += self.step.statistics;
@@ -119,60 +122,89 @@ impl ForwardSolver {
     }
 
     /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
-    fn step_whole(&mut self, snapshot: &Snapshot<'_>, passage: &Passage) -> Result<(), CableError> {
+    fn step_whole(&mut self, snapshot: &Snapshot<'_>) -> Result<(), CableError> {
         self.update_supports(snapshot, true);
         self.anchor(self.room.free);
-        self.solve(self.room.free, snapshot, passage)?;
+        self.solve(self.room.free, snapshot)?;
+        self.moving.clear();
         self.record_ends(snapshot);
         Ok(())
     }
 
-    /// One step of the vehicle: solves the windows where the cable moves. Returns the travelling window, shrunk to what still moves.
+    /// One step of the vehicle: solves the windows where the cable moves.
     fn step_windows(
         &mut self,
         snapshot: &Snapshot<'_>,
         passage: &Passage,
-        travelling: Option<Stretch>,
-        remembered: Option<(Stretch, &[Contact])>,
-    ) -> Result<Option<Stretch>, CableError> {
+        remembered: Recalled<'_>,
+    ) -> Result<(), CableError> {
         self.update_supports(snapshot, false);
-        let limit = self.step.chain.limit * (1.0 + UNBALANCED_SHARE);
-        let near = self.room.under(snapshot.node, passage.reach);
-        let needed = Needed {
-            friction: &self.g,
-            adhesion: snapshot.adhesion,
-            limit,
-        };
-        let travelling = window::travelling(self.room, near, travelling, &needed);
         let mut windows = std::mem::take(&mut self.windows);
-        let known = remembered.map(|(window, _)| window);
-        window::collect(&mut windows, travelling, known, self.supports.due());
-        let mut moving = None;
+        self.collect(&mut windows, snapshot, passage.reach, remembered);
+        let first = passage.first_point(snapshot);
+        let mut surprises = 0;
+        self.moving.clear();
         for window in &windows {
             self.anchor(window.stretch);
             if window.travels {
-                self.predict(window.stretch, passage.first_point(snapshot), remembered);
+                self.predict(window.stretch, first, remembered);
             }
-            let Solution {
-                solved,
-                moves,
-                surprises,
-            } = self.solve(window.stretch, snapshot, passage)?;
+            let before = self.moving.len();
+            let solved = self.solve(window.stretch, snapshot)?;
             if window.travels {
-                moving = moves;
-                self.recurs = remembered.is_none_or(|last_pass| self.misses(last_pass) <= surprises);
+                surprises += self.prediction.write(first, solved, &self.step.trial.contact);
             }
-            let around_supports = if window.travels { None } else { moves };
-            self.supports.remember(window.stretch, around_supports);
+            let moves = (!window.travels)
+                .then(|| self.moving.drain(before..))
+                .and_then(window::hull);
+            self.supports.remember(window.stretch, moves);
             let widest = &mut self.recorder.statistics.widest_window;
             *widest = solved.len().max(*widest);
         }
+        self.recurs = remembered.parts.is_empty() || self.misses(remembered) <= surprises;
         let touched = windows.iter().any(|window| self.room.near_an_end(window.stretch));
         if touched || self.supports.due().next().is_some() {
             self.record_ends(snapshot);
         }
         self.windows = windows;
-        Ok(moving)
+        Ok(())
+    }
+
+    /// Lists the windows of a step: what moved in the last one, what moved here in the last pass, what begins to slip within `reach` of the
+    /// vehicle, and what lies around supports.
+    fn collect(
+        &mut self,
+        windows: &mut Vec<Window>,
+        snapshot: &Snapshot<'_>,
+        reach: usize,
+        remembered: Recalled<'_>,
+    ) {
+        let room = self.room;
+        let window = |travels| move |stretch| Window { stretch, travels };
+        windows.clear();
+        // The node beside one that moved is disturbed if the window travels on.
+        let moving = self.moving.iter().map(|&part| room.widened(part, 1));
+        windows.extend(moving.chain(remembered.parts.iter().copied()).map(window(true)));
+        window::join(windows);
+        // Between them and beyond.
+        let known = windows.len();
+        let near = Watch::around(room.under(snapshot.node, reach), room.free);
+        let limit = self.step.chain.limit * (1.0 + UNBALANCED_SHARE);
+        let mut lo = near.start;
+        for at in 0..=known {
+            let (hi, next) = if at < known {
+                let Stretch { lo, hi } = windows[at].stretch;
+                (lo.min(near.end), hi + 1)
+            } else {
+                (near.end, near.end)
+            };
+            self.watch.slipping(lo..hi, snapshot, &self.g, limit, |slips| {
+                windows.push(window(true)(room.widened(slips, room.margin)));
+            });
+            lo = lo.max(next);
+        }
+        windows.extend(self.supports.due().map(window(false)));
+        window::join(windows);
     }
 
     fn update_supports(&mut self, snapshot: &Snapshot<'_>, all: bool) {
@@ -191,30 +223,33 @@ impl ForwardSolver {
         }
     }
 
-    /// Guesses the contact states of the travelling window: those of the last pass at this vehicle position, or those that a node had
-    /// where this one now stands relative to the vehicle; whichever was right at more nodes in the last step.
-    fn predict(&mut self, window: Stretch, first: usize, remembered: Option<(Stretch, &[Contact])>) {
+    /// Guesses the contact states of a window: those of the last pass at this vehicle position, or those that a node had where this one now
+    /// stands relative to the vehicle; whichever was right at more nodes in the last step.
+    fn predict(&mut self, window: Stretch, first: usize, remembered: Recalled<'_>) {
         let contacts = &mut self.step.trial.contact;
-        match remembered {
-            Some((known, states)) if self.recurs && window.lo <= known.lo && known.hi <= window.hi => {
-                contacts[known.nodes()].copy_from_slice(states);
+        if !self.recurs || remembered.parts.is_empty() {
+            self.prediction.read(first, window, contacts);
+        } else {
+            for (part, states) in remembered.states() {
+                if window.lo <= part.lo && part.hi <= window.hi {
+                    contacts[part.nodes()].copy_from_slice(states);
+                }
             }
-            _ => self.prediction.read(first, window, contacts),
         }
     }
 
     /// At how many nodes the contact states of the last pass differ from those just solved.
-    fn misses(&self, (known, states): (Stretch, &[Contact])) -> usize {
-        count_different(&self.step.trial.contact[known.nodes()], states)
+    fn misses(&self, remembered: Recalled<'_>) -> usize {
+        let contacts = &self.step.trial.contact;
+        let parts = remembered.states();
+        parts
+            .map(|(part, states)| count_different(&contacts[part.nodes()], states))
+            .sum()
     }
 
-    /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state.
-    fn solve(
-        &mut self,
-        mut stretch: Stretch,
-        snapshot: &Snapshot<'_>,
-        passage: &Passage,
-    ) -> Result<Solution, CableError> {
+    /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still
+    /// moves is appended to `moving`.
+    fn solve(&mut self, mut stretch: Stretch, snapshot: &Snapshot<'_>) -> Result<Stretch, CableError> {
         let mut growth = self.room.margin;
         let slip = loop {
             self.recorder.statistics.windows += 1;
@@ -248,21 +283,15 @@ impl ForwardSolver {
             (stretch, growth) = (grown, next);
         };
         let StepSolver { chain, trial, .. } = &self.step;
-        let moves = window::shrink(stretch, |edge, inner| {
-            let moved = (trial.r[inner] - self.r[inner]).abs();
-            chain.stiffness * moved <= QUIET * UNBALANCED_SHARE * chain.limit * chain.nodes[edge].tributary
-        });
+        let moves = |node: usize| (trial.r[node] - self.r[node]).abs() > self.quiet;
+        window::moving(stretch, moves, &mut self.moving);
         let nodes = stretch.nodes();
         let (r, g) = (&trial.r[nodes.clone()], &trial.g[nodes.clone()]);
         self.recorder.dissipated += chain.limit * slip;
         self.r[nodes.clone()].copy_from_slice(r);
         self.g[nodes].copy_from_slice(g);
-        let first = passage.first_point(snapshot);
-        Ok(Solution {
-            solved: stretch,
-            moves,
-            surprises: self.prediction.write(first, stretch, &trial.contact),
-        })
+        self.watch.forget(stretch);
+        Ok(stretch)
     }
 
     /// Whether the trial leaves the held node beside the window out of balance.

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use ground_field::{Direction, DuctMotion};
 
 use super::schedule::schedule;
+use super::watch::Rates;
 use crate::course::{Course, as_driven};
 use crate::{CableError, DuctedCable, Friction, Mesh};
 
@@ -49,6 +50,8 @@ pub struct Passage {
     pub(super) positions: Vec<i64>,
     /// Nodes on either side of the vehicle beyond which adhesion cannot matter.
     pub(super) reach: usize,
+    /// How fast adhesion changes.
+    rates: Rates,
     /// Largest adherent displacement \[m\].
     pub(super) peak: f64,
     /// Zeros, one a node and one beyond either end: the ground at rest.
@@ -68,6 +71,8 @@ pub(super) struct Snapshot<'a> {
     adherent: &'a [f64],
     /// Adhesion \[N/m\] of every node.
     pub adhesion: &'a [f64],
+    /// How fast it changes from the point of the lattice on at which node 0 stands.
+    pub rates: (&'a Rates, usize),
     /// Last node at or before the vehicle; outside the duct, negative or beyond the last.
     pub node: i64,
     /// Vehicle position on the lattice.
@@ -160,10 +165,11 @@ impl Passage {
             axial_stiffness: cable.axial_stiffness(),
             friction: cable.friction(),
             direction: course.direction,
-            phases,
             behind: behind as usize,
             positions,
             reach,
+            rates: Rates::new(&phases.iter().map(|phase| &phase.adhesion[..]).collect::<Vec<_>>()),
+            phases,
             peak,
             still: vec![0.0; mesh.nodes() + 2],
         })
@@ -215,6 +221,7 @@ impl Passage {
         Snapshot {
             adherent: &self.phases[phase].adherent[first..beyond],
             adhesion: &self.phases[phase].adhesion[first + 1..beyond - 1],
+            rates: (&self.rates, first + 1),
             node: position.div_euclid(m),
             position,
         }

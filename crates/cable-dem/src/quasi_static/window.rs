@@ -1,14 +1,12 @@
-//! The windows of a step: where the cable moves, and how that zone grows, travels and shrinks.
-
-use std::ops::Range;
+//! The windows of a step: where the cable moves, how far each reaches, and what of it still moves afterwards.
 
 use crate::step::Stretch;
 
 /// Most nodes that a disturbed window grows by at once on each side.
 const MAX_GROWTH: usize = 256;
 
-/// Nodes looked at together.
-const BLOCK: usize = 64;
+/// Quiet nodes between two parts of the cable that move from which on each is solved on its own.
+const GAP: usize = 16;
 
 /// A window to solve in this step.
 #[derive(Debug, Clone, Copy)]
@@ -59,99 +57,11 @@ impl Room {
     }
 }
 
-/// Friction that the cable would need all along if it stood still.
-pub(super) struct Needed<'a> {
-    /// Its parts at every node \[N/m\].
-    pub friction: &'a [f64],
-    pub adhesion: &'a [f64],
-    /// What there is of it \[N/m\].
-    pub limit: f64,
-}
-
-impl Needed<'_> {
-    fn slips(&self, node: usize) -> bool {
-        (self.friction[node] + self.adhesion[node]).abs() > self.limit
-    }
-
-    /// Whether any of `nodes` slips: without a jump out of the loop, so that several are seen at once.
-    fn any_slips(&self, nodes: Range<usize>) -> bool {
-        let pairs = self.friction[nodes.clone()].iter().zip(&self.adhesion[nodes]);
-        pairs.fold(false, |any, (friction, adhesion)| {
-            any | ((friction + adhesion).abs() > self.limit)
-        })
-    }
-
-    fn first(&self, nodes: Range<usize>) -> Option<usize> {
-        let mut blocks = nodes
-            .clone()
-            .step_by(BLOCK)
-            .map(|lo| lo..nodes.end.min(lo + BLOCK));
-        blocks
-            .find(|block| self.any_slips(block.clone()))?
-            .find(|&node| self.slips(node))
-    }
-
-    fn last(&self, nodes: Range<usize>) -> Option<usize> {
-        let mut blocks = nodes
-            .clone()
-            .step_by(BLOCK)
-            .map(|lo| lo..nodes.end.min(lo + BLOCK))
-            .rev();
-        blocks
-            .find(|block| self.any_slips(block.clone()))?
-            .rev()
-            .find(|&node| self.slips(node))
-    }
-}
-
-/// The travelling window: the last one, extended to every node `near` the vehicle that slips.
-pub(super) fn travelling(
-    room: Room,
-    near: Stretch,
-    last: Option<Stretch>,
-    needed: &Needed<'_>,
-) -> Option<Stretch> {
-    let end = near.hi + 1;
-    let Some(last) = last else {
-        let lo = needed.first(near.lo..end)?;
-        let hi = needed.last(near.lo..end).unwrap_or(lo);
-        return Some(room.widened(Stretch { lo, hi }, room.margin));
-    };
-    let before = needed.first(near.lo..last.lo.min(end));
-    let after = needed.last(last.hi.max(near.lo) + 1..end);
-    let slipping = Stretch {
-        lo: before.unwrap_or(last.lo),
-        hi: after.unwrap_or(last.hi),
-    };
-    let widened = room.widened(slipping, room.margin);
-    Some(Stretch {
-        lo: before.map_or(last.lo, |_| widened.lo),
-        hi: after.map_or(last.hi, |_| widened.hi),
-    })
-}
-
-/// Lists a step's windows in `windows`, from left to right; those that touch become one. The travelling window is at least as
-/// wide as it was in the last pass, which spares it growing again.
-pub(super) fn collect(
-    windows: &mut Vec<Window>,
-    travelling: Option<Stretch>,
-    remembered: Option<Stretch>,
-    at_supports: impl Iterator<Item = Stretch>,
-) {
-    windows.clear();
-    let travelling = match (travelling, remembered) {
-        (Some(a), Some(b)) if a.lo <= b.hi && b.lo <= a.hi => Some(Stretch {
-            lo: a.lo.min(b.lo),
-            hi: a.hi.max(b.hi),
-        }),
-        (travelling, _) => travelling,
-    };
-    let window = |travels| move |stretch| Window { stretch, travels };
-    windows.extend(travelling.map(window(true)));
-    windows.extend(at_supports.map(window(false)));
-    windows.sort_by_key(|window| window.stretch.lo);
+/// Stretches that touch, or nearly so, become one window; `windows` are left in order.
+pub(super) fn join(windows: &mut Vec<Window>) {
+    windows.sort_unstable_by_key(|window| window.stretch.lo);
     windows.dedup_by(|next, window| {
-        let touches = next.stretch.lo <= window.stretch.hi + 2;
+        let touches = next.stretch.lo <= window.stretch.hi + GAP;
         if touches {
             window.stretch.hi = window.stretch.hi.max(next.stretch.hi);
             window.travels |= next.travels;
@@ -177,16 +87,37 @@ pub(super) fn grow(
     (grown, (2 * growth).min(MAX_GROWTH))
 }
 
-/// The part of a solved window that still moves; `None` if nothing does. `quiet` is asked of an edge and the node inside it.
-pub(super) fn shrink(solved: Stretch, quiet: impl Fn(usize, usize) -> bool) -> Option<Stretch> {
-    let Stretch { mut lo, mut hi } = solved;
-    while lo < hi && quiet(lo, lo + 1) {
-        lo += 1;
+/// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside each edge.
+pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut Vec<Stretch>) {
+    let (mut nodes, mut back) = (solved.nodes(), solved.nodes().rev());
+    let (Some(first), Some(last)) = (nodes.find(|&node| moves(node)), back.find(|&node| moves(node))) else {
+        return;
+    };
+    let with_edges = |lo: usize, hi: usize| Stretch {
+        lo: solved.lo.max(lo.saturating_sub(1)),
+        hi: solved.hi.min(hi + 1),
+    };
+    let mut lo = first;
+    // Of so many quiet nodes side by side one is looked at.
+    let mut probe = first + GAP;
+    while probe < last {
+        if !moves(probe) {
+            let before = (lo..probe).rev().find(|&node| moves(node)).unwrap_or(lo);
+            let after = (probe..last).find(|&node| moves(node)).unwrap_or(last);
+            if after > before + GAP {
+                parts.push(with_edges(lo, before));
+                lo = after;
+            }
+            probe = after;
+        }
+        probe += GAP;
     }
-    while hi > lo && quiet(hi, hi - 1) {
-        hi -= 1;
-    }
-    (lo < hi).then_some(Stretch { lo, hi })
+    parts.push(with_edges(lo, last));
+}
+
+/// What holds all `parts`, which are in order.
+pub(super) fn hull(parts: impl Iterator<Item = Stretch>) -> Option<Stretch> {
+    parts.reduce(|hull, part| Stretch { hi: part.hi, ..hull })
 }
 
 /// Nodes over which the response of a stuck chain fades to a hundredth; `screening` is (λ/h)².
@@ -198,4 +129,55 @@ fn fading_nodes(screening: f64) -> usize {
     let half = 0.5 / screening;
     let ratio = 1.0 + half - (half * (half + 2.0)).sqrt();
     ((100.0_f64.ln() / -ratio.ln()).ceil() as usize).max(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SOLVED: Stretch = Stretch { lo: 10, hi: 209 };
+
+    /// The parts of [`SOLVED`] that move where `stretches` do.
+    fn parts(stretches: &[(usize, usize)]) -> Vec<(usize, usize)> {
+        let mut parts = Vec::new();
+        let moves = |node| stretches.iter().any(|&(lo, hi)| (lo..=hi).contains(&node));
+        moving(SOLVED, moves, &mut parts);
+        parts.into_iter().map(|part| (part.lo, part.hi)).collect()
+    }
+
+    #[test]
+    fn parts_that_move_are_told_apart_by_a_gap_between_them() {
+        assert_eq!(parts(&[]), []);
+        assert_eq!(parts(&[(50, 50)]), [(49, 51)]);
+        // No farther than what was solved.
+        assert_eq!(parts(&[(10, 209)]), [(10, 209)]);
+        assert_eq!(parts(&[(10, 10), (209, 209)]), [(10, 11), (208, 209)]);
+        for begin in 12..12 + 2 * GAP {
+            let near = [(begin, 60), (60 + GAP, 90)];
+            assert_eq!(parts(&near), [(begin - 1, 91)]);
+            let apart = [(begin, 60), (61 + GAP, 90), (92, 92), (150, 200)];
+            assert_eq!(parts(&apart), [(begin - 1, 61), (60 + GAP, 93), (149, 201)]);
+        }
+    }
+
+    #[test]
+    fn windows_with_less_than_a_gap_between_them_are_one() {
+        let window = |lo, hi, travels| Window {
+            stretch: Stretch { lo, hi },
+            travels,
+        };
+        let mut windows = vec![
+            window(100, 120, false),
+            window(20, 40, true),
+            window(30, 35, false),
+            window(40 + GAP, 70, false),
+            window(71 + GAP, 90, false),
+        ];
+        join(&mut windows);
+        let joined: Vec<_> = windows
+            .iter()
+            .map(|window| (window.stretch.lo, window.stretch.hi, window.travels))
+            .collect();
+        assert_eq!(joined, [(20, 70, true), (71 + GAP, 120, false)]);
+    }
 }

@@ -26,9 +26,9 @@ fn a_duct_ten_times_as_long_costs_no_more_a_step() {
             assert!(long.steps > 5 * short.steps);
             let growth = updates_per_step(long) / updates_per_step(short);
             assert!(growth < 1.2, "{short:?}, {long:?}");
-            // Measured: 200 to 280 of 3001 nodes, about the slipping zone of 20 m.
-            assert!(long.widest_window < nodes / 8, "{long:?}");
-            assert!(updates_per_step(long) < nodes as f64 / 8.0, "{long:?}");
+            // Measured: windows of 100 to 145 of 3001 nodes, about the longest zone that slips.
+            assert!(long.widest_window < nodes / 16, "{long:?}");
+            assert!(updates_per_step(long) < nodes as f64 / 16.0, "{long:?}");
         }
     }
 }
