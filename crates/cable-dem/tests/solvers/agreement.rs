@@ -7,17 +7,8 @@ use proptest::prelude::*;
 
 use super::harness::{Drive, Kind, MASS, Problem, Run};
 
-/// Of the largest force that the cable meets.
+/// Of the largest force that the cable meets, at the worst place.
 const AGREEMENT: f64 = 5e-3;
-
-/// The same at the worst place. Under Coulomb's law nodes that the explicit solver lets swing as they are passed stick one by one,
-/// each where it happens to be.
-fn at_worst(kind: Kind, problem: &Problem) -> f64 {
-    match (kind, problem.cable.friction().law()) {
-        (Kind::Explicit, FrictionLaw::Coulomb) => 2.0 * AGREEMENT,
-        _ => AGREEMENT,
-    }
-}
 
 /// Inertia of the cable beside friction.
 const INERTIA: f64 = 1e-4;
@@ -69,7 +60,7 @@ fn any_scene() -> impl Strategy<Value = (Problem, Vec<usize>)> {
                     peak * (t + 0.3 * t * t) / (1.0 + t * t).powi(2)
                 });
                 // Steps so fine that the time between two of them does not count.
-                let mesh = Mesh::new(length, 0.1 * width, 0.01 * width).expect("a valid mesh");
+                let mesh = Mesh::new(length, 0.1 * width, 0.005 * width).expect("a valid mesh");
                 let drives = vec![drive.clone(), drive.back()];
                 (Problem { cable, mesh, drives }, traffic)
             },
@@ -113,8 +104,7 @@ fn without_inertia(problem: &Problem, traffic: &[usize]) -> Result<(Vec<f64>, f6
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(16))]
 
-    /// Measured in 60 scenes, at the worst place: 3.4e-3 of the largest force, and 5.7e-3 in the explicit solver under Coulomb's
-    /// law.
+    /// Measured in 280 scenes: 4.2e-3 of the largest force; with steps twice as long 6.1e-3 in one of them, under Coulomb's law.
     #[test]
     fn three_solvers_have_one_answer((problem, traffic) in any_scene()) {
         let (expected, largest) = without_inertia(&problem, &traffic).expect("an equilibrium");
@@ -125,9 +115,8 @@ proptest! {
             }
             let found = forces(&problem, &run.state);
             let errors = found.iter().zip(&expected).map(|(a, b)| (a - b).abs() / largest);
-            let worst = errors.clone().fold(0.0, f64::max);
-            let mean = (errors.map(|error| error * error).sum::<f64>() / found.len() as f64).sqrt();
-            prop_assert!(mean <= AGREEMENT && worst <= at_worst(kind, &problem), "{kind:?}: {mean}, {worst}");
+            let worst = errors.fold(0.0, f64::max);
+            prop_assert!(worst <= AGREEMENT, "{kind:?}: {worst}");
         }
     }
 }
