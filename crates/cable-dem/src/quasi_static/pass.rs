@@ -33,13 +33,14 @@ pub(super) struct ForwardSolver {
     /// Of the cable in the current pass \[N\].
     thermal_force: f64,
     windows: Vec<Window>,
-    /// What moved in the last step, apart from what moves around supports alone.
+    /// What moved in the last step, apart from what moves around supports alone: where a window around a support grows over a part that
+    /// travels, only what moves further in that part's own window.
     moving: Vec<Stretch>,
     watch: Watch,
     prediction: Prediction,
     /// Whether the last pass foretold the last step better than `prediction` did.
     recurs: bool,
-    /// The last pass of each passage: its windows and contact states. They and `prediction` outlive a pass, so that an answer
+    /// The last pass of each passage: what moved, and its contact states. They and `prediction` outlive a pass, so that an answer
     /// depends on earlier passes, by up to 1e-4 of the largest force.
     memories: HashMap<u64, PassMemory>,
     /// That of the pass before the last: room for the next one.
@@ -68,7 +69,7 @@ impl ForwardSolver {
             thermal_force: 0.0,
             windows: Vec::new(),
             moving: Vec::new(),
-            watch: Watch::new(nodes),
+            watch: Watch::new(room.free),
             prediction: Prediction::default(),
             recurs: true,
             memories: HashMap::new(),
@@ -188,7 +189,7 @@ impl ForwardSolver {
         window::join(windows);
         // Between them and beyond.
         let known = windows.len();
-        let near = Watch::around(room.under(snapshot.node, reach), room.free);
+        let near = self.watch.around(room.under(snapshot.node, reach));
         let limit = self.step.chain.limit * (1.0 + UNBALANCED_SHARE);
         let mut lo = near.start;
         for at in 0..=known {

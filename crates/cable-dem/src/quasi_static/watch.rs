@@ -12,14 +12,17 @@ const BLOCK: usize = 32;
 /// Up to which vehicle position no node slips, block by block.
 #[derive(Debug, Clone)]
 pub(super) struct Watch {
+    /// The nodes that can slip.
+    free: Stretch,
     quiet_until: Vec<i64>,
 }
 
 impl Watch {
-    /// Over a cable of so many `nodes`.
-    pub fn new(nodes: usize) -> Self {
+    /// Over the `free` nodes of a cable.
+    pub fn new(free: Stretch) -> Self {
         Self {
-            quiet_until: vec![i64::MIN; nodes.div_ceil(BLOCK)],
+            quiet_until: vec![i64::MIN; free.hi / BLOCK + 1],
+            free,
         }
     }
 
@@ -28,10 +31,14 @@ impl Watch {
         self.quiet_until[stretch.lo / BLOCK..=stretch.hi / BLOCK].fill(i64::MIN);
     }
 
-    /// The nodes of all blocks that `stretch` touches, as far as they are among the `free` ones: a block is watched as a whole.
-    pub fn around(stretch: Stretch, free: Stretch) -> Range<usize> {
-        let (lo, end) = (stretch.lo / BLOCK * BLOCK, (stretch.hi / BLOCK + 1) * BLOCK);
-        lo.max(free.lo)..end.min(free.hi + 1)
+    /// The nodes of all blocks that `stretch` touches.
+    pub fn around(&self, stretch: Stretch) -> Range<usize> {
+        self.block(stretch.lo / BLOCK).start..self.block(stretch.hi / BLOCK).end
+    }
+
+    fn block(&self, block: usize) -> Range<usize> {
+        let begin = block * BLOCK;
+        begin.max(self.free.lo)..(begin + BLOCK).min(self.free.hi + 1)
     }
 
     /// Finds, block by block, what slips among `nodes`: where `friction` and adhesion together are beyond `limit` \[N/m\].
@@ -51,8 +58,8 @@ impl Watch {
             if snapshot.position <= self.quiet_until[block] {
                 continue;
             }
-            let begin = block * BLOCK;
-            let watched = nodes.start.max(begin)..nodes.end.min(begin + BLOCK);
+            let whole = self.block(block);
+            let watched = nodes.start.max(whole.start)..nodes.end.min(whole.end);
             let needed = |node: usize| (friction[node] + snapshot.adhesion[node]).abs();
             let pairs = friction[watched.clone()]
                 .iter()
@@ -61,7 +68,11 @@ impl Watch {
             let most = pairs.map(|(friction, adhesion)| (friction + adhesion).abs());
             let most = most.fold(0.0, |most, needed| if needed > most { needed } else { most });
             if most <= limit {
-                self.quiet_until[block] = snapshot.position + rates.lasts(first + begin, limit - most);
+                // What of it lies in a window or beyond one is not known.
+                if watched == whole {
+                    let lasts = rates.lasts(first + block * BLOCK, limit - most);
+                    self.quiet_until[block] = snapshot.position + lasts;
+                }
                 continue;
             }
             let slips = |&node: &usize| needed(node) > limit;
@@ -112,6 +123,7 @@ impl Rates {
 #[cfg(test)]
 mod tests {
     use ground_field::Direction;
+    use proptest::prelude::*;
 
     use super::*;
     use crate::quasi_static::passage::Passage;
@@ -140,18 +152,30 @@ mod tests {
         for (spacing, vehicle_step) in STEPS {
             let (passage, mut friction, limit) = scene(spacing, vehicle_step);
             let nodes = friction.len();
-            let free = Stretch { lo: 0, hi: nodes - 1 };
+            let free = Stretch { lo: 1, hi: nodes - 1 };
             let room = Room::new(free, 0.0);
-            let mut watch = Watch::new(nodes);
+            let mut watch = Watch::new(free);
             let mut slips = 0;
-            for &position in &passage.positions {
+            for (step, &position) in passage.positions.iter().enumerate() {
                 let snapshot = passage.snapshot(position);
-                let near = Watch::around(room.under(snapshot.node, passage.reach), free);
+                let near = watch.around(room.under(snapshot.node, passage.reach));
+                // A window of a few nodes, which stays for a while: the block around it is looked at on either side.
+                let window = Stretch {
+                    lo: 100 + step / 50,
+                    hi: 104 + step / 50,
+                };
+                let (before, behind) = (
+                    near.start..near.end.min(window.lo),
+                    near.start.max(window.hi + 1)..near.end,
+                );
                 let mut found = vec![false; nodes];
-                watch.slipping(near, &snapshot, &friction, limit, |slips| {
-                    found[slips.nodes()].fill(true);
-                });
-                for node in 0..nodes {
+                found[window.nodes()].fill(true);
+                for nodes in [before, behind] {
+                    watch.slipping(nodes, &snapshot, &friction, limit, |slips| {
+                        found[slips.nodes()].fill(true);
+                    });
+                }
+                for node in free.nodes() {
                     let needed = friction[node] + snapshot.adhesion[node];
                     if needed.abs() > limit {
                         assert!(found[node], "node {node} with the vehicle at {position}");
@@ -170,7 +194,11 @@ mod tests {
     fn where_nothing_can_slip_a_block_is_looked_at_once_a_block_s_length() {
         for (spacing, vehicle_step) in STEPS {
             let (passage, friction, limit) = scene(spacing, vehicle_step);
-            let mut watch = Watch::new(friction.len());
+            let free = Stretch {
+                lo: 0,
+                hi: friction.len() - 2,
+            };
+            let mut watch = Watch::new(free);
             let mut looks = 0;
             for &position in &passage.positions {
                 looks += watch
@@ -179,8 +207,8 @@ mod tests {
                     .filter(|&&until| position > until)
                     .count();
                 let snapshot = passage.snapshot(position);
-                watch.slipping(0..friction.len(), &snapshot, &friction, 100.0 * limit, |_| {
-                    panic!("nothing slips");
+                watch.slipping(watch.around(free), &snapshot, &friction, 100.0 * limit, |_| {
+                    panic!("nothing slips")
                 });
             }
             let blocks = watch.quiet_until.len() * passage.steps();
@@ -190,6 +218,64 @@ mod tests {
                 looks as f64 <= most * blocks as f64,
                 "{looks} looks at {blocks} blocks"
             );
+        }
+    }
+
+    #[test]
+    fn what_has_changed_is_looked_at_again() {
+        let (passage, mut friction, limit) = scene(0.1, 0.05);
+        let mut watch = Watch::new(Stretch {
+            lo: 0,
+            hi: friction.len() - 1,
+        });
+        let mut slipping = |position: i64, friction: &[f64], changed: Option<Stretch>| {
+            if let Some(changed) = changed {
+                watch.forget(changed);
+            }
+            let mut found = Vec::new();
+            let snapshot = passage.snapshot(position);
+            watch.slipping(0..friction.len(), &snapshot, friction, 100.0 * limit, |slips| {
+                found.push(slips);
+            });
+            found
+        };
+        assert_eq!(slipping(0, &friction, None), []);
+        let changed = Stretch { lo: 77, hi: 78 };
+        friction[changed.nodes()].fill(-200.0 * limit);
+        assert_eq!(slipping(1, &friction, Some(changed)), [changed]);
+    }
+
+    proptest! {
+        /// On a lattice that is flat but for some steep places.
+        #[test]
+        fn adhesion_lasts_as_long_as_it_is_said_to(
+            steep in prop::collection::vec((0..600_usize, -1.0..1.0_f64), 1..12),
+            phases in 1..5_usize,
+            first in 40..100_usize,
+            phase in 0..5_usize,
+            slack in 0.0..0.5_f64,
+        ) {
+            let lattice = 200 * phases;
+            let mut value = 0.0;
+            let values: Vec<f64> = (0..lattice)
+                .map(|at| {
+                    let steps = steep.iter().filter(|(place, _)| *place % lattice == at);
+                    value += 1e-3 + steps.map(|(_, step)| step).sum::<f64>();
+                    value
+                })
+                .collect();
+            let by_phase: Vec<Vec<f64>> =
+                (0..phases).map(|phase| values[phase..].iter().step_by(phases).copied().collect()).collect();
+            let rates = Rates::new(&by_phase.iter().map(|phase| &phase[..]).collect::<Vec<_>>());
+            let lasts = rates.lasts(first, slack);
+            prop_assert!((0..=(BLOCK * phases) as i64).contains(&lasts));
+            for node in 0..BLOCK {
+                let now = (first + node) * phases + phase % phases;
+                for driven in 0..=lasts as usize {
+                    let change = (values[now - driven] - values[now]).abs();
+                    prop_assert!(change <= slack + 1e-12, "node {node} changes by {change} after {driven}");
+                }
+            }
         }
     }
 }

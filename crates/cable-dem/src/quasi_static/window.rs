@@ -5,7 +5,8 @@ use crate::step::Stretch;
 /// Most nodes that a disturbed window grows by at once on each side.
 const MAX_GROWTH: usize = 256;
 
-/// Quiet nodes between two parts of the cable that move from which on each is solved on its own.
+/// Nodes between two windows from which on each is solved on its own. Between two parts that move four more have to be quiet: two that
+/// either takes with it as its edge, and two that the next windows take.
 const GAP: usize = 16;
 
 /// A window to solve in this step.
@@ -98,7 +99,7 @@ pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut
         hi: solved.hi.min(hi + 1),
     };
     let mut lo = first;
-    // Of so many quiet nodes side by side one is looked at.
+    // Of so many quiet nodes side by side one at least is looked at.
     let mut probe = first + GAP;
     while probe < last {
         if !moves(probe) {
