@@ -3,6 +3,7 @@
 mod memory;
 mod pass;
 mod passage;
+mod rates;
 mod schedule;
 mod supports;
 mod view;

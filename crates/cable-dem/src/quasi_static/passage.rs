@@ -4,8 +4,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use ground_field::{Direction, DuctMotion};
 
+use super::rates::Rates;
 use super::schedule::schedule;
-use super::watch::Rates;
 use crate::course::{Course, as_driven};
 use crate::{CableError, DuctedCable, Friction, Mesh};
 
