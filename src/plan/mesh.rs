@@ -204,6 +204,12 @@ impl Levels {
         self.updates(level, passes, self.length)
     }
 
+    /// About how many points the motion of the duct under one vehicle is tabulated at on `level`.
+    pub fn table_points(&self, level: usize) -> f64 {
+        let (spacing, step) = self.spacing(level);
+        (self.road + self.length) / step.min(spacing)
+    }
+
     fn updates(&self, level: usize, passes: u64, moved: f64) -> f64 {
         let (spacing, step) = self.spacing(level);
         passes as f64 * self.road / step * moved / spacing

@@ -17,7 +17,7 @@ use super::outlook::{Known, Level, Outlook};
 use super::passes::{Jumping, Passes, Task};
 use super::random;
 use super::underway::Underway;
-use super::work::Work;
+use super::work::{Work, tabulated};
 use super::worth::MAX_NODE_UPDATES;
 use crate::answer::error_estimate::{Scale, Shares, is_doubtful};
 use crate::answer::simulated;
@@ -80,13 +80,18 @@ pub struct Forecast {
 /// ```
 pub fn forecast(plan: &Plan<'_>) -> Result<Forecast, Error> {
     let method = plan.choice.method;
-    let seconds = |work: Work| START + plan.took.as_secs_f64() + work.seconds(method.cable_method());
-    let told = |outlook: Outlook| Forecast {
-        seconds: seconds(outlook.work),
-        node_updates: outlook.work.0[0],
-        node_spacing_m: plan.levels.spacing(outlook.level).0,
-        passes_error: outlook.passes.force,
-        every_pass_seconds: seconds(outlook.every_pass),
+    let told = |outlook: Outlook| {
+        let meshes = (0..=outlook.level).filter(|&level| plan.levels.mesh(level).is_ok());
+        let points = meshes.map(|level| plan.levels.table_points(level)).sum();
+        let besides = START + plan.took.as_secs_f64() + tabulated(points, &plan.scene.vehicles);
+        let seconds = |work: Work| besides + work.seconds(method.cable_method());
+        Forecast {
+            seconds: seconds(outlook.work),
+            node_updates: outlook.work.0[0],
+            node_spacing_m: plan.levels.spacing(outlook.level).0,
+            passes_error: outlook.passes.force,
+            every_pass_seconds: seconds(outlook.every_pass),
+        }
     };
     if let Some(heat) = plan.scene.warming() {
         return days_outlook::outlook(plan, heat, method).map(told);

@@ -5,19 +5,28 @@ use std::ops::{Add, AddAssign, Div, Mul};
 use cable_dem::Statistics;
 
 use crate::plan::CableMethod;
+use crate::scene::TrafficVehicle;
 
-/// Time of a node's update, a window, a corner, a node's part in one jump, and in one pass that is listed within a jump \[s\] without
-/// inertia; of a node's update with it, and of an explicit one.
-const SECONDS: Work = Work([5e-9, 1.2e-7, 2.7e-9, 1.2e-6, 3.5e-8]);
-const DYNAMIC: Work = Work([6e-8, 0.0, 0.0, 1.4e-6, 4.5e-8]);
-const EXPLICIT: Work = Work([1e-9, 0.0, 0.0, 1.4e-6, 4.5e-8]);
+/// Time of a node's update, a window, a corner, a node's part in one jump, and in one pass that is listed within a jump, and of a step \[s\]
+/// without inertia; of a node's update with it, and of an explicit one.
+const SECONDS: Work = Work([5.2e-9, 1.1e-7, 1.5e-8, 1.2e-6, 3.5e-8, 7.5e-8]);
+const DYNAMIC: Work = Work([6e-8, 0.0, 0.0, 1.4e-6, 4.5e-8, 0.0]);
+const EXPLICIT: Work = Work([1e-9, 0.0, 0.0, 1.4e-6, 4.5e-8, 0.0]);
 /// What they multiply by from one level to the next, where that is not measured; and the bounds of what is believed.
-pub const GROWTH: Work = Work([4.6, 2.1, 4.6, 2.0, 2.0]);
+pub const GROWTH: Work = Work([4.6, 2.1, 4.6, 2.0, 2.0, 2.0]);
 const BELIEVED: (f64, f64) = (0.8, 1.3);
+/// Time of a point at which the motion of the duct is tabulated \[s\], for the vehicle and for each of its wheels.
+const TABULATED: (f64, f64) = (3e-8, 7e-8);
 
-/// Counts of work: node updates, windows, corners, nodes times periods, and nodes times passes within jumps.
+/// Processor time in which the motion of the duct under each vehicle of a scene is tabulated at so many `points` \[s\].
+pub fn tabulated(points: f64, vehicles: &[TrafficVehicle]) -> f64 {
+    let of_vehicle = |of: &TrafficVehicle| TABULATED.0 + TABULATED.1 * of.vehicle.wheels().len() as f64;
+    points * vehicles.iter().map(of_vehicle).sum::<f64>()
+}
+
+/// Counts of work: node updates, windows, corners, nodes times periods, nodes times passes within jumps, and steps.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Work(pub [f64; 5]);
+pub struct Work(pub [f64; 6]);
 
 impl Work {
     /// Of so many simulated `periods` on a mesh of so many `nodes`, with so many passes listed within jumps.
@@ -28,6 +37,7 @@ impl Work {
             statistics.corners as f64,
             nodes as f64 * periods,
             nodes as f64 * listed,
+            statistics.steps as f64,
         ])
     }
 

@@ -1,5 +1,7 @@
 //! What `forecast` says before a run against what the run did, by counts that do not depend on the machine.
 
+use std::time::Instant;
+
 use creepage::{Error, Scene};
 use rayon::prelude::*;
 
@@ -12,14 +14,24 @@ const PASSES: [u64; 3] = [10_000, 1_000_000, 100_000_000];
 
 /// Node updates of the run beside those foreseen; `None` where the run has no answer.
 fn compare(scene: &Scene) -> Option<f64> {
+    compare_with_time(scene).map(|(updates, _)| updates)
+}
+
+/// The same, and the run's time beside that foreseen: processor time where it has one thread and an idle machine.
+fn compare_with_time(scene: &Scene) -> Option<(f64, f64)> {
     let plan = creepage::plan(scene).expect("a plan");
     let forecast = creepage::forecast(&plan).expect("a forecast");
     assert!(forecast.seconds > 0.0 && forecast.seconds.is_finite());
+    let begun = Instant::now();
     let run = match creepage::run_plan(&plan, &creepage::RunOptions::default()) {
         Err(Error::Inaccurate { .. } | Error::Jumps(_)) => return None,
         run => run.expect("an answer"),
     };
-    Some(run.cost.node_updates as f64 / forecast.node_updates)
+    let seconds = begun.elapsed().as_secs_f64();
+    Some((
+        run.cost.node_updates as f64 / forecast.node_updates,
+        seconds / forecast.seconds,
+    ))
 }
 
 fn share(ratios: &[f64], good: impl Fn(f64) -> bool) -> f64 {
@@ -91,20 +103,22 @@ fn forecasts_on_many_scenes() {
         .ok()
         .and_then(|text| text.parse().ok())
         .unwrap_or(0);
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    let one_thread = one_thread.expect("a pool of one thread");
     let mut all = Vec::new();
     for passes in PASSES {
-        let ratios: Vec<f64> = (first..first + 120)
-            .filter_map(|seed| {
-                let mut scene = long_term::random(seed);
-                scene.traffic.passes = passes;
-                compare(&scene)
-            })
-            .collect();
+        let compared = (first..first + 120).filter_map(|seed| {
+            let mut scene = long_term::random(seed);
+            scene.traffic.passes = passes;
+            one_thread.install(|| compare_with_time(&scene))
+        });
+        let (ratios, times): (Vec<f64>, Vec<f64>) = compared.unzip();
         let within = |factor: f64| share(&ratios, |ratio| (1.0 / factor..factor).contains(&ratio));
         println!(
-            "{passes} passes: {} runs, at most twice the forecast {:.2}; within a factor of 1.5 {:.2}, of 2 {:.2}, of 3 {:.2}",
+            "{passes} passes: {} runs, at most twice the forecast {:.2} (their time {:.2}); within a factor of 1.5 {:.2}, of 2 {:.2}, of 3 {:.2}",
             ratios.len(),
             share(&ratios, |ratio| ratio < 2.0),
+            share(&times, |ratio| ratio < 2.0),
             within(1.5),
             within(2.0),
             within(3.0)
@@ -180,6 +194,5 @@ fn few_of_a_million_passes_are_simulated() {
         "{few} of {} with a period of at most 5 simulate at most 150",
         short.len()
     );
-    // With the passes that show where the forces lead beyond the last: 71 of 82.
-    assert!(few as f64 >= 0.85 * short.len() as f64);
+    assert!(few as f64 >= 0.9 * short.len() as f64);
 }

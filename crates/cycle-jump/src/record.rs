@@ -44,6 +44,27 @@ pub struct Beyond {
     pub period: Vec<PassOutcome>,
 }
 
+impl Beyond {
+    /// From the records, and the passes of the last `period`.
+    pub(crate) fn new(records: Vec<Record>, period: &[Phase]) -> Self {
+        Self {
+            records,
+            period: period.iter().map(|phase| phase.outcome.clone()).collect(),
+        }
+    }
+
+    /// Where forces no longer change: the passes `wanted` do what those of the last `period` did. (A cable that nothing holds moves on; its
+    /// movement is not told.)
+    pub(crate) fn unchanged(wanted: &[u64], period: &[Phase]) -> Self {
+        let record = |&pass: &u64| Record {
+            pass,
+            outcome: period[(pass - 1) as usize % period.len()].outcome.clone(),
+            interpolated: true,
+        };
+        Self::new(wanted.iter().map(record).collect(), period)
+    }
+}
+
 /// A jump that was taken, from one measured period to another.
 pub struct Jumped<'a> {
     pub mesh: &'a Mesh,

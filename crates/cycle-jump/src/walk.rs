@@ -126,26 +126,26 @@ where
             schedule: self.schedule.clone(),
             beyond: None,
         };
-        if let (Some(mut known), Some(&last)) = (known, self.request.beyond.last()) {
-            self.tolerance *= TOLERANCE_BEYOND;
-            let most = self.simulated + MOST_BEYOND * period as u64;
-            let most = (most, most);
-            if self.until(last / period as u64, &mut known, most)? {
-                evolution.beyond = Some(Beyond {
-                    records: self
-                        .records
-                        .split_off(self.records.partition_point(|record| record.pass <= passes)),
-                    period: known
-                        .period
-                        .phases
-                        .iter()
-                        .map(|phase| phase.outcome.clone())
-                        .collect(),
-                });
-            }
+        if let (Some(known), Some(&last)) = (known, self.request.beyond.last()) {
+            evolution.beyond = self.follow(known, last / period as u64)?;
             evolution.simulated = self.simulated;
         }
         Ok(evolution)
+    }
+
+    /// Goes on to the period number `last`, to see where the forces lead, unless they no longer change.
+    fn follow(&mut self, mut known: Knowledge, last: u64) -> Result<Option<Beyond>, E> {
+        let Request { passes, beyond, .. } = *self.request;
+        let rate = known.rate(&mut self.cable);
+        if self.is_settled(&known, &rate, last - self.done) {
+            return Ok(Some(Beyond::unchanged(beyond, &known.period.phases)));
+        }
+        self.tolerance *= TOLERANCE_BEYOND;
+        let most = self.simulated + MOST_BEYOND * known.period.phases.len() as u64;
+        let leads = self.until(last, &mut known, (most, most))?;
+        let first = self.records.partition_point(|record| record.pass <= passes);
+        let records = self.records.split_off(first);
+        Ok(leads.then(|| Beyond::new(records, &known.period.phases)))
     }
 
     /// Simulates the first periods, of `all`; what they say, where more are left.
@@ -188,9 +188,8 @@ where
             }
             let left = all - self.done;
             let rate = known.rate(&mut self.cable);
-            let resting = known.rests(self.jumps.motion);
             let guided = self.guide.length(self.schedule.len());
-            let whole = guided.is_none() && left > CHECKED && (resting || self.is_steady(known, &rate, left));
+            let whole = guided.is_none() && left > CHECKED && self.is_settled(known, &rate, left);
             if whole {
                 known.length = (left - CHECKED) as f64;
                 known.not_before = 2 * self.done;
@@ -215,8 +214,11 @@ where
         Ok(true)
     }
 
-    /// Whether forces will change no more than a small part of the tolerance in the periods `left`.
-    fn is_steady(&mut self, known: &Knowledge, rate: &[f64], left: u64) -> bool {
+    /// Whether the cable rests, or forces will change no more than a small part of the tolerance in the periods `left`.
+    fn is_settled(&mut self, known: &Knowledge, rate: &[f64], left: u64) -> bool {
+        if known.rests(self.jumps.motion) {
+            return true;
+        }
         if self.done < known.not_before {
             return false;
         }

@@ -183,3 +183,40 @@ fn obeyed_jumps_are_smooth() -> Result<(), Box<dyn std::error::Error>> {
     }
     Ok(())
 }
+
+/// Every node advances until its friction is 0.7 q: that is where the forces lead, and once they are there no pass is simulated to see it.
+#[test]
+fn where_forces_lead_costs_passes_only_while_they_change() -> Result<(), Box<dyn std::error::Error>> {
+    let (cable, mesh) = cable(End::Free, End::Spring(1e6), LIMIT)?;
+    let mut resting = RestingCable::new(&cable, &mesh)?;
+    let mut follow = |passes, beyond| {
+        let request = Request {
+            beyond,
+            ..request(passes, 1, &[], Guide::Free)
+        };
+        evolve(&cable, &mesh, &jumps(1e-2), &request, |_: Next, state| {
+            diffuse(&mut resting, &mesh, state).map_err(JumpError::from)
+        })
+    };
+    let beyond = [200_000, 1_000_000];
+    for (passes, still_changes) in [(100, true), (100_000, false)] {
+        let (alone, followed) = (follow(passes, &[])?, follow(passes, &beyond)?);
+        assert_eq!(
+            followed.simulated > alone.simulated,
+            still_changes,
+            "{passes} passes"
+        );
+        let leads = followed.beyond.ok_or("forces become steady")?;
+        let numbers: Vec<u64> = leads.records.iter().map(|record| record.pass).collect();
+        assert_eq!(numbers, beyond);
+        let last = leads.period.iter();
+        for outcome in leads.records.iter().map(|record| &record.outcome).chain(last) {
+            let share = outcome.force.downstream / (0.7 * LIMIT * LENGTH);
+            assert!(
+                (share - 1.0).abs() < 5e-3,
+                "{share} of what friction holds in the end"
+            );
+        }
+    }
+    Ok(())
+}
