@@ -204,10 +204,14 @@ impl Levels {
         self.updates(level, passes, self.length)
     }
 
-    /// About how many points the motion of the duct under one vehicle is tabulated at on `level`.
+    /// About how many points the motion of the duct under one vehicle is tabulated at, on all levels up to `level`.
     pub fn table_points(&self, level: usize) -> f64 {
-        let (spacing, step) = self.spacing(level);
-        (self.road + self.length) / step.min(spacing)
+        let points = |level: usize| {
+            let (spacing, step) = self.spacing(level);
+            (self.road + self.length) / step.min(spacing)
+        };
+        let meshes = (0..=level).filter(|&level| self.mesh(level).is_ok());
+        meshes.map(points).sum()
     }
 
     fn updates(&self, level: usize, passes: u64, moved: f64) -> f64 {

@@ -81,9 +81,8 @@ pub struct Forecast {
 pub fn forecast(plan: &Plan<'_>) -> Result<Forecast, Error> {
     let method = plan.choice.method;
     let told = |outlook: Outlook| {
-        let meshes = (0..=outlook.level).filter(|&level| plan.levels.mesh(level).is_ok());
-        let points = meshes.map(|level| plan.levels.table_points(level)).sum();
-        let besides = START + plan.took.as_secs_f64() + tabulated(points, &plan.scene.vehicles);
+        let tables = tabulated(plan.levels.table_points(outlook.level), &plan.scene.vehicles);
+        let besides = START + plan.took.as_secs_f64() + tables;
         let seconds = |work: Work| besides + work.seconds(method.cable_method());
         Forecast {
             seconds: seconds(outlook.work),
@@ -350,11 +349,7 @@ impl<'a> Probe<'a> {
             }
             None => task.every_pass()?,
         };
-        let periods = if way.is_some() {
-            passes.simulated as f64 / period as f64
-        } else {
-            0.0
-        };
+        let periods = way.map_or(0.0, |_| passes.simulated as f64 / period as f64);
         let within_jumps = passes.records.iter().filter(|record| record.interpolated).count();
         let beyond = passes.beyond.as_ref().map_or(0, |beyond| beyond.records.len());
         let listed = (within_jumps + beyond) as f64;
