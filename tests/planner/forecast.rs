@@ -1,4 +1,4 @@
-//! What `forecast` says before a run against what the run did, by counts that do not depend on the machine.
+//! What `forecast` says before a run against what the run did, by counts that do not depend on the machine; the time beside them is printed only.
 
 use std::time::Instant;
 

@@ -24,6 +24,11 @@ pub struct Phase {
     pub outcome: PassOutcome,
 }
 
+/// Which pass of its period `pass` is, where a period has so many passes.
+pub fn phase_of(pass: u64, period: usize) -> usize {
+    ((pass - 1) % period as u64) as usize
+}
+
 impl Period {
     /// The period that began with the displacements `start` \[m\], from the cable after each of its passes and what they did.
     pub fn new(start: &[f64], passes: &[(CableState, PassOutcome)]) -> Self {

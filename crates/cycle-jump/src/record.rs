@@ -3,7 +3,7 @@
 use cable_dem::{CableError, CableState, Mesh, PassOutcome, RestingCable};
 
 use crate::flow::Flow;
-use crate::period::Phase;
+use crate::period::{Phase, phase_of};
 
 /// Periods within a jump are computed when they end at most so far apart, as a ratio of their times since the first. Forces change on the
 /// scale of that time: between two such periods they differ from a straight line by (ln 1.03)²/8 = 1e-4 of themselves.
@@ -58,7 +58,7 @@ impl Beyond {
     pub(crate) fn unchanged(wanted: &[u64], period: &[Phase]) -> Self {
         let record = |&pass: &u64| Record {
             pass,
-            outcome: period[(pass - 1) as usize % period.len()].outcome.clone(),
+            outcome: period[phase_of(pass, period.len())].outcome.clone(),
             interpolated: true,
         };
         Self::new(wanted.iter().map(record).collect(), period)
@@ -86,9 +86,9 @@ pub struct Jumped<'a> {
 impl Jumped<'_> {
     /// Where `pass` stands in its period, and how many periods after the jump's beginning it ends.
     pub fn place(&self, pass: u64) -> (usize, f64) {
-        let period = self.before.len() as u64;
-        let phase = ((pass - 1) % period) as usize;
-        (phase, pass as f64 / period as f64 - self.begin as f64)
+        let period = self.before.len();
+        let into = pass as f64 / period as f64 - self.begin as f64;
+        (phase_of(pass, period), into)
     }
 
     /// The cable at rest after `pass`, and what it has moved as a whole \[m\].

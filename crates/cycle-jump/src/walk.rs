@@ -137,14 +137,16 @@ where
     fn follow(&mut self, mut known: Knowledge, last: u64) -> Result<Option<Beyond>, E> {
         let Request { passes, beyond, .. } = *self.request;
         let rate = known.rate(&mut self.cable);
-        if self.is_settled(&known, &rate, last - self.done) {
-            return Ok(Some(Beyond::unchanged(beyond, &known.period.phases)));
+        let left = last.saturating_sub(self.done);
+        if left > 0 && self.is_settled(&known, &rate, left) {
+            let later = beyond.partition_point(|&pass| pass <= passes);
+            return Ok(Some(Beyond::unchanged(&beyond[later..], &known.period.phases)));
         }
         self.tolerance *= TOLERANCE_BEYOND;
         let most = self.simulated + MOST_BEYOND * known.period.phases.len() as u64;
         let leads = self.until(last, &mut known, (most, most))?;
-        let first = self.records.partition_point(|record| record.pass <= passes);
-        let records = self.records.split_off(first);
+        let later = self.records.partition_point(|record| record.pass <= passes);
+        let records = self.records.split_off(later);
         Ok(leads.then(|| Beyond::new(records, &known.period.phases)))
     }
 

@@ -218,5 +218,11 @@ fn where_forces_lead_costs_passes_only_while_they_change() -> Result<(), Box<dyn
             );
         }
     }
+    // A number that is not beyond the last pass leads no farther, and is no record of where the forces lead.
+    for (beyond, later) in [(&[0, 500][..], &[][..]), (&[0, 300_000], &[300_000])] {
+        let leads = follow(100_000, beyond)?.beyond.ok_or("forces are steady")?;
+        let numbers: Vec<u64> = leads.records.iter().map(|record| record.pass).collect();
+        assert_eq!(numbers, later);
+    }
     Ok(())
 }

@@ -2,6 +2,8 @@
 
 use cable_dem::PassOutcome;
 
+use crate::period::phase_of;
+
 /// The cable after a pass or a change of temperature.
 #[derive(Debug, Clone)]
 pub struct Row {
@@ -62,7 +64,7 @@ pub fn of_pass(rows: &[Row], shapes: &[Shape], pass: u64, period: usize) -> Opti
         .rfind(|row| row.passes < pass)
         .or(rows.first())?;
     let share = (pass - before.passes) as f64 / (after.passes - before.passes) as f64;
-    let phase = ((pass - 1) % period as u64) as usize;
+    let phase = phase_of(pass, period);
     let distance = |shape: &&Shape| shape.begin.abs_diff(pass);
     let complete = shapes.iter().filter(|shape| shape.passes.len() >= period);
     let shape = complete.min_by_key(distance)?;
