@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 
 use super::memory::{PassMemory, Recalled};
-use super::passage::UNBALANCED_SHARE;
-use super::passage::{Passage, Snapshot};
+use super::passage::{Passage, SLIPPING_SHARE, Snapshot, UNBALANCED_SHARE};
 use super::supports::Supports;
 use super::watch::Watch;
 use super::window::{self, Room, Window};
@@ -190,7 +189,7 @@ impl ForwardSolver {
         // Between them and beyond.
         let known = windows.len();
         let near = self.watch.around(room.under(snapshot.node, reach));
-        let limit = self.step.chain.limit * (1.0 + UNBALANCED_SHARE);
+        let limit = self.step.chain.limit * (1.0 + SLIPPING_SHARE);
         let mut lo = near.start;
         for at in 0..=known {
             let (hi, next) = if at < known {

@@ -14,6 +14,12 @@ use crate::{CableError, DuctedCable, Friction, Mesh};
 /// held by nothing: 5e-4).
 pub const UNBALANCED_SHARE: f64 = 1e-3;
 
+/// Part of it that adhesion does not reach where no node is watched: friction there changes by up to twice as much, unseen.
+const UNSEEN: f64 = 0.05;
+
+/// Share of the friction limit beyond it from which a node that is watched slips.
+pub(super) const SLIPPING_SHARE: f64 = (1.0 - 2.0 * UNSEEN) * UNBALANCED_SHARE;
+
 static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 
 /// A vehicle's passage as the cable feels it: adherent motion and adhesion on the lattice of one mesh.
@@ -125,7 +131,7 @@ impl Passage {
         course: &Course<impl Fn(f64) -> f64>,
     ) -> Result<Self, CableError> {
         let step = mesh.lattice_step();
-        let limit = UNBALANCED_SHARE * cable.friction().limit();
+        let unseen = UNSEEN * UNBALANCED_SHARE * cable.friction().limit();
         let m = mesh.phases() as i64;
         let (end, stride) = (mesh.elements() as i64 * m, mesh.stride() as i64);
         let approach = (course.approach / mesh.vehicle_step()).ceil() as i64 * stride;
@@ -155,7 +161,7 @@ impl Passage {
         let reach = phases
             .iter()
             .flat_map(|phase| phase.adhesion.iter().enumerate())
-            .filter(|(_, adhesion)| adhesion.abs() > limit)
+            .filter(|(_, adhesion)| adhesion.abs() > unseen)
             .map(|(c, _)| (c as i64 - origin).unsigned_abs() as usize + 1)
             .max()
             .unwrap_or(0);
