@@ -341,6 +341,21 @@ fn limits_have_a_verdict_and_the_pass_that_breaks_them() {
     );
     assert!(json(&run(&["--limit-force", "downstream=1kN"]))["limit_reached_after"].is_null());
 
+    // A cable that is pulled away from its fixed end is pulled hardest while a vehicle passes.
+    let pulled = ["--set", "ends.upstream=fixed", "--set", "ends.downstream=free"];
+    let rows = json(&run(&pulled))["passes"].as_array().expect("a list").clone();
+    let last = rows.last().expect("a pass");
+    let (after, least) = (
+        number(&last["upstream_force_n"]),
+        number(&last["upstream_least_n"]),
+    );
+    assert!(least < 1.001 * after && after < 0.0, "{least} {after}");
+    let limit = format!("upstream={}", -0.5 * (after + least));
+    let broken = json(&run(&[&pulled[..], &["--limit-force", &limit]].concat()));
+    assert_eq!(number(&broken["limits"][0]["largest"]), -least);
+    assert_eq!(broken["limits"][0]["during_a_pass"], Value::Bool(true));
+    assert!(broken["limit_reached_after"]["pass"].is_u64(), "{broken}");
+
     // The free end counts only by its name.
     let kept = printed(&run(&["--limit-movement", "1 um"]));
     assert!(
@@ -1744,6 +1759,87 @@ fn run_in(folder: &Path, line: &str) -> String {
     let errors = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "creepage {line}: {errors}");
     String::from_utf8(output.stdout).expect("UTF-8")
+}
+
+/// All names of fields in a document.
+fn fields(document: &Value, found: &mut std::collections::BTreeSet<String>) {
+    match document {
+        Value::Object(object) => {
+            for (name, value) in object {
+                found.insert(name.clone());
+                fields(value, found);
+            }
+        }
+        Value::Array(list) => list.iter().for_each(|value| fields(value, found)),
+        _ => {}
+    }
+}
+
+#[test]
+fn the_page_on_json_names_every_field() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/json.md");
+    let page = fs::read_to_string(page).expect("the page");
+    let folder = folder("json-page");
+    let (scene, table) = (folder.join("my-duct.toml"), folder.join("bands.csv"));
+    let readme = readme();
+    fs::write(&scene, blocks(&readme, "toml")[0]).expect("a file");
+    let scene = text(&scene);
+    let quick = ["--set", "traffic.passes=4", "--set", "solver.tolerance=0.05"];
+    let limits = ["--limit-force", "5 kN", "--limit-movement", "1 m"];
+    let heat = [
+        "--set",
+        "heat.expansion=1e-5 1/K",
+        "--set",
+        "heat.daily_swing=5 K",
+        "--set",
+        "traffic.per_day=2",
+    ];
+    let random = [
+        "--set",
+        "traffic.passes=20000",
+        "--set",
+        "traffic.order=random",
+        "--set",
+        "duct.length=81 m",
+    ];
+    let places = ["--at", "upstream", "--at", "80 m"];
+    let drawn = [
+        "--vary",
+        "friction.dynamic_coefficient=normal(0.25, 0.01)",
+        "--samples",
+        "2",
+        "--out",
+        text(&table),
+    ];
+    let fitted = ["--data", "examples/data/synthetic-upper.csv"];
+    let mut found = std::collections::BTreeSet::new();
+    for arguments in [
+        [&["run", scene][..], &quick, &limits, &heat].concat(),
+        [&["run", scene][..], &quick[2..], &random].concat(),
+        [&["plan", scene][..], &quick].concat(),
+        [&["profile", scene][..], &quick].concat(),
+        [&["design", scene][..], &quick, &limits, &places].concat(),
+        [&["sweep", scene][..], &quick, &drawn].concat(),
+        [&["calibrate", UPPER][..], &fitted].concat(),
+        vec!["presets"],
+        vec!["explain"],
+    ] {
+        let output = output(&[&arguments[..], &["--json"]].concat());
+        assert_eq!(
+            output.status.code(),
+            Some(0),
+            "{arguments:?}: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
+        fields(&serde_json::from_slice(&output.stdout).expect("JSON"), &mut found);
+    }
+    assert!(found.len() > 120, "{found:?}");
+    let missing: Vec<_> = found
+        .iter()
+        .filter(|name| !page.contains(&format!("`{name}`")))
+        .collect();
+    // A place that is a clamp has its position by this name.
+    assert_eq!(missing, ["clamp"], "not on docs/json.md");
 }
 
 /// The commands of every page of docs/ run, a page in one folder with the README's scene as `my-duct.toml`; a block of

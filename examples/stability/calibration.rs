@@ -1,4 +1,4 @@
-//! Map 6: where a calibration can tell the shape factor b of friction, over the true b and the noise of the load cell.
+//! Map 7: where a calibration can tell the shape factor b of friction, over the true b and the noise of the load cell.
 //!
 //! The full-scale experiment's upper cable, read after every second of 60 passes; μ_d and b are fitted and the noise is estimated from
 //! the residuals. The model is a table of forces over ln μ_d and ln b with cubics between, so that a fit takes milliseconds: what is

@@ -1,4 +1,4 @@
-//! Map 6: days of heat and traffic, over the friction number Q = q z²/(EA D) and the daily swing of the temperature.
+//! Map 6: days of heat and traffic, over the Q number, Q = q z²/(EA D) and the daily swing of the temperature.
 //!
 //! Above Q ≈ 3 the traffic moves no cable and heat is alone; the smaller Q, the more of friction's hold the traffic takes away. From a swing of
 //! q L/(EA α) on heat slides the whole cable. Right is the simulation of every pass of every day, on the same mesh. The worst of a day's extreme
@@ -269,7 +269,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         Panels::new("Heat and traffic: extreme forces of six days, against the simulation of every pass")
             .columns(3)
             .panel_size(520.0, 460.0);
-    let mut table = String::from("map,friction_number,daily_swing_k,outcome,error,stated,simulated_share\n");
+    let mut table = String::from("map,q_number,daily_swing_k,outcome,error,stated,simulated_share\n");
     for case in CASES {
         let map = case.map(7, 7, DAYS)?;
         let worst = map

@@ -236,7 +236,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         Panels::new("Jumps over passes: force after 20 to 600 passes, against the simulation of every pass")
             .columns(2)
             .panel_size(700.0, 480.0);
-    let mut table = String::from("map,length_in_depths,friction_number,outcome,force_n,right_force_n\n");
+    let mut table = String::from("map,length_in_depths,inverse_q_number,outcome,force_n,right_force_n\n");
     for (mix, vehicles) in MIXES {
         for (grid, guards) in maps(vehicles, 11, 11, false)?
             .into_iter()

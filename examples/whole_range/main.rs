@@ -1,4 +1,4 @@
-//! Random scenes over the whole allowed range of every key: what comes of each, and whether it can be true.
+//! Random scenes over a wide range of every key: what comes of each, and whether it can be true.
 //!
 //! ```sh
 //! cargo run --release --example whole_range -- 10000 docs/charts/whole-range.csv

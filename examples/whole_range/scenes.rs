@@ -1,10 +1,10 @@
-//! Random scenes over the whole allowed range of every key: most values as a road has them, some from anywhere that is allowed.
+//! Random scenes over a wide range of every key: most values as a road has them, some from far beyond that.
 
 use std::fmt::Write;
 
 use fastrand::Rng;
 
-/// Share of the values that come from anywhere that is allowed.
+/// Share of the values that come from the wide range.
 const ANYWHERE: f64 = 0.06;
 
 /// Draws values.
@@ -26,9 +26,9 @@ impl Draw {
         10_f64.powf(self.between([low.log10(), high.log10()]))
     }
 
-    /// From the range that is usual, or from anywhere that is allowed.
-    fn value(&mut self, usual: [f64; 2], allowed: [f64; 2]) -> f64 {
-        let range = if self.chance(ANYWHERE) { allowed } else { usual };
+    /// From the range that is usual, or from a wide one.
+    fn value(&mut self, usual: [f64; 2], wide: [f64; 2]) -> f64 {
+        let range = if self.chance(ANYWHERE) { wide } else { usual };
         self.power(range)
     }
 

@@ -261,12 +261,13 @@ pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
         .fold(Shares::default(), Shares::max)
 }
 
-/// The same of every pass.
+/// The same of every pass that both have.
 pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
-    fn outcomes(records: &[Record]) -> Vec<&PassOutcome> {
-        records.iter().map(|record| &record.outcome).collect()
-    }
-    let (a, b) = (outcomes(a), outcomes(b));
+    let of_both = a.iter().filter_map(|record| {
+        let same = b.binary_search_by_key(&record.pass, |other| other.pass).ok()?;
+        Some((&record.outcome, &b[same].outcome))
+    });
+    let a: Vec<&PassOutcome> = a.iter().map(|record| &record.outcome).collect();
     let forces = |outcome: &PassOutcome| {
         [
             outcome.force.upstream,
@@ -326,7 +327,7 @@ pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
             ),
         }
     };
-    a.into_iter().zip(b).map(of_pass).collect()
+    of_both.map(of_pass).collect()
 }
 
 /// part/whole; nothing of nothing is nothing.

@@ -74,10 +74,11 @@ impl CableEnd {
     /// Largest force on it after a pass and during it, in size \[N\].
     pub fn largest_force(self, record: &PassRecord) -> f64 {
         let during = match self {
-            Self::Upstream => record.upstream_peak_n,
-            Self::Downstream => record.downstream_peak_n,
+            Self::Upstream => [record.upstream_peak_n, record.upstream_least_n],
+            Self::Downstream => [record.downstream_peak_n, record.downstream_least_n],
         };
-        self.force_after(record).max(during.abs())
+        let during = during.map(f64::abs);
+        self.force_after(record).max(during[0]).max(during[1])
     }
 
     /// Force on it after a pass, in size \[N\].

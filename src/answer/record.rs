@@ -104,6 +104,12 @@ pub struct PassRecord {
     pub downstream_displacement_m: f64,
     /// Work that slip between cable and duct has turned into heat in this pass \[J\].
     pub dissipated_energy_j: Option<f64>,
+    /// Least force on the downstream end during the pass: the largest tension where it is negative.
+    #[serde(default)]
+    pub downstream_least_n: f64,
+    /// Least force on the upstream end during the pass.
+    #[serde(default)]
+    pub upstream_least_n: f64,
     /// Whether the pass was not simulated but lies within a jump between simulated ones.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub interpolated: bool,
@@ -363,6 +369,8 @@ impl PassRecord {
             upstream_displacement_m: plain(outcome.upstream_displacement),
             downstream_displacement_m: plain(outcome.downstream_displacement),
             dissipated_energy_j: Some(outcome.dissipated),
+            downstream_least_n: plain(outcome.lowest.downstream),
+            upstream_least_n: plain(outcome.lowest.upstream),
             interpolated: *interpolated,
         }
     }

@@ -271,6 +271,8 @@ fn hardest(run: &Run) -> (f64, At, &'static str) {
         let forces = [
             (record.downstream_peak_n, CableEnd::Downstream, DURING),
             (record.upstream_peak_n, CableEnd::Upstream, DURING),
+            (record.downstream_least_n, CableEnd::Downstream, DURING),
+            (record.upstream_least_n, CableEnd::Upstream, DURING),
             (record.downstream_force_n, CableEnd::Downstream, AFTER),
             (record.upstream_force_n, CableEnd::Upstream, AFTER),
         ];

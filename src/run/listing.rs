@@ -37,10 +37,7 @@ impl Listing {
                 is_drawn: false,
             });
         }
-        let window = |pass: u64| {
-            let reach = (length / 2).min(pass - 1).min(count - pass);
-            pass - reach..=pass + reach
-        };
+        let window = |pass: u64| around(pass, length, count);
         if matches!(scene.traffic.order, Order::Random { .. }) {
             // The last passes too are the mean of a whole period: the last vehicle alone says nothing.
             let mean = |pass: u64| match window(pass) {
@@ -139,6 +136,16 @@ impl Listing {
     }
 }
 
+/// A whole period of `length` passes around `pass`, or as many on either side as there are of `count`.
+fn around(pass: u64, length: u64, count: u64) -> RangeInclusive<u64> {
+    let (before, after) = ((length - 1) / 2, length / 2);
+    if pass > before && pass + after <= count {
+        return pass - before..=pass + after;
+    }
+    let reach = before.min(pass - 1).min(count - pass);
+    pass - reach..=pass + reach
+}
+
 /// The pass near `pass` that follows the vehicles `recent` as far back as possible in the period's traffic.
 fn alike(period: &Period, recent: &[usize], pass: u64, count: u64) -> u64 {
     let length = period.len();
@@ -166,4 +173,23 @@ fn mean(records: &[Record]) -> PassOutcome {
     let share = 1.0 / records.len() as f64;
     let parts: Vec<_> = records.iter().map(|record| (share, &record.outcome)).collect();
     PassOutcome::combined(&parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mean_over_a_period_counts_every_vehicle_of_it_once() {
+        for length in 1..=48 {
+            for pass in 25..=176 {
+                let shown = around(pass, length, 200);
+                assert!(shown.contains(&pass));
+                assert_eq!(shown.count() as u64, length, "pass {pass}");
+            }
+            // At both ends as many on either side.
+            assert_eq!(around(1, length, 200).count(), if length == 2 { 2 } else { 1 });
+            assert_eq!(around(200, length, 200).count(), 1);
+        }
+    }
 }

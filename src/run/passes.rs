@@ -141,7 +141,11 @@ impl Task<'_> {
         listed.sort_unstable();
         listed.dedup();
         let listing = Listing::new(scene, jumping.period, &listed)?;
-        let wanted = listing.wanted();
+        let mut wanted = listing.wanted();
+        // Their rows may be shown by other passes.
+        wanted.extend(self.stages.iter().filter(|stage| (1..=count).contains(*stage)));
+        wanted.sort_unstable();
+        wanted.dedup();
         let beyond = if jumping.beyond { beyond(count) } else { Vec::new() };
         let request = Request {
             passes: count,

@@ -122,10 +122,10 @@ pub(super) const KEYS: &[Key] = keys! {
     "heat" "profile": As("points of the day, [[\"0 h\", \"0 K\"], [\"15 h\", \"20 K\"]]"), Some("`daily_swing` instead"),
         "Temperatures at times of the day, joined by straight lines, every day the same.";
     "solver" "method": Words(|| words(SolverMethod::WORDS)), Some("\"auto\""), "How the passes are computed.";
-    "solver" "tolerance": Q(of::TOLERANCE), Some("0.01"), "Error allowed, as a share of the force.";
+    "solver" "tolerance": Q(of::TOLERANCE), Some("0.01"), "Error allowed, as a share of the forces and of the movement of the ends.";
     "solver" "node_spacing": Q(of::STEP), Some("chosen"), "Distance between points of the cable that are computed.";
     "solver" "vehicle_step": Q(of::STEP), Some("chosen"), "Advance of the vehicle from one computed place to the next.";
-    "solver" "time_step": Q(of::TIME_STEP), Some("chosen"), "Step of time of the methods with inertia.";
+    "solver" "time_step": Q(of::TIME_STEP), Some("chosen"), "Time step of the method `explicit`.";
     "solver" "approach": Q(of::APPROACH), Some("as far as it matters"), "How far beyond the duct's ends vehicles are followed.";
     "ground.layers.young_modulus" "top": Q(of::MODULUS_AT_AN_END), None, "Young's modulus at the top of a layer in which it varies.";
     "ground.layers.young_modulus" "bottom": Q(of::MODULUS_AT_AN_END), None, "The same at the bottom.";

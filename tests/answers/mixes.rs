@@ -59,3 +59,28 @@ fn whole_shares_of_many_kinds_leave_nothing_to_a_mix_that_stands_in() {
         jumps.error_estimate
     );
 }
+
+#[test]
+fn stages_are_looked_at_where_another_mix_stands_in() {
+    let text = "duct = { length = 20, depth = 1.2 }
+ground = { layers = [{ young_modulus = 8e8, poisson_ratio = 0.35 }] }
+cable = { weight = 100, axial_stiffness = 8e6 }
+friction = { dynamic_coefficient = 0.3, shape_factor = 1e7 }
+ends = { upstream = \"free\", downstream = \"fixed\" }
+vehicles = [
+  { name = \"heavy\", load = \"20 tf\", speed = \"30 km/h\", share = 0.41 },
+  { name = \"light\", load = \"8 tf\", speed = \"30 km/h\", share = 0.59 },
+]
+traffic = { passes = 4000 }
+solver = { node_spacing = 0.2, method = \"pass-law\" }";
+    let scene = Scene::from_toml("mix", text).expect("a valid scene");
+    let stages: Vec<u64> = (1..200).map(|step| 20 * step - 1).collect();
+    let options = creepage::RunOptions {
+        stages: &stages,
+        ..creepage::RunOptions::default()
+    };
+    let run = creepage::run_with(&scene, &options).expect("an answer");
+    let found: Vec<u64> = run.stages.iter().map(|stage| stage.pass).collect();
+    assert_eq!(found, stages);
+    assert!(run.cost.simulated_passes < 1000, "{:?}", run.cost);
+}

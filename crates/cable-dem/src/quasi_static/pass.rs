@@ -35,6 +35,8 @@ pub(super) struct ForwardSolver {
     /// What moved in the last step, apart from what moves around supports alone: where a window around a support grows over a part that
     /// travels, only what moves further in that part's own window.
     moving: Vec<Stretch>,
+    /// Where the vehicle's adhesion mattered in the last step.
+    near: Stretch,
     watch: Watch,
     prediction: Prediction,
     /// Whether the last pass foretold the last step better than `prediction` did.
@@ -68,6 +70,7 @@ impl ForwardSolver {
             thermal_force: 0.0,
             windows: Vec::new(),
             moving: Vec::new(),
+            near: room.free,
             watch: Watch::new(room.free),
             prediction: Prediction::default(),
             recurs: true,
@@ -104,6 +107,7 @@ impl ForwardSolver {
             let snapshot = passage.snapshot(position);
             if step == 0 {
                 self.step_whole(&snapshot)?;
+                self.near = self.room.under(snapshot.node, passage.reach);
             } else {
                 self.step_windows(&snapshot, passage, last_pass.recall(step - 1))?;
                 this_pass.push(&self.moving, &self.step.trial.contact);
@@ -188,7 +192,13 @@ impl ForwardSolver {
         window::join(windows);
         // Between them and beyond.
         let known = windows.len();
-        let near = self.watch.around(room.under(snapshot.node, reach));
+        // A node is looked at once more where adhesion no longer reaches it.
+        let under = room.under(snapshot.node, reach);
+        let before = std::mem::replace(&mut self.near, under);
+        let near = self.watch.around(Stretch {
+            lo: under.lo.min(before.lo),
+            hi: under.hi.max(before.hi),
+        });
         let limit = self.step.chain.limit * (1.0 + SLIPPING_SHARE);
         let mut lo = near.start;
         for at in 0..=known {

@@ -140,3 +140,19 @@ fn arguments_out_of_range_are_refused() {
         Err(CableError::UnsupportedLaw { law: "sigmoid", .. })
     ));
 }
+
+#[test]
+fn elements_that_step_over_the_whole_motion_are_refused() {
+    let motion = reference_motion();
+    let cable = reference_cable(30.0, coulomb(LIMITS[0]));
+    // 2 to 12 depths of the duct.
+    for elements in 2..=12 {
+        let spacing = 30.0 / f64::from(elements);
+        let mesh = Mesh::new(30.0, spacing, spacing).expect("a valid mesh");
+        let refused = Passage::new(&cable, &mesh, &motion, APPROACH);
+        assert!(
+            matches!(refused, Err(CableError::CoarseMesh { .. })),
+            "{spacing} m"
+        );
+    }
+}

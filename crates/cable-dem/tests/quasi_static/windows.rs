@@ -94,7 +94,7 @@ proptest! {
                 })
                 .expect("an equilibrium");
             // What may stay unbalanced outside the windows.
-            prop_assert!(largest <= 1.0011 * limit, "{largest} of {limit} N/m");
+            prop_assert!(largest <= 1.001_000_001 * limit, "{largest} of {limit} N/m");
         }
     }
 }
