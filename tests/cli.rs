@@ -9,7 +9,7 @@ use std::process::{Command, Output, Stdio};
 use serde_json::Value;
 
 const UPPER: &str = "examples/scenes/full-scale-upper.toml";
-const PASS_FIELDS: [&str; 9] = [
+const PASS_FIELDS: [&str; 11] = [
     "pass",
     "downstream_force_n",
     "downstream_peak_n",
@@ -19,6 +19,8 @@ const PASS_FIELDS: [&str; 9] = [
     "upstream_displacement_m",
     "downstream_displacement_m",
     "dissipated_energy_j",
+    "downstream_least_n",
+    "upstream_least_n",
 ];
 const PROFILE_FIELDS: [&str; 4] = [
     "positions_m",

@@ -86,14 +86,20 @@ pub fn reached(run: &Run, place: Place, quantity: Limited) -> f64 {
             &mut run
                 .passes
                 .iter()
-                .flat_map(|pass| [pass.upstream_force_n, pass.upstream_peak_n])
+                .flat_map(|pass| [pass.upstream_force_n, pass.upstream_peak_n, pass.upstream_least_n])
                 .chain(days().flat_map(|day| [day.upstream_max_n, day.upstream_min_n])),
         ),
         (Place::Downstream, Limited::Force) => most(
             &mut run
                 .passes
                 .iter()
-                .flat_map(|pass| [pass.downstream_force_n, pass.downstream_peak_n])
+                .flat_map(|pass| {
+                    [
+                        pass.downstream_force_n,
+                        pass.downstream_peak_n,
+                        pass.downstream_least_n,
+                    ]
+                })
                 .chain(days().flat_map(|day| [day.downstream_max_n, day.downstream_min_n])),
         ),
         (Place::Upstream, Limited::Movement) => most(
@@ -104,6 +110,8 @@ pub fn reached(run: &Run, place: Place, quantity: Limited) -> f64 {
                     [
                         pass.upstream_displacement_m,
                         pass.upstream_peak_n
+                            * per_force(|last| (last.upstream_displacement_m, last.upstream_force_n)),
+                        pass.upstream_least_n
                             * per_force(|last| (last.upstream_displacement_m, last.upstream_force_n)),
                     ]
                 })
@@ -119,6 +127,8 @@ pub fn reached(run: &Run, place: Place, quantity: Limited) -> f64 {
                     [
                         pass.downstream_displacement_m,
                         pass.downstream_peak_n
+                            * per_force(|last| (last.downstream_displacement_m, last.downstream_force_n)),
+                        pass.downstream_least_n
                             * per_force(|last| (last.downstream_displacement_m, last.downstream_force_n)),
                     ]
                 })
