@@ -152,7 +152,7 @@ fn pass() -> Result<Aim, Failure> {
     let started = Mutex::new((solver, state));
     Ok(Aim {
         of: PASSES,
-        ..Aim::new("one pass of 300 m on 6 nodes a depth", 1.5e-3, move || {
+        ..Aim::new("one pass of 300 m on 6 nodes per depth", 1.5e-3, move || {
             let (mut solver, mut state) = started.lock().unwrap_or_else(PoisonError::into_inner).clone();
             let mut updates = 0;
             for _ in 0..PASSES {
