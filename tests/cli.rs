@@ -2,6 +2,7 @@
 
 #![cfg(feature = "cli")]
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
@@ -1764,7 +1765,7 @@ fn run_in(folder: &Path, line: &str) -> String {
 }
 
 /// All names of fields in a document.
-fn fields(document: &Value, found: &mut std::collections::BTreeSet<String>) {
+fn fields(document: &Value, found: &mut BTreeSet<String>) {
     match document {
         Value::Object(object) => {
             for (name, value) in object {
@@ -1786,24 +1787,17 @@ fn the_page_on_json_names_every_field() {
     let readme = readme();
     fs::write(&scene, blocks(&readme, "toml")[0]).expect("a file");
     let scene = text(&scene);
-    let quick = ["--set", "traffic.passes=4", "--set", "solver.tolerance=0.05"];
+    fn set<'a>(keys: &[&'a str]) -> Vec<&'a str> {
+        keys.iter().flat_map(|key| ["--set", key]).collect()
+    }
+    let quick = set(&["traffic.passes=4", "solver.tolerance=0.05"]);
     let limits = ["--limit-force", "5 kN", "--limit-movement", "1 m"];
-    let heat = [
-        "--set",
+    let heat = set(&[
         "heat.expansion=1e-5 1/K",
-        "--set",
         "heat.daily_swing=5 K",
-        "--set",
         "traffic.per_day=2",
-    ];
-    let random = [
-        "--set",
-        "traffic.passes=20000",
-        "--set",
-        "traffic.order=random",
-        "--set",
-        "duct.length=81 m",
-    ];
+    ]);
+    let random = set(&["traffic.passes=20000", "traffic.order=random", "duct.length=81 m"]);
     let places = ["--at", "upstream", "--at", "80 m"];
     let drawn = [
         "--vary",
@@ -1814,7 +1808,7 @@ fn the_page_on_json_names_every_field() {
         text(&table),
     ];
     let fitted = ["--data", "examples/data/synthetic-upper.csv"];
-    let mut found = std::collections::BTreeSet::new();
+    let mut found = BTreeSet::new();
     for arguments in [
         [&["run", scene][..], &quick, &limits, &heat].concat(),
         [&["run", scene][..], &quick[2..], &random].concat(),

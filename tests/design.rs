@@ -39,6 +39,8 @@ fn largest_force(run: &Run) -> f64 {
                 p.downstream_force_n,
                 p.upstream_peak_n,
                 p.downstream_peak_n,
+                p.upstream_least_n,
+                p.downstream_least_n,
             ]
         })
         .fold(0.0, |largest: f64, force| largest.max(force.abs()))

@@ -60,6 +60,7 @@ fn mirrored(mut scene: Scene) -> Scene {
 fn turn(pass: &mut PassRecord) {
     swap(&mut pass.upstream_force_n, &mut pass.downstream_force_n);
     swap(&mut pass.upstream_peak_n, &mut pass.downstream_peak_n);
+    swap(&mut pass.upstream_least_n, &mut pass.downstream_least_n);
 }
 
 /// How far forces lie from those that another run finds: those on the ends and the largest in the cable, beside the largest of their pass or a tenth

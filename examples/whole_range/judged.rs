@@ -161,6 +161,8 @@ fn can_be(scene: &Scene, record: &PassRecord, clamps: f64, largest: f64) -> Resu
     let numbers = [
         record.upstream_peak_n,
         record.downstream_peak_n,
+        record.upstream_least_n,
+        record.downstream_least_n,
         record.upstream_displacement_m,
         record.downstream_displacement_m,
     ];

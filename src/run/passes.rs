@@ -136,16 +136,15 @@ impl Task<'_> {
             most_passes: (patience, jumping.most_passes.max(patience)),
         };
         let count = scene.traffic.passes;
-        let mut listed = listed.to_vec();
-        listed.extend(self.stages.iter().filter(|stage| (1..=count).contains(*stage)));
-        listed.sort_unstable();
-        listed.dedup();
-        let listing = Listing::new(scene, jumping.period, &listed)?;
-        let mut wanted = listing.wanted();
-        // Their rows may be shown by other passes.
-        wanted.extend(self.stages.iter().filter(|stage| (1..=count).contains(*stage)));
-        wanted.sort_unstable();
-        wanted.dedup();
+        // The row of a stage may be shown by another pass: the stage itself is wanted too.
+        let with_stages = |mut passes: Vec<u64>| {
+            passes.extend(self.stages.iter().filter(|stage| (1..=count).contains(*stage)));
+            passes.sort_unstable();
+            passes.dedup();
+            passes
+        };
+        let listing = Listing::new(scene, jumping.period, &with_stages(listed.to_vec()))?;
+        let wanted = with_stages(listing.wanted());
         let beyond = if jumping.beyond { beyond(count) } else { Vec::new() };
         let request = Request {
             passes: count,

@@ -35,8 +35,6 @@ pub(super) struct ForwardSolver {
     /// What moved in the last step, apart from what moves around supports alone: where a window around a support grows over a part that
     /// travels, only what moves further in that part's own window.
     moving: Vec<Stretch>,
-    /// Where the vehicle's adhesion mattered in the last step.
-    near: Stretch,
     watch: Watch,
     prediction: Prediction,
     /// Whether the last pass foretold the last step better than `prediction` did.
@@ -70,7 +68,6 @@ impl ForwardSolver {
             thermal_force: 0.0,
             windows: Vec::new(),
             moving: Vec::new(),
-            near: room.free,
             watch: Watch::new(room.free),
             prediction: Prediction::default(),
             recurs: true,
@@ -103,13 +100,18 @@ impl ForwardSolver {
         this_pass.clear();
         self.recurs = true;
 
+        let mut behind = self.room.free.lo;
         for (step, &position) in passage.positions.iter().enumerate() {
             let snapshot = passage.snapshot(position);
+            let under = self.room.under(snapshot.node, passage.reach);
+            // A node is looked at once more where adhesion no longer reaches it.
+            let watched = Stretch { lo: behind, ..under };
+            behind = under.lo;
             if step == 0 {
                 self.step_whole(&snapshot)?;
-                self.near = self.room.under(snapshot.node, passage.reach);
             } else {
-                self.step_windows(&snapshot, passage, last_pass.recall(step - 1))?;
+                let first = passage.first_point(&snapshot);
+                self.step_windows(&snapshot, watched, first, last_pass.recall(step - 1))?;
                 this_pass.push(&self.moving, &self.step.trial.contact);
             }
             observe(&self.r, &self.g, snapshot);
@@ -135,17 +137,18 @@ impl ForwardSolver {
         Ok(())
     }
 
-    /// One step of the vehicle: solves the windows where the cable moves.
+    /// One step of the vehicle: solves the windows where the cable moves. It may begin to slip in `watched`; node 0 stands at the point
+    /// `first` of the lattice.
     fn step_windows(
         &mut self,
         snapshot: &Snapshot<'_>,
-        passage: &Passage,
+        watched: Stretch,
+        first: usize,
         remembered: Recalled<'_>,
     ) -> Result<(), CableError> {
         self.update_supports(snapshot, false);
         let mut windows = std::mem::take(&mut self.windows);
-        self.collect(&mut windows, snapshot, passage.reach, remembered);
-        let first = passage.first_point(snapshot);
+        self.collect(&mut windows, snapshot, watched, remembered);
         let mut surprises = 0;
         self.moving.clear();
         for window in &windows {
@@ -174,13 +177,13 @@ impl ForwardSolver {
         Ok(())
     }
 
-    /// Lists the windows of a step: what moved in the last one, what moved here in the last pass, what begins to slip within `reach` of the
-    /// vehicle, and what lies around supports.
+    /// Lists the windows of a step: what moved in the last one, what moved here in the last pass, what of `watched` begins to slip, and what
+    /// lies around supports.
     fn collect(
         &mut self,
         windows: &mut Vec<Window>,
         snapshot: &Snapshot<'_>,
-        reach: usize,
+        watched: Stretch,
         remembered: Recalled<'_>,
     ) {
         let room = self.room;
@@ -192,13 +195,7 @@ impl ForwardSolver {
         window::join(windows);
         // Between them and beyond.
         let known = windows.len();
-        // A node is looked at once more where adhesion no longer reaches it.
-        let under = room.under(snapshot.node, reach);
-        let before = std::mem::replace(&mut self.near, under);
-        let near = self.watch.around(Stretch {
-            lo: under.lo.min(before.lo),
-            hi: under.hi.max(before.hi),
-        });
+        let near = self.watch.around(watched);
         let limit = self.step.chain.limit * (1.0 + SLIPPING_SHARE);
         let mut lo = near.start;
         for at in 0..=known {
