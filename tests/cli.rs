@@ -1764,6 +1764,11 @@ fn run_in(folder: &Path, line: &str) -> String {
     String::from_utf8(output.stdout).expect("UTF-8")
 }
 
+/// Arguments that set `keys`.
+fn set<'a>(keys: &[&'a str]) -> Vec<&'a str> {
+    keys.iter().flat_map(|key| ["--set", key]).collect()
+}
+
 /// All names of fields in a document.
 fn fields(document: &Value, found: &mut BTreeSet<String>) {
     match document {
@@ -1787,9 +1792,6 @@ fn the_page_on_json_names_every_field() {
     let readme = readme();
     fs::write(&scene, blocks(&readme, "toml")[0]).expect("a file");
     let scene = text(&scene);
-    fn set<'a>(keys: &[&'a str]) -> Vec<&'a str> {
-        keys.iter().flat_map(|key| ["--set", key]).collect()
-    }
     let quick = set(&["traffic.passes=4", "solver.tolerance=0.05"]);
     let limits = ["--limit-force", "5 kN", "--limit-movement", "1 m"];
     let heat = set(&[
