@@ -21,8 +21,13 @@ pub fn mass(scene: &Scene) -> f64 {
     scene.cable.weight / GRAVITY
 }
 
-/// Passes of a traffic that does not repeat itself whose vehicles are followed one by one.
-pub const LONGEST_ORDER: u64 = 1_000_000;
+/// Vehicles that are looked at for the order of traffic at most: a tenth of a second.
+const LONGEST_ORDER: u64 = 20_000_000;
+
+/// Passes up to which it is known which vehicle drives where traffic does not repeat itself.
+pub fn known_order(scene: &Scene) -> u64 {
+    LONGEST_ORDER / scene.vehicles.len() as u64
+}
 
 /// A scene's vehicles one after the other in `order`, by their place in the scene.
 pub fn traffic(scene: &Scene, order: Order) -> Result<Traffic, CableError> {

@@ -97,9 +97,9 @@ pub use {boussinesq, burmister, cable_dem, cycle_jump, ground_field};
 
 pub use answer::{
     CableEnd, ClampLimits, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, ErrorEstimate,
-    ErrorShares, ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits, PassRecord, Place,
-    PlanSummary, Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run, Saturation,
-    SlipRecord, Stage, Units, Verdict,
+    ErrorShares, ExtremePass, ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits,
+    PassRecord, Place, PlanSummary, Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run,
+    Saturation, SlipRecord, Stage, Units, Verdict,
 };
 #[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};

@@ -49,6 +49,8 @@ mod readings;
 mod report;
 #[path = "scene/main.rs"]
 mod scene;
+#[path = "seldom/main.rs"]
+mod seldom;
 #[path = "several_kinds.rs"]
 mod several_kinds;
 #[path = "slope.rs"]

@@ -122,7 +122,8 @@ impl Case {
         let wanted: Vec<u64> = (half(passes)..=passes).map(|pass| pass as u64).collect();
         let request = Request {
             passes: passes as u64,
-            period: 1,
+            order: &[0],
+            one_by_one: (0, 0),
             wanted: &wanted,
             looked_at: &[],
             beyond: &[],

@@ -104,7 +104,8 @@ impl Case {
         };
         let request = Request {
             passes: PASSES[PASSES.len() - 1],
-            period: self.mix.len(),
+            order: self.mix,
+            one_by_one: (0, 0),
             wanted: &PASSES,
             looked_at: &[],
             beyond: &[],

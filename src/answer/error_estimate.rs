@@ -261,6 +261,56 @@ pub fn difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
         .fold(Shares::default(), Shares::max)
 }
 
+/// Difference of the largest and least forces and movements in two sets of passes, as shares of the largest.
+pub fn extremes_difference(a: &[Record], b: &[Record], scale: Scale) -> Shares {
+    let apart = |values: fn(&PassOutcome) -> Vec<f64>, least: f64| {
+        let (a, b) = (extremes(a, values), extremes(b, values));
+        let whole = a.iter().fold(least, |most, value| most.max(value.abs()));
+        let pairs = a.iter().zip(&b);
+        share(
+            pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())),
+            whole,
+        )
+    };
+    Shares {
+        force: apart(largest_forces, scale.force),
+        movement: apart(largest_movements, scale.movement),
+    }
+}
+
+/// The largest of each of these values.
+fn extremes(records: &[Record], values: fn(&PassOutcome) -> Vec<f64>) -> Vec<f64> {
+    let mut extremes = Vec::new();
+    for record in records {
+        let values = values(&record.outcome);
+        extremes.resize(values.len(), 0.0);
+        for (most, value) in extremes.iter_mut().zip(values) {
+            *most = f64::max(*most, value);
+        }
+    }
+    extremes
+}
+
+/// Forces of which the largest counts.
+fn largest_forces(outcome: &PassOutcome) -> Vec<f64> {
+    let PassOutcome { peak, lowest, .. } = outcome;
+    let ends = [
+        peak.upstream,
+        peak.downstream,
+        -lowest.upstream,
+        -lowest.downstream,
+    ];
+    let inside = [outcome.max_compression, outcome.max_tension];
+    let clamps = outcome.restraints.iter().flat_map(|force| [*force, -force]);
+    ends.into_iter().chain(inside).chain(clamps).collect()
+}
+
+/// Movements of which the largest counts.
+fn largest_movements(outcome: &PassOutcome) -> Vec<f64> {
+    let ends = [outcome.upstream_displacement, outcome.downstream_displacement];
+    ends.into_iter().flat_map(|moved| [moved, -moved]).collect()
+}
+
 /// The same of every pass that both have.
 pub fn differences(a: &[Record], b: &[Record], scale: Scale) -> Vec<Shares> {
     let of_both = a.iter().filter_map(|record| {

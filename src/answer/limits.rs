@@ -200,7 +200,10 @@ impl Limits {
             let day = days.find(|day| run.on_day(end, quantity, day) > limit);
             let day = day.zip(run.heat.as_ref());
             let day = day.map(|(day, heat)| day.day * heat.passes_per_day);
-            let first = pass.into_iter().chain(day).min();
+            let mut extremes = run.extremes.iter();
+            let extreme = extremes.find(|pass| run.in_extreme(end, quantity, pass) > limit);
+            let extreme = extreme.map(|pass| pass.after.pass);
+            let first = pass.into_iter().chain(day).chain(extreme).min();
             let years = |pass| {
                 let listed = run.passes.iter().rfind(|record| record.pass <= pass)?;
                 Some(listed.years? * pass as f64 / listed.pass as f64)

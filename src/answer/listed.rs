@@ -7,7 +7,7 @@ use crate::scene::Traffic;
 const GROWTH: f64 = 1.03;
 /// A run lists all passes up to this number.
 const ALL_LISTED: u64 = 10_000;
-/// Of longer traffic the last passes are listed too: the most vehicles of a period, of which each leaves another force.
+/// Of longer traffic the last passes are listed too: at least so many, and a period, of which each vehicle leaves another force.
 const LAST: u64 = 12;
 /// How far it is followed where forces lead: this number of passes, and this many times those of the traffic.
 const FAR: u64 = 1_000_000_000;
@@ -37,14 +37,15 @@ pub fn beyond(count: u64) -> Vec<u64> {
     listed(far).into_iter().filter(|&pass| pass > count).collect()
 }
 
-/// The passes that a run of this traffic lists.
-pub fn simulated(traffic: &Traffic) -> Vec<u64> {
+/// The passes that a run of this traffic lists, which repeats itself after a `period` of so many passes.
+pub fn simulated(traffic: &Traffic, period: usize) -> Vec<u64> {
     if traffic.passes <= ALL_LISTED {
         return (1..=traffic.passes).collect();
     }
     let mut passes = listed(traffic.passes);
     passes.extend(calendar(traffic).into_iter().map(|(pass, _)| pass));
-    passes.extend(traffic.passes - LAST + 1..traffic.passes);
+    let last = LAST.max(period as u64).min(traffic.passes);
+    passes.extend(traffic.passes - last + 1..traffic.passes);
     passes.sort_unstable();
     passes.dedup();
     passes

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cable_end::CableEnd;
 use super::heat::DayExtremes;
-use super::record::{RestraintRecord, Run};
+use super::record::{ExtremePass, RestraintRecord, Run};
 use super::units::Units;
 use crate::shown::exact;
 
@@ -78,7 +78,22 @@ impl Run {
             .heat
             .iter()
             .map(|heat| self.on_day(place, quantity, &heat.all_days));
-        passes.chain(days).fold(0.0, f64::max)
+        let extremes = self.extremes.iter();
+        let extremes = extremes.map(|pass| self.in_extreme(place, quantity, pass));
+        passes.chain(days).chain(extremes).fold(0.0, f64::max)
+    }
+
+    /// The same in a pass beside the listed ones.
+    pub(super) fn in_extreme(&self, place: Place, quantity: Limited, pass: &ExtremePass) -> f64 {
+        let at_end = |end: CableEnd| match quantity {
+            Limited::Force => end.largest_force(&pass.after),
+            Limited::Movement => end.largest_movement(&pass.after),
+        };
+        match place {
+            Place::Upstream => at_end(CableEnd::Upstream),
+            Place::Downstream => at_end(CableEnd::Downstream),
+            Place::Clamp(_) => self.on_clamps(place, quantity, |clamp, _| pass.restraints_n[clamp].abs()),
+        }
     }
 
     /// The same without what happens while a vehicle is above the duct.
@@ -101,9 +116,13 @@ impl Run {
     /// The same in the pass at `index` of the listed ones.
     pub(super) fn in_pass(&self, place: Place, quantity: Limited, index: usize) -> f64 {
         let record = &self.passes[index];
+        // On days of heat passes between simulated ones have the peaks of others.
+        let during = self.heat.is_none() || !record.interpolated;
         let at_end = |end: CableEnd| match quantity {
-            Limited::Force => end.largest_force(record) + self.scatter(end, record),
-            Limited::Movement => end.largest_movement(record),
+            Limited::Force if during => end.largest_force(record) + self.scatter(end, record),
+            Limited::Movement if during => end.largest_movement(record),
+            Limited::Force => end.force_after(record),
+            Limited::Movement => end.movement(record),
         };
         match place {
             Place::Upstream => at_end(CableEnd::Upstream),

@@ -31,6 +31,10 @@ pub struct Run {
     /// How far forces scatter where vehicles come in random order and not every pass is simulated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub random: Option<RandomSpread>,
+    /// Where a period of other vehicles stands in for the traffic, its passes that show a larger force or movement than those before them; and one
+    /// pass of each vehicle that comes too seldom to have a place in it, as it would follow the last pass.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub extremes: Vec<ExtremePass>,
     /// Where the cable is heated every day, the extremes of days: the first ones, then evenly growing numbers, the last among them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub days: Vec<DayExtremes>,
@@ -139,6 +143,19 @@ pub struct FrictionProfile {
     pub friction_n_per_m: Vec<f64>,
     /// Lengths at the limit.
     pub slip_lengths: SlipRecord,
+}
+
+/// A pass that counts where largest forces and movements are looked for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ExtremePass {
+    /// Its name.
+    pub vehicle: String,
+    /// The cable after it; the number of the pass is only about right.
+    #[serde(flatten)]
+    pub after: PassRecord,
+    /// Force of the cable on each clamp after it \[N\].
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub restraints_n: Vec<f64>,
 }
 
 /// What a clamp carries.

@@ -4,7 +4,7 @@ use super::calendar::calendar;
 use super::heat::DayExtremes;
 use super::listed::ROUND;
 use super::record::PassRecord;
-use crate::cable::{LONGEST_ORDER, traffic};
+use crate::cable::{known_order, traffic};
 use crate::plan::Period;
 use crate::scene::{Scene, Traffic};
 use crate::shown::ROWS;
@@ -47,7 +47,7 @@ pub fn in_rows(
     let first = if period.is_some() {
         0
     } else {
-        last.min(LONGEST_ORDER)
+        last.min(known_order(scene))
     };
     let first: Vec<usize> = order.take(first as usize).collect();
     let vehicle = |pass: u64| {

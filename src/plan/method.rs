@@ -22,6 +22,11 @@ const EXPLICIT_STEPS: f64 = 40.0;
 /// Periods that are simulated at the start, and then for every factor e of periods: half of all scenes need fewer, and nearly all.
 const TYPICAL_PERIODS: (f64, f64) = (12.0, 2.2);
 const MOST_PERIODS: (f64, f64) = (20.0, 8.0);
+/// As a rule where a period has more than so many vehicles: most of what jumps would have to follow happens within the first one.
+const MANY: usize = 48;
+const TYPICAL_LONG_PERIODS: (f64, f64) = (4.5, 0.3);
+/// Most vehicles in a period that jumps go over: what every pass of it leaves is kept.
+const LONGEST_PERIOD: usize = 5000;
 /// Periods of a day that are simulated where the cable is heated every day, and days with them until one is like the one before.
 const PERIODS_A_DAY: f64 = 24.0;
 const DAYS: f64 = 9.0;
@@ -31,7 +36,7 @@ const SPARED: f64 = 0.3;
 const LONGEST_SECONDS: f64 = 60.0;
 /// Longest run with the sigmoid law that is begun without the scene naming a method \[s\].
 const LONGEST_WITHOUT_REST: f64 = 600.0;
-/// What twelve vehicles that stand for all kinds leave wrong as a rule where vehicles come in random order: 3 to 4 % of early forces.
+/// What an even order leaves wrong as a rule where vehicles come in random order: 3 to 4 % of early forces.
 const DRAWN_ERROR: f64 = 0.04;
 /// Share of the tolerance that leaving inertia out may cost.
 const INERTIA_SHARE: f64 = 0.5;
@@ -119,6 +124,19 @@ pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodC
             (method, "the scene asks for it".to_owned())
         }
     };
+    let (method, reason) = match method {
+        PassMethod::Jumps(_) if period.len() > LONGEST_PERIOD && count > MOST_PASSES => {
+            let reason = format!(
+                "of a sequence of more than {LONGEST_PERIOD} vehicles every pass is simulated, at most 1 000 000"
+            );
+            return Err(unfit("traffic.passes", "more than a million passes", reason));
+        }
+        PassMethod::Jumps(cable) if period.len() > LONGEST_PERIOD => {
+            let reason = format!("{reason}; no jumps over sequences of more than {LONGEST_PERIOD} vehicles");
+            (PassMethod::EveryPass(cable), reason)
+        }
+        _ => (method, reason),
+    };
     if matches!(method, PassMethod::EveryPass(_)) && count > MOST_PASSES && scene.friction_limit() > 0.0 {
         let reason = if has_rest {
             format!(
@@ -184,10 +202,11 @@ fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
     if !estimates.jumps_pay() {
         return (PassMethod::EveryPass(method), reason);
     }
-    if estimates.drawn && tolerance < DRAWN_ERROR && estimates.every_pass(method) <= LONGEST_SECONDS {
-        let reason = format!(
-            "{reason}; with jumps, twelve vehicles would stand for all kinds, which is not as good as asked"
-        );
+    let good_enough = estimates.drawn && tolerance >= DRAWN_ERROR;
+    let affordable = estimates.every_pass(method) <= LONGEST_SECONDS;
+    if estimates.stands_in && !good_enough && affordable {
+        let reason =
+            format!("{reason}; with jumps, another order of vehicles would stand in for the traffic");
         return (PassMethod::EveryPass(method), reason);
     }
     (PassMethod::Jumps(method), reason)
@@ -202,7 +221,8 @@ pub struct Estimates {
     typical: f64,
     simulated: f64,
     passes: f64,
-    /// Whether the period stands in for more kinds of vehicles, which come in random order.
+    /// Whether the period only stands in for the traffic, and whether this comes in random order.
+    stands_in: bool,
     drawn: bool,
     /// Time of one pass by each method, on the level to begin with \[s\].
     quasi_static: f64,
@@ -247,10 +267,15 @@ impl Estimates {
         };
         Ok(Self {
             inertia,
-            typical: simulated(TYPICAL_PERIODS),
+            typical: simulated(if period.len() > MANY {
+                TYPICAL_LONG_PERIODS
+            } else {
+                TYPICAL_PERIODS
+            }),
             simulated: simulated(MOST_PERIODS),
             passes,
-            drawn: period.other.is_some() && matches!(scene.traffic.order, Order::Random { .. }),
+            stands_in: !period.others.is_empty(),
+            drawn: matches!(scene.traffic.order, Order::Random { .. }),
             quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(first, 1),
             dynamic: DYNAMIC_SECONDS * lattice,
             explicit: EXPLICIT_SECONDS * explicit_steps(scene, levels).unwrap_or(EXPLICIT_STEPS) * lattice,

@@ -6,6 +6,7 @@
 mod known;
 mod mesh;
 mod method;
+mod mix;
 pub mod occurrence;
 mod period;
 mod report;
@@ -69,15 +70,16 @@ pub(crate) fn plan_over(
 ) -> Result<Plan<'_>, Error> {
     let approach = road::approach(scene, &ground.motions)?;
     let mut levels = Levels::new(scene, &ground.motions, approach);
-    if let Some(mesh) = mesh.filter(|_| KnownMesh::fits(scene)) {
+    let period = Period::new(scene, &ground.motions)?;
+    // A mesh's known error has no room for what stand-ins change.
+    if let Some(mesh) = mesh.filter(|_| KnownMesh::fits(scene) && period.is_own()) {
         levels = levels.alone(mesh);
     }
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first())?;
-    let period = Period::new(scene, &ground.motions)?;
     let choice = method::choose(scene, &levels, &period)?;
     let mut warnings = warnings::warnings(scene);
-    warnings.extend(warnings::of_mix(scene, choice.method, &period));
+    warnings.extend(warnings::absent(scene)?);
     Ok(Plan {
         scene,
         ground,

@@ -1,39 +1,39 @@
 //! The vehicles after which traffic repeats itself.
 //!
-//! Shares such as 2:1 have a period of their own: 3 vehicles, and up to 48 where the traffic is long. Others get the nearest mix of at
-//! most twelve, and a second one on the other side of theirs shows what that changes. Of many kinds that differ by their load alone, as axles of a histogram do, twelve
-//! stand in for all (`stand_ins`).
+//! A sequence is its own period, and shares such as 2 : 1 or 100 : 1 have one: 3 and 101 vehicles. Other shares get a mix that is near to
+//! theirs, and a second one on the other side shows what that changes. A vehicle that is too seldom for any period is the only thing in which a second
+//! one differs. Of many kinds that differ by their load alone, as axles of a histogram do, some stand in for all (`stand_ins`), and half as many
+//! show what that changes; vehicles that come in random order are compared with another order.
 
-use cable_dem::{Order, Traffic};
+use cable_dem::Order;
 use ground_field::DuctMotion;
 
+use super::mix::Mix;
 use super::stand_ins;
 use crate::Error;
+use crate::cable::{known_order, traffic};
 use crate::scene::Scene;
 
 /// Most vehicles in a period that is chosen here.
-const LONGEST: usize = 12;
-/// Periods that are simulated at the start: a sequence that is shorter than the traffic by this factor is its own period.
-const FIRST_PERIODS: u64 = 8;
-/// Most vehicles in a period that shares have of their own, where the traffic is longer by the factor above.
-const LONGEST_OWN: usize = 48;
-/// Longest sequence that is its own period: a run simulates some fifty periods.
-const LONGEST_SEQUENCE: usize = 200;
-/// Rounding of shares.
-const SAME: f64 = 1e-9;
-
-/// What twelve stand-ins leave wrong beside their difference to half as many.
-const HALVED: f64 = 1.0;
+const LONGEST: usize = 2000;
+/// More kinds than this that differ by their load alone have others that stand in for them.
+const KINDS: usize = 12;
+/// Stand-ins for them.
+const STAND_INS: usize = 48;
+/// In random order a period of at most so many vehicles is taken as it is, and with heat it may be longer than a day.
+const FEW: usize = 12;
 
 /// A period of traffic.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Period {
     /// Its vehicles, by their place in the scene.
     pub vehicles: Vec<usize>,
-    /// Where they only stand in for the traffic's own mix: another mix, and how far the own one lies from the first on the way to it.
-    pub other: Option<(Vec<usize>, f64)>,
-    /// Whether the traffic is in another order than that of its period: at random, or a long sequence.
+    /// Where they only stand in for the traffic, others to compare them with, each with the share of the difference that is wrong.
+    pub others: Vec<(Vec<usize>, f64)>,
+    /// Whether the traffic is in another order than that of its period: at random, or in a sequence that is longer than a day of heat.
     pub reordered: bool,
+    /// Vehicles that come within the passes of the scene, but not in the period.
+    pub absent: Vec<usize>,
 }
 
 impl Period {
@@ -42,58 +42,84 @@ impl Period {
         if let Some(vehicles) = Self::own(scene)? {
             return Ok(Self {
                 vehicles,
-                other: None,
+                others: Vec::new(),
                 reordered: false,
+                absent: Vec::new(),
             });
         }
-        let traffic = &scene.traffic;
-        let shares: Vec<f64> = match &traffic.order {
-            Order::Sequence(sequence) => {
-                let count = |vehicle| sequence.iter().filter(|&&one| one == vehicle).count();
-                (0..scene.vehicles.len())
-                    .map(|vehicle| count(vehicle) as f64)
-                    .collect()
+        let coming = coming(scene)?;
+        let shares = shares(scene, &coming);
+        let most = longest(scene);
+        let mut others = Vec::new();
+        let mix = match stand_ins::advances(scene, motions) {
+            Some(advances) if shares.len() > KINDS => {
+                let advances: Vec<f64> = coming.iter().map(|&vehicle| advances[vehicle]).collect();
+                let of = |length| Mix::new(stand_ins::counts(&shares, &advances, length), &shares);
+                others.push((of(STAND_INS / 2), 1.0));
+                of(STAND_INS)
             }
-            _ => scene.vehicles.iter().map(|vehicle| vehicle.share).collect(),
+            _ => {
+                let of_held = |share: &f64| 2.0 * share * most as f64 >= 1.0;
+                let held: Vec<f64> = shares.iter().copied().filter(of_held).collect();
+                let mut mix = Mix::best(&normal(&held), most);
+                if !mix.is_exact {
+                    let (mut other, share) = mix.opposite(&normal(&held), most);
+                    other.counts = spread(&other.counts, &shares, of_held);
+                    others.push((other, share));
+                }
+                mix.counts = spread(&mix.counts, &shares, of_held);
+                let seldom = shares
+                    .iter()
+                    .copied()
+                    .filter(|share| !of_held(share))
+                    .fold(0.0, f64::max);
+                if seldom > 0.0 {
+                    let counts = shares
+                        .iter()
+                        .map(|share| ((share * most as f64) as usize).max(1))
+                        .collect();
+                    others.push((Mix::new(counts, &shares), seldom * most as f64));
+                }
+                mix
+            }
         };
-        let (shares, mixes) = Mix::all(&shares, until_anew(scene));
-        let first = &mixes[0];
-        let reordered = traffic.order != Order::Interleaved;
-        if first.distance > SAME
-            && let Some(advances) = stand_ins::advances(scene, motions)
-        {
-            let mix = |length| Mix::of(stand_ins::counts(&shares, &advances, length), &shares);
-            return Ok(Self {
-                vehicles: mix(LONGEST).interleaved()?,
-                other: Some((mix(LONGEST / 2).interleaved()?, HALVED)),
-                reordered,
-            });
+        let named = |mix: &Mix| -> Result<Vec<usize>, Error> {
+            Ok(mix.interleaved()?.into_iter().map(|kind| coming[kind]).collect())
+        };
+        let vehicles = named(&mix)?;
+        let mut others: Vec<(Vec<usize>, f64)> = others
+            .iter()
+            .map(|(mix, share)| Ok::<_, Error>((named(mix)?, *share)))
+            .collect::<Result<_, _>>()?;
+        let reordered = scene.traffic.order != Order::Interleaved;
+        let at_random = matches!(scene.traffic.order, Order::Random { .. });
+        if reordered && (vehicles.len() > FEW || !at_random) {
+            let mut shuffled = vehicles.clone();
+            fastrand::Rng::with_seed(0).shuffle(&mut shuffled);
+            others.push((shuffled, 1.0));
         }
-        let other = (first.distance > SAME).then(|| first.opposite(&mixes)).flatten();
         Ok(Self {
-            vehicles: first.interleaved()?,
-            other: match other {
-                Some((other, share)) => Some((other.interleaved()?, share)),
-                None => None,
-            },
+            absent: coming
+                .into_iter()
+                .filter(|vehicle| !vehicles.contains(vehicle))
+                .collect(),
+            vehicles,
+            others,
             reordered,
         })
     }
 
-    /// The vehicles after which the scene's own traffic repeats itself, one after the other, if it does and they are few.
+    /// The vehicles after which the scene's own traffic repeats itself, one after the other, if it does.
     pub fn own(scene: &Scene) -> Result<Option<Vec<usize>>, Error> {
-        let traffic = &scene.traffic;
-        match &traffic.order {
-            Order::Sequence(sequence) => {
-                let fits = FIRST_PERIODS * sequence.len() as u64 <= traffic.passes;
-                let is_own = sequence.len() <= LONGEST || fits && sequence.len() <= LONGEST_SEQUENCE;
-                Ok(is_own.then(|| sequence.clone()))
-            }
+        let most = longest(scene);
+        match &scene.traffic.order {
+            Order::Sequence(sequence) if scene.warming().is_some() && sequence.len() > most => Ok(None),
+            Order::Sequence(sequence) => Ok(Some(sequence.clone())),
             Order::Interleaved => {
-                let shares: Vec<f64> = scene.vehicles.iter().map(|vehicle| vehicle.share).collect();
-                let (_, mixes) = Mix::all(&shares, until_anew(scene));
-                let exact = mixes.first().filter(|mix| mix.distance <= SAME);
-                exact.map(Mix::interleaved).transpose()
+                let coming = coming(scene)?;
+                let mix = Mix::best(&shares(scene, &coming), most);
+                let named = |vehicles: Vec<usize>| vehicles.into_iter().map(|kind| coming[kind]).collect();
+                mix.is_exact.then(|| mix.interleaved().map(named)).transpose()
             }
             Order::Random { .. } => Ok(None),
         }
@@ -103,120 +129,75 @@ impl Period {
     pub fn len(&self) -> usize {
         self.vehicles.len()
     }
-}
 
-/// Passes before the vehicles begin their round anew: with heat they do so every day.
-fn until_anew(scene: &Scene) -> u64 {
-    let traffic = &scene.traffic;
-    let a_day = traffic.per_day.filter(|_| scene.warming().is_some());
-    traffic
-        .passes
-        .min(a_day.map_or(u64::MAX, |per_day| per_day as u64))
-}
-
-/// Whole numbers of vehicles.
-struct Mix {
-    counts: Vec<usize>,
-    /// Its shares less the wanted ones.
-    off: Vec<f64>,
-    /// Largest of them.
-    distance: f64,
-}
-
-impl Mix {
-    /// The shares of vehicles of which so many pass, `passes` in all, and the mixes of ever more vehicles that come nearest to these: first
-    /// the shortest of the nearest.
-    fn all(weights: &[f64], passes: u64) -> (Vec<f64>, Vec<Self>) {
-        let total: f64 = weights.iter().sum();
-        let shares: Vec<f64> = weights.iter().map(|weight| weight / total).collect();
-        let mut mixes: Vec<Self> = (1..=LONGEST)
-            .map(|length| Self::nearest(&shares, length))
-            .collect();
-        mixes.sort_by(|a, b| {
-            (a.distance / SAME)
-                .round()
-                .total_cmp(&(b.distance / SAME).round())
-        });
-        if mixes[0].distance > SAME {
-            let most = LONGEST_OWN.min((passes / FIRST_PERIODS) as usize);
-            let exact = (LONGEST + 1..=most)
-                .map(|length| Self::nearest(&shares, length))
-                .find(|mix| mix.distance <= SAME);
-            mixes.splice(0..0, exact);
-        }
-        (shares, mixes)
+    /// Whether its passes are those of the scene's traffic.
+    pub fn is_own(&self) -> bool {
+        self.others.is_empty() && !self.reordered
     }
+}
 
-    /// The nearest mix of `length` vehicles: those with the largest remainders are rounded up.
-    fn nearest(shares: &[f64], length: usize) -> Self {
-        let wanted: Vec<f64> = shares.iter().map(|share| share * length as f64).collect();
-        let mut counts: Vec<usize> = wanted.iter().map(|wanted| (wanted + SAME) as usize).collect();
-        let mut order: Vec<usize> = (0..shares.len()).collect();
-        order.sort_by(|&a, &b| (wanted[b] - counts[b] as f64).total_cmp(&(wanted[a] - counts[a] as f64)));
-        for &vehicle in order.iter().take(length - counts.iter().sum::<usize>()) {
-            counts[vehicle] += 1;
+/// Most vehicles in a period: with heat they begin anew every day.
+fn longest(scene: &Scene) -> usize {
+    let a_day = scene.traffic.per_day.filter(|_| scene.warming().is_some());
+    a_day.map_or(LONGEST, |per_day| (per_day.round() as usize).clamp(FEW, LONGEST))
+}
+
+/// The vehicles that come within the passes of the scene, ascending.
+pub fn coming(scene: &Scene) -> Result<Vec<usize>, Error> {
+    let passes = scene.traffic.passes;
+    let kinds = scene.vehicles.len();
+    let mut comes = vec![false; kinds];
+    if let Order::Sequence(sequence) = &scene.traffic.order {
+        for &vehicle in sequence.iter().take(passes as usize) {
+            comes[vehicle] = true;
         }
-        Self::of(counts, shares)
-    }
-
-    /// The mix of these numbers of vehicles.
-    fn of(counts: Vec<usize>, shares: &[f64]) -> Self {
-        let length: usize = counts.iter().sum();
-        let off: Vec<f64> = counts
-            .iter()
-            .zip(shares)
-            .map(|(&count, share)| count as f64 / length as f64 - share)
-            .collect();
-        Self {
-            distance: off.iter().fold(0.0, |most, off| most.max(off.abs())),
-            counts,
-            off,
+    } else {
+        let total: f64 = scene.vehicles.iter().map(|vehicle| vehicle.share).sum();
+        for (comes, vehicle) in comes.iter_mut().zip(&scene.vehicles) {
+            *comes = passes > known_order(scene) && vehicle.share / total * passes as f64 >= 0.5;
+        }
+        let mut left = comes.iter().filter(|comes| !**comes).count();
+        let traffic = traffic(scene, scene.traffic.order.clone())?;
+        for vehicle in traffic.take(passes.min(known_order(scene)) as usize) {
+            left -= usize::from(!std::mem::replace(&mut comes[vehicle], true));
+            if left == 0 {
+                break;
+            }
         }
     }
-
-    /// The mix on the other side of the wanted shares that is nearest to them, and the share of the way to it at which they lie.
-    fn opposite<'a>(&self, mixes: &'a [Mix]) -> Option<(&'a Mix, f64)> {
-        let along = |mix: &Mix| -> f64 { self.off.iter().zip(&mix.off).map(|(a, b)| a * b).sum() };
-        let other = mixes
-            .iter()
-            .filter(|mix| along(mix) < 0.0)
-            .min_by(|a, b| a.distance.total_cmp(&b.distance))?;
-        Some((other, self.distance / (self.distance + other.distance)))
-    }
-
-    /// Its vehicles, as evenly as possible.
-    fn interleaved(&self) -> Result<Vec<usize>, Error> {
-        let present: Vec<usize> = (0..self.counts.len())
-            .filter(|&vehicle| self.counts[vehicle] > 0)
-            .collect();
-        let counts: Vec<f64> = present
-            .iter()
-            .map(|&vehicle| self.counts[vehicle] as f64)
-            .collect();
-        let traffic = Traffic::new(&counts, Order::Interleaved)?;
-        Ok(traffic
-            .take(self.counts.iter().sum())
-            .map(|index| present[index])
-            .collect())
-    }
+    Ok((0..kinds).filter(|&vehicle| comes[vehicle]).collect())
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// Their shares, which sum to 1.
+fn shares(scene: &Scene, coming: &[usize]) -> Vec<f64> {
+    let weights: Vec<f64> = match &scene.traffic.order {
+        Order::Sequence(sequence) => {
+            let count = |vehicle: &usize| sequence.iter().filter(|one| *one == vehicle).count() as f64;
+            coming.iter().map(count).collect()
+        }
+        _ => coming
+            .iter()
+            .map(|&vehicle| scene.vehicles[vehicle].share)
+            .collect(),
+    };
+    normal(&weights)
+}
 
-    #[test]
-    fn whole_shares_have_a_period_of_their_own_where_eight_fit_in_the_traffic() {
-        let of = |weights: &[f64], passes| {
-            let (_, mixes) = Mix::all(weights, passes);
-            (mixes[0].counts.iter().sum::<usize>(), mixes[0].distance <= SAME)
-        };
-        assert_eq!(of(&[2.0, 1.0], 3), (3, true));
-        let many = [3.0, 2.0, 2.0, 1.0, 3.0, 1.0, 2.0, 1.0, 2.0];
-        assert_eq!(of(&many, 8 * 17), (17, true));
-        let (length, is_own) = of(&many, 8 * 17 - 1);
-        assert!(length <= LONGEST && !is_own);
-        let (length, is_own) = of(&[3.0, 2.0, 2.0, 1.03], 1_000_000);
-        assert!(length <= LONGEST && !is_own);
-    }
+/// The same shares, whose sum is 1.
+fn normal(weights: &[f64]) -> Vec<f64> {
+    let total: f64 = weights.iter().sum();
+    weights.iter().map(|weight| weight / total).collect()
+}
+
+/// The `counts` of those vehicles that are `held`, and none of the others.
+fn spread(counts: &[usize], shares: &[f64], held: impl Fn(&f64) -> bool) -> Vec<usize> {
+    let mut counts = counts.iter().copied();
+    let of = |share: &f64| {
+        if held(share) {
+            counts.next().unwrap_or(0)
+        } else {
+            0
+        }
+    };
+    shares.iter().map(of).collect()
 }

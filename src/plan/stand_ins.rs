@@ -11,14 +11,11 @@ use super::occurrence;
 use crate::ground::load_ratio;
 use crate::scene::Scene;
 
-/// Fewest kinds for which others may stand in.
-const FEWEST: usize = 3;
-
 /// How far a pass of each kind advances a cable that nothing holds \[m\], where the scene's vehicles differ by their load alone.
 pub fn advances(scene: &Scene, motions: &[DuctMotion]) -> Option<Vec<f64>> {
     let (first, others) = scene.vehicles.split_first()?;
     let alike = others.iter().all(|other| load_ratio(other, first).is_some());
-    if !alike || scene.vehicles.len() < FEWEST {
+    if !alike {
         return None;
     }
     let peaks = motions.iter().map(DuctMotion::peak_longitudinal);

@@ -3,8 +3,8 @@
 use cable_dem::Order;
 use ground_field::Base;
 
-use super::method::PassMethod;
-use super::period::Period;
+use super::period::coming;
+use crate::Error;
 use crate::scene::{Scene, unusual};
 
 /// Density of soil \[kg/m³\] for the speed of its shear waves: moist sand and clay have 1700 to 2000.
@@ -46,21 +46,15 @@ fn warm(scene: &Scene) -> Vec<String> {
     warnings
 }
 
-/// A sequence of which only the mix is computed.
-pub fn of_mix(scene: &Scene, method: PassMethod, period: &Period) -> Option<String> {
-    let Order::Sequence(sequence) = &scene.traffic.order else {
-        return None;
-    };
-    let is_mixed = period.reordered && matches!(method, PassMethod::Jumps(_));
-    is_mixed.then(|| {
-        format!(
-            "a sequence of {} vehicles is too long to repeat itself often enough in {} passes: a period of {} vehicles stands in for it, \
-             in nearly its shares and as evenly mixed as possible",
-            sequence.len(),
-            scene.traffic.passes,
-            period.len()
-        )
-    })
+/// Vehicles that do not come within the passes of the scene.
+pub fn absent(scene: &Scene) -> Result<Option<String>, Error> {
+    let coming = coming(scene)?;
+    let absent = (0..scene.vehicles.len()).filter(|vehicle| !coming.contains(vehicle));
+    let names: Vec<String> = absent
+        .map(|vehicle| format!("\"{}\"", scene.vehicles[vehicle].vehicle.name()))
+        .collect();
+    let passes = scene.traffic.passes;
+    Ok((!names.is_empty()).then(|| format!("no pass among the {passes} is one of {}", names.join(", "))))
 }
 
 fn fast(scene: &Scene) -> Option<String> {

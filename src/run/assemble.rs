@@ -1,13 +1,14 @@
 //! Puts the answer of a run together, by whatever way it was found.
 
-use cycle_jump::Record;
+use cycle_jump::{Record, peaks};
 
+use super::listing::listed_passes;
 use super::passes::{Passes, Task, force_profile};
 use super::refine::Solved;
 use super::underway::CutShort;
 use crate::answer::{
-    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, PassRecord, PlanSummary, RestraintRecord, Run,
-    Stage, balance, saturation, simulated,
+    Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ExtremePass, PassRecord, PlanSummary,
+    RestraintRecord, Run, Stage, balance, saturation,
 };
 use crate::plan::Plan;
 use crate::{Error, Progress};
@@ -87,7 +88,7 @@ impl<'a> RunBuilder<'a> {
         let restraints = restraints(&solved.passes, &shown)?;
         let traffic = &self.plan.scene.traffic;
         let passes: Vec<PassRecord> = shown
-            .into_iter()
+            .iter()
             .map(|record| PassRecord::new(record, traffic))
             .collect();
         balance::of_records(self.plan.scene, &passes, &restraints)?;
@@ -121,6 +122,7 @@ impl<'a> RunBuilder<'a> {
             range,
             random: solved.random,
             passes,
+            extremes: Self::extremes(self.plan, solved),
             days: days.unwrap_or_default(),
             heat,
             force_profile: force_profile(&solved.passes.cable, &solved.passes.state)?,
@@ -144,6 +146,27 @@ impl<'a> RunBuilder<'a> {
             cost: Cost::new(solved.passes.simulated, &solved.statistics),
             warnings: self.warnings,
         })
+    }
+
+    /// The passes of a period that stands in for the traffic which show the largest forces and movements, and one more of each vehicle that is
+    /// too seldom for it.
+    fn extremes(plan: &Plan<'_>, solved: &Solved) -> Vec<ExtremePass> {
+        let (scene, period) = (plan.scene, &plan.period);
+        let a_day = solved
+            .heat
+            .as_ref()
+            .map_or(u64::MAX, |(_, heat)| heat.passes_per_day);
+        let place = |record: &Record| ((record.pass - 1) % a_day) as usize % period.len();
+        let vehicle = |record: &Record| period.vehicles[place(record)];
+        let of_period = solved.passes.peaks.iter().filter(|_| !period.is_own());
+        let of_period = of_period.map(|record| (vehicle(record), record));
+        let pass = |(vehicle, record): (usize, &Record)| ExtremePass {
+            vehicle: scene.vehicles[vehicle].vehicle.name().to_owned(),
+            after: PassRecord::new(record, &scene.traffic),
+            restraints_n: record.outcome.restraints.clone(),
+        };
+        let seldom = solved.seldom.iter().map(|(vehicle, record)| (*vehicle, record));
+        of_period.chain(seldom).map(pass).collect()
     }
 
     /// Without friction every pass leaves the cable as the first one did: where it was laid.
@@ -178,7 +201,7 @@ impl<'a> RunBuilder<'a> {
             .reasons
             .push("without friction nothing drags the cable: every pass is like the first".into());
         let stages = stages.iter().filter(|pass| (1..=count).contains(*pass));
-        let all: Vec<Record> = simulated(traffic)
+        let all: Vec<Record> = listed_passes(self.plan.scene, &self.plan.period)
             .into_iter()
             .map(|pass| Record {
                 pass,
@@ -196,9 +219,10 @@ impl<'a> RunBuilder<'a> {
             saturation: None,
             range: None,
             random: None,
+            extremes: Vec::new(),
             days: Vec::new(),
             heat: None,
-            restraints: restraints(&first, &all.iter().collect::<Vec<_>>())?,
+            restraints: restraints(&first, &all)?,
             slip_lengths: None,
             stages: stages
                 .map(|&pass| Stage {
@@ -219,7 +243,7 @@ impl<'a> RunBuilder<'a> {
     }
 }
 
-fn restraints(passes: &Passes, records: &[&Record]) -> Result<Vec<RestraintRecord>, Error> {
+fn restraints(passes: &Passes, records: &[Record]) -> Result<Vec<RestraintRecord>, Error> {
     let Passes { state, cable, .. } = passes;
     let forces = state.restraint_forces(cable)?;
     let restraints = cable.restraints().iter().zip(forces).enumerate();
@@ -236,9 +260,21 @@ fn restraints(passes: &Passes, records: &[&Record]) -> Result<Vec<RestraintRecor
         .collect())
 }
 
-/// The passes that are listed.
-fn shown<'p>(plan: &Plan<'_>, passes: &'p Passes) -> Vec<&'p Record> {
-    let listed = simulated(&plan.scene.traffic);
-    let is_listed = |record: &&Record| listed.binary_search(&record.pass).is_ok();
-    passes.records.iter().filter(is_listed).collect()
+/// The passes that are listed; where they are the traffic's own, those beside them that show more too.
+fn shown(plan: &Plan<'_>, passes: &Passes) -> Vec<Record> {
+    let listed = listed_passes(plan.scene, &plan.period);
+    let is_listed = |record: &Record| listed.binary_search(&record.pass).is_ok();
+    let is_known = |record: &&Record| passes.doubtful.binary_search(&record.pass).is_err();
+    let known = passes.records.iter().filter(is_known).cloned();
+    let (mut shown, mut others): (Vec<_>, Vec<_>) = known.partition(is_listed);
+    if plan.period.is_own() {
+        others.extend(passes.peaks.iter().cloned());
+    }
+    // On days of heat passes between simulated ones have the peaks of others.
+    let simulated = |record: &&Record| plan.scene.warming().is_none() || !record.interpolated;
+    let simulated: Vec<Record> = shown.iter().filter(simulated).cloned().collect();
+    let peaks = peaks(&simulated, others);
+    shown.extend(peaks);
+    shown.sort_by_key(|record| record.pass);
+    shown
 }

@@ -15,7 +15,7 @@ use super::refine::{FINDING, Solved};
 use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, worth};
 use crate::answer::error_estimate::{self, ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
-use crate::plan::{PassMethod, Plan};
+use crate::plan::{PassMethod, Period, Plan};
 use crate::scene::{Heat, Scene};
 use crate::{Error, Progress};
 
@@ -142,10 +142,16 @@ impl Living<'_> {
                 movement: finest.days.surprise.1,
             };
         error.temperature = error.temperature + self.sequence_error(level, knots, &mut statistics)?;
+        error.temperature = error.temperature + self.mix_error(level, knots, &mut statistics)?;
         error.road = self.road_error(level, knots, &mut statistics)?;
         let mesh = levels.mesh(level)?;
         judge(&error, self.plan, &mesh, warnings)?;
         warnings.extend(self.broken_sequence());
+        let seldom = if self.every_pass {
+            Vec::new()
+        } else {
+            self.seldom(mesh, &finest.passes.state)?
+        };
         Ok(Solved {
             reasons: vec![mesh_reason(self.plan, &mesh), self.reason(&finest, knots)],
             heat: Some(self.record(&finest)?),
@@ -154,6 +160,7 @@ impl Living<'_> {
             error,
             statistics,
             random: None,
+            seldom,
         })
     }
 
@@ -225,6 +232,30 @@ impl Living<'_> {
         *statistics += own.passes.statistics;
         *statistics += other.passes.statistics;
         Ok(self.difference_of_days(&own, &other))
+    }
+
+    /// What a period changes that stands in for the traffic: its share of what others do, on a level that is coarse beside `level`.
+    fn mix_error(&self, level: usize, knots: u64, statistics: &mut Statistics) -> Result<Shares, Error> {
+        let mut error = Shares::default();
+        if self.every_pass || self.period.others.is_empty() {
+            return Ok(error);
+        }
+        let (level, own) = self.coarse(level, knots)?;
+        *statistics += own.passes.statistics;
+        for (vehicles, share) in &self.period.others {
+            let period = Period {
+                vehicles: vehicles.clone(),
+                ..self.period.clone()
+            };
+            let living = Living {
+                period: &period,
+                ..*self
+            };
+            let other = living.live(level, knots, Progress::default())?;
+            *statistics += other.passes.statistics;
+            error = error + self.difference_of_days(&own, &other).times(*share);
+        }
+        Ok(error)
     }
 
     /// What an approach that the scene names leaves out, on `level`: the days once more with vehicles followed far enough.

@@ -13,6 +13,7 @@ use cable_dem::CableError;
 
 use super::days_outlook;
 use super::jumps::{self, Found};
+use super::listing::listed_passes;
 use super::outlook::{Known, Level, Outlook};
 use super::passes::{Jumping, Passes, Task};
 use super::random;
@@ -20,7 +21,6 @@ use super::underway::Underway;
 use super::work::{Work, tabulated};
 use super::worth::MAX_NODE_UPDATES;
 use crate::answer::error_estimate::{Scale, Shares, is_doubtful};
-use crate::answer::simulated;
 use crate::ground::{peak, road};
 use crate::plan::{CableMethod, PassMethod, Plan};
 use crate::scene::Order;
@@ -345,7 +345,7 @@ impl<'a> Probe<'a> {
                     most_passes: (self.affordable(level) as u64).min(PATIENCE * period),
                     ..way
                 };
-                task.with_jumps(&way, &simulated(&scene.traffic))?
+                task.with_jumps(&way, &listed_passes(scene, way.period))?
             }
             None => task.every_pass()?,
         };

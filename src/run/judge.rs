@@ -27,7 +27,7 @@ pub fn judge(
             "{}, above the tolerance of {}{}",
             exceeds.join(" and "),
             exact_percent(tolerance),
-            remedy(error, scene, period.other.is_some(), mesh)
+            remedy(error, scene, !period.others.is_empty(), mesh)
         ));
     }
     if !scene.friction.law.has_memory() {
@@ -59,7 +59,7 @@ fn remedy(error: &ErrorParts, scene: &Scene, stands_in: bool, mesh: &Mesh) -> St
         return ": solver.method = \"quasi-static\" simulates every pass".to_owned();
     }
     if of(error.passes) >= others && stands_in {
-        return ": most of it comes from twelve vehicles that stand for all kinds; shares in whole numbers, of at most 48 vehicles in all, need none"
+        return ": most of it comes from vehicles that stand in for the traffic; shares in whole numbers, of at most 2000 vehicles in all, need none"
             .to_owned();
     }
     ", and no finer mesh makes it much smaller".to_owned()

@@ -9,7 +9,7 @@ use cable_dem::{CableError, Order, Statistics};
 use cycle_jump::{Guide, Record};
 
 use super::passes::{Jumping, Passes};
-use crate::answer::error_estimate::{Scale, Shares, difference, differences};
+use crate::answer::error_estimate::{Scale, Shares, difference, differences, extremes_difference};
 use crate::plan::{Period, Plan};
 use crate::{Error, Progress};
 
@@ -24,16 +24,19 @@ const FINEST: usize = 8;
 /// Share of the tolerance that jumps may take; and where a mesh would keep the tolerance with smaller ones.
 const SHARE: f64 = 0.5;
 pub const SMALLER_SHARE: f64 = 0.35;
-/// Periods simulated at the start, of at most so many vehicles and of more; and at most where only early jumps are off; and passes
-/// in them at most.
+/// Periods simulated at the start: of one or two vehicles, of more, and fewer of many, about so many passes in all.
 const FIRST_PERIODS: u64 = 8;
 const FIRST_LONG_PERIODS: u64 = 5;
 const LONG: usize = 3;
+const FEWEST_FIRST_PERIODS: u64 = 2;
+const FIRST_PASSES: usize = 200;
+/// And at most where only early jumps are off; and passes in them at most.
 const MOST_FIRST_PERIODS: u64 = 48;
 const MOST_FIRST_PASSES: u64 = 200;
-/// Jumps are looked for on the level below the first, where they cost a fourth, unless the duct is so many depths short: that costs
-/// little, and the few nodes that a coarser mesh gives it behave differently.
+/// Jumps are looked for on the level below the first, where they cost a fourth, unless the duct is so many depths short and a period has at
+/// most so many vehicles: that costs little, and the few nodes that a coarser mesh gives it behave differently.
 const SHORT: f64 = 20.0;
+const MANY: usize = 48;
 const COST_OF_A_LEVEL: usize = 4;
 /// Finer jumps take about so many times the passes. No finer ones are looked for where they would take more nodes than this on the
 /// first level: some ten seconds.
@@ -97,7 +100,7 @@ pub fn find<'a>(
     let allowed = Shares::both(share * tolerance);
     let duct = plan.scene.duct;
     let first = plan.levels.first();
-    let is_short = duct.length <= SHORT * duct.depth;
+    let is_short = duct.length <= SHORT * duct.depth && plan.period.len() <= MANY;
     let below = first
         .checked_sub(1)
         .filter(|&below| !is_short && plan.levels.mesh(below).is_ok());
@@ -173,7 +176,7 @@ fn largest<'a>(plan: &'a Plan<'_>) -> Jumping<'a> {
     let first_periods = if plan.period.len() < LONG {
         FIRST_PERIODS
     } else {
-        FIRST_LONG_PERIODS
+        (FIRST_PASSES.div_ceil(plan.period.len()) as u64).clamp(FEWEST_FIRST_PERIODS, FIRST_LONG_PERIODS)
     };
     Jumping {
         period: &plan.period,
@@ -197,7 +200,8 @@ pub fn usual<'a>(plan: &'a Plan<'_>) -> Jumping<'a> {
     }
 }
 
-/// What a mix that stands in for the traffic's own changes: its share of what a mix on the other side changes.
+/// What a period that stands in for the traffic changes: its share of what each other one does, forces and movements on the passes that both
+/// show, and the largest of all.
 fn mix_error(
     plan: &Plan<'_>,
     found: &Found,
@@ -205,31 +209,35 @@ fn mix_error(
     simulate: impl Fn(usize, &Jumping<'_>) -> Result<Passes, Error>,
     statistics: &mut Statistics,
 ) -> Result<Shares, Error> {
-    let Some((vehicles, share)) = &plan.period.other else {
-        return Ok(Shares::default());
-    };
-    let period = Period {
-        vehicles: vehicles.clone(),
-        ..plan.period.clone()
-    };
-    let jumping = Jumping {
-        guide: Guide::Free,
-        ..found.jumping(&period)
-    };
-    let other = simulate(found.level, &jumping)?;
-    *statistics += other.statistics;
+    let mut error = Shares::default();
     // The first vehicles of a random order are a draw, which no mix foretells.
     let drawn = match plan.scene.traffic.order {
         Order::Random { .. } => 2 * plan.period.len() as u64,
         _ => 0,
     };
-    let later = |records: &[Record]| -> Vec<Record> {
-        records
-            .iter()
-            .filter(|record| record.pass > drawn)
-            .cloned()
-            .collect()
+    let later = |passes: &Passes| -> Vec<Record> {
+        let is_shown =
+            |record: &&Record| record.pass > drawn && passes.doubtful.binary_search(&record.pass).is_err();
+        passes.records.iter().filter(is_shown).cloned().collect()
     };
-    let (own, other) = (later(&found.passes.records), later(&other.records));
-    Ok(difference(&own, &other, scale).times(*share))
+    for (vehicles, share) in &plan.period.others {
+        let period = Period {
+            vehicles: vehicles.clone(),
+            ..plan.period.clone()
+        };
+        let first = found.first_periods * plan.period.len() as u64;
+        let jumping = Jumping {
+            guide: Guide::Free,
+            first_periods: first.div_ceil(period.len() as u64).max(FEWEST_FIRST_PERIODS),
+            ..found.jumping(&period)
+        };
+        let other = simulate(found.level, &jumping)?;
+        *statistics += other.statistics;
+        let rows = difference(&later(&found.passes), &later(&other), scale);
+        let all = |passes: &'_ Passes| -> Vec<Record> { [&later(passes)[..], &passes.peaks].concat() };
+        let (own, other) = (all(&found.passes), all(&other));
+        let extremes = extremes_difference(&own, &other, scale);
+        error = error + rows.max(extremes).times(*share);
+    }
+    Ok(error)
 }

@@ -1,111 +1,120 @@
 //! Which passes of a period's traffic stand for the listed passes of the scene's.
 //!
-//! Where the period is the traffic's own they are the same. Where it only stands in for the traffic, a pass is shown by one
-//! nearby that follows the same vehicles as far back as possible; and at random by the mean over a period.
-
-use std::ops::RangeInclusive;
+//! Where the period is the traffic's own they are the same. Where it only stands in for the traffic, the scene's own vehicles drive at the
+//! beginning and at the end, and between them a pass is shown by one nearby of the same vehicle that follows the same vehicles as far back as
+//! possible; in random order it is shown by the mean over a period.
 
 use cable_dem::{Order, PassOutcome};
-use cycle_jump::Record;
+use cycle_jump::{Evolution, Record};
 
+use super::order::OwnOrder;
 use crate::Error;
-use crate::cable::{LONGEST_ORDER, traffic};
+use crate::answer::simulated;
+use crate::cable::{known_order, traffic};
 use crate::plan::Period;
 use crate::scene::Scene;
 
-/// Periods at the start in which the scene's own vehicles drive.
-const OWN_PERIODS: u64 = 7;
+/// Passes at the beginning in which the scene's own vehicles drive, at least; at the end, and the last of them that show those vehicles: the
+/// first ones still follow other vehicles.
+const FIRST: u64 = 100;
+const LAST: u64 = 150;
+const LAST_SHOWN: u64 = 12;
+/// Periods that jumps need at least beside those at the beginning and the end.
+const PERIODS_OF_A_JUMP: u64 = 3;
+/// Passes of a longer period whose mean stands for it, evenly over it.
+const OF_A_MEAN: u64 = 48;
+/// Passes that are nearly alike and are compared with each other.
+const ALIKE: usize = 4;
+
+/// The passes that a run lists whose traffic has this `period`: where it is the traffic's own, all of the last period among them.
+pub fn listed_passes(scene: &Scene, period: &Period) -> Vec<u64> {
+    simulated(&scene.traffic, if period.is_own() { period.len() } else { 1 })
+}
 
 /// Listed passes, each with those whose mean is shown for it.
-pub struct Listing {
-    rows: Vec<(u64, RangeInclusive<u64>)>,
-    /// The first vehicles of the scene's own traffic.
-    own: Vec<usize>,
+pub struct Listing<'a> {
+    rows: Vec<(u64, Vec<u64>)>,
+    /// Where other vehicles than those of the period drive at the beginning and at the end.
+    own: Option<OwnOrder<'a>>,
+    /// Passes at the beginning and at the end in which they drive.
+    pub one_by_one: (u64, u64),
+    count: u64,
     /// Whether the scene's vehicles are drawn: then no pass is one of theirs.
     is_drawn: bool,
 }
 
-impl Listing {
-    pub fn new(scene: &Scene, period: &Period, listed: &[u64]) -> Result<Self, Error> {
+impl<'a> Listing<'a> {
+    /// Of a run that begins with so many periods.
+    pub fn new(scene: &Scene, period: &'a Period, first_periods: u64, listed: &[u64]) -> Result<Self, Error> {
         let length = period.len() as u64;
         let count = scene.traffic.passes;
-        let stands_in = period.other.is_some() || period.reordered;
-        if !stands_in {
-            return Ok(Self {
-                rows: listed.iter().map(|&pass| (pass, pass..=pass)).collect(),
-                own: Vec::new(),
-                is_drawn: false,
-            });
+        let mut listing = Self {
+            rows: Vec::with_capacity(listed.len()),
+            own: None,
+            one_by_one: (0, 0),
+            count,
+            is_drawn: matches!(scene.traffic.order, Order::Random { .. }),
+        };
+        // The last passes too are the mean of a whole period: the last vehicle alone says nothing.
+        let mean = |pass: u64| match mean_around(pass, length, count) {
+            shown if pass + length / 2 <= count => shown,
+            _ => sampled((count + 1).saturating_sub(length).max(1), count),
+        };
+        if period.is_own() || listing.is_drawn {
+            let shown = |pass: u64| if listing.is_drawn { mean(pass) } else { vec![pass] };
+            listing.rows = listed.iter().map(|&pass| (pass, shown(pass))).collect();
+            return Ok(listing);
         }
-        let window = |pass: u64| around(pass, length, count);
-        if matches!(scene.traffic.order, Order::Random { .. }) {
-            // The last passes too are the mean of a whole period: the last vehicle alone says nothing.
-            let mean = |pass: u64| match window(pass) {
-                shown if pass + length / 2 <= count => shown,
-                _ => (count + 1).saturating_sub(length).max(1)..=count,
-            };
-            return Ok(Self {
-                rows: listed.iter().map(|&pass| (pass, mean(pass))).collect(),
-                own: Vec::new(),
-                is_drawn: true,
-            });
-        }
-        let traffic = traffic(scene, scene.traffic.order.clone())?;
-        let last = listed.last().copied().unwrap_or(0);
-        let own_passes = (OWN_PERIODS * length).min(count);
-        // Vehicles of the last period before each listed pass, the newest last.
-        let mut recent = Vec::new();
-        let mut own = Vec::new();
-        let mut rows = Vec::with_capacity(listed.len());
-        let mut next = listed.iter().copied().peekable();
-        for (vehicle, pass) in traffic.zip(1..=last.min(LONGEST_ORDER)) {
-            if pass <= own_passes {
-                own.push(vehicle);
-            }
-            recent.push(vehicle);
-            if recent.len() > period.len() {
-                recent.remove(0);
-            }
-            if next.next_if_eq(&pass).is_some() {
-                let shown = if pass <= own_passes {
-                    pass
-                } else {
-                    alike(period, &recent, pass, count)
-                };
-                rows.push((pass, shown..=shown));
+        let known = count.min(known_order(scene));
+        let vehicles = traffic(scene, scene.traffic.order.clone())?.take(known as usize);
+        let own = OwnOrder {
+            vehicles: vehicles.map(|vehicle| vehicle as u16).collect(),
+            period,
+        };
+        // In the first period of many vehicles, or in several of few.
+        let first = if length > FIRST {
+            FIRST
+        } else {
+            FIRST.div_ceil(length) * length
+        };
+        let last = if known == count { LAST.min(count) } else { 0 };
+        listing.one_by_one = if first + (first_periods + PERIODS_OF_A_JUMP) * length + last >= count {
+            (known, 0)
+        } else {
+            (first, last)
+        };
+        for &pass in listed {
+            if listing.shows_own(pass) {
+                listing.rows.push((pass, vec![pass]));
+            } else if let Some(shown) = own.shown_by(pass, first + 1..=count - last) {
+                listing.rows.push((pass, vec![shown]));
+            } else if pass == count {
+                listing.rows.push((pass, mean(pass)));
             }
         }
-        // So far on its order is not known: the mean of a period stands for it.
-        rows.extend(next.map(|pass| (pass, window(pass))));
-        Ok(Self {
-            rows,
-            own,
-            is_drawn: false,
-        })
+        listing.own = Some(own);
+        Ok(listing)
     }
 
     /// The vehicle of the pass `number`, whose place in the period is `phase`.
     pub fn vehicle(&self, period: &Period, phase: usize, number: Option<u64>) -> usize {
-        let own = number.and_then(|pass| self.own.get(pass as usize - 1));
-        own.copied().unwrap_or(period.vehicles[phase])
+        let (first, last) = self.one_by_one;
+        let own = self.own.as_ref().zip(number).and_then(|(own, pass)| {
+            let drives = pass <= first || pass + last > self.count;
+            own.vehicles.get(pass as usize - 1).filter(|_| drives)
+        });
+        own.map_or(period.vehicles[phase], |&vehicle| vehicle as usize)
+    }
+
+    /// Whether `pass` is the scene's own and follows its own vehicles.
+    fn shows_own(&self, pass: u64) -> bool {
+        let (first, last) = self.one_by_one;
+        pass <= first || last > 0 && pass + LAST_SHOWN > self.count
     }
 
     /// Whether the pass of this number is that of the scene's own traffic.
     pub fn is_own(&self, pass: u64) -> bool {
-        if self.is_drawn {
-            return false;
-        }
-        let row = self.rows.binary_search_by_key(&pass, |(listed, _)| *listed);
-        match row {
-            Ok(row) => self.rows[row].1 == (pass..=pass),
-            Err(_) => {
-                self.own.is_empty()
-                    && self
-                        .rows
-                        .iter()
-                        .all(|(listed, shown)| *shown == (*listed..=*listed))
-            }
-        }
+        !self.is_drawn && (self.own.is_none() || self.shows_own(pass))
     }
 
     /// The passes that have to be known, ascending.
@@ -116,15 +125,16 @@ impl Listing {
         wanted
     }
 
-    /// The listed passes, from all that were wanted.
-    pub fn records(&self, known: &[Record]) -> Vec<Record> {
+    /// The listed passes of an `evolution`.
+    pub fn records(&self, evolution: &Evolution) -> Vec<Record> {
+        let known = &evolution.records;
         let of = |pass: u64| {
             known
                 .binary_search_by_key(&pass, |record| record.pass)
                 .map(|place| known[place].clone())
         };
-        let row = |(pass, shown): &(u64, RangeInclusive<u64>)| {
-            let shown: Vec<Record> = shown.clone().filter_map(|pass| of(pass).ok()).collect();
+        let row = |(pass, shown): &(u64, Vec<u64>)| {
+            let shown: Vec<Record> = shown.iter().filter_map(|&pass| of(pass).ok()).collect();
             let first = shown.first()?;
             Some(Record {
                 pass: *pass,
@@ -134,35 +144,73 @@ impl Listing {
         };
         self.rows.iter().filter_map(row).collect()
     }
+
+    /// The passes of `records` for which other passes of the period, nearly as much alike, show a force or a movement that differs
+    /// by more than `allowed` of the largest in the period.
+    pub fn doubtful(&self, evolution: &Evolution, records: &[Record], allowed: f64) -> Vec<u64> {
+        let Some(own) = self.own.as_ref().filter(|_| !evolution.period.is_empty()) else {
+            return Vec::new();
+        };
+        let of_place = |place: &usize| shown_values(&evolution.period[*place]);
+        let mut largest = [0.0_f64; 2];
+        for outcome in &evolution.period {
+            for (most, values) in largest.iter_mut().zip(shown_values(outcome)) {
+                *most = values.iter().fold(*most, |most, value| most.max(value.abs()));
+            }
+        }
+        let is_doubtful = |pass: &u64| {
+            let alike = own.most_alike(*pass, ALIKE);
+            let first = of_place(&alike[0]);
+            alike.iter().any(|place| {
+                let pairs = of_place(place).into_iter().zip(&first).zip(largest);
+                pairs.into_iter().any(|((values, first), largest)| {
+                    values
+                        .iter()
+                        .zip(first)
+                        .any(|(a, b)| (a - b).abs() > allowed * largest)
+                })
+            })
+        };
+        let shown = records.iter().map(|record| record.pass);
+        let others = shown
+            .filter(|&pass| !self.is_own(pass) && pass < self.count && pass <= own.vehicles.len() as u64);
+        others.filter(is_doubtful).collect()
+    }
 }
 
-/// A whole period of `length` passes around `pass`, or as many on either side as there are of `count`.
-fn around(pass: u64, length: u64, count: u64) -> RangeInclusive<u64> {
+/// Forces on the ends after and during a pass and the largest inside; movements of the ends.
+fn shown_values(outcome: &PassOutcome) -> [Vec<f64>; 2] {
+    let PassOutcome {
+        force, peak, lowest, ..
+    } = outcome;
+    let ends = [force, peak, lowest]
+        .into_iter()
+        .flat_map(|force| [force.upstream, force.downstream]);
+    [
+        ends.chain([outcome.max_compression]).collect(),
+        vec![outcome.upstream_displacement, outcome.downstream_displacement],
+    ]
+}
+
+/// Passes of a whole period of `length` around `pass`, or as many on either side as there are of `count`.
+fn mean_around(pass: u64, length: u64, count: u64) -> Vec<u64> {
     let (before, after) = ((length - 1) / 2, length / 2);
     if pass > before && pass + after <= count {
-        return pass - before..=pass + after;
+        return sampled(pass - before, pass + after);
     }
     let reach = before.min(pass - 1).min(count - pass);
-    pass - reach..=pass + reach
+    sampled(pass - reach, pass + reach)
 }
 
-/// The pass near `pass` that follows the vehicles `recent` as far back as possible in the period's traffic.
-fn alike(period: &Period, recent: &[usize], pass: u64, count: u64) -> u64 {
-    let length = period.len();
-    let back = |phase: usize| {
-        let same = |steps: &usize| {
-            period.vehicles[(phase + length - steps % length) % length] == recent[recent.len() - 1 - steps]
-        };
-        (0..recent.len()).take_while(same).count()
-    };
-    let own = ((pass - 1) % length as u64) as usize;
-    // The nearest of those that are equally alike: forward and backward by turns.
-    let away = (0..length as i64).map(|k| if k % 2 == 0 { k / 2 } else { -(k + 1) / 2 });
-    let place = |away: i64| (own as i64 + away).rem_euclid(length as i64) as usize;
-    let best = away
-        .filter(|away| (1..=count as i64).contains(&(pass as i64 + away)))
-        .max_by_key(|&away| (back(place(away)), -away.abs()));
-    (pass as i64 + best.unwrap_or(0)) as u64
+/// These passes, or some of many, evenly.
+fn sampled(from: u64, to: u64) -> Vec<u64> {
+    let all = to - from + 1;
+    if all <= OF_A_MEAN {
+        return (from..=to).collect();
+    }
+    (0..OF_A_MEAN)
+        .map(|k| from + (2 * k + 1) * all / (2 * OF_A_MEAN))
+        .collect()
 }
 
 /// Mean of what passes did.
@@ -183,13 +231,16 @@ mod tests {
     fn a_mean_over_a_period_counts_every_vehicle_of_it_once() {
         for length in 1..=48 {
             for pass in 25..=176 {
-                let shown = around(pass, length, 200);
+                let shown = mean_around(pass, length, 200);
                 assert!(shown.contains(&pass));
-                assert_eq!(shown.count() as u64, length, "pass {pass}");
+                assert_eq!(shown.len() as u64, length, "pass {pass}");
             }
             // At both ends as many on either side.
-            assert_eq!(around(1, length, 200).count(), if length == 2 { 2 } else { 1 });
-            assert_eq!(around(200, length, 200).count(), 1);
+            assert_eq!(mean_around(1, length, 200).len(), if length == 2 { 2 } else { 1 });
+            assert_eq!(mean_around(200, length, 200).len(), 1);
         }
+        let long = mean_around(5000, 1000, 10_000);
+        assert_eq!(long.len(), 48);
+        assert!(long.is_sorted() && long[0] > 4500 && long[47] <= 5500, "{long:?}");
     }
 }

@@ -1,17 +1,18 @@
 //! All days of a scene with heat on one mesh, and what two such runs differ in.
 
-use cable_dem::CableState;
-use cycle_jump::Next;
+use cable_dem::{CableState, Mesh};
 use cycle_jump::days::{DailyHeat, Day, DayRecord, Days, DaysRequest, live};
+use cycle_jump::{Next, Record};
 
+use super::listing::listed_passes;
 use super::locked_law::locked_law;
-use super::passes::{Passes, Simulation, Task, force_profile};
+use super::passes::{Passes, Simulation, Task, force_profile, seldom_passes};
 use super::underway::Underway;
 use crate::answer::error_estimate::{Scale, Shares};
-use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed, simulated};
+use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed};
 use crate::cable::{cable, traffic};
 use crate::ground::peak;
-use crate::plan::Plan;
+use crate::plan::{Period, Plan};
 use crate::scene::{DAYS_PER_YEAR, Heat, Scene, Warming};
 use crate::{Error, Progress};
 
@@ -33,6 +34,8 @@ pub struct Lived {
 #[derive(Clone, Copy)]
 pub struct Living<'a> {
     pub plan: &'a Plan<'a>,
+    /// The plan's, or one to compare it with.
+    pub period: &'a Period,
     pub heat: &'a Heat,
     pub progress: Progress<'a>,
     pub underway: Option<&'a Underway>,
@@ -48,6 +51,7 @@ impl<'a> Living<'a> {
     pub fn new(plan: &'a Plan<'a>, heat: &'a Heat, every_pass: bool, progress: Progress<'a>) -> Self {
         Self {
             plan,
+            period: &plan.period,
             heat,
             progress,
             underway: None,
@@ -80,7 +84,7 @@ impl<'a> Living<'a> {
                     .collect(),
             ),
         };
-        let sequence = self.plan.period.len();
+        let sequence = self.period.len();
         let few = passes <= FEW.max(sequence as u64) || self.every_pass;
         let period = if few { 1 } else { sequence };
         Day {
@@ -93,19 +97,19 @@ impl<'a> Living<'a> {
 
     /// Vehicles of the sequence that a day leaves over: where the next day goes on in it, and every day here begins anew.
     fn left_over(&self) -> usize {
-        (a_day(self.plan.scene) % self.plan.period.len() as u64) as usize
+        (a_day(self.plan.scene) % self.period.len() as u64) as usize
     }
 
     /// Whether days that follow from each other all begin with the same vehicle, and the traffic's sequence does not.
     pub fn breaks_sequence(&self) -> bool {
         let traffic = &self.plan.scene.traffic;
         let several = traffic.passes > a_day(self.plan.scene);
-        several && !self.every_pass && !self.plan.period.reordered && self.left_over() > 0
+        several && !self.every_pass && !self.period.reordered && self.left_over() > 0
     }
 
     /// The warning of that.
     pub fn broken_sequence(&self) -> Option<String> {
-        let (passes, period) = (a_day(self.plan.scene), self.plan.period.len() as u64);
+        let (passes, period) = (a_day(self.plan.scene), self.period.len() as u64);
         self.breaks_sequence().then(|| {
             format!(
                 "{passes} vehicles a day are no whole number of times the {period} of the sequence: each day is computed as if it \
@@ -128,6 +132,20 @@ impl<'a> Living<'a> {
         self.live_in(self.plan.scene, level, knots, progress)
     }
 
+    /// One more pass of each vehicle that is too seldom for the period, after the last one.
+    pub fn seldom(&self, mesh: Mesh, state: &CableState) -> Result<Vec<(usize, Record)>, Error> {
+        let task = Task {
+            scene: self.plan.scene,
+            method: self.plan.choice.method.cable_method(),
+            motions: &self.plan.ground.motions,
+            mesh,
+            stages: &[],
+            progress: Progress::default(),
+            seen: None,
+        };
+        seldom_passes(&task, &self.period.absent, state)
+    }
+
     pub fn live_in(
         &self,
         scene: &Scene,
@@ -135,12 +153,8 @@ impl<'a> Living<'a> {
         knots: u64,
         progress: Progress<'_>,
     ) -> Result<Lived, Error> {
-        let Plan {
-            ground,
-            period,
-            levels,
-            ..
-        } = self.plan;
+        let Plan { ground, levels, .. } = self.plan;
+        let period = self.period;
         let mesh = levels.mesh(level)?;
         let task = Task {
             scene,
@@ -161,7 +175,7 @@ impl<'a> Living<'a> {
         let days = count.div_ceil(day.passes);
         let request = DaysRequest {
             passes: count,
-            wanted: &simulated(&scene.traffic),
+            wanted: &listed_passes(scene, self.period),
             wanted_days: &listed(days),
             tolerance: FROZEN_SHARE * scene.solver.tolerance,
             least: (scale.force, scale.movement),
@@ -190,6 +204,7 @@ impl<'a> Living<'a> {
         )?;
         task.finish(&lived.records);
         let mut passes = simulation.passes(lived.records.clone(), lived.state.clone(), lived.simulated);
+        passes.peaks.clone_from(&lived.peaks);
         passes.statistics += of_law;
         passes.statistics.sweeps += lived.sweeps as usize;
         passes.statistics.node_updates += lived.sweeps as usize * mesh.nodes();

@@ -11,6 +11,7 @@ mod listing;
 mod lived;
 mod locked_law;
 mod options;
+mod order;
 mod outlook;
 pub mod passes;
 mod random;

@@ -4,19 +4,24 @@ use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, SigmoidLeak, Statist
 use cycle_jump::{Beyond, Guide, Jumps, Next, Record, Request, evolve};
 use ground_field::DuctMotion;
 
-use super::listing::Listing;
+use super::listing::{Listing, listed_passes};
 use super::solver::PassSolver;
 use super::underway::OnMesh;
 use crate::answer::error_estimate::Scale;
-use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond, simulated};
+use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
 use crate::cable::{cable, traffic};
 use crate::ground::{length_scale, peak};
 use crate::plan::{CableMethod, Period};
 use crate::scene::{End, Scene};
 use crate::{Error, Progress};
 
-/// Periods after which a run with jumps takes no more of them.
+/// Periods after which a run with jumps takes no more of them, of few vehicles and of many.
 const PATIENCE: u64 = 600;
+const FEW: u64 = 12;
+const PATIENCE_WITH_MANY: u64 = 12;
+
+/// Share of the tolerance by which a row may depend on which pass of a period shows it.
+const DOUBTFUL: f64 = 0.5;
 
 /// The passes of a scene on one mesh.
 #[derive(Clone, Copy)]
@@ -72,6 +77,10 @@ pub struct Passes {
     pub schedule: Vec<u64>,
     /// Where jumps lead.
     pub beyond: Option<Beyond>,
+    /// Passes of the records that are not shown: other vehicles before them than those of the period would leave other forces.
+    pub doubtful: Vec<u64>,
+    /// Passes of the period beside them that show more.
+    pub peaks: Vec<Record>,
 }
 
 /// Force along the cable as it is left in `state`.
@@ -89,7 +98,7 @@ impl Task<'_> {
     /// Simulates every pass, or few where there is a `way` to jump over the others.
     pub fn carry_out(&self, way: Option<&Jumping<'_>>) -> Result<Passes, Error> {
         match way {
-            Some(way) => self.with_jumps(way, &simulated(&self.scene.traffic)),
+            Some(way) => self.with_jumps(way, &listed_passes(self.scene, way.period)),
             None => self.every_pass(),
         }
     }
@@ -125,7 +134,8 @@ impl Task<'_> {
         simulation.foreseen = jumping.simulated;
         let motion = peak(self.motions);
         let scale = Scale::new(scene.friction_limit(), motion);
-        let patience = PATIENCE * jumping.period.len() as u64;
+        let length = jumping.period.len() as u64;
+        let patience = (PATIENCE * length.min(FEW)).max(PATIENCE_WITH_MANY * length);
         let jumps = Jumps {
             tolerance: jumping.tolerance,
             first_periods: jumping.first_periods,
@@ -143,12 +153,18 @@ impl Task<'_> {
             passes.dedup();
             passes
         };
-        let listing = Listing::new(scene, jumping.period, &with_stages(listed.to_vec()))?;
+        let listing = Listing::new(
+            scene,
+            jumping.period,
+            jumping.first_periods,
+            &with_stages(listed.to_vec()),
+        )?;
         let wanted = with_stages(listing.wanted());
         let beyond = if jumping.beyond { beyond(count) } else { Vec::new() };
         let request = Request {
             passes: count,
-            period: jumping.period.len(),
+            order: &jumping.period.vehicles,
+            one_by_one: listing.one_by_one,
             wanted: &wanted,
             looked_at: self.stages,
             beyond: &beyond,
@@ -169,11 +185,14 @@ impl Task<'_> {
             }
             Ok::<_, Error>(outcome)
         })?;
-        let records = listing.records(&evolution.records);
+        let records = listing.records(&evolution);
+        let doubtful = listing.doubtful(&evolution, &records, DOUBTFUL * scene.solver.tolerance);
         self.finish(&records);
         let mut passes = simulation.passes(records, evolution.state, evolution.simulated);
         passes.schedule = evolution.schedule;
         passes.beyond = evolution.beyond;
+        passes.doubtful = doubtful;
+        passes.peaks = evolution.peaks;
         Ok(passes)
     }
 
@@ -189,6 +208,25 @@ impl Task<'_> {
 fn is_held(scene: &Scene) -> bool {
     let free = (scene.ends.upstream, scene.ends.downstream) == (End::Free, End::Free);
     !free || !scene.restraints.is_empty()
+}
+
+/// One pass of each of these `vehicles`, each as the next one over the cable in `state`.
+pub fn seldom_passes(
+    task: &Task<'_>,
+    vehicles: &[usize],
+    state: &CableState,
+) -> Result<Vec<(usize, Record)>, Error> {
+    let mut simulation = Simulation::new(task)?;
+    let pass = |&vehicle: &usize| {
+        let outcome = simulation.pass(vehicle, None, &mut state.clone())?;
+        let record = Record {
+            pass: task.scene.traffic.passes + 1,
+            outcome,
+            interpolated: true,
+        };
+        Ok((vehicle, record))
+    };
+    vehicles.iter().map(pass).collect()
 }
 
 /// Passes under way.
@@ -297,6 +335,8 @@ impl<'a> Simulation<'a> {
             simulated,
             schedule: Vec::new(),
             beyond: None,
+            doubtful: Vec::new(),
+            peaks: Vec::new(),
         }
     }
 }

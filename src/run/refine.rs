@@ -1,12 +1,13 @@
 //! The passes of a scene on one mesh after the other, until their error is within the tolerance.
 
 use cable_dem::{CableError, Mesh, Statistics};
+use cycle_jump::Record;
 
 use super::both::both;
 use super::judge::{judge, mesh_reason};
 use super::jumps::{self, Found};
 use super::options::RunOptions;
-use super::passes::{Jumping, Passes, Task};
+use super::passes::{Jumping, Passes, Task, seldom_passes};
 use super::random;
 use super::seen::{SHARP, Seen, is_known};
 use super::vehicle_steps::{SEEN_BELOW, VehicleSteps};
@@ -40,6 +41,8 @@ pub struct Solved {
     /// Work on all meshes together.
     pub statistics: Statistics,
     pub random: Option<RandomSpread>,
+    /// One more pass of each vehicle that comes too seldom for the period.
+    pub seldom: Vec<(usize, Record)>,
     /// Of a cable that is heated every day.
     pub heat: Option<(Vec<DayExtremes>, HeatRecord)>,
 }
@@ -97,6 +100,12 @@ impl Refinement<'_> {
             statistics += work;
             random = spread;
         }
+        let seldom = match self.method {
+            PassMethod::Jumps(_) => {
+                seldom_passes(&self.task(scene, mesh), &self.plan.period.absent, &finest.state)?
+            }
+            PassMethod::EveryPass(_) => Vec::new(),
+        };
         Ok(Solved {
             reasons: vec![mesh_reason(self.plan, &mesh)],
             mesh,
@@ -104,6 +113,7 @@ impl Refinement<'_> {
             error,
             statistics,
             random,
+            seldom,
             heat: None,
         })
     }

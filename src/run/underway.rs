@@ -138,7 +138,7 @@ impl Underway {
     /// A run begins.
     pub(super) fn begin(&self, answer: CutShort, traffic: &Traffic) {
         *self.seen() = Seen {
-            listed: simulated(traffic),
+            listed: simulated(traffic, 1),
             answer: Some((answer, traffic.clone())),
             ..Seen::default()
         };

@@ -48,7 +48,8 @@
 //! };
 //! let request = Request {
 //!     passes: 1_000_000,
-//!     period: 1,
+//!     order: &[0],
+//!     one_by_one: (0, 0),
 //!     wanted: &[10, 40, 1_000_000],
 //!     looked_at: &[],
 //!     beyond: &[],
@@ -74,17 +75,22 @@
 //! ```
 
 pub mod days;
+mod drive;
 mod error;
 mod flow;
+mod jumped;
 mod knowledge;
+mod peaks;
 mod period;
 mod record;
 mod request;
 mod scale;
 mod slope;
+mod stretches;
 mod walk;
 
 pub use error::JumpError;
+pub use peaks::peaks;
 pub use record::{Beyond, Evolution, Record};
 pub use request::{Guide, Jumps, Next, Request};
 pub use walk::evolve;

@@ -9,15 +9,17 @@ pub struct Period {
     pub rate: Vec<f64>,
     /// (u_a + u_b)/2: where the cable lay when it advanced so. Half a period back, it is between sums and integrals.
     pub middle: Vec<f64>,
-    /// What each of its passes did.
-    pub phases: Vec<Phase>,
+    /// What each simulated pass did, in their order.
+    phases: Vec<Phase>,
+    /// Which of them stands for each pass of the period.
+    places: Vec<usize>,
 }
 
-/// One pass of a period.
+/// One simulated pass of a period.
 #[derive(Debug, Clone)]
 pub struct Phase {
-    /// What u after this pass is beside the straight line from u_a to u_b \[m\].
-    pub shape: Vec<f64>,
+    /// u after this pass less u_a \[m\].
+    pub moved: Vec<f64>,
     /// Friction after it \[N/m\]: that on the node of a fixed end does not follow from u.
     pub friction: Vec<f64>,
     /// What it did.
@@ -30,30 +32,37 @@ pub fn phase_of(pass: u64, period: usize) -> usize {
 }
 
 impl Period {
-    /// The period that began with the displacements `start` \[m\], from the cable after each of its passes and what they did.
-    pub fn new(start: &[f64], passes: &[(CableState, PassOutcome)]) -> Self {
-        let count = passes.len() as f64;
-        let end = passes.last().map_or(start, |(state, _)| state.displacement());
-        let rate = difference(end, start);
-        let phase = |(done, (state, outcome)): (f64, &(CableState, PassOutcome))| {
-            let moved = state.displacement().iter().zip(start).zip(&rate);
-            Phase {
-                shape: moved
-                    .map(|((u, start), v)| u - start - done / count * v)
-                    .collect(),
-                friction: state.friction().to_vec(),
-                outcome: outcome.clone(),
-            }
-        };
+    /// The period that began with the displacements `start` \[m\] and ended in the state `end`, from its simulated passes and which of
+    /// them stands for each pass.
+    pub fn new(start: &[f64], end: &CableState, phases: Vec<Phase>, places: Vec<usize>) -> Self {
+        let rate = difference(end.displacement(), start);
         Self {
-            phases: passes
-                .iter()
-                .enumerate()
-                .map(|(before, pass)| phase((before as f64 + 1.0, pass)))
-                .collect(),
             middle: start.iter().zip(&rate).map(|(u, v)| u + 0.5 * v).collect(),
             rate,
+            phases,
+            places,
         }
+    }
+
+    /// Number of its passes.
+    pub fn len(&self) -> usize {
+        self.places.len()
+    }
+
+    /// The simulated pass that shows the pass at `place` of the period, from 0.
+    pub fn phase(&self, place: usize) -> &Phase {
+        &self.phases[self.places[place]]
+    }
+
+    /// What u after the pass at `place` is beside the straight line from u_a to u_b at one node \[m\].
+    pub fn shape(&self, place: usize, node: usize) -> f64 {
+        let done = (place + 1) as f64 / self.len() as f64;
+        self.phase(place).moved[node] - done * self.rate[node]
+    }
+
+    /// What each of its passes did.
+    pub fn outcomes(&self) -> impl Iterator<Item = &PassOutcome> {
+        self.places.iter().map(|&place| &self.phases[place].outcome)
     }
 
     /// Friction K Δu/w \[N/m\] by which the middle of this period differs from `displacement`.
@@ -65,6 +74,17 @@ impl Period {
     }
 }
 
+impl Phase {
+    /// Of a pass that left `state` in a period that began with the displacements `start` \[m\].
+    pub fn new(start: &[f64], state: &CableState, outcome: PassOutcome) -> Self {
+        Self {
+            moved: difference(state.displacement(), start),
+            friction: state.friction().to_vec(),
+            outcome,
+        }
+    }
+}
+
 /// a − b.
 pub fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a - b).collect()
@@ -73,4 +93,17 @@ pub fn difference(a: &[f64], b: &[f64]) -> Vec<f64> {
 /// The largest |value|.
 pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |largest, v| largest.max(v.abs()))
+}
+
+/// Takes away what displacements \[m\] of a cable that nothing holds have in common, and returns it: rounding of metres would hide what
+/// micrometres do. Zero where something holds the cable.
+pub fn take_whole(cable: &RestingCable, displacement: &mut [f64]) -> f64 {
+    if cable.is_held() {
+        return 0.0;
+    }
+    let mean = displacement.iter().sum::<f64>() / displacement.len() as f64;
+    for u in displacement.iter_mut() {
+        *u -= mean;
+    }
+    mean
 }

@@ -6,7 +6,7 @@ pub struct Jumps {
     /// Error that a jump may have where it is checked, as a share of the largest force or movement so far. Forces on the way differ
     /// from simulated ones by about as much at most, most of it early.
     pub tolerance: f64,
-    /// Periods simulated at the start, at least four; eight are enough for any cable seen so far.
+    /// Periods simulated at the start, at least two; eight are enough for any cable seen so far.
     pub first_periods: u64,
     /// Length of the first jump as a share of these. Runs that are to show each other's error begin differently: 0.5 and 0.25.
     pub first_jump: f64,
@@ -25,8 +25,11 @@ pub struct Jumps {
 pub struct Request<'a> {
     /// Vehicles in all.
     pub passes: u64,
-    /// Vehicles after which the traffic repeats.
-    pub period: usize,
+    /// The vehicles of a period, after which the traffic repeats: only which of them are the same counts.
+    pub order: &'a [usize],
+    /// So many passes at the beginning and at the end are simulated in any case, those at the end without jumps: there others may drive than
+    /// those of the period.
+    pub one_by_one: (u64, u64),
     /// Passes to be recorded, ascending.
     pub wanted: &'a [u64],
     /// Those of them that are shown to `pass` also where they lie within a jump, from the state that is interpolated before them; what is
@@ -36,6 +39,18 @@ pub struct Request<'a> {
     pub beyond: &'a [u64],
     /// Jumps of another run to be taken again.
     pub guide: Guide<'a>,
+}
+
+impl Request<'_> {
+    /// Vehicles in a period.
+    pub(crate) fn period(&self) -> u64 {
+        self.order.len() as u64
+    }
+
+    /// Whether `pass` is to be recorded.
+    pub(crate) fn wants(&self, pass: u64) -> bool {
+        self.wanted.binary_search(&pass).is_ok() || self.beyond.binary_search(&pass).is_ok()
+    }
 }
 
 /// Jumps of another run.

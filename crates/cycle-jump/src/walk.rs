@@ -1,15 +1,17 @@
 //! The walk along the passes: simulated periods at the start, then jumps, each held to two simulated periods.
 
-use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, RestingCable, laid};
+use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome};
 
 use crate::JumpError;
+use crate::drive::Drive;
 use crate::error::wrap;
 use crate::flow::Flow;
+use crate::jumped::Jumped;
 use crate::knowledge::Knowledge;
-use crate::period::{Period, difference};
-use crate::record::{Beyond, Evolution, Jumped, Record, take_whole};
+use crate::peaks::peaks;
+use crate::period::{Period, difference, phase_of};
+use crate::record::{Beyond, Evolution, Record};
 use crate::request::{Guide, Jumps, Next, Request};
-use crate::scale::Scale;
 use crate::slope::{Change, Slope};
 
 /// Substeps of a jump, and of the look ahead over all that is left. Where a flow ends depends on its last and longest substeps; more than these
@@ -38,24 +40,19 @@ const CHECKED: u64 = 2;
 /// depends on the way, but near shakedown.
 const MOST_BEYOND: u64 = 200;
 const TOLERANCE_BEYOND: f64 = 4.0;
+/// And so many passes but for those of one jump.
+const MOST_PASSES_BEYOND: u64 = 2400;
+/// Passes within a jump at which a vehicle is looked at that shows the largest of something are so far apart, as a ratio.
+const APART: f64 = 1.1;
 
 /// A run under way.
 struct Walk<'a, P> {
+    drive: Drive<'a, P>,
     jumps: &'a Jumps,
-    request: &'a Request<'a>,
-    mesh: &'a Mesh,
-    cable: RestingCable,
-    pass: P,
     guide: Guide<'a>,
     tolerance: f64,
-    state: CableState,
-    /// What a cable that nothing holds has moved as a whole \[m\].
-    offset: f64,
     /// Periods done.
     done: u64,
-    scale: Scale,
-    simulated: u64,
-    records: Vec<Record>,
     schedule: Vec<u64>,
 }
 
@@ -72,22 +69,11 @@ pub fn evolve<E: From<JumpError>>(
     pass: impl FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 ) -> Result<Evolution, E> {
     let walk = Walk {
+        drive: Drive::new(cable, mesh, request, jumps.least, pass).map_err(wrap)?,
         jumps,
-        request,
-        mesh,
-        cable: RestingCable::new(cable, mesh).map_err(wrap)?,
-        pass,
         guide: request.guide,
         tolerance: jumps.tolerance,
-        state: laid(cable, mesh).map_err(wrap)?,
-        offset: 0.0,
         done: 0,
-        scale: Scale {
-            force: jumps.least.0,
-            movement: jumps.least.1,
-        },
-        simulated: 0,
-        records: Vec::with_capacity(request.wanted.len()),
         schedule: Vec::new(),
     };
     walk.run()
@@ -99,12 +85,13 @@ where
     P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 {
     fn run(mut self) -> Result<Evolution, E> {
-        let Request { passes, period, .. } = *self.request;
-        let all = passes / period as u64;
+        let request = self.drive.request;
+        let (passes, period) = (request.passes, request.period());
+        let all = passes.saturating_sub(request.one_by_one.1) / period;
         let mut known = self.start(all)?;
         if let Some(known) = &mut known {
             if !self.until(all, known, self.jumps.most_passes)? {
-                let (periods, simulated) = (self.done, self.simulated);
+                let (periods, simulated) = (self.done, self.drive.simulated);
                 return Err(JumpError::Stuck {
                     periods,
                     wanted: all,
@@ -113,51 +100,75 @@ where
                 .into());
             }
         }
-        let whole = self.state.clone();
-        let rest = all * period as u64 + 1..=passes;
-        for (phase, number) in rest.enumerate() {
-            let number = Some(number);
-            self.simulate(Next { phase, number })?;
+        let whole = self.drive.state.clone();
+        // Where others drive at the end, what is left over before them is less than a period, of which nobody knows the vehicles.
+        let rest = if request.one_by_one.1 > 0 {
+            passes - request.one_by_one.1
+        } else {
+            all * period
+        };
+        for number in rest.max(all * period) + 1..=passes {
+            let phase = phase_of(number, period as usize);
+            self.drive.simulate(Next {
+                phase,
+                number: Some(number),
+            })?;
         }
+        let records = std::mem::take(&mut self.drive.records);
         let mut evolution = Evolution {
-            records: std::mem::take(&mut self.records),
-            state: std::mem::replace(&mut self.state, whole),
-            simulated: self.simulated,
+            peaks: peaks(&records, std::mem::take(&mut self.drive.others)),
+            records,
+            period: known
+                .iter()
+                .flat_map(|known| known.period.outcomes())
+                .cloned()
+                .collect(),
+            state: std::mem::replace(&mut self.drive.state, whole),
+            simulated: self.drive.simulated,
             schedule: self.schedule.clone(),
             beyond: None,
         };
-        if let (Some(known), Some(&last)) = (known, self.request.beyond.last()) {
-            evolution.beyond = self.follow(known, last / period as u64)?;
-            evolution.simulated = self.simulated;
+        if let (Some(known), Some(&last)) = (known, request.beyond.last()) {
+            evolution.beyond = self.follow(known, last / period)?;
+            evolution.simulated = self.drive.simulated;
         }
         Ok(evolution)
     }
 
     /// Goes on to the period number `last`, to see where the forces lead, unless they no longer change.
     fn follow(&mut self, mut known: Knowledge, last: u64) -> Result<Option<Beyond>, E> {
-        let Request { passes, beyond, .. } = *self.request;
-        let rate = known.rate(&mut self.cable);
+        let Request { passes, beyond, .. } = *self.drive.request;
+        let rate = known.rate(&mut self.drive.cable);
         let left = last.saturating_sub(self.done);
         if left > 0 && self.is_settled(&known, &rate, left) {
             let later = beyond.partition_point(|&pass| pass <= passes);
-            return Ok(Some(Beyond::unchanged(&beyond[later..], &known.period.phases)));
+            return Ok(Some(Beyond::unchanged(&beyond[later..], &known.period)));
         }
         self.tolerance *= TOLERANCE_BEYOND;
-        let most = self.simulated + MOST_BEYOND * known.period.phases.len() as u64;
+        // The traffic is done: its passes are not let drive once more under their numbers.
+        self.drive.numbered_from = passes + 1;
+        let length = known.period.len() as u64;
+        let most = (MOST_BEYOND * length).min(MOST_PASSES_BEYOND + CHECKED * length);
+        let most = self.drive.simulated + most;
         let leads = self.until(last, &mut known, (most, most))?;
-        let later = self.records.partition_point(|record| record.pass <= passes);
-        let records = self.records.split_off(later);
-        Ok(leads.then(|| Beyond::new(records, &known.period.phases)))
+        let later = self.drive.records.partition_point(|record| record.pass <= passes);
+        let records = self.drive.records.split_off(later);
+        Ok(leads.then(|| Beyond::new(records, &known.period)))
     }
 
     /// Simulates the first periods, of `all`; what they say, where more are left.
     fn start(&mut self, all: u64) -> Result<Option<Knowledge>, E> {
-        let first = self.jumps.first_periods.max(4);
+        // Whole periods in which others than its vehicles drive.
+        let before = self.drive.request.one_by_one.0 / self.drive.request.period();
+        while self.done < before.min(all) {
+            self.next_period()?;
+        }
+        let first = before + self.jumps.first_periods.max(2);
         let mut half = None;
         let mut last = None;
         while self.done < first.min(all) {
             let period = self.next_period()?;
-            if self.done == first / 2 {
+            if self.done == before + (first - before) / 2 {
                 half = Some(period.clone());
             }
             last = Some(period);
@@ -165,18 +176,18 @@ where
         let (Some(half), Some(period), true) = (half, last, self.done == first) else {
             return Ok(None);
         };
-        let width = (WIDTH * self.jumps.length_scale / self.mesh.spacing()) as usize;
+        let width = (WIDTH * self.jumps.length_scale / self.drive.mesh.spacing()) as usize;
         let rate = difference(&period.rate, &half.rate);
-        let friction = period.friction_from(&half.middle, &self.cable);
+        let friction = period.friction_from(&half.middle, &self.drive.cable);
         let change = Change {
             rate: &rate,
             friction: &friction,
             predicted: None,
         };
         Ok(Some(Knowledge {
-            slope: Slope::new(change, width, self.cable.cable().friction().limit()),
+            slope: Slope::new(change, width, self.drive.cable.cable().friction().limit()),
             period,
-            length: (self.jumps.first_jump * first as f64).max(1.0),
+            length: (self.jumps.first_jump * (first - before) as f64).max(1.0),
             not_before: 0,
         }))
     }
@@ -185,11 +196,11 @@ where
     /// the second is not enough.
     fn until(&mut self, all: u64, known: &mut Knowledge, most: (u64, u64)) -> Result<bool, E> {
         while self.done < all {
-            if self.simulated > most.1 {
+            if self.drive.simulated > most.1 {
                 return Ok(false);
             }
             let left = all - self.done;
-            let rate = known.rate(&mut self.cable);
+            let rate = known.rate(&mut self.drive.cable);
             let guided = self.guide.length(self.schedule.len());
             let whole = guided.is_none() && left > CHECKED && self.is_settled(known, &rate, left);
             if whole {
@@ -199,10 +210,10 @@ where
             let length = guided
                 .unwrap_or(known.length as u64)
                 .min(left.saturating_sub(CHECKED));
-            let patient = self.simulated <= most.0;
+            let patient = self.drive.simulated <= most.0;
             if !whole && (length < SHORTEST || !patient) {
                 let next = self.next_period()?;
-                known.learn(&next, None, &self.cable);
+                known.learn(&next, None, &self.drive.cable);
                 known.period = next;
                 known.length = (GROWTH_BETWEEN * known.length).max(2.0);
                 self.schedule.push(0);
@@ -225,44 +236,51 @@ where
             return false;
         }
         let ahead = Flow::new(
-            &mut self.cable,
+            &mut self.drive.cable,
             rate,
             known.slope.values(),
             left as f64,
             SUBSTEPS_AHEAD,
         );
-        self.scale.shares(&self.cable, ahead.end()).force < STEADY * self.tolerance
+        self.drive.scale.shares(&self.drive.cable, ahead.end()).force < STEADY * self.tolerance
     }
 
     /// Jumps over `length` periods, simulates two more and chooses the next length; false where the error is so large beside the
     /// `tolerance` that the jump is taken back.
     fn jump(&mut self, known: &mut Knowledge, rate: &[f64], length: u64, tolerance: f64) -> Result<bool, E> {
-        let (from, offset) = (self.state.clone(), self.offset);
+        let (from, offset) = (self.drive.state.clone(), self.drive.offset);
         let slope = known.slope.values().to_vec();
         let at_end = length + CHECKED;
-        let flow = Flow::new(&mut self.cable, rate, &slope, at_end as f64, SUBSTEPS);
+        let flow = Flow::new(&mut self.drive.cable, rate, &slope, at_end as f64, SUBSTEPS);
         if !known.rests(self.jumps.motion) {
-            let jump = flow.after(&mut self.cable, length as f64);
-            self.advance(&jump)?;
+            let jump = flow.after(&mut self.drive.cable, length as f64);
+            self.drive.advance(&jump)?;
         }
-        let checked = self.period(None)?;
-        let predicted = known.predict(&checked, &mut self.cable);
-        known.learn(&checked, Some(&predicted), &self.cable);
+        let checked = self.drive.period(None, self.tolerance)?;
+        let predicted = known.predict(&checked, &mut self.drive.cable);
+        known.learn(&checked, Some(&predicted), &self.drive.cable);
         // The slope between both ends says best how the cable went from one to the other; what that leaves of the advance grew evenly.
         let measured = (length + 1) as f64;
         let growth = difference(&checked.rate, &known.period.rate)
             .iter()
-            .zip(known.predict(&checked, &mut self.cable))
+            .zip(known.predict(&checked, &mut self.drive.cable))
             .map(|(seen, said)| (seen - said) / measured)
             .collect();
         let between = known.slope.values().to_vec();
-        let bent = Flow::growing(&mut self.cable, rate, growth, &between, at_end as f64, SUBSTEPS);
-        let mut missed = difference(
-            &bent.after(&mut self.cable, measured),
-            &flow.after(&mut self.cable, measured),
+        let bent = Flow::growing(
+            &mut self.drive.cable,
+            rate,
+            growth,
+            &between,
+            at_end as f64,
+            SUBSTEPS,
         );
-        self.cable.diffuse(|i| slope[i], &mut missed);
-        let shares = self.scale.shares(&self.cable, &missed);
+        let mut missed = difference(
+            &bent.after(&mut self.drive.cable, measured),
+            &flow.after(&mut self.drive.cable, measured),
+        );
+        self.drive.cable.diffuse(|i| slope[i], &mut missed);
+        let shares = self.drive.scale.shares(&self.drive.cable, &missed);
         let error = shares.force.max(shares.movement);
         let factor = (CAUTION * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt()).clamp(GROWTH.0, GROWTH.1);
         let allowed = match self.guide {
@@ -271,34 +289,34 @@ where
             Guide::Obey(_) => f64::INFINITY,
         };
         if error > allowed && length > CHECKED {
-            (self.state, self.offset) = (from, offset);
+            (self.drive.state, self.drive.offset) = (from, offset);
             // From here on the other run is no guide.
             self.guide = Guide::Free;
             known.length = factor * length as f64;
             return Ok(false);
         }
-        self.advance(&missed)?;
+        self.drive.advance(&missed)?;
         let begin = self.done;
         self.done += length + 1;
-        let recorded = self.records.len();
+        let recorded = self.drive.records.len();
         let next = self.next_period()?;
         // What lies within the jump is recorded before the period at its end.
-        let simulated = self.records.split_off(recorded);
-        let to = self.state.clone();
+        let simulated = self.drive.records.split_off(recorded);
+        let to = self.drive.state.clone();
         let jumped = Jumped {
-            mesh: self.mesh,
+            mesh: self.drive.mesh,
             begin,
             length: at_end,
             from: &from,
             to: &to,
             offset,
-            moved: self.offset - offset,
-            before: &known.period.phases,
-            after: &next.phases,
+            moved: self.drive.offset - offset,
+            before: &known.period,
+            after: &next,
             flow: bent,
         };
         self.record(&jumped)?;
-        self.records.extend(simulated);
+        self.drive.records.extend(simulated);
         known.period = next;
         known.length = factor * at_end as f64;
         self.schedule.push(length);
@@ -308,32 +326,47 @@ where
     /// Records the passes within a jump.
     fn record(&mut self, jumped: &Jumped<'_>) -> Result<(), E> {
         let Request {
-            period,
+            passes,
             wanted,
             looked_at,
             beyond,
             ..
-        } = *self.request;
-        let first = jumped.begin * period as u64;
-        let last = (self.done - 1) * period as u64;
+        } = *self.drive.request;
+        let period = self.drive.request.period();
+        let first = jumped.begin * period;
+        let last = (self.done - 1) * period;
         let inside = |pass: &&u64| (first + 1..=last).contains(*pass);
         let inside: Vec<u64> = wanted.iter().chain(beyond).filter(inside).copied().collect();
-        let outcomes = jumped.outcomes(&mut self.cable, &inside).map_err(wrap)?;
+        let outcomes = jumped.outcomes(&mut self.drive.cable, &inside).map_err(wrap)?;
+        if first < passes {
+            let others = jumped.largest_passes(last.min(passes), APART);
+            let of_others = jumped.outcomes(&mut self.drive.cable, &others).map_err(wrap)?;
+            for (pass, outcome) in others.into_iter().zip(of_others) {
+                self.drive.others.push(Record {
+                    pass,
+                    outcome,
+                    interpolated: true,
+                });
+            }
+        }
         for (pass, outcome) in inside.into_iter().zip(outcomes) {
             if looked_at.contains(&pass) {
                 let before = if pass - 1 == first {
                     (jumped.from.clone(), jumped.offset)
                 } else {
-                    jumped.state(&mut self.cable, pass - 1).map_err(wrap)?
+                    jumped.state(&mut self.drive.cable, pass - 1).map_err(wrap)?
                 };
-                let now = (std::mem::replace(&mut self.state, before.0), self.offset);
-                self.offset = before.1;
+                let now = (
+                    std::mem::replace(&mut self.drive.state, before.0),
+                    self.drive.offset,
+                );
+                self.drive.offset = before.1;
                 let phase = jumped.place(pass).0;
                 let number = Some(pass);
-                self.pass(Next { phase, number })?;
-                (self.state, self.offset) = now;
+                self.drive.pass(Next { phase, number })?;
+                (self.drive.state, self.drive.offset) = now;
             }
-            self.records.push(Record {
+            self.drive.records.push(Record {
                 pass,
                 outcome,
                 interpolated: true,
@@ -342,58 +375,11 @@ where
         Ok(())
     }
 
-    /// Moves the cable by `advance` \[m\] and lets it come to rest.
-    fn advance(&mut self, advance: &[f64]) -> Result<(), E> {
-        let now = self.state.displacement().iter().zip(advance);
-        let mut moved: Vec<f64> = now.map(|(u, y)| u + y).collect();
-        self.offset += take_whole(&self.cable, &mut moved);
-        let friction = self.state.friction().to_vec();
-        self.state = CableState::from_parts(self.mesh, moved, friction).map_err(wrap)?;
-        self.cable.settle(&mut self.state).map_err(wrap)
-    }
-
     /// Simulates the next period.
     fn next_period(&mut self) -> Result<Period, E> {
-        let period = self.period(Some(self.done * self.request.period as u64))?;
+        let after = self.done * self.drive.request.period();
+        let period = self.drive.period(Some(after), self.tolerance)?;
         self.done += 1;
         Ok(period)
-    }
-
-    /// Simulates one period, whose passes follow the pass `after` where they have numbers.
-    fn period(&mut self, after: Option<u64>) -> Result<Period, E> {
-        let start = self.state.displacement().to_vec();
-        let mut passes = Vec::with_capacity(self.request.period);
-        for phase in 0..self.request.period {
-            let number = after.map(|after| after + 1 + phase as u64);
-            let outcome = self.simulate(Next { phase, number })?;
-            passes.push((self.state.clone(), outcome));
-        }
-        self.scale
-            .see(&self.cable, &self.state, self.offset)
-            .map_err(wrap)?;
-        Ok(Period::new(&start, &passes))
-    }
-
-    fn simulate(&mut self, next: Next) -> Result<PassOutcome, E> {
-        let outcome = self.pass(next)?;
-        self.simulated += 1;
-        let Request { wanted, beyond, .. } = self.request;
-        let is_wanted = |pass: &u64| wanted.binary_search(pass).is_ok() || beyond.binary_search(pass).is_ok();
-        if let Some(pass) = next.number.filter(is_wanted) {
-            self.records.push(Record {
-                pass,
-                outcome: outcome.clone(),
-                interpolated: false,
-            });
-        }
-        Ok(outcome)
-    }
-
-    /// Simulates a pass.
-    fn pass(&mut self, next: Next) -> Result<PassOutcome, E> {
-        let mut outcome = (self.pass)(next, &mut self.state)?;
-        outcome.upstream_displacement += self.offset;
-        outcome.downstream_displacement += self.offset;
-        Ok(outcome)
     }
 }

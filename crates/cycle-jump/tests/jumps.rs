@@ -35,7 +35,8 @@ fn jumps(tolerance: f64) -> Jumps {
 fn request<'a>(passes: u64, period: usize, wanted: &'a [u64], guide: Guide<'a>) -> Request<'a> {
     Request {
         passes,
-        period,
+        order: &[0; 64][..period],
+        one_by_one: (0, 0),
         wanted,
         looked_at: &[],
         beyond: &[],

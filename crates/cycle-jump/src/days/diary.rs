@@ -4,6 +4,7 @@ use cable_dem::CableState;
 
 use super::extremes::Extremes;
 use super::rows::Row;
+use crate::record::Record;
 
 /// A day that was lived.
 #[derive(Debug, Clone)]
@@ -16,6 +17,18 @@ pub struct Lived {
     pub cold: CableState,
     /// After the last pass.
     pub last: CableState,
+}
+
+impl Lived {
+    /// The passes that were simulated, of a day that follows so many others.
+    pub fn passes(&self, before: u64) -> impl Iterator<Item = Record> {
+        let simulated = self.rows.iter().filter(|row| row.simulated && !row.heat);
+        simulated.map(move |row| Record {
+            pass: before + row.passes,
+            outcome: row.outcome.clone(),
+            interpolated: false,
+        })
+    }
 }
 
 /// One day under way.

@@ -10,6 +10,7 @@ use super::living::Living;
 use super::rate::RateStep;
 use super::rows::{Row, of_pass};
 use crate::error::wrap;
+use crate::peaks::peaks;
 use crate::record::Record;
 use crate::{JumpError, Next};
 
@@ -71,6 +72,8 @@ pub struct DayRecord {
 pub struct Days {
     /// The passes that were wanted.
     pub records: Vec<Record>,
+    /// Other simulated passes that show a larger force or movement than all simulated ones of these before them.
+    pub peaks: Vec<Record>,
     /// The days that were wanted.
     pub days: Vec<DayRecord>,
     /// The last one in the order of time.
@@ -122,6 +125,7 @@ pub fn live<E: From<JumpError>>(
         request,
         living: Living::new(day, mesh, resting, rate, pass, laid),
         records: Vec::new(),
+        others: Vec::new(),
         days: Vec::new(),
         extremes: Extremes::none(),
         done: 0,
@@ -138,6 +142,8 @@ struct Life<'a, P> {
     request: &'a DaysRequest<'a>,
     living: Living<'a, P>,
     records: Vec<Record>,
+    /// Simulated passes that are not wanted.
+    others: Vec<Record>,
     days: Vec<DayRecord>,
     extremes: Extremes,
     /// Days done.
@@ -192,7 +198,10 @@ where
             rate,
             ..
         } = self.living;
+        let mut known = self.records.clone();
+        known.retain(|record| !record.interpolated);
         Ok(Days {
+            peaks: peaks(&known, self.others),
             records: self.records,
             days: self.days,
             last_day: last.rows,
@@ -372,6 +381,8 @@ where
         }
         let before = (day - 1) * plan.passes;
         let wanted = self.request.wanted;
+        let is_other = |record: &Record| wanted.binary_search(&record.pass).is_err();
+        self.others.extend(lived.passes(before).filter(is_other));
         let from = wanted.partition_point(|pass| *pass <= before);
         for &pass in wanted[from..].iter().take_while(|pass| **pass <= before + passes) {
             let known = of_pass(&lived.rows, &self.living.shapes, pass - before, plan.period);

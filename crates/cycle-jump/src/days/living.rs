@@ -8,7 +8,7 @@ use super::extremes::Extremes;
 use super::rate::{Drive, RateStep};
 use super::rows::{Row, Shape};
 use crate::error::wrap;
-use crate::record::take_whole;
+use crate::period::take_whole;
 use crate::{JumpError, Next};
 
 /// Share of the first day whose defects are those of a cable as just laid: a hundred passes, and two knots at least.

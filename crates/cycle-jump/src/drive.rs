@@ -1,0 +1,233 @@
+//! The cable on the way: vehicles that drive over it, pass by pass or a period at a time, and advances that stand for others.
+
+use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable, laid};
+
+use crate::JumpError;
+use crate::error::wrap;
+use crate::period::{Period, Phase, difference, take_whole};
+use crate::record::Record;
+use crate::request::{Next, Request};
+use crate::scale::Scale;
+use crate::stretches::{Stretch, stretches};
+
+/// Change of forces and movements still to come in the rounds of a stretch, as a share of the tolerance, below which they count as done.
+const SETTLED: f64 = 0.1;
+/// Changes fall more slowly than geometrically: what is still to come is so many times the sum of a geometric series.
+const SLOWLY: f64 = 3.0;
+/// Rounds in a row that show it.
+const SHOWN: usize = 2;
+
+/// The cable and the vehicles that drive over it.
+pub struct Drive<'a, P> {
+    pub request: &'a Request<'a>,
+    pub mesh: &'a Mesh,
+    pub cable: RestingCable,
+    pub pass: P,
+    pub state: CableState,
+    /// What a cable that nothing holds has moved as a whole \[m\].
+    pub offset: f64,
+    pub scale: Scale,
+    /// Passes simulated.
+    pub simulated: u64,
+    /// The wanted passes so far.
+    pub records: Vec<Record>,
+    /// Others, of which some may show more than these.
+    pub others: Vec<Record>,
+    /// Passes before this one have no number any more: the traffic is done, and what comes after it is looked at.
+    pub numbered_from: u64,
+}
+
+impl<'a, P> Drive<'a, P> {
+    /// Over `cable` on `mesh` as laid; forces \[N\] and movements \[m\] below the `least` count as nothing.
+    pub fn new(
+        cable: &DuctedCable,
+        mesh: &'a Mesh,
+        request: &'a Request<'a>,
+        least: (f64, f64),
+        pass: P,
+    ) -> Result<Self, CableError> {
+        Ok(Self {
+            request,
+            mesh,
+            cable: RestingCable::new(cable, mesh)?,
+            pass,
+            state: laid(cable, mesh)?,
+            offset: 0.0,
+            scale: Scale {
+                force: least.0,
+                movement: least.1,
+            },
+            simulated: 0,
+            records: Vec::with_capacity(request.wanted.len()),
+            others: Vec::new(),
+            numbered_from: 1,
+        })
+    }
+}
+
+impl<E, P> Drive<'_, P>
+where
+    E: From<JumpError>,
+    P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
+{
+    /// Simulates one period, whose passes follow the pass `after` where they have numbers. In stretches of equal rounds those that would
+    /// change less than a small part of the `tolerance` count as done.
+    pub fn period(&mut self, after: Option<u64>, tolerance: f64) -> Result<Period, E> {
+        let start = self.state.displacement().to_vec();
+        let length = self.request.order.len();
+        let mut phases = Vec::with_capacity(length);
+        let mut places = Vec::with_capacity(length);
+        for Stretch { round, times } in stretches(self.request.order) {
+            let mut settling = Settling::default();
+            let mut before = self.state.displacement().to_vec();
+            for done in 1..=times {
+                for _ in 0..round {
+                    let phase = places.len();
+                    let number = after.map(|after| after + 1 + phase as u64);
+                    let number = number.filter(|number| *number >= self.numbered_from);
+                    let outcome = self.simulate(Next { phase, number })?;
+                    places.push(phases.len());
+                    phases.push(Phase::new(&start, &self.state, outcome));
+                }
+                if done == times {
+                    break;
+                }
+                let mut change = difference(self.state.displacement(), &before);
+                let whole = take_whole(&self.cable, &mut change);
+                let left = times - done;
+                let is_settled =
+                    settling.is_settled(self.scale.shares(&self.cable, &change), left, SETTLED * tolerance);
+                if is_settled && self.may_skip(after, places.len(), round * left) {
+                    let last = phases.len() - round;
+                    for skipped in 0..round * left {
+                        let (phase, moved) = (last + skipped % round, whole * (skipped / round + 1) as f64);
+                        self.note_skipped(after, places.len(), &phases[phase].outcome, moved);
+                        places.push(phase);
+                    }
+                    self.move_whole(whole * left as f64)?;
+                    break;
+                }
+                before.copy_from_slice(self.state.displacement());
+            }
+        }
+        self.scale
+            .see(&self.cable, &self.state, self.offset)
+            .map_err(wrap)?;
+        Ok(Period::new(&start, &self.state, phases, places))
+    }
+
+    /// Whether none of so many passes from the `place` of a period that follows the pass `after` has to be simulated.
+    fn may_skip(&self, after: Option<u64>, place: usize, passes: usize) -> bool {
+        let Request {
+            one_by_one: (first, last),
+            ..
+        } = self.request;
+        after.is_none_or(|after| {
+            let begin = after + place as u64;
+            begin >= *first && begin + passes as u64 <= self.request.passes.saturating_sub(*last)
+        })
+    }
+
+    /// Records a pass that counts as done, if it is wanted: it did what the same one of the last simulated round did.
+    fn note_skipped(&mut self, after: Option<u64>, place: usize, of_round: &PassOutcome, moved: f64) {
+        let Some(pass) = after.map(|after| after + 1 + place as u64) else {
+            return;
+        };
+        if self.request.wants(pass) {
+            let mut outcome = of_round.clone();
+            outcome.upstream_displacement += moved;
+            outcome.downstream_displacement += moved;
+            self.records.push(Record {
+                pass,
+                outcome,
+                interpolated: true,
+            });
+        }
+    }
+
+    /// Simulates a pass and records it.
+    pub fn simulate(&mut self, next: Next) -> Result<PassOutcome, E> {
+        let outcome = self.pass(next)?;
+        self.simulated += 1;
+        if let Some(pass) = next.number {
+            let record = Record {
+                pass,
+                outcome: outcome.clone(),
+                interpolated: false,
+            };
+            if self.request.wants(pass) {
+                self.records.push(record);
+            } else if self.may_show_more(pass) {
+                self.others.push(record);
+            }
+        }
+        Ok(outcome)
+    }
+
+    /// Whether `pass` may show more than the wanted ones: it follows a whole period of the vehicles that drive there.
+    fn may_show_more(&self, pass: u64) -> bool {
+        let Request {
+            passes,
+            one_by_one: (first, last),
+            ..
+        } = *self.request;
+        let period = self.request.period();
+        let follows_others =
+            first > 0 && (first + 1..=first.div_ceil(period) * period + period).contains(&pass);
+        period > 1 && pass + last <= passes && !follows_others
+    }
+
+    /// Simulates a pass.
+    pub fn pass(&mut self, next: Next) -> Result<PassOutcome, E> {
+        let mut outcome = (self.pass)(next, &mut self.state)?;
+        outcome.upstream_displacement += self.offset;
+        outcome.downstream_displacement += self.offset;
+        Ok(outcome)
+    }
+
+    /// Moves the cable by `advance` \[m\] and lets it come to rest.
+    pub fn advance(&mut self, advance: &[f64]) -> Result<(), E> {
+        let now = self.state.displacement().iter().zip(advance);
+        let mut moved: Vec<f64> = now.map(|(u, y)| u + y).collect();
+        self.offset += take_whole(&self.cable, &mut moved);
+        self.place(moved)
+    }
+
+    /// Moves a cable that nothing holds as a whole \[m\].
+    fn move_whole(&mut self, by: f64) -> Result<(), E> {
+        if by == 0.0 {
+            return Ok(());
+        }
+        let moved = self.state.displacement().iter().map(|u| u + by).collect();
+        self.place(moved)
+    }
+
+    fn place(&mut self, displacement: Vec<f64>) -> Result<(), E> {
+        let friction = self.state.friction().to_vec();
+        self.state = CableState::from_parts(self.mesh, displacement, friction).map_err(wrap)?;
+        self.cable.settle(&mut self.state).map_err(wrap)
+    }
+}
+
+/// How fast the rounds of a stretch change less and less.
+#[derive(Default)]
+struct Settling {
+    last: Option<Scale>,
+    shown: usize,
+}
+
+impl Settling {
+    /// Whether the rounds `left` change forces and movements by less than the share `allowed`, after one that changed them by `change`.
+    fn is_settled(&mut self, change: Scale, left: usize, allowed: f64) -> bool {
+        let to_come = |now: f64, last: f64| {
+            let ratio = if last > 0.0 { now / last } else { 0.0 };
+            now * (left as f64).min(SLOWLY / (1.0 - ratio).max(f64::MIN_POSITIVE))
+        };
+        let still = self.last.is_some_and(|last| {
+            to_come(change.force, last.force) <= allowed && to_come(change.movement, last.movement) <= allowed
+        });
+        self.shown = if still { self.shown + 1 } else { 0 };
+        self.last = Some(change);
+        self.shown >= SHOWN
+    }
+}

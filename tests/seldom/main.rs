@@ -1,0 +1,6 @@
+//! Traffic in which some vehicles come seldom, or in a long sequence: jumps against every pass simulated.
+
+mod extremes;
+mod mixes;
+mod scenes;
+mod shares;

@@ -1,0 +1,147 @@
+//! Random mixes: jumps and whatever the plan chooses against every pass.
+
+use std::time::{Duration, Instant};
+
+use creepage::Error;
+use creepage::scene::{Order, SolverMethod};
+use rayon::prelude::*;
+
+use super::scenes::{Difference, by, difference, random};
+
+/// Share of the mixes in which every force and movement is within the stated error, and how far beyond it none is.
+const WITHIN: f64 = 0.97;
+const NEVER: f64 = 2.0;
+/// A run with a million passes takes at most this long, in so many of the mixes.
+const LONGEST: Duration = Duration::from_secs(20);
+const QUICK: f64 = 0.95;
+
+/// One run of a mix beside that of every pass.
+struct Judged {
+    seed: u64,
+    method: &'static str,
+    /// Errors as shares of what is stated.
+    beyond: f64,
+    line: String,
+}
+
+fn judge(seed: u64) -> Vec<Judged> {
+    let scene = random(seed, None);
+    let every = match by(&scene, SolverMethod::QuasiStatic) {
+        // The mesh of the test is too coarse.
+        Err(Error::Inaccurate { .. }) => return Vec::new(),
+        every => every.unwrap_or_else(|error| panic!("mix {seed}: {error}")),
+    };
+    let chosen = creepage::plan(&scene).expect("a plan").report().cable;
+    let mut methods = Vec::new();
+    if chosen == "pass-law" {
+        methods.push((SolverMethod::Auto, "chosen"));
+    } else {
+        assert_eq!(chosen, "quasi-static", "mix {seed}");
+    }
+    // In random order jumps show means.
+    if !matches!(scene.traffic.order, Order::Random { .. }) {
+        methods.push((SolverMethod::PassLaw, "jumps"));
+    }
+    let of_method = |&(method, name): &(SolverMethod, &'static str)| {
+        let found = match by(&scene, method) {
+            Err(Error::Inaccurate { .. }) => return None,
+            found => found.unwrap_or_else(|error| panic!("mix {seed}, {name}: {error}")),
+        };
+        let Difference {
+            force,
+            extreme,
+            movement,
+        } = difference(&scene, &every, &found);
+        let (stated, moved) = (found.error_estimate.relative, found.error_estimate.parts.movement);
+        Some(Judged {
+            seed,
+            method: name,
+            beyond: (force.max(extreme) / stated).max(movement / moved),
+            line: format!(
+                "{seed} {name}: {} of {} passes; force {:.2} %, largest {:.2} %, stated {:.2} %; movement {:.2} %, stated {:.2} %",
+                found.cost.simulated_passes,
+                scene.traffic.passes,
+                100.0 * force,
+                100.0 * extreme,
+                100.0 * stated,
+                100.0 * movement,
+                100.0 * moved
+            ),
+        })
+    };
+    methods.iter().filter_map(of_method).collect()
+}
+
+fn assert_right(seeds: std::ops::Range<u64>) {
+    let count = seeds.end - seeds.start;
+    let judged: Vec<Judged> = seeds.into_par_iter().flat_map(judge).collect();
+    for one in &judged {
+        println!("{}", one.line);
+    }
+    assert!(
+        judged.len() as u64 > count,
+        "few meshes were good enough: {} of {count}",
+        judged.len()
+    );
+    let beyond = |factor: f64| -> Vec<(u64, &str)> {
+        let bad = judged.iter().filter(|one| one.beyond > factor);
+        bad.map(|one| (one.seed, one.method)).collect()
+    };
+    let within = judged.len() - beyond(1.0).len();
+    println!("{within} of {} within, beyond: {:?}", judged.len(), beyond(1.0));
+    assert!(within as f64 >= WITHIN * judged.len() as f64, "{:?}", beyond(1.0));
+    assert!(beyond(NEVER).is_empty(), "{:?}", beyond(NEVER));
+}
+
+#[test]
+fn mixes_agree_with_every_pass() {
+    assert_right(0..15);
+}
+
+#[test]
+#[ignore = "150 random mixes, every pass simulated: a quarter of an hour; FIRST chooses other seeds"]
+fn mixes_agree_with_every_pass_in_many_scenes() {
+    let first = std::env::var("FIRST")
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(0);
+    assert_right(first..first + 150);
+}
+
+/// Every mix with a million passes is answered in seconds of one core, or refused for what is no answer.
+#[test]
+#[ignore = "150 random mixes with a million passes: half an hour; FIRST and MIXES choose them; on a quiet machine"]
+fn a_million_passes_of_a_mix_take_seconds() {
+    let one_core = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a thread");
+    let number = |name: &str, usual: u64| -> u64 {
+        let text = std::env::var(name).ok();
+        text.and_then(|text| text.parse().ok()).unwrap_or(usual)
+    };
+    let (first, count) = (number("FIRST", 0), number("MIXES", 150));
+    let mut slow = Vec::new();
+    for seed in first..first + count {
+        let scene = random(seed, Some(1_000_000));
+        let begun = Instant::now();
+        let run = one_core.install(|| creepage::run(&scene));
+        let took = begun.elapsed();
+        match run {
+            Ok(run) => println!(
+                "{seed}: {:.1} s, {} passes simulated, stated {:.2} %",
+                took.as_secs_f64(),
+                run.cost.simulated_passes,
+                100.0 * run.error_estimate.relative
+            ),
+            Err(error @ (Error::Inaccurate { .. } | Error::Jumps(_))) => {
+                println!("{seed}: {:.1} s, {error}", took.as_secs_f64());
+            }
+            Err(error) => panic!("mix {seed}: {error}"),
+        }
+        if took > LONGEST {
+            slow.push(seed);
+        }
+    }
+    assert!(slow.len() as f64 <= (1.0 - QUICK) * count as f64, "{slow:?}");
+}
