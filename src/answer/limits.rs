@@ -202,7 +202,8 @@ impl Limits {
             let day = day.map(|(day, heat)| day.day * heat.passes_per_day);
             let mut extremes = run.extremes.iter();
             let extreme = extremes.find(|pass| run.in_extreme(end, quantity, pass) > limit);
-            let extreme = extreme.map(|pass| pass.after.pass);
+            let last = run.passes.last().map_or(u64::MAX, |record| record.pass);
+            let extreme = extreme.map(|pass| pass.after.pass.min(last));
             let first = pass.into_iter().chain(day).chain(extreme).min();
             let years = |pass| {
                 let listed = run.passes.iter().rfind(|record| record.pass <= pass)?;

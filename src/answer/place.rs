@@ -110,7 +110,11 @@ impl Run {
         });
         let days = self.heat.iter();
         let days = days.map(|heat| self.on_day(place, quantity, &heat.all_days));
-        passes.chain(days).fold(0.0, f64::max)
+        let extremes = self.extremes.iter().map(|pass| match quantity {
+            Limited::Force => end.force_after(&pass.after),
+            Limited::Movement => end.movement(&pass.after),
+        });
+        passes.chain(days).chain(extremes).fold(0.0, f64::max)
     }
 
     /// The same in the pass at `index` of the listed ones.

@@ -41,7 +41,9 @@ impl Mix {
 
     /// The mix of at most `most` vehicles that is taken for those with these `shares`: one that has them exactly, or one that is near.
     pub fn best(shares: &[f64], most: usize) -> Self {
-        let all = (1..=most).map(|length| Self::nearest(shares, length));
+        let all = (1..=most)
+            .map(|length| Self::nearest(shares, length))
+            .filter(|mix| mix.len() <= most);
         let exact = all.clone().find(|mix| mix.is_exact);
         if let Some(exact) = exact.as_ref().filter(|exact| exact.len() <= SHORT) {
             return exact.clone();
@@ -52,7 +54,7 @@ impl Mix {
         exact.unwrap_or_else(|| {
             let longest = ((LONGER * shortest as f64) as usize).min(most);
             let candidates = all.take(longest).filter(|mix| mix.len() >= shortest);
-            nearest_of(candidates).expect("there is one of every length")
+            nearest_of(candidates).unwrap_or_else(|| Self::nearest(shares, most))
         })
     }
 

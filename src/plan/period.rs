@@ -59,7 +59,9 @@ impl Period {
                 of(STAND_INS)
             }
             _ => {
-                let of_held = |share: &f64| 2.0 * share * most as f64 >= 1.0;
+                // On a day of heat every vehicle comes: its largest forces do not depend on how many days it does.
+                let daily = scene.warming().is_some();
+                let of_held = |share: &f64| daily || 2.0 * share * most as f64 >= 1.0;
                 let held: Vec<f64> = shares.iter().copied().filter(of_held).collect();
                 let mut mix = Mix::best(&normal(&held), most);
                 if !mix.is_exact {
@@ -68,17 +70,13 @@ impl Period {
                     others.push((other, share));
                 }
                 mix.counts = spread(&mix.counts, &shares, of_held);
-                let seldom = shares
-                    .iter()
-                    .copied()
-                    .filter(|share| !of_held(share))
-                    .fold(0.0, f64::max);
+                let seldom: f64 = shares.iter().filter(|share| !of_held(share)).sum();
                 if seldom > 0.0 {
                     let counts = shares
                         .iter()
                         .map(|share| ((share * most as f64) as usize).max(1))
                         .collect();
-                    others.push((Mix::new(counts, &shares), seldom * most as f64));
+                    others.push((Mix::new(counts, &shares), (seldom * most as f64).min(1.0)));
                 }
                 mix
             }

@@ -37,6 +37,8 @@ const COARSEST: f64 = 3.0;
 const RESOLVED: usize = 2;
 const LEFT: f64 = 0.4;
 const LEFT_UNRESOLVED: f64 = 2.0;
+/// Parts of a period with which days begin that are compared.
+const QUARTERS: usize = 4;
 /// What a difference falls to from one level to the next as a rule.
 const FALL: f64 = 0.25;
 
@@ -255,7 +257,18 @@ impl Living<'_> {
             *statistics += other.passes.statistics;
             error = error + self.difference_of_days(&own, &other).times(*share);
         }
-        Ok(error)
+        // Nor does the traffic keep the hours at which the period's seldom vehicles come.
+        let mut hours = Shares::default();
+        for quarter in 1..QUARTERS {
+            let living = Living {
+                begin: quarter * self.period.len() / QUARTERS,
+                ..*self
+            };
+            let other = living.live(level, knots, Progress::default())?;
+            *statistics += other.passes.statistics;
+            hours = hours.max(self.difference_of_days(&own, &other));
+        }
+        Ok(error + hours)
     }
 
     /// What an approach that the scene names leaves out, on `level`: the days once more with vehicles followed far enough.

@@ -5,7 +5,7 @@
 //! possible; in random order it is shown by the mean over a period.
 
 use cable_dem::{Order, PassOutcome};
-use cycle_jump::{Evolution, Record};
+use cycle_jump::{Evolution, Record, peaks};
 
 use super::order::OwnOrder;
 use crate::Error;
@@ -68,7 +68,7 @@ impl<'a> Listing<'a> {
         let known = count.min(known_order(scene));
         let vehicles = traffic(scene, scene.traffic.order.clone())?.take(known as usize);
         let own = OwnOrder {
-            vehicles: vehicles.map(|vehicle| vehicle as u16).collect(),
+            vehicles: vehicles.map(|vehicle| vehicle as u32).collect(),
             period,
         };
         // In the first period of many vehicles, or in several of few.
@@ -143,6 +143,20 @@ impl<'a> Listing<'a> {
             })
         };
         self.rows.iter().filter_map(row).collect()
+    }
+
+    /// The passes of the period in an `evolution` that show more than the `rows`.
+    pub fn peaks(&self, evolution: &Evolution, rows: &[Record]) -> Vec<Record> {
+        let mut others = evolution.others.clone();
+        if self.is_drawn || self.own.is_some() {
+            // What is wanted is no row by itself. The first and the last passes of the period follow other vehicles, or precede them.
+            let (first, last) = self.one_by_one;
+            let period = self.own.as_ref().map_or(0, |own| own.period.len() as u64);
+            let of_period = first + period..=self.count - last;
+            let wanted = evolution.records.iter();
+            others.extend(wanted.filter(|record| of_period.contains(&record.pass)).cloned());
+        }
+        peaks(rows, others)
     }
 
     /// The passes of `records` for which other passes of the period, nearly as much alike, show a force or a movement that differs

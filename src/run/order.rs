@@ -12,7 +12,7 @@ const DEEP: usize = 60;
 
 /// Which vehicle drives in each pass, as far as that is known, beside those of a period.
 pub struct OwnOrder<'a> {
-    pub vehicles: Vec<u16>,
+    pub vehicles: Vec<u32>,
     pub period: &'a Period,
 }
 
@@ -22,14 +22,15 @@ impl OwnOrder<'_> {
         ((pass - 1) % self.period.len() as u64) as usize
     }
 
-    /// How many vehicles up to `pass` are those up to a `place` of the period.
+    /// How many vehicles up to `pass` are those up to a `place` of the period, as far as it counts.
     fn alike(&self, pass: u64, place: usize) -> usize {
         let length = self.period.len();
         let own = &self.vehicles[..pass as usize];
         let same = |steps: &usize| {
-            self.period.vehicles[(place + length - steps) % length] == own[own.len() - 1 - steps] as usize
+            let before = (place + length - steps % length) % length;
+            self.period.vehicles[before] == own[own.len() - 1 - steps] as usize
         };
-        (0..length.min(own.len())).take_while(same).count()
+        (0..DEEP.min(own.len())).take_while(same).count()
     }
 
     /// The pass of the period's traffic near `pass`, among those `within`, that follows the same vehicles as far back as possible, if one
@@ -53,7 +54,7 @@ impl OwnOrder<'_> {
             )
         });
         let (back, _, shown) = alike.max()?;
-        (back >= DEEP.min(self.period.len())).then_some(shown)
+        (back >= DEEP.min(pass as usize)).then_some(shown)
     }
 
     /// The places of the period that follow the same vehicles as `pass` as far back as possible, so many.

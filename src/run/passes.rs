@@ -187,12 +187,15 @@ impl Task<'_> {
         })?;
         let records = listing.records(&evolution);
         let doubtful = listing.doubtful(&evolution, &records, DOUBTFUL * scene.solver.tolerance);
+        let is_shown = |record: &&Record| doubtful.binary_search(&record.pass).is_err();
+        let shown: Vec<Record> = records.iter().filter(is_shown).cloned().collect();
+        let peaks = listing.peaks(&evolution, &shown);
         self.finish(&records);
         let mut passes = simulation.passes(records, evolution.state, evolution.simulated);
         passes.schedule = evolution.schedule;
         passes.beyond = evolution.beyond;
         passes.doubtful = doubtful;
-        passes.peaks = evolution.peaks;
+        passes.peaks = peaks;
         Ok(passes)
     }
 

@@ -8,9 +8,11 @@ use rayon::prelude::*;
 
 use super::scenes::{Difference, by, difference, random};
 
-/// Share of the mixes in which every force and movement is within the stated error, and how far beyond it none is.
+/// Share of the mixes in which every force and movement is within the stated error, which holds that of a coarse mesh too, and within the
+/// tolerance; and how far beyond the stated error none is.
 const WITHIN: f64 = 0.97;
 const NEVER: f64 = 2.0;
+const TOLERANCE: f64 = 0.01;
 /// A run with a million passes takes at most this long, in so many of the mixes.
 const LONGEST: Duration = Duration::from_secs(20);
 const QUICK: f64 = 0.95;
@@ -19,7 +21,8 @@ const QUICK: f64 = 0.95;
 struct Judged {
     seed: u64,
     method: &'static str,
-    /// Errors as shares of what is stated.
+    /// The largest error, and the largest as a share of what is stated.
+    off: f64,
     beyond: f64,
     line: String,
 }
@@ -47,6 +50,9 @@ fn judge(seed: u64) -> Vec<Judged> {
             Err(Error::Inaccurate { .. }) => return None,
             found => found.unwrap_or_else(|error| panic!("mix {seed}, {name}: {error}")),
         };
+        if found.cost.simulated_passes >= scene.traffic.passes {
+            return None;
+        }
         let Difference {
             force,
             extreme,
@@ -56,6 +62,7 @@ fn judge(seed: u64) -> Vec<Judged> {
         Some(Judged {
             seed,
             method: name,
+            off: force.max(extreme).max(movement),
             beyond: (force.max(extreme) / stated).max(movement / moved),
             line: format!(
                 "{seed} {name}: {} of {} passes; force {:.2} %, largest {:.2} %, stated {:.2} %; movement {:.2} %, stated {:.2} %",
@@ -72,6 +79,7 @@ fn judge(seed: u64) -> Vec<Judged> {
     methods.iter().filter_map(of_method).collect()
 }
 
+/// Judges the jumps of these mixes; where every pass is simulated after all there is nothing to judge.
 fn assert_right(seeds: std::ops::Range<u64>) {
     let count = seeds.end - seeds.start;
     let judged: Vec<Judged> = seeds.into_par_iter().flat_map(judge).collect();
@@ -79,18 +87,28 @@ fn assert_right(seeds: std::ops::Range<u64>) {
         println!("{}", one.line);
     }
     assert!(
-        judged.len() as u64 > count,
-        "few meshes were good enough: {} of {count}",
+        2 * judged.len() as u64 > count,
+        "{} of {count} mixes have jumps",
         judged.len()
     );
-    let beyond = |factor: f64| -> Vec<(u64, &str)> {
-        let bad = judged.iter().filter(|one| one.beyond > factor);
+    let worse = |is_bad: &dyn Fn(&Judged) -> bool| -> Vec<(u64, &str)> {
+        let bad = judged.iter().filter(|one| is_bad(one));
         bad.map(|one| (one.seed, one.method)).collect()
     };
-    let within = judged.len() - beyond(1.0).len();
-    println!("{within} of {} within, beyond: {:?}", judged.len(), beyond(1.0));
-    assert!(within as f64 >= WITHIN * judged.len() as f64, "{:?}", beyond(1.0));
-    assert!(beyond(NEVER).is_empty(), "{:?}", beyond(NEVER));
+    let beyond = worse(&|one| one.beyond > 1.0);
+    let off = worse(&|one| one.off > TOLERANCE);
+    println!(
+        "{} judged; beyond what is stated: {beyond:?}, beyond 1 %: {off:?}",
+        judged.len()
+    );
+    for bad in [&beyond, &off] {
+        assert!(
+            bad.len() as f64 <= (1.0 - WITHIN) * judged.len() as f64,
+            "{bad:?}"
+        );
+    }
+    let far = worse(&|one| one.beyond > NEVER);
+    assert!(far.is_empty(), "{far:?}");
 }
 
 #[test]

@@ -80,32 +80,32 @@ where
         for Stretch { round, times } in stretches(self.request.order) {
             let mut settling = Settling::default();
             let mut before = self.state.displacement().to_vec();
-            for done in 1..=times {
+            let mut done = 0;
+            while done < times {
                 for _ in 0..round {
                     let phase = places.len();
                     let number = after.map(|after| after + 1 + phase as u64);
                     let number = number.filter(|number| *number >= self.numbered_from);
                     let outcome = self.simulate(Next { phase, number })?;
-                    places.push(phases.len());
+                    places.push((phases.len(), 0.0));
                     phases.push(Phase::new(&start, &self.state, outcome));
                 }
-                if done == times {
-                    break;
-                }
+                done += 1;
                 let mut change = difference(self.state.displacement(), &before);
                 let whole = take_whole(&self.cable, &mut change);
-                let left = times - done;
-                let is_settled =
-                    settling.is_settled(self.scale.shares(&self.cable, &change), left, SETTLED * tolerance);
-                if is_settled && self.may_skip(after, places.len(), round * left) {
+                // The last round is simulated in any case.
+                let left = (times - done).saturating_sub(1);
+                let shares = self.scale.shares(&self.cable, &change);
+                let is_settled = settling.is_settled(shares, left, SETTLED * tolerance);
+                if is_settled && left > 0 && self.may_skip(after, places.len(), round * left) {
                     let last = phases.len() - round;
                     for skipped in 0..round * left {
                         let (phase, moved) = (last + skipped % round, whole * (skipped / round + 1) as f64);
                         self.note_skipped(after, places.len(), &phases[phase].outcome, moved);
-                        places.push(phase);
+                        places.push((phase, moved));
                     }
                     self.move_whole(whole * left as f64)?;
-                    break;
+                    done += left;
                 }
                 before.copy_from_slice(self.state.displacement());
             }
@@ -124,7 +124,10 @@ where
         } = self.request;
         after.is_none_or(|after| {
             let begin = after + place as u64;
-            begin >= *first && begin + passes as u64 <= self.request.passes.saturating_sub(*last)
+            let end = begin + passes as u64;
+            let is_looked_at = |pass: &u64| (begin + 1..=end).contains(pass);
+            let looked_at = self.request.looked_at.iter().any(is_looked_at);
+            begin >= *first && end <= self.request.passes.saturating_sub(*last) && !looked_at
         })
     }
 

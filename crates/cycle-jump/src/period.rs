@@ -11,8 +11,8 @@ pub struct Period {
     pub middle: Vec<f64>,
     /// What each simulated pass did, in their order.
     phases: Vec<Phase>,
-    /// Which of them stands for each pass of the period.
-    places: Vec<usize>,
+    /// Which of them stands for each pass of the period, and what a cable that nothing holds has moved as a whole since then \[m\].
+    places: Vec<(usize, f64)>,
 }
 
 /// One simulated pass of a period.
@@ -33,8 +33,8 @@ pub fn phase_of(pass: u64, period: usize) -> usize {
 
 impl Period {
     /// The period that began with the displacements `start` \[m\] and ended in the state `end`, from its simulated passes and which of
-    /// them stands for each pass.
-    pub fn new(start: &[f64], end: &CableState, phases: Vec<Phase>, places: Vec<usize>) -> Self {
+    /// them stands for each pass, with the movement as a whole since then \[m\].
+    pub fn new(start: &[f64], end: &CableState, phases: Vec<Phase>, places: Vec<(usize, f64)>) -> Self {
         let rate = difference(end.displacement(), start);
         Self {
             middle: start.iter().zip(&rate).map(|(u, v)| u + 0.5 * v).collect(),
@@ -51,18 +51,18 @@ impl Period {
 
     /// The simulated pass that shows the pass at `place` of the period, from 0.
     pub fn phase(&self, place: usize) -> &Phase {
-        &self.phases[self.places[place]]
+        &self.phases[self.places[place].0]
     }
 
     /// What u after the pass at `place` is beside the straight line from u_a to u_b at one node \[m\].
     pub fn shape(&self, place: usize, node: usize) -> f64 {
         let done = (place + 1) as f64 / self.len() as f64;
-        self.phase(place).moved[node] - done * self.rate[node]
+        self.phase(place).moved[node] + self.places[place].1 - done * self.rate[node]
     }
 
     /// What each of its passes did.
     pub fn outcomes(&self) -> impl Iterator<Item = &PassOutcome> {
-        self.places.iter().map(|&place| &self.phases[place].outcome)
+        self.places.iter().map(|&(phase, _)| &self.phases[phase].outcome)
     }
 
     /// Friction K Δu/w \[N/m\] by which the middle of this period differs from `displacement`.

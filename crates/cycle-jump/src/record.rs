@@ -20,8 +20,9 @@ pub struct Record {
 pub struct Evolution {
     /// The passes that were wanted.
     pub records: Vec<Record>,
-    /// Where a period has several passes, others that show a larger force or movement than all of these before them.
-    pub peaks: Vec<Record>,
+    /// Where a period has several passes, others that were simulated, and within jumps those of the vehicles that show the largest of something:
+    /// which show more than what is listed, [`peaks`](crate::peaks) says.
+    pub others: Vec<Record>,
     /// What each pass of the last whole period did; none where so few were simulated that nothing was jumped.
     pub period: Vec<PassOutcome>,
     /// The cable after the last pass.

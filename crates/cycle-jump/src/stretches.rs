@@ -92,7 +92,7 @@ mod tests {
             let order: Vec<usize> = (0..length)
                 .map(|_| {
                     rng = rng.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-                    usize::from(rng >> 33 & 7 == 0)
+                    usize::from((rng >> 33).is_multiple_of(8))
                 })
                 .collect();
             let all: usize = as_pairs(&order).iter().map(|(round, times)| round * times).sum();

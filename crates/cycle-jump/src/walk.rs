@@ -8,7 +8,6 @@ use crate::error::wrap;
 use crate::flow::Flow;
 use crate::jumped::Jumped;
 use crate::knowledge::Knowledge;
-use crate::peaks::peaks;
 use crate::period::{Period, difference, phase_of};
 use crate::record::{Beyond, Evolution, Record};
 use crate::request::{Guide, Jumps, Next, Request};
@@ -116,7 +115,7 @@ where
         }
         let records = std::mem::take(&mut self.drive.records);
         let mut evolution = Evolution {
-            peaks: peaks(&records, std::mem::take(&mut self.drive.others)),
+            others: std::mem::take(&mut self.drive.others),
             records,
             period: known
                 .iter()
