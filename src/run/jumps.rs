@@ -237,7 +237,14 @@ fn mix_error(
         let all = |passes: &'_ Passes| -> Vec<Record> { [&later(passes)[..], &passes.peaks].concat() };
         let (own, other) = (all(&found.passes), all(&other));
         let extremes = extremes_difference(&own, &other, scale);
-        error = error + rows.max(extremes).times(*share);
+        // The largest of all passes are not between those of two mixes; of absent vehicles single passes show them.
+        let is_absent = |vehicle: &usize| plan.period.absent.contains(vehicle);
+        let weight = if vehicles.iter().any(is_absent) {
+            *share
+        } else {
+            1.0
+        };
+        error = error + rows.times(*share).max(extremes.times(weight));
     }
     Ok(error)
 }

@@ -8,11 +8,12 @@ use rayon::prelude::*;
 
 use super::scenes::{Difference, by, difference, random};
 
-/// Share of the mixes in which every force and movement is within the stated error, which holds that of a coarse mesh too, and within the
-/// tolerance; and how far beyond the stated error none is.
+/// Share of the mixes in which every force and movement is within the stated error, which holds that of a coarse mesh too, and nine in
+/// ten within the tolerance; and how far beyond the stated error none is.
 const WITHIN: f64 = 0.97;
 const NEVER: f64 = 2.0;
 const TOLERANCE: f64 = 0.01;
+const NEAR: f64 = 0.9;
 /// A run with a million passes takes at most this long, in so many of the mixes.
 const LONGEST: Duration = Duration::from_secs(20);
 const QUICK: f64 = 0.95;
@@ -34,12 +35,12 @@ fn judge(seed: u64) -> Vec<Judged> {
         Err(Error::Inaccurate { .. }) => return Vec::new(),
         every => every.unwrap_or_else(|error| panic!("mix {seed}: {error}")),
     };
-    let chosen = creepage::plan(&scene).expect("a plan").report().cable;
+    let method = creepage::plan(&scene).expect("a plan").report().cable;
     let mut methods = Vec::new();
-    if chosen == "pass-law" {
+    if method == "pass-law" {
         methods.push((SolverMethod::Auto, "chosen"));
     } else {
-        assert_eq!(chosen, "quasi-static", "mix {seed}");
+        assert_eq!(method, "quasi-static", "mix {seed}");
     }
     // In random order jumps show means.
     if !matches!(scene.traffic.order, Order::Random { .. }) {
@@ -101,12 +102,12 @@ fn assert_right(seeds: std::ops::Range<u64>) {
         "{} judged; beyond what is stated: {beyond:?}, beyond 1 %: {off:?}",
         judged.len()
     );
-    for bad in [&beyond, &off] {
-        assert!(
-            bad.len() as f64 <= (1.0 - WITHIN) * judged.len() as f64,
-            "{bad:?}"
-        );
+    for (seed, _) in &beyond {
+        println!("{}", random(*seed, None).to_toml());
     }
+    let share = |bad: &[(u64, &str)]| bad.len() as f64 / judged.len() as f64;
+    assert!(share(&beyond) <= 1.0 - WITHIN, "{beyond:?}");
+    assert!(share(&off) <= 1.0 - NEAR, "{off:?}");
     let far = worse(&|one| one.beyond > NEVER);
     assert!(far.is_empty(), "{far:?}");
 }
@@ -117,13 +118,16 @@ fn mixes_agree_with_every_pass() {
 }
 
 #[test]
-#[ignore = "150 random mixes, every pass simulated: a quarter of an hour; FIRST chooses other seeds"]
+#[ignore = "150 random mixes, every pass simulated: ten minutes; FIRST and MIXES choose others"]
 fn mixes_agree_with_every_pass_in_many_scenes() {
-    let first = std::env::var("FIRST")
-        .ok()
-        .and_then(|text| text.parse().ok())
-        .unwrap_or(0);
-    assert_right(first..first + 150);
+    let first = chosen("FIRST", 0);
+    assert_right(first..first + chosen("MIXES", 150));
+}
+
+/// A number that whoever runs the tests chooses.
+fn chosen(name: &str, usual: u64) -> u64 {
+    let text = std::env::var(name).ok();
+    text.and_then(|text| text.parse().ok()).unwrap_or(usual)
 }
 
 /// Every mix with a million passes is answered in seconds of one core, or refused for what is no answer.
@@ -134,11 +138,7 @@ fn a_million_passes_of_a_mix_take_seconds() {
         .num_threads(1)
         .build()
         .expect("a thread");
-    let number = |name: &str, usual: u64| -> u64 {
-        let text = std::env::var(name).ok();
-        text.and_then(|text| text.parse().ok()).unwrap_or(usual)
-    };
-    let (first, count) = (number("FIRST", 0), number("MIXES", 150));
+    let (first, count) = (chosen("FIRST", 0), chosen("MIXES", 150));
     let mut slow = Vec::new();
     for seed in first..first + count {
         let scene = random(seed, Some(1_000_000));
