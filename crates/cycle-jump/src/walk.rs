@@ -100,13 +100,17 @@ where
             }
         }
         let whole = self.drive.state.clone();
-        // Where others drive at the end, what is left over before them is less than a period, of which nobody knows the vehicles.
-        let rest = if request.one_by_one.1 > 0 {
-            passes - request.one_by_one.1
-        } else {
-            all * period
-        };
-        for number in rest.max(all * period) + 1..=passes {
+        let mut from = all * period;
+        if let (Some(known), 1..) = (&known, request.one_by_one.1) {
+            // Other vehicles drive at the end: what is left over before them, less than a period, goes on as the last one.
+            let left = passes - request.one_by_one.1 - from;
+            let rate = known.rate(&mut self.drive.cable);
+            let share = left as f64 / period as f64;
+            let advance: Vec<f64> = rate.iter().map(|v| share * v).collect();
+            self.drive.advance(&advance)?;
+            from += left;
+        }
+        for number in from + 1..=passes {
             let phase = phase_of(number, period as usize);
             self.drive.simulate(Next {
                 phase,
