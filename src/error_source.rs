@@ -19,15 +19,37 @@ pub enum ErrorSource {
 }
 
 impl ErrorSource {
+    /// All of them; the error of an answer is their sum.
+    pub const ALL: [Self; 6] = [
+        Self::Mesh,
+        Self::Ground,
+        Self::Inertia,
+        Self::Road,
+        Self::Passes,
+        Self::Days,
+    ];
+
     /// What it is called.
     pub fn name(self) -> &'static str {
         match self {
             Self::Mesh => "the mesh",
             Self::Ground => "the ground",
             Self::Inertia => "inertia, which is left out",
-            Self::Road => "a short solver.approach",
+            Self::Road => "road beyond solver.approach",
             Self::Passes => "passes that are not simulated",
             Self::Days => "days that are not simulated",
+        }
+    }
+
+    /// The same in a word or two.
+    pub(crate) fn short_name(self) -> &'static str {
+        match self {
+            Self::Mesh => "mesh",
+            Self::Ground => "ground",
+            Self::Inertia => "inertia",
+            Self::Road => "road",
+            Self::Passes => "passes not simulated",
+            Self::Days => "days not simulated",
         }
     }
 

@@ -110,7 +110,7 @@ pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
 pub use progress::Progress;
 #[cfg(feature = "calibrate")]
 pub use readings::{DataError, ReadOptions, Reading, Readings};
-pub use run::{CutShort, Forecast, HowFar, RunOptions, Underway, check, forecast, run, run_plan, run_with};
+pub use run::{RunOptions, check, run, run_plan, run_with};
 pub use scene::{Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.

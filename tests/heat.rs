@@ -438,8 +438,6 @@ fn days_that_few_real_periods_keep_restless_settle_with_more() {
         "solver = { tolerance = 0.03 }",
     ];
     let lived = |passes: &str| run(&[&restless[..], &[passes]].concat());
-    let warm = scene(&[&restless[..], &["traffic = { passes = 1112000, per_day = 278 }"]].concat());
-    creepage::forecast(&creepage::plan(&warm).expect("a plan")).expect("a forecast");
     let few = lived("traffic = { passes = 2780, per_day = 278 }");
     let many = lived("traffic = { passes = 1112000, per_day = 278 }");
     let allowed = few.error_estimate.relative + many.error_estimate.relative;

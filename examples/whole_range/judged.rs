@@ -8,11 +8,8 @@ use creepage::cable_dem::CableError;
 use creepage::scene::End;
 use creepage::{Error, ErrorSource, PassRecord, Progress, Run, RunOptions, Scene};
 
-/// Scenes that are foreseen to take longer \[s\] are not run.
-const LONGEST: f64 = 3.0;
-/// A run may take so many times what is foreseen, and this much in any case \[nodes\].
-const TIMES: f64 = 3.0;
-const NEGLIGIBLE: f64 = 5e7;
+/// Scenes whose plan states a longer time \[s\] are not run.
+const LONGEST: f64 = 6.0;
 /// Time after which a run that was to take less than [`LONGEST`] is given up.
 const GIVEN_UP: Duration = Duration::from_secs(100);
 /// Interpolation of forces within jumps, as a share of the largest.
@@ -31,9 +28,9 @@ pub enum Outcome {
     Input(String),
     /// No answer within 10 %, or none that jumps find.
     Refused(String),
-    /// More work than three times what was foreseen.
+    /// Given up.
     Late(String),
-    /// Foreseen to take too long for this test.
+    /// Planned to take too long for this test.
     Long(f64),
 }
 
@@ -63,27 +60,21 @@ fn outcome(text: &str) -> (Outcome, Option<f64>) {
         Ok(scene) => scene,
         Err(error) => return (Outcome::Input(error.to_string()), None),
     };
-    let foreseen = creepage::plan(&scene).and_then(|plan| creepage::forecast(&plan));
-    let foreseen = match foreseen {
-        Ok(foreseen) => foreseen,
+    let seconds = match creepage::plan(&scene) {
+        Ok(plan) => plan.report().estimated_seconds,
         Err(error) => return (refused(&scene, &error), None),
     };
-    if foreseen.seconds > LONGEST {
-        return (Outcome::Long(foreseen.seconds), None);
+    if seconds > LONGEST {
+        return (Outcome::Long(seconds), None);
     }
     let run = match run(&scene) {
         Ok(run) => run,
-        Err(Error::Stopped) => return (Outcome::Late(format!("foreseen {:.1} s", foreseen.seconds)), None),
+        Err(Error::Stopped) => return (Outcome::Late(format!("planned {seconds:.1} s")), None),
         Err(error) => return (refused(&scene, &error), None),
     };
     let stated = Some(run.error_estimate.relative);
     if let Err(reason) = possible(&scene, &run) {
         return (Outcome::Wrong(reason), stated);
-    }
-    let taken = run.cost.node_updates as f64;
-    if taken > TIMES * foreseen.node_updates + NEGLIGIBLE {
-        let late = format!("{taken:.2e} nodes, foreseen {:.2e}", foreseen.node_updates);
-        return (Outcome::Late(late), stated);
     }
     (Outcome::Right, stated)
 }

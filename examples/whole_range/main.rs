@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let number = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.3e}"));
         let words = match &row.outcome {
             Outcome::Right => String::new(),
-            Outcome::Long(seconds) => format!("{seconds:.0} s foreseen"),
+            Outcome::Long(seconds) => format!("{seconds:.0} s planned"),
             Outcome::Wrong(words)
             | Outcome::Input(words)
             | Outcome::Refused(words)

@@ -12,6 +12,7 @@
 use cable_dem::PassOutcome;
 use cycle_jump::Record;
 
+use super::ErrorShares;
 use crate::Error;
 use crate::error_source::ErrorSource;
 use crate::shown::percent;
@@ -145,75 +146,82 @@ impl ErrorParts {
         }
     }
 
+    /// The part that comes from `source`.
+    pub fn of(&self, source: ErrorSource) -> Shares {
+        match source {
+            ErrorSource::Mesh => self.mesh,
+            ErrorSource::Ground => self.ground,
+            ErrorSource::Inertia => Shares::both(self.inertia),
+            ErrorSource::Road => self.road,
+            ErrorSource::Passes => self.passes,
+            ErrorSource::Days => self.temperature,
+        }
+    }
+
     pub fn total(&self) -> Shares {
-        self.mesh + self.ground + self.road + self.passes + self.temperature + Shares::both(self.inertia)
+        let parts = ErrorSource::ALL.map(|source| self.of(source));
+        parts.into_iter().fold(Shares::default(), |sum, part| sum + part)
+    }
+
+    /// The same for a reader.
+    pub fn shares(&self) -> ErrorShares {
+        let total = self.total();
+        ErrorShares {
+            mesh: self.mesh.force,
+            ground: self.ground.force,
+            inertia: self.inertia,
+            road: self.road.force,
+            passes: self.passes.force,
+            temperature: self.temperature.force,
+            law: self.passes.force,
+            movement: total.movement,
+        }
     }
 
     /// What keeps the forces from being an answer: passes or days that could be simulated, if that would do, else the largest part.
     fn cause(&self, tolerance: f64) -> ErrorSource {
         let simulated = self.total().less(self.passes).less(self.temperature);
-        let not_simulated = [
-            (ErrorSource::Passes, self.passes.force),
-            (ErrorSource::Days, self.temperature.force),
-        ];
-        let others = [
-            (ErrorSource::Mesh, self.mesh.force),
-            (ErrorSource::Ground, self.ground.force),
-            (ErrorSource::Inertia, self.inertia),
-            (ErrorSource::Road, self.road.force),
-        ];
-        let parts = if is_doubtful(simulated.force, tolerance) {
-            &others[..]
-        } else {
-            &not_simulated
-        };
-        let largest = parts.iter().max_by(|a, b| a.1.total_cmp(&b.1));
-        largest.map_or(ErrorSource::Mesh, |(source, _)| *source)
+        let is_skipped = |source: &ErrorSource| matches!(source, ErrorSource::Passes | ErrorSource::Days);
+        let skipping = !is_doubtful(simulated.force, tolerance);
+        let sources = ErrorSource::ALL
+            .into_iter()
+            .filter(|source| is_skipped(source) == skipping);
+        let largest = sources.max_by(|a, b| self.of(*a).force.total_cmp(&self.of(*b).force));
+        largest.unwrap_or(ErrorSource::Mesh)
     }
 }
 
 impl std::fmt::Display for ErrorParts {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let part = |name: &str, share: Shares| {
-            if share == Shares::default() {
-                String::new()
-            } else {
-                format!(", {name} {}", percent(share.force))
-            }
+        f.write_str(if self.measured {
+            "measured by a run on a mesh twice as fine: "
+        } else {
+            "from runs on coarser meshes: "
+        })?;
+        let is_shown = |source: &ErrorSource| {
+            !matches!(source, ErrorSource::Passes | ErrorSource::Days)
+                || self.of(*source) != Shares::default()
         };
+        let shown = ErrorSource::ALL.into_iter().filter(is_shown);
+        let parts = shown.map(|source| format!("{} {}", source.short_name(), percent(self.of(source).force)));
+        let parts = parts.collect::<Vec<_>>().join(", ");
         write!(
             f,
-            "{}: mesh {}, ground {}, inertia {}, road {}{}{}; movement of the ends {}",
-            if self.measured {
-                "measured by a run on a mesh twice as fine"
-            } else {
-                "from runs on coarser meshes"
-            },
-            percent(self.mesh.force),
-            percent(self.ground.force),
-            percent(self.inertia),
-            percent(self.road.force),
-            part("passes not simulated", self.passes),
-            part("days not simulated", self.temperature),
+            "{parts}; movement of the ends {}",
             percent(self.total().movement)
         )
     }
 }
 
-/// Error of the last of `levels`, the same passes on two or more meshes from coarse to fine; at least `typical`. And what these
-/// differences will at least leave on a mesh twice as fine, whatever it shows.
-pub fn of_mesh(levels: &[&[Record]], typical: f64, scale: Scale) -> (Shares, Shares) {
+/// Error of the last of `levels`, the same passes on two or more meshes from coarse to fine; at least `typical`.
+pub fn of_mesh(levels: &[&[Record]], typical: f64, scale: Scale) -> Shares {
     let differences: Vec<Shares> = levels
         .windows(2)
         .rev()
         .map(|pair| difference(pair[1], pair[0], scale))
         .collect();
     let passes = levels.last().map_or(0, |finest| finest.len());
-    let next = [&[Shares::default()], &differences[..]].concat();
-    (
-        of_differences(&differences, passes, typical),
-        of_differences(&next, passes, 0.0),
-    )
+    of_differences(&differences, passes, typical)
 }
 
 /// The same from the differences between neighbouring levels, the finest first, of so many `passes`.

@@ -4,6 +4,7 @@ pub mod balance;
 mod cable_end;
 mod calendar;
 pub mod error_estimate;
+mod error_shares;
 mod force_profile;
 mod heat;
 mod limits;
@@ -17,6 +18,7 @@ mod units;
 
 pub use cable_end::CableEnd;
 pub use calendar::after;
+pub use error_shares::*;
 pub use force_profile::ForceProfile;
 pub use heat::{DayExtremes, DayPoint, HeatRecord, RestraintRange};
 pub use limits::*;

@@ -5,6 +5,7 @@ use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
 use super::cable_end::CableEnd;
+use super::error_shares::ErrorEstimate;
 use super::force_profile::ForceProfile;
 use super::heat::{DayExtremes, HeatRecord};
 use crate::scene::Traffic;
@@ -311,39 +312,6 @@ pub struct Cost {
     pub sweeps: u64,
     /// Nodes eliminated in these, or advanced in time.
     pub node_updates: u64,
-}
-
-/// How wrong the forces may be: how well the equations are solved, not how well they describe a duct.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ErrorEstimate {
-    /// Largest error of a force as a share of it, or of a tenth of the largest force of the run where it is less than that.
-    pub relative: f64,
-    /// How that was found.
-    pub method: String,
-    /// Its parts: `relative` is the sum of these without `law` and `movement`.
-    pub parts: ErrorShares,
-}
-
-/// Error by its causes, each as a share of the force but the movement's own.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct ErrorShares {
-    /// Node spacing and vehicle step.
-    pub mesh: f64,
-    /// What the ground model leaves out.
-    pub ground: f64,
-    /// Inertia of the cable, where it is left out: a bound.
-    pub inertia: f64,
-    /// Road beyond where vehicles are followed.
-    pub road: f64,
-    /// Passes that were not simulated.
-    pub passes: f64,
-    /// Heat and traffic of days of which few passes were simulated, or none.
-    #[serde(default)]
-    pub temperature: f64,
-    /// The same as `passes`, by its older name.
-    pub law: f64,
-    /// Largest error of an end's movement from all causes, as a share of the largest movement.
-    pub movement: f64,
 }
 
 impl From<SlipLengths> for SlipRecord {

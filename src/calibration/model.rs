@@ -175,7 +175,6 @@ impl SeriesModel {
             mesh: self.mesh(level)?,
             stages: &self.stages,
             progress: Progress::default(),
-            seen: None,
         })
     }
 }

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Once;
 
 use super::failure::Failure;
-use super::progress::{HowFar, Now, stopped, watched};
+use super::progress::{HowFar, Now, watched};
 use super::readings::ReadArguments;
 use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
@@ -169,11 +169,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             )
         }
     };
-    let keep = |share: f64| {
-        let runs = share * most as f64;
-        stopped(format_args!("nothing is fitted after {runs:.0} model runs"))
-    };
-    let answer = watched(how_far, keep, |progress| {
+    let remains = |share: f64| format!("no fit after {:.0} model runs", share * most as f64);
+    let answer = watched(how_far, remains, |progress| {
         let pairs = inputs.iter().zip(&readings);
         let series: Vec<Series<'_>> = pairs
             .map(|(input, readings)| Series {

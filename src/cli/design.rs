@@ -1,19 +1,15 @@
 //! `creepage design`: the springs or the clamp that stay within limits of force and movement.
 
-use std::io::Write;
-use std::sync::{Mutex, PoisonError};
-
 use serde::Serialize;
 
 use super::design_advice::advice;
 use super::design_units::Shown;
-use super::design_words::{compared, print, tried};
+use super::design_words::{compared, print};
 use super::failure::Failure;
 use super::limits::{LimitArguments, place};
-use super::progress::{HowFar, stopped, watched};
+use super::progress::{HowFar, watched};
 use super::shared::{Input, Json, TrafficArguments};
-use super::terminal;
-use crate::design::{Design, DesignError, DesignOptions, Place, TradeOff, best, design, sort};
+use crate::design::{Design, DesignError, DesignOptions, Place, best, design};
 use crate::scene::{End, Restraint, did_you_mean, nearest};
 use crate::shown::exact;
 use crate::{Limits, Scene};
@@ -138,20 +134,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let limits = ways.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
     let units = Shown::new(units);
-    let done = Mutex::new(Vec::new());
     let how_far = |now| HowFar::new(now, "runs of the scene with one stiffness after the other");
-    let keep = |_| {
-        let done = done.lock().unwrap_or_else(PoisonError::into_inner);
-        keep(arguments, &limits, &done, &input.scene, &units)
-    };
-    let designs = watched(how_far, keep, |progress| {
+    let remains = |_| "the search is not finished and has no answer".to_owned();
+    let designs = watched(how_far, remains, |progress| {
         let all = ways.len() as f64;
         let each = ways.iter().zip(&limits).enumerate();
         each.map(|(index, (way, limits))| {
             let mut options = DesignOptions::new(way.0, limits.clone());
             options.second = way.1;
             options.progress = progress.part(index as f64 / all, (index + 1) as f64 / all);
-            options.tried = Some(&done);
             design(&input.scene, &options)
         })
         .collect::<Result<Vec<_>, _>>()
@@ -175,38 +166,4 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         Some(_) => Ok(()),
         None => Err(Failure::NotKept(advice(best, &input.scene, &units))),
     }
-}
-
-/// The stiffnesses that were tried before the search was stopped.
-#[derive(Serialize)]
-struct CutShort<'a> {
-    cut_short: bool,
-    curve: &'a [TradeOff],
-}
-
-/// Prints what was tried before the search was stopped.
-fn keep(
-    arguments: &Arguments,
-    limits: &[Limits],
-    done: &[TradeOff],
-    scene: &Scene,
-    units: &Shown,
-) -> Result<(), Failure> {
-    let cut = format!("cut short after {} stiffnesses: no answer", done.len());
-    let mut curve = done.to_vec();
-    sort(&mut curve);
-    let answer = CutShort {
-        cut_short: true,
-        curve: &curve,
-    };
-    arguments.json.print(&answer, || {
-        let mut out = terminal::out();
-        writeln!(out, "{cut}")?;
-        for (way, limits) in arguments.at.iter().zip(limits) {
-            let places: Vec<Place> = way.all().collect();
-            tried(&mut out, &places, limits, &curve, scene, units)?;
-        }
-        Ok(())
-    })?;
-    stopped(cut)
 }

@@ -34,30 +34,6 @@ fn limited(out: &mut impl Write, designs: &[Design], units: &Shown) -> std::io::
     writeln!(out, "limits: {}\n", limits.join("; "))
 }
 
-/// What was tried of springs at these places.
-pub fn tried(
-    out: &mut impl Write,
-    held: &[Place],
-    limits: &Limits,
-    points: &[TradeOff],
-    scene: &Scene,
-    units: &Shown,
-) -> std::io::Result<()> {
-    let is_here = |point: &&TradeOff| {
-        point
-            .springs
-            .iter()
-            .map(|spring| spring.place)
-            .eq(held.iter().copied())
-    };
-    let points: Vec<TradeOff> = points.iter().filter(is_here).cloned().collect();
-    if points.is_empty() {
-        return Ok(());
-    }
-    writeln!(out, "{}", places(held))?;
-    table(out, &curve(held, limits, &points, scene, units))
-}
-
 /// Several beside each other, and the best.
 pub fn compared(best: &Design, all: &[Design], units: &Shown) -> Result<(), Failure> {
     let mut out = terminal::out();

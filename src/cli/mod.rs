@@ -22,7 +22,6 @@ mod readings;
 #[cfg(feature = "plot")]
 mod report;
 mod run;
-mod run_progress;
 mod shared;
 mod signals;
 mod sweep;

@@ -3,13 +3,12 @@
 use std::io::Write;
 
 use super::failure::Failure;
-use super::progress::{HowFar, Now, stopped, watched};
+use super::progress::{HowFar, Now, watched};
 use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
-use crate::error::with_causes;
 use crate::occurrence::Occurrence;
 use crate::shown::{four_digits, percent, spacing, time};
-use crate::{Forecast, Part, PlanReport};
+use crate::{Part, PlanReport};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -25,43 +24,13 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let how_far = |now: Now| HowFar::unknown("choosing ground, method and mesh", now.elapsed);
-    let keep = |_| stopped("nothing is planned");
-    let (mut plan, solver, forecast) = watched(how_far, keep, |_| {
-        let plan = input.located(crate::plan(&input.scene))?;
-        let forecast = crate::forecast(&plan);
-        let solver = plan.choice.method.cable_method().name();
-        Ok::<_, Failure>((plan.report(), solver, forecast))
-    })?;
-    match forecast {
-        Ok(forecast) => foresee(&mut plan, &forecast, solver),
-        Err(error) => plan.warnings.push(format!(
-            "the time is a rough estimate, and the run may fail: the first passes on a coarse mesh do ({})",
-            with_causes(&error)
-        )),
-    }
+    let remains = |_| "nothing is planned".to_owned();
+    let plan = watched(how_far, remains, |_| {
+        crate::plan(&input.scene).map(|plan| plan.report())
+    });
+    let mut plan = input.located(plan)?;
     input.warn(&mut plan.warnings);
     arguments.json.print(&plan, || print(&plan))
-}
-
-/// Times are those of whole runs, not of their first meshes: as many times those of the first as for every pass by the `solver`. The error has
-/// what passes leave wrong that are not simulated.
-fn foresee(plan: &mut PlanReport, forecast: &Forecast, solver: &str) {
-    // They are right within a factor of two: more digits say nothing.
-    let told = |seconds: f64| format!("{seconds:.1e}").parse().unwrap_or(seconds);
-    plan.estimated_seconds = told(forecast.seconds);
-    plan.estimated_error = plan.estimated_error.map(|error| error + forecast.passes_error);
-    let on_first_mesh = plan.candidates.iter().find(|method| method.name == solver);
-    let on_first_mesh = on_first_mesh.and_then(|method| method.estimated_seconds);
-    let meshes = on_first_mesh.map_or(1.0, |seconds| forecast.every_pass_seconds / seconds);
-    let methods = plan.candidates.iter_mut();
-    for method in methods.filter(|method| method.part == Part::Cable) {
-        if method.chosen {
-            method.estimated_seconds = Some(plan.estimated_seconds);
-            method.estimated_error = method.estimated_error.map(|error| error + forecast.passes_error);
-        } else {
-            method.estimated_seconds = method.estimated_seconds.map(|seconds| told(meshes * seconds));
-        }
-    }
 }
 
 /// Every candidate, the chosen ones marked.
@@ -74,7 +43,7 @@ fn print(plan: &PlanReport) -> Result<(), Failure> {
     );
     writeln!(
         out,
-        "ground {}, cable {}, node spacing {} m, vehicle step {} m; error {error}, time {}",
+        "ground {}, cable {}, node spacing {} m, vehicle step {} m; error {error}, time about {}",
         plan.ground,
         plan.cable,
         spacing(plan.node_spacing_m),

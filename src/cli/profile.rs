@@ -5,7 +5,7 @@ use std::io::Write;
 use serde::Serialize;
 
 use super::failure::Failure;
-use super::progress::{HowFar, Now, stopped, watched};
+use super::progress::{HowFar, Now, watched};
 use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
 use crate::Profile;
@@ -52,8 +52,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut files = arguments.output.files(read.into_iter().flatten());
     let destination = arguments.output.destination(Kind::Motion, &mut files)?;
     let how_far = |now: Now| HowFar::unknown("computing the ground", now.elapsed);
-    let keep = |_| stopped("nothing is computed");
-    let answer = watched(how_far, keep, |_| match &arguments.positions {
+    let remains = |_| "no motion is computed".to_owned();
+    let answer = watched(how_far, remains, |_| match &arguments.positions {
         Some(positions) => crate::profile_at(&input.scene, positions),
         None => crate::profile(&input.scene),
     });

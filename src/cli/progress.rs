@@ -1,7 +1,7 @@
 //! How far a computation is, and what happens when it is stopped.
 //!
-//! The command computes in rayon's threads, as many as `--threads` says, while this one shows how far it is and heeds Ctrl-C: whatever the
-//! computation does, the process ends at once, and what it had finished is printed before.
+//! The command computes in rayon's threads, as many as `--threads` says, while this one shows how far it is and waits for Ctrl-C:
+//! whatever the computation does, the process ends at once, and says what is left of its work.
 
 use std::cell::Cell;
 use std::io::{self, IsTerminal, Write};
@@ -14,7 +14,6 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use super::failure::Failure;
 use super::{signals, terminal};
 use crate::Progress;
 use crate::shown::time;
@@ -85,11 +84,11 @@ pub fn rounded(seconds: f64) -> String {
     }
 }
 
-/// Computes something and shows how far it is, in the words of `how_far`. Where the process is asked to stop, `keep` prints what is finished,
-/// with the share of the work that is done, and this never returns.
+/// Computes something and shows how far it is, in the words of `how_far`. If the process is asked to stop, `remains` says what is left of the
+/// work, of which a share is done, and this never returns.
 pub fn watched<A: Send>(
     how_far: impl Fn(Now) -> HowFar,
-    keep: impl FnOnce(f64) -> Result<(), Failure>,
+    remains: impl FnOnce(f64) -> String,
     compute: impl FnOnce(Progress<'_>) -> A + Send,
 ) -> A {
     let watch = signals::Watch::new();
@@ -120,9 +119,9 @@ pub fn watched<A: Send>(
             }
             if let Some(signal) = watch.asked() {
                 screen.clear();
-                // Whoever reads it may be stopped too.
-                let _ = keep(f64::from_bits(share.load(Ordering::Relaxed)));
-                let _ = io::stdout().flush();
+                let remains = remains(f64::from_bits(share.load(Ordering::Relaxed)));
+                // The reader of standard error may be stopped too.
+                let _ = writeln!(terminal::err(), "stopped: {remains}");
                 signals::end(signal);
             }
             let now = Now {
@@ -175,9 +174,4 @@ impl Screen {
             bar.finish_and_clear();
         }
     }
-}
-
-/// Says on standard error that a command was stopped, and what there is of its work.
-pub fn stopped(words: impl std::fmt::Display) -> Result<(), Failure> {
-    Ok(writeln!(terminal::err(), "stopped: {words}")?)
 }

@@ -8,7 +8,7 @@ use chrono::{DateTime, Utc};
 
 use super::failure::Failure;
 use super::limits::LimitArguments;
-use super::progress::{HowFar, stopped, watched};
+use super::progress::{HowFar, watched};
 use super::readings::ReadArguments;
 use super::shared::{Force, Input, TrafficArguments};
 use super::terminal;
@@ -91,8 +91,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let page = files.output(&arguments.output, Kind::Page)?;
     arguments.page_is_html()?;
     let how_far = |now| HowFar::new(now, "the scene's run, then ways to hold the cable");
-    let keep = |_| stopped("no page is written");
-    let report = watched(how_far, keep, |progress| {
+    let remains = |_| "no page is written".to_owned();
+    let report = watched(how_far, remains, |progress| {
         Report::new(
             &input.scene,
             &ReportOptions {

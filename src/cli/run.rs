@@ -7,19 +7,17 @@ use serde::Serialize;
 use super::days;
 use super::failure::Failure;
 use super::limits::LimitArguments;
-use super::progress::{stopped, watched};
-use super::run_progress::how_far;
-use super::shared::{Destination, Input, OutputArguments, TrafficArguments};
+use super::progress::{HowFar, watched};
+use super::shared::{Input, OutputArguments, TrafficArguments};
 use super::terminal;
 #[cfg(feature = "xlsx")]
 use super::workbook::WorkbookArguments;
 use crate::answer::{Place, after, in_rows, table_rows};
 use crate::output::Kind;
-use crate::scene::{Order, Traffic};
+use crate::scene::Traffic;
 use crate::shown::{exact, percent, spacing};
 use crate::{
-    CableEnd, CutShort, DuctMotionSummary, Limited, Limits, PassRecord, Reached, Run, RunOptions, Scene,
-    Underway, Units, Verdict,
+    CableEnd, DuctMotionSummary, Limited, Limits, PassRecord, Reached, Run, RunOptions, Scene, Units, Verdict,
 };
 
 #[derive(Debug, clap::Args)]
@@ -87,24 +85,16 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     #[cfg(feature = "xlsx")]
     let workbook = arguments.workbook.destination(&mut files)?;
     let units = arguments.limits.units(input.file());
-    let underway = Underway::default();
-    let keep = |_| match underway.finished() {
-        Some(finished) => keep(&finished, &input.scene, &destination, &units),
-        None => stopped("no pass is finished that could be shown"),
-    };
-    let answer = watched(
-        |now| how_far(&underway, now),
-        keep,
-        |progress| {
-            let options = RunOptions {
-                verify: arguments.verify,
-                progress,
-                underway: Some(&underway),
-                ..RunOptions::default()
-            };
-            crate::run_with(&input.scene, &options)
-        },
-    );
+    let how_far = |now| HowFar::new(now, "passes on finer and finer meshes");
+    let remains = |_| "the run is not finished and has no answer".to_owned();
+    let answer = watched(how_far, remains, |progress| {
+        let options = RunOptions {
+            verify: arguments.verify,
+            progress,
+            ..RunOptions::default()
+        };
+        crate::run_with(&input.scene, &options)
+    });
     let mut answer = input.located(answer)?;
     let scene = input.scene.clone();
     #[cfg(feature = "xlsx")]
@@ -156,36 +146,6 @@ fn rows(passes: &[PassRecord]) -> impl Iterator<Item = (PassRecord, LastColumn)>
         };
         (others, last)
     })
-}
-
-/// Prints the passes of a run that was stopped. No file is written: an older one is whole.
-fn keep(finished: &CutShort, scene: &Scene, destination: &Destination, units: &Units) -> Result<(), Failure> {
-    let last = finished.passes.last().map_or(0, |record| record.pass);
-    let (passes, apart) = (scene.traffic.passes, spacing(finished.plan.node_spacing_m));
-    let cut = if last < passes {
-        format!("cut short after pass {last} of {passes}, on nodes {apart} m apart: the error is not known")
-    } else {
-        format!(
-            "cut short in refining: all {passes} passes are done on nodes {apart} m apart, but the error is not known"
-        )
-    };
-    destination.print(finished, rows(&finished.passes), || {
-        let mut out = terminal::out();
-        heading(&mut out, &finished.title, &finished.duct_motion)?;
-        writeln!(out, "{cut}")?;
-        let a_day = scene.warming().and(scene.traffic.per_day);
-        let a_day = a_day.map(|per_day| per_day.round().max(1.0) as u64);
-        let are_means = finished.passes.iter().any(|record| record.interpolated)
-            && matches!(scene.traffic.order, Order::Random { .. });
-        Ok(table(
-            &mut out,
-            &finished.passes,
-            scene,
-            (a_day, are_means),
-            units,
-        )?)
-    })?;
-    stopped(cut)
 }
 
 /// The time of a pass behind its number, where it is known.

@@ -319,19 +319,6 @@ impl OutputArguments {
 }
 
 impl Destination {
-    /// Prints an answer that is not whole, which no file is replaced by.
-    pub fn print<T: Serialize, R: Serialize>(
-        &self,
-        answer: &T,
-        rows: impl IntoIterator<Item = R>,
-        print: impl FnOnce() -> Result<(), Failure>,
-    ) -> Result<(), Failure> {
-        match &self.table {
-            Table::StandardOutput => Ok(std::io::stdout().lock().write_all(&csv(rows)?)?),
-            _ => self.json.print(answer, print),
-        }
-    }
-
     /// Writes the answer and its table, one row a record with the record's fields as columns.
     pub fn write<T: Serialize, R: Serialize>(
         &self,

@@ -4,13 +4,14 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::progress::{HowFar, Now, stopped, watched};
+use super::progress::{HowFar, Now, watched};
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
 use crate::Units;
 #[cfg(feature = "plot")]
 use crate::output::Kind;
-use crate::sweep::{Axis, Band, Format, Samples, Sweep, SweepOptions, SweepSummary};
+use crate::shown::exact_percent;
+use crate::sweep::{Axis, Band, Format, SAMPLE_TOLERANCE, Samples, Sweep, SweepOptions, SweepSummary};
 #[cfg(feature = "plot")]
 use crate::sweep::{MapValue, Row, SweepMap};
 
@@ -103,13 +104,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let count = sweep.count();
     let points = |share: f64| format!("{:.0} of {count} points", share * count as f64);
     let how_far = |now: Now| HowFar::new(now, &points(now.share));
-    let keep = |share| {
+    let remains = |share| {
         let (points, out) = (points(share), arguments.out.display());
-        stopped(format_args!(
-            "{points} are kept beside {out}; the same command goes on from there"
-        ))
+        format!("{points} are kept beside {out}; the same command goes on from there")
     };
-    let summary = watched(how_far, keep, |progress| {
+    let summary = watched(how_far, remains, |progress| {
         let options = SweepOptions {
             force: arguments.force.force,
             progress,
@@ -136,16 +135,23 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let units = Units::typed(&sweep.file_at(0)?, None, None);
     arguments
         .json
-        .print(&summary, || print(&summary, arguments, &units))
+        .print(&summary, || print(&summary, &sweep, arguments, &units))
 }
 
-fn print(summary: &SweepSummary, arguments: &Arguments, units: &Units) -> Result<(), Failure> {
+fn print(summary: &SweepSummary, sweep: &Sweep, arguments: &Arguments, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
     write!(out, "{}: {} points", arguments.out.display(), summary.points)?;
     if summary.resumed > 0 {
         write!(out, ", {} of them done before", summary.resumed)?;
     }
     writeln!(out)?;
+    if sweep.has_sample_tolerance() {
+        let tolerance = exact_percent(SAMPLE_TOLERANCE);
+        writeln!(
+            out,
+            "samples are computed to {tolerance}; solver.tolerance names another tolerance"
+        )?;
+    }
     for band in &summary.bands {
         bands(&mut out, band, units)?;
     }

@@ -33,6 +33,5 @@ pub use compare::{Measure, compare};
 pub use doubt::Doubt;
 pub use limits::DesignError;
 pub use options::DesignOptions;
-pub use runs::sort;
 pub use search::design;
 pub use trade_off::{Binding, ClampPeak, Design, Side, Spring, TradeOff, best, largest_shown};

@@ -1,8 +1,5 @@
 //! How a design is searched for.
 
-use std::sync::Mutex;
-
-use super::trade_off::TradeOff;
 use crate::{Limits, Place, Progress};
 
 /// How to design.
@@ -17,8 +14,6 @@ pub struct DesignOptions<'a> {
     pub limits: Limits,
     /// Called after each run of the scene; it may stop the search.
     pub progress: Progress<'a>,
-    /// Takes every run with the scene's own tolerance as soon as it is made, for whoever looks on from another thread.
-    pub tried: Option<&'a Mutex<Vec<TradeOff>>>,
 }
 
 impl DesignOptions<'_> {
@@ -29,7 +24,6 @@ impl DesignOptions<'_> {
             second: None,
             limits,
             progress: Progress::default(),
-            tried: None,
         }
     }
 

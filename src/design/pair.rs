@@ -43,10 +43,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     let mut rough = scene.clone();
     rough.solver.tolerance = scene.solver.tolerance.max(ROUGH);
     let progress = options.progress.part(0.0, ROUGH_SHARE);
-    // Rough runs are not shown beside those with the scene's own tolerance.
-    let mut unseen = options.clone();
-    unseen.tried = None;
-    let runs = Runs::new(&rough, &unseen, progress, all + 1)?;
+    let runs = Runs::new(&rough, options, progress, all + 1)?;
     let points = (0..all)
         .into_par_iter()
         .map(|index| {

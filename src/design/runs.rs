@@ -20,7 +20,6 @@ pub struct Runs<'a> {
     places: Vec<Place>,
     limits: &'a Limits,
     progress: Progress<'a>,
-    tried: Option<&'a Mutex<Vec<TradeOff>>>,
     expected: usize,
     points: Mutex<Vec<TradeOff>>,
     count: AtomicUsize,
@@ -40,7 +39,6 @@ impl<'a> Runs<'a> {
             places,
             limits: &options.limits,
             progress,
-            tried: options.tried,
             expected,
             points: Mutex::default(),
             // That of the mesh.
@@ -60,10 +58,6 @@ impl<'a> Runs<'a> {
         let run = crate::run(&held(&self.scene, &springs))?;
         let point = TradeOff::of(&self.scene, &run, &springs, self.limits);
         self.points().push(point.clone());
-        if let Some(tried) = self.tried {
-            let mut tried = tried.lock().unwrap_or_else(PoisonError::into_inner);
-            tried.push(point.clone());
-        }
         let count = self.count.fetch_add(1, Relaxed);
         let share = count as f64 / self.expected as f64;
         self.progress.report(share.min(1.0))?;
@@ -101,7 +95,7 @@ impl<'a> Runs<'a> {
 }
 
 /// Sorts runs by growing stiffness.
-pub fn sort(points: &mut [TradeOff]) {
+fn sort(points: &mut [TradeOff]) {
     let stiffnesses =
         |point: &TradeOff| -> Vec<f64> { point.springs.iter().map(Spring::stiffness).collect() };
     points.sort_by(|a, b| {

@@ -8,7 +8,6 @@
 use cable_dem::{CableError, Mesh};
 use ground_field::DuctMotion;
 
-use super::known::KnownMesh;
 use crate::Error;
 use crate::ground::{length_scale, peak};
 use crate::scene::{Scene, SolverMethod};
@@ -17,7 +16,7 @@ use crate::scene::{Scene, SolverMethod};
 const COARSEST: f64 = 3.0;
 /// Fewest elements of a short duct on level 0.
 const FEWEST: f64 = 8.0;
-/// Steps of the vehicle per node spacing. On fine meshes a run takes one where that is measured to do.
+/// Steps of the vehicle per node spacing.
 const STEPS_PER_SPACING: f64 = 2.0;
 /// Typical errors of the force on each level: medians of 200 random scenes, rounded up, measured against far finer runs
 /// (`tests/planner/honest.rs`). No error is stated below them.
@@ -45,8 +44,6 @@ pub struct Levels {
     step: f64,
     /// Whether the vehicle's step follows the spacing; a law without memory depends on it.
     steps_follow: bool,
-    /// The level from which on there are half as many steps per node spacing.
-    half_as_many_from: usize,
     /// The level to begin with, and the finest one to try.
     first: usize,
     finest: usize,
@@ -54,8 +51,6 @@ pub struct Levels {
     named: bool,
     /// Whether the spacing follows from the duct's depth and length.
     spacing_follows: bool,
-    /// Error of the only level, where other runs have shown it.
-    known: Option<f64>,
 }
 
 impl Levels {
@@ -96,38 +91,10 @@ impl Levels {
             spacing,
             step,
             steps_follow,
-            half_as_many_from: usize::MAX,
             first: if named { NAMED } else { wanted.max(1) },
             finest: if named { NAMED } else { FINEST },
             named,
             spacing_follows: solver.node_spacing.is_none(),
-            known: None,
-        }
-    }
-
-    /// The same with no other level than that of `mesh`.
-    pub fn alone(self, mesh: KnownMesh) -> Self {
-        Self {
-            first: mesh.level,
-            finest: mesh.level,
-            known: Some(mesh.error),
-            ..self
-        }
-    }
-
-    /// The same with half the step of the vehicle on every level.
-    pub fn with_half_the_step(self) -> Self {
-        Self {
-            step: 0.5 * self.step,
-            ..self
-        }
-    }
-
-    /// The same with half as many steps of the vehicle per node spacing from `level` on.
-    pub fn with_half_as_many_steps_from(self, level: usize) -> Self {
-        Self {
-            half_as_many_from: level,
-            ..self
         }
     }
 
@@ -146,11 +113,6 @@ impl Levels {
         self.finest
     }
 
-    /// Error of the only level, where other runs have shown it.
-    pub fn known(&self) -> Option<f64> {
-        self.known
-    }
-
     /// Whether the scene says how fine to be.
     pub fn named(&self) -> bool {
         self.named
@@ -159,9 +121,8 @@ impl Levels {
     /// Node spacing and vehicle step on `level` \[m\].
     pub fn spacing(&self, level: usize) -> (f64, f64) {
         let share = 0.5_f64.powi(level as i32);
-        let wider = if level >= self.half_as_many_from { 2.0 } else { 1.0 };
         let step = if self.steps_follow {
-            wider * share * self.step
+            share * self.step
         } else {
             self.step
         };
@@ -202,16 +163,6 @@ impl Levels {
     /// Nodes of the whole cable times steps of the vehicle in `passes` passes on `level`.
     pub fn whole_cable_updates(&self, level: usize, passes: u64) -> f64 {
         self.updates(level, passes, self.length)
-    }
-
-    /// About how many points the motion of the duct under one vehicle is tabulated at, on all levels up to `level`.
-    pub fn table_points(&self, level: usize) -> f64 {
-        let points = |level: usize| {
-            let (spacing, step) = self.spacing(level);
-            (self.road + self.length) / step.min(spacing)
-        };
-        let meshes = (0..=level).filter(|&level| self.mesh(level).is_ok());
-        meshes.map(points).sum()
     }
 
     fn updates(&self, level: usize, passes: u64, moved: f64) -> f64 {

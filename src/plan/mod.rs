@@ -3,7 +3,6 @@
 //! A plan is made from the motion of the duct and from estimates: how far inertia can matter, what the passes will cost.
 //! The run measures what the estimates promise, and refines where they promise too much.
 
-mod known;
 mod mesh;
 mod method;
 mod mix;
@@ -14,13 +13,11 @@ mod stand_ins;
 mod warnings;
 
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
 use ground_field::GroundField;
 
 use crate::ground::{Ground, road};
 use crate::{Error, Scene};
-pub use known::KnownMesh;
 pub use mesh::Levels;
 pub use method::{CableMethod, MOST_PASSES, MethodChoice, PassMethod};
 pub use period::Period;
@@ -35,8 +32,6 @@ pub struct Plan<'a> {
     pub(crate) choice: MethodChoice,
     pub(crate) levels: Levels,
     pub(crate) warnings: Vec<String>,
-    /// Time that the plan took: above all the ground's motion.
-    pub(crate) took: Duration,
 }
 
 /// Plans how to compute `scene`.
@@ -54,27 +49,16 @@ pub fn plan(scene: &Scene) -> Result<Plan<'_>, Error> {
 ///
 /// As for [`plan`].
 pub fn plan_on<'a>(scene: &'a Scene, own: Option<&dyn GroundField>) -> Result<Plan<'a>, Error> {
-    let begun = Instant::now();
     scene.validate()?;
     let ground = Ground::new(scene, own, road::reach(scene))?;
-    plan_over(scene, Arc::new(ground), None, begun)
+    plan_over(scene, Arc::new(ground))
 }
 
-/// Plans how to compute a valid `scene` over a `ground` that is known to be its own, on the `mesh` alone whose error is known if
-/// there is one that fits it.
-pub(crate) fn plan_over(
-    scene: &Scene,
-    ground: Arc<Ground>,
-    mesh: Option<KnownMesh>,
-    begun: Instant,
-) -> Result<Plan<'_>, Error> {
+/// Plans how to compute a valid `scene` over a `ground` that is known to be its own.
+pub(crate) fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, Error> {
     let approach = road::approach(scene, &ground.motions)?;
-    let mut levels = Levels::new(scene, &ground.motions, approach);
+    let levels = Levels::new(scene, &ground.motions, approach);
     let period = Period::new(scene, &ground.motions)?;
-    // A mesh's known error has no room for what stand-ins change.
-    if let Some(mesh) = mesh.filter(|_| KnownMesh::fits(scene) && period.is_own()) {
-        levels = levels.alone(mesh);
-    }
     // Refuses an impossible mesh before any pass.
     levels.mesh(levels.first())?;
     let choice = method::choose(scene, &levels, &period)?;
@@ -87,6 +71,5 @@ pub(crate) fn plan_over(
         choice,
         levels,
         warnings,
-        took: begun.elapsed(),
     })
 }

@@ -47,8 +47,7 @@ pub struct Candidate {
     pub chosen: bool,
     /// How wrong it is, as a share: of the peak of D_l for the ground, of the force for the others.
     pub estimated_error: Option<f64>,
-    /// Time it takes \[s\] on a core of about 3 GHz and on the mesh to begin with, roughly; `creepage plan` tells of what is chosen the
-    /// processor time of the whole run.
+    /// Rough time of the whole run with it \[s\] on one core of about 3 GHz.
     pub estimated_seconds: Option<f64>,
     /// Why it was chosen, or why not.
     pub reason: String,
@@ -72,8 +71,8 @@ pub struct PlanReport {
     pub reasons: Vec<String>,
     /// Error to expect, as a share of the force; `None` on a mesh that the scene names.
     pub estimated_error: Option<f64>,
-    /// Time of the run \[s\] on a core of about 3 GHz and on the mesh to begin with, roughly. In what `creepage plan` prints, the
-    /// processor time of the whole run by [`forecast`](crate::forecast).
+    /// Rough time of the whole run \[s\] on one core of about 3 GHz, from counted work: within a factor of five as a rule, and far more
+    /// where finer meshes prove necessary.
     pub estimated_seconds: f64,
     /// Whether the cable creeps, and how much force there can be, by one number; `None` where nothing moves the duct.
     pub occurrence: Option<Occurrence>,

@@ -2,8 +2,8 @@
 
 use super::content::Report;
 use super::html::Html;
-use crate::Part;
 use crate::shown::{percent, spacing, time};
+use crate::{ErrorSource, Part};
 
 pub fn plan(html: &mut Html, report: &Report) {
     let error = &report.run.error_estimate;
@@ -50,25 +50,14 @@ fn detail(html: &mut Html, report: &Report) {
     });
     html.table(
         3,
-        &[
-            "model",
-            "before the run: error, time on the first mesh",
-            "why, or why not",
-        ],
+        &["model", "before the run: error, time", "why, or why not"],
         rows,
     );
     html.element("h3", "Error of the forces");
     let error = &run.error_estimate;
     html.paragraph(&format!("{} in all, {}.", percent(error.relative), error.method));
-    let parts = error.parts;
-    let row = |name: &str, part: f64| vec![name.to_owned(), percent(part)];
-    let rows = [
-        row("node spacing and vehicle step", parts.mesh),
-        row("ground model", parts.ground),
-        row("inertia of the cable", parts.inertia),
-        row("road beyond where vehicles are followed", parts.road),
-        row("passes that were not simulated", parts.passes),
-        row("movement of the ends, all parts together", parts.movement),
-    ];
-    html.table(1, &["part", "error"], rows);
+    let row = |name: &str, share: f64| vec![name.to_owned(), percent(share)];
+    let parts = ErrorSource::ALL.map(|source| row(source.name(), error.parts.of(source)));
+    let movement = row("movement of the ends, all parts together", error.parts.movement);
+    html.table(1, &["part", "error"], parts.into_iter().chain([movement]));
 }

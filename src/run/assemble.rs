@@ -5,7 +5,6 @@ use cycle_jump::{Record, peaks};
 use super::listing::listed_passes;
 use super::passes::{Passes, Task, force_profile};
 use super::refine::Solved;
-use super::underway::CutShort;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ExtremePass, PassRecord, PlanSummary,
     RestraintRecord, Run, Stage, balance, saturation,
@@ -35,20 +34,6 @@ impl<'a> RunBuilder<'a> {
             },
             warnings: plan.warnings.clone(),
             plan,
-        }
-    }
-
-    /// What there is to say if the run is stopped, but its passes.
-    pub fn cut_short(&self) -> CutShort {
-        CutShort {
-            title: self.plan.scene.title.clone(),
-            cut_short: true,
-            plan: self.summary.clone(),
-            duct_motion: self.duct_motion(),
-            passes: Vec::new(),
-            saturation: None,
-            error_estimate: None,
-            warnings: self.warnings.clone(),
         }
     }
 
@@ -132,16 +117,7 @@ impl<'a> RunBuilder<'a> {
             error_estimate: ErrorEstimate {
                 relative: total.force,
                 method: solved.error.to_string(),
-                parts: ErrorShares {
-                    mesh: solved.error.mesh.force,
-                    ground: solved.error.ground.force,
-                    inertia: solved.error.inertia,
-                    road: solved.error.road.force,
-                    passes: solved.error.passes.force,
-                    temperature: solved.error.temperature.force,
-                    law: solved.error.passes.force,
-                    movement: total.movement,
-                },
+                parts: solved.error.shares(),
             },
             cost: Cost::new(solved.passes.simulated, &solved.statistics),
             warnings: self.warnings,
@@ -188,7 +164,6 @@ impl<'a> RunBuilder<'a> {
             mesh,
             stages: &[],
             progress: Progress::default(),
-            seen: None,
         };
         let first = task.every_pass()?;
         let profile = force_profile(&first.cable, &first.state)?;

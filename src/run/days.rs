@@ -7,12 +7,11 @@
 use cable_dem::{CableError, Statistics};
 use cycle_jump::JumpError;
 
-use super::both::both;
+use super::budget::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, max_node_updates};
 use super::judge::{judge, mesh_reason};
 use super::lived::{Lived, Living};
 use super::options::RunOptions;
 use super::refine::{FINDING, Solved};
-use super::worth::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, worth};
 use crate::answer::error_estimate::{self, ErrorParts, Shares, VERIFIED, is_doubtful};
 use crate::ground::road;
 use crate::plan::{PassMethod, Period, Plan};
@@ -20,12 +19,11 @@ use crate::scene::{Heat, Scene};
 use crate::{Error, Progress};
 
 /// Real periods a day to begin with.
-pub(super) const FIRST_KNOTS: u64 = 16;
-/// More than so many make no days settle that fewer do not, of 52 random scenes; and an outlook that takes seconds tries fewer.
-pub(super) const MOST_KNOTS: u64 = 2048;
-pub(super) const MOST_LOOKED_FOR: u64 = 256;
+const FIRST_KNOTS: u64 = 16;
+/// More than so many make no days settle that fewer do not, of 52 random scenes.
+const MOST_KNOTS: u64 = 2048;
 /// They are looked for so many levels below the first, where a pass costs a sixteenth.
-pub(super) const COARSER: usize = 2;
+const COARSER: usize = 2;
 /// What twice as many real periods a day change, times this, is the error of as many: it halves, or nearly so.
 const CAUTION: f64 = 3.0;
 /// Share of the tolerance that days with few real periods may take.
@@ -39,14 +37,12 @@ const LEFT: f64 = 0.4;
 const LEFT_UNRESOLVED: f64 = 2.0;
 /// Parts of a period with which days begin that are compared.
 const QUARTERS: usize = 4;
-/// What a difference falls to from one level to the next as a rule.
-const FALL: f64 = 0.25;
 
 /// Real periods a day that are enough, what they leave wrong, and the days they were found on, with their level.
-pub(super) struct Found {
-    pub knots: u64,
-    pub left: Shares,
-    pub coarse: Option<(usize, Lived)>,
+struct Found {
+    knots: u64,
+    left: Shares,
+    coarse: Option<(usize, Lived)>,
 }
 
 impl Found {
@@ -69,8 +65,7 @@ pub fn solve(
     warnings: &mut Vec<String>,
 ) -> Result<Solved, Error> {
     let every_pass = matches!(method, PassMethod::EveryPass(_));
-    let mut living = Living::new(plan, heat, every_pass, options.progress);
-    living.underway = options.underway;
+    let living = Living::new(plan, heat, every_pass, options.progress);
     living.solve(options.verify, warnings)
 }
 
@@ -89,7 +84,7 @@ impl Living<'_> {
         error_estimate::judge(&error, tolerance)?;
         let mut statistics = Statistics::default();
         let mut level = self.first_level();
-        let Found { knots, left, coarse } = self.knots(level, None, &mut statistics)?;
+        let Found { knots, left, coarse } = self.knots(level, &mut statistics)?;
         error.temperature = left;
         let mut coarse = coarse
             .filter(|(coarse, _)| coarse + 1 == level)
@@ -97,17 +92,13 @@ impl Living<'_> {
         let known = coarse.is_some();
         let mut parts = self.progress.part(FINDING, 1.0).refining();
         let found = knots;
-        let (knots, (mut below, mut finest)) = self.settling(knots, MOST_KNOTS, |knots| {
+        let (knots, (mut below, mut finest)) = self.settling(knots, |knots| {
             // With as many real periods a day as they were found with.
-            let known = coarse.take();
-            let now = parts();
-            both(
-                || match (known, level.checked_sub(1)) {
-                    (None, Some(below)) => self.on_coarse(below, knots),
-                    (known, _) => Ok(known),
-                },
-                || self.live(level, knots, now),
-            )
+            let below = match (coarse.take(), level.checked_sub(1)) {
+                (None, Some(below)) => self.on_coarse(below, knots)?,
+                (known, _) => known,
+            };
+            Ok((below, self.live(level, knots, parts())?))
         })?;
         if let Some(below) = below.as_ref().filter(|_| !known || knots != found) {
             statistics += below.passes.statistics;
@@ -120,7 +111,7 @@ impl Living<'_> {
                 error.mesh = difference.times(self.left(level)).max(typical);
             }
             let finer = REFINEMENT_COST.saturating_mul(finest.passes.statistics.node_updates);
-            let costly = finer > worth(tolerance);
+            let costly = finer > max_node_updates(tolerance);
             let others = error.total().less(error.mesh);
             let within = error.mesh.is_within(allowed(tolerance, others));
             if costly || level >= levels.finest() || below.is_some() && within {
@@ -166,40 +157,20 @@ impl Living<'_> {
         })
     }
 
-    /// What `days` come to with so many real periods a day, from `knots` to `most`, that each becomes like the one before: too few never
-    /// settle.
-    pub(super) fn settling<T>(
+    /// What `days` come to with so many real periods a day, from `knots` on, that each becomes like the one before: too few never settle.
+    fn settling<T>(
         &self,
         mut knots: u64,
-        most: u64,
         mut days: impl FnMut(u64) -> Result<T, Error>,
     ) -> Result<(u64, T), Error> {
         loop {
-            let may_double = 2 * knots <= most && !self.day(knots).is_simulated();
+            let may_double = 2 * knots <= MOST_KNOTS && !self.day(knots).is_simulated();
             match days(knots) {
                 Err(Error::Jumps(JumpError::NeverPeriodic { .. })) if may_double => {
                     knots *= 2;
                 }
                 days => return Ok((knots, days?)),
             }
-        }
-    }
-
-    /// Which levels should be fine enough, where that of `seen` differs by `difference` from the one below it, and few real periods a
-    /// day leave `left` wrong.
-    pub(super) fn is_fine(&self, seen: usize, difference: Shares, left: Shares) -> impl Fn(usize) -> bool {
-        let Plan {
-            scene,
-            ground,
-            choice,
-            ..
-        } = self.plan;
-        let mut others = ErrorParts::new(ground.accuracy, choice.inertia);
-        others.temperature = left;
-        let allowed = allowed(scene.solver.tolerance, others.total());
-        move |level| {
-            let falls = FALL.powi(level as i32 - seen as i32);
-            difference.times(self.left(level) * falls).is_within(allowed)
         }
     }
 
@@ -220,12 +191,7 @@ impl Living<'_> {
     }
 
     /// What days change that begin the sequence of vehicles where another has left it, on a level that is coarse beside `level`.
-    pub(super) fn sequence_error(
-        &self,
-        level: usize,
-        knots: u64,
-        statistics: &mut Statistics,
-    ) -> Result<Shares, Error> {
+    fn sequence_error(&self, level: usize, knots: u64, statistics: &mut Statistics) -> Result<Shares, Error> {
         if !self.breaks_sequence() {
             return Ok(Shares::default());
         }
@@ -288,7 +254,7 @@ impl Living<'_> {
     }
 
     /// The level to begin with: the first whose typical error leaves room for the other parts.
-    pub(super) fn first_level(&self) -> usize {
+    fn first_level(&self) -> usize {
         let levels = &self.plan.levels;
         if levels.named() {
             return levels.first();
@@ -310,7 +276,7 @@ impl Living<'_> {
     }
 
     /// The same on a level that is coarse beside `level`, where there is one, and that level.
-    pub(super) fn coarse(&self, level: usize, knots: u64) -> Result<(usize, Lived), Error> {
+    fn coarse(&self, level: usize, knots: u64) -> Result<(usize, Lived), Error> {
         for coarser in level.saturating_sub(COARSER)..level {
             if let Some(lived) = self.on_coarse(coarser, knots)? {
                 return Ok((coarser, lived));
@@ -319,36 +285,19 @@ impl Living<'_> {
         Ok((level, self.live(level, knots, Progress::default())?))
     }
 
-    /// Real periods a day that are enough for `level`, found on a coarser one, and what they leave wrong. Where days take more than `most` node
-    /// updates they count as enough, unseen, and `statistics` has what it would take to see it.
-    pub(super) fn knots(
-        &self,
-        level: usize,
-        most: Option<usize>,
-        statistics: &mut Statistics,
-    ) -> Result<Found, Error> {
+    /// Real periods a day that are enough for `level`, found on a coarser one, and what they leave wrong.
+    fn knots(&self, level: usize, statistics: &mut Statistics) -> Result<Found, Error> {
         let all = self.day(u64::MAX).periods();
         if self.every_pass || self.day(FIRST_KNOTS).is_simulated() {
             return Ok(Found::exact(all));
         }
         let allowed = Shares::both(SHARE * self.plan.scene.solver.tolerance);
-        let settled_by = most.map_or(MOST_KNOTS, |_| MOST_LOOKED_FOR);
         let (mut knots, (level, mut fewer)) =
-            self.settling(FIRST_KNOTS, settled_by, |knots| self.coarse(level, knots))?;
+            self.settling(FIRST_KNOTS, |knots| self.coarse(level, knots))?;
         let mut parts = self.progress.part(0.0, FINDING).halving();
         *statistics += fewer.passes.statistics;
         loop {
-            if most.is_some_and(|most| fewer.passes.statistics.node_updates > most) {
-                *statistics += fewer.passes.statistics;
-                *statistics += fewer.passes.statistics;
-                return Ok(Found {
-                    knots,
-                    left: Shares::default(),
-                    coarse: Some((level, fewer)),
-                });
-            }
-            let (doubled, more) =
-                self.settling(2 * knots, settled_by, |knots| self.live(level, knots, parts()))?;
+            let (doubled, more) = self.settling(2 * knots, |knots| self.live(level, knots, parts()))?;
             *statistics += more.passes.statistics;
             let difference = self.difference(&more, &fewer);
             if difference.times(CAUTION).is_within(allowed) {

@@ -1,13 +1,14 @@
 //! Jumps that are good enough: how large they may be, and what they leave wrong.
 //!
 //! Two runs that differ in the error of a single jump and in the length of the first one differ by about the error of either. Where
-//! only early passes are off, every one of them is simulated in the next run; else jumps are smaller there. Each is held to the one before.
+//! only early passes are off, every one of them is simulated in the next run; else jumps are smaller there. Each is compared with the one before.
 
 use std::cell::RefCell;
 
 use cable_dem::{CableError, Order, Statistics};
 use cycle_jump::{Guide, Record};
 
+use super::budget::REFINEMENT_COST;
 use super::passes::{Jumping, Passes};
 use crate::answer::error_estimate::{Scale, Shares, difference, differences, extremes_difference};
 use crate::plan::{Period, Plan};
@@ -21,9 +22,9 @@ const LARGEST: f64 = 0.06;
 /// simulated.
 const FINER: (f64, f64) = (0.5, 0.5);
 const FINEST: usize = 8;
-/// Share of the tolerance that jumps may take; and where a mesh would keep the tolerance with smaller ones.
+/// Share of the tolerance that jumps may take, and at least where the mesh leaves less.
 const SHARE: f64 = 0.5;
-pub const SMALLER_SHARE: f64 = 0.35;
+const LEAST_SHARE: f64 = 0.35;
 /// Periods simulated at the start: of one or two vehicles, of more, and fewer of many, about so many passes in all.
 const FIRST_PERIODS: u64 = 8;
 const FIRST_LONG_PERIODS: u64 = 5;
@@ -33,11 +34,11 @@ const FIRST_PASSES: usize = 200;
 /// And at most where only early jumps are off; and passes in them at most.
 const MOST_FIRST_PERIODS: u64 = 48;
 const MOST_FIRST_PASSES: u64 = 200;
-/// Jumps are looked for on the level below the first, where they cost a fourth, unless the duct is so many depths short and a period has at
-/// most so many vehicles: that costs little, and the few nodes that a coarser mesh gives it behave differently.
+/// Jumps are looked for on the level below the first, where they cost a fourth, unless the duct is so many depths short: that costs little,
+/// and the few nodes that a coarser mesh gives it behave differently. Those over the traffic's own periods of more than so many vehicles are looked
+/// for on the level below that one, which spares a sixth of the time of a million passes. What stand-ins change depends more on the mesh.
 const SHORT: f64 = 20.0;
 const MANY: usize = 48;
-const COST_OF_A_LEVEL: usize = 4;
 /// Finer jumps take about so many times the passes. No finer ones are looked for where they would take more nodes than this on the
 /// first level: some ten seconds.
 const COST_OF_FINER: usize = 2;
@@ -73,19 +74,17 @@ impl Found {
 
 /// Share of the tolerance that the jumps of `plan` may take: larger ones than the first mesh leaves room for would only make a finer one
 /// necessary.
-pub fn share(plan: &Plan<'_>) -> f64 {
+fn share(plan: &Plan<'_>) -> f64 {
     let mesh = plan.levels.expected_error(plan.levels.first()).unwrap_or(0.0);
     let others = mesh + plan.ground.accuracy + plan.choice.inertia;
-    (1.0 - others / plan.scene.solver.tolerance).clamp(SMALLER_SHARE, SHARE)
+    (1.0 - others / plan.scene.solver.tolerance).clamp(LEAST_SHARE, SHARE)
 }
 
-/// Finds jumps for `plan` that take at most the `share` of its tolerance, or the best that are affordable; smaller ones than those found
-/// `before`. `simulate` carries out all passes on a level and reports how far it is. Returned with them: the work of all other runs.
+/// Finds jumps for `plan` that take at most their share of its tolerance, or the best that are affordable. `carry_out` simulates all passes
+/// on a level and reports how far it is. Returned with them: the work of all other runs.
 pub fn find<'a>(
     plan: &Plan<'_>,
     scale: Scale,
-    share: f64,
-    before: Option<&Found>,
     progress: Progress<'a>,
     carry_out: impl Fn(usize, &Jumping<'_>, Progress<'a>) -> Result<Passes, Error>,
 ) -> Result<(Found, Statistics), Error> {
@@ -95,35 +94,27 @@ pub fn find<'a>(
         let part = parts.borrow_mut()();
         carry_out(level, jumping, part)
     };
-    let tolerance = plan.scene.solver.tolerance;
     let length = plan.period.len() as u64;
-    let allowed = Shares::both(share * tolerance);
+    let allowed = Shares::both(share(plan) * plan.scene.solver.tolerance);
     let duct = plan.scene.duct;
     let first = plan.levels.first();
-    let is_short = duct.length <= SHORT * duct.depth && plan.period.len() <= MANY;
-    let below = first
-        .checked_sub(1)
-        .filter(|&below| !is_short && plan.levels.mesh(below).is_ok());
-    let mut level = below.unwrap_or(first);
+    let levels_below = if plan.period.len() > MANY && plan.period.is_own() {
+        2
+    } else {
+        usize::from(duct.length > SHORT * duct.depth || plan.period.len() > MANY)
+    };
+    let is_possible = |level: &usize| *level == first || plan.levels.mesh(*level).is_ok();
+    let mut levels = (first.saturating_sub(levels_below)..=first).filter(is_possible);
+    let mut level = levels.next().unwrap_or(first);
     let mut taken = largest(plan);
     let mut statistics = Statistics::default();
-    let mut coarse = if let Some(found) = before {
-        level = found.level;
-        taken.tolerance = found.tolerance;
-        taken.first_periods = found.first_periods;
-        taken.first_jump = found.first_jump;
-        found.passes.clone()
-    } else {
-        let coarse = match simulate(level, &taken) {
-            Err(Error::Cable(CableError::CoarseMesh { .. })) if below.is_some() => {
-                level = first;
-                simulate(level, &taken)?
-            }
-            coarse => coarse?,
-        };
-        statistics += coarse.statistics;
-        coarse
+    let mut coarse = loop {
+        match (simulate(level, &taken), levels.next()) {
+            (Err(Error::Cable(CableError::CoarseMesh { .. })), Some(finer)) => level = finer,
+            (coarse, _) => break coarse?,
+        }
     };
+    statistics += coarse.statistics;
     let mut best = None;
     // Periods of which every pass is to be simulated, where only those are off.
     let mut early = None;
@@ -147,12 +138,7 @@ pub fn find<'a>(
         let periods = last_bad / length + 1;
         early = (periods <= MOST_FIRST_PERIODS && last_bad <= MOST_FIRST_PASSES).then_some(periods);
         let work = fine.statistics.node_updates + fine.statistics.corners;
-        let next = COST_OF_FINER
-            * if level < first {
-                COST_OF_A_LEVEL * work
-            } else {
-                work
-            };
+        let next = COST_OF_FINER * REFINEMENT_COST.pow((first - level) as u32) * work;
         coarse = fine.clone();
         best = Some(Found {
             level,
@@ -187,16 +173,6 @@ fn largest<'a>(plan: &'a Plan<'_>) -> Jumping<'a> {
         guide: Guide::Free,
         simulated: None,
         beyond: false,
-    }
-}
-
-/// Jumps over the passes of `plan` that are good enough as a rule: the second that are tried.
-pub fn usual<'a>(plan: &'a Plan<'_>) -> Jumping<'a> {
-    let largest = largest(plan);
-    Jumping {
-        tolerance: FINER.0 * largest.tolerance,
-        first_jump: FINER.1 * largest.first_jump,
-        ..largest
     }
 }
 

@@ -7,7 +7,6 @@ use cycle_jump::{Next, Record};
 use super::listing::listed_passes;
 use super::locked_law::locked_law;
 use super::passes::{Passes, Simulation, Task, force_profile, seldom_passes};
-use super::underway::Underway;
 use crate::answer::error_estimate::{Scale, Shares};
 use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed};
 use crate::cable::{cable, traffic};
@@ -38,12 +37,9 @@ pub struct Living<'a> {
     pub period: &'a Period,
     pub heat: &'a Heat,
     pub progress: Progress<'a>,
-    pub underway: Option<&'a Underway>,
     pub every_pass: bool,
     /// Place in the period of the traffic with which days begin.
     pub begin: usize,
-    /// Nodes balanced between real periods after which days ought to repeat.
-    pub most_balanced: usize,
 }
 
 impl<'a> Living<'a> {
@@ -54,10 +50,8 @@ impl<'a> Living<'a> {
             period: &plan.period,
             heat,
             progress,
-            underway: None,
             every_pass,
             begin: 0,
-            most_balanced: MOST_BALANCED,
         }
     }
 
@@ -141,7 +135,6 @@ impl<'a> Living<'a> {
             mesh,
             stages: &[],
             progress: Progress::default(),
-            seen: None,
         };
         seldom_passes(&task, &self.period.absent, state)
     }
@@ -163,9 +156,6 @@ impl<'a> Living<'a> {
             mesh,
             stages: &[],
             progress,
-            seen: self
-                .underway
-                .map(|underway| underway.on_mesh(mesh, self.begin == 0)),
         };
         let mut simulation = Simulation::new(&task)?;
         let day = self.day(knots);
@@ -180,7 +170,7 @@ impl<'a> Living<'a> {
             tolerance: FROZEN_SHARE * scene.solver.tolerance,
             least: (scale.force, scale.movement),
             every_day: self.every_pass,
-            most_balances: (self.most_balanced / mesh.nodes()) as u64,
+            most_balances: (MOST_BALANCED / mesh.nodes()) as u64,
         };
         let vehicles = &period.vehicles;
         // Where every pass is simulated the vehicles come in their own order.
@@ -202,7 +192,6 @@ impl<'a> Living<'a> {
                 simulation.pass(vehicle, next.number, state)
             },
         )?;
-        task.finish(&lived.records);
         let mut passes = simulation.passes(lived.records.clone(), lived.state.clone(), lived.simulated);
         passes.peaks.clone_from(&lived.peaks);
         passes.statistics += of_law;

@@ -1,10 +1,8 @@
 //! Carrying a plan out: the passes on ever finer meshes, and the answer.
 
 mod assemble;
-mod both;
+mod budget;
 mod days;
-mod days_outlook;
-mod forecast;
 mod judge;
 mod jumps;
 mod listing;
@@ -12,29 +10,20 @@ mod lived;
 mod locked_law;
 mod options;
 mod order;
-mod outlook;
 pub mod passes;
 mod random;
 mod refine;
-mod seen;
 mod solver;
-mod underway;
-mod vehicle_steps;
-mod work;
-mod worth;
 
 use std::sync::Arc;
-use std::time::Instant;
 
 use crate::error_source::ErrorSource;
 use crate::ground::{Ground, road};
-use crate::plan::{KnownMesh, PassMethod, Plan, plan, plan_over};
+use crate::plan::{PassMethod, Plan, plan, plan_over};
 use crate::{Error, Run, Scene, finite};
 use assemble::RunBuilder;
-pub use forecast::{Forecast, forecast};
 pub use options::RunOptions;
 use refine::Refinement;
-pub use underway::{CutShort, HowFar, Underway};
 
 /// Computes all passes of `scene`.
 ///
@@ -52,20 +41,13 @@ pub fn run(scene: &Scene) -> Result<Run, Error> {
 /// As for [`run`].
 pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
     scene.validate()?;
-    let begun = Instant::now();
     let ground = Ground::new(scene, options.ground, road::reach(scene))?;
-    run_over(scene, Arc::new(ground), None, options, begun)
+    run_over(scene, Arc::new(ground), options)
 }
 
-/// Computes all passes of a valid `scene` over a `ground` that is known to be its own, on the `mesh` whose error is known if there is one.
-pub(crate) fn run_over(
-    scene: &Scene,
-    ground: Arc<Ground>,
-    mesh: Option<KnownMesh>,
-    options: &RunOptions<'_>,
-    begun: Instant,
-) -> Result<Run, Error> {
-    run_plan(&plan_over(scene, ground, mesh, begun)?, options)
+/// Computes all passes of a valid `scene` over a `ground` that is known to be its own.
+pub(crate) fn run_over(scene: &Scene, ground: Arc<Ground>, options: &RunOptions<'_>) -> Result<Run, Error> {
+    run_plan(&plan_over(scene, ground)?, options)
 }
 
 /// Checks that `scene` can be computed, without computing its passes.
@@ -103,17 +85,12 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
         return answer.without_friction(options.stages);
     }
     let solve = |method, answer: &mut RunBuilder<'_>| {
-        if let Some(underway) = options.underway {
-            // What another method has come to is no answer.
-            underway.begin(answer.cut_short(), &plan.scene.traffic);
-        }
         let warnings = &mut answer.warnings;
         if let Some(heat) = plan.scene.warming() {
             return days::solve(plan, heat, method, options, warnings);
         }
         let refinement = Refinement {
             plan,
-            levels: plan.levels,
             method,
             options,
         };

@@ -2,7 +2,6 @@
 
 use ground_field::GroundField;
 
-use super::underway::Underway;
 use crate::Progress;
 
 /// How to run.
@@ -16,6 +15,4 @@ pub struct RunOptions<'a> {
     pub ground: Option<&'a dyn GroundField>,
     /// Passes at which to look at the cable, for [`crate::Run::stages`]; those beyond the scene's are left out.
     pub stages: &'a [u64],
-    /// What another thread looks at while the run goes on.
-    pub underway: Option<&'a Underway>,
 }

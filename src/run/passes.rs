@@ -6,13 +6,12 @@ use ground_field::DuctMotion;
 
 use super::listing::{Listing, listed_passes};
 use super::solver::PassSolver;
-use super::underway::OnMesh;
 use crate::answer::error_estimate::Scale;
 use crate::answer::{ForceProfile, SlipRecord, Stage, balance, beyond};
 use crate::cable::{cable, traffic};
 use crate::ground::{length_scale, peak};
 use crate::plan::{CableMethod, Period};
-use crate::scene::{End, Scene};
+use crate::scene::Scene;
 use crate::{Error, Progress};
 
 /// Periods after which a run with jumps takes no more of them, of few vehicles and of many.
@@ -33,8 +32,6 @@ pub struct Task<'a> {
     /// Passes at which the cable is looked at.
     pub stages: &'a [u64],
     pub progress: Progress<'a>,
-    /// Where another thread sees the passes that are finished.
-    pub seen: Option<OnMesh<'a>>,
 }
 
 /// How jumps are taken.
@@ -117,12 +114,8 @@ impl Task<'_> {
                 outcome,
                 interpolated: false,
             };
-            if let Some(seen) = self.seen {
-                seen.keep(&record);
-            }
             records.push(record);
         }
-        self.finish(&records);
         Ok(simulation.passes(records, state, count))
     }
 
@@ -171,26 +164,15 @@ impl Task<'_> {
             guide: jumping.guide,
         };
         let cable = simulation.cable.clone();
-        // How far a cable that nothing holds has moved as a whole is known to the jumps alone.
-        let seen = self.seen.filter(|_| is_held(scene));
         let evolution = evolve(&cable, mesh, &jumps, &request, |Next { phase, number }, state| {
             let vehicle = listing.vehicle(jumping.period, phase, number);
-            let outcome = simulation.pass(vehicle, number, state)?;
-            if let (Some(seen), Some(pass)) = (seen, number.filter(|&pass| listing.is_own(pass))) {
-                seen.keep(&Record {
-                    pass,
-                    outcome: outcome.clone(),
-                    interpolated: false,
-                });
-            }
-            Ok::<_, Error>(outcome)
+            simulation.pass(vehicle, number, state)
         })?;
         let records = listing.records(&evolution);
         let doubtful = listing.doubtful(&evolution, &records, DOUBTFUL * scene.solver.tolerance);
         let is_shown = |record: &&Record| doubtful.binary_search(&record.pass).is_err();
         let shown: Vec<Record> = records.iter().filter(is_shown).cloned().collect();
         let peaks = listing.peaks(&evolution, &shown);
-        self.finish(&records);
         let mut passes = simulation.passes(records, evolution.state, evolution.simulated);
         passes.schedule = evolution.schedule;
         passes.beyond = evolution.beyond;
@@ -198,19 +180,6 @@ impl Task<'_> {
         passes.peaks = peaks;
         Ok(passes)
     }
-
-    /// Shows whoever looks all passes of this mesh.
-    pub fn finish(&self, records: &[Record]) {
-        if let Some(seen) = self.seen {
-            seen.finish(records);
-        }
-    }
-}
-
-/// Whether an end or a clamp holds the cable.
-fn is_held(scene: &Scene) -> bool {
-    let free = (scene.ends.upstream, scene.ends.downstream) == (End::Free, End::Free);
-    !free || !scene.restraints.is_empty()
 }
 
 /// One pass of each of these `vehicles`, each as the next one over the cable in `state`.
@@ -301,9 +270,6 @@ impl<'a> Simulation<'a> {
         self.statistics += outcome.statistics;
         self.simulated += 1;
         self.reached = self.reached.max(number.unwrap_or(0).min(count));
-        if let Some(seen) = self.task.seen {
-            seen.reach(self.reached, &outcome.statistics);
-        }
         progress.report(self.share())?;
         Ok(outcome)
     }

@@ -15,8 +15,6 @@ use crate::cable::traffic;
 const RUNS: u64 = 8;
 const PASSES: usize = 90;
 const FORGOTTEN: usize = 30;
-/// All of them.
-pub const PASSES_IN_ALL: f64 = RUNS as f64 * PASSES as f64;
 
 /// The spread of the forces around the last ones of the `answer`, from runs that begin in `state`, and what it cost.
 pub fn spread(

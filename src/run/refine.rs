@@ -3,30 +3,27 @@
 use cable_dem::{CableError, Mesh, Statistics};
 use cycle_jump::Record;
 
-use super::both::both;
+use super::budget::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, max_node_updates};
 use super::judge::{judge, mesh_reason};
 use super::jumps::{self, Found};
 use super::options::RunOptions;
 use super::passes::{Jumping, Passes, Task, seldom_passes};
 use super::random;
-use super::seen::{SHARP, Seen, is_known};
-use super::vehicle_steps::{SEEN_BELOW, VehicleSteps};
-use super::worth::MAX_NODE_UPDATES;
-use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured};
-use crate::answer::{DayExtremes, HeatRecord, RandomSpread, listed};
+use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
+use crate::answer::{DayExtremes, HeatRecord, RandomSpread};
 use crate::ground::{peak, road};
-use crate::plan::{CableMethod, Levels, PassMethod, Plan};
+use crate::plan::{Levels, PassMethod, Plan};
 use crate::{Error, Progress, Scene};
 
 /// Share of the work that finding jumps is taken for.
 pub const FINDING: f64 = 0.3;
+/// The coarsest level on which it is seen whether anything slips: 24 nodes a depth.
+const SHARP: usize = 3;
 
 /// A plan's passes, on whatever level.
 #[derive(Clone, Copy)]
 pub struct Refinement<'a> {
     pub plan: &'a Plan<'a>,
-    /// The plan's, but for the vehicle's steps on fine meshes.
-    pub levels: Levels,
     pub method: PassMethod,
     pub options: &'a RunOptions<'a>,
 }
@@ -49,11 +46,12 @@ pub struct Solved {
 
 impl Refinement<'_> {
     /// Refines until the estimated error is within the tolerance, unless the scene says how fine to be.
-    pub fn solve(mut self, warnings: &mut Vec<String>) -> Result<Solved, Error> {
+    pub fn solve(self, warnings: &mut Vec<String>) -> Result<Solved, Error> {
         let Plan {
             scene,
             ground,
             choice,
+            levels,
             ..
         } = self.plan;
         let tolerance = scene.solver.tolerance;
@@ -61,29 +59,20 @@ impl Refinement<'_> {
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
         // What no mesh makes smaller.
         error_estimate::judge(&error, tolerance)?;
-        let mut found = match self.method {
-            PassMethod::Jumps(_) if self.levels.known().is_none() => {
-                Some(self.jumps(jumps::share(self.plan), None, &mut statistics)?)
-            }
-            _ => None,
+        let found = match self.method {
+            PassMethod::Jumps(_) => Some(self.jumps(&mut statistics)?),
+            PassMethod::EveryPass(_) => None,
         };
         let left = found.as_ref().map_or(0.0, |_| FINDING);
         let mut parts = self.options.progress.part(left, 1.0).refining();
-        let known = self.levels.known();
-        let (level, mut passes) = match known {
-            Some(known) => {
-                error.mesh = Shares::both(known);
-                (self.levels.first(), vec![self.on_known_mesh(parts())?])
-            }
-            None => self.meshes(&mut found, &mut error, &mut statistics, &mut parts)?,
-        };
+        let (level, mut passes) = self.meshes(found.as_ref(), &mut error, &mut parts)?;
         let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
         let way = way.as_ref();
         statistics += work_of(&passes);
         // One mesh alone does not show its error; and no mesh that the scene names is refused for what coarser ones show.
-        let alone = passes.len() == 1 && known.is_none();
-        let doubtful = self.levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
-        let mesh = self.levels.mesh(level)?;
+        let alone = passes.len() == 1;
+        let doubtful = levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
+        let mesh = levels.mesh(level)?;
         let finest = passes.pop().expect("the first level was computed");
         error.road = self.road_error(&finest, mesh, way, &mut statistics)?;
         if self.options.verify || alone || doubtful {
@@ -95,7 +84,7 @@ impl Refinement<'_> {
         judge(&error, self.plan, &mesh, warnings)?;
         let mut random = None;
         if let Some(found) = &found {
-            let task = self.task(scene, self.levels.mesh(found.level)?);
+            let task = self.task(scene, levels.mesh(found.level)?);
             let (spread, work) = random::spread(&task, &found.passes.state, &finest)?;
             statistics += work;
             random = spread;
@@ -118,153 +107,73 @@ impl Refinement<'_> {
         })
     }
 
-    /// The passes on mesh after mesh, up to one that is good enough, and its level; with smaller jumps than those `found` where these
-    /// spare a finer mesh.
+    /// The passes on mesh after mesh, up to one that is good enough or the last that is affordable, and its level.
     fn meshes<'p>(
-        &mut self,
-        found: &mut Option<Found>,
-        error: &mut ErrorParts,
-        statistics: &mut Statistics,
-        parts: &mut impl FnMut() -> Progress<'p>,
-    ) -> Result<(usize, Vec<Passes>), Error> {
-        let tolerance = self.plan.scene.solver.tolerance;
-        let mut level = self.levels.first();
-        let mut steps = VehicleSteps::default();
-        let mut may_be_smaller = true;
-        // The passes with larger jumps, until there are some with smaller ones.
-        let mut before: Option<(Found, Vec<Passes>)> = None;
-        'jumps: loop {
-            error.passes = found.as_ref().map_or(Shares::default(), |found| found.error);
-            let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
-            let way = way.as_ref();
-            let known = found.as_ref().map(|found| (found.level, &found.passes));
-            let now = parts();
-            let made = both(
-                || self.simulate(level, way, now, true),
-                || self.coarser(level, way, known),
-            );
-            let mut passes = match (made, before.take()) {
-                // Smaller jumps do not get on.
-                (Err(Error::Jumps(_)), Some((larger, passes))) => {
-                    error.passes = found.insert(larger).error;
-                    passes
-                }
-                (made, before) => {
-                    if let Some((_, passes)) = before {
-                        *statistics += work_of(&passes);
-                    }
-                    let (finest, mut passes) = made?;
-                    passes.push(finest);
-                    passes
-                }
-            };
-            loop {
-                let scale = (tolerance, self.scale());
-                let seen = Seen::on(&passes, &self.levels, (level, steps), scale, error);
-                if seen.is_within {
-                    return Ok((level, passes));
-                }
-                if seen.would_be_with_smaller_jumps
-                    && std::mem::take(&mut may_be_smaller)
-                    && let Some(smaller) = self.smaller_jumps(found.as_ref(), statistics)?
-                {
-                    before = found.replace(smaller).map(|larger| (larger, passes));
-                    continue 'jumps;
-                }
-                if seen.more == 0 {
-                    return Ok((level, passes));
-                }
-                let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
-                let progress = parts();
-                let chooses = self.method.cable_method() == CableMethod::QuasiStatic;
-                let may_choose = chooses && level >= SHARP;
-                if may_choose && steps == VehicleSteps::Unknown {
-                    steps = self.choose_steps(level, way.as_ref(), &passes, statistics)?;
-                    if let VehicleSteps::Half { from, .. } = steps {
-                        self.levels = self.levels.with_half_as_many_steps_from(from);
-                    }
-                }
-                let is_chosen = !chooses || steps != VehicleSteps::Unknown;
-                if seen.more == 2 && is_chosen && way.is_none() {
-                    // The coarser one may be stopped, but does not count in the progress shown.
-                    let (finest, finer) = both(
-                        || self.simulate(level + 2, None, progress, true),
-                        || self.simulate(level + 1, None, progress.part(0.0, 0.0), true),
-                    )?;
-                    passes.extend([finer, finest]);
-                    level += 2;
-                    continue;
-                }
-                match self.simulate(level + 1, way.as_ref(), progress, true) {
-                    // What is known of coarser meshes counts.
-                    Err(Error::Jumps(_)) if is_known(&passes, &self.levels) => return Ok((level, passes)),
-                    finer => passes.push(finer?),
-                }
-                level += 1;
-            }
-        }
-    }
-
-    /// The vehicle's steps on levels beyond `level`, from the `passes` up to it and a run with half the step on a coarser one.
-    fn choose_steps(
-        &self,
-        level: usize,
-        way: Option<&Jumping<'_>>,
-        passes: &[Passes],
-        statistics: &mut Statistics,
-    ) -> Result<VehicleSteps, Error> {
-        let [.., coarse, fine, _] = passes else {
-            return Ok(VehicleSteps::default());
-        };
-        let levels = self.levels.with_half_the_step();
-        let halved = Self { levels, ..*self };
-        let half_step = match halved.simulate(level - SEEN_BELOW, way, Progress::default(), false) {
-            // No reason to refuse what goes on without.
-            Err(Error::Jumps(_) | Error::Cable(_)) => return Ok(VehicleSteps::Usual),
-            half_step => half_step?,
-        };
-        let from_coarse = |passes: &Passes| difference(&coarse.records, &passes.records, self.scale());
-        *statistics += half_step.statistics;
-        Ok(VehicleSteps::new(
-            level,
-            from_coarse(fine),
-            from_coarse(&half_step),
-        ))
-    }
-
-    /// All passes on the only mesh, with jumps as large as they usually may be: what they leave wrong is part of the mesh's known error.
-    fn on_known_mesh(&self, progress: Progress<'_>) -> Result<Passes, Error> {
-        let way = matches!(self.method, PassMethod::Jumps(_)).then(|| jumps::usual(self.plan));
-        self.simulate(self.levels.first(), way.as_ref(), progress, true)
-    }
-
-    /// Smaller jumps than those of `found`, if there are any with a smaller error.
-    fn smaller_jumps(
         &self,
         found: Option<&Found>,
-        statistics: &mut Statistics,
-    ) -> Result<Option<Found>, Error> {
-        let Some(found) = found else {
-            return Ok(None);
-        };
-        match self.jumps(jumps::SMALLER_SHARE, Some(found), statistics) {
-            Err(Error::Jumps(_)) => Ok(None),
-            smaller => Ok(Some(smaller?)
-                .filter(|smaller| smaller.error != found.error && smaller.error.is_within(found.error))),
+        error: &mut ErrorParts,
+        parts: &mut impl FnMut() -> Progress<'p>,
+    ) -> Result<(usize, Vec<Passes>), Error> {
+        let levels = &self.plan.levels;
+        let way = found.map(|found| found.jumping(&self.plan.period));
+        let way = way.as_ref();
+        error.passes = found.map_or(Shares::default(), |found| found.error);
+        let mut level = levels.first();
+        let progress = parts();
+        let mut passes = self.coarser(level, way, found, progress)?;
+        passes.push(self.simulate(level, way, progress.part(share_below(level, level), 1.0), true)?);
+        loop {
+            if passes.len() > 1 {
+                let records: Vec<&[Record]> = passes.iter().map(|passes| &passes.records[..]).collect();
+                error.mesh = of_mesh(&records, Levels::typical_error(level), self.scale());
+            }
+            if self.is_good_enough(level, &passes, error) || !self.may_refine(level, &passes, error) {
+                return Ok((level, passes));
+            }
+            match self.simulate(level + 1, way, parts(), true) {
+                // Jumps that fail on this mesh leave the answer of the coarser one.
+                Err(Error::Jumps(_)) if self.error_is_known(&passes) => return Ok((level, passes)),
+                finer => passes.push(finer?),
+            }
+            level += 1;
         }
     }
 
-    /// Jumps that take at most the `share` of the tolerance; smaller ones than those found `before`.
-    fn jumps(&self, share: f64, before: Option<&Found>, statistics: &mut Statistics) -> Result<Found, Error> {
-        let progress = if before.is_none() {
-            self.options.progress.part(0.0, FINDING)
+    /// Whether `passes` on all meshes up to `level` leave an `error` of the last that the tolerance allows.
+    fn is_good_enough(&self, level: usize, passes: &[Passes], error: &ErrorParts) -> bool {
+        // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
+        let still = self.scale().is_still(&passes[passes.len() - 1].records);
+        let others = error.total().less(error.passes);
+        let allowed = allowed(self.plan.scene.solver.tolerance, error.passes);
+        self.error_is_known(passes) && (!still || level >= SHARP) && others.is_within(allowed)
+    }
+
+    /// Whether there is a mesh after `level` that is not too costly.
+    fn may_refine(&self, level: usize, passes: &[Passes], error: &ErrorParts) -> bool {
+        let tolerance = self.plan.scene.solver.tolerance;
+        let last = &passes[passes.len() - 1].statistics;
+        // A corner of an exact step is about as much work as a node.
+        let next = REFINEMENT_COST.saturating_mul(last.node_updates + last.corners);
+        // A run whose error is above 10 % is refused: spend more before that.
+        let most = if error_estimate::is_doubtful(error.total().force, tolerance) {
+            MAX_NODE_UPDATES
         } else {
-            // It may be stopped, but its share of the work is not counted.
-            self.options.progress.part(FINDING, FINDING)
+            max_node_updates(tolerance)
         };
+        next <= most && level < self.plan.levels.finest()
+    }
+
+    /// Whether `passes` show their error: on one mesh alone they do not.
+    fn error_is_known(&self, passes: &[Passes]) -> bool {
+        passes.len() > 1 || self.plan.levels.named()
+    }
+
+    /// Jumps that take at most their share of the tolerance.
+    fn jumps(&self, statistics: &mut Statistics) -> Result<Found, Error> {
+        let progress = self.options.progress.part(0.0, FINDING);
         let simulate =
             |level, jumping: &Jumping<'_>, progress| self.simulate(level, Some(jumping), progress, false);
-        let (found, work) = jumps::find(self.plan, self.scale(), share, before, progress, simulate)?;
+        let (found, work) = jumps::find(self.plan, self.scale(), progress, simulate)?;
         *statistics += work;
         Ok(found)
     }
@@ -302,23 +211,27 @@ impl Refinement<'_> {
         &self,
         level: usize,
         way: Option<&Jumping<'_>>,
-        known: Option<(usize, &Passes)>,
+        found: Option<&Found>,
+        progress: Progress<'_>,
     ) -> Result<Vec<Passes>, Error> {
         (0..level)
-            .filter(|&coarser| self.levels.mesh(coarser).is_ok())
-            .map(|coarser| match known {
-                Some((level, passes)) if level == coarser => Ok(Passes {
+            .filter(|&coarser| self.plan.levels.mesh(coarser).is_ok())
+            .map(|coarser| match found {
+                Some(found) if found.level == coarser => Ok(Passes {
                     // Their work is counted already.
                     statistics: Statistics::default(),
-                    ..passes.clone()
+                    ..found.passes.clone()
                 }),
-                _ => self.simulate(coarser, way, Progress::default(), false),
+                _ => {
+                    let (begin, end) = (share_below(coarser, level), share_below(coarser + 1, level));
+                    self.simulate(coarser, way, progress.part(begin, end), false)
+                }
             })
             .filter(|passes| !matches!(passes, Err(Error::Cable(CableError::CoarseMesh { .. }))))
             .collect()
     }
 
-    /// All passes of `scene` on `mesh`, unseen.
+    /// All passes of `scene` on `mesh`, without stages and progress.
     fn task<'b>(&'b self, scene: &'b Scene, mesh: Mesh) -> Task<'b> {
         Task {
             scene,
@@ -327,39 +240,37 @@ impl Refinement<'_> {
             mesh,
             stages: &[],
             progress: Progress::default(),
-            seen: None,
         }
     }
 
-    /// All passes on `level`; `shown` ones report their stages and where they lead.
+    /// All passes on `level`; those that may be the `answer` report their stages and where they lead.
     fn simulate(
         &self,
         level: usize,
         way: Option<&Jumping<'_>>,
         progress: Progress<'_>,
-        shown: bool,
+        answer: bool,
     ) -> Result<Passes, Error> {
-        let mut task = self.task(self.plan.scene, self.levels.mesh(level)?);
+        let levels = &self.plan.levels;
+        let mut task = self.task(self.plan.scene, levels.mesh(level)?);
         task.progress = progress;
-        task.seen = self
-            .options
-            .underway
-            .map(|underway| underway.on_mesh(task.mesh, shown));
-        if shown {
+        if answer {
             task.stages = self.options.stages;
         }
-        let affordable = MAX_NODE_UPDATES as f64 / self.levels.node_updates(level, 1);
+        let affordable = MAX_NODE_UPDATES as f64 / levels.node_updates(level, 1);
         let way = way.map(|way| Jumping {
-            beyond: shown,
+            beyond: answer,
             most_passes: affordable as u64,
             ..*way
         });
-        if let (Some(_), Some(way)) = (self.levels.known(), &way) {
-            // Nobody looks at every pass.
-            return task.with_jumps(way, &listed(task.scene.traffic.passes));
-        }
         task.carry_out(way.as_ref())
     }
+}
+
+/// The work on all levels below `coarser` as a share of that on all up to `level`, each of which costs four times the one before.
+fn share_below(coarser: usize, level: usize) -> f64 {
+    let all_below = |level: usize| (REFINEMENT_COST as f64).powi(level as i32) - 1.0;
+    all_below(coarser) / all_below(level + 1)
 }
 
 fn work_of(passes: &[Passes]) -> Statistics {

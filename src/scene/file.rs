@@ -120,6 +120,15 @@ impl SceneFile {
         found.map(|place| self.document.locate(place))
     }
 
+    /// Whether the file or an override gives `key` a value.
+    #[cfg(feature = "sweep")]
+    pub(crate) fn names(&self, key: &str) -> bool {
+        let root = Some(&self.document.root);
+        key.split('.')
+            .fold(root, |node, segment| child(node?, segment))
+            .is_some()
+    }
+
     /// Numbers without a unit that someone may have meant in another one.
     pub fn unit_slips(&self) -> Vec<UnitSlip> {
         slips::unit_slips(&self.document)

@@ -5,13 +5,10 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use rayon::prelude::*;
-
 use super::error::SweepError;
 use super::evaluator::Evaluator;
 use super::grid::Sweep;
 use super::options::{Evaluate, SweepOptions};
-use super::pilots::Sampling;
 use super::row::{Answer, PointError, Row};
 use crate::{Error, Progress, Run, RunOptions, Scene, finite};
 
@@ -54,20 +51,16 @@ impl Sweep {
         let within = |_| report().map_or(ControlFlow::Break(()), ControlFlow::Continue);
         let within = Progress::new(&within);
         report().map_err(|_| SweepError::Stopped)?;
-        let samplings = match evaluate {
-            None => self.samplings(finished, within)?,
-            Some(_) => Vec::new(),
+        let options = RunOptions {
+            progress: within,
+            ..RunOptions::default()
         };
         let next = AtomicUsize::new(0);
         let failure = Mutex::new(None);
         let one = |rows: &Evaluator, index: usize| {
-            let sampling = samplings
-                .get(index / self.samples.count.max(1))
-                .copied()
-                .flatten();
             let row = self.row(index, |scene| match evaluate {
                 Some(evaluate) => evaluate(scene),
-                None => run(rows, scene, sampling, within),
+                None => rows.run_scene(scene, &options),
             })?;
             keep(row)?;
             done.fetch_add(1, Ordering::Relaxed);
@@ -95,30 +88,6 @@ impl Sweep {
             .map_or(Ok(()), Err)
     }
 
-    /// How the samples of each row are computed; nothing where there are no rows with samples.
-    fn samplings(
-        &self,
-        finished: &[bool],
-        progress: Progress<'_>,
-    ) -> Result<Vec<Option<Sampling>>, SweepError> {
-        if !self.by_row || self.samples.count == 0 {
-            return Ok(Vec::new());
-        }
-        finished
-            .par_chunks(self.samples.count)
-            .enumerate()
-            .map(|(row, finished)| {
-                if finished.iter().all(|done| *done) {
-                    return Ok(None);
-                }
-                let pilots = || Sampling::of(self, row, progress);
-                // A panic comes again at the samples, and is their answer.
-                catch_unwind(AssertUnwindSafe(pilots)).unwrap_or(Ok(None))
-            })
-            .collect::<Result<_, Error>>()
-            .map_err(|_| SweepError::Stopped)
-    }
-
     /// Computes one point. Whatever goes wrong there is its answer.
     fn row(&self, index: usize, run: impl Fn(&Scene) -> Result<Run, Error>) -> Result<Row, SweepError> {
         let compute = || -> Result<Answer, Error> {
@@ -132,30 +101,5 @@ impl Sweep {
             Err(_) => Err(PointError::Failed("the computation broke off".into())),
         };
         Ok(Row { index, outcome })
-    }
-}
-
-/// Runs a scene, as its row's pilots say where there are any.
-fn run(
-    rows: &Evaluator,
-    scene: &Scene,
-    sampling: Option<Sampling>,
-    progress: Progress<'_>,
-) -> Result<Run, Error> {
-    let options = RunOptions {
-        progress,
-        ..RunOptions::default()
-    };
-    let Some(Sampling { tolerance, mesh }) = sampling else {
-        return rows.run_scene(scene, None, &options);
-    };
-    let mut scene = scene.clone();
-    scene.solver.tolerance = tolerance;
-    match rows.run_scene(&scene, mesh, &options) {
-        // Too coarse for this sample.
-        Err(error) if mesh.is_some() && !matches!(error, Error::Stopped) => {
-            rows.run_scene(&scene, None, &options)
-        }
-        run => run,
     }
 }

@@ -1,10 +1,8 @@
 //! One row after the other: a scene with some keys set, and its answer.
 
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::Instant;
 
 use crate::ground::{Ground, road};
-use crate::plan::KnownMesh;
 use crate::run::run_over;
 use crate::scene::{self, TrafficVehicle};
 use crate::{Error, Run, RunOptions, Scene, SceneFile};
@@ -77,18 +75,12 @@ impl Evaluator {
     /// [`Error`] with the line and the key at fault where the row is wrong, or the computation fails.
     pub fn run<T: AsRef<str>>(&self, overrides: &[T], options: &RunOptions<'_>) -> Result<Run, Error> {
         let file = self.file.with(overrides)?;
-        self.run_scene(&file.scene()?, None, options)
+        self.run_scene(&file.scene()?, options)
             .map_err(|error| error.located(&file))
     }
 
-    /// The run of a scene, on the ground of the one before where that is the same, and on the `mesh` whose error is known if there is one.
-    pub(super) fn run_scene(
-        &self,
-        scene: &Scene,
-        mesh: Option<KnownMesh>,
-        options: &RunOptions<'_>,
-    ) -> Result<Run, Error> {
-        let begun = Instant::now();
+    /// The run of a scene, on the ground of the one before if that is the same.
+    pub(super) fn run_scene(&self, scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
         if options.ground.is_some() {
             return crate::run_with(scene, options);
         }
@@ -100,7 +92,7 @@ impl Evaluator {
             None => Arc::new(Ground::new(scene, None, site.numbers[2])?),
         };
         *self.last() = Some((site, Arc::clone(&ground)));
-        run_over(scene, ground, mesh, options, begun)
+        run_over(scene, ground, options)
     }
 
     fn last(&self) -> std::sync::MutexGuard<'_, Option<(Site, Arc<Ground>)>> {

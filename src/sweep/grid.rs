@@ -13,6 +13,10 @@ use crate::{Scene, SceneFile};
 /// Most points of a sweep.
 const MOST_POINTS: usize = 10_000_000;
 
+/// Tolerance of samples, whose scatter is far larger.
+pub const SAMPLE_TOLERANCE: f64 = 0.02;
+const TOLERANCE: &str = "solver.tolerance";
+
 /// How drawn keys are sampled.
 ///
 /// A sample's value follows from the seed, the row (its `id`, or else its number), the key and the number of the sample alone.
@@ -154,13 +158,24 @@ impl Sweep {
         values
     }
 
-    /// The scene of a point.
+    /// The scene of a point. Samples are computed to [`SAMPLE_TOLERANCE`], unless the scene or an axis names `solver.tolerance`.
     ///
     /// # Errors
     ///
     /// [`SceneError`] where its values are not valid.
     pub fn scene(&self, index: usize) -> Result<Scene, SceneError> {
-        self.file_at(index)?.scene()
+        let file = self.file_at(index)?;
+        let mut scene = file.scene()?;
+        if self.samples.count > 0 && !file.names(TOLERANCE) {
+            scene.solver.tolerance = SAMPLE_TOLERANCE;
+        }
+        Ok(scene)
+    }
+
+    /// Whether its points are samples to [`SAMPLE_TOLERANCE`], as neither the scene nor an axis names `solver.tolerance`.
+    pub fn has_sample_tolerance(&self) -> bool {
+        let is_varied = self.axes.iter().any(|axis| axis.key == TOLERANCE);
+        self.samples.count > 0 && !is_varied && !self.file.names(TOLERANCE)
     }
 
     /// The scene file of a point.

@@ -43,7 +43,6 @@ mod numbers;
 mod options;
 #[cfg(feature = "parquet")]
 mod parquet;
-mod pilots;
 mod row;
 mod rows;
 mod run;
@@ -58,7 +57,7 @@ pub use bands::{Band, Quantiles};
 pub use distribution::Distribution;
 pub use error::SweepError;
 pub use evaluator::Evaluator;
-pub use grid::{Samples, Sweep};
+pub use grid::{SAMPLE_TOLERANCE, Samples, Sweep};
 pub use list::read as read_rows;
 #[cfg(feature = "plot")]
 pub use map::{MapValue, SweepMap};

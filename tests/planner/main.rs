@@ -2,7 +2,5 @@
 
 mod choices;
 mod cost;
-mod forecast;
 mod honest;
 mod scenes;
-mod vehicle_steps;
