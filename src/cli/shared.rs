@@ -289,7 +289,7 @@ impl OutputArguments {
             Some(file) if file == Path::new(STDOUT) => Table::StandardOutput,
             Some(file) => {
                 let output = files.output(file, kind);
-                if has_ending(file, &["xlsx", "xls", "ods", "parquet"]) && !is_taken(&output) {
+                if has_ending(file, &["xlsx", "xls", "ods"]) && !is_taken(&output) {
                     return Err(Failure::Usage {
                         argument: "--csv",
                         found: file.display().to_string(),

@@ -10,7 +10,6 @@ pub enum Kind {
     Motion,
     Fit,
     Sweep,
-    Parquet,
     Figure,
     Page,
     /// Workbooks of Excel.
@@ -26,14 +25,7 @@ pub enum Kind {
 }
 
 /// Kinds that are recognised by the beginning of a file.
-const RECOGNISED: [Kind; 6] = [
-    Kind::Passes,
-    Kind::Motion,
-    Kind::Fit,
-    Kind::Sweep,
-    Kind::Parquet,
-    Kind::Figure,
-];
+const RECOGNISED: [Kind; 5] = [Kind::Passes, Kind::Motion, Kind::Fit, Kind::Sweep, Kind::Figure];
 /// What the head of a page of ours holds.
 pub const GENERATOR: &str = "<meta name=\"generator\" content=\"creepage";
 
@@ -53,7 +45,6 @@ impl Kind {
             Self::Motion => "table of `creepage profile`",
             Self::Fit => "table of `creepage calibrate`",
             Self::Sweep => "table of `creepage sweep`",
-            Self::Parquet => "Parquet file",
             Self::Figure => "SVG figure",
             Self::Page => "page of `creepage report`",
             #[cfg(feature = "xlsx")]
@@ -105,7 +96,6 @@ impl Kind {
     /// Whether a file that begins with `head` is of this kind.
     pub fn is_kind_of(self, head: &[u8]) -> bool {
         match self {
-            Self::Parquet => head.starts_with(b"PAR1"),
             Self::Figure => begins(head, b"<svg"),
             Self::Page => {
                 begins(head, b"<!doctype html") && String::from_utf8_lossy(head).contains(GENERATOR)
@@ -205,14 +195,13 @@ mod tests {
 
     #[test]
     fn what_looks_alike_is_told_apart() {
-        let cases: [(&[u8], &str); 11] = [
+        let cases: [(&[u8], &str); 10] = [
             (b"pass,force_n\n1,2\n", "a table of something else"),
             (b"pass;force\n1;2\n", "a table of something else"),
             (b"# note\n[duct]\nlength = 1\n", "a scene"),
             (b"dear diary\n", "a text"),
             (b"\0\x01", "binary data"),
             (b"\xff\xfe", "binary data"),
-            (b"PAR1...", "a Parquet file"),
             (b"<svg xmlns", "an SVG figure"),
             (b"<!DOCTYPE html><title>else</title>", "a page of HTML"),
             ("caf\u{e9}".as_bytes().split_at(4).0, "a text"),

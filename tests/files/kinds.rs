@@ -6,14 +6,13 @@ use super::common::{Folder, PRECIOUS, READINGS, SCENE, WRITERS, assert_complete,
 fn what_is_of_another_kind_is_kept_unless_forced() {
     let folder = Folder::new("kinds");
     let workbook = include_bytes!("../data/readings.xlsx");
-    let foreign: [(&[u8], &str); 9] = [
+    let foreign: [(&[u8], &str); 8] = [
         (workbook, "an Excel workbook"),
         (b"PK\x03\x04\x14\0", "a ZIP archive"),
         (PRECIOUS.as_bytes(), "a text"),
         (READINGS.as_bytes(), "a table of something else"),
         (SCENE.as_bytes(), "a scene"),
         (b"\x7fELF\x00", "binary data"),
-        (b"PAR1xxxxPAR1", "a Parquet file"),
         (
             b"<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>",
             "an SVG figure",
@@ -24,10 +23,7 @@ fn what_is_of_another_kind_is_kept_unless_forced() {
         let name = format!("target.{ending}");
         let command = [arguments, &[&*name]].concat();
         for (content, looks) in foreign {
-            if matches!(
-                (ending, looks),
-                ("parquet", "a Parquet file") | ("svg", "an SVG figure")
-            ) {
+            if (ending, looks) == ("svg", "an SVG figure") {
                 continue;
             }
             folder.write(&name, content);
