@@ -58,9 +58,7 @@ def test_more_wrong_arguments_are_told(quick_scene, study, tmp_path):
     with pytest.raises(creepage.InputError, match="nowhere.csv"):
         creepage.calibrate(UPPER, "nowhere.csv")
     with pytest.raises(creepage.InputError, match="found seed = -1"):
-        creepage.calibrate(UPPER, ducts(1), seed=-1)
-    with pytest.raises(creepage.InputError, match="found bootstrap = -1"):
-        creepage.calibrate(UPPER, ducts(1), bootstrap=-1)
+        creepage.sweep(UPPER, ducts(1), samples=1, seed=-1)
     for rows in (5, None, [{"duct.depth": 1}]):
         with pytest.raises(creepage.InputError, match="__arrow_c_stream__"):
             creepage.study(quick_scene, rows, tmp_path / "other")

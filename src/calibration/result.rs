@@ -19,7 +19,7 @@ pub struct Calibrated {
     pub residuals: Vec<ResidualSize>,
     /// Share of the forces' variance that the model explains; null where they do not vary.
     pub r_squared: Option<f64>,
-    /// Runs of the model, all meshes together, without those of the bootstrap.
+    /// Runs of the model, all meshes together.
     pub evaluations: usize,
     /// What the user should know before trusting the answer.
     pub warnings: Vec<String>,
@@ -37,8 +37,6 @@ pub struct Calibrated {
     pub model_error: ModelErrorEstimate,
     /// Readings and what the calibrated model says to them.
     pub fit: Vec<FittedReading>,
-    /// Spread of refits to data drawn anew, where it was asked for.
-    pub bootstrap: Option<BootstrapSummary>,
 }
 
 /// A fitted parameter.
@@ -155,21 +153,4 @@ impl std::fmt::Display for ResidualSize {
             count => write!(f, " of {} readings, {count} left out", self.readings),
         }
     }
-}
-
-/// Spread of refits to data drawn anew.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BootstrapSummary {
-    /// Refits that succeeded and that failed.
-    pub replicates: usize,
-    /// Refits that failed.
-    pub failed: usize,
-    /// Seed of the generator.
-    pub seed: u64,
-    /// Standard deviation of each parameter.
-    pub standard_errors: Vec<f64>,
-    /// Percentile interval of each parameter; null is an end at a bound.
-    pub interval_95: Vec<[Option<f64>; 2]>,
-    /// Model runs.
-    pub evaluations: usize,
 }
