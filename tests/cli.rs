@@ -1751,12 +1751,8 @@ fn run_in(folder: &Path, line: &str) -> String {
             _ => vec![part],
         })
         .collect();
-    // Completions are installed below a home.
     let output = command(&arguments)
         .current_dir(folder)
-        .env("HOME", folder)
-        .env_remove("XDG_DATA_HOME")
-        .env_remove("XDG_CONFIG_HOME")
         .output()
         .expect("the command");
     let errors = String::from_utf8_lossy(&output.stderr);

@@ -17,9 +17,6 @@ pub enum Kind {
     RunBook,
     #[cfg(feature = "xlsx")]
     SweepBook,
-    /// What completes commands in a shell.
-    #[cfg(feature = "cli")]
-    Completions,
     /// A new scene: never replaced but by force, for it is its author's work.
     Scene,
 }
@@ -28,10 +25,6 @@ pub enum Kind {
 const RECOGNISED: [Kind; 5] = [Kind::Passes, Kind::Motion, Kind::Fit, Kind::Sweep, Kind::Figure];
 /// What the head of a page of ours holds.
 pub const GENERATOR: &str = "<meta name=\"generator\" content=\"creepage";
-
-/// What stands at the beginning of a script of ours.
-#[cfg(feature = "cli")]
-pub const COMPLETIONS: &str = "# Written by `creepage completions`, which may replace it.";
 /// Where the name of a ZIP archive's first part stands.
 #[cfg(feature = "xlsx")]
 const NAME: usize = 30;
@@ -51,8 +44,6 @@ impl Kind {
             Self::RunBook => "workbook of `creepage run` as it wrote it",
             #[cfg(feature = "xlsx")]
             Self::SweepBook => "workbook of `creepage sweep` as it wrote it",
-            #[cfg(feature = "cli")]
-            Self::Completions => "script of `creepage completions`",
             Self::Scene => "empty file",
         }
     }
@@ -102,12 +93,6 @@ impl Kind {
             }
             #[cfg(feature = "xlsx")]
             Self::RunBook | Self::SweepBook => self.mark().is_some_and(|mark| is_own_book(head, mark)),
-            #[cfg(feature = "cli")]
-            Self::Completions => {
-                // Zsh wants a line of its own before.
-                let lines = head.split(|&byte| byte == b'\n').take(2);
-                lines.into_iter().any(|line| line == COMPLETIONS.as_bytes())
-            }
             Self::Scene => false,
             Self::Passes | Self::Motion | Self::Fit | Self::Sweep => {
                 let line = head.split(|&byte| byte == b'\n').next().unwrap_or_default();

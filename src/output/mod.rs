@@ -20,8 +20,6 @@ mod temporary;
 
 pub use error::OutputError;
 pub(crate) use files::Files;
-#[cfg(feature = "cli")]
-pub(crate) use kind::COMPLETIONS;
 pub(crate) use kind::Kind;
 pub(crate) use target::{Draft, Output};
 #[cfg(all(feature = "cli", unix))]

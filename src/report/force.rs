@@ -5,7 +5,7 @@ use super::content::Report;
 use super::ends::{self, OTHER};
 use super::figure::{Passes, along_duct, figure};
 use super::html::Html;
-use super::quantity::{Shown, count, significant};
+use super::quantity::{Shown, count};
 use crate::answer::{after, in_rows, table_rows};
 use crate::figure::{Axis, Chart, Reference, Series};
 use crate::{CableEnd, ForceProfile, Limited, PassRecord, Place, Units};

@@ -1,6 +1,6 @@
 //! What is not the command's own is replaced only by force.
 
-use super::common::{Folder, PRECIOUS, READINGS, SCENE, WRITERS, assert_complete, creepage, said};
+use super::common::{Folder, PRECIOUS, READINGS, SCENE, WRITERS, assert_complete, said};
 
 #[test]
 fn what_is_of_another_kind_is_kept_unless_forced() {
@@ -87,92 +87,12 @@ fn a_workbook_that_somebody_has_saved_is_theirs() {
     folder.refused(&run, "found an Excel workbook, which would be lost");
 }
 
-/// Variables of the environment.
-type Variables<'a> = &'a [(&'a str, &'a str)];
-
 #[test]
-fn completions_come_where_the_shell_looks_and_replace_nothing_else() {
+fn the_shell_understands_its_script() {
     let folder = Folder::new("completions");
-    let home = folder.path("home");
-    let install = |shell: &str, variables: &[(&str, &str)], force: bool| {
-        let mut arguments = vec!["completions", shell, "--install"];
-        arguments.extend(force.then_some("--force"));
-        let mut command = folder.command(creepage(), &arguments);
-        command.env_remove("XDG_DATA_HOME").env_remove("XDG_CONFIG_HOME");
-        command.env("HOME", &home).envs(variables.iter().copied());
-        command.output().expect("the command starts")
-    };
-    let data = folder.path("data").to_str().expect("UTF-8").to_owned();
-    let data_home = [("XDG_DATA_HOME", &*data)];
-    let places: [(&str, Variables<'_>, &str); 5] = [
-        (
-            "bash",
-            &[],
-            "home/.local/share/bash-completion/completions/creepage",
-        ),
-        ("zsh", &[], "home/.local/share/zsh/site-functions/_creepage"),
-        ("fish", &[], "home/.config/fish/completions/creepage.fish"),
-        ("bash", &data_home, "data/bash-completion/completions/creepage"),
-        // A relative folder is none.
-        (
-            "zsh",
-            &[("XDG_DATA_HOME", "here")],
-            "home/.local/share/zsh/site-functions/_creepage",
-        ),
-    ];
-    for (shell, variables, place) in places {
-        // Its own is replaced.
-        for _ in 0..2 {
-            let output = install(shell, variables, false);
-            assert_eq!(output.status.code(), Some(0), "{}", said(&output));
-            let told = String::from_utf8(output.stdout).expect("UTF-8");
-            assert!(
-                told.contains(folder.path(place).to_str().expect("UTF-8")),
-                "{told}"
-            );
-        }
-        let script = String::from_utf8(folder.read(place)).expect("UTF-8");
-        let printed = folder.succeeds(&["completions", shell]).stdout;
-        assert_eq!(script.as_bytes(), printed);
-        if shell == "zsh" {
-            assert!(script.starts_with("#compdef creepage\n"));
-        }
-        // What somebody else wrote is kept.
-        folder.write(place, PRECIOUS);
-        let output = install(shell, variables, false);
-        assert_eq!(output.status.code(), Some(2));
-        assert!(
-            said(&output).contains("found a text, which would be lost"),
-            "{}",
-            said(&output)
-        );
-        assert_eq!(folder.read(place), PRECIOUS.as_bytes());
-        assert_eq!(install(shell, variables, true).status.code(), Some(0));
-        assert_eq!(folder.read(place), script.as_bytes());
-    }
-    assert!(!folder.path("here").exists());
-    for shell in ["elvish", "powershell"] {
-        let output = install(shell, &[], false);
-        assert_eq!(output.status.code(), Some(2));
-        assert!(
-            said(&output).contains("allowed: bash, zsh or fish"),
-            "{}",
-            said(&output)
-        );
-    }
-    let nowhere = install("bash", &[("HOME", "")], false);
-    assert!(
-        said(&nowhere).contains("neither XDG_DATA_HOME nor HOME"),
-        "{}",
-        said(&nowhere)
-    );
-
-    // The shell that is there everywhere understands its script.
-    let script = folder.path("home/.local/share/bash-completion/completions/creepage");
-    let line = "source \"$1\"; complete -p creepage; COMP_WORDS=(creepage ru) COMP_CWORD=1; _creepage creepage ru creepage; echo \"${COMPREPLY[@]}\"";
-    let bash = folder
-        .command("bash", &["-c", line, "bash", script.to_str().expect("UTF-8")])
-        .output();
+    folder.write("script", folder.succeeds(&["completions", "bash"]).stdout);
+    let line = "source ./script; complete -p creepage; COMP_WORDS=(creepage ru) COMP_CWORD=1; _creepage creepage ru creepage; echo \"${COMPREPLY[@]}\"";
+    let bash = folder.command("bash", &["-c", line]).output();
     let bash = bash.expect("bash starts");
     let told = String::from_utf8_lossy(&bash.stdout);
     assert!(
