@@ -175,7 +175,7 @@ run SCENE --limit-force downstrem=2kN | found `downstrem` (did you mean `downstr
 run SCENE --limit-force clmap=2kN | found `clmap` (did you mean `clamp`?)
 run SCENE --limit-force downstream:2kN | a place stands before `=`: downstream=2kN
 run SCENE --limit-force 2t | `t` is not a known unit (did you mean `tf`?)
-rnu SCENE | a similar subcommand exists: 'run'
+prfile SCENE | a similar subcommand exists: 'profile'
 design SCENE --limit-force 2kN --at downstrm | found `downstrm` (did you mean `downstream`?); allowed: upstream
 design SCENE --limit-force 2kN --at downstream+upstrem | (did you mean `upstream`?)
 design SCENE --limit-force 2kN --at -5m | --at: found -5 m; allowed: a position in the duct, from 0 m to 180 m

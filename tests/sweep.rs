@@ -323,44 +323,58 @@ fn an_answer_that_is_no_number_is_a_failing_point() {
     }
 }
 
+/// An output that is a link to a file which ends otherwise.
+#[cfg(unix)]
+fn linked(name: &str) -> (PathBuf, PathBuf) {
+    let output = output(name);
+    let notes = output.with_file_name(format!("{name} notes"));
+    for file in [&output, &notes] {
+        let _ = fs::remove_file(file);
+    }
+    std::os::unix::fs::symlink(&notes, &output).unwrap();
+    (output, notes)
+}
+
+#[cfg(unix)]
 #[test]
-fn a_file_of_something_else_is_kept_unless_forced() {
-    let output = output("foreign");
+fn a_file_that_ends_otherwise_is_kept_unless_forced() {
+    let (output, notes) = linked("foreign");
     let sweep = sweep(&["duct.length=10m,20m"]);
     let evaluate = formula(|_| 1.0);
-    fs::write(&output, "pass,force_n\n1,2\n").unwrap();
+    fs::write(&notes, "notes\n").unwrap();
     let error = run_by(&sweep, &output, 1, &evaluate).unwrap_err();
     assert!(
         matches!(error, SweepError::Output(_)) && error.is_bad_input(),
         "{error}"
     );
-    assert_eq!(fs::read(&output).unwrap(), b"pass,force_n\n1,2\n");
-    assert!(!journal(&output).exists());
+    assert_eq!(fs::read(&notes).unwrap(), b"notes\n");
+    assert!(!journal(&notes).exists());
     let options = SweepOptions {
         evaluate: Some(&evaluate),
         force: true,
         ..SweepOptions::default()
     };
     sweep.run(&output, &options).unwrap();
-    assert_eq!(table(&output).1.len(), 2);
+    assert_eq!(table(&notes).1.len(), 2);
 }
 
+#[cfg(unix)]
 #[test]
 fn what_comes_to_the_output_meanwhile_is_kept() {
-    let output = output("meanwhile");
+    let (output, notes) = linked("meanwhile");
     let sweep = sweep(&["duct.length=10m,20m"]);
     let force = formula(|_| 1.0);
     let evaluate = |scene: &Scene| {
-        fs::write(&output, "notes\n").unwrap();
+        fs::write(&notes, "notes\n").unwrap();
         force(scene)
     };
     assert!(matches!(
         run_by(&sweep, &output, 1, &evaluate),
         Err(SweepError::Output(_))
     ));
-    assert_eq!(fs::read(&output).unwrap(), b"notes\n");
+    assert_eq!(fs::read(&notes).unwrap(), b"notes\n");
     // With another place for the notes nothing is computed again.
-    fs::remove_file(&output).unwrap();
+    fs::remove_file(&notes).unwrap();
     assert_eq!(run_by(&sweep, &output, 1, &force).unwrap().resumed, 2);
 }
 

@@ -13,7 +13,6 @@ use crate::Readings;
 use crate::calibration::{
     CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, ResidualSize, SHARES, Series, Unknown,
 };
-use crate::output::Kind;
 use crate::scene::{Dimension, FrictionLaw};
 use crate::shown::{ROWS, four_digits, percent};
 
@@ -123,7 +122,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         .collect::<Result<Vec<_>, _>>()?;
     let read = files.iter().flat_map(|(scene, data)| [&**scene, &**data]);
     let mut files = arguments.output.files(read);
-    let destination = arguments.output.destination(Kind::Fit, &mut files)?;
+    let destination = arguments.output.destination(&mut files)?;
     let deflection = arguments.deflection.zip(arguments.deflection_sigma);
     let options = CalibrateOptions {
         unknowns: arguments.fit.clone(),

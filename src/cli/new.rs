@@ -7,7 +7,6 @@ use super::failure::Failure;
 use super::shared::Force;
 use super::terminal;
 use crate::Scene;
-use crate::output::{Kind, OutputError};
 use crate::template::{Template, TemplateGround};
 
 #[derive(Debug, clap::Args)]
@@ -64,20 +63,18 @@ pub struct Arguments {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let name = arguments.file.display().to_string();
-    let existing = |error| match error {
-        OutputError::OtherKind { .. } => exists(&name),
-        error => error.into(),
-    };
-    let file = arguments
-        .force
-        .files([])
-        .output(&arguments.file, Kind::Scene)
-        .map_err(existing)?;
+    let file = arguments.force.files([]).output(&arguments.file, "toml")?;
+    // Whoever made a scene keeps it.
+    if !arguments.force.force && file.path().is_file() {
+        return Err(Failure::Usage {
+            argument: "FILE",
+            found: format!("{name}, which exists"),
+            allowed: "the name of a new file: nothing is overwritten without --force".into(),
+        });
+    }
     let text = arguments.template().to_toml(&name)?;
     crate::check(&Scene::from_toml(&name, &text)?)?;
-    // Whoever made the file meanwhile keeps it.
-    file.write(|out| out.write_all(text.as_bytes()))
-        .map_err(existing)?;
+    file.write(|out| out.write_all(text.as_bytes()))?;
     writeln!(
         terminal::out(),
         "{name} is written; to compute: creepage run {name}"
@@ -105,13 +102,5 @@ impl Arguments {
             speed: given(&self.speed, usual.speed),
             passes: given(&self.passes, usual.passes),
         }
-    }
-}
-
-fn exists(name: &str) -> Failure {
-    Failure::Usage {
-        argument: "FILE",
-        found: format!("{name}, which exists"),
-        allowed: "the name of a new file: nothing is overwritten without --force".into(),
     }
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::{signals, terminal};
-use crate::output::{Files, Kind, Output, OutputError};
+use crate::output::{Files, Output, OutputError};
 use crate::scene::{DAYS_PER_YEAR, PER_DAY, Range, YEARS};
 use crate::{Error, Scene, SceneFile, finite};
 
@@ -141,8 +141,7 @@ pub struct Json {
 /// Whether files that are not this command's own are replaced.
 #[derive(Debug, clap::Args)]
 pub struct Force {
-    /// Overwrite the file whatever it contains. Without it, only an older output of the same command is overwritten (by `new`, no file).
-    /// Input files never are
+    /// Overwrite any file. Without it, only a file whose name ends as the output's does is overwritten (by `new`, none). Input files never are
     #[arg(long)]
     pub force: bool,
 }
@@ -283,12 +282,12 @@ impl OutputArguments {
     }
 
     /// Makes sure before hours of computing that the table can be written; an older one stays as it is till then.
-    pub fn destination(&self, kind: Kind, files: &mut Files) -> Result<Destination, Failure> {
+    pub fn destination(&self, files: &mut Files) -> Result<Destination, Failure> {
         let table = match &self.csv {
             None => Table::None,
             Some(file) if file == Path::new(STDOUT) => Table::StandardOutput,
             Some(file) => {
-                let output = files.output(file, kind);
+                let output = files.output(file, "csv");
                 if has_ending(file, &["xlsx", "xls", "ods"]) && !is_taken(&output) {
                     return Err(Failure::Usage {
                         argument: "--csv",

@@ -8,8 +8,6 @@ use super::progress::{HowFar, Now, stopped, watched};
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
 use crate::Units;
-#[cfg(feature = "plot")]
-use crate::output::Kind;
 use crate::sweep::{Axis, Band, Format, Samples, Sweep, SweepOptions, SweepSummary};
 #[cfg(feature = "plot")]
 use crate::sweep::{MapValue, Row, SweepMap};
@@ -89,12 +87,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut files = arguments
         .force
         .files(read.chain(tables.iter().map(PathBuf::as_path)));
-    files.output(&arguments.out, Format::of(&arguments.out)?.kind())?;
+    files.output(&arguments.out, Format::of(&arguments.out)?.ending())?;
     #[cfg(feature = "plot")]
     let map = match &arguments.map {
         Some(file) => {
             let map = SweepMap::new(&sweep, arguments.map_of)?;
-            Some((files.output(file, Kind::Figure)?, map))
+            Some((files.output(file, "svg")?, map))
         }
         None => None,
     };

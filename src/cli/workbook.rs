@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::shared::{STDOUT, has_ending, is_taken};
-use crate::output::{Files, Kind, Output};
+use crate::output::{Files, Output};
 use crate::{Run, SceneFile, Units, Verdict, finite, workbook};
 
 #[derive(Debug, clap::Args)]
@@ -23,7 +23,7 @@ impl WorkbookArguments {
         let Some(path) = &self.xlsx else {
             return Ok(Destination(None));
         };
-        let output = files.output(path, Kind::RunBook);
+        let output = files.output(path, "xlsx");
         if path.extension().is_some() && !has_ending(path, &["xlsx"]) && !is_taken(&output) {
             return Err(Failure::Usage {
                 argument: "--xlsx",

@@ -51,7 +51,7 @@ impl Sweep {
                 allowed: "at most 1048574, as many as Excel has rows; more in .csv",
             });
         }
-        let output = Files::reading([], options.force).output(output, format.kind())?;
+        let output = Files::reading([], options.force).output(output, format.ending())?;
         let mut beside = output.path().as_os_str().to_owned();
         beside.push(".journal");
         let mut journal = Journal::open(beside.into(), self.name(), self.count())?;

@@ -7,7 +7,7 @@ use super::error::SweepError;
 use super::numbers::si;
 use super::sink::{Cell, Column, Sink};
 use crate::SceneFile;
-use crate::output::{self, Draft};
+use crate::output::Draft;
 
 /// Kind of the table file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,12 +45,12 @@ impl Format {
         }
     }
 
-    /// What a file of this format is.
-    pub fn kind(self) -> output::Kind {
+    /// What the names of its files end in.
+    pub fn ending(self) -> &'static str {
         match self {
-            Self::Csv => output::Kind::Sweep,
+            Self::Csv => "csv",
             #[cfg(feature = "xlsx")]
-            Self::Xlsx => output::Kind::SweepBook,
+            Self::Xlsx => "xlsx",
         }
     }
 

@@ -4,8 +4,8 @@
 #![cfg(all(feature = "cli", feature = "plot", feature = "xlsx", unix))]
 
 mod common;
+mod endings;
 mod inputs;
-mod kinds;
 mod links;
 #[cfg(target_os = "linux")]
 mod random;
