@@ -1,259 +1,173 @@
-//! The last guard before an answer is given: every number in it is finite.
+//! Every number of an answer is finite: checked where the answer is made, so that what comes later need not look.
 //!
 //! JSON has no word for infinity, and serialises it as the `null` that stands for a missing value; a table would hold the text `inf`.
-//! So a serializer that writes nothing goes through the answer before.
 
-use std::fmt::Display;
-
-use serde::ser::{self, Serialize, Serializer};
-
-use crate::Error;
+use crate::answer::{
+    DayExtremes, DayPoint, DuctMotionSummary, ErrorEstimate, ErrorShares, ExtremePass, ForceProfile,
+    ForceRange, FrictionProfile, HeatRecord, PassRecord, PlanSummary, Quantiles, RandomSpread,
+    RestraintRange, RestraintRecord, Run, Saturation, SlipRecord, Stage,
+};
+use crate::{Error, Profile};
 
 /// Makes sure that no number of the answer is infinite or NaN.
 ///
 /// # Errors
 ///
-/// [`Error::NotFinite`] with the first such number and where it stands.
-pub fn check<T: Serialize + ?Sized>(answer: &T) -> Result<(), Error> {
-    let found = answer.serialize(Finite::default());
-    found.map_err(|NotFinite { field, value }| Error::NotFinite { field, value })
+/// [`Error::NotFinite`] with the first such number and its field.
+pub fn check<T: Numbers + ?Sized>(answer: &T) -> Result<(), Error> {
+    let mut found = Ok(());
+    answer.each("", &mut |field, value| {
+        if found.is_ok() && !value.is_finite() {
+            let field = field.to_owned();
+            found = Err(Error::NotFinite { field, value });
+        }
+    });
+    found
 }
 
-/// A number that is not finite, and the fields around it.
-#[derive(Debug, thiserror::Error)]
-#[error("{field} is {value}")]
-struct NotFinite {
-    field: String,
-    value: f64,
+/// What holds numbers: shows each with the name of its field.
+pub trait Numbers {
+    /// Shows all numbers; one that has no field of its own is called `field`.
+    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64));
 }
 
-impl NotFinite {
-    fn within(mut self, name: &str) -> Self {
-        let joined = self.field.is_empty() || self.field.starts_with('[');
-        self.field = format!("{name}{}{}", if joined { "" } else { "." }, self.field);
-        self
+impl Numbers for f64 {
+    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
+        see(field, *self);
     }
 }
 
-impl ser::Error for NotFinite {
-    fn custom<T: Display>(message: T) -> Self {
-        Self {
-            field: message.to_string(),
-            value: f64::NAN,
+impl<T: Numbers> Numbers for Option<T> {
+    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
+        if let Some(part) = self {
+            part.each(field, see);
         }
     }
 }
 
-type Checked = Result<(), NotFinite>;
-
-/// Looks at numbers, goes through the parts of lists, maps and structures, and passes everything else.
-#[derive(Default)]
-struct Finite {
-    /// How many parts without a name it has gone through.
-    count: usize,
-}
-
-impl Finite {
-    fn part<T: Serialize + ?Sized>(&mut self, name: Option<&str>, part: &T) -> Checked {
-        let index = self.count;
-        self.count += usize::from(name.is_none());
-        part.serialize(Self::default()).map_err(|found| match name {
-            Some(name) => found.within(name),
-            None => found.within(&format!("[{index}]")),
-        })
-    }
-}
-
-/// Methods that look at none of their arguments.
-macro_rules! answers {
-    ($answer:expr, $result:ty; $($method:ident($($argument:ty),*)),*) => {
-        $(fn $method(self, $(_: $argument),*) -> Result<$result, NotFinite> {
-            Ok($answer)
-        })*
-    };
-}
-
-impl Serializer for Finite {
-    type Ok = ();
-    type Error = NotFinite;
-    type SerializeSeq = Self;
-    type SerializeTuple = Self;
-    type SerializeTupleStruct = Self;
-    type SerializeTupleVariant = Self;
-    type SerializeMap = Self;
-    type SerializeStruct = Self;
-    type SerializeStructVariant = Self;
-
-    answers!(
-        (), ();
-        serialize_bool(bool), serialize_i8(i8), serialize_i16(i16), serialize_i32(i32), serialize_i64(i64),
-        serialize_u8(u8), serialize_u16(u16), serialize_u32(u32), serialize_u64(u64), serialize_char(char),
-        serialize_str(&str), serialize_bytes(&[u8]), serialize_none(), serialize_unit(),
-        serialize_unit_struct(&'static str), serialize_unit_variant(&'static str, u32, &'static str)
-    );
-    answers!(
-        Self::default(), Self;
-        serialize_seq(Option<usize>), serialize_tuple(usize), serialize_map(Option<usize>),
-        serialize_tuple_struct(&'static str, usize), serialize_struct(&'static str, usize),
-        serialize_tuple_variant(&'static str, u32, &'static str, usize),
-        serialize_struct_variant(&'static str, u32, &'static str, usize)
-    );
-
-    fn serialize_f32(self, value: f32) -> Checked {
-        self.serialize_f64(value.into())
-    }
-
-    fn serialize_f64(self, value: f64) -> Checked {
-        if value.is_finite() {
-            return Ok(());
+impl<T: Numbers> Numbers for [T] {
+    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
+        for part in self {
+            part.each(field, see);
         }
-        let field = String::new();
-        Err(NotFinite { field, value })
-    }
-
-    fn serialize_some<T: Serialize + ?Sized>(self, value: &T) -> Checked {
-        value.serialize(self)
-    }
-
-    fn serialize_newtype_struct<T: Serialize + ?Sized>(self, _: &'static str, value: &T) -> Checked {
-        value.serialize(self)
-    }
-
-    fn serialize_newtype_variant<T: Serialize + ?Sized>(
-        mut self,
-        _: &'static str,
-        _: u32,
-        variant: &'static str,
-        value: &T,
-    ) -> Checked {
-        self.part(Some(variant), value)
     }
 }
 
-/// All that has parts is gone through in the same way; the parts of some have names.
-macro_rules! goes_through {
-    ($($kind:ident $method:ident $(($name:ident))?),*) => {
-        $(impl ser::$kind for Finite {
-            type Ok = ();
-            type Error = NotFinite;
+impl<T: Numbers> Numbers for Vec<T> {
+    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
+        self.as_slice().each(field, see);
+    }
+}
 
-            fn $method<T: Serialize + ?Sized>(&mut self, $($name: &'static str,)? part: &T) -> Checked {
-                self.part([$($name)?].first().copied(), part)
-            }
+impl<T: Numbers, const N: usize> Numbers for [T; N] {
+    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
+        self.as_slice().each(field, see);
+    }
+}
 
-            fn end(self) -> Checked {
-                Ok(())
+/// The fields of records that are numbers or hold some.
+macro_rules! numbers {
+    ($($record:ty: $($field:ident)*;)*) => {
+        $(impl $crate::finite::Numbers for $record {
+            fn each(&self, _: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
+                $($crate::finite::Numbers::each(&self.$field, stringify!($field), see);)*
             }
         })*
     };
 }
+#[cfg(any(feature = "calibrate", feature = "design"))]
+pub(crate) use numbers;
 
-goes_through!(
-    SerializeSeq serialize_element, SerializeTuple serialize_element, SerializeTupleStruct serialize_field,
-    SerializeTupleVariant serialize_field, SerializeStruct serialize_field (name),
-    SerializeStructVariant serialize_field (name)
-);
-
-impl ser::SerializeMap for Finite {
-    type Ok = ();
-    type Error = NotFinite;
-
-    fn serialize_key<T: Serialize + ?Sized>(&mut self, _: &T) -> Checked {
-        Ok(())
-    }
-
-    fn serialize_value<T: Serialize + ?Sized>(&mut self, value: &T) -> Checked {
-        self.part(None, value)
-    }
-
-    fn end(self) -> Checked {
-        Ok(())
-    }
+numbers! {
+    Run: plan duct_motion passes saturation range random extremes days heat force_profile restraints stages slip_lengths error_estimate;
+    PlanSummary: node_spacing_m vehicle_step_m;
+    DuctMotionSummary: peak_longitudinal_m peak_vertical_m;
+    PassRecord: years downstream_force_n downstream_peak_n upstream_force_n upstream_peak_n max_compression_n upstream_displacement_m
+        downstream_displacement_m dissipated_energy_j downstream_least_n upstream_least_n;
+    Stage: force_profile friction;
+    FrictionProfile: vehicle_position_m positions_m friction_n_per_m slip_lengths;
+    ExtremePass: after restraints_n;
+    RestraintRecord: position_m stiffness_n_per_m force_n after_passes_n;
+    SlipRecord: forward_m backward_m;
+    Saturation: force_n downstream_force_n upstream_force_n;
+    ForceRange: downstream_min_n downstream_max_n upstream_min_n upstream_max_n;
+    RandomSpread: downstream upstream;
+    Quantiles: q05_n q50_n q95_n max_n;
+    ErrorEstimate: relative parts;
+    ErrorShares: mesh ground inertia road passes temperature law movement;
+    ForceProfile: positions_m force_n;
+    DayExtremes: downstream_max_n downstream_min_n upstream_max_n upstream_min_n max_compression_n max_tension_n upstream_displacement_max_m
+        upstream_displacement_min_m downstream_displacement_max_m downstream_displacement_min_m restraints;
+    RestraintRange: max_n min_n;
+    DayPoint: hour warming_k upstream_force_n downstream_force_n upstream_displacement_m downstream_displacement_m;
+    HeatRecord: all_days drift_per_day_m drift_per_year_m cycle hot_profile cold_profile;
+    Profile: positions_m longitudinal_m vertical_m longitudinal_velocity_m_per_s;
 }
 
 #[cfg(test)]
 mod tests {
-    use std::collections::BTreeMap;
+    use std::collections::BTreeSet;
 
-    use serde::Serialize;
+    use serde_json::Value;
 
-    use super::{Error, check};
+    use super::{Numbers, check};
+    use crate::{Error, SceneFile};
 
-    #[derive(Serialize)]
-    struct Answer {
-        force: f64,
-        none: Option<f64>,
-        some: Option<f64>,
-        list: Vec<[f64; 2]>,
-        map: BTreeMap<&'static str, f32>,
-        place: Place,
-        pair: (u64, f64),
-    }
-
-    #[derive(Serialize)]
-    enum Place {
-        End,
-        Clamp(f64),
-        Spring { stiffness: f64 },
-        Between(f64, f64),
-    }
-
-    fn answer() -> Answer {
-        Answer {
-            force: f64::MAX,
-            none: None,
-            some: Some(-5e-324),
-            list: vec![[0.0, -0.0], [1.0, 2.0]],
-            map: BTreeMap::from([("a", 1.0)]),
-            place: Place::End,
-            pair: (1, 2.0),
+    /// The names of the fields that hold numbers with a point, in a JSON document.
+    fn names<'v>(value: &'v Value, field: &'v str, found: &mut BTreeSet<&'v str>) {
+        match value {
+            Value::Number(number) if number.is_f64() => {
+                found.insert(field);
+            }
+            Value::Array(list) => list.iter().for_each(|part| names(part, field, found)),
+            Value::Object(map) => map.iter().for_each(|(key, part)| names(part, key, found)),
+            _ => {}
         }
     }
 
-    #[track_caller]
-    fn assert_found(answer: &Answer, place: &str) {
-        let Err(Error::NotFinite { field, .. }) = check(answer) else {
-            panic!("{place} is not found");
-        };
-        assert_eq!(field, place);
-    }
-
+    /// Runs with everything that a run may have: what JSON shows is checked, and one number that is none is an error.
     #[test]
-    fn numbers_and_missing_values_pass() {
-        check(&answer()).expect("finite");
-        check::<[f64]>(&[]).expect("finite");
-        check("inf").expect("a text");
-    }
+    fn every_number_of_a_run_is_checked() {
+        let heated =
+            "traffic.passes=20 traffic.per_day=4 heat.expansion=17e-6 heat.daily_swing=20 heat.offset=0";
+        let several = "traffic.passes=30 traffic.order=\"random\" traffic.seed=1 traffic.per_day=10";
+        for more in [heated, several] {
+            let file = SceneFile::read("examples/scenes/full-scale-upper.toml").expect("an example");
+            let mut changes: Vec<&str> = more.split(' ').collect();
+            changes.extend([
+                "solver.tolerance=0.2",
+                "restraints=[{ position = 10, stiffness = 1e6 }]",
+            ]);
+            let scene = file.with(&changes).expect("a scene").scene().expect("a scene");
+            let options = crate::RunOptions {
+                stages: &[1],
+                ..crate::RunOptions::default()
+            };
+            let run = crate::run_with(&scene, &options).expect("a run");
+            check(&run).expect("finite");
+            let document = serde_json::to_value(&run).expect("JSON");
+            let mut expected = BTreeSet::new();
+            names(&document, "", &mut expected);
+            let mut seen = BTreeSet::new();
+            run.each("", &mut |field, _| {
+                seen.insert(field);
+            });
+            assert_eq!(expected, seen);
 
-    #[test]
-    fn what_is_no_number_is_found_wherever_it_stands() {
-        for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
-            assert_found(
-                &Answer {
-                    force: bad,
-                    ..answer()
-                },
-                "force",
-            );
-            let some = Some(bad);
-            assert_found(&Answer { some, ..answer() }, "some");
-            let list = vec![[0.0, 0.0], [0.0, bad]];
-            assert_found(&Answer { list, ..answer() }, "list[1][1]");
-            let map = BTreeMap::from([("a", 1.0), ("b", bad as f32)]);
-            assert_found(&Answer { map, ..answer() }, "map[1]");
-            let place = Place::Clamp(bad);
-            assert_found(&Answer { place, ..answer() }, "place.Clamp");
-            let place = Place::Spring { stiffness: bad };
-            assert_found(&Answer { place, ..answer() }, "place.stiffness");
-            let place = Place::Between(0.0, bad);
-            assert_found(&Answer { place, ..answer() }, "place[1]");
-            assert_found(
-                &Answer {
-                    pair: (0, bad),
-                    ..answer()
-                },
-                "pair[1]",
-            );
+            for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                let mut wrong = run.clone();
+                wrong.passes[0].upstream_force_n = bad;
+                let Err(Error::NotFinite { field, value }) = check(&wrong) else {
+                    panic!("{bad} is not found");
+                };
+                assert_eq!(
+                    (field.as_str(), value.to_bits()),
+                    ("upstream_force_n", bad.to_bits())
+                );
+                let mut wrong = run.clone();
+                wrong.force_profile.force_n[3] = bad;
+                assert!(matches!(check(&wrong), Err(Error::NotFinite { .. })));
+            }
         }
     }
 }

@@ -10,9 +10,9 @@ use super::problem::Problem;
 use super::result::{
     Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
 };
-use crate::Error;
 use crate::readings::Measured;
 use crate::shown::four_digits;
+use crate::{Error, finite};
 
 pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Calibrated, Error> {
     let fit = &found.fit;
@@ -26,7 +26,7 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
     let readings = readings(problem, fit);
     let residuals = residuals(&readings);
     let forces = residuals.iter().find(|size| size.unit == "N");
-    Ok(Calibrated {
+    let answer = Calibrated {
         titles: problem.series.iter().map(|one| one.scene.title.clone()).collect(),
         parameters: fit
             .estimates
@@ -48,7 +48,9 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
         method: method(problem, found)?,
         model_error,
         fit: readings,
-    })
+    };
+    finite::check(&answer)?;
+    Ok(answer)
 }
 
 /// Half the difference to a mesh twice as fine.

@@ -9,7 +9,7 @@ use super::failure::Failure;
 use super::{signals, terminal};
 use crate::output::{Files, Output, OutputError};
 use crate::scene::{DAYS_PER_YEAR, PER_DAY, Range, YEARS};
-use crate::{Error, Scene, SceneFile, finite};
+use crate::{Error, Scene, SceneFile};
 
 /// What stands for standard output in place of a file.
 pub const STDOUT: &str = "-";
@@ -237,13 +237,12 @@ impl Force {
 }
 
 impl Json {
-    /// Prints the answer, all of whose numbers are finite, as one JSON document or by `print`.
+    /// Prints the answer as one JSON document or by `print`.
     pub fn print<T: Serialize + ?Sized>(
         self,
         answer: &T,
         print: impl FnOnce() -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        finite::check(answer)?;
         if !self.json {
             return print();
         }
@@ -338,7 +337,6 @@ impl Destination {
         rows: impl IntoIterator<Item = R>,
         print: impl FnOnce() -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        finite::check(answer)?;
         match &self.table {
             Table::None => {}
             // There it stands alone.
@@ -358,35 +356,4 @@ fn csv<R: Serialize>(rows: impl IntoIterator<Item = R>) -> Result<Vec<u8>, Failu
         writer.serialize(row).map_err(std::io::Error::from)?;
     }
     Ok(writer.into_inner().map_err(csv::IntoInnerError::into_error)?)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_document_and_no_table_holds_a_number_that_is_none() {
-        for table in [Table::None, Table::StandardOutput] {
-            for json in [false, true].map(|json| Json { json }) {
-                let destination = Destination {
-                    json,
-                    table: match table {
-                        Table::None => Table::None,
-                        _ => Table::StandardOutput,
-                    },
-                };
-                for answer in [Some(f64::NAN), Some(f64::INFINITY)] {
-                    let printed = || -> Result<(), Failure> { panic!("it was printed") };
-                    let failure = destination.write(&answer, [answer], printed);
-                    let Err(Failure::Analysis(error)) = failure else {
-                        panic!("it was written");
-                    };
-                    assert!(
-                        matches!(error, Error::NotFinite { .. }) && !error.is_bad_input(),
-                        "{error}"
-                    );
-                }
-            }
-        }
-    }
 }

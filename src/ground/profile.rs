@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::Ground;
 use crate::answer::error_estimate::{self, ErrorParts};
-use crate::{Error, Scene};
+use crate::{Error, Scene, finite};
 
 /// Farthest position from the vehicle \[m\].
 const FARTHEST: f64 = 1e6;
@@ -56,7 +56,7 @@ pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
     let ground = Ground::new(scene, None, reach)?;
     error_estimate::judge(&ErrorParts::new(ground.accuracy, 0.0), scene.solver.tolerance)?;
     let first = &ground.motions[0];
-    Ok(Profile {
+    let profile = Profile {
         ground: ground.name.into(),
         positions_m: positions.to_vec(),
         longitudinal_m: positions.iter().map(|&xi| first.longitudinal(xi)).collect(),
@@ -65,5 +65,7 @@ pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
             .iter()
             .map(|&xi| first.longitudinal_velocity(xi))
             .collect(),
-    })
+    };
+    finite::check(&profile)?;
+    Ok(profile)
 }
