@@ -4,7 +4,8 @@ use creepage::calibration::Loss;
 use creepage::scene::FrictionLaw;
 use creepage::{CalibrateOptions, Calibrated, Readings, Scene, calibrate};
 
-/// An interval is as wide as the given discrepancy leaves it; where the law is not the true one, the fit is then believed.
+/// An interval is as wide as the given discrepancy leaves it; where the law is not the true one, the fit is
+/// then believed.
 #[test]
 #[ignore = "half a minute: .ci/run runs it"]
 fn a_discrepancy_makes_room_where_the_law_is_wrong() {

@@ -83,7 +83,8 @@ fn every_test_belongs_to_a_program() {
     assert!(lost.is_empty(), "in no test program: {lost:#?}");
 }
 
-/// The names in a package's list of files to publish, each a file, a folder with `**` or a beginning with `*`.
+/// The names in a package's list of files to publish, each a file, a folder with `**` or a beginning with
+/// `*`.
 fn included(manifest: &str) -> Vec<String> {
     let (_, list) = manifest.split_once("\ninclude = [").expect("a list of files");
     let (list, _) = list.split_once(']').expect("its end");

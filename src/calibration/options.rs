@@ -35,8 +35,8 @@ pub struct CalibrateOptions<'a> {
     pub zero_offset_sigma: Option<f64>,
     /// That of its drift \[N per pass\]; a quarter of the largest force over all passes if left out.
     pub drift_sigma: Option<f64>,
-    /// Whether the model may be wrong by a smooth function of the passes: its standard deviation, as a share of the largest reading, 1e-4 to 10.
-    /// Least squares only.
+    /// Whether the model may be wrong by a smooth function of the passes: its standard deviation, as a share
+    /// of the largest reading, 1e-4 to 10. Least squares only.
     pub discrepancy: Option<f64>,
     /// How much residuals count.
     pub loss: Loss,

@@ -53,8 +53,8 @@ pub struct Arguments {
     /// Standard deviation of the measured deflection, "15 um"
     #[arg(long, value_name = "LENGTH", requires = "deflection", value_parser = positive_length)]
     deflection_sigma: Option<f64>,
-    /// Let the model be wrong by a smooth function of the passes, with a standard deviation of SHARE of the largest reading (0.01 % to
-    /// 1000 %): intervals then hold where the model is off by as much
+    /// Let the model be wrong by a smooth function of the passes, with a standard deviation of SHARE of the
+    /// largest reading (0.01 % to 1000 %): intervals then hold where the model is off by as much
     #[arg(long, value_name = "SHARE", num_args = 0..=1, require_equals = true, default_missing_value = "3 %", value_parser = share_of_discrepancy,
         conflicts_with = "robust")]
     discrepancy: Option<f64>,

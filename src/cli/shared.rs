@@ -141,7 +141,8 @@ pub struct Json {
 /// Whether files that are not this command's own are replaced.
 #[derive(Debug, clap::Args)]
 pub struct Force {
-    /// Overwrite any file. Without it, only a file whose name ends as the output's does is overwritten (by `new`, none). Input files never are
+    /// Overwrite any file. Without it, only a file whose name ends as the output's does is overwritten (by
+    /// `new`, none). Input files never are
     #[arg(long)]
     pub force: bool,
 }

@@ -21,8 +21,8 @@ mod unix {
     static WATCHED: AtomicBool = AtomicBool::new(false);
     static ASKED: AtomicI32 = AtomicI32::new(0);
 
-    /// Removes temporary files when Ctrl-C or SIGTERM ends the process. SIGHUP is left as it is, so that `nohup` works: a terminal that is closed may
-    /// leave a temporary file behind.
+    /// Removes temporary files when Ctrl-C or SIGTERM ends the process. SIGHUP is left as it is, so that
+    /// `nohup` works: a terminal that is closed may leave a temporary file behind.
     pub fn listen() {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| {

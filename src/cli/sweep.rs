@@ -42,8 +42,9 @@ pub struct Arguments {
         allow_hyphen_values = true
     )]
     vary: Vec<String>,
-    /// A table with one row a duct (CSV or Excel), its columns named as keys, with units or in SI; an empty cell leaves the scene's own
-    /// value, and a column `id` is carried over. With --samples a cell, or a value of the scene, may be a distribution as in --vary
+    /// A table with one row a duct (CSV or Excel), its columns named as keys, with units or in SI; an empty
+    /// cell leaves the scene's own value, and a column `id` is carried over. With --samples a cell, or a
+    /// value of the scene, may be a distribution as in --vary
     #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     rows: Option<PathBuf>,
     /// Table to write, FILE.csv or FILE.xlsx

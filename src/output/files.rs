@@ -14,7 +14,8 @@ pub struct Files {
 }
 
 impl Files {
-    /// A command that reads the files at `paths`; `force` replaces files of any ending, but never one of these.
+    /// A command that reads the files at `paths`; `force` replaces files of any ending, but never one of
+    /// these.
     pub fn reading<'p>(paths: impl IntoIterator<Item = &'p Path>, force: bool) -> Self {
         Self {
             read: paths.into_iter().filter_map(Identity::of).collect(),
@@ -23,7 +24,8 @@ impl Files {
         }
     }
 
-    /// The output at `path`, which can be written. An older file there may be replaced if its name ends in `ending`. Nothing is changed yet.
+    /// The output at `path`, which can be written. An older file there may be replaced if its name ends in
+    /// `ending`. Nothing is changed yet.
     pub fn output(&mut self, path: &Path, ending: &'static str) -> Result<Output, OutputError> {
         let place = Place::of(path).map_err(|source| OutputError::unwritable(path, source))?;
         let identity = match &place {

@@ -5,8 +5,9 @@
 //! and its owner where that is allowed. A symbolic link stays one, and what it points to is replaced. What is no file of a disk, such as
 //! `/dev/stdout`, `/dev/null` or a named pipe, is written as it is.
 //!
-//! A file that the same command reads is never replaced, nor is a file written twice: files are compared by their identity, not by
-//! their names. An older file is replaced only if its name ends as the output's does, any other by force alone.
+//! A file that the same command reads is never replaced, nor is a file written twice: files are compared by
+//! their identity, not by their names. An older file is replaced only if its name ends as the output's does,
+//! any other by force alone.
 //!
 //! Limits: another name of the replaced file (a hard link) keeps the old content.
 

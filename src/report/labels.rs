@@ -19,8 +19,8 @@ struct Label {
     is_duct: bool,
 }
 
-/// Thickness and modulus of the layers, the base, and the depth of the duct, from above to below; where there are too many, layers below the
-/// first are counted only.
+/// Thickness and modulus of the layers, the base, and the depth of the duct, from above to below; where there
+/// are too many, layers below the first are counted only.
 fn labels(report: &Report) -> Vec<Label> {
     let Report { scene, shown, .. } = report;
     let profile = &scene.ground.profile;
@@ -66,8 +66,9 @@ fn labels(report: &Report) -> Vec<Label> {
     labels
 }
 
-/// Draws them beside the ground, which is `high` from `surface` on, each with a line from what it is about: the duct, which ends at
-/// `duct`, or the ground, which ends at `edge` \[px\]. `place` says how far below the surface a depth is drawn.
+/// Draws them beside the ground, which is `high` from `surface` on, each with a line from what it is about:
+/// the duct, which ends at `duct`, or the ground, which ends at `edge` \[px\]. `place` says how far below the
+/// surface a depth is drawn.
 pub fn draw(
     drawing: &mut Drawing,
     report: &Report,

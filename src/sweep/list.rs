@@ -11,7 +11,8 @@ use super::table::Format;
 /// The column that is carried over: it names a row and is no key of a scene.
 pub const ID: &str = "id";
 
-/// The columns of the table of ducts in `file`, `.csv` or `.xlsx`, each with a value a row; empty where the row has none.
+/// The columns of the table of ducts in `file`, `.csv` or `.xlsx`, each with a value a row; empty where the
+/// row has none.
 ///
 /// # Errors
 ///

@@ -33,8 +33,9 @@ pub struct SweepSummary {
 }
 
 impl Sweep {
-    /// Computes all points that are not done yet and writes the table to `output`, whose name ends in `.csv` or
-    /// `.xlsx`. Numbers are in SI, but in a workbook in the units that were typed, which stand below the names of its columns.
+    /// Computes all points that are not done yet and writes the table to `output`, whose name ends in `.csv`
+    /// or `.xlsx`. Numbers are in SI, but in a workbook in the units that were typed, which stand below the
+    /// names of its columns.
     ///
     /// The journal stands beside it, as `output.journal`, until the table is in place. Where `output` is a link, it stands beside
     /// what that points to.

@@ -42,13 +42,14 @@ pub struct Discrepancy {
 }
 
 impl Discrepancy {
-    /// A process with this covariance between `count` observations where δ is 1, and this `size` δ. It is given, not fitted: few
-    /// independent values of a smooth error are seen in a series, so that observations hardly tell its size.
+    /// A process with this covariance between `count` observations where δ is 1, and this `size` δ. It is
+    /// given, not fitted: few independent values of a smooth error are seen in a series, so that observations
+    /// hardly tell its size.
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidOption`] unless `size` is finite and positive and the covariance finite, with variances of at least 0 and
-    /// one above it.
+    /// [`CalibrationError::InvalidOption`] unless `size` is finite and positive and the covariance finite,
+    /// with variances of at least 0 and one above it.
     pub fn new(
         count: usize,
         covariance: impl Fn(usize, usize) -> f64,

@@ -42,8 +42,10 @@ impl Calibration<'_> {
     /// Fits a model that is expensive to run, as [`fit`](Self::fit) does. A smooth one takes a small part of the runs; one that the
     /// emulator cannot follow takes those of a direct fit on top of those that were in vain.
     ///
-    /// The emulator is searched all over: [`Options::scan`](crate::Options::scan) only says how many runs it first learns from. The model confirms the optimum, the ends of the intervals and the excluded bounds. Where three and more
-    /// parameters are hardly known, an end may be a tenth of its distance off from that of a direct fit.
+    /// The emulator is searched all over: [`Options::scan`](crate::Options::scan) only says how many runs it
+    /// first learns from. The model confirms the optimum, the ends of the intervals and the excluded bounds.
+    /// Where three and more parameters are hardly known, an end may be a tenth of its distance off from that
+    /// of a direct fit.
     ///
     /// ```
     /// use calibrate::{Calibration, ModelError, Parameter, Scale};

@@ -11,8 +11,8 @@ pub enum Loss {
     /// u²/2: best under Gaussian noise, misled by outliers.
     #[default]
     Squares,
-    /// Tukey's biweight: constant beyond this many sigmas, so that what lies there does not count at all. It is not convex, and the fit
-    /// begins with Huber's loss, which is.
+    /// Tukey's biweight: constant beyond this many sigmas, so that what lies there does not count at all. It
+    /// is not convex, and the fit begins with Huber's loss, which is.
     Tukey {
         /// Where it turns constant, in sigmas.
         threshold: f64,
@@ -42,7 +42,8 @@ impl Loss {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Rho {
     Squares,
-    /// Huber's: quadratic up to 1.345 sigmas, then linear. Convex, it has no minima of its own making and leads to Tukey's.
+    /// Huber's: quadratic up to 1.345 sigmas, then linear. Convex, it has no minima of its own making and
+    /// leads to Tukey's.
     Huber,
     Tukey {
         threshold: f64,

@@ -1,12 +1,13 @@
 //! The noise beside a discrepancy of given size.
 //!
-//! Where the noise σ of the observations is known, so is λ = δ/σ, and one fit does. Where it is to be estimated, fits with a λ and estimates
-//! of σ from what is left of their residuals without the smooth part, e, take turns:
+//! Where the noise σ of the observations is known, so is λ = δ/σ, and one fit does. Where it is to be
+//! estimated, fits with a λ and estimates of σ from what is left of their residuals without the smooth part,
+//! e, take turns:
 //!
 //! σ² = eᵀe/(n − p − Σ λ²s²/(1 + λ²s²)),
 //!
-//! whose last term counts the smooth functions that the discrepancy has taken from the residuals (W. H. Fellner, "Robust estimation of
-//! variance components", Technometrics 28, 1986).
+//! whose last term counts the smooth functions that the discrepancy has taken from the residuals (W. H.
+//! Fellner, "Robust estimation of variance components", Technometrics 28, 1986).
 
 use std::sync::Arc;
 
@@ -16,7 +17,8 @@ use crate::{Calibration, CalibrationError, Fit, Profiles};
 
 /// Change of λ, as a share, at which the rounds end: an interval then moves by a few per cent at most.
 const SETTLED: f64 = 0.1;
-/// Largest λ, in units in which the discrepancy's largest variance is that of the noise: above there is no noise.
+/// Largest λ, in units in which the discrepancy's largest variance is that of the noise: above there is no
+/// noise.
 const LARGEST: f64 = 1e5;
 
 impl Calibration<'_> {

@@ -70,8 +70,9 @@ fn width(fit: &Fit) -> f64 {
     interval.upper.unwrap() - interval.lower.unwrap()
 }
 
-/// Of 100 series each whose model is off by five noises: intervals of 95 % hold the truth where the size is the given one, known noise or not, and
-/// nearly always where the given one is twice as large; without a discrepancy they seldom do.
+/// Of 100 series each whose model is off by five noises: intervals of 95 % hold the truth where the size is
+/// the given one, known noise or not, and nearly always where the given one is twice as large; without a
+/// discrepancy they seldom do.
 #[test]
 fn intervals_hold_where_the_model_is_off_by_the_given_size() {
     let truth = |fit: &Fit| usize::from(fit.estimates[0].interval.contains(0.5));
@@ -89,7 +90,8 @@ fn intervals_hold_where_the_model_is_off_by_the_given_size() {
     }
 }
 
-/// Where there is none, a given discrepancy makes intervals wide and does not move the noise; one that does not show beside the noise changes nothing.
+/// Where there is none, a given discrepancy makes intervals wide and does not move the noise; one that does
+/// not show beside the noise changes nothing.
 #[test]
 fn a_size_is_taken_as_it_is_given() {
     for seed in 0..10 {
@@ -104,7 +106,8 @@ fn a_size_is_taken_as_it_is_given() {
     }
 }
 
-/// Observations at one place are one value of a smooth error, and whatever its size, so is what is known of the level.
+/// Observations at one place are one value of a smooth error, and whatever its size, so is what is known of
+/// the level.
 #[test]
 fn observations_at_one_place_are_as_exact_as_the_discrepancy() {
     let level = |p: &[f64]| -> Result<Vec<f64>, ModelError> { Ok(vec![p[0]; 6]) };
