@@ -49,8 +49,9 @@
 //!
 //! # Features
 //!
-//! All are on unless `default-features = false`: `calibrate`, `design`, `fem`, `parquet`, `plot` (figures and the report), `sweep`, `xlsx`
-//! (workbooks), and `cli`, the command. Without them a scene is read, planned and run, with 28 crates in all.
+//! All are on unless `default-features = false`: `calibrate`, `design`, `fem`, `plot` (figures and the
+//! report), `sweep`, `xlsx` (workbooks), and `cli`, the command. Without them a scene is read, planned and
+//! run, with 28 crates in all.
 
 mod answer;
 mod cable;

@@ -51,15 +51,6 @@ pub enum TemplateGround {
     Pavement(String),
 }
 
-impl TemplateGround {
-    /// The modulus, or the preset's name.
-    #[cfg(feature = "cli")]
-    pub(crate) fn text_mut(&mut self) -> &mut String {
-        let (Self::Modulus(text) | Self::Pavement(text)) = self;
-        text
-    }
-}
-
 impl Default for Template {
     fn default() -> Self {
         Self {

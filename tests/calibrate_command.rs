@@ -292,23 +292,25 @@ fn a_discrepancy_needs_a_share_of_something() {
             &["a largest reading of 0", "leave the discrepancy out"],
         );
     }
-    // At one pass, only the prior knows the size: whatever the share, the value lies in its interval.
+    // At one pass readings say nothing of it, and the friction is as uncertain as was said.
     let once = file(
         "calibrate-once.csv",
         "pass,force_n\n20,100\n20,101\n20,99\n20,100.5\n20,99.5\n20,101\n",
     );
-    for share in ["--discrepancy=0.01 %", "--discrepancy=1000 %"] {
+    let errors = ["--discrepancy=0.01 %", "--discrepancy=3 %", "--discrepancy=6 %"].map(|share| {
         let asked = ["calibrate", UPPER, "--data", once.to_str().unwrap(), share];
         let (answer, _) = document(&[&asked[..], &fit[..]].concat());
-        let size = &answer["parameters"][1];
-        assert_eq!(size["name"], "discrepancy");
-        let value = size["value"].as_f64().unwrap();
-        let [lower, upper] = [0, 1].map(|end| size["interval_95"][end].as_f64());
+        let share = share.split('=').next_back().unwrap();
+        let intervals = answer["method"]["intervals"].as_str().unwrap();
         assert!(
-            lower.is_none_or(|lower| lower <= value) && upper.is_none_or(|upper| value <= upper),
-            "{size}"
+            intervals.contains(&format!("smooth error of the model of {share}")),
+            "{intervals}"
         );
-    }
+        assert!(answer["parameters"].as_array().unwrap().len() == 1);
+        answer["parameters"][0]["standard_error"].as_f64().unwrap()
+    });
+    assert!(errors[1] > 2.0 * errors[0], "{errors:?}");
+    assert!((1.5..2.5).contains(&(errors[2] / errors[1])), "{errors:?}");
 }
 
 /// The synthetic series as a drifting cell would have read it, in kN and between semicolons.

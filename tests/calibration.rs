@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use creepage::calibration::{BootstrapOptions, Deflection, Loss, Quantity, Unknown};
+use creepage::calibration::{Deflection, Loss, Quantity, Unknown};
 use creepage::scene::{End, FrictionLaw, PeakScaling, SolverMethod};
 use creepage::{
     CalibrateOptions, Calibrated, Error, Progress, Reading, Readings, Scene, Series, calibrate,
@@ -276,27 +276,6 @@ fn five_parameters_of_two_series() {
     }
     // Both scenes in each; on the finest mesh a run takes thirty times as long as on the coarsest.
     assert!(answer.evaluations <= 320, "{}", answer.evaluations);
-}
-
-/// The bootstrap agrees with the curvature where the model is nearly linear.
-#[test]
-#[ignore = "half a minute: see calibration_coverage.rs for the command"]
-fn bootstrap_agrees_with_the_standard_error() {
-    let data = readings(&noisy(&series()[..12], 2.0, 8));
-    let options = CalibrateOptions {
-        unknowns: vec![Unknown::shared(Quantity::ShapeFactor)],
-        bootstrap: Some(BootstrapOptions {
-            replicates: 60,
-            seed: 2,
-        }),
-        ..CalibrateOptions::default()
-    };
-    let answer = calibrate(&upper(), &data, &options).unwrap();
-    let bootstrap = answer.bootstrap.unwrap();
-    let ratio = bootstrap.standard_errors[0] / answer.parameters[0].standard_error.unwrap();
-    // The standard error of a standard deviation from 60 samples is 9 %.
-    assert!((0.65..1.4).contains(&ratio), "{ratio}");
-    assert_eq!((bootstrap.replicates, bootstrap.failed), (60, 0));
 }
 
 #[test]

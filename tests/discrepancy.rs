@@ -4,10 +4,11 @@ use creepage::calibration::Loss;
 use creepage::scene::FrictionLaw;
 use creepage::{CalibrateOptions, Calibrated, Readings, Scene, calibrate};
 
-/// Where the law is the true one, no discrepancy is found, and the interval is a little wider; where it is not, one is, and the fit is believed.
+/// An interval is as wide as the given discrepancy leaves it; where the law is not the true one, the fit is
+/// then believed.
 #[test]
 #[ignore = "half a minute: .ci/run runs it"]
-fn a_discrepancy_is_found_where_the_law_is_wrong() {
+fn a_discrepancy_makes_room_where_the_law_is_wrong() {
     let data = Readings::from_file("examples/data/synthetic-upper.csv").unwrap();
     let upper = Scene::from_file("examples/scenes/full-scale-upper.toml").unwrap();
     let mut coulomb = upper.clone();
@@ -23,19 +24,17 @@ fn a_discrepancy_is_found_where_the_law_is_wrong() {
         let [lower, upper] = answer.parameters[0].interval_95;
         upper.unwrap() - lower.unwrap()
     };
-    let (plain, allowed) = (fit(&upper, None), fit(&upper, Some(0.1)));
-    let size = &allowed.parameters[2];
-    assert_eq!((size.name.as_str(), size.unit), ("discrepancy", "1"));
-    assert!(size.interval_95[0].is_none() && !size.identifiable, "{size:?}");
-    assert!(size.interval_95[1].is_some_and(|upper| upper < 0.1), "{size:?}");
+    let (plain, allowed, twice) = (
+        fit(&upper, None),
+        fit(&upper, Some(0.03)),
+        fit(&upper, Some(0.06)),
+    );
     assert!(width(&allowed) > 1.1 * width(&plain));
-    assert!(allowed.parameters[0].identifiable);
-    assert!(allowed.correlation.len() == 3 && allowed.correlation.iter().all(|row| row.len() == 3));
+    assert!(width(&twice) > 1.2 * width(&allowed));
+    assert_eq!((allowed.parameters.len(), allowed.correlation.len()), (2, 2));
 
-    let (plain, allowed) = (fit(&coulomb, None), fit(&coulomb, Some(0.1)));
+    let (plain, allowed) = (fit(&coulomb, None), fit(&coulomb, Some(0.03)));
     assert!(plain.lack_of_fit.suspicious && !allowed.lack_of_fit.suspicious);
-    let size = &allowed.parameters[1];
-    assert!(size.identifiable && (0.01..0.1).contains(&size.value), "{size:?}");
     assert!(width(&allowed) > 4.0 * width(&plain));
     // The truth's distance, in interval widths.
     let off = |answer: &Calibrated| (answer.parameters[0].value - 0.25).abs() / width(answer);

@@ -83,6 +83,52 @@ fn every_test_belongs_to_a_program() {
     assert!(lost.is_empty(), "in no test program: {lost:#?}");
 }
 
+/// The names in a package's list of files to publish, each a file, a folder with `**` or a beginning with
+/// `*`.
+fn included(manifest: &str) -> Vec<String> {
+    let (_, list) = manifest.split_once("\ninclude = [").expect("a list of files");
+    let (list, _) = list.split_once(']').expect("its end");
+    let names = list
+        .split(',')
+        .map(|name| name.trim().trim_matches('"').to_owned());
+    names.filter(|name| !name.is_empty()).collect()
+}
+
+/// Every package that may be published has both licences, and names no file to publish that is not there.
+#[test]
+fn every_package_has_its_licences_and_what_it_includes() {
+    let crates = fs::read_dir(root().join("crates")).unwrap().flatten();
+    let mut packages: Vec<PathBuf> = crates.map(|entry| entry.path()).collect();
+    packages.push(root().to_owned());
+    for package in packages {
+        let manifest = fs::read_to_string(package.join("Cargo.toml")).unwrap();
+        if manifest.contains("\npublish = false\n") {
+            continue;
+        }
+        let names = included(&manifest);
+        assert!(names.contains(&"/LICENSE-*".to_owned()), "{}", package.display());
+        for licence in ["LICENSE-APACHE", "LICENSE-MIT"] {
+            let own = fs::read(package.join(licence));
+            let own = own.unwrap_or_else(|error| panic!("{}: {licence}: {error}", package.display()));
+            assert!(
+                own == fs::read(root().join(licence)).unwrap(),
+                "{}: {licence}",
+                package.display()
+            );
+        }
+        for name in &names {
+            // `LICENSE-*` was looked at, `*.rs` and `**` are what lies in the folder before.
+            let fixed = name.trim_start_matches('/').split('*').next().unwrap();
+            let there = fixed == "LICENSE-" || package.join(fixed).exists();
+            assert!(
+                there,
+                "{}: includes {name}, which is not there",
+                package.display()
+            );
+        }
+    }
+}
+
 #[test]
 fn imports_run_one_way() {
     let mut circles = Vec::new();

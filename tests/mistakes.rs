@@ -135,7 +135,6 @@ title = "Harbour road, 66 kV" → {"title": "Harbour road"} | 1 | this is JSON; 
 const ON_THE_COMMAND_LINE: &str = r#"
 run DATA | data.csv, line 1: | this is a table; a scene has lines such as length = "30 m"
 SCENE | A command stands before the scene: creepage run | scene.toml
-check SCENE --set duct.depth 1.5m | --set takes KEY=VALUE without a space: --set duct.depth=1.5m
 check SCENE --set depth=1.5m | --set depth=1.5m: found unknown key `depth` (did you mean `duct.depth`?)
 check SCENE --set ground.layers[1].young_modulus=60MPa | allowed: `ground.layers.1.young_modulus`: an item of a list by its number
 run SCENE --set traffic.passes=1 --limit-movement 10 | --limit-movement is 10 m: did you mean 10mm?
@@ -145,8 +144,6 @@ run SCENE --years 20 | --trucks-per-day: found none, and `traffic.per_day` is mi
 sweep SCENE --out o.csv --vary friction.dynamic_coefficient=0.1-0.5 | found 0.1-0.5; allowed: A:B:STEP for a range, such as 0.1:0.5:STEP
 design SCENE --limit-force 2kg | `kg` is not a known unit (did you mean `kgf`?); allowed: a force (units: N, kN
 run SCENE --years 20 --trucks-per-day 800/day | a number of vehicles a day greater than 0, from 1e-6 to 1e9, such as 800
-run SCENE -o o.csv | A table is written with --csv FILE
-calibrate SCENE DATA | Readings stand behind --data
 presets t25 | found `t25` (did you mean `t-25`?)
 run SCENE --days 1 | --trucks-per-day: found none
 run SCENE --years 20fortnights --trucks-per-day 800 | allowed: a number of years greater than 0 | "30 days"
@@ -178,7 +175,7 @@ run SCENE --limit-force downstrem=2kN | found `downstrem` (did you mean `downstr
 run SCENE --limit-force clmap=2kN | found `clmap` (did you mean `clamp`?)
 run SCENE --limit-force downstream:2kN | a place stands before `=`: downstream=2kN
 run SCENE --limit-force 2t | `t` is not a known unit (did you mean `tf`?)
-rnu SCENE | a similar subcommand exists: 'run'
+prfile SCENE | a similar subcommand exists: 'profile'
 design SCENE --limit-force 2kN --at downstrm | found `downstrm` (did you mean `downstream`?); allowed: upstream
 design SCENE --limit-force 2kN --at downstream+upstrem | (did you mean `upstream`?)
 design SCENE --limit-force 2kN --at -5m | --at: found -5 m; allowed: a position in the duct, from 0 m to 180 m
@@ -187,20 +184,9 @@ design SCENE --limit-force 2kN --years 0 --trucks-per-day 800 | '0' for '--years
 run SCENE --years 1e9 --trucks-per-day 800 | '1e9' for '--years <N>'
 run SCENE --years 1 --trucks-per-day -800 | '-800' for '--trucks-per-day <N>' | greater than 0, from 1e-6 to 1e9, such as 800
 plan SCENE --days 3 --trucks-per-day 1e30 | '1e30' for '--trucks-per-day <N>'
-run SCENE --at 20m | --at is an option of `creepage design`
-run SCENE --vary duct.depth=1m,2m | --vary is an option of `creepage sweep`
-plan SCENE --csv o.csv | --csv is an option of `creepage run`, `creepage profile` and `creepage calibrate`
 run SCENE --passes 500 | A key of the scene is set with --set traffic.passes=VALUE
-run SCENE --set duct.depth = 2m | --set takes KEY=VALUE without a space: --set duct.depth=2m
-run SCENE --set duct.depth =2m | --set duct.depth=2m
-run SCENE --set duct.depth= 2m | --set duct.depth=2m
-run SCENE —json | Options begin with two dashes: --json
-run SCENE /json | Options begin with two dashes: --json
-run SCENE -set duct.depth=2m | Options begin with two dashes: --set
-run SCENE SCENE | `creepage run` takes one scene at a time
-run SCENE --json out.json | --json prints to standard output; into a file: --json > out.json
+calibrate SCENE --data DATA --shape-factor 2e7 | A key of the scene is set with --set friction.shape_factor=VALUE
 presets vehicel | found `vehicel`; allowed: a name that `creepage presets` lists: t-25
-sweep SCENE --out o.csv | by --vary KEY=VALUES, ducts in a table, a row each, by --rows FILE
 run . | .: cannot be read: this is a folder; a scene is a file
 "#;
 

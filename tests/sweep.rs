@@ -323,44 +323,58 @@ fn an_answer_that_is_no_number_is_a_failing_point() {
     }
 }
 
+/// An output that is a link to a file which ends otherwise.
+#[cfg(unix)]
+fn linked(name: &str) -> (PathBuf, PathBuf) {
+    let output = output(name);
+    let notes = output.with_file_name(format!("{name} notes"));
+    for file in [&output, &notes] {
+        let _ = fs::remove_file(file);
+    }
+    std::os::unix::fs::symlink(&notes, &output).unwrap();
+    (output, notes)
+}
+
+#[cfg(unix)]
 #[test]
-fn a_file_of_something_else_is_kept_unless_forced() {
-    let output = output("foreign");
+fn a_file_that_ends_otherwise_is_kept_unless_forced() {
+    let (output, notes) = linked("foreign");
     let sweep = sweep(&["duct.length=10m,20m"]);
     let evaluate = formula(|_| 1.0);
-    fs::write(&output, "pass,force_n\n1,2\n").unwrap();
+    fs::write(&notes, "notes\n").unwrap();
     let error = run_by(&sweep, &output, 1, &evaluate).unwrap_err();
     assert!(
         matches!(error, SweepError::Output(_)) && error.is_bad_input(),
         "{error}"
     );
-    assert_eq!(fs::read(&output).unwrap(), b"pass,force_n\n1,2\n");
-    assert!(!journal(&output).exists());
+    assert_eq!(fs::read(&notes).unwrap(), b"notes\n");
+    assert!(!journal(&notes).exists());
     let options = SweepOptions {
         evaluate: Some(&evaluate),
         force: true,
         ..SweepOptions::default()
     };
     sweep.run(&output, &options).unwrap();
-    assert_eq!(table(&output).1.len(), 2);
+    assert_eq!(table(&notes).1.len(), 2);
 }
 
+#[cfg(unix)]
 #[test]
 fn what_comes_to_the_output_meanwhile_is_kept() {
-    let output = output("meanwhile");
+    let (output, notes) = linked("meanwhile");
     let sweep = sweep(&["duct.length=10m,20m"]);
     let force = formula(|_| 1.0);
     let evaluate = |scene: &Scene| {
-        fs::write(&output, "notes\n").unwrap();
+        fs::write(&notes, "notes\n").unwrap();
         force(scene)
     };
     assert!(matches!(
         run_by(&sweep, &output, 1, &evaluate),
         Err(SweepError::Output(_))
     ));
-    assert_eq!(fs::read(&output).unwrap(), b"notes\n");
+    assert_eq!(fs::read(&notes).unwrap(), b"notes\n");
     // With another place for the notes nothing is computed again.
-    fs::remove_file(&output).unwrap();
+    fs::remove_file(&notes).unwrap();
     assert_eq!(run_by(&sweep, &output, 1, &force).unwrap().resumed, 2);
 }
 
@@ -524,64 +538,6 @@ fn every_point_of_the_grid_has_a_band_and_failed_samples_are_counted() {
     assert!((p50(&summary.bands[1]) / p50(&summary.bands[0]) - 2.0).abs() < 1e-12);
 }
 
-#[cfg(feature = "parquet")]
-#[test]
-fn parquet_holds_what_csv_holds() {
-    use parquet::file::reader::{FileReader, SerializedFileReader};
-    use parquet::record::Field;
-
-    let csv = output("parquet");
-    let file = csv.with_extension("parquet");
-    // More rows than one group of the file holds.
-    let axes = [
-        "friction.dynamic_coefficient=-0.1,0.3",
-        "duct.depth=1:4500:1",
-        "ends.upstream=free,fixed",
-    ];
-    let sweep = sweep(&axes);
-    let evaluate = formula(|scene| scene.duct.depth.sqrt());
-    run_by(&sweep, &csv, 2, &evaluate).unwrap();
-    run_by(&sweep, &file, 2, &evaluate).unwrap();
-    let (header, rows) = table(&csv);
-    let reader = SerializedFileReader::new(fs::File::open(&file).unwrap()).unwrap();
-    assert!(reader.metadata().num_row_groups() > 1);
-    let metadata = reader.metadata().file_metadata().key_value_metadata().unwrap();
-    let units = metadata.iter().find(|pair| pair.key == "units").unwrap();
-    let units: serde_json::Value = serde_json::from_str(units.value.as_ref().unwrap()).unwrap();
-    for (column, unit) in [
-        ("duct.depth", "m"),
-        ("downstream_force_n", "N"),
-        ("downstream_displacement_m", "m"),
-    ] {
-        assert_eq!(units[column], unit);
-    }
-    for column in [
-        "friction.dynamic_coefficient",
-        "ends.upstream",
-        "passes_to_95_percent",
-    ] {
-        assert!(units.get(column).is_none(), "{column}");
-    }
-    let mut count = 0;
-    for (row, expected) in reader.get_row_iter(None).unwrap().zip(&rows) {
-        let row = row.unwrap();
-        let names: Vec<&String> = row.get_column_iter().map(|(name, _)| name).collect();
-        assert_eq!(names, header.iter().collect::<Vec<_>>());
-        for ((_, field), text) in row.get_column_iter().zip(expected) {
-            match field {
-                Field::Double(value) => assert_eq!(*value, text.parse::<f64>().unwrap()),
-                Field::Long(value) => assert_eq!(*value, text.parse::<i64>().unwrap()),
-                // CSV alone keeps spreadsheets from taking `--set` for a formula.
-                Field::Str(value) => assert_eq!(value, text.strip_prefix('\'').unwrap_or(text)),
-                Field::Null => assert_eq!(text, ""),
-                other => panic!("{other:?}"),
-            }
-        }
-        count += 1;
-    }
-    assert_eq!((count, rows.len()), (18_000, 18_000));
-}
-
 #[test]
 fn an_axis_without_values_and_a_probability_that_is_none_are_no_panics() {
     let file = SceneFile::read("examples/scenes/full-scale-upper.toml").expect("an example");
@@ -713,55 +669,24 @@ fn bad_rows_are_told() {
     assert_eq!((summary.points, summary.failed), (2, 1));
 }
 
-#[cfg(feature = "parquet")]
 #[test]
-fn rows_in_parquet_are_those_in_csv() {
-    use std::sync::Arc;
-
-    use parquet::basic::Compression;
-    use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
-    use parquet::file::properties::WriterProperties;
-    use parquet::file::writer::SerializedFileWriter;
-    use parquet::schema::parser::parse_message_type;
-
-    let (output, csv) = rows("rows parquet", "id,duct.depth,ends.downstream\nA,1.5,free\nB,,\n");
-    let ducts = output.with_file_name("ducts.parquet");
-    let schema = "message ducts { optional binary id (UTF8); optional double duct.depth; optional binary ends.downstream (UTF8); }";
-    let schema = Arc::new(parse_message_type(schema).unwrap());
-    // As most programs write it.
-    let properties = WriterProperties::builder()
-        .set_compression(Compression::SNAPPY)
-        .build();
-    let mut writer =
-        SerializedFileWriter::new(fs::File::create(&ducts).unwrap(), schema, Arc::new(properties)).unwrap();
-    let mut group = writer.next_row_group().unwrap();
-    let texts: [&[&str]; 2] = [&["A", "B"], &["free"]];
-    for (index, levels) in [[1, 1], [1, 0], [1, 0]].iter().enumerate() {
-        let mut column = group.next_column().unwrap().unwrap();
-        if index == 1 {
-            column
-                .typed::<DoubleType>()
-                .write_batch(&[1.5], Some(levels), None)
-                .unwrap();
-        } else {
-            let values: Vec<ByteArray> = texts[index / 2].iter().map(|text| (*text).into()).collect();
-            column
-                .typed::<ByteArrayType>()
-                .write_batch(&values, Some(levels), None)
-                .unwrap();
+fn parquet_is_refused_with_what_to_do() {
+    let error = run_by(
+        &sweep(&["duct.depth=1,2"]),
+        &output("parquet").with_extension("parquet"),
+        1,
+        &formula(|scene| scene.duct.depth),
+    )
+    .expect_err("no Parquet");
+    let rows = Sweep::of_rows(
+        SceneFile::read(UPPER).unwrap(),
+        Path::new("ducts.parquet"),
+        Samples::default(),
+    );
+    for error in [error, rows.expect_err("no Parquet")] {
+        assert!(error.is_bad_input());
+        for part in [".parquet", ".csv or .xlsx", "pyarrow"] {
+            assert!(error.to_string().contains(part), "{error}");
         }
-        column.close().unwrap();
-    }
-    group.close().unwrap();
-    writer.close().unwrap();
-    let file = SceneFile::read(UPPER)
-        .unwrap()
-        .with(&["traffic.passes=1"])
-        .unwrap();
-    let parquet = Sweep::of_rows(file, &ducts, Samples::default()).unwrap();
-    let csv = csv.unwrap();
-    assert_eq!(parquet.axes(), csv.axes());
-    for index in 0..2 {
-        assert_eq!(parquet.scene(index).unwrap(), csv.scene(index).unwrap());
     }
 }

@@ -24,8 +24,8 @@ const PASSES: u64 = 40;
 const DRAWS: u64 = 30;
 /// Node spacing of fits; the vehicle's step is half of it \[m\].
 const SPACING: f64 = 0.4;
-/// What `--discrepancy` says of its size beforehand.
-const SIZE: f64 = 0.1;
+/// Its size where `--discrepancy` does not say it.
+const SIZE: f64 = 0.03;
 /// Weight of the truck, 20 tf \[kN\].
 const LOAD: f64 = 196.133;
 

@@ -7,7 +7,7 @@ mod failure;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-use creepage::calibration::{BootstrapOptions, Loss, Unknown};
+use creepage::calibration::{Loss, Unknown};
 use creepage::report::{Report, ReportOptions};
 use creepage::sweep::{AnswerColumn, AnswerValues, Evaluator, Samples, Sweep, SweepOptions};
 use creepage::{CalibrateOptions, Readings, RunOptions, SceneFile, Series};
@@ -144,7 +144,6 @@ fn read_rows(py: Python<'_>, file: PathBuf) -> PyResult<Table> {
 
 /// Parameters fitted to readings, as JSON. The readings are the bytes of a table in whatever form the command line reads.
 #[pyfunction]
-#[allow(clippy::too_many_arguments, reason = "they are keywords in Python")]
 fn calibrate(
     py: Python<'_>,
     scene: Source,
@@ -152,8 +151,6 @@ fn calibrate(
     readings: &[u8],
     fit: Vec<String>,
     robust: bool,
-    bootstrap: Option<usize>,
-    seed: u64,
     call: Call,
 ) -> PyResult<String> {
     watched(py, call, |progress| {
@@ -163,7 +160,6 @@ fn calibrate(
         let options = CalibrateOptions {
             unknowns: fit.iter().map(unknown).collect::<Result<_, _>>()?,
             loss: if robust { Loss::TUKEY } else { Loss::Squares },
-            bootstrap: bootstrap.map(|replicates| BootstrapOptions { replicates, seed }),
             progress,
             ..CalibrateOptions::default()
         };

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import creepage
 import pyarrow
-import pyarrow.parquet
+import pyarrow.csv
 import pytest
 from conftest import QUICK, UPPER, digest, ducts
 
@@ -58,9 +58,7 @@ def test_more_wrong_arguments_are_told(quick_scene, study, tmp_path):
     with pytest.raises(creepage.InputError, match="nowhere.csv"):
         creepage.calibrate(UPPER, "nowhere.csv")
     with pytest.raises(creepage.InputError, match="found seed = -1"):
-        creepage.calibrate(UPPER, ducts(1), seed=-1)
-    with pytest.raises(creepage.InputError, match="found bootstrap = -1"):
-        creepage.calibrate(UPPER, ducts(1), bootstrap=-1)
+        creepage.sweep(UPPER, ducts(1), samples=1, seed=-1)
     for rows in (5, None, [{"duct.depth": 1}]):
         with pytest.raises(creepage.InputError, match="__arrow_c_stream__"):
             creepage.study(quick_scene, rows, tmp_path / "other")
@@ -208,8 +206,8 @@ def test_a_file_of_ducts_is_read_as_the_command_line_reads_it(command, quick_sce
     rows, scene = tmp_path / "ducts.csv", tmp_path / "scene.toml"
     rows.write_text(text, encoding="utf-8")
     scene.write_text(quick_scene, encoding="utf-8")
-    command("sweep", scene, "--rows", rows, "--out", tmp_path / "out.parquet")
-    expected = pyarrow.parquet.read_table(tmp_path / "out.parquet")
+    command("sweep", scene, "--rows", rows, "--out", tmp_path / "out.csv")
+    expected = pyarrow.csv.read_csv(tmp_path / "out.csv")
     table = creepage.study(scene, rows, tmp_path / "out").dataset().to_table()
     for name in ("id", "downstream_force_n", "status"):
         assert table[name].to_pylist() == expected[name].to_pylist()

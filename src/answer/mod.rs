@@ -9,6 +9,7 @@ mod force_profile;
 mod heat;
 mod limits;
 mod listed;
+mod numbers;
 mod place;
 mod record;
 mod saturation;

@@ -1,6 +1,6 @@
 //! From the final fit to what the user reads.
 
-use calibrate::{Bootstrap, BootstrapOptions, Estimate, Fit, Loss, Warning};
+use calibrate::{Estimate, Fit, Loss, Warning};
 
 use super::ground;
 use super::judgement::{LEFT_OUT, judge};
@@ -8,20 +8,17 @@ use super::meshes::{Final, MESH_SHIFT};
 use super::model::SeriesModel;
 use super::problem::Problem;
 use super::result::{
-    BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate,
-    ProfilePoint, ResidualSize,
+    Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
 };
-use crate::Error;
 use crate::readings::Measured;
 use crate::shown::four_digits;
+use crate::{Error, finite};
 
 pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Calibrated, Error> {
     let fit = &found.fit;
     let model_error = model_error(found);
     let units = problem.unknowns.iter().map(|unknown| unknown.quantity.unit());
     let units = units.chain(problem.terms.iter().map(|term| term.quantity.unit()));
-    // A share of the largest reading.
-    let units = units.chain(["1"]);
     let judgement = judge(problem, found, mistakes)?;
     let suspicious = judgement.lack_of_fit.suspicious;
     let assumptions = ground::assumption(problem, found)?.into_iter().collect();
@@ -29,16 +26,15 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
     let readings = readings(problem, fit);
     let residuals = residuals(&readings);
     let forces = residuals.iter().find(|size| size.unit == "N");
-    Ok(Calibrated {
+    let answer = Calibrated {
         titles: problem.series.iter().map(|one| one.scene.title.clone()).collect(),
         parameters: fit
             .estimates
             .iter()
-            .chain(&fit.discrepancy)
             .zip(units)
             .map(|(estimate, unit)| parameter(estimate, unit, suspicious))
             .collect(),
-        correlation: correlation(fit),
+        correlation: fit.correlation.clone(),
         residual_rms_n: forces.map_or(0.0, |forces| forces.rms),
         residuals,
         r_squared: explained(&readings),
@@ -52,22 +48,9 @@ pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Re
         method: method(problem, found)?,
         model_error,
         fit: readings,
-        bootstrap: found.bootstrap.as_ref().map(summary),
-    })
-}
-
-/// That of the parameters, and of the discrepancy with itself alone: the others are averaged over it.
-fn correlation(fit: &Fit) -> Vec<Vec<Option<f64>>> {
-    let mut correlation = fit.correlation.clone();
-    if fit.discrepancy.is_some() {
-        for row in &mut correlation {
-            row.push(None);
-        }
-        let mut last = vec![None; correlation.len()];
-        last.push(Some(1.0));
-        correlation.push(last);
-    }
-    correlation
+    };
+    finite::check(&answer)?;
+    Ok(answer)
 }
 
 /// Half the difference to a mesh twice as fine.
@@ -141,7 +124,6 @@ fn method(problem: &Problem<'_>, found: &Final) -> Result<FitMethod, Error> {
         vehicle_step_m: meshes.iter().map(cable_dem::Mesh::vehicle_step).collect(),
         loss: match problem.options.loss {
             Loss::Squares => "squares",
-            Loss::Huber { .. } => "huber",
             Loss::Tukey { .. } => "tukey",
             _ => "other",
         },
@@ -158,11 +140,13 @@ fn intervals(fit: &Fit) -> String {
     } else {
         " with the given sigmas".into()
     };
-    let averaged = match fit.discrepancy {
-        Some(_) => ", averaged over the size of the discrepancy",
-        None => "",
-    };
-    format!("profile likelihood{noise}{averaged}")
+    let error = fit.discrepancy.map_or_else(String::new, |share| {
+        format!(
+            ", beside a smooth error of the model of {} % of the largest reading",
+            four_digits(100.0 * share)
+        )
+    });
+    format!("profile likelihood{noise}{error}")
 }
 
 fn readings(problem: &Problem<'_>, fit: &Fit) -> Vec<FittedReading> {
@@ -224,18 +208,4 @@ fn residuals(readings: &[FittedReading]) -> Vec<ResidualSize> {
         });
     }
     sizes
-}
-
-fn summary((bootstrap, options): &(Bootstrap, BootstrapOptions)) -> BootstrapSummary {
-    let intervals = bootstrap.intervals.iter();
-    BootstrapSummary {
-        replicates: bootstrap.samples.len(),
-        failed: bootstrap.failed,
-        seed: options.seed,
-        standard_errors: bootstrap.standard_errors.clone(),
-        interval_95: intervals
-            .map(|interval| [interval.lower, interval.upper])
-            .collect(),
-        evaluations: bootstrap.evaluations,
-    }
 }

@@ -1,8 +1,9 @@
 //! A smooth error of the model beside the noise of the readings.
 //!
-//! At each instrument it is a Gaussian process over the logarithm of the passes since the cable was at rest, of mean 0. Its standard deviation
-//! is a share of the instrument's largest reading, the same share for all, and is fitted. It is the same in all runs of a scene: there the model
-//! is wrong in the same way. Before the first pass nothing can be wrong but a deflection.
+//! At each instrument it is a Gaussian process over the logarithm of the passes since the cable was at rest,
+//! of mean 0. Its standard deviation is a given share of the instrument's largest reading, the same share for
+//! all. It is the same in all runs of a scene: there the model is wrong in the same way. Before the first
+//! pass nothing can be wrong but a deflection.
 
 use std::ops::RangeInclusive;
 
@@ -13,15 +14,15 @@ use super::model::SeriesModel;
 use super::options::Series;
 use crate::Error;
 
-/// Length of correlation, in the logarithm of the passes: forces of a wrong law or ground miss the readings by one broad curve over all passes.
-/// Found by the chart `discrepancy` (docs/charts.md). With 1, fits of Coulomb's law to a cable that gives hold the truth in 62 to 82 % of the
-/// draws, with 2 in 93 to 97 %; the other way round, where the true ground is a fifth softer they do so in 100 and 73 %.
+/// Length of correlation, in the logarithm of the passes: forces of a wrong law or ground miss the readings
+/// by one broad curve over all passes. Found by the chart `discrepancy` (docs/charts.md): of nine wrong
+/// models with a friction that gives the forces, intervals hold the truth in 97 % of the draws and more.
 pub const LENGTH: f64 = 2.0;
 
 /// Shares that may be asked for: below is less than an instrument shows, above is no knowledge.
 pub const SHARES: RangeInclusive<f64> = 1e-4..=10.0;
 
-/// Among all readings, with a `share` of the largest as the scale of its prior.
+/// Among all readings, of a `share` of the largest.
 pub fn discrepancy(series: &[Series<'_>], models: &[SeriesModel], share: f64) -> Result<Discrepancy, Error> {
     if !SHARES.contains(&share) {
         return Err(Error::Calibration(CalibrationError::InvalidOption {

@@ -1,6 +1,6 @@
 //! A fit on ever finer meshes, until a finer one hardly moves the parameters.
 
-use calibrate::{Bootstrap, BootstrapOptions, Calibration, CalibrationError, Emulator, Fit, Model, Profiles};
+use calibrate::{Calibration, CalibrationError, Emulator, Fit, Model, Profiles};
 
 use super::model::SeriesModel;
 use super::problem::{Effort, FIRST_LEVEL, LAST_LEVEL, Problem};
@@ -19,7 +19,6 @@ pub struct Final {
     pub mesh: MeshChoice,
     /// Model runs, all levels together.
     pub evaluations: usize,
-    pub bootstrap: Option<(Bootstrap, BootstrapOptions)>,
 }
 
 /// The level of meshes of the final fit.
@@ -55,16 +54,11 @@ pub fn fit(problem: &Problem<'_>, limit: usize, profiles: Profiles) -> Result<Fi
     let calibration = problem.calibration(&model, Some(mesh.values.clone()), &effort)?;
     let (fit, emulator) = emulated(&calibration, Some(&mesh.emulator), limit)?;
     evaluations += fit.evaluations;
-    let bootstrap = match &problem.options.bootstrap {
-        Some(options) => Some((calibration.bootstrap(&fit, options)?, *options)),
-        None => None,
-    };
     Ok(Final {
         fit,
         emulator,
         mesh,
         evaluations,
-        bootstrap,
     })
 }
 

@@ -35,7 +35,7 @@ mod watch;
 
 use ::calibrate::{Options, Profiles};
 
-pub use ::calibrate::{BootstrapOptions, CalibrationError, Loss};
+pub use ::calibrate::{CalibrationError, Loss};
 #[cfg(feature = "plot")]
 pub(crate) use cell::{CellEnd, force_ends};
 #[cfg(feature = "cli")]
@@ -45,8 +45,7 @@ pub use judgement::LackOfFit;
 pub(crate) use mistakes::of_forces;
 pub use options::{CalibrateOptions, Deflection, Series};
 pub use result::{
-    BootstrapSummary, Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate,
-    ProfilePoint, ResidualSize,
+    Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
 };
 pub use unknown::{Quantity, Unknown};
 

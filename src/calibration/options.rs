@@ -1,6 +1,6 @@
 //! What a calibration is given.
 
-use calibrate::{BootstrapOptions, Loss};
+use calibrate::Loss;
 
 use super::unknown::Unknown;
 use crate::readings::Readings;
@@ -35,15 +35,12 @@ pub struct CalibrateOptions<'a> {
     pub zero_offset_sigma: Option<f64>,
     /// That of its drift \[N per pass\]; a quarter of the largest force over all passes if left out.
     pub drift_sigma: Option<f64>,
-    /// Whether the model may be wrong by a smooth function of the passes, whose standard deviation is fitted: how large that may be, as a
-    /// share of the largest reading, 1e-4 to 10, before the readings (the scale of a half-normal distribution). Least squares only, and no
-    /// bootstrap.
+    /// Whether the model may be wrong by a smooth function of the passes: its standard deviation, as a share
+    /// of the largest reading, 1e-4 to 10. Least squares only.
     pub discrepancy: Option<f64>,
     /// How much residuals count.
     pub loss: Loss,
-    /// Refits to data drawn anew, if wanted.
-    pub bootstrap: Option<BootstrapOptions>,
-    /// Largest number of model runs without those of the bootstrap; 0 takes 2000.
+    /// Largest number of model runs; 0 takes 2000.
     pub max_evaluations: usize,
     /// Called after each model run with its share of all that are allowed; it may stop the calibration.
     pub progress: Progress<'a>,

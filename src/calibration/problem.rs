@@ -138,11 +138,11 @@ pub fn unknowns(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result
             reason: "there is nothing to fit".into(),
         });
     }
-    if options.discrepancy.is_some() && (options.loss != Loss::Squares || options.bootstrap.is_some()) {
+    if options.discrepancy.is_some() && options.loss != Loss::Squares {
         return Err(Error::Unfit {
             key: "discrepancy",
-            found: "a robust loss or a bootstrap beside it",
-            reason: "both take what is left of a reading for independent noise; leave one of them out".into(),
+            found: "a robust loss beside it",
+            reason: "it takes what is left of a reading for independent noise; leave one of them out".into(),
         });
     }
     let mut unknowns = options.unknowns.clone();

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::judgement::LackOfFit;
+use crate::finite;
 
 /// A calibrated scene.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -19,7 +20,7 @@ pub struct Calibrated {
     pub residuals: Vec<ResidualSize>,
     /// Share of the forces' variance that the model explains; null where they do not vary.
     pub r_squared: Option<f64>,
-    /// Runs of the model, all meshes together, without those of the bootstrap.
+    /// Runs of the model, all meshes together.
     pub evaluations: usize,
     /// What the user should know before trusting the answer.
     pub warnings: Vec<String>,
@@ -37,8 +38,6 @@ pub struct Calibrated {
     pub model_error: ModelErrorEstimate,
     /// Readings and what the calibrated model says to them.
     pub fit: Vec<FittedReading>,
-    /// Spread of refits to data drawn anew, where it was asked for.
-    pub bootstrap: Option<BootstrapSummary>,
 }
 
 /// A fitted parameter.
@@ -143,6 +142,17 @@ pub struct ResidualSize {
     pub left_out: usize,
 }
 
+finite::numbers! {
+    Calibrated: parameters correlation residual_rms_n residuals r_squared lack_of_fit noise_n degrees_of_freedom method model_error fit;
+    FittedParameter: value standard_error interval_95 profile;
+    ProfilePoint: value rise;
+    FitMethod: node_spacing_m vehicle_step_m;
+    ModelErrorEstimate: relative standard_errors;
+    FittedReading: force_n fitted_n residual_n weight value fitted residual;
+    ResidualSize: rms;
+    LackOfFit: p_runs p_trend p_offset p_noise p_sigma;
+}
+
 impl std::fmt::Display for ResidualSize {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match (self.measured, self.unit) {
@@ -155,21 +165,4 @@ impl std::fmt::Display for ResidualSize {
             count => write!(f, " of {} readings, {count} left out", self.readings),
         }
     }
-}
-
-/// Spread of refits to data drawn anew.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BootstrapSummary {
-    /// Refits that succeeded and that failed.
-    pub replicates: usize,
-    /// Refits that failed.
-    pub failed: usize,
-    /// Seed of the generator.
-    pub seed: u64,
-    /// Standard deviation of each parameter.
-    pub standard_errors: Vec<f64>,
-    /// Percentile interval of each parameter; null is an end at a bound.
-    pub interval_95: Vec<[Option<f64>; 2]>,
-    /// Model runs.
-    pub evaluations: usize,
 }

@@ -11,10 +11,8 @@ use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
 use crate::Readings;
 use crate::calibration::{
-    BootstrapOptions, CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, ResidualSize, SHARES,
-    Series, Unknown,
+    CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, ResidualSize, SHARES, Series, Unknown,
 };
-use crate::output::Kind;
 use crate::scene::{Dimension, FrictionLaw};
 use crate::shown::{ROWS, four_digits, percent};
 
@@ -55,21 +53,15 @@ pub struct Arguments {
     /// Standard deviation of the measured deflection, "15 um"
     #[arg(long, value_name = "LENGTH", requires = "deflection", value_parser = positive_length)]
     deflection_sigma: Option<f64>,
-    /// Let the model be wrong by a smooth function of the passes and fit its standard deviation, a share of the largest reading: intervals
-    /// then hold where the model is not the truth. SHARE is how large it may be, before the readings are seen (0.01 % to 1000 %)
-    #[arg(long, value_name = "SHARE", num_args = 0..=1, require_equals = true, default_missing_value = "10 %", value_parser = share_of_discrepancy,
-        conflicts_with_all = ["robust", "bootstrap"])]
+    /// Let the model be wrong by a smooth function of the passes, with a standard deviation of SHARE of the
+    /// largest reading (0.01 % to 1000 %): intervals then hold where the model is off by as much
+    #[arg(long, value_name = "SHARE", num_args = 0..=1, require_equals = true, default_missing_value = "3 %", value_parser = share_of_discrepancy,
+        conflicts_with = "robust")]
     discrepancy: Option<f64>,
     /// Ignore outliers (Tukey's loss)
     #[arg(long)]
     robust: bool,
-    /// Also refit N bootstrap samples (at least 10)
-    #[arg(long, value_name = "N")]
-    bootstrap: Option<usize>,
-    /// Random seed of the bootstrap
-    #[arg(long, value_name = "S", default_value_t = 1)]
-    seed: u64,
-    /// Maximum number of model runs, without those of the bootstrap
+    /// Maximum number of model runs
     #[arg(long, value_name = "N", default_value_t = 2000)]
     max_evaluations: usize,
     #[command(flatten)]
@@ -130,7 +122,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         .collect::<Result<Vec<_>, _>>()?;
     let read = files.iter().flat_map(|(scene, data)| [&**scene, &**data]);
     let mut files = arguments.output.files(read);
-    let destination = arguments.output.destination(Kind::Fit, &mut files)?;
+    let destination = arguments.output.destination(&mut files)?;
     let deflection = arguments.deflection.zip(arguments.deflection_sigma);
     let options = CalibrateOptions {
         unknowns: arguments.fit.clone(),
@@ -143,10 +135,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         } else {
             Loss::Squares
         },
-        bootstrap: arguments.bootstrap.map(|replicates| BootstrapOptions {
-            replicates,
-            seed: arguments.seed,
-        }),
         max_evaluations: arguments.max_evaluations,
         ..CalibrateOptions::default()
     };
@@ -208,9 +196,6 @@ fn tell(readings: &[Readings], usual: usize, most: usize) {
     );
 }
 
-/// Name of the parameter that is the model's own error.
-const DISCREPANCY: &str = "discrepancy";
-
 fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     let mut out = terminal::out();
     let titles: Vec<String> = answer.titles.iter().map(|title| terminal::line(title)).collect();
@@ -234,17 +219,6 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
             if parameter.identifiable { "yes" } else { "NO" }
         )?;
     }
-    if answer
-        .parameters
-        .iter()
-        .any(|parameter| parameter.name == DISCREPANCY)
-    {
-        writeln!(
-            out,
-            "({DISCREPANCY}: standard deviation of a smooth error of the model, a share of the largest reading; the intervals allow for it)"
-        )?;
-    }
-    print_bootstrap(&mut out, answer)?;
     for i in 1..answer.parameters.len() {
         for j in 0..i {
             if let Some(correlation) = answer.correlation[i][j] {
@@ -302,28 +276,6 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
         answer.evaluations,
         answer.method.intervals
     )?;
-    Ok(())
-}
-
-fn print_bootstrap(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failure> {
-    let Some(bootstrap) = &answer.bootstrap else {
-        return Ok(());
-    };
-    writeln!(
-        out,
-        "\nbootstrap: {} replicates, seed {}, {} failed",
-        bootstrap.replicates, bootstrap.seed, bootstrap.failed
-    )?;
-    for (k, parameter) in answer.parameters.iter().enumerate() {
-        writeln!(
-            out,
-            "{:<22} {:>13} {:>15}  {}",
-            label(parameter),
-            "",
-            significant(bootstrap.standard_errors[k]),
-            interval(bootstrap.interval_95[k])
-        )?;
-    }
     Ok(())
 }
 

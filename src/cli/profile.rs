@@ -9,7 +9,6 @@ use super::progress::{HowFar, Now, watched};
 use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
 use crate::Profile;
-use crate::output::Kind;
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -50,7 +49,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let table = input.table();
     let read = [Some(&*arguments.scene.scene), table.as_deref()];
     let mut files = arguments.output.files(read.into_iter().flatten());
-    let destination = arguments.output.destination(Kind::Motion, &mut files)?;
+    let destination = arguments.output.destination(&mut files)?;
     let how_far = |now: Now| HowFar::unknown("computing the ground", now.elapsed);
     let remains = |_| "no motion is computed".to_owned();
     let answer = watched(how_far, remains, |_| match &arguments.positions {

@@ -12,7 +12,6 @@ use super::progress::{HowFar, watched};
 use super::readings::ReadArguments;
 use super::shared::{Force, Input, TrafficArguments};
 use super::terminal;
-use crate::output::Kind;
 use crate::report::{Report, ReportOptions, Source};
 
 /// Names the time of a page in place of the clock.
@@ -88,7 +87,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let overrides = arguments.scene.overrides();
     let date = date()?;
     let mut files = arguments.force.files(read.into_iter().flatten());
-    let page = files.output(&arguments.output, Kind::Page)?;
+    let page = files.output(&arguments.output, "html")?;
     arguments.page_is_html()?;
     let how_far = |now| HowFar::new(now, "the scene's run, then ways to hold the cable");
     let remains = |_| "no page is written".to_owned();

@@ -13,7 +13,6 @@ use super::terminal;
 #[cfg(feature = "xlsx")]
 use super::workbook::WorkbookArguments;
 use crate::answer::{Place, after, in_rows, table_rows};
-use crate::output::Kind;
 use crate::scene::Traffic;
 use crate::shown::{exact, percent, spacing};
 use crate::{
@@ -81,7 +80,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let table = input.table();
     let read = [Some(&*arguments.scene.file.scene), table.as_deref()];
     let mut files = arguments.output.files(read.into_iter().flatten());
-    let destination = arguments.output.destination(Kind::Passes, &mut files)?;
+    let destination = arguments.output.destination(&mut files)?;
     #[cfg(feature = "xlsx")]
     let workbook = arguments.workbook.destination(&mut files)?;
     let units = arguments.limits.units(input.file());

@@ -7,9 +7,9 @@ use serde::Serialize;
 
 use super::failure::Failure;
 use super::{signals, terminal};
-use crate::output::{Files, Kind, Output, OutputError};
+use crate::output::{Files, Output, OutputError};
 use crate::scene::{DAYS_PER_YEAR, PER_DAY, Range, YEARS};
-use crate::{Error, Scene, SceneFile, finite};
+use crate::{Error, Scene, SceneFile};
 
 /// What stands for standard output in place of a file.
 pub const STDOUT: &str = "-";
@@ -141,8 +141,8 @@ pub struct Json {
 /// Whether files that are not this command's own are replaced.
 #[derive(Debug, clap::Args)]
 pub struct Force {
-    /// Overwrite the file whatever it contains. Without it, only an older output of the same command is overwritten (by `new`, no file).
-    /// Input files never are
+    /// Overwrite any file. Without it, only a file whose name ends as the output's does is overwritten (by
+    /// `new`, none). Input files never are
     #[arg(long)]
     pub force: bool,
 }
@@ -238,13 +238,12 @@ impl Force {
 }
 
 impl Json {
-    /// Prints the answer, all of whose numbers are finite, as one JSON document or by `print`.
+    /// Prints the answer as one JSON document or by `print`.
     pub fn print<T: Serialize + ?Sized>(
         self,
         answer: &T,
         print: impl FnOnce() -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        finite::check(answer)?;
         if !self.json {
             return print();
         }
@@ -283,13 +282,13 @@ impl OutputArguments {
     }
 
     /// Makes sure before hours of computing that the table can be written; an older one stays as it is till then.
-    pub fn destination(&self, kind: Kind, files: &mut Files) -> Result<Destination, Failure> {
+    pub fn destination(&self, files: &mut Files) -> Result<Destination, Failure> {
         let table = match &self.csv {
             None => Table::None,
             Some(file) if file == Path::new(STDOUT) => Table::StandardOutput,
             Some(file) => {
-                let output = files.output(file, kind);
-                if has_ending(file, &["xlsx", "xls", "ods", "parquet"]) && !is_taken(&output) {
+                let output = files.output(file, "csv");
+                if has_ending(file, &["xlsx", "xls", "ods"]) && !is_taken(&output) {
                     return Err(Failure::Usage {
                         argument: "--csv",
                         found: file.display().to_string(),
@@ -326,7 +325,6 @@ impl Destination {
         rows: impl IntoIterator<Item = R>,
         print: impl FnOnce() -> Result<(), Failure>,
     ) -> Result<(), Failure> {
-        finite::check(answer)?;
         match &self.table {
             Table::None => {}
             // There it stands alone.
@@ -346,35 +344,4 @@ fn csv<R: Serialize>(rows: impl IntoIterator<Item = R>) -> Result<Vec<u8>, Failu
         writer.serialize(row).map_err(std::io::Error::from)?;
     }
     Ok(writer.into_inner().map_err(csv::IntoInnerError::into_error)?)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn no_document_and_no_table_holds_a_number_that_is_none() {
-        for table in [Table::None, Table::StandardOutput] {
-            for json in [false, true].map(|json| Json { json }) {
-                let destination = Destination {
-                    json,
-                    table: match table {
-                        Table::None => Table::None,
-                        _ => Table::StandardOutput,
-                    },
-                };
-                for answer in [Some(f64::NAN), Some(f64::INFINITY)] {
-                    let printed = || -> Result<(), Failure> { panic!("it was printed") };
-                    let failure = destination.write(&answer, [answer], printed);
-                    let Err(Failure::Analysis(error)) = failure else {
-                        panic!("it was written");
-                    };
-                    assert!(
-                        matches!(error, Error::NotFinite { .. }) && !error.is_bad_input(),
-                        "{error}"
-                    );
-                }
-            }
-        }
-    }
 }

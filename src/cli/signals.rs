@@ -10,7 +10,7 @@ mod unix {
     use std::sync::atomic::{AtomicBool, AtomicI32, Ordering};
     use std::time::{Duration, Instant};
 
-    use signal_hook::consts::{SIGHUP, SIGINT, SIGTERM};
+    use signal_hook::consts::{SIGINT, SIGTERM};
     use signal_hook::iterator::Signals;
     use signal_hook::low_level::emulate_default_handler;
 
@@ -21,18 +21,19 @@ mod unix {
     static WATCHED: AtomicBool = AtomicBool::new(false);
     static ASKED: AtomicI32 = AtomicI32::new(0);
 
-    /// Removes temporary files when a signal ends the process. A signal that is ignored, as under `nohup`, stays so.
+    /// Removes temporary files when Ctrl-C or SIGTERM ends the process. SIGHUP is left as it is, so that
+    /// `nohup` works: a terminal that is closed may leave a temporary file behind.
     pub fn listen() {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| {
             // Without this a stopped process leaves a file behind, and nothing worse.
-            let Ok(mut signals) = Signals::new(heeded()) else {
+            let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else {
                 return;
             };
             std::thread::spawn(move || {
                 let mut asked = None;
                 for signal in signals.forever() {
-                    let is_told = signal != SIGHUP && WATCHED.load(Ordering::SeqCst);
+                    let is_told = WATCHED.load(Ordering::SeqCst);
                     // Who asks twice does not want to wait.
                     let first = *asked.get_or_insert_with(Instant::now);
                     if !is_told || first.elapsed() > ONE {
@@ -74,22 +75,6 @@ mod unix {
             let _ = emulate_default_handler(signal);
         }
         std::process::exit(128 + signal)
-    }
-
-    /// The signals that ask a process to stop, without those that it ignores. Where the system does not say which these are, a closed
-    /// terminal is left alone: a long sweep under `nohup` counts for more than a file that is left.
-    fn heeded() -> Vec<c_int> {
-        match std::fs::read_to_string("/proc/self/status") {
-            Ok(status) => {
-                let ignored = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
-                let ignored = ignored.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
-                let ignored = ignored.unwrap_or_default();
-                let mut signals = vec![SIGHUP, SIGINT, SIGTERM];
-                signals.retain(|signal| ignored & (1 << (signal - 1)) == 0);
-                signals
-            }
-            Err(_) => vec![SIGINT, SIGTERM],
-        }
     }
 }
 

@@ -8,8 +8,6 @@ use super::progress::{HowFar, Now, watched};
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
 use crate::Units;
-#[cfg(feature = "plot")]
-use crate::output::Kind;
 use crate::shown::exact_percent;
 use crate::sweep::{Axis, Band, Format, SAMPLE_TOLERANCE, Samples, Sweep, SweepOptions, SweepSummary};
 #[cfg(feature = "plot")]
@@ -23,7 +21,7 @@ stands before a text that a spreadsheet would take for a formula.
 
 Examples:
   creepage sweep my-duct.toml --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out friction.csv
-  creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary vehicles.0.load=10tf,15tf,20tf --out grid.parquet
+  creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary vehicles.0.load=10tf,15tf,20tf --out grid.xlsx
   creepage sweep my-duct.toml --vary duct.depth=0.6m:2m:0.2m --vary friction.dynamic_coefficient=0.2:0.5:0.05 --out map.csv --map map.svg
   creepage sweep my-duct.toml --rows ducts.csv --out answers.xlsx
   creepage sweep my-duct.toml --vary \"friction.dynamic_coefficient=normal(0.25, 0.03)\" --samples 500 --out bands.csv"
@@ -45,11 +43,12 @@ pub struct Arguments {
         allow_hyphen_values = true
     )]
     vary: Vec<String>,
-    /// A table with one row a duct (CSV, Parquet or Excel), its columns named as keys, with units or in SI; an empty cell leaves the scene's own
-    /// value, and a column `id` is carried over. With --samples a cell, or a value of the scene, may be a distribution as in --vary
+    /// A table with one row a duct (CSV or Excel), its columns named as keys, with units or in SI; an empty
+    /// cell leaves the scene's own value, and a column `id` is carried over. With --samples a cell, or a
+    /// value of the scene, may be a distribution as in --vary
     #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     rows: Option<PathBuf>,
-    /// Table to write, FILE.csv, FILE.parquet or FILE.xlsx
+    /// Table to write, FILE.csv or FILE.xlsx
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Number of samples of the keys that have a distribution
@@ -90,12 +89,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut files = arguments
         .force
         .files(read.chain(tables.iter().map(PathBuf::as_path)));
-    files.output(&arguments.out, Format::of(&arguments.out)?.kind())?;
+    files.output(&arguments.out, Format::of(&arguments.out)?.ending())?;
     #[cfg(feature = "plot")]
     let map = match &arguments.map {
         Some(file) => {
             let map = SweepMap::new(&sweep, arguments.map_of)?;
-            Some((files.output(file, Kind::Figure)?, map))
+            Some((files.output(file, "svg")?, map))
         }
         None => None,
     };

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::shared::{STDOUT, has_ending, is_taken};
-use crate::output::{Files, Kind, Output};
-use crate::{Run, SceneFile, Units, Verdict, finite, workbook};
+use crate::output::{Files, Output};
+use crate::{Run, SceneFile, Units, Verdict, workbook};
 
 #[derive(Debug, clap::Args)]
 pub struct WorkbookArguments {
@@ -23,7 +23,7 @@ impl WorkbookArguments {
         let Some(path) = &self.xlsx else {
             return Ok(Destination(None));
         };
-        let output = files.output(path, Kind::RunBook);
+        let output = files.output(path, "xlsx");
         if path.extension().is_some() && !has_ending(path, &["xlsx"]) && !is_taken(&output) {
             return Err(Failure::Usage {
                 argument: "--xlsx",
@@ -45,7 +45,7 @@ impl WorkbookArguments {
 }
 
 impl Destination {
-    /// Writes a run, all of whose numbers are finite.
+    /// Writes a run.
     pub fn write(
         &self,
         run: &Run,
@@ -54,8 +54,6 @@ impl Destination {
         units: &Units,
     ) -> Result<(), Failure> {
         let Some(output) = &self.0 else { return Ok(()) };
-        finite::check(run)?;
-        finite::check(verdicts)?;
         let bytes = workbook::of_run(run, verdicts, file, units);
         let bytes = bytes.map_err(|source| output.failed(source))?;
         Ok(output.write(|out| out.write_all(&bytes))?)

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use super::limits::{DesignError, held};
 use super::runs::on_one_mesh;
 use super::trade_off::{Spring, TradeOff};
-use crate::{Limits, Place, Progress, Scene};
+use crate::{Limits, Place, Progress, Scene, finite};
 
 /// One way to hold the cable.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,7 +37,9 @@ pub fn compare(
         measure.check(&scene)?;
         let springs = [Spring::new(measure.place, measure.stiffness)];
         let run = crate::run(&held(&scene, &springs))?;
-        Ok(TradeOff::of(&scene, &run, &springs, &Limits::default()))
+        let point = TradeOff::of(&scene, &run, &springs, &Limits::default());
+        finite::check(&point)?;
+        Ok(point)
     };
     measures
         .par_iter()

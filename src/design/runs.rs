@@ -7,7 +7,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use super::limits::held;
 use super::options::DesignOptions;
 use super::trade_off::{Spring, TradeOff};
-use crate::{Error, Limits, Place, Progress, RunOptions, Scene};
+use crate::{Error, Limits, Place, Progress, RunOptions, Scene, finite};
 
 /// Stiffnesses go from this part of the cable's own stiffness EA/L to its inverse.
 const DECADES: i32 = 2;
@@ -57,6 +57,7 @@ impl<'a> Runs<'a> {
         }
         let run = crate::run(&held(&self.scene, &springs))?;
         let point = TradeOff::of(&self.scene, &run, &springs, self.limits);
+        finite::check(&point)?;
         self.points().push(point.clone());
         let count = self.count.fetch_add(1, Relaxed);
         let share = count as f64 / self.expected as f64;

@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use serde::{Deserialize, Serialize};
 
-use crate::{CableEnd, Limited, Limits, Place, Run, Scene};
+use crate::{CableEnd, Limited, Limits, Place, Run, Scene, finite};
 
 /// An end that moves by more than this share of the duct's length is no longer where the scene says.
 const LEAVES: f64 = 0.01;
@@ -135,6 +135,12 @@ pub(super) fn in_duct(scene: &Scene) -> impl Iterator<Item = (Place, Limited, f6
     CableEnd::ALL
         .into_iter()
         .map(move |end| (end.into(), Limited::Movement, most))
+}
+
+finite::numbers! {
+    ClampPeak: position_m force_n movement_m;
+    TradeOff: stiffness_n_per_m force_n movement_m upstream_force_n downstream_force_n upstream_movement_m downstream_movement_m
+        clamp_force_n clamps error_estimate;
 }
 
 impl Design {

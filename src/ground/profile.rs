@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::Ground;
 use crate::answer::error_estimate::{self, ErrorParts};
-use crate::{Error, Scene};
+use crate::{Error, Scene, finite};
 
 /// Farthest position from the vehicle \[m\].
 const FARTHEST: f64 = 1e6;
@@ -23,6 +23,10 @@ pub struct Profile {
     pub vertical_m: Vec<f64>,
     /// V_l = −v dD_l/dξ \[m/s\] (Kashiro et al., Equation (1)).
     pub longitudinal_velocity_m_per_s: Vec<f64>,
+}
+
+finite::numbers! {
+    Profile: positions_m longitudinal_m vertical_m longitudinal_velocity_m_per_s;
 }
 
 /// The profile over eight depths to either side of the vehicle.
@@ -56,7 +60,7 @@ pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
     let ground = Ground::new(scene, None, reach)?;
     error_estimate::judge(&ErrorParts::new(ground.accuracy, 0.0), scene.solver.tolerance)?;
     let first = &ground.motions[0];
-    Ok(Profile {
+    let profile = Profile {
         ground: ground.name.into(),
         positions_m: positions.to_vec(),
         longitudinal_m: positions.iter().map(|&xi| first.longitudinal(xi)).collect(),
@@ -65,5 +69,7 @@ pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
             .iter()
             .map(|&xi| first.longitudinal_velocity(xi))
             .collect(),
-    })
+    };
+    finite::check(&profile)?;
+    Ok(profile)
 }

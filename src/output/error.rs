@@ -13,17 +13,15 @@ pub enum OutputError {
     /// The command reads the file of this name, or writes it already, in words.
     #[error("{0}: found a file which {1}; allowed: another file")]
     Taken(String, &'static str),
-    /// There is something that this command did not write.
+    /// There is a file whose name does not end as the output's does.
     #[error(
-        "{file}: found {found}, which would be lost; allowed: a new name, {kind} to replace, or --force to insist"
+        "{file}: found a file that would be lost; allowed: a new name, the name of a .{ending} file, which is replaced, or --force to insist"
     )]
-    OtherKind {
+    OtherEnding {
         /// The file.
         file: String,
-        /// What it looks like.
-        found: String,
-        /// What would be replaced.
-        kind: String,
+        /// The output's ending, without its point.
+        ending: &'static str,
     },
     /// Writing the file of this name broke off, and why.
     #[error("{0}: cannot be written")]

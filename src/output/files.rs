@@ -4,7 +4,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::error::OutputError;
-use super::kind::Kind;
 use super::place::Place;
 use super::target::Output;
 
@@ -15,7 +14,8 @@ pub struct Files {
 }
 
 impl Files {
-    /// A command that reads the files at `paths`; `force` replaces files of any kind, but never one of these.
+    /// A command that reads the files at `paths`; `force` replaces files of any ending, but never one of
+    /// these.
     pub fn reading<'p>(paths: impl IntoIterator<Item = &'p Path>, force: bool) -> Self {
         Self {
             read: paths.into_iter().filter_map(Identity::of).collect(),
@@ -24,8 +24,9 @@ impl Files {
         }
     }
 
-    /// The output at `path`, which can be written and holds nothing that must not be lost. Nothing is changed yet.
-    pub fn output(&mut self, path: &Path, kind: Kind) -> Result<Output, OutputError> {
+    /// The output at `path`, which can be written. An older file there may be replaced if its name ends in
+    /// `ending`. Nothing is changed yet.
+    pub fn output(&mut self, path: &Path, ending: &'static str) -> Result<Output, OutputError> {
         let place = Place::of(path).map_err(|source| OutputError::unwritable(path, source))?;
         let identity = match &place {
             Place::File(file) => Identity::of(file),
@@ -45,7 +46,7 @@ impl Files {
         let output = Output {
             name: path.to_owned(),
             place,
-            kind,
+            ending,
             force: self.force,
         };
         output.check()?;

@@ -5,24 +5,20 @@
 //! and its owner where that is allowed. A symbolic link stays one, and what it points to is replaced. What is no file of a disk, such as
 //! `/dev/stdout`, `/dev/null` or a named pipe, is written as it is.
 //!
-//! A file that the same command reads is never replaced, nor is a file written twice: files are compared by their identity, not by
-//! their names. A file of another kind is replaced only by force.
+//! A file that the same command reads is never replaced, nor is a file written twice: files are compared by
+//! their identity, not by their names. An older file is replaced only if its name ends as the output's does,
+//! any other by force alone.
 //!
-//! Limits: another name of the replaced file (a hard link) keeps the old content. Nothing guards against someone who puts a file of
-//! another kind there between the last look and the rename.
+//! Limits: another name of the replaced file (a hard link) keeps the old content.
 
 mod error;
 mod files;
-mod kind;
 mod place;
 mod target;
 mod temporary;
 
 pub use error::OutputError;
 pub(crate) use files::Files;
-#[cfg(feature = "cli")]
-pub(crate) use kind::COMPLETIONS;
-pub(crate) use kind::Kind;
 pub(crate) use target::{Draft, Output};
 #[cfg(all(feature = "cli", unix))]
 pub(crate) use temporary::remove_all;

@@ -1,11 +1,10 @@
 //! One file that is going to be written, and its content on its way there.
 
-use std::fs::{File, OpenOptions};
-use std::io::{self, BufWriter, ErrorKind, IntoInnerError, Read, Write};
+use std::fs::OpenOptions;
+use std::io::{self, BufWriter, ErrorKind, IntoInnerError, Write};
 use std::path::{Path, PathBuf};
 
 use super::error::OutputError;
-use super::kind::{Kind, described};
 use super::place::Place;
 use super::temporary::Temporary;
 
@@ -14,7 +13,8 @@ pub struct Output {
     /// As the user calls it.
     pub(super) name: PathBuf,
     pub(super) place: Place,
-    pub(super) kind: Kind,
+    /// What the names of older files end in that it replaces.
+    pub(super) ending: &'static str,
     pub(super) force: bool,
 }
 
@@ -26,31 +26,22 @@ impl Output {
         };
         let unwritable = |source| OutputError::unwritable(&self.name, source);
         match OpenOptions::new().append(true).open(file) {
-            Ok(_) => self.check_kind(file)?,
+            Ok(_) => self.check_ending(file)?,
             Err(error) if error.kind() == ErrorKind::NotFound => {}
             Err(error) => return Err(unwritable(error)),
         }
         Temporary::beside(file).map(drop).map_err(unwritable)
     }
 
-    /// Refuses what would be lost.
-    pub fn check_kind(&self, file: &Path) -> Result<(), OutputError> {
-        if self.force {
+    /// Refuses to replace a file whose name ends otherwise, so that a slip of the name costs nobody's work.
+    fn check_ending(&self, file: &Path) -> Result<(), OutputError> {
+        let ending = file.extension().unwrap_or_default();
+        if self.force || ending.eq_ignore_ascii_case(self.ending) || !file.exists() {
             return Ok(());
         }
-        let mut head = Vec::new();
-        let found = match File::open(file).and_then(|open| open.take(self.kind.head()).read_to_end(&mut head))
-        {
-            Ok(_) if head.is_empty() || self.kind.is_kind_of(&head) => return Ok(()),
-            Ok(_) => described(&head),
-            // It was there a moment ago, or never was.
-            Err(error) if error.kind() == ErrorKind::NotFound => return Ok(()),
-            Err(_) => "a file that cannot be read".to_owned(),
-        };
-        Err(OutputError::OtherKind {
-            file: self.name.display().to_string(),
-            found,
-            kind: self.kind.older(),
+        Err(OutputError::OtherEnding {
+            file: file.display().to_string(),
+            ending: self.ending,
         })
     }
 
@@ -124,7 +115,7 @@ impl Draft {
         let mut written = out.and_then(|mut out| out.flush());
         if let (Ok(()), Some(temporary), Place::File(path)) = (&written, temporary, &output.place) {
             // Hours may have gone by: what has come into its place meanwhile is kept too.
-            output.check_kind(path)?;
+            output.check_ending(path)?;
             written = temporary.replace(path);
         }
         written.map_err(|source| output.failed(source))

@@ -10,7 +10,7 @@ use crate::design::{Measure, largest_shown};
 use crate::readings::Readings;
 use crate::scene::Unit;
 use crate::{
-    Error, Limits, PlanReport, Profile, Progress, Run, RunOptions, Scene, Units, Verdict, finite, profile_at,
+    Error, Limits, PlanReport, Profile, Progress, Run, RunOptions, Scene, Units, Verdict, profile_at,
 };
 
 /// Positions at which the motion of the duct is drawn, and how far on either side of the vehicle \[depths\].
@@ -92,7 +92,7 @@ impl Report {
             .as_ref()
             .map_or(&[][..], |agreement| &agreement.mistakes);
         let ways = options.progress.part(RUN_SHARE, 1.0);
-        let report = Self {
+        Ok(Self {
             shown: Shown::new(options.units, largest_shown(scene)),
             plan: plan.report(),
             motion: profile_at(scene, &positions(scene, options.units.length))?,
@@ -110,20 +110,7 @@ impl Report {
             agreement,
             run,
             scene: scene.clone(),
-        };
-        report.check()?;
-        Ok(report)
-    }
-
-    /// Makes sure that every number on the page is finite.
-    fn check(&self) -> Result<(), Error> {
-        finite::check(&self.run)?;
-        finite::check(&self.plan)?;
-        finite::check(&self.motion)?;
-        finite::check(&self.friction.passes)?;
-        finite::check(&self.agreement.as_ref().map(Agreement::numbers))?;
-        let mut answers = self.measures.ways.iter().flat_map(|way| &way.answer);
-        answers.try_for_each(finite::check)
+        })
     }
 
     /// What looks mistaken in the readings.

@@ -1,11 +1,11 @@
 //! Force and movement over the passes, and force along the cable.
 
-use super::agreement::{Agreement, CellError};
+use super::agreement::Agreement;
 use super::content::Report;
 use super::ends::{self, OTHER};
 use super::figure::{Passes, along_duct, figure};
 use super::html::Html;
-use super::quantity::{Shown, count, significant};
+use super::quantity::{Shown, count};
 use crate::answer::{after, in_rows, table_rows};
 use crate::figure::{Axis, Chart, Reference, Series};
 use crate::{CableEnd, ForceProfile, Limited, PassRecord, Place, Units};
@@ -33,38 +33,7 @@ pub fn force(html: &mut Html, report: &Report) {
     figure(html, [movement(report)], &caption);
     passes(html, report);
     html.raw("</div>");
-    if let Some(error) = report
-        .agreement
-        .as_ref()
-        .and_then(|agreement| agreement.error.as_ref())
-    {
-        html.paragraph(&cell_error(error, &report.shown));
-    }
     clamps(html, report);
-}
-
-/// What the readings suggest, which a calibration can tell from another friction.
-fn cell_error(error: &CellError, shown: &Shown) -> String {
-    let (found, may, name) = match error {
-        CellError::Drift(slope) => {
-            let unit = shown.units.force;
-            let slope = significant(unit.of_si(*slope));
-            (
-                format!("changes by {slope} {} a pass", unit.symbol()),
-                "drift",
-                "drift",
-            )
-        }
-        CellError::Zero(level) => (
-            format!("begins with {} before the first pass", shown.force(*level)),
-            "have a zero that is off",
-            "zero_offset",
-        ),
-    };
-    format!(
-        "Measured minus computed force {found}, more than it scatters: the load cell may {may}, or friction and ground are not those of the scene. \
-         “creepage calibrate --fit dynamic_coefficient,{name}” tells these apart."
-    )
 }
 
 /// What each clamp carries.
@@ -101,7 +70,7 @@ fn measured_in(agreement: &Agreement, shown: &Shown) -> String {
     };
     format!(
         " {} readings at the {} end; measured minus computed force of {} of them: mean {mean}, root of the mean square {rms}, \
-         largest reading {largest}.{bars}",
+         largest reading {largest}.{bars} “creepage calibrate” says whether friction, ground or an error of the cell makes the difference.",
         agreement.readings.len(),
         agreement.end.name(),
         agreement.compared,

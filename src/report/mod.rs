@@ -22,7 +22,6 @@
 mod agreement;
 mod cause;
 mod content;
-mod depths;
 mod ends;
 mod figure;
 mod force;

@@ -45,7 +45,6 @@ impl Report {
         // Nothing is ever loaded, whatever a text on the page may say.
         html.raw("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\"/>");
         html.raw("<meta name=\"color-scheme\" content=\"light dark\"/>");
-        // This identifies our own pages.
         let version = env!("CARGO_PKG_VERSION");
         html.raw(&format!(
             "<meta name=\"generator\" content=\"creepage {version}\"/>"

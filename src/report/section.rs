@@ -3,9 +3,8 @@
 use ground_field::{Base, Direction, Modulus};
 
 use super::content::Report;
-use super::depths::Depths;
 use super::figure::WIDTH;
-use super::labels::{Label, labels, spread};
+use super::labels;
 use super::lanes::{Lane, lanes};
 use super::quantity::{Shown, round_below, significant};
 use crate::Scene;
@@ -14,18 +13,25 @@ use crate::figure::{Anchor, Drawing, Ink};
 /// The ground's left and right edge \[px\].
 const LEFT: f64 = 12.0;
 const RIGHT: f64 = 214.0;
-/// Height of the title, of a row of vehicles, and of a wheel \[px\].
+/// Where the road lies, below the title and the vehicles, and height of a wheel \[px\].
 const TITLE: f64 = 36.0;
-const ROW: f64 = 46.0;
+const SURFACE: f64 = 84.0;
 const WHEEL: f64 = 15.0;
-/// Room that a lane's sign and number take to either side \[px\].
-const SIGN: f64 = 20.0;
+/// Distance of lanes' signs with their numbers, at least \[px\].
+const SIGN: f64 = 36.0;
 /// Smallest half width of a wheel, and radius of a duct \[px\].
 const SMALLEST: f64 = 3.5;
 /// Lanes that are drawn at most.
 const MOST: usize = 6;
 /// Road beside what lies outermost, as a share of the depth.
 const BESIDE: f64 = 0.5;
+/// Most and least height of the ground: two lines of text for each label \[px\].
+const DEEPEST: f64 = 250.0;
+const SHALLOWEST: f64 = labels::ROOM * labels::MOST as f64;
+/// Ground that is always shown \[depths of the duct\], half-space below its layers, and rock \[px\].
+const SHOWN: f64 = 1.4;
+const BELOW: f64 = 0.5;
+const ROCK: f64 = 14.0;
 /// Longest bar of the scale \[px\].
 const BAR: f64 = 70.0;
 /// Opacity of the softest and of the stiffest layer.
@@ -38,47 +44,40 @@ pub fn section(report: &Report) -> (String, String) {
     let drawn = &all[..all.len().min(MOST)];
     let wheels: Vec<Vec<(f64, f64)>> = drawn.iter().map(Lane::wheels).collect();
     let across = Across::new(scene, &wheels);
-    let depths = Depths::new(scene, across.scale);
-    let rows = rows(&across, drawn, &wheels);
-    let surface = TITLE + ROW * (1 + rows.iter().max().unwrap_or(&0)) as f64;
-    let bottom = surface + depths.height();
-    let mut labels = labels(report, &depths);
-    spread(&mut labels, surface, bottom);
-    let lowest = labels.last().map_or(bottom, Label::bottom).max(bottom);
-    let scale = lowest + Drawing::LINE;
+    let high = across.height(scene);
+    let place = |depth: f64| (across.scale * depth).min(high);
+    let scale = SURFACE + high + Drawing::LINE;
     let names = names(&all);
     let height = scale + Drawing::LINE * (names.len() as f64 + 1.0);
 
     let mut drawing = Drawing::new("Cross-section of the road", (WIDTH, height));
     drawing.title("Cross-section of the road", (0.5 * WIDTH, 0.5 * TITLE));
-    ground(&mut drawing, scene, &depths, surface);
-    for ((lane, wheels), (k, row)) in drawn.iter().zip(&wheels).zip(rows.iter().enumerate()) {
+    let is_cut = ground(&mut drawing, scene, &across, high);
+    let signs = signs(&across, drawn);
+    for (k, (lane, wheels)) in drawn.iter().zip(&wheels).enumerate() {
         let number = (all.len() > 1).then_some(k + 1);
-        vehicle(
-            &mut drawing,
-            &across,
-            lane,
-            wheels,
-            number,
-            surface - ROW * *row as f64,
-        );
+        vehicle(&mut drawing, &across, lane, wheels, number, signs[k]);
     }
     let duct = (
         across.place(scene.duct.lateral_offset),
-        surface + depths.place(scene.duct.depth),
+        SURFACE + place(scene.duct.depth),
     );
     let inner = 0.5 * across.scale * scene.duct.inner_diameter.unwrap_or(0.0);
     drawing.area(&circle(duct, inner.max(SMALLEST)), Ink::Series(0), 1.0);
-    for label in &labels {
-        label.draw(&mut drawing, duct.0 + SMALLEST, RIGHT);
-    }
+    labels::draw(
+        &mut drawing,
+        report,
+        (SURFACE, high),
+        (duct.0 + SMALLEST, RIGHT),
+        place,
+    );
     across.bar(&mut drawing, scale, shown);
     for (k, name) in names.iter().enumerate() {
         let y = scale + Drawing::LINE * (k as f64 + 1.2);
         drawing.text(name, (LEFT, y), Anchor::Start);
     }
-    let cut = if depths.is_cut() {
-        "; the ground below the break is not"
+    let cut = if is_cut {
+        "; what lies deeper than the drawing is named beside it"
     } else {
         ""
     };
@@ -117,7 +116,7 @@ impl Across {
         });
         let wide = most - least + 2.0 * BESIDE * duct.depth;
         Self {
-            scale: ((RIGHT - LEFT) / wide).min(Depths::largest_scale(duct.depth)),
+            scale: ((RIGHT - LEFT) / wide).min(DEEPEST / (SHOWN * duct.depth)),
             middle: 0.5 * (least + most),
         }
     }
@@ -125,6 +124,21 @@ impl Across {
     /// Where something lies that is so far to the left of the scene's line \[px\].
     fn place(&self, left: f64) -> f64 {
         0.5 * (LEFT + RIGHT) + self.scale * (self.middle - left)
+    }
+
+    /// Height of the ground that is shown \[px\].
+    fn height(&self, scene: &Scene) -> f64 {
+        let (profile, depth) = (&scene.ground.profile, scene.duct.depth);
+        let layers: f64 = profile
+            .layers()
+            .iter()
+            .map(ground_field::SoilLayer::thickness)
+            .sum();
+        let wanted = match profile.base() {
+            Base::Rigid => self.scale * layers + ROCK,
+            Base::HalfSpace(_) => self.scale * (layers + BELOW * depth),
+        };
+        wanted.max(self.scale * SHOWN * depth).clamp(SHALLOWEST, DEEPEST)
     }
 
     /// How long a round length is.
@@ -140,50 +154,42 @@ impl Across {
     }
 }
 
-/// The row of each lane: 0 on the road, 1 above what it would cover, and so on.
-fn rows(across: &Across, lanes: &[Lane], wheels: &[Vec<(f64, f64)>]) -> Vec<usize> {
-    let mut rows: Vec<(usize, [f64; 2])> = Vec::new();
-    for (lane, wheels) in lanes.iter().zip(wheels) {
-        let sign = across.place(lane.middle);
-        let from = wheels.iter().fold(sign - SIGN, |from, (place, half)| {
-            from.min(across.place(*place) - across.scale * half)
-        });
-        let to = wheels.iter().fold(sign + SIGN, |to, (place, half)| {
-            to.max(across.place(*place) + across.scale * half)
-        });
-        let free = |row: &usize| {
-            let mut same = rows.iter().filter(|(other, _)| other == row);
-            same.all(|(_, [left, right])| to < *left || from > *right)
-        };
-        let row = (0..rows.len()).find(free).unwrap_or(rows.len());
-        rows.push((row, [from, to]));
+/// Where the signs of lanes stand \[px\]: above the lane, or beside the sign of the next lane to the left.
+fn signs(across: &Across, lanes: &[Lane]) -> Vec<f64> {
+    let mut places: Vec<f64> = lanes.iter().map(|lane| across.place(lane.middle)).collect();
+    let mut order: Vec<usize> = (0..places.len()).collect();
+    order.sort_by(|&a, &b| places[a].total_cmp(&places[b]));
+    for pair in order.windows(2) {
+        places[pair[1]] = places[pair[1]].max(places[pair[0]] + SIGN);
     }
-    rows.into_iter().map(|(row, _)| row).collect()
+    places
 }
 
-/// A vehicle from behind or in front, on a road at `road` \[px\].
+/// A vehicle from behind or in front, with its sign at `sign` \[px\].
 fn vehicle(
     drawing: &mut Drawing,
     across: &Across,
     lane: &Lane,
     wheels: &[(f64, f64)],
     number: Option<usize>,
-    road: f64,
+    sign: f64,
 ) {
     let places = || wheels.iter().map(|(place, _)| across.place(*place));
     let (from, to) = (
         places().fold(f64::INFINITY, f64::min),
         places().fold(f64::NEG_INFINITY, f64::max),
     );
-    let axle = road - 0.6 * WHEEL;
+    let axle = SURFACE - 0.6 * WHEEL;
     drawing.line(&[(from, axle), (to, axle)], Ink::Dark, 2.0);
     for (place, half) in wheels {
         let (x, half) = (across.place(*place), (across.scale * half).max(SMALLEST));
-        let box_of = rectangle((x - half, road - WHEEL), (x + half, road));
+        let box_of = rectangle((x - half, SURFACE - WHEEL), (x + half, SURFACE));
         drawing.area(&box_of, Ink::Dark, 1.0);
     }
-    let centre = (across.place(lane.middle), road - WHEEL - 14.0);
+    let centre = (sign, SURFACE - WHEEL - 18.0);
     let radius = 7.0;
+    let foot = (across.place(lane.middle), axle);
+    drawing.line(&[(centre.0, centre.1 + radius), foot], Ink::Grey, 0.8);
     let mut ring = circle(centre, radius);
     ring.extend(ring.first().copied());
     drawing.line(&ring, Ink::Dark, 1.4);
@@ -230,8 +236,8 @@ fn names(lanes: &[Lane]) -> Vec<String> {
     names
 }
 
-/// The layers, the stiffer the darker, and the base.
-fn ground(drawing: &mut Drawing, scene: &Scene, depths: &Depths, surface: f64) {
+/// The layers, the stiffer the darker, and the base, as far as they are shown; whether there is more.
+fn ground(drawing: &mut Drawing, scene: &Scene, across: &Across, high: f64) -> bool {
     let profile = &scene.ground.profile;
     let stiffness = |modulus: Modulus| match modulus {
         Modulus::Uniform(modulus) => modulus,
@@ -240,24 +246,19 @@ fn ground(drawing: &mut Drawing, scene: &Scene, depths: &Depths, surface: f64) {
     let mut layers: Vec<(f64, f64, f64)> = Vec::new();
     let mut top = 0.0;
     for layer in profile.layers() {
-        let bottom = top + layer.thickness();
-        layers.push((
-            depths.place(top),
-            depths.place(bottom),
-            stiffness(layer.modulus()),
-        ));
+        let bottom = top + across.scale * layer.thickness();
+        layers.push((top, bottom, stiffness(layer.modulus())));
         top = bottom;
     }
-    let below = (depths.place(top), depths.height());
     if let Base::HalfSpace(soil) = profile.base() {
-        layers.push((below.0, below.1, soil.young_modulus()));
+        layers.push((top, high.max(top), soil.young_modulus()));
     }
     let all = || layers.iter().map(|(.., modulus)| modulus.ln());
     let (soft, stiff) = (
         all().fold(f64::INFINITY, f64::min),
         all().fold(f64::NEG_INFINITY, f64::max),
     );
-    for (top, bottom, modulus) in &layers {
+    for (top, bottom, modulus) in layers.iter().filter(|(top, ..)| *top < high) {
         let share = if stiff > soft {
             (modulus.ln() - soft) / (stiff - soft)
         } else {
@@ -265,44 +266,26 @@ fn ground(drawing: &mut Drawing, scene: &Scene, depths: &Depths, surface: f64) {
         };
         let opacity = OPACITY[0] + share * (OPACITY[1] - OPACITY[0]);
         let opacity = (100.0 * opacity).round() / 100.0;
-        let layer = rectangle((LEFT, surface + top), (RIGHT, surface + bottom));
+        let bottom = SURFACE + bottom.min(high);
+        let layer = rectangle((LEFT, SURFACE + top), (RIGHT, bottom));
         drawing.area(&layer, Ink::Grey, opacity);
-        drawing.line(
-            &[(LEFT, surface + bottom), (RIGHT, surface + bottom)],
-            Ink::Grey,
-            0.8,
-        );
+        drawing.line(&[(LEFT, bottom), (RIGHT, bottom)], Ink::Grey, 0.8);
     }
-    if profile.base() == Base::Rigid {
-        rock(drawing, surface + below.0, surface + below.1);
+    if profile.base() == Base::Rigid && top < high {
+        rock(drawing, SURFACE + top, SURFACE + high);
     }
-    if let Some(cut) = depths.cut() {
-        let count = 16;
-        let step = (RIGHT - LEFT) / f64::from(count);
-        let zigzag = |y: f64| -> Vec<(f64, f64)> {
-            let point = |k: u32| {
-                (
-                    LEFT + step * f64::from(k),
-                    y + if k.is_multiple_of(2) { -3.0 } else { 3.0 },
-                )
-            };
-            (0..=count).map(point).collect()
-        };
-        for y in [cut - 3.0, cut + 3.0] {
-            drawing.line(&zigzag(surface + y), Ink::Dark, 1.2);
-        }
-    }
-    drawing.line(&[(LEFT, surface), (RIGHT, surface)], Ink::Dark, 2.0);
+    drawing.line(&[(LEFT, SURFACE), (RIGHT, SURFACE)], Ink::Dark, 2.0);
+    top >= high
 }
 
 /// Hatching below a line.
 fn rock(drawing: &mut Drawing, top: f64, bottom: f64) {
     drawing.line(&[(LEFT, top), (RIGHT, top)], Ink::Dark, 1.6);
-    let (high, step) = (bottom - top, 9.0);
+    let (high, step) = ((bottom - top).min(ROCK), 9.0);
     let count = ((RIGHT - LEFT - high) / step).floor() as u32;
     for k in 0..=count {
         let x = LEFT + high + step * f64::from(k);
-        drawing.line(&[(x, top), (x - high, bottom)], Ink::Dark, 0.8);
+        drawing.line(&[(x, top), (x - high, top + high)], Ink::Dark, 0.8);
     }
 }
 

@@ -32,7 +32,7 @@ pub enum SweepError {
     },
     /// The table of rows of this name cannot be read, and why.
     #[error(
-        "{0}: found no table of ducts that can be read; allowed: CSV, Parquet or an Excel workbook, a row a duct, its columns named as scene keys"
+        "{0}: found no table of ducts that can be read; allowed: CSV or an Excel workbook, a row a duct, its columns named as scene keys"
     )]
     Rows(String, #[source] std::io::Error),
     /// Keys, samples or output do not fit together.

@@ -11,7 +11,8 @@ use super::table::Format;
 /// The column that is carried over: it names a row and is no key of a scene.
 pub const ID: &str = "id";
 
-/// The columns of the table of ducts in `file`, `.csv`, `.parquet` or `.xlsx`, each with a value a row; empty where the row has none.
+/// The columns of the table of ducts in `file`, `.csv` or `.xlsx`, each with a value a row; empty where the
+/// row has none.
 ///
 /// # Errors
 ///
@@ -21,8 +22,6 @@ pub fn read(file: &Path) -> Result<Vec<(String, Vec<String>)>, SweepError> {
     let unreadable = |source| SweepError::Rows(name.clone(), source);
     let (keys, rows) = match Format::of(file)? {
         Format::Csv => csv(file),
-        #[cfg(feature = "parquet")]
-        Format::Parquet => super::parquet::read(file),
         #[cfg(feature = "xlsx")]
         Format::Xlsx => super::xlsx::read(file),
     }

@@ -41,8 +41,6 @@ mod list;
 mod map;
 mod numbers;
 mod options;
-#[cfg(feature = "parquet")]
-mod parquet;
 mod row;
 mod rows;
 mod run;

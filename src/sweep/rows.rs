@@ -16,7 +16,7 @@ const MOST_SAMPLES: usize = 1_000_000;
 const NAMES: [&str; 3] = ["title", "name", list::ID];
 
 impl Sweep {
-    /// The ducts of a table, `.csv`, `.parquet` or `.xlsx`, as [`Sweep::of_table`] takes them.
+    /// The ducts of a table, `.csv` or `.xlsx`, as [`Sweep::of_table`] takes them.
     ///
     /// # Errors
     ///

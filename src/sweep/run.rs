@@ -33,8 +33,9 @@ pub struct SweepSummary {
 }
 
 impl Sweep {
-    /// Computes all points that are not done yet and writes the table to `output`, whose name ends in `.csv`,
-    /// `.parquet` or `.xlsx`. Numbers are in SI, but in a workbook in the units that were typed, which stand below the names of its columns.
+    /// Computes all points that are not done yet and writes the table to `output`, whose name ends in `.csv`
+    /// or `.xlsx`. Numbers are in SI, but in a workbook in the units that were typed, which stand below the
+    /// names of its columns.
     ///
     /// The journal stands beside it, as `output.journal`, until the table is in place. Where `output` is a link, it stands beside
     /// what that points to.
@@ -48,10 +49,10 @@ impl Sweep {
         if self.count() > format.most_rows() {
             return Err(SweepError::Unfit {
                 found: format!("{} points for {}", self.count(), output.display()),
-                allowed: "at most 1048574, as many as Excel has rows; more in .csv or .parquet",
+                allowed: "at most 1048574, as many as Excel has rows; more in .csv",
             });
         }
-        let output = Files::reading([], options.force).output(output, format.kind())?;
+        let output = Files::reading([], options.force).output(output, format.ending())?;
         let mut beside = output.path().as_os_str().to_owned();
         beside.push(".journal");
         let mut journal = Journal::open(beside.into(), self.name(), self.count())?;

@@ -1,4 +1,4 @@
-//! The finished table, as CSV, Parquet or a workbook.
+//! The finished table, as CSV or a workbook.
 
 use std::io;
 use std::path::Path;
@@ -7,25 +7,24 @@ use super::error::SweepError;
 use super::numbers::si;
 use super::sink::{Cell, Column, Sink};
 use crate::SceneFile;
-use crate::output::{self, Draft};
+use crate::output::Draft;
 
 /// Kind of the table file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
     Csv,
-    #[cfg(feature = "parquet")]
-    Parquet,
     #[cfg(feature = "xlsx")]
     Xlsx,
 }
 
-/// Formats of this program, by the ends of their names.
-const ALLOWED: &str = match (cfg!(feature = "parquet"), cfg!(feature = "xlsx")) {
-    (true, true) => "a file that ends in .csv, .parquet or .xlsx",
-    (true, false) => "a file that ends in .csv or .parquet: this program was built without workbooks",
-    (false, true) => "a file that ends in .csv or .xlsx: this program was built without Parquet",
-    (false, false) => "a file that ends in .csv: this program was built without Parquet and workbooks",
+/// Formats of this program, by the endings of their names.
+const ALLOWED: &str = if cfg!(feature = "xlsx") {
+    "a file that ends in .csv or .xlsx"
+} else {
+    "a file that ends in .csv: this program was built without workbooks"
 };
+/// What is said of a Parquet file.
+const NO_PARQUET: &str = "a file that ends in .csv or .xlsx; in Python, pyarrow reads and writes Parquet from and to the tables of creepage.sweep";
 
 impl Format {
     /// The format that the file's name asks for.
@@ -33,25 +32,25 @@ impl Format {
         let extension = file.extension().unwrap_or_default().to_ascii_lowercase();
         match extension.to_str() {
             Some("csv") => Ok(Self::Csv),
-            #[cfg(feature = "parquet")]
-            Some("parquet") => Ok(Self::Parquet),
             #[cfg(feature = "xlsx")]
             Some("xlsx") => Ok(Self::Xlsx),
-            _ => Err(SweepError::Unfit {
+            extension => Err(SweepError::Unfit {
                 found: format!("the table {}", file.display()),
-                allowed: ALLOWED,
+                allowed: if extension == Some("parquet") {
+                    NO_PARQUET
+                } else {
+                    ALLOWED
+                },
             }),
         }
     }
 
-    /// What a file of this format is.
-    pub fn kind(self) -> output::Kind {
+    /// What the names of its files end in.
+    pub fn ending(self) -> &'static str {
         match self {
-            Self::Csv => output::Kind::Sweep,
-            #[cfg(feature = "parquet")]
-            Self::Parquet => output::Kind::Parquet,
+            Self::Csv => "csv",
             #[cfg(feature = "xlsx")]
-            Self::Xlsx => output::Kind::SweepBook,
+            Self::Xlsx => "xlsx",
         }
     }
 
@@ -75,8 +74,6 @@ impl Format {
                 writer.write_record(columns.iter().map(|column| &column.name))?;
                 Box::new(writer)
             }
-            #[cfg(feature = "parquet")]
-            Self::Parquet => Box::new(super::parquet::Parquet::new(file, columns)?),
             #[cfg(feature = "xlsx")]
             Self::Xlsx => Box::new(super::xlsx::Xlsx::new(file, columns, scene)?),
         })

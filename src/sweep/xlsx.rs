@@ -8,7 +8,7 @@ use rust_xlsxwriter::XlsxError;
 
 use super::sink::{self, Cells, Column, Sink};
 use crate::SceneFile;
-use crate::output::{Draft, Kind};
+use crate::output::Draft;
 use crate::scene::{Dimension, Unit};
 use crate::workbook::{self, Book, Cell};
 
@@ -26,7 +26,7 @@ pub struct Xlsx {
 impl Xlsx {
     pub fn new(file: Draft, columns: &[Column], scene: &SceneFile) -> io::Result<Self> {
         let title = scene.scene().map_or(String::new(), |scene| scene.title);
-        let mut book = Book::new(&title, Kind::SweepBook).map_err(other)?;
+        let mut book = Book::new(&title).map_err(other)?;
         let head = |column: &'_ Column| -> (String, &'static str) {
             match &column.shown {
                 Some((name, unit)) => (name.clone(), unit.symbol()),

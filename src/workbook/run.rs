@@ -8,7 +8,6 @@ use serde_json::Value;
 
 use super::scene::scene;
 use super::sheet::{Book, Cell};
-use crate::output::Kind;
 use crate::{Limited, Place, Run, SceneFile, Units, Verdict};
 
 /// Parts of the document that stand on the first sheet, in their order. What is a table has a sheet of its own.
@@ -45,7 +44,7 @@ fn write(
     file: &SceneFile,
     units: &Units,
 ) -> Result<Vec<u8>, XlsxError> {
-    let mut book = Book::new(&run.title, Kind::RunBook)?;
+    let mut book = Book::new(&run.title)?;
     answer(&mut book, run, document, verdicts, units)?;
     let heat = &document["heat"];
     table(&mut book, "passes", &document["passes"], units)?;

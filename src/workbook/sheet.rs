@@ -4,7 +4,6 @@ use rust_xlsxwriter::{
     Color, DocProperties, ExcelDateTime, Format, FormatBorder, Workbook, Worksheet, XlsxError,
 };
 
-use crate::output::Kind;
 use crate::shown::shortened;
 
 /// Letters of a text: Excel takes a few more.
@@ -38,8 +37,8 @@ pub struct Book {
 }
 
 impl Book {
-    /// An empty workbook of this kind.
-    pub fn new(title: &str, kind: Kind) -> Result<Self, XlsxError> {
+    /// An empty workbook.
+    pub fn new(title: &str) -> Result<Self, XlsxError> {
         let mut workbook = Workbook::new();
         let begun = ExcelDateTime::from_ymd(2000, 1, 1)?;
         let author = concat!("creepage ", env!("CARGO_PKG_VERSION"));
@@ -48,10 +47,6 @@ impl Book {
             .set_author(author)
             .set_creation_datetime(&begun);
         workbook.set_properties(&properties);
-        // This identifies our own workbooks.
-        if let Some(mark) = kind.mark() {
-            workbook.define_name(mark, "=TRUE")?;
-        }
         Ok(Self {
             workbook,
             row: 0,

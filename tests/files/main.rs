@@ -1,17 +1,11 @@
 //! What the commands do to files: an output takes its place as a whole or not at all, and nothing else is touched. And what they
 //! show of texts that are not to be trusted.
 
-#![cfg(all(
-    feature = "cli",
-    feature = "plot",
-    feature = "parquet",
-    feature = "xlsx",
-    unix
-))]
+#![cfg(all(feature = "cli", feature = "plot", feature = "xlsx", unix))]
 
 mod common;
+mod endings;
 mod inputs;
-mod kinds;
 mod links;
 #[cfg(target_os = "linux")]
 mod random;

@@ -1,6 +1,5 @@
 //! Commands with outputs at random places, and what must hold after each: an oracle that knows the rules and no output.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::process::Stdio;
 
@@ -10,13 +9,14 @@ use super::common::{Folder, PRECIOUS, WRITERS, assert_complete, said};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Place {
     Fresh,
-    Own,
-    Empty,
+    /// A file that ends as the output does.
+    Older,
+    /// A file that ends otherwise.
     Foreign,
     Input,
     HardLinkToInput,
     LinkToInput,
-    LinkToOwn,
+    LinkToOlder,
     LinkToForeign,
     Dangling,
     Folder,
@@ -26,15 +26,14 @@ enum Place {
     Pipe,
 }
 
-const PLACES: [Place; 15] = [
+const PLACES: [Place; 14] = [
     Place::Fresh,
-    Place::Own,
-    Place::Empty,
+    Place::Older,
     Place::Foreign,
     Place::Input,
     Place::HardLinkToInput,
     Place::LinkToInput,
-    Place::LinkToOwn,
+    Place::LinkToOlder,
     Place::LinkToForeign,
     Place::Dangling,
     Place::Folder,
@@ -43,6 +42,7 @@ const PLACES: [Place; 15] = [
     Place::StandardOutput,
     Place::Pipe,
 ];
+const CONTENTS: [&str; 2] = [PRECIOUS, ""];
 const MODES: [u32; 4] = [0o600, 0o640, 0o644, 0o666];
 
 impl Place {
@@ -52,19 +52,27 @@ impl Place {
         folder: &Folder,
         stem: &str,
         ending: &str,
-        own: &[u8],
+        content: &str,
         mode: u32,
     ) -> (String, Option<String>) {
-        let name = format!("{stem}.{ending}");
-        let target = format!("{stem}-target");
-        let file = |name: &str, content: &[u8]| {
+        let name = if self == Self::Foreign {
+            stem.to_owned()
+        } else {
+            format!("{stem}.{ending}")
+        };
+        let target = if self == Self::LinkToForeign {
+            format!("{stem}-target")
+        } else {
+            format!("{stem}-target.{ending}")
+        };
+        let file = |name: &str| {
             folder.write(name, content);
             folder.set_mode(name, mode);
         };
         let linked = match self {
             Self::Fresh => false,
-            Self::Own | Self::Empty | Self::Foreign => {
-                file(&name, if self == Self::Own { own } else { self.content() });
+            Self::Older | Self::Foreign => {
+                file(&name);
                 false
             }
             Self::Input => return ("scene.toml".into(), Some("scene.toml".into())),
@@ -76,15 +84,8 @@ impl Place {
                 folder.link("scene.toml", &name);
                 return (name, Some("scene.toml".into()));
             }
-            Self::LinkToOwn | Self::LinkToForeign => {
-                file(
-                    &target,
-                    if self == Self::LinkToOwn {
-                        own
-                    } else {
-                        self.content()
-                    },
-                );
+            Self::LinkToOlder | Self::LinkToForeign => {
+                file(&target);
                 true
             }
             Self::Dangling => true,
@@ -113,20 +114,13 @@ impl Place {
         (name.clone(), Some(name))
     }
 
-    fn content(self) -> &'static [u8] {
-        match self {
-            Self::Foreign | Self::LinkToForeign => PRECIOUS.as_bytes(),
-            _ => b"",
-        }
-    }
-
     /// Whether an output may go there.
     fn is_allowed(self, command: &str, ending: &str, force: bool) -> bool {
         let is_table_of_sweep = command == "sweep" && ending != "svg";
         match self {
-            Self::Fresh | Self::Empty | Self::Dangling | Self::Pipe => true,
+            Self::Fresh | Self::Dangling | Self::Pipe => true,
             // Whoever made a scene keeps it.
-            Self::Own | Self::LinkToOwn => command != "new" || force,
+            Self::Older | Self::LinkToOlder => command != "new" || force,
             Self::Foreign | Self::LinkToForeign => force,
             // A new scene reads none.
             Self::Input | Self::HardLinkToInput | Self::LinkToInput => command == "new" && force,
@@ -147,30 +141,16 @@ struct Case {
     force: bool,
 }
 
-/// What each command writes, to be put there as an older output.
-fn samples() -> BTreeMap<(&'static str, &'static str), Vec<u8>> {
-    let folder = Folder::new("samples");
-    let mut samples = BTreeMap::new();
-    for (arguments, ending) in WRITERS {
-        let name = format!("sample.{ending}");
-        folder.succeeds(&[arguments, &[&*name]].concat());
-        samples.insert((arguments[0], ending), folder.read(&name));
-        fs::remove_file(folder.path(&name)).expect("the sample");
-    }
-    folder.succeeds(&["new", "sample.toml"]);
-    samples.insert(("new", "toml"), folder.read("sample.toml"));
-    samples
-}
-
-fn case(folder: &Folder, random: &mut fastrand::Rng, samples: &BTreeMap<(&str, &str), Vec<u8>>) -> Case {
+fn case(folder: &Folder, random: &mut fastrand::Rng) -> Case {
     let n = random.usize(..=WRITERS.len());
     let (words, ending) = WRITERS.get(n).copied().unwrap_or((&["new"], "toml"));
     let mut arguments: Vec<String> = words.iter().map(|&word| word.to_owned()).collect();
     let mut outputs = Vec::new();
-    let mut place = |stem: &str, ending: &'static str, own: &[u8]| {
+    let mut place = |stem: &str, ending: &'static str| {
+        let content = CONTENTS[random.usize(..CONTENTS.len())];
         let place = PLACES[random.usize(..PLACES.len())];
         let mode = MODES[random.usize(..MODES.len())];
-        let (name, file) = place.make(folder, stem, ending, own, mode);
+        let (name, file) = place.make(folder, stem, ending, content, mode);
         outputs.push((place, name.clone(), file, ending));
         name
     };
@@ -179,9 +159,9 @@ fn case(folder: &Folder, random: &mut fastrand::Rng, samples: &BTreeMap<(&str, &
             .iter()
             .position(|word| word == "table.csv")
             .expect("a table");
-        arguments[out] = place("table", "csv", &samples[&("sweep", "csv")]);
+        arguments[out] = place("table", "csv");
     }
-    arguments.push(place("out", ending, &samples[&(words[0], ending)]));
+    arguments.push(place("out", ending));
     let force = random.bool();
     if force {
         arguments.push("--force".to_owned());
@@ -194,7 +174,6 @@ fn case(folder: &Folder, random: &mut fastrand::Rng, samples: &BTreeMap<(&str, &
 }
 
 fn try_cases(count: usize, seed: u64) {
-    let samples = samples();
     let mut random = fastrand::Rng::with_seed(seed);
     let (mut done, mut refused) = (0, 0);
     for _ in 0..count {
@@ -203,7 +182,7 @@ fn try_cases(count: usize, seed: u64) {
             arguments,
             outputs,
             force,
-        } = case(&folder, &mut random, &samples);
+        } = case(&folder, &mut random);
         let command = arguments[0].as_str();
         let allowed = outputs.iter().all(|(place, name, _, ending)| {
             let is_table_of_sweep = command == "sweep" && *ending != "svg";

@@ -1,12 +1,10 @@
-//! A model of one's own, fitted to readings with an outlier; an observer follows it.
+//! A model of one's own, fitted to readings with an outlier.
 //!
 //! ```sh
 //! cargo run -p calibrate --example saturating_force
 //! ```
 
-use std::ops::ControlFlow;
-
-use calibrate::{Calibration, Loss, Model, ModelError, Observer, Options, Parameter, Scale};
+use calibrate::{Calibration, Loss, Model, ModelError, Options, Parameter, Scale};
 
 /// F = F_s (1 − e^(−n/τ)), a force that levels off after n passes.
 struct Saturating {
@@ -46,10 +44,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     ];
     let mut options = Options::default();
     options.loss = Loss::TUKEY;
-    options.observer = Some(Observer::new(|progress| {
-        println!("iteration {:>2}: {:?}", progress.iteration, progress.parameters);
-        ControlFlow::Continue(())
-    }));
     let fit = Calibration::new(&model, parameters, forces)?
         .with_options(options)?
         .fit()?;

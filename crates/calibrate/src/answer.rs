@@ -7,13 +7,12 @@ use crate::fit::Fit;
 use crate::interval::EXCLUSION;
 use crate::parameter::{FARTHEST, physical};
 use crate::search::ROUGH;
-use crate::size::Sizes;
 use crate::solution::{Route, Solution};
 use crate::{Calibration, CalibrationError, Warning};
 
 /// Correlation from which two parameters count as hardly distinguishable.
 const CORRELATED: f64 = 0.99;
-/// Weight below which an observation counts as an outlier: Tukey's at three of its sigmas, Huber's at four.
+/// Weight below which an observation counts as an outlier: of Tukey's loss at three sigmas.
 const OUTLIER: f64 = 0.35;
 /// Degrees of freedom below which the noise is hardly known: its own standard error is a third.
 const FEW: f64 = 5.0;
@@ -28,7 +27,7 @@ impl Calibration<'_> {
     pub fn fit(&self) -> Result<Fit, CalibrationError> {
         self.check_count()?;
         let fit = |one: &Self, _| Ok((one.fit_directly(&Evaluator::new(one), one.start())?, ()));
-        Ok(self.with_size(fit)?.0)
+        Ok(self.beside_discrepancy(fit)?.0)
     }
 
     /// The fit by `evaluator`, which may have run before, from `start` and all over the range.
@@ -70,10 +69,11 @@ impl Calibration<'_> {
         let square: f64 = residuals.iter().map(|r| r * r).sum();
         let mean = observed.iter().sum::<f64>() / observed.len() as f64;
         let variation: f64 = observed.iter().map(|y| (y - mean).powi(2)).sum();
+        let loss = self.options.loss.rho();
         let weights: Vec<f64> = standardised
             .iter()
             .take(observed.len())
-            .map(|r| self.options.loss.weight(r / deviance.spread))
+            .map(|r| loss.weight(r / deviance.spread))
             .collect();
         let curvatures = deviance.curvatures(standardised);
         let degrees_of_freedom = self.freedom(&solution.optimum);
@@ -102,11 +102,7 @@ impl Calibration<'_> {
             deviance: solution.optimum.value(),
             evaluations: evaluator.count(),
             iterations: solution.optimum.iterations,
-            discrepancy: solution
-                .sizes
-                .as_ref()
-                .map(|sizes| sizes.estimate(1.0 - self.options.confidence)),
-            ratio: solution.sizes.as_ref().map_or(0.0, Sizes::ratio),
+            discrepancy: self.discrepancy.as_ref().map(|discrepancy| discrepancy.size),
             smooth,
             whitening: self.whitening.clone(),
             curvatures: curvatures.iter().take(observed.len()).copied().collect(),

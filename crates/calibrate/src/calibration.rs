@@ -36,7 +36,7 @@ pub struct Calibration<'a> {
     pub(crate) knows_noise: bool,
     pub(crate) options: Options,
     pub(crate) discrepancy: Option<Discrepancy>,
-    /// With the size that is being tried.
+    /// That of the noise that is being tried.
     pub(crate) whitening: Option<Arc<Whitening>>,
 }
 
@@ -97,7 +97,7 @@ impl<'a> Calibration<'a> {
         })
     }
 
-    /// The model may be off by a smooth function of the observations, whose size is fitted as well.
+    /// The model may be off by a smooth function of the observations, of given size.
     ///
     /// # Errors
     ///

@@ -3,19 +3,16 @@
 //! Model runs are expensive, so J follows by Broyden's update (K. Madsen, H. B. Nielsen, O. Tingleff, Methods for Non-Linear Least
 //! Squares Problems, 2004, section 3.4) and is computed anew where a step fails.
 
-use argmin::core::observers::{Observe, ObserverMode};
 use argmin::core::{
     Error, Executor, IterState, KV, Problem, Solver, State, TerminationReason, TerminationStatus,
 };
 use nalgebra::{DMatrix, DVector};
 
+use crate::CalibrationError;
 use crate::deviance::Deviance;
 use crate::evaluator::Evaluator;
-use crate::observer::{Observer, Progress};
-use crate::parameter::physical;
 use crate::point::Point;
 use crate::step::{Damping, Quadratic};
-use crate::{CalibrationError, Parameter};
 
 /// Next step in standard errors at which a descent may stop where no step lowers the deviance: noise of the model hides the rest.
 pub(crate) const NOISY: f64 = 0.5;
@@ -62,11 +59,6 @@ impl Descent<'_> {
     /// Descends from `start`, whether or not that converges.
     pub fn run(self, start: Point) -> Result<Optimum, CalibrationError> {
         let (deviance, iterations) = (self.deviance, self.iterations);
-        let calibration = self.evaluator.calibration;
-        let reporter = calibration.options.observer.as_ref().map(|observer| Reporter {
-            observer: observer.clone(),
-            parameters: calibration.parameters.clone(),
-        });
         let solver = LevenbergMarquardt {
             cost: deviance.total(&start.residuals),
             trust: if self.jacobian.is_some() {
@@ -82,12 +74,9 @@ impl Descent<'_> {
             descent: self,
         };
         // Ctrl-C is the caller's.
-        let mut executor = Executor::new((), solver)
+        let executor = Executor::new((), solver)
             .ctrlc(false)
             .configure(|state| state.max_iters(iterations));
-        if let Some(reporter) = reporter {
-            executor = executor.add_observer(reporter, ObserverMode::Always);
-        }
         let found = executor.run().map_err(own)?;
         let status = found.state.get_termination_status();
         let converged = *status == TerminationStatus::Terminated(TerminationReason::SolverConverged);
@@ -117,24 +106,6 @@ fn own(error: Error) -> CalibrationError {
         .unwrap_or_else(|source| CalibrationError::Optimiser {
             source: source.into(),
         })
-}
-
-/// Hands argmin's iterations on to the caller.
-struct Reporter {
-    observer: Observer,
-    parameters: Vec<Parameter>,
-}
-
-impl Observe<Iteration> for Reporter {
-    fn observe_iter(&mut self, state: &Iteration, _: &KV) -> Result<(), Error> {
-        let free = state.get_param();
-        let progress = Progress {
-            iteration: state.get_iter(),
-            deviance: state.get_cost(),
-            parameters: free.map_or_else(Vec::new, |free| physical(&self.parameters, free)),
-        };
-        Ok(self.observer.call(&progress)?)
-    }
 }
 
 /// What is known of J where the descent stands.
@@ -238,7 +209,7 @@ impl LevenbergMarquardt<'_> {
     }
 }
 
-/// The iteration as argmin keeps it: point and deviance, for observers.
+/// The iteration as argmin keeps it: point and deviance.
 type Iteration = IterState<DVector<f64>, (), (), (), (), f64>;
 
 impl Solver<(), Iteration> for LevenbergMarquardt<'_> {

@@ -11,7 +11,7 @@
 use nalgebra::{DMatrix, DVector, DVectorView};
 use statrs::statistics::{Data, OrderStatistics};
 
-use crate::Loss;
+use crate::loss::Rho;
 
 /// Makes the median of |r| under Gaussian noise a standard deviation.
 const MEDIAN_TO_SIGMA: f64 = 1.4826;
@@ -21,7 +21,7 @@ const LEAST_CURVATURE: f64 = 0.1;
 /// The function that is minimised.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Deviance {
-    pub loss: Loss,
+    pub loss: Rho,
     /// Number of data residuals; those of the priors follow.
     pub data: usize,
     /// s.
@@ -35,7 +35,7 @@ impl Deviance {
     pub fn total(&self, residuals: &DVector<f64>) -> f64 {
         let (data, priors) = residuals.as_slice().split_at(self.data.min(residuals.len()));
         let data: f64 = match self.loss {
-            Loss::Squares => squares(data) / (self.spread * self.spread),
+            Rho::Squares => squares(data) / (self.spread * self.spread),
             loss => data.iter().map(|r| 2.0 * loss.value(r / self.spread)).sum(),
         };
         let priors = squares(priors);

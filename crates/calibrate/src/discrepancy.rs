@@ -15,7 +15,7 @@ use crate::CalibrationError;
 /// Variance beside the largest one below which nothing is left of K: far less than readings show.
 pub(crate) const NOTHING: f64 = 1e-10;
 
-/// A smooth error of the model, of unknown size.
+/// A smooth error of the model, of given size.
 ///
 /// ```
 /// use calibrate::{Calibration, Discrepancy, ModelError, Parameter, Scale};
@@ -37,28 +37,27 @@ pub(crate) const NOTHING: f64 = 1e-10;
 pub struct Discrepancy {
     /// F.
     pub(crate) factor: Arc<DMatrix<f64>>,
-    /// Scale of the half-normal prior of δ.
-    pub(crate) sigma: f64,
+    /// δ.
+    pub(crate) size: f64,
 }
 
 impl Discrepancy {
-    /// A process with this covariance between `count` observations where δ is 1. Of δ it is known beforehand that it is of the order of
-    /// `sigma`, or less: a half-normal distribution. The logarithm of δ is fitted, so that the fit never takes the least likely of all
-    /// sizes, none, for the best (Y. Chung et al., "A nondegenerate penalized likelihood estimator for variance parameters in multilevel models",
-    /// Psychometrika 78, 2013).
+    /// A process with this covariance between `count` observations where δ is 1, and this `size` δ. It is
+    /// given, not fitted: few independent values of a smooth error are seen in a series, so that observations
+    /// hardly tell its size.
     ///
     /// # Errors
     ///
-    /// [`CalibrationError::InvalidOption`] unless `sigma` is finite and positive and the covariance finite, with variances of at least 0 and
-    /// one above it.
+    /// [`CalibrationError::InvalidOption`] unless `size` is finite and positive and the covariance finite,
+    /// with variances of at least 0 and one above it.
     pub fn new(
         count: usize,
         covariance: impl Fn(usize, usize) -> f64,
-        sigma: f64,
+        size: f64,
     ) -> Result<Self, CalibrationError> {
         let invalid = |name, value, allowed| CalibrationError::InvalidOption { name, value, allowed };
-        if !(sigma.is_finite() && sigma > 0.0) {
-            return Err(invalid("sigma of the discrepancy", sigma, "finite and positive"));
+        if !(size.is_finite() && size > 0.0) {
+            return Err(invalid("size of the discrepancy", size, "finite and positive"));
         }
         let mut left: Vec<f64> = (0..count).map(|row| covariance(row, row)).collect();
         if let Some(&value) = left.iter().find(|value| !(value.is_finite() && **value >= 0.0)) {
@@ -99,7 +98,7 @@ impl Discrepancy {
         let factor = DMatrix::from_fn(count, columns.len(), |row, column| columns[column][row]);
         Ok(Self {
             factor: Arc::new(factor),
-            sigma,
+            size,
         })
     }
 

@@ -124,7 +124,7 @@ mod tests {
             let evaluator = Evaluator::emulated(&calibration, emulator);
             let search = Search::new(&evaluator);
             let (optimum, _) = search.best(&search.scan(None, 50)?)?;
-            let doubt = emulator.doubt(|_| 100.0).ok_or(CalibrationError::Stopped)?;
+            let doubt = emulator.doubt(|_| 100.0).expect("runs were learned");
             places(&evaluator, emulator, &optimum, doubt, 0.5)
         };
         let first = asked(&emulator)?;

@@ -42,9 +42,10 @@ impl Calibration<'_> {
     /// Fits a model that is expensive to run, as [`fit`](Self::fit) does. A smooth one takes a small part of the runs; one that the
     /// emulator cannot follow takes those of a direct fit on top of those that were in vain.
     ///
-    /// The emulator is searched all over: [`Options::scan`](crate::Options::scan) only says how many runs it first learns from, and the observer is called for
-    /// descents on the emulator. The model confirms the optimum, the ends of the intervals and the excluded bounds. Where three and more
-    /// parameters are hardly known, an end may be a tenth of its distance off from that of a direct fit.
+    /// The emulator is searched all over: [`Options::scan`](crate::Options::scan) only says how many runs it
+    /// first learns from. The model confirms the optimum, the ends of the intervals and the excluded bounds.
+    /// Where three and more parameters are hardly known, an end may be a tenth of its distance off from that
+    /// of a direct fit.
     ///
     /// ```
     /// use calibrate::{Calibration, ModelError, Parameter, Scale};
@@ -84,7 +85,7 @@ impl Calibration<'_> {
                 allowed: "those of this calibration, and its observations",
             });
         }
-        self.with_size(|one, known| one.emulate(&parts, coarse, known))
+        self.beside_discrepancy(|one, known| one.emulate(&parts, coarse, known))
     }
 
     /// The fit by an emulator that may have learned before.
@@ -173,7 +174,7 @@ impl Emulation<'_> {
         self.learn(first);
         let mut checked: Option<DVector<f64>> = None;
         for _ in 0..MAX_ROUNDS {
-            let Some(mut solution) = self.solve(start.take(), profiles)? else {
+            let Some(mut solution) = self.solve(start.take(), profiles) else {
                 return Ok(None);
             };
             let optimum = solution.optimum.point.free.clone();
@@ -229,11 +230,7 @@ impl Emulation<'_> {
     }
 
     /// Searches on the emulator; nothing where that fails.
-    fn solve(
-        &self,
-        start: Option<DVector<f64>>,
-        profiles: Profiles,
-    ) -> Result<Option<Solution>, CalibrationError> {
+    fn solve(&self, start: Option<DVector<f64>>, profiles: Profiles) -> Option<Solution> {
         let route = Route {
             start,
             scan: SCAN * (1 + self.calibration.parameters.len()),
@@ -241,11 +238,7 @@ impl Emulation<'_> {
             scan_others: SCAN,
         };
         let emulator = Evaluator::emulated(self.calibration, &self.emulator);
-        match self.calibration.solve(&emulator, &route) {
-            Ok(solution) => Ok(Some(solution)),
-            Err(CalibrationError::Stopped) => Err(CalibrationError::Stopped),
-            Err(_) => Ok(None),
-        }
+        self.calibration.solve(&emulator, &route).ok()
     }
 
     /// Runs the model where it has not run yet; nothing if it has no answer somewhere.

@@ -110,19 +110,6 @@ pub enum CalibrationError {
         /// Largest number of model runs.
         limit: usize,
     },
-    /// Too many replicates of the bootstrap could not be fitted.
-    #[error("{failed} of {replicates} replicates could not be fitted")]
-    Bootstrap {
-        /// Replicates that failed.
-        failed: usize,
-        /// Replicates drawn.
-        replicates: usize,
-        /// Why the last one failed.
-        source: Box<CalibrationError>,
-    },
-    /// The observer stopped the fit.
-    #[error("the fit was stopped")]
-    Stopped,
     /// The optimiser failed for a reason of its own.
     #[error("the optimiser failed")]
     Optimiser {
@@ -134,7 +121,7 @@ pub enum CalibrationError {
 impl CalibrationError {
     /// Whether no other start can help.
     pub(crate) fn is_final(&self) -> bool {
-        matches!(self, Self::EvaluationLimit { .. } | Self::Stopped)
+        matches!(self, Self::EvaluationLimit { .. })
     }
 
     /// Whether the input is at fault, not the computation.

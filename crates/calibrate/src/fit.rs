@@ -37,8 +37,8 @@ pub struct Fit {
     pub evaluations: usize,
     /// Iterations of the descent that led to the optimum.
     pub iterations: u64,
-    /// Size of the discrepancy, where the calibration has one.
-    pub discrepancy: Option<Estimate>,
+    /// Size of the discrepancy as it was given, where the calibration has one.
+    pub discrepancy: Option<f64>,
     /// What of each residual is most likely the discrepancy; 0 without one.
     pub smooth: Vec<f64>,
     /// What the user should know.
@@ -49,8 +49,6 @@ pub struct Fit {
     /// Half the second derivative of the deviance by each of them.
     pub(crate) curvatures: Vec<f64>,
     pub(crate) whitening: Option<Arc<Whitening>>,
-    /// The size of the discrepancy beside the noise that the residuals call for.
-    pub(crate) ratio: f64,
     pub(crate) sigmas: Vec<f64>,
     /// Covariance of the free variables.
     pub(crate) covariance: DMatrix<f64>,

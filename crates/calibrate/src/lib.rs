@@ -40,7 +40,6 @@
 //! ```
 
 mod answer;
-mod bootstrap;
 mod calibration;
 mod descent;
 mod deviance;
@@ -57,13 +56,11 @@ mod kriging;
 mod lack_of_fit;
 mod loss;
 mod model;
-mod observer;
+mod noise_rounds;
 mod options;
 mod parameter;
 mod point;
-mod rounds;
 mod search;
-mod size;
 mod solution;
 mod station;
 mod step;
@@ -71,7 +68,6 @@ mod uncertainty;
 mod warning;
 mod whitening;
 
-pub use bootstrap::{Bootstrap, BootstrapOptions};
 pub use calibration::Calibration;
 pub use discrepancy::Discrepancy;
 pub use emulator::Emulator;
@@ -83,7 +79,6 @@ pub use lack_of_fit::{
 };
 pub use loss::Loss;
 pub use model::{Model, ModelError, Part};
-pub use observer::{Observer, Progress};
 pub use options::{Options, Profiles};
 pub use parameter::{Parameter, Prior, Scale};
 pub use warning::Warning;

@@ -11,13 +11,8 @@ pub enum Loss {
     /// u²/2: best under Gaussian noise, misled by outliers.
     #[default]
     Squares,
-    /// Quadratic up to this many sigmas, then linear. Convex: it has no minima of its own making.
-    Huber {
-        /// Where it turns linear, in sigmas.
-        threshold: f64,
-    },
-    /// Tukey's biweight: constant beyond this many sigmas, so that what lies there does not count at all. Fits with
-    /// Huber's loss first, as it is not convex.
+    /// Tukey's biweight: constant beyond this many sigmas, so that what lies there does not count at all. It
+    /// is not convex, and the fit begins with Huber's loss, which is.
     Tukey {
         /// Where it turns constant, in sigmas.
         threshold: f64,
@@ -25,17 +20,45 @@ pub enum Loss {
 }
 
 impl Loss {
-    /// Huber's loss at its usual constant.
-    pub const HUBER: Self = Self::Huber { threshold: 1.345 };
     /// Tukey's loss at its usual constant.
     pub const TUKEY: Self = Self::Tukey { threshold: 4.685 };
 
+    pub(crate) fn rho(self) -> Rho {
+        match self {
+            Self::Squares => Rho::Squares,
+            Self::Tukey { threshold } => Rho::Tukey { threshold },
+        }
+    }
+
+    pub(crate) fn threshold(self) -> Option<f64> {
+        match self {
+            Self::Squares => None,
+            Self::Tukey { threshold } => Some(threshold),
+        }
+    }
+}
+
+/// The loss of one descent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Rho {
+    Squares,
+    /// Huber's: quadratic up to 1.345 sigmas, then linear. Convex, it has no minima of its own making and
+    /// leads to Tukey's.
+    Huber,
+    Tukey {
+        threshold: f64,
+    },
+}
+
+/// Sigmas at which Huber's loss turns linear.
+const HUBER: f64 = 1.345;
+
+impl Rho {
     /// ρ(u).
     pub fn value(self, u: f64) -> f64 {
         match self {
-            Self::Squares => 0.5 * u * u,
-            Self::Huber { threshold } if u.abs() <= threshold => 0.5 * u * u,
-            Self::Huber { threshold } => threshold * (u.abs() - 0.5 * threshold),
+            Self::Huber if u.abs() > HUBER => HUBER * (u.abs() - 0.5 * HUBER),
+            Self::Squares | Self::Huber => 0.5 * u * u,
             Self::Tukey { threshold } => {
                 let left = (1.0 - (u / threshold).powi(2)).max(0.0);
                 threshold * threshold / 6.0 * (1.0 - left.powi(3))
@@ -47,7 +70,7 @@ impl Loss {
     pub fn weight(self, u: f64) -> f64 {
         match self {
             Self::Squares => 1.0,
-            Self::Huber { threshold } => threshold / u.abs().max(threshold),
+            Self::Huber => HUBER / u.abs().max(HUBER),
             Self::Tukey { threshold } => (1.0 - (u / threshold).powi(2)).max(0.0).powi(2),
         }
     }
@@ -56,7 +79,7 @@ impl Loss {
     pub fn curvature(self, u: f64) -> f64 {
         match self {
             Self::Squares => 1.0,
-            Self::Huber { threshold } => f64::from(u8::from(u.abs() <= threshold)),
+            Self::Huber => f64::from(u8::from(u.abs() <= HUBER)),
             Self::Tukey { threshold } => {
                 let square = (u / threshold).powi(2);
                 (1.0 - square).max(0.0) * (1.0 - 5.0 * square)
@@ -67,12 +90,5 @@ impl Loss {
     /// Whether it needs a scale of the noise that outliers do not blow up.
     pub fn is_robust(self) -> bool {
         self != Self::Squares
-    }
-
-    pub(crate) fn threshold(self) -> Option<f64> {
-        match self {
-            Self::Squares => None,
-            Self::Huber { threshold } | Self::Tukey { threshold } => Some(threshold),
-        }
     }
 }

@@ -1,6 +1,5 @@
 //! How to fit.
 
-use crate::observer::Observer;
 use crate::{CalibrationError, Loss};
 
 /// What the intervals are.
@@ -42,8 +41,6 @@ pub struct Options {
     pub confidence: f64,
     /// What the intervals are.
     pub profiles: Profiles,
-    /// Called after each iteration.
-    pub observer: Option<Observer>,
 }
 
 impl Default for Options {
@@ -57,7 +54,6 @@ impl Default for Options {
             tolerance: 0.02,
             confidence: 0.95,
             profiles: Profiles::All,
-            observer: None,
         }
     }
 }

@@ -205,11 +205,6 @@ impl Parameter {
         self.value(self.bounded(free))
     }
 
-    /// Whether a value is as close to a bound as the fit goes.
-    pub(crate) fn is_at_bound(&self, value: f64) -> bool {
-        self.free(self.coordinate(value)).abs() > FARTHEST - 0.5
-    }
-
     /// ds/dz at z.
     pub(crate) fn bounded_slope(&self, free: f64) -> f64 {
         let share = 1.0 / (1.0 + (-free).exp());

@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::descent::{Descent, NOISY, Optimum};
 use crate::deviance::Deviance;
 use crate::evaluator::{Evaluator, feasible};
+use crate::loss::Rho;
 use crate::point::{Point, all_over, score};
 use crate::uncertainty::parameters_from_data;
 use crate::{CalibrationError, Loss};
@@ -75,7 +76,10 @@ impl<'a> Search<'a> {
     /// Scale of the noise at a point: known, or from the residuals there.
     fn scaled(&self, deviance: Deviance, residuals: &DVector<f64>, freedom: f64) -> Deviance {
         let calibration = self.evaluator.calibration;
-        let (robust, least) = (calibration.options.loss.is_robust(), calibration.least_noise());
+        let (robust, least) = (
+            calibration.options.loss.rho().is_robust(),
+            calibration.least_noise(),
+        );
         let spread = match (robust, self.known_noise) {
             (false, true) => return deviance,
             (true, false) => deviance.with_median_spread(residuals, freedom, least),
@@ -88,16 +92,16 @@ impl<'a> Search<'a> {
     pub fn refine(&self, start: Point, jacobian: Option<DMatrix<f64>>) -> Result<Optimum, CalibrationError> {
         match self.evaluator.calibration.options.loss {
             loss @ Loss::Tukey { .. } => {
-                let near = self.refine_with(Loss::HUBER, start, jacobian)?;
-                self.refine_with(loss, near.point, Some(near.jacobian))
+                let near = self.refine_with(Rho::Huber, start, jacobian)?;
+                self.refine_with(loss.rho(), near.point, Some(near.jacobian))
             }
-            loss => self.refine_with(loss, start, jacobian),
+            loss @ Loss::Squares => self.refine_with(loss.rho(), start, jacobian),
         }
     }
 
     fn refine_with(
         &self,
-        loss: Loss,
+        loss: Rho,
         start: Point,
         mut jacobian: Option<DMatrix<f64>>,
     ) -> Result<Optimum, CalibrationError> {

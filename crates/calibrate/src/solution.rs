@@ -10,7 +10,6 @@ use crate::interval::{Profile, Witness};
 use crate::parameter::FARTHEST;
 use crate::point::Point;
 use crate::search::{MAX_ROUNDS, Search};
-use crate::size::Sizes;
 use crate::station::{Profiler, Stop};
 use crate::uncertainty::{Covariance, parameters_from_data, quantile};
 use crate::{Calibration, CalibrationError, Loss, Parameter, Profiles, Warning};
@@ -40,8 +39,6 @@ pub(crate) struct Solution {
     /// Whether the noise was estimated from the residuals, and if so, because the sigmas are not believed.
     pub noise_estimated: bool,
     pub misfit: Option<Warning>,
-    /// Sizes of the discrepancy, where the model has one.
-    pub sizes: Option<Sizes>,
 }
 
 impl Solution {
@@ -132,11 +129,10 @@ impl Calibration<'_> {
         route: &Route,
     ) -> Result<Solution, Stop> {
         let covariance = Covariance::of(optimum);
-        let noise_estimated = !search.known_noise || self.options.loss.is_robust();
+        let noise_estimated = !search.known_noise || self.options.loss.rho().is_robust();
         let tail = 1.0 - self.options.confidence;
-        let sizes = Sizes::of(self, optimum, self.freedom(optimum));
         let natural = quantile(0.5 * tail, noise_estimated.then(|| self.freedom(optimum)));
-        let mut profiler = Profiler {
+        let profiler = Profiler {
             search,
             optimum,
             covariance: &covariance,
@@ -155,10 +151,6 @@ impl Calibration<'_> {
             .into_iter()
             .collect();
         for (k, parameter) in self.parameters.iter().enumerate() {
-            let of_sizes = sizes
-                .as_ref()
-                .and_then(|sizes| sizes.quantile(k, tail, &covariance));
-            profiler.wanted = of_sizes.unwrap_or(natural);
             let free = optimum.point.free[k];
             let coordinate = parameter.bounded(free);
             let error = covariance
@@ -201,7 +193,6 @@ impl Calibration<'_> {
             witnesses,
             noise_estimated,
             misfit: None,
-            sizes,
         })
     }
 }

@@ -1,8 +1,6 @@
 //! Whatever the numbers and the model: a fit or an error, never a panic.
 
-use calibrate::{
-    BootstrapOptions, Calibration, Loss, ModelError, Options, Parameter, Prior, Profiles, Scale,
-};
+use calibrate::{Calibration, Loss, ModelError, Options, Parameter, Prior, Profiles, Scale};
 use proptest::prelude::*;
 
 fn any_number() -> impl Strategy<Value = f64> {
@@ -111,8 +109,6 @@ proptest! {
             prop_assert!(fit.values().iter().all(|value| value.is_finite()), "{:?}", fit.values());
             fit.shift(&[f64::NAN; 9]);
             fit.shift(&[]);
-            let options = BootstrapOptions { replicates: 10, seed: 1 };
-            let _ = calibration.bootstrap(&fit, &options);
         }
         if let Ok((fit, emulator)) = calibration.fit_emulated(None) {
             prop_assert!(fit.values().iter().all(|value| value.is_finite()));

@@ -30,7 +30,5 @@ def calibrate(
     readings: bytes,
     fit: list[str],
     robust: bool,
-    bootstrap: Optional[int],
-    seed: int,
     call: Call,
 ) -> str: ...

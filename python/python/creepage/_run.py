@@ -100,8 +100,6 @@ def calibrate(
     *,
     fit: Iterable[str] = (),
     robust: bool = False,
-    bootstrap: Optional[int] = None,
-    seed: int = 1,
     threads: Optional[int] = None,
     progress: Any = None,
 ) -> dict:
@@ -119,12 +117,9 @@ def calibrate(
     else:
         name, readings = "rows", _csv(rows)
     call = (threads_of(threads), callback(progress))
-    seed = whole("seed", seed, 0, LARGEST_SEED)
-    if bootstrap is not None:
-        bootstrap = whole("bootstrap", bootstrap, 1, MOST_SAMPLES)
     own = source(scene, overrides)
     names = [fit] if isinstance(fit, str) else [str(name) for name in fit or ()]
-    return json.loads(_creepage.calibrate(own, name, readings, names, bool(robust), bootstrap, seed, call))
+    return json.loads(_creepage.calibrate(own, name, readings, names, bool(robust), call))
 
 
 def _stream(rows: Any) -> Any:
