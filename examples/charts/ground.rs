@@ -11,7 +11,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Instant;
 
-use boussinesq::{HalfSpace, Odemark};
+use boussinesq::HalfSpace;
 use burmister::LayeredHalfSpace;
 use creepage::figure::{Axis, Chart, Panels, Reference, Series};
 use ground_field::{
@@ -47,7 +47,7 @@ const CLOSED: &[f64] = &[1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12];
 const TRANSFORM: &[f64] = &[0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10];
 const ELEMENTS: &[f64] = &[0.1, 0.01, 5e-3, 3e-3, 1e-3, 3e-4, 1e-4];
 
-const METHODS: [Method; 4] = [
+const METHODS: [Method; 3] = [
     Method {
         name: "boussinesq",
         unit: "evaluations",
@@ -64,16 +64,6 @@ const METHODS: [Method; 4] = [
                 }
             };
             let motion = motion(&HalfSpace::new(soil), accuracy)?;
-            let count = motion.samples();
-            Ok((motion, count))
-        },
-    },
-    Method {
-        name: "odemark",
-        unit: "evaluations",
-        knobs: CLOSED,
-        run: |profile, accuracy| {
-            let motion = motion(&Odemark::new(profile)?, accuracy)?;
             let count = motion.samples();
             Ok((motion, count))
         },
@@ -338,7 +328,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error + Send + Sync>> {
     // An answered accuracy is kept, or the chart's own claim is wrong.
     for point in &points {
         let (method, ground) = (METHODS[point.method].name, grounds[point.ground].0);
-        let promised = method != "odemark" && (method != "boussinesq" || point.ground == 0);
+        let promised = method != "boussinesq" || point.ground == 0;
         if promised && point.error > PROMISE * point.knob {
             return Err(format!(
                 "{method} on {ground}: {:.1e} where {:.1e} was asked",

@@ -85,7 +85,7 @@ fn duct(draw: &mut Draw, text: &mut String, length: f64, depth: f64) {
 fn ground(draw: &mut Draw, text: &mut String, depth: f64) {
     text.push_str("[ground]\n");
     if draw.chance(0.1) {
-        let model = draw.one(&["auto", "burmister", "odemark"]);
+        let model = draw.one(&["auto", "burmister", "burmister"]);
         line(text, "model", format!("\"{model}\""));
     }
     if draw.chance(0.25) {

@@ -2,10 +2,9 @@
 //!
 //! One soil has a closed form, uniform layers a Hankel transform. A layer whose modulus varies is cut into uniform
 //! sublayers, twice as many until the duct's motion is steady. The cable feels the ground through that motion alone, and a
-//! motion costs the same whatever model it came from; so an approximate ground saves nothing and is taken only where the
-//! scene names it.
+//! motion costs the same whatever model it came from, so an approximate ground would save nothing.
 
-use boussinesq::{HalfSpace, Odemark};
+use boussinesq::HalfSpace;
 use burmister::LayeredHalfSpace;
 use ground_field::{DuctMotion, GroundField, SoilProfile};
 
@@ -71,14 +70,6 @@ impl Ground {
                 let field = HalfSpace::new(soil);
                 Self::of_field(scene, "boussinesq", &field, CLOSED_FORM_ACCURACY, named, reach)
             }
-            GroundModel::Odemark => {
-                let field = Odemark::new(profile).map_err(|error| Error::Unfit {
-                    key: "ground.model",
-                    found: "odemark",
-                    reason: error.to_string().into(),
-                })?;
-                Self::of_field(scene, "odemark", &field, TRANSFORM_ACCURACY, named, reach)
-            }
             GroundModel::Burmister => Self::layered(scene, profile, named, reach),
             GroundModel::FiniteElements => Self::elements(scene, named, reach),
         }
@@ -99,18 +90,6 @@ impl Ground {
             found: "fem",
             reason: "this program was built without finite elements (feature `fem`)".into(),
         })
-    }
-
-    /// By how much the motions over equivalent thicknesses (Odemark) differ from these, as a share of the peak; `None` where that
-    /// approximation does not apply or is what was taken.
-    pub fn equivalent_thickness_error(&self, scene: &Scene) -> Option<f64> {
-        if self.name != "burmister" {
-            return None;
-        }
-        let field = Odemark::new(&scene.ground.profile).ok()?;
-        let reach = scene.duct.depth;
-        let simpler = motions(scene, &field, TRANSFORM_ACCURACY, reach).ok()?;
-        Some(difference(&simpler, &self.motions, scene.duct.depth))
     }
 
     fn of_field(

@@ -140,18 +140,7 @@ impl Plan<'_> {
             estimated_seconds: None,
             reason: self.ground.reason.into(),
         };
-        let simpler = self
-            .ground
-            .equivalent_thickness_error(self.scene)
-            .map(|error| Candidate {
-                part: Part::Ground,
-                name: "odemark".into(),
-                chosen: false,
-                estimated_error: Some(error),
-                estimated_seconds: None,
-                reason: "an approximation, which saves nothing: a run costs the same on any ground".into(),
-            });
-        [chosen].into_iter().chain(simpler).collect()
+        vec![chosen]
     }
 
     fn methods(&self) -> Vec<Candidate> {

@@ -151,15 +151,13 @@ pub enum GroundModel {
     Auto,
     /// Homogeneous half-space, closed form.
     Boussinesq,
-    /// Layers by equivalent thickness, closed form.
-    Odemark,
     /// Layers by Hankel transform.
     Burmister,
     /// Layers by axisymmetric finite elements.
     FiniteElements,
 }
 
-words!(GroundModel: Auto "auto", Boussinesq "boussinesq", Odemark "odemark", Burmister "burmister", FiniteElements "fem");
+words!(GroundModel: Auto "auto", Boussinesq "boussinesq", Burmister "burmister", FiniteElements "fem");
 
 /// A measured peak displacement of the duct that the ground model is scaled to.
 #[derive(Debug, Clone, Copy, PartialEq)]

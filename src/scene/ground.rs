@@ -1,6 +1,5 @@
 //! `[ground]`: layers, base, scaling.
 
-use boussinesq::Odemark;
 use ground_field::{Base, Modulus, Soil, SoilLayer, SoilProfile};
 
 use super::data::{Ground, GroundModel, PeakScaling};
@@ -14,7 +13,11 @@ use super::value::Value;
 
 pub fn ground(root: &Table) -> Result<Ground, SceneError> {
     let table = root.table("ground")?;
-    let model = table.word("model", GroundModel::WORDS, GroundModel::Auto)?;
+    let gone = (
+        "odemark",
+        "the exact \"burmister\" costs no more than this approximation, which is no longer there",
+    );
+    let model = table.word_unless("model", GroundModel::WORDS, GroundModel::Auto, gone)?;
     let scaling = scaling(&table)?;
     let profile = profile(&table)?;
     if let (Some(allowed), Some(value)) = (unfit(model, &profile), table.optional("model")) {
@@ -34,12 +37,7 @@ fn unfit(model: GroundModel, profile: &SoilProfile) -> Option<&'static str> {
         GroundModel::Boussinesq if profile.homogeneous().is_none() => Some(
             "\"boussinesq\" with one layer and no rigid base only; \"auto\", \"burmister\" or \"fem\" here",
         ),
-        GroundModel::Burmister | GroundModel::Odemark if graded => {
-            Some("\"auto\" or \"fem\" where a modulus varies with depth")
-        }
-        GroundModel::Odemark if profile.layers().len() > Odemark::MOST_LAYERS => {
-            Some("\"odemark\" with at most 50 layers; \"auto\" or \"burmister\" here")
-        }
+        GroundModel::Burmister if graded => Some("\"auto\" or \"fem\" where a modulus varies with depth"),
         _ => None,
     }
 }

@@ -97,6 +97,20 @@ impl<'d> Table<'d> {
         self.optional(key).map_or(Ok(default), |value| value.word(words))
     }
 
+    /// The same, where one word that earlier versions knew is refused for a reason.
+    pub fn word_unless<T: Copy>(
+        &self,
+        key: &str,
+        words: &[(&str, T)],
+        default: T,
+        (gone, reason): (&str, &str),
+    ) -> Result<T, SceneError> {
+        match self.optional(key) {
+            Some(value) if value.text("").is_ok_and(|text| text == gone) => Err(value.gone(words, reason)),
+            _ => self.word(key, words, default),
+        }
+    }
+
     /// Which of two values was given later.
     pub fn order(&self, one: &Value, other: &Value) -> Ordering {
         let rank = |value: &Value| self.value.document.rank(&value.node.place);

@@ -121,8 +121,17 @@ impl<'d> Value<'d> {
 
     /// What one of the `words` stands for.
     pub fn word<T: Copy>(&self, words: &[(&str, T)]) -> Result<T, SceneError> {
-        let list: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
-        self.word_of(words, &list.join(", "))
+        self.word_of(words, &listed(words))
+    }
+
+    /// The error for a word that is no longer one of these `words`, for a `reason`.
+    pub fn gone<T>(&self, words: &[(&str, T)], reason: &str) -> SceneError {
+        let allowed = format!("{}; {reason}", listed(words));
+        self.wrong(
+            WrongKind::UnknownWord { suggestion: None },
+            self.written(),
+            allowed,
+        )
     }
 
     /// What one of the `words` stands for, where `allowed` says more than the words.
@@ -234,4 +243,10 @@ fn whole(text: &str) -> Option<u64> {
     let is_whole =
         (1..=3).contains(&first.len()) && others.iter().all(|group| group.len() == 3) || others.is_empty();
     is_whole.then(|| groups.concat().parse().ok())?
+}
+
+/// Words as they are typed, one after the other.
+fn listed<T>(words: &[(&str, T)]) -> String {
+    let words: Vec<String> = words.iter().map(|(word, _)| format!("\"{word}\"")).collect();
+    words.join(", ")
 }

@@ -1,6 +1,6 @@
 //! Ground of one soil is Boussinesq's half-space in every model, however many layers it is written in.
 
-use boussinesq::{HalfSpace, Odemark};
+use boussinesq::HalfSpace;
 use burmister::{DEFAULT_ACCURACY, LayeredHalfSpace};
 use ground_field::{Base, GroundField};
 use layered_fem::LayeredFem;
@@ -17,11 +17,6 @@ fn models(nu: f64, contrast: f64) -> Vec<(&'static str, Box<dyn GroundField>, f6
     );
     vec![
         ("boussinesq", Box::new(HalfSpace::new(one)), 1e-12),
-        (
-            "odemark",
-            Box::new(Odemark::new(&ground).expect("odemark")),
-            1e-11,
-        ),
         (
             "burmister",
             Box::new(LayeredHalfSpace::new(&ground).expect("burmister")),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use boussinesq::{HalfSpace, Odemark};
+use boussinesq::HalfSpace;
 use burmister::LayeredHalfSpace;
 use ground_field::{Direction, DuctLine, DuctMotion, GroundField, Vehicle, Wheel};
 use layered_fem::LayeredFem;
@@ -18,7 +18,6 @@ fn models() -> Vec<(&'static str, Box<dyn GroundField>)> {
     let ground = table_1();
     vec![
         ("boussinesq", Box::new(HalfSpace::new(soil(8e8, 0.4)))),
-        ("odemark", Box::new(Odemark::new(&ground).expect("odemark"))),
         (
             "burmister",
             Box::new(LayeredHalfSpace::new(&ground).expect("burmister")),

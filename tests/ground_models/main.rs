@@ -13,7 +13,6 @@ mod graded;
 mod half_space;
 mod laws;
 mod motion;
-mod odemark;
 mod published;
 mod table_1;
 mod table_3;

@@ -1,6 +1,5 @@
 //! No more model than a scene needs, and no less.
 
-use creepage::scene::GroundModel;
 use creepage::{Part, PlanReport, Scene};
 
 use super::scenes;
@@ -116,38 +115,6 @@ fn layers_take_the_hankel_transform_however_thin_they_are() {
     }
 }
 
-/// The plan shows what an approximate ground would change, and does not take it.
-#[test]
-fn the_error_of_equivalent_thicknesses_is_shown() {
-    let text = on(&(layer(0.25, 5e9) + SOIL), POINT, &with_tolerance(0.01));
-    let report = plan(&text);
-    let of = |name: &str| {
-        let candidate = report
-            .candidates
-            .iter()
-            .find(|c| c.part == Part::Ground && c.name == name);
-        candidate.expect("this ground").clone()
-    };
-    let (exact, odemark) = (of("burmister"), of("odemark"));
-    assert!(exact.chosen && !odemark.chosen);
-    let peak = |model: GroundModel| {
-        let mut scene = Scene::from_toml("scene", &text).expect("a valid scene");
-        scene.ground.model = model;
-        let profile = creepage::profile(&scene).expect("a profile");
-        profile
-            .longitudinal_m
-            .iter()
-            .fold(0.0_f64, |peak, d| peak.max(d.abs()))
-    };
-    let off = (peak(GroundModel::Odemark) / peak(GroundModel::Burmister) - 1.0).abs();
-    let shown = odemark.estimated_error.expect("a measured error");
-    // The largest difference anywhere is at least that of the peaks.
-    assert!(
-        shown >= 0.99 * off && shown < 1.0 && off > 0.01,
-        "{shown} for {off}"
-    );
-}
-
 /// A thousand thin layers of alternating stiffness on a soil.
 fn many_layers(count: usize) -> String {
     let layers = (0..count).map(|k| layer(0.01, if k % 2 == 0 { 1e8 } else { 2e8 + 1e5 * k as f64 }));
@@ -155,53 +122,13 @@ fn many_layers(count: usize) -> String {
 }
 
 #[test]
-fn a_thousand_layers_are_planned_without_the_equivalent_thickness() {
+fn a_thousand_layers_are_planned() {
     let begin = std::time::Instant::now();
     let report = plan(&on(&many_layers(1000), POINT, PASSES));
-    assert!(
-        report
-            .candidates
-            .iter()
-            .all(|candidate| candidate.name != "odemark")
-    );
     assert_eq!(report.ground, "burmister");
     // Half a second; ten times that on a machine with other work.
     assert!(begin.elapsed().as_secs_f64() < 5.0, "{:?}", begin.elapsed());
     println!("{:?}", begin.elapsed());
-}
-
-#[test]
-fn the_equivalent_thickness_of_too_many_layers_is_refused() {
-    let scene = |count| {
-        Scene::from_toml(
-            "scene",
-            &on(
-                &format!("model = \"odemark\"\n{}", many_layers(count)),
-                POINT,
-                PASSES,
-            ),
-        )
-    };
-    assert!(creepage::plan(&scene(50).expect("a valid scene")).is_ok());
-    let refused = scene(51).expect_err("too many layers").to_string();
-    assert!(
-        refused.contains("ground.model") && refused.contains("at most 50 layers"),
-        "{refused}"
-    );
-    // Built in code instead of a file.
-    let mut edited = scene(50).expect("a valid scene");
-    let layers = [edited.ground.profile.layers(), edited.ground.profile.layers()].concat();
-    edited.ground.profile =
-        ground_field::SoilProfile::new(layers, ground_field::Base::Rigid).expect("a profile");
-    let refused = creepage::plan(&edited).expect_err("too many layers");
-    assert!(
-        matches!(
-            &refused,
-            creepage::Error::Scene(creepage::SceneError::Wrong(wrong)) if wrong.key == "ground.model"
-        ),
-        "{refused}"
-    );
-    assert!(refused.is_bad_input());
 }
 
 /// A modulus that varies is cut into sublayers until the duct's motion is steady; finite elements, which follow the modulus

@@ -397,8 +397,15 @@ fn an_unknown_word_suggests_the_nearest() {
         let meant = format!(": found {found} (did you mean `{suggestion}`?); allowed: \"");
         assert_refused(old, new, new, &[&format!("`{key}`"), &meant, "^"]);
     }
-    let allowed = "allowed: \"auto\", \"boussinesq\", \"odemark\", \"burmister\", \"fem\"";
+    let allowed = "allowed: \"auto\", \"boussinesq\", \"burmister\", \"fem\"";
     assert_refused("model = \"fem\"", "model = \"winkler\"", "winkler", &[allowed]);
+    let reason = "no longer there";
+    assert_refused(
+        "model = \"fem\"",
+        "model = \"odemark\"",
+        "odemark",
+        &[allowed, reason],
+    );
 }
 
 // The file

@@ -2,8 +2,7 @@
 //!
 //! [`HalfSpace`] is Boussinesq's answer for one soil without end: exact, for a point load and for uniform pressure on a
 //! disc, at every point.
-//! [`Odemark`] turns layers into an equivalent thickness of one soil: cheap and approximate, its error stated.
-//! Both implement [`GroundField`](ground_field::GroundField), as does every model of the ground.
+//! It implements [`GroundField`](ground_field::GroundField), as does every model of the ground.
 //!
 //! ```
 //! use boussinesq::HalfSpace;
@@ -33,8 +32,6 @@ struct ReadmeExamples;
 mod disc;
 mod elliptic;
 mod half_space;
-mod odemark;
 mod shape;
 
 pub use half_space::{HalfSpace, Stress};
-pub use odemark::Odemark;

@@ -4,8 +4,6 @@
 mod half_space;
 #[path = "nasty_values.rs"]
 mod nasty_values;
-#[path = "odemark.rs"]
-mod odemark;
 #[path = "properties.rs"]
 mod properties;
 #[path = "work.rs"]

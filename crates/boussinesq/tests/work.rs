@@ -1,10 +1,7 @@
 //! What a profile costs, counted: evaluations do not depend on the machine.
 
-use boussinesq::{HalfSpace, Odemark};
-use ground_field::{
-    Base, Direction, DuctLine, DuctMotion, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad, Vehicle,
-    Wheel,
-};
+use boussinesq::HalfSpace;
+use ground_field::{Direction, DuctLine, DuctMotion, GroundField, Soil, SurfaceLoad, Vehicle, Wheel};
 
 fn evaluations(field: &dyn GroundField, accuracy: f64) -> usize {
     let load = SurfaceLoad::new(196_133.0, 0.15).expect("a load");
@@ -25,14 +22,4 @@ fn a_closed_form_is_asked_a_hundred_times() {
     assert_eq!(evaluations(&ground, 1e-6), 9 * 11 + 10);
     assert!(evaluations(&ground, 1e-10) <= 3 * 9 * 11);
     assert!(evaluations(&ground, 1e-12) <= 7 * 9 * 11);
-}
-
-/// Equivalent thickness lies deeper than the duct, so layers ask for no more cells than one soil.
-#[test]
-fn layers_by_odemark_cost_no_more_evaluations() {
-    let soil = |modulus| Soil::new(modulus, 0.35).expect("soil");
-    let layer = SoilLayer::uniform(0.19, soil(5e9)).expect("a layer");
-    let profile = SoilProfile::new(vec![layer], Base::HalfSpace(soil(1e8))).expect("a profile");
-    let ground = Odemark::new(&profile).expect("uniform layers");
-    assert_eq!(evaluations(&ground, 1e-6), 9 * 11 + 10);
 }

@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use burmister::{LayeredHalfSpace, odemark_error_bound};
+use burmister::LayeredHalfSpace;
 use criterion::{Criterion, criterion_group, criterion_main};
 use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
 
@@ -22,16 +22,6 @@ fn profile(criterion: &mut Criterion) {
             bencher.iter(|| ground.displacements(black_box(wheel), &radii, 1.2));
         });
     }
-    let transform = ground.transform_at(1.2).expect("depth");
-    for (name, wavenumber) in [("thin", 1.0), ("thick", 30.0)] {
-        criterion.bench_function(&format!("one wavenumber, layers {name} against it"), |bencher| {
-            bencher.iter(|| transform(black_box(wavenumber)));
-        });
-    }
-    let road = pavement();
-    criterion.bench_function("bound of Odemark's error at depth 1.2 m", |bencher| {
-        bencher.iter(|| odemark_error_bound(black_box(&road), wheel, 1.2));
-    });
     criterion.bench_function("one radius at depth 1.2 m, accuracy 1e-8", |bencher| {
         bencher.iter(|| ground.displacement(black_box(wheel), 3.0, 1.2));
     });

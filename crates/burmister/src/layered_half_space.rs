@@ -1,7 +1,5 @@
 //! The ground model: a layered half-space with its accuracy.
 
-use std::f64::consts::TAU;
-
 use ground_field::{Displacement, GroundError, GroundField, SoilProfile, SurfaceLoad, check_place, checked};
 
 use crate::MODEL;
@@ -111,25 +109,6 @@ impl LayeredHalfSpace {
     /// The accuracy that is met, as a share of the peak displacement at the same depth.
     pub fn accuracy(&self) -> f64 {
         self.accuracy
-    }
-
-    /// The exact transform at `depth` \[m\] under a point load of 1 N: a function that takes a wavenumber m > 0 \[1/m\] to (U, W),
-    /// such that u_r = ∫ U J1(mr) dm and u_z = ∫ W J0(mr) dm over 0 < m < ∞. For those who integrate themselves.
-    ///
-    /// # Errors
-    ///
-    /// [`GroundError::InvalidParameter`] unless the depth is finite and not negative.
-    pub fn transform_at(&self, depth: f64) -> Result<impl Fn(f64) -> (f64, f64) + use<>, GroundError> {
-        check_place(0.0, depth)?;
-        let in_rock = self.ground.base.is_none() && depth >= self.ground.base_depth();
-        let stack = self.ground.cut(depth);
-        Ok(move |wavenumber: f64| {
-            if in_rock {
-                return (0.0, 0.0);
-            }
-            let (radial, vertical) = stack.transform(wavenumber);
-            (radial / TAU, vertical / TAU)
-        })
     }
 
     /// Displacements at many `radii` \[m\] and one `depth` \[m\], in the order of the radii, with what they cost.

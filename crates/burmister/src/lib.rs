@@ -1,7 +1,7 @@
 //! Displacements of layered elastic ground under a vertical surface load: Burmister's problem, to an asked accuracy.
 //!
 //! [`LayeredHalfSpace`] is the model: bonded layers on a half-space or on rock, solved by Hankel transform; its equations, accuracy and
-//! limits stand there. [`odemark_error_bound`] measures how far the approximation of equivalent thicknesses is off.
+//! limits stand there.
 //!
 //! Inside, `lamina` and `stack` solve one wavenumber, `image` and `remainder` subtract closed forms, `panel` represents what is left,
 //! `oscillatory` and `levin` integrate it, and `transform` adds up the error.
@@ -13,7 +13,6 @@ mod lamina;
 mod layered_half_space;
 mod levin;
 mod matrix;
-mod odemark_error;
 mod oscillatory;
 mod panel;
 mod remainder;
@@ -22,7 +21,6 @@ mod statistics;
 mod transform;
 
 pub use layered_half_space::{DEFAULT_ACCURACY, LayeredHalfSpace};
-pub use odemark_error::{OdemarkErrorBound, odemark_error_bound};
 pub use statistics::Statistics;
 
 /// The model's name in errors.

@@ -2,7 +2,7 @@
 //!
 //! Subtracted are half-spaces under the same load, each in a depth of its own ("images"):
 //!
-//! - the **base soil** in the equivalent depth of Odemark's rule, z + Σ hᵢ ((Gᵢ/`G_b`)^{1/3} − 1): it has the layered field's
+//! - the **base soil** in the equivalent depth of N. Odemark's rule (1949), z + Σ hᵢ ((Gᵢ/`G_b`)^{1/3} − 1): it has the layered field's
 //!   limit for m → 0, so the remainder fades faster than the field itself at far points;
 //! - where the point lies in the upper two thirds of the uppermost soil, **that soil** in its true depth: it has the
 //!   limit for m → ∞, so the remainder decays with exp(−m (2h − z)) instead of exp(−m z), which at the surface is

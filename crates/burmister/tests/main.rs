@@ -9,8 +9,6 @@ mod difficult;
 mod laws;
 #[path = "nasty_values.rs"]
 mod nasty_values;
-#[path = "odemark_error.rs"]
-mod odemark_error;
 #[path = "published_failures.rs"]
 mod published_failures;
 #[path = "reference.rs"]
