@@ -19,7 +19,7 @@ use cable_dem::{Mesh, QuasiStatic};
 use creepage::Scene;
 use creepage::figure::{Axis, Chart, Panels, Reference, Series};
 use creepage::scene::FrictionLaw;
-use cycle_jump::{Guide, JumpError, Jumps, Next, Request, evolve};
+use cycle_jump::{JumpError, Jumps, Next, Request, evolve};
 use ground_field::DuctMotion;
 use rayon::prelude::*;
 
@@ -110,25 +110,11 @@ impl Case {
         let mut solver = QuasiStatic::new(cable.clone(), mesh)?;
         let passage = solver.passage(&self.motion, APPROACH)?;
         let motion = self.motion.peak_longitudinal();
-        let jumps = Jumps {
-            tolerance: JUMP,
-            first_periods: 8,
-            first_jump: 0.25,
-            length_scale: depth,
-            motion,
-            least: (0.01 * cable.friction().limit(), 0.1 * motion),
-            most_passes: (passes as u64, passes as u64),
-        };
+        let jumps = Jumps::new(JUMP, depth, motion)?
+            .with_least(0.01 * cable.friction().limit(), 0.1 * motion)?
+            .with_most_passes(passes as u64, passes as u64);
         let wanted: Vec<u64> = (half(passes)..=passes).map(|pass| pass as u64).collect();
-        let request = Request {
-            passes: passes as u64,
-            order: &[0],
-            one_by_one: (0, 0),
-            wanted: &wanted,
-            looked_at: &[],
-            beyond: &[],
-            guide: Guide::Free,
-        };
+        let request = Request::new(passes as u64, &[0])?.with_wanted(&wanted)?;
         let mut node_updates = 0;
         let evolution = evolve(&cable, &mesh, &jumps, &request, |_: Next, state| {
             let outcome = solver.pass(&passage, state)?;

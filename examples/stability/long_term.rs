@@ -93,24 +93,12 @@ impl Case {
     fn jumped(&self, number: f64, guide: Guide<'_>) -> Result<Vec<f64>, JumpError> {
         let mut solver = QuasiStatic::new(self.cable.clone(), self.mesh)?;
         let motion = number * LIMIT * DEPTH * DEPTH / EA;
-        let jumps = Jumps {
-            tolerance: TOLERANCE,
-            first_periods: 8,
-            first_jump: 0.25,
-            length_scale: DEPTH,
-            motion,
-            least: (0.01 * LIMIT, 0.1 * motion),
-            most_passes: (1000, 1000),
-        };
-        let request = Request {
-            passes: PASSES[PASSES.len() - 1],
-            order: self.mix,
-            one_by_one: (0, 0),
-            wanted: &PASSES,
-            looked_at: &[],
-            beyond: &[],
-            guide,
-        };
+        let jumps = Jumps::new(TOLERANCE, DEPTH, motion)?
+            .with_least(0.01 * LIMIT, 0.1 * motion)?
+            .with_most_passes(1000, 1000);
+        let request = Request::new(PASSES[PASSES.len() - 1], self.mix)?
+            .with_wanted(&PASSES)?
+            .with_guide(guide);
         let evolution = evolve(
             &self.cable,
             &self.mesh,

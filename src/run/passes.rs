@@ -129,15 +129,14 @@ impl Task<'_> {
         let scale = Scale::new(scene.friction_limit(), motion);
         let length = jumping.period.len() as u64;
         let patience = (PATIENCE * length.min(FEW)).max(PATIENCE_WITH_MANY * length);
-        let jumps = Jumps {
-            tolerance: jumping.tolerance,
-            first_periods: jumping.first_periods,
-            first_jump: jumping.first_jump,
-            length_scale: length_scale(self.motions, scene.duct.depth),
+        let jumps = Jumps::new(
+            jumping.tolerance,
+            length_scale(self.motions, scene.duct.depth),
             motion,
-            least: (scale.force, scale.movement),
-            most_passes: (patience, jumping.most_passes.max(patience)),
-        };
+        )?
+        .with_start(jumping.first_periods, jumping.first_jump)?
+        .with_least(scale.force, scale.movement)?
+        .with_most_passes(patience, jumping.most_passes.max(patience));
         let count = scene.traffic.passes;
         // The row of a stage may be shown by another pass: the stage itself is wanted too.
         let with_stages = |mut passes: Vec<u64>| {
@@ -154,15 +153,13 @@ impl Task<'_> {
         )?;
         let wanted = with_stages(listing.wanted());
         let beyond = if jumping.beyond { beyond(count) } else { Vec::new() };
-        let request = Request {
-            passes: count,
-            order: &jumping.period.vehicles,
-            one_by_one: listing.one_by_one,
-            wanted: &wanted,
-            looked_at: self.stages,
-            beyond: &beyond,
-            guide: jumping.guide,
-        };
+        let (first, last) = listing.one_by_one;
+        let request = Request::new(count, &jumping.period.vehicles)?
+            .with_one_by_one(first, last)
+            .with_wanted(&wanted)?
+            .with_looked_at(self.stages)
+            .with_beyond(&beyond)?
+            .with_guide(jumping.guide);
         let cable = simulation.cable.clone();
         let evolution = evolve(&cable, mesh, &jumps, &request, |Next { phase, number }, state| {
             let vehicle = listing.vehicle(jumping.period, phase, number);

@@ -40,8 +40,18 @@ impl PassOutcome {
         Ok(Recorder::new(force).outcome(cable, state, force))
     }
 
-    /// The sum of `parts`, each with its weight: a mean, or what lies between two passes. What they cost is left out.
+    /// The sum of `parts`, each with its weight: a mean, or what lies between two passes. Clamps that a part does not have bear
+    /// nothing in it. What the parts cost is left out.
     pub fn combined(parts: &[(f64, &Self)]) -> Self {
+        let clamps = parts
+            .iter()
+            .map(|(_, part)| part.restraints.len())
+            .max()
+            .unwrap_or(0);
+        let clamp = |i: usize| {
+            let force = |part: &Self| part.restraints.get(i).copied().unwrap_or(0.0);
+            parts.iter().map(|(weight, part)| weight * force(part)).sum()
+        };
         let sum = |of: fn(&Self) -> f64| parts.iter().map(|(weight, part)| weight * of(part)).sum();
         Self {
             force: EndForces {
@@ -60,16 +70,7 @@ impl PassOutcome {
             max_tension: sum(|o| o.max_tension),
             upstream_displacement: sum(|o| o.upstream_displacement),
             downstream_displacement: sum(|o| o.downstream_displacement),
-            restraints: parts.first().map_or_else(Vec::new, |(_, first)| {
-                let clamps = 0..first.restraints.len();
-                let of = |i: usize| {
-                    parts
-                        .iter()
-                        .map(|(weight, part)| weight * part.restraints[i])
-                        .sum()
-                };
-                clamps.map(of).collect()
-            }),
+            restraints: (0..clamps).map(clamp).collect(),
             dissipated: sum(|o| o.dissipated),
             statistics: Statistics::default(),
         }
@@ -160,5 +161,26 @@ impl Recorder {
             dissipated: self.dissipated,
             statistics: self.statistics,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::PassOutcome;
+
+    #[test]
+    fn a_part_without_a_clamp_bears_nothing_at_it() {
+        let part = |restraints: &[f64]| PassOutcome {
+            restraints: restraints.to_vec(),
+            ..PassOutcome::default()
+        };
+        let (none, one, two) = (part(&[]), part(&[8.0]), part(&[4.0, 2.0]));
+        let sum = PassOutcome::combined(&[(0.5, &one), (0.25, &two), (0.25, &none)]);
+        assert_eq!(sum.restraints, [5.0, 0.5]);
+        assert_eq!(
+            PassOutcome::combined(&[(0.25, &none), (1.0, &one)]).restraints,
+            [8.0]
+        );
+        assert!(PassOutcome::combined(&[]).restraints.is_empty());
     }
 }

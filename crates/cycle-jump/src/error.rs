@@ -9,6 +9,14 @@ pub enum JumpError {
     /// The cable could not be computed.
     #[error(transparent)]
     Cable(#[from] CableError),
+    /// A value that has no meaning.
+    #[error("{name} must be {allowed}")]
+    InvalidParameter {
+        /// What it is.
+        name: &'static str,
+        /// What it may be.
+        allowed: &'static str,
+    },
     /// No day becomes like the one before.
     #[error(
         "after {days} days of heat and traffic they still differ from day to day: nothing can be said of later ones"

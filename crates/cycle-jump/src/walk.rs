@@ -144,8 +144,7 @@ where
         let rate = known.rate(&mut self.drive.cable);
         let left = last.saturating_sub(self.done);
         if left > 0 && self.is_settled(&known, &rate, left) {
-            let later = beyond.partition_point(|&pass| pass <= passes);
-            return Ok(Some(Beyond::unchanged(&beyond[later..], &known.period)));
+            return Ok(Some(Beyond::unchanged(beyond, &known.period)));
         }
         self.tolerance *= TOLERANCE_BEYOND;
         // The traffic is done: its passes are not let drive once more under their numbers.
@@ -166,7 +165,7 @@ where
         while self.done < before.min(all) {
             self.next_period()?;
         }
-        let first = before + self.jumps.first_periods.max(2);
+        let first = before + self.jumps.first_periods;
         let mut half = None;
         let mut last = None;
         while self.done < first.min(all) {

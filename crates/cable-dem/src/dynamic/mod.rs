@@ -160,8 +160,7 @@ impl Moving {
             hi: mesh.elements(),
         };
         let steps = (duct.duration() / time_step).round() as usize;
-        let mut prediction = Prediction::default();
-        prediction.fit(
+        let mut prediction = Prediction::new(
             (steps * mesh.stride()).div_ceil(mesh.phases()) + nodes,
             mesh.phases(),
         );

@@ -1,6 +1,5 @@
 //! The solver without inertia.
 
-mod memory;
 mod pass;
 mod passage;
 mod rates;
@@ -28,7 +27,7 @@ use pass::ForwardSolver;
 ///
 /// K u + S u = w (f + p),  f from the slip ΔD − Δu by the [friction law](crate::FrictionLaw),
 ///
-/// with K the stiffness of a chain of springs EA/h, S the springs of ends and clamps w a node's length of cable and p the body force: one implicit step of
+/// with K the stiffness of a chain of springs EA/h, S the springs of ends and clamps, w a node's length of cable and p the body force: one implicit step of
 /// a rate-independent system, exact as long as no node reverses its slip within the step. Work is done only where something moves: in
 /// windows around zones that slip, which travel with the vehicle, and in small ones at ends and clamps, which are solved again when the
 /// vehicle's effect on them has changed. Outside the windows up to 1e-3 of the friction limit stays unbalanced while the vehicle passes.
@@ -37,8 +36,7 @@ use pass::ForwardSolver;
 /// first position, the last one from its last position back: steps of the whole cable, so that the state a pass leaves is in
 /// equilibrium and within the friction bounds everywhere.
 ///
-/// The solver remembers what moved in earlier passes, and the contact states. One that does not, such as one that goes on from a saved
-/// state, may answer differently by up to 1e-4 of the largest force.
+/// A pass is a function of the state and the passage: the solver keeps nothing of earlier ones.
 ///
 /// ```
 /// use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, QuasiStatic};

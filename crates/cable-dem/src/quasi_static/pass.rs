@@ -1,15 +1,12 @@
 //! One pass, forward: the cable in the vehicle's adherent frame, step by step.
 
-use std::collections::HashMap;
-
-use super::memory::{PassMemory, Recalled};
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot, UNBALANCED_SHARE};
 use super::supports::Supports;
 use super::watch::Watch;
 use super::window::{self, Room, Window};
 use crate::ends::{Balance, EndReader};
 use crate::outcome::Recorder;
-use crate::step::{Chain, Load, Prediction, StepSolver, Stretch, count_different, largest};
+use crate::step::{Chain, Load, Prediction, StepSolver, Stretch, largest};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
 /// A node is quiet when the force that its last move put on the next node is below this share of [`UNBALANCED_SHARE`].
@@ -36,14 +33,8 @@ pub(super) struct ForwardSolver {
     /// travels, only what moves further in that part's own window.
     moving: Vec<Stretch>,
     watch: Watch,
+    /// Of the current pass alone, so that a pass is a function of the state and the passage.
     prediction: Prediction,
-    /// Whether the last pass foretold the last step better than `prediction` did.
-    recurs: bool,
-    /// The last pass of each passage: what moved, and its contact states. They and `prediction` outlive a pass, so that an answer
-    /// depends on earlier passes, by up to 1e-4 of the largest force.
-    memories: HashMap<u64, PassMemory>,
-    /// That of the pass before the last: room for the next one.
-    spare: PassMemory,
     /// What the current pass gathers.
     recorder: Recorder,
     lattice_step: f64,
@@ -70,9 +61,6 @@ impl ForwardSolver {
             moving: Vec::new(),
             watch: Watch::new(room.free),
             prediction: Prediction::default(),
-            recurs: true,
-            memories: HashMap::new(),
-            spare: PassMemory::default(),
             recorder: Recorder::new(EndForces::default()),
             lattice_step: mesh.lattice_step(),
         }
@@ -93,12 +81,8 @@ impl ForwardSolver {
         self.supports.rest(state.thermal_force);
         self.thermal_force = state.thermal_force;
         let (points, phases) = passage.lattice();
-        self.prediction.fit(points, phases);
+        self.prediction = Prediction::new(points, phases);
         self.recorder = Recorder::new(state.ends(&self.cable));
-        let last_pass = self.memories.remove(&passage.id).unwrap_or_default();
-        let mut this_pass = std::mem::take(&mut self.spare);
-        this_pass.clear();
-        self.recurs = true;
 
         let mut behind = self.room.free.lo;
         for (step, &position) in passage.positions.iter().enumerate() {
@@ -111,13 +95,10 @@ impl ForwardSolver {
                 self.step_whole(&snapshot)?;
             } else {
                 let first = passage.first_point(&snapshot);
-                self.step_windows(&snapshot, watched, first, last_pass.recall(step - 1))?;
-                this_pass.push(&self.moving, &self.step.trial.contact);
+                self.step_windows(&snapshot, watched, first)?;
             }
             observe(&self.r, &self.g, snapshot);
         }
-        self.memories.insert(passage.id, this_pass);
-        self.spare = last_pass;
 
         // The ground comes to rest. What the windows left out of account is settled by the same step.
         self.step_whole(&passage.still())?;
@@ -144,22 +125,21 @@ impl ForwardSolver {
         snapshot: &Snapshot<'_>,
         watched: Stretch,
         first: usize,
-        remembered: Recalled<'_>,
     ) -> Result<(), CableError> {
         self.update_supports(snapshot, false);
         let mut windows = std::mem::take(&mut self.windows);
-        self.collect(&mut windows, snapshot, watched, remembered);
-        let mut surprises = 0;
+        self.collect(&mut windows, snapshot, watched);
         self.moving.clear();
         for window in &windows {
             self.anchor(window.stretch);
             if window.travels {
-                self.predict(window.stretch, first, remembered);
+                let contacts = &mut self.step.trial.contact;
+                self.prediction.read(first, window.stretch, contacts);
             }
             let before = self.moving.len();
             let solved = self.solve(window.stretch, snapshot)?;
             if window.travels {
-                surprises += self.prediction.write(first, solved, &self.step.trial.contact);
+                self.prediction.write(first, solved, &self.step.trial.contact);
             }
             let moves = (!window.travels)
                 .then(|| self.moving.drain(before..))
@@ -168,7 +148,6 @@ impl ForwardSolver {
             let widest = &mut self.recorder.statistics.widest_window;
             *widest = solved.len().max(*widest);
         }
-        self.recurs = remembered.parts.is_empty() || self.misses(remembered) <= surprises;
         let touched = windows.iter().any(|window| self.room.near_an_end(window.stretch));
         if touched || self.supports.due().next().is_some() {
             self.record_ends(snapshot);
@@ -177,21 +156,15 @@ impl ForwardSolver {
         Ok(())
     }
 
-    /// Lists the windows of a step: what moved in the last one, what moved here in the last pass, what of `watched` begins to slip, and what
-    /// lies around supports.
-    fn collect(
-        &mut self,
-        windows: &mut Vec<Window>,
-        snapshot: &Snapshot<'_>,
-        watched: Stretch,
-        remembered: Recalled<'_>,
-    ) {
+    /// Lists the windows of a step: what moved in the last one, what of `watched` begins to slip, and what lies around
+    /// supports.
+    fn collect(&mut self, windows: &mut Vec<Window>, snapshot: &Snapshot<'_>, watched: Stretch) {
         let room = self.room;
         let window = |travels| move |stretch| Window { stretch, travels };
         windows.clear();
         // The node beside one that moved is disturbed if the window travels on.
         let moving = self.moving.iter().map(|&part| room.widened(part, 1));
-        windows.extend(moving.chain(remembered.parts.iter().copied()).map(window(true)));
+        windows.extend(moving.map(window(true)));
         window::join(windows);
         // Between them and beyond.
         let known = windows.len();
@@ -228,30 +201,6 @@ impl ForwardSolver {
         for (anchor, (r, g)) in self.anchor[nodes].iter_mut().zip(state) {
             *anchor = r + self.step.chain.compliance * g;
         }
-    }
-
-    /// Guesses the contact states of a window: those of the last pass at this vehicle position, or those that a node had where this one now
-    /// stands relative to the vehicle; whichever was right at more nodes in the last step.
-    fn predict(&mut self, window: Stretch, first: usize, remembered: Recalled<'_>) {
-        let contacts = &mut self.step.trial.contact;
-        if !self.recurs || remembered.parts.is_empty() {
-            self.prediction.read(first, window, contacts);
-        } else {
-            for (part, states) in remembered.states() {
-                if window.lo <= part.lo && part.hi <= window.hi {
-                    contacts[part.nodes()].copy_from_slice(states);
-                }
-            }
-        }
-    }
-
-    /// At how many nodes the contact states of the last pass differ from those just solved.
-    fn misses(&self, remembered: Recalled<'_>) -> usize {
-        let contacts = &self.step.trial.contact;
-        let parts = remembered.states();
-        parts
-            .map(|(part, states)| count_different(&contacts[part.nodes()], states))
-            .sum()
     }
 
     /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still

@@ -1,7 +1,5 @@
 //! A vehicle's passage as the quasi-static solver takes it.
 
-use std::sync::atomic::{AtomicU64, Ordering};
-
 use ground_field::{Direction, DuctMotion};
 
 use super::rates::Rates;
@@ -19,8 +17,6 @@ const UNSEEN: f64 = 0.05;
 
 /// Share of the friction limit beyond it from which a node that is watched slips.
 pub(super) const SLIPPING_SHARE: f64 = (1.0 - 2.0 * UNSEEN) * UNBALANCED_SHARE;
-
-static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 
 /// A vehicle's passage as the cable feels it: adherent motion and adhesion on the lattice of one mesh.
 ///
@@ -40,8 +36,6 @@ static NEXT_ID: AtomicU64 = AtomicU64::new(0);
 /// zone where the travelling shift presses g against a bound has to be solved.
 #[derive(Debug, Clone)]
 pub struct Passage {
-    /// Tells passages apart, so that a solver can remember the last pass of each.
-    pub(super) id: u64,
     /// What it was computed for.
     mesh: Mesh,
     axial_stiffness: f64,
@@ -166,7 +160,6 @@ impl Passage {
             .max()
             .unwrap_or(0);
         Ok(Self {
-            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
             mesh: *mesh,
             axial_stiffness: cable.axial_stiffness(),
             friction: cable.friction(),

@@ -17,7 +17,7 @@ mod tolerance;
 
 pub(crate) use chain::{Chain, Contact, Load, Stretch, Trial};
 pub(crate) use fixed_end_friction::FixedEndFriction;
-pub(crate) use prediction::{Prediction, count_different};
+pub(crate) use prediction::Prediction;
 pub(crate) use solver::StepSolver;
 pub(crate) use support::Support;
 pub(crate) use tolerance::{check_precision, largest};

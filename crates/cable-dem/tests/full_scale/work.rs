@@ -40,16 +40,14 @@ fn a_quasi_static_pass() -> Outcome {
                 );
                 // Where the vehicle is, at either end, and now and then once more for a window that has grown, or for a second zone.
                 assert_at_most("windows a step", work.windows, 2.2, work.steps, work);
-                // One linear solve a window where the prediction of the contact states is right: mostly, from the second pass on.
-                let solves = if passes == 1 { 3.8 } else { 2.8 };
-                assert_at_most("solves a step", work.sweeps, solves, work.steps, work);
+                // Two linear solves a window: contact states are predicted from the step before, at the same distance from the vehicle.
+                assert_at_most("solves a step", work.sweeps, 4.0, work.steps, work);
                 // The zones that slip are some 6 m long, with what the sheath carries along 10 m, whatever the duct, all along the road.
-                let zone = if law == FrictionLaw::Coulomb { 8.0 } else { 13.0 } / spacing;
+                let zone = if law == FrictionLaw::Coulomb { 9.3 } else { 14.0 } / spacing;
                 let single_steps = ((length + 2.0 * APPROACH) / step).round() as usize;
                 assert_at_most("nodes a step", work.node_updates, zone, single_steps, work);
-                // The iteration is given up where contact begins, and next to never once the last pass is remembered.
-                let given_up = if passes == 1 { 0.035 } else { 0.001 };
-                assert_at_most("exact steps a step", work.exact_steps, given_up, work.steps, work);
+                // The iteration is given up where contact begins.
+                assert_at_most("exact steps a step", work.exact_steps, 0.035, work.steps, work);
             }
         }
     }
