@@ -3,8 +3,8 @@
 
 use boussinesq::HalfSpace;
 use cable_dem::{
-    CableError, CableState, DuctedCable, Dynamic, End, Explicit, ExplicitOptions, Friction, FrictionLaw,
-    Mesh, MovingDuct, Passage, QuasiStatic,
+    CableError, CableState, DuctedCable, End, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh,
+    MovingDuct, Passage, QuasiStatic,
 };
 use criterion::{Criterion, criterion_group, criterion_main};
 use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
@@ -42,10 +42,6 @@ fn solvers(criterion: &mut Criterion) -> Result<(), Box<dyn std::error::Error>> 
         };
         measure("quasi-static", &mut |state| {
             Ok(quasi_static.pass(&passage, state)?.force.downstream)
-        })?;
-        let mut dynamic = Dynamic::new(cable.clone(), mesh, MASS)?;
-        measure("dynamic", &mut |state| {
-            Ok(dynamic.pass(&duct, state)?.pass.force.downstream)
         })?;
         let mut explicit = Explicit::new(cable, mesh, MASS, ExplicitOptions::default())?;
         measure("explicit", &mut |state| {

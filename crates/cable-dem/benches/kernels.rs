@@ -5,8 +5,8 @@ use std::hint::black_box;
 
 use boussinesq::HalfSpace;
 use cable_dem::{
-    CableState, DuctedCable, Dynamic, End, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh,
-    MovingDuct, Passage, QuasiStatic,
+    CableState, DuctedCable, End, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh, MovingDuct,
+    Passage, QuasiStatic,
 };
 use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
 use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
@@ -71,13 +71,6 @@ fn kernels(criterion: &mut Criterion) {
     for law in [SHEATH, FrictionLaw::Sigmoid { shape_factor: 1e8 }] {
         let cable = cable(law, 8.01e6);
         let duct = MovingDuct::new(&cable, &mesh, &motion, APPROACH).expect("a valid duct");
-        let mut dynamic = Dynamic::new(cable.clone(), mesh, MASS).expect("a valid solver");
-        let work = dynamic.pass(&duct, &mut CableState::at_rest(&mesh));
-        let work = work.expect("an answer").pass.statistics;
-        group.throughput(Throughput::Elements(work.steps as u64));
-        group.bench_function(format!("dynamic step, {}", law.name()), |bencher| {
-            bencher.iter(|| dynamic.pass(black_box(&duct), &mut CableState::at_rest(&mesh)));
-        });
         let mut explicit =
             Explicit::new(cable, mesh, MASS, ExplicitOptions::default()).expect("a valid solver");
         let work = explicit.pass(&duct, &mut CableState::at_rest(&mesh));

@@ -1,8 +1,8 @@
 //! The cable as laid.
 
+use crate::lumped::{Lumped, WholeStep};
 use crate::step::{Chain, Support};
-use crate::transient::{Implicit, Lumped};
-use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh};
+use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, Statistics};
 
 /// Mass per metre \[kg/m\] where nothing moves: any.
 const MASS: f64 = 1.0;
@@ -49,20 +49,17 @@ pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> 
         return Ok(state);
     }
     let lumped = Lumped::new(cable.clone(), *mesh, MASS)?;
-    let mut solver = Implicit::new(&lumped, 0.0);
     // How far what friction does not hold can stretch the cable and what holds it.
     let sliding = (body_force.abs() - limit).max(0.0) * cable.length();
     let stretch = cable.length() / cable.axial_stiffness();
     let give = if held > 0.0 { 1.0 / held } else { 0.0 };
-    solver.start(sliding * (stretch + give) + friction.compliance() * limit);
-    solver.load_elastic(&lumped, &state.displacement);
+    let largest = sliding * (stretch + give) + friction.compliance() * limit;
     let still = vec![0.0; mesh.nodes()];
-    let moved = solver.solve(&lumped, &still, &mut state.friction);
-    let moved = moved.map_err(|violation| CableError::NoConvergence {
+    let solved = WholeStep::new(&lumped).follow(&still, largest, &mut state, &mut Statistics::default());
+    solved.map_err(|violation| CableError::NoConvergence {
         vehicle_position: f64::NEG_INFINITY,
         violation,
     })?;
-    state.displacement.copy_from_slice(moved);
     if friction.law() == FrictionLaw::Coulomb {
         // Between a fixed end and its neighbour nothing slips, and friction holds as everywhere else.
         for node in [0, mesh.elements()] {
@@ -76,7 +73,7 @@ pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> 
 
 /// K u = w p, by elimination.
 fn without_friction(cable: &DuctedCable, mesh: &Mesh) -> Vec<f64> {
-    let chain = Chain::new(cable, mesh, 0.0);
+    let chain = Chain::new(cable, mesh);
     let mut u = cable.body_loads(mesh);
     let (lo, hi) = (chain.free.lo, chain.free.hi);
     u[..lo].fill(0.0);

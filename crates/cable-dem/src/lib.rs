@@ -9,9 +9,8 @@
 //! with u the cable's displacement, EA its axial stiffness, p the part of its weight along a duct that slopes
 //! ([`DuctedCable::with_body_force`]) and f the friction per metre, which follows the slip between
 //! duct and cable by a [`FrictionLaw`]. [`QuasiStatic`] leaves inertia out: the cable's wave speed √(EA/m′), near 850 m/s, is
-//! far above any vehicle's, and [`inertia_ratio`] bounds what that costs. [`Dynamic`] takes the same implicit step with
-//! inertia, [`Explicit`] integrates masses, springs and friction by central differences as Kashiro et al. do; both also
-//! take the `sigmoid` law, which has no state of rest.
+//! far above any vehicle's, and [`inertia_ratio`] bounds what that costs. [`Explicit`] integrates masses, springs and friction by
+//! central differences as Kashiro et al. do, with inertia; it also takes the `sigmoid` law, which has no state of rest.
 //!
 //! Before and after a pass the ground is at rest; what remains is the friction locked between cable and duct.
 //!
@@ -40,12 +39,13 @@
 mod approach;
 mod cable;
 mod course;
-mod dynamic;
 mod ends;
 mod error;
 mod explicit;
 mod friction;
+mod inertia;
 mod laid;
+mod lumped;
 mod mesh;
 mod outcome;
 mod quasi_static;
@@ -54,24 +54,26 @@ mod solver;
 mod state;
 mod step;
 mod traffic;
-mod transient;
+mod view;
 
 pub use approach::approach;
 pub use cable::{DuctedCable, End, Restraint};
-pub use dynamic::Dynamic;
 pub use ends::EndForces;
 pub use error::CableError;
-pub use explicit::{Explicit, ExplicitOptions, StepLimit, StepLimits};
+pub use explicit::{
+    EnergyBalance, Explicit, ExplicitOptions, ExplicitOutcome, MovingDuct, SigmoidLeak, StepLimit, StepLimits,
+};
 pub use friction::{Friction, FrictionLaw};
+pub use inertia::inertia_ratio;
 pub use laid::laid;
 pub use mesh::Mesh;
 pub use outcome::{PassOutcome, Statistics};
-pub use quasi_static::{Passage, QuasiStatic, SlipLengths, StepView};
+pub use quasi_static::{Passage, QuasiStatic};
 pub use resting::RestingCable;
 pub use solver::{Solver, SolverPassage};
 pub use state::CableState;
 pub use traffic::{Order, Traffic};
-pub use transient::{EnergyBalance, MovingDuct, SigmoidLeak, TransientOutcome, inertia_ratio};
+pub use view::{SlipLengths, StepView};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

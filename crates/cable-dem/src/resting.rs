@@ -56,7 +56,7 @@ impl RestingCable {
         let zeros = || vec![0.0; mesh.nodes()];
         let load = cable.body_loads(mesh);
         Ok(Self {
-            step: StepSolver::new(Chain::new(cable, mesh, 0.0)),
+            step: StepSolver::new(Chain::new(cable, mesh)),
             cable: cable.clone(),
             supports: Support::of(cable, mesh),
             anchor: zeros(),
@@ -272,7 +272,6 @@ impl RestingCable {
             adhesion: &self.nothing,
             support: &self.load,
             anchor: &self.anchor,
-            friction: &state.friction,
         };
         let solved = self.step.solve(&load, free);
         solved.map_err(|violation| CableError::NoConvergence {

@@ -1,17 +1,17 @@
-//! One of the three solvers, chosen while the program runs.
+//! One of the two solvers, chosen while the program runs.
 
 use ground_field::DuctMotion;
 
 use crate::{
-    CableError, CableState, DuctedCable, Dynamic, Explicit, Mesh, MovingDuct, PassOutcome, Passage,
-    QuasiStatic, SigmoidLeak, StepLimits, StepView,
+    CableError, CableState, DuctedCable, Explicit, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic,
+    SigmoidLeak, StepLimits, StepView,
 };
 
-/// One of the three solvers: what a program holds that chooses between them while it runs.
+/// One of the two solvers: what a program holds that chooses between them while it runs.
 ///
 /// ```
 /// use boussinesq::HalfSpace;
-/// use cable_dem::{DuctedCable, Dynamic, End, Friction, FrictionLaw, Mesh, QuasiStatic, Solver};
+/// use cable_dem::{DuctedCable, End, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh, QuasiStatic, Solver};
 /// use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
 ///
 /// let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
@@ -23,7 +23,7 @@ use crate::{
 /// let mesh = Mesh::for_depth(10.0, 1.2, 6.0)?;
 /// let solvers: [Solver; 2] = [
 ///     QuasiStatic::new(cable.clone(), mesh)?.into(),
-///     Dynamic::new(cable, mesh, 108.8 / 9.80665)?.into(),
+///     Explicit::new(cable, mesh, 108.8 / 9.80665, ExplicitOptions::default())?.into(),
 /// ];
 /// let mut forces = Vec::new();
 /// for mut solver in solvers {
@@ -40,9 +40,7 @@ use crate::{
 pub enum Solver {
     /// Without inertia.
     QuasiStatic(Box<QuasiStatic>),
-    /// With inertia, by implicit steps.
-    Dynamic(Box<Dynamic>),
-    /// With inertia, by explicit steps.
+    /// With inertia.
     Explicit(Box<Explicit>),
 }
 
@@ -62,12 +60,6 @@ impl From<QuasiStatic> for Solver {
     }
 }
 
-impl From<Dynamic> for Solver {
-    fn from(solver: Dynamic) -> Self {
-        Self::Dynamic(Box::new(solver))
-    }
-}
-
 impl From<Explicit> for Solver {
     fn from(solver: Explicit) -> Self {
         Self::Explicit(Box::new(solver))
@@ -79,7 +71,6 @@ impl Solver {
     pub fn cable(&self) -> &DuctedCable {
         match self {
             Self::QuasiStatic(solver) => solver.cable(),
-            Self::Dynamic(solver) => solver.cable(),
             Self::Explicit(solver) => solver.cable(),
         }
     }
@@ -88,7 +79,6 @@ impl Solver {
     pub fn mesh(&self) -> &Mesh {
         match self {
             Self::QuasiStatic(solver) => solver.mesh(),
-            Self::Dynamic(solver) => solver.mesh(),
             Self::Explicit(solver) => solver.mesh(),
         }
     }
@@ -97,7 +87,6 @@ impl Solver {
     pub fn at_rest(&self) -> CableState {
         match self {
             Self::QuasiStatic(solver) => solver.at_rest(),
-            Self::Dynamic(solver) => solver.at_rest(),
             Self::Explicit(solver) => solver.at_rest(),
         }
     }
@@ -111,7 +100,6 @@ impl Solver {
     pub fn passage(&self, motion: &DuctMotion, approach: f64) -> Result<SolverPassage, CableError> {
         Ok(SolverPassage(match self {
             Self::QuasiStatic(solver) => Kind::Still(solver.passage(motion, approach)?),
-            Self::Dynamic(solver) => Kind::Moving(solver.passage(motion, approach)?),
             Self::Explicit(solver) => Kind::Moving(solver.passage(motion, approach)?),
         }))
     }
@@ -129,8 +117,7 @@ impl Solver {
         self.pass_observed(passage, state, |_| {})
     }
 
-    /// As [`Solver::pass`]; `observe` looks at the cable at every vehicle position where inertia is left out, and at nothing
-    /// elsewhere.
+    /// As [`Solver::pass`]; `observe` looks at the cable at every vehicle position.
     ///
     /// # Errors
     ///
@@ -145,8 +132,9 @@ impl Solver {
             (Self::QuasiStatic(solver), Kind::Still(passage)) => {
                 solver.pass_observed(passage, state, observe)
             }
-            (Self::Dynamic(solver), Kind::Moving(duct)) => Ok(solver.pass(duct, state)?.pass),
-            (Self::Explicit(solver), Kind::Moving(duct)) => Ok(solver.pass(duct, state)?.pass),
+            (Self::Explicit(solver), Kind::Moving(duct)) => {
+                Ok(solver.pass_observed(duct, state, observe)?.pass)
+            }
             _ => Err(CableError::PassageMismatch),
         }
     }
@@ -154,7 +142,6 @@ impl Solver {
     /// The time step \[s\] of a pass; `None` without inertia.
     pub fn time_step(&self, passage: &SolverPassage) -> Option<f64> {
         match (self, &passage.0) {
-            (Self::Dynamic(solver), Kind::Moving(duct)) => Some(solver.time_step(duct)),
             (Self::Explicit(solver), Kind::Moving(duct)) => Some(solver.time_step(duct)),
             _ => None,
         }
@@ -164,7 +151,7 @@ impl Solver {
     pub fn limits(&self) -> Option<&StepLimits> {
         match self {
             Self::Explicit(solver) => Some(solver.limits()),
-            Self::QuasiStatic(_) | Self::Dynamic(_) => None,
+            Self::QuasiStatic(_) => None,
         }
     }
 

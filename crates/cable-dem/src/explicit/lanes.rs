@@ -3,7 +3,8 @@
 //! Displacements carry a ghost at either end, the mirror image of the first inner node: with half the mass at the ends
 //! the same stencil then holds at every node.
 
-use crate::transient::{EnergyBalance, Lumped};
+use super::energy::EnergyBalance;
+use crate::lumped::Lumped;
 use crate::{CableState, EndForces, FrictionLaw};
 
 /// State and energy accounts of all nodes.

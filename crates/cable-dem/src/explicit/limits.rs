@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::FrictionLaw;
-use crate::transient::Lumped;
+use crate::lumped::Lumped;
 
 /// One limit of the time step.
 #[derive(Debug, Clone, Copy, PartialEq)]

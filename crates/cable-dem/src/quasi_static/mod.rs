@@ -5,12 +5,10 @@ mod passage;
 mod rates;
 mod schedule;
 mod supports;
-mod view;
 mod watch;
 mod window;
 
 pub use passage::Passage;
-pub use view::{SlipLengths, StepView};
 
 use ground_field::{Direction, DuctMotion};
 
@@ -18,7 +16,7 @@ use crate::error::checked;
 use crate::laid::laid;
 use crate::outcome::Recorder;
 use crate::step::check_precision;
-use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
+use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome, StepView};
 use pass::ForwardSolver;
 
 /// Quasi-static solver for one cable on one mesh: inertia left out, every step an equilibrium.
@@ -176,13 +174,27 @@ impl QuasiStatic {
         }
         let (mesh, limit) = (&self.mesh, self.cable.friction().limit());
         let mut recorder = solver.pass(passage, &mut after, |r, g, snapshot| {
+            let position = mesh.lattice_step() * snapshot.position as f64;
+            let state = || {
+                let mut state = CableState::at_rest(mesh);
+                for node in 0..mesh.nodes() {
+                    state.displacement[node] = r[node] + snapshot.adherent_at(node);
+                    state.friction[node] = g[node] + snapshot.adhesion[node];
+                }
+                if mirrored {
+                    state.mirror();
+                }
+                state
+            };
             observe(StepView {
+                vehicle_position: if mirrored {
+                    mesh.length() - position
+                } else {
+                    position
+                },
                 mesh,
                 limit,
-                r,
-                g,
-                snapshot,
-                mirrored,
+                state: &state,
             });
         })?;
         if mirrored {

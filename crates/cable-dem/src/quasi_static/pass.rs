@@ -43,7 +43,7 @@ pub(super) struct ForwardSolver {
 impl ForwardSolver {
     pub fn new(cable: DuctedCable, mesh: &Mesh) -> Self {
         let nodes = mesh.nodes();
-        let chain = Chain::new(&cable, mesh, 0.0);
+        let chain = Chain::new(&cable, mesh);
         let screening = chain.compliance * chain.stiffness / mesh.spacing();
         let room = Room::new(chain.free, screening);
         Self {
@@ -213,7 +213,6 @@ impl ForwardSolver {
                 adhesion: snapshot.adhesion,
                 support: &self.supports.load,
                 anchor: &self.anchor,
-                friction: &self.g,
             };
             let solved = self.step.solve(&load, stretch);
             let slip = solved.map_err(|violation| CableError::NoConvergence {

@@ -35,8 +35,6 @@ pub(crate) struct Chain {
     pub limit: f64,
     /// The unknown nodes: all but fixed ends.
     pub free: Stretch,
-    /// Whether the diagonal holds a mass at every node.
-    pub has_inertia: bool,
     /// Rounding error of a node's force per metre \[N/m\], for each metre of displacement.
     pub rounding: f64,
 }
@@ -73,8 +71,6 @@ pub(crate) struct Load<'a> {
     pub support: &'a [f64],
     /// r + γ g before the step: where the duct holds the sheath \[m\].
     pub anchor: &'a [f64],
-    /// Friction before the step \[N/m\]; the answer does not depend on it but for the anchor.
-    pub friction: &'a [f64],
 }
 
 /// A row once it is eliminated: r_i = value + factor · r of the neighbour towards the middle.
@@ -120,33 +116,31 @@ impl Trial {
 }
 
 impl Node {
-    /// Those of a chain without a sheath.
-    pub fn of(diagonal: &[f64], tributary: &[f64]) -> Vec<Self> {
-        let node = |(&diagonal, &tributary): (&f64, &f64)| Self {
-            diagonal,
-            per_diagonal: 1.0 / diagonal,
-            tributary,
-            per_tributary: 1.0 / tributary,
-            stuck: (0.0, 1.0),
+    /// Those of a chain of `stiffness` k \[N/m\] whose contact has the `compliance` γ \[m²/N\].
+    pub fn of(diagonal: &[f64], tributary: &[f64], stiffness: f64, compliance: f64) -> Vec<Self> {
+        let node = |(&diagonal, &tributary): (&f64, &f64)| {
+            let softness = compliance * stiffness / tributary;
+            let share = 1.0 / (1.0 + softness * diagonal);
+            Self {
+                diagonal,
+                per_diagonal: 1.0 / diagonal,
+                tributary,
+                per_tributary: 1.0 / tributary,
+                stuck: (softness * share, share),
+            }
         };
         diagonal.iter().zip(tributary).map(node).collect()
-    }
-
-    /// Gives its contact the `softness` γ k/w.
-    fn soften(&mut self, softness: f64) {
-        let share = 1.0 / (1.0 + softness * self.diagonal);
-        self.stuck = (softness * share, share);
     }
 }
 
 impl Chain {
-    /// `cable` on `mesh`, with a mass term of `inertia` \[N/m²\] per metre on the diagonal; 0 without inertia.
-    pub fn new(cable: &DuctedCable, mesh: &Mesh, inertia: f64) -> Self {
+    /// `cable` on `mesh`.
+    pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();
         let stiffness = cable.axial_stiffness() / mesh.spacing();
         let compliance = cable.friction().compliance();
         let tributary: Vec<f64> = (0..=last).map(|i| mesh.tributary_length(i)).collect();
-        let mut diagonal: Vec<f64> = tributary.iter().map(|w| 2.0 + inertia * w / stiffness).collect();
+        let mut diagonal = vec![2.0; last + 1];
         diagonal[0] -= 1.0;
         diagonal[last] -= 1.0;
         let mut free = Stretch { lo: 0, hi: last };
@@ -165,24 +159,13 @@ impl Chain {
                 None => free.hi = last - 1,
             }
         }
-        let mut chain = Self {
+        Self {
             rounding: rounding(stiffness, mesh.spacing()) + stiffest,
             stiffness,
-            nodes: Node::of(&diagonal, &tributary),
+            nodes: Node::of(&diagonal, &tributary, stiffness, compliance),
             compliance,
             limit: cable.friction().limit(),
-            has_inertia: inertia > 0.0,
             free,
-        };
-        chain.soften(compliance);
-        chain
-    }
-
-    /// Gives the contact another shear compliance \[m²/N\].
-    pub fn soften(&mut self, compliance: f64) {
-        self.compliance = compliance;
-        for node in &mut self.nodes {
-            node.soften(compliance * self.stiffness * node.per_tributary);
         }
     }
 

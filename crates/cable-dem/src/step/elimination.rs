@@ -241,7 +241,7 @@ mod tests {
         let cable = DuctedCable::new(length, 8e6, friction)
             .and_then(|cable| cable.with_ends(End::Free, End::Spring(2e6)))
             .expect("a cable");
-        Chain::new(&cable, &Mesh::new(length, 0.1, 0.05).expect("a mesh"), 0.0)
+        Chain::new(&cable, &Mesh::new(length, 0.1, 0.05).expect("a mesh"))
     }
 
     #[test]
@@ -253,12 +253,10 @@ mod tests {
             let noise = |i: usize| ((i * 7919 + 13) % 1009) as f64 / 1009.0 - 0.5;
             let [adhesion, support, anchor] =
                 [3.0, 50.0, 1e-4].map(|size| (0..NODES).map(|i| size * noise(i)).collect::<Vec<_>>());
-            let friction = vec![0.0; NODES];
             let load = Load {
                 adhesion: &adhesion,
                 support: &support,
                 anchor: &anchor,
-                friction: &friction,
             };
             let stretch = Stretch { lo: 0, hi: NODES - 1 };
             let state = |i: usize| match (i / 40) % 3 {
@@ -308,13 +306,12 @@ mod tests {
     fn what_nothing_holds_is_refused() {
         let friction = Friction::new(FrictionLaw::Coulomb, 30.0).expect("friction");
         let cable = DuctedCable::new(2.0, 8e6, friction).expect("a cable");
-        let chain = Chain::new(&cable, &Mesh::new(2.0, 0.1, 0.05).expect("a mesh"), 0.0);
+        let chain = Chain::new(&cable, &Mesh::new(2.0, 0.1, 0.05).expect("a mesh"));
         let zeros = [0.0; 21];
         let load = Load {
             adhesion: &zeros,
             support: &zeros,
             anchor: &zeros,
-            friction: &zeros,
         };
         let rows = Rows::new(&chain, &load, Stretch { lo: 0, hi: 20 }, &zeros);
         let mut eliminated = [Eliminated::default(); 21];

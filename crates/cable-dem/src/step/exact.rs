@@ -135,17 +135,14 @@ mod tests {
             let diagonal: Vec<f64> = (0..n)
                 .map(|i| self.nodes[i].2 + if end(i) { 1.0 } else { 2.0 })
                 .collect();
-            let mut chain = Chain {
+            Chain {
                 stiffness: 1.0,
-                nodes: Node::of(&diagonal, &tributary),
+                nodes: Node::of(&diagonal, &tributary, 1.0, self.compliance),
                 compliance: self.compliance,
                 limit: 1.0,
                 free: self.stretch(),
-                has_inertia: false,
                 rounding: 0.0,
-            };
-            chain.soften(self.compliance);
-            chain
+            }
         }
 
         fn stretch(&self) -> Stretch {
@@ -301,7 +298,6 @@ mod tests {
             adhesion: &adhesion,
             support: &support,
             anchor: &anchor,
-            friction: &[],
         };
         let mut trial = smooth.trial(&smooth.guess);
         let touched = set_contacts(&smooth.chain(), &load, smooth.stretch(), &mut trial);
@@ -343,7 +339,7 @@ mod tests {
                 step.column(|node| node.3),
                 step.column(|node| node.0),
             );
-            let load = Load { adhesion: &adhesion, support: &support, anchor: &anchor, friction: &[] };
+            let load = Load { adhesion: &adhesion, support: &support, anchor: &anchor };
             let stretch = step.stretch();
             let answers = step.answers(&chain);
             if step.is_held() {

@@ -1,8 +1,7 @@
 //! The one implicit step: a stretch of the cable follows its duct by a small increment.
 //!
-//! All solvers take it: the quasi-static one in windows that travel with the vehicle, the dynamic one with inertia on the diagonal, and
-//! both solvers with inertia for the steps from rest and to it. [`chain`] states the problem, [`solver`] finds the answer by
-//! [`active_set`] and, where that cycles, by [`exact`].
+//! The quasi-static solver takes it in windows that travel with the vehicle, the explicit one for the steps from rest and to it.
+//! [`chain`] states the problem, [`solver`] finds the answer by [`active_set`] and, where that cycles, by [`exact`].
 
 mod active_set;
 mod chain;
@@ -15,7 +14,7 @@ mod solver;
 mod support;
 mod tolerance;
 
-pub(crate) use chain::{Chain, Contact, Load, Stretch, Trial};
+pub(crate) use chain::{Chain, Load, Stretch, Trial};
 pub(crate) use fixed_end_friction::FixedEndFriction;
 pub(crate) use prediction::Prediction;
 pub(crate) use solver::StepSolver;

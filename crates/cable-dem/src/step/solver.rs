@@ -1,17 +1,10 @@
 //! Solving a step: iterate; where that cycles, take the exact step.
-//!
-//! The exact step costs a few linear solves. With a mass at every node its work grows with the square of the nodes; there the
-//! contact states are first led from those of a softer sheath to those of the real one: under Coulomb's law with inertia the work is
-//! 1.3 to 2.3 times as much without that, measured on three cables over six passes.
 
 use super::active_set;
 use super::chain::{Chain, Contact, Load, Stretch, Trial};
 use super::exact;
 use super::tolerance::Tolerance;
 use crate::Statistics;
-
-/// Softnesses γ k/h of the sheath through which a step of the whole chain is led that does not converge from its first guess.
-const SOFTNESSES: [f64; 9] = [100.0, 10.0, 1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
 
 /// Violation of the exact step, as a share of the friction limit, that is taken for rounding: a hundred times its usual accuracy, and a
 /// ten thousandth of what may be unbalanced outside the windows.
@@ -61,12 +54,6 @@ impl StepSolver {
             if let Ok(slip) = self.iterate(load, stretch) {
                 return Ok(slip);
             }
-            if self.chain.has_inertia {
-                self.soften(load, stretch);
-                if let Ok(slip) = self.iterate(load, stretch) {
-                    return Ok(slip);
-                }
-            }
         }
         self.statistics.corners += exact::set_contacts(&self.chain, load, stretch, &mut self.trial);
         self.statistics.exact_steps += 1;
@@ -85,29 +72,5 @@ impl StepSolver {
         self.statistics.sweeps += iterated.sweeps;
         self.statistics.node_updates += iterated.node_updates;
         iterated.outcome
-    }
-
-    /// Leads the contact states from those of a softer sheath, whose energy is smoother, to those of the real one.
-    fn soften(&mut self, load: &Load<'_>, stretch: Stretch) {
-        let own = self.chain.compliance;
-        let per_softness = self.chain.nodes[1].tributary / self.chain.stiffness;
-        self.trial.contact[stretch.nodes()].fill(Contact::Stuck);
-        let mut anchor = load.anchor.to_vec();
-        for compliance in SOFTNESSES.map(|softness| softness * per_softness) {
-            if compliance <= own {
-                break;
-            }
-            self.chain.soften(compliance);
-            for i in stretch.nodes() {
-                anchor[i] = load.anchor[i] + (compliance - own) * load.friction[i];
-            }
-            let softer = Load {
-                anchor: &anchor,
-                ..*load
-            };
-            // Its contact states are worth having, whether or not they all hold.
-            let _ = self.iterate(&softer, stretch);
-        }
-        self.chain.soften(own);
     }
 }

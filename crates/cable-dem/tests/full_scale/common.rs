@@ -3,8 +3,8 @@
 
 use boussinesq::HalfSpace;
 use cable_dem::{
-    CableError, CableState, DuctedCable, Dynamic, End, Explicit, ExplicitOptions, Friction, FrictionLaw,
-    Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic, TransientOutcome,
+    CableError, CableState, DuctedCable, End, Explicit, ExplicitOptions, ExplicitOutcome, Friction,
+    FrictionLaw, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic,
 };
 use ground_field::{Direction, DuctMotion};
 
@@ -91,13 +91,7 @@ impl Scene {
         Ok(last.end_forces(&self.cable)?.downstream)
     }
 
-    pub fn dynamic(&self, passes: usize) -> Result<TransientOutcome, CableError> {
-        let mut solver = Dynamic::new(self.cable.clone(), self.mesh, MASS)?;
-        let mut state = CableState::at_rest(&self.mesh);
-        last(passes, || solver.pass(&self.duct, &mut state))
-    }
-
-    pub fn explicit(&self, passes: usize, options: ExplicitOptions) -> Result<TransientOutcome, CableError> {
+    pub fn explicit(&self, passes: usize, options: ExplicitOptions) -> Result<ExplicitOutcome, CableError> {
         let mut solver = Explicit::new(self.cable.clone(), self.mesh, MASS, options)?;
         let mut state = CableState::at_rest(&self.mesh);
         last(passes, || solver.pass(&self.duct, &mut state))

@@ -1,32 +1,31 @@
 //! The explicit solver: against the others, its step limits, and the watch on its energy.
 
-use crate::common::{EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, relative, truck};
+use crate::common::{APPROACH, EA, LIMIT, MASS, Outcome, STIFF_SHEATH, Scene, relative, truck};
 use approx::assert_relative_eq;
 use cable_dem::{
     CableError, CableState, DuctedCable, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh, MovingDuct,
+    QuasiStatic, Solver,
 };
 use ground_field::Direction;
 
 #[test]
-fn all_three_solvers_agree_at_40_km_per_hour() -> Outcome {
+fn both_solvers_agree_at_40_km_per_hour() -> Outcome {
     let motion = truck(40.0)?;
     for law in [STIFF_SHEATH, FrictionLaw::Coulomb] {
         let scene = Scene::thirty_metres(law, 0.1, &motion)?;
         let expected = scene.quasi_static(10)?;
-        let dynamic = scene.dynamic(10)?;
         let explicit = scene.explicit(10, ExplicitOptions::default())?;
-        for found in [&dynamic.pass, &explicit.pass] {
-            for (found, expected) in [
-                (found.force.downstream, expected.force.downstream),
-                (found.peak.downstream, expected.peak.downstream),
-                (found.max_compression, expected.max_compression),
-                (found.upstream_displacement, expected.upstream_displacement),
-            ] {
-                assert!(
-                    relative(found, expected).abs() < 5e-3,
-                    "{law:?}: {found} {expected}"
-                );
-            }
+        let found = &explicit.pass;
+        for (found, expected) in [
+            (found.force.downstream, expected.force.downstream),
+            (found.peak.downstream, expected.peak.downstream),
+            (found.max_compression, expected.max_compression),
+            (found.upstream_displacement, expected.upstream_displacement),
+        ] {
+            assert!(
+                relative(found, expected).abs() < 5e-3,
+                "{law:?}: {found} {expected}"
+            );
         }
         // The ground's return to rest takes 4 % off, with vibration or without; what the vibration left amounts to the rest.
         let returned = scene.quasi_static_before_rest(10)? - expected.force.downstream;
@@ -51,18 +50,15 @@ fn they_still_agree_after_sixty_passes() -> Outcome {
             &motion,
         )?;
         let expected = scene.quasi_static(60)?.force.downstream;
-        let dynamic = scene.dynamic(60)?.pass.force.downstream;
-        let explicit = scene
+        let found = scene
             .explicit(60, ExplicitOptions::default())?
             .pass
             .force
             .downstream;
-        for found in [dynamic, explicit] {
-            assert!(
-                relative(found, expected).abs() < 5e-3,
-                "{law:?}: {found} {expected}"
-            );
-        }
+        assert!(
+            relative(found, expected).abs() < 5e-3,
+            "{law:?}: {found} {expected}"
+        );
     }
     Ok(())
 }
@@ -198,30 +194,61 @@ fn reverse_traffic_is_the_mirror_image() -> Outcome {
         (cable.mirrored(), Direction::Reverse),
     ] {
         let duct = MovingDuct::from_shape(&cable, &mesh, direction, 30.0, shape, 8.0)?;
-        let mut explicit = Explicit::new(cable.clone(), mesh, MASS, ExplicitOptions::default())?;
-        let mut dynamic = cable_dem::Dynamic::new(cable, mesh, MASS)?;
-        outcomes.push((
-            explicit.pass(&duct, &mut CableState::at_rest(&mesh))?.pass,
-            dynamic.pass(&duct, &mut CableState::at_rest(&mesh))?.pass,
-        ));
+        let mut explicit = Explicit::new(cable, mesh, MASS, ExplicitOptions::default())?;
+        outcomes.push(explicit.pass(&duct, &mut CableState::at_rest(&mesh))?.pass);
     }
-    for (forward, reverse) in [(&outcomes[0].0, &outcomes[1].0), (&outcomes[0].1, &outcomes[1].1)] {
-        assert!(forward.force.downstream > 10.0);
-        assert_relative_eq!(
-            forward.force.downstream,
-            reverse.force.upstream,
-            max_relative = 1e-6
+    let (forward, reverse) = (&outcomes[0], &outcomes[1]);
+    assert!(forward.force.downstream > 10.0);
+    for (one, other) in [
+        (forward.force.downstream, reverse.force.upstream),
+        (forward.peak.downstream, reverse.peak.upstream),
+        (forward.upstream_displacement, -reverse.downstream_displacement),
+    ] {
+        assert_relative_eq!(one, other, max_relative = 1e-6);
+    }
+    Ok(())
+}
+
+#[test]
+fn both_solvers_show_the_cable_at_every_vehicle_position() -> Outcome {
+    let motion = truck(40.0)?;
+    let scene = Scene::thirty_metres(STIFF_SHEATH, 0.2, &motion)?;
+    let (cable, mesh) = (&scene.cable, scene.mesh);
+    let mut middles = Vec::new();
+    for mut solver in [
+        Solver::from(QuasiStatic::new(cable.clone(), mesh)?),
+        Explicit::new(cable.clone(), mesh, MASS, ExplicitOptions::default())?.into(),
+    ] {
+        let passage = solver.passage(&motion, APPROACH)?;
+        let mut state = solver.at_rest();
+        let (mut positions, mut middle) = (Vec::new(), None);
+        solver.pass_observed(&passage, &mut state, |view| {
+            positions.push(view.vehicle_position());
+            if view.vehicle_position() >= 15.0 && middle.is_none() {
+                middle = Some((view.state().end_forces(cable), view.slip_lengths()));
+            }
+        })?;
+        assert!(positions.windows(2).all(|pair| pair[0] < pair[1]));
+        let (first, last) = (positions[0], positions[positions.len() - 1]);
+        assert!(
+            (first + APPROACH).abs() < 0.2 && (last - 30.0 - APPROACH).abs() < 0.2,
+            "{first} {last}"
         );
-        assert_relative_eq!(
-            forward.peak.downstream,
-            reverse.peak.upstream,
-            max_relative = 1e-6
-        );
-        assert_relative_eq!(
-            forward.upstream_displacement,
-            -reverse.downstream_displacement,
-            max_relative = 1e-6
-        );
+        let (force, slip) = middle.ok_or("nothing was shown")?;
+        middles.push((force?.downstream, slip));
+    }
+    let [(expected, expected_slip), (found, slip)] = middles[..] else {
+        return Err("two solvers".into());
+    };
+    assert!(
+        expected.abs() > 10.0 && relative(found, expected).abs() < 0.03,
+        "{found} {expected}"
+    );
+    for (found, expected) in [
+        (slip.forward, expected_slip.forward),
+        (slip.backward, expected_slip.backward),
+    ] {
+        assert!((found - expected).abs() < 1.0, "{slip:?} {expected_slip:?}");
     }
     Ok(())
 }

@@ -1,8 +1,9 @@
 //! Solver by solver on the full-scale experiment's cable: answers, faults, counts of work, and whatever the numbers.
 
 mod common;
-mod dynamic;
 mod explicit;
 mod explicit_faults;
+mod inertia;
 mod nasty_values;
+mod sigmoid;
 mod work;

@@ -79,26 +79,6 @@ fn a_quasi_static_pass_of_a_stiff_cable() -> Outcome {
 }
 
 #[test]
-fn a_dynamic_pass() -> Outcome {
-    let motion = truck(40.0)?;
-    // Contact states are predicted, so that two or three solves find them; Newton's method on the sigmoid, whose error falls
-    // by squares to 1e-9 of the friction limit, takes five on the mean.
-    for (law, solves) in [(STIFF_SHEATH, 3.0), (FrictionLaw::Coulomb, 3.75), (SIGMOID, 5.75)] {
-        let scene = Scene::thirty_metres(law, 0.2, &motion)?;
-        let positions = ((30.0 + 2.0 * APPROACH) / scene.mesh.vehicle_step()).round() as usize;
-        for passes in [1, 10] {
-            let work = scene.dynamic(passes)?.pass.statistics;
-            assert_eq!(work.steps, positions, "one step a vehicle position");
-            assert_at_most("solves a step", work.sweeps, solves, work.steps, work);
-            // At most the whole cable in every one.
-            assert!(work.node_updates <= work.sweeps * scene.mesh.nodes(), "{work:?}");
-            assert_eq!(work.exact_steps, 0);
-        }
-    }
-    Ok(())
-}
-
-#[test]
 fn an_explicit_pass() -> Outcome {
     let motion = truck(40.0)?;
     for law in [STIFF_SHEATH, FrictionLaw::Coulomb, SIGMOID] {

@@ -1,6 +1,8 @@
 //! Clamps on the node of an end, and within its element: who carries what.
 
-use cable_dem::{CableState, DuctedCable, Dynamic, End, Mesh, MovingDuct, Passage, Restraint};
+use cable_dem::{
+    CableState, DuctedCable, End, Explicit, ExplicitOptions, Mesh, MovingDuct, Passage, Restraint,
+};
 use ground_field::Direction;
 
 use super::full_newton::{FullChain, even_positions};
@@ -149,7 +151,8 @@ fn a_cable_that_has_come_to_rest_reads_the_same_by_balance_and_by_its_springs() 
         let cable = clamped(ends, &[(0.5 * SPACING, clamp), (LENGTH, clamp)]);
         let mesh = mesh();
         let duct = MovingDuct::new(&cable, &mesh, &reference_motion(), APPROACH).expect("a valid duct");
-        let mut solver = Dynamic::new(cable.clone(), mesh, 11.1).expect("a valid solver");
+        let mut solver =
+            Explicit::new(cable.clone(), mesh, 11.1, ExplicitOptions::default()).expect("a valid solver");
         let mut state = CableState::at_rest(&mesh);
         for _ in 0..PASSES {
             let moving = solver.pass(&duct, &mut state).expect("an answer").pass.force;

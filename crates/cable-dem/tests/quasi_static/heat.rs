@@ -197,13 +197,13 @@ proptest! {
     }
 }
 
-/// Solvers with inertia say so.
+/// The solver with inertia says so.
 #[test]
 fn inertia_and_heat_do_not_go_together() -> Outcome {
     let bar = cable(10.0, AXIAL_STIFFNESS, sheathed(LIMIT), End::Free, End::Fixed);
     let mesh = Mesh::for_depth(10.0, 1.2, 6.0)?;
     let duct = cable_dem::MovingDuct::new(&bar, &mesh, &reference_motion(), 15.0)?;
-    let mut solver = cable_dem::Dynamic::new(bar, mesh, 11.1)?;
+    let mut solver = cable_dem::Explicit::new(bar, mesh, 11.1, cable_dem::ExplicitOptions::default())?;
     let mut warm = solver.at_rest().with_thermal_force(1.0)?;
     assert_eq!(solver.pass(&duct, &mut warm).err(), Some(CableError::Heated));
     Ok(())

@@ -4,8 +4,8 @@ use std::rc::Rc;
 
 use boussinesq::HalfSpace;
 use cable_dem::{
-    CableError, CableState, DuctedCable, Dynamic, EndForces, EnergyBalance, Explicit, ExplicitOptions,
-    FrictionLaw, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic, laid,
+    CableError, CableState, DuctedCable, EndForces, EnergyBalance, Explicit, ExplicitOptions, FrictionLaw,
+    Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic, laid,
 };
 use ground_field::Direction;
 
@@ -39,12 +39,11 @@ pub fn truck() -> Result<Drive, Box<dyn std::error::Error>> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     QuasiStatic,
-    Dynamic,
     Explicit,
 }
 
 impl Kind {
-    pub const ALL: [Self; 3] = [Self::QuasiStatic, Self::Dynamic, Self::Explicit];
+    pub const ALL: [Self; 2] = [Self::QuasiStatic, Self::Explicit];
 
     /// Those that handle `law`.
     pub fn for_law(law: FrictionLaw) -> impl Iterator<Item = Self> {
@@ -127,7 +126,6 @@ pub struct Run {
 
 enum Solver {
     QuasiStatic(Box<QuasiStatic>, Vec<Passage>),
-    Dynamic(Box<Dynamic>, Vec<MovingDuct>),
     Explicit(Box<Explicit>, Vec<MovingDuct>),
 }
 
@@ -165,7 +163,6 @@ impl Run {
                 Box::new(QuasiStatic::new(own, *mesh)?),
                 drives.iter().map(passage).collect::<Result<_, _>>()?,
             ),
-            Kind::Dynamic => Solver::Dynamic(Box::new(Dynamic::new(own, *mesh, MASS)?), ducts()?),
             Kind::Explicit => {
                 let explicit = Explicit::new(own, *mesh, MASS, ExplicitOptions::default())?;
                 Solver::Explicit(Box::new(explicit), ducts()?)
@@ -189,7 +186,6 @@ impl Run {
                     energy: None,
                 });
             }
-            Solver::Dynamic(solver, ducts) => solver.pass(&ducts[drive], &mut self.state)?,
             Solver::Explicit(solver, ducts) => solver.pass(&ducts[drive], &mut self.state)?,
         };
         Ok(Pass {

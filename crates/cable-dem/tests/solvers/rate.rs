@@ -27,8 +27,6 @@ fn second_pass(
     Run::new(kind, &problem)?.passes(2)
 }
 
-/// What nodes that stick and slip one by one leave of waves, as between solvers with and without inertia.
-const STEPPING: f64 = 3e-4;
 /// Accuracy of the explicit solver at this spacing, whose nodes swing as they are passed, at v/h a second.
 const LATTICE: f64 = 5e-3;
 
@@ -56,7 +54,6 @@ fn speed_changes_nothing_but_inertia() -> Outcome {
                 );
                 let allowed = match kind {
                     Kind::QuasiStatic => 0.0,
-                    Kind::Dynamic => ratio + STEPPING,
                     Kind::Explicit => ratio + LATTICE,
                 };
                 assert!(found.abs() <= allowed, "{} {kind:?}: {found} {ratio}", law.name());
@@ -66,35 +63,21 @@ fn speed_changes_nothing_but_inertia() -> Outcome {
     Ok(())
 }
 
-/// The sigmoid's slip is that of one time step: half the step holds on to less, in a step tied to the vehicle
-/// (implicit), and so does half the speed in a step tied to the mesh (explicit). Read before the ground returns to rest, for
-/// which the law takes one step whatever the speed.
+/// The sigmoid's slip is that of one time step, which the explicit solver ties to the mesh: half the speed holds on to less. Read before
+/// the ground returns to rest, for which the law takes one step whatever the speed.
 #[test]
-fn the_sigmoid_depends_on_time_step_and_speed() -> Outcome {
+fn the_sigmoid_depends_on_speed() -> Outcome {
     let truck = truck()?;
-    let sigmoid = FrictionLaw::Sigmoid { shape_factor: 1e8 };
-    let force = |kind, law, speed, vehicle_step| -> Result<f64, CableError> {
-        Ok(second_pass(kind, law, &truck, speed, (0.2, vehicle_step))?
-            .before_rest
-            .downstream)
+    let half_the_speed = |law| -> Result<f64, CableError> {
+        let force = |speed| -> Result<f64, CableError> {
+            let pass = second_pass(Kind::Explicit, law, &truck, speed, (0.2, 0.1))?;
+            Ok(pass.before_rest.downstream)
+        };
+        Ok(force(5.5)? / force(11.0)?)
     };
-    let implicit = |law, vehicle_step| force(Kind::Dynamic, law, 11.0, vehicle_step);
-    let explicit = |law, speed| force(Kind::Explicit, law, speed, 0.1);
-    for (name, with_sigmoid, with_memory) in [
-        (
-            "half the time step",
-            implicit(sigmoid, 0.05)? / implicit(sigmoid, 0.1)?,
-            implicit(sheathed(LIMITS[0]), 0.05)? / implicit(sheathed(LIMITS[0]), 0.1)?,
-        ),
-        (
-            "half the speed",
-            explicit(sigmoid, 5.5)? / explicit(sigmoid, 11.0)?,
-            explicit(sheathed(LIMITS[0]), 5.5)? / explicit(sheathed(LIMITS[0]), 11.0)?,
-        ),
-    ] {
-        println!("{name}: sigmoid {with_sigmoid:.3}, with memory {with_memory:.4}");
-        assert!(with_sigmoid < 0.95, "{name}: {with_sigmoid}");
-        assert!((with_memory - 1.0).abs() < 0.01, "{name}: {with_memory}");
-    }
+    let with_sigmoid = half_the_speed(FrictionLaw::Sigmoid { shape_factor: 1e8 })?;
+    let with_memory = half_the_speed(sheathed(LIMITS[0]))?;
+    assert!(with_sigmoid < 0.95, "{with_sigmoid}");
+    assert!((with_memory - 1.0).abs() < 0.01, "{with_memory}");
     Ok(())
 }

@@ -304,12 +304,11 @@ fn under_the_sigmoid_law_the_whole_weight_reaches_the_lower_end() -> Outcome {
         .with_ends(End::Fixed, End::Free)?
         .with_body_force(-5.0)?;
     let problem = problem(cable, 0.2)?;
-    for kind in [Kind::Dynamic, Kind::Explicit] {
-        let mut run = Run::new(kind, &problem)?;
-        let force = run.passes(3)?.before_rest.upstream;
-        println!("{kind:?}: {force}");
-        assert!((force / 30.0 - 1.0).abs() < 0.05, "{kind:?}: {force} N");
-    }
+    let force = Run::new(Kind::Explicit, &problem)?
+        .passes(3)?
+        .before_rest
+        .upstream;
+    assert!((force / 30.0 - 1.0).abs() < 0.05, "{force} N");
     Ok(())
 }
 

@@ -29,7 +29,7 @@ fn stiff_springs_read_what_a_fixed_end_reads() -> Outcome {
     let truck = truck()?;
     let mut failures = Vec::new();
     for law in [FrictionLaw::Coulomb, sheathed(LIMITS[0])] {
-        let fixed = force_and_peak(Kind::Dynamic, law, End::Fixed, &truck)?;
+        let fixed = force_and_peak(Kind::QuasiStatic, law, End::Fixed, &truck)?;
         // At rest, Coulomb's law lets the friction on the last half element be anything from −q to q.
         let undetermined = if law == FrictionLaw::Coulomb {
             SPACING * LIMITS[0]
@@ -38,7 +38,7 @@ fn stiff_springs_read_what_a_fixed_end_reads() -> Outcome {
         };
         for stiffness in [1e8, 1e9, 1e10, 1e11, 1e12] {
             let end = End::Spring(stiffness);
-            let reference = force_and_peak(Kind::Dynamic, law, end, &truck)?;
+            let reference = force_and_peak(Kind::QuasiStatic, law, end, &truck)?;
             // What the spring yields beside a metre of cable.
             let yielding = AXIAL_STIFFNESS / stiffness;
             for kind in Kind::ALL {

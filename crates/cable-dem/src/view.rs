@@ -1,20 +1,19 @@
 //! A look at the cable while the vehicle passes.
 
-use super::passage::Snapshot;
+use std::fmt;
+
 use crate::{CableState, Mesh};
 
 /// The cable at one vehicle position.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub struct StepView<'a> {
-    pub(super) mesh: &'a Mesh,
+    /// Position of the vehicle's origin along the duct \[m\].
+    pub(crate) vehicle_position: f64,
+    pub(crate) mesh: &'a Mesh,
     /// Friction limit \[N/m\].
-    pub(super) limit: f64,
-    /// The state in the adherent frame: r \[m\] and g \[N/m\].
-    pub(super) r: &'a [f64],
-    pub(super) g: &'a [f64],
-    pub(super) snapshot: Snapshot<'a>,
-    /// Reverse traffic is computed in the mirror.
-    pub(super) mirrored: bool,
+    pub(crate) limit: f64,
+    /// Puts the state together: no solver keeps it in this form.
+    pub(crate) state: &'a dyn Fn() -> CableState,
 }
 
 /// Lengths of cable over which the duct slips past it (Kashiro et al., Figure 7).
@@ -30,28 +29,24 @@ pub struct SlipLengths {
 /// Friction within this share of its limit counts as slipping.
 const AT_LIMIT: f64 = 1e-6;
 
+impl fmt::Debug for StepView<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("StepView")
+            .field("vehicle_position", &self.vehicle_position)
+            .field("limit", &self.limit)
+            .finish_non_exhaustive()
+    }
+}
+
 impl StepView<'_> {
     /// Position of the vehicle's origin along the duct \[m\].
     pub fn vehicle_position(&self) -> f64 {
-        let position = self.mesh.lattice_step() * self.snapshot.position as f64;
-        if self.mirrored {
-            self.mesh.length() - position
-        } else {
-            position
-        }
+        self.vehicle_position
     }
 
     /// Displacement and friction of every node, whose forces [`CableState`] reads.
     pub fn state(&self) -> CableState {
-        let mut state = CableState::at_rest(self.mesh);
-        for node in 0..self.mesh.nodes() {
-            state.displacement[node] = self.r[node] + self.snapshot.adherent_at(node);
-            state.friction[node] = self.g[node] + self.snapshot.adhesion[node];
-        }
-        if self.mirrored {
-            state.mirror();
-        }
-        state
+        (self.state)()
     }
 
     /// Lengths of the slipping cable.

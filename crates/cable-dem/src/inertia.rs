@@ -13,7 +13,7 @@ use crate::{CableError, DuctedCable};
 /// near the vehicle inertia does nothing but soften the cable by the share v²/c². The force that creepage builds up is
 /// smaller by a part of that share; on the 30 m scene (elastic-plastic, h = 0.1 m, 10 passes)
 ///
-/// | km/h | v²/c² | change of force, dynamic against quasi-static |
+/// | km/h | v²/c² | change of force against quasi-static |
 /// |---|---|---|
 /// | 40 | 1.7e-4 | −0.01 % |
 /// | 100 | 1.1e-3 | −0.04 % |

@@ -55,7 +55,7 @@ pub struct EnergyBalance {
 }
 
 impl EnergyBalance {
-    /// Work of the duct that is not found again \[J\]; positive where the scheme damps, negative where it creates energy.
+    /// Work of the duct that is not found again \[J\]; negative where the scheme creates energy.
     pub fn residual(&self) -> f64 {
         self.duct_work + self.body_work - self.elastic - self.kinetic - self.stored - self.dissipated
     }
@@ -82,12 +82,11 @@ impl EnergyBalance {
         self.dissipated + 2.0 * self.returned
     }
 
-    /// Both laws, for a scheme that neither adds nor takes energy (`conservative`) or may damp.
-    pub(crate) fn check(&self, conservative: bool) -> Result<(), CableError> {
+    /// Both laws, for a scheme that neither adds nor takes energy.
+    pub(crate) fn check(&self) -> Result<(), CableError> {
         let (unbalanced, returned) = (self.unbalanced_share(), self.returned_share());
-        let balanced = unbalanced <= MAX_UNBALANCED || (!conservative && self.residual() > 0.0);
         // Written so that NaN fails.
-        if balanced && returned <= MAX_RETURNED {
+        if unbalanced <= MAX_UNBALANCED && returned <= MAX_RETURNED {
             Ok(())
         } else {
             Err(CableError::EnergyNotConserved { unbalanced, returned })

@@ -43,7 +43,7 @@ pub(crate) struct Instant<'a> {
 }
 
 impl MovingDuct {
-    /// The duct of `cable` with nodes as in `mesh`, under a vehicle whose duct motion is `motion`; see [`crate::Dynamic::passage`].
+    /// The duct of `cable` with nodes as in `mesh`, under a vehicle whose duct motion is `motion`; see [`crate::Explicit::passage`].
     ///
     /// The vehicle is followed as in [`crate::Passage::new`].
     ///

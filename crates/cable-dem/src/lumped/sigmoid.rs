@@ -1,15 +1,15 @@
 //! One implicit step with the sigmoid law: a smooth convex problem by Newton's method with a line search.
 //!
-//! The step minimises Π(r) = ½ rᵀ(K + S + c) r − pᵀr + Σ w (2q/b) ln cosh(b (ΔD − r)/2), whose gradient is
+//! The step minimises Π(r) = ½ rᵀ(K + S) r − pᵀr + Σ w (2q/b) ln cosh(b (ΔD − r)/2), whose gradient is
 //!
-//! R(r) = (K + S + c) r − p − w q tanh(b (ΔD − r)/2),
+//! R(r) = (K + S) r − p − w q tanh(b (ΔD − r)/2),
 //!
 //! and whose Hessian adds w (q b/2) sech² to the diagonal. Along Newton's direction d the derivative R·d grows from below
 //! zero; a full step that passes the minimum is cut back until |R·d| has fallen to half. For a large b the tanh is
-//! nearly a step and Newton starts far from its basin: where it does not arrive from the last increment, it starts again from
-//! the answer for clamp(b Δs/2, −1, 1), which the active set finds ([`super::implicit`]).
+//! nearly a step and Newton starts far from its basin: where it does not arrive from no motion, it starts again from
+//! the answer for clamp(b Δs/2, −1, 1), which the active set finds ([`super::step`]).
 
-use super::lumped::Lumped;
+use super::Lumped;
 use crate::step::{Chain, Stretch};
 use crate::{FrictionLaw, Statistics};
 
@@ -20,7 +20,7 @@ const HALVINGS: usize = 40;
 #[derive(Debug, Clone)]
 pub(super) struct Newton {
     half_shape: f64,
-    /// K + S + c, and the friction limit.
+    /// K + S, and the friction limit.
     chain: Chain,
     /// Increments \[m\]: where the next step starts from, and its answer.
     pub r: Vec<f64>,
@@ -48,15 +48,14 @@ impl Newton {
         }
     }
 
-    /// The increments found \[m\]; writes the friction to `f`.
-    pub fn answer(&self, duct: &[f64], f: &mut [f64]) -> &[f64] {
+    /// Writes the friction of the increments found to `f` \[N/m\].
+    pub fn set_friction(&self, duct: &[f64], f: &mut [f64]) {
         for (f, (duct, r)) in f.iter_mut().zip(duct.iter().zip(&self.r)) {
             *f = self.chain.limit * (self.half_shape * (duct - r)).tanh();
         }
-        &self.r
     }
 
-    /// At most `steps` Newton steps from the last increment to a residual of `accuracy` \[N/m\]; on failure the largest residual as a share of the friction limit.
+    /// At most `steps` Newton steps from `r` to a residual of `accuracy` \[N/m\]; on failure the largest residual as a share of the friction limit.
     pub fn solve(
         &mut self,
         load: &[f64],
