@@ -31,10 +31,10 @@ pub fn forces(scene_file: &str, overrides: &[String]) -> Result<Vec<f64>, Failur
     Ok(run.passes.iter().map(|pass| pass.downstream_force_n).collect())
 }
 
-/// What the dynamic solver is told for a speed \[km/h\].
+/// What the explicit solver is told for a speed \[km/h\].
 pub fn with_inertia(speed: u32) -> [String; 2] {
     [
-        "solver.method=dynamic".into(),
+        "solver.method=explicit".into(),
         format!("vehicles.0.speed={speed} km/h"),
     ]
 }

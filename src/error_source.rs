@@ -58,7 +58,7 @@ impl ErrorSource {
         match self {
             Self::Mesh => "a smaller solver.node_spacing may help, or a larger solver.tolerance",
             Self::Ground => "another ground.model may help, or a larger solver.tolerance",
-            Self::Inertia => "solver.method = \"dynamic\" computes it",
+            Self::Inertia => "solver.method = \"explicit\" computes it",
             Self::Road => "without solver.approach vehicles are followed far enough",
             Self::Passes | Self::Days => "solver.method = \"quasi-static\" simulates every one",
         }

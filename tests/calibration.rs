@@ -23,7 +23,7 @@ fn forces(dynamic_coefficient: f64, shape_factor: f64, passes: u64) -> Vec<f64> 
     scene.friction.dynamic_coefficient = dynamic_coefficient;
     scene.friction.law = FrictionLaw::ElasticPlastic { shape_factor };
     scene.traffic.passes = passes;
-    scene.solver.method = SolverMethod::Dynamic;
+    scene.solver.method = SolverMethod::Explicit;
     scene.solver.node_spacing = Some(0.1);
     scene.solver.vehicle_step = Some(0.05);
     let run = creepage::run(&scene).unwrap();

@@ -15,8 +15,8 @@ use std::sync::OnceLock;
 
 use boussinesq::HalfSpace;
 use cable_dem::{
-    CableError, CableState, DuctedCable, Dynamic, Friction, FrictionLaw, Mesh, MovingDuct, PassOutcome,
-    Passage, QuasiStatic,
+    CableError, CableState, DuctedCable, Explicit, ExplicitOptions, Friction, FrictionLaw, Mesh, MovingDuct,
+    PassOutcome, Passage, QuasiStatic,
 };
 use calibrate::{Calibration, ModelError, Options, Parameter, Scale};
 use creepage::Scene;
@@ -74,7 +74,13 @@ fn forces(inertia: bool, friction: f64, shape_factor: f64) -> Vec<f64> {
     let mut state = CableState::at_rest(&mesh);
     let mut pass: Box<dyn FnMut() -> Result<PassOutcome, CableError>> = if inertia {
         let duct = MovingDuct::new(&cable, &mesh, motion(), APPROACH).unwrap();
-        let mut solver = Dynamic::new(cable, mesh, scene.cable.weight / GRAVITY).unwrap();
+        let mut solver = Explicit::new(
+            cable,
+            mesh,
+            scene.cable.weight / GRAVITY,
+            ExplicitOptions::default(),
+        )
+        .unwrap();
         Box::new(move || Ok(solver.pass(&duct, &mut state)?.pass))
     } else {
         let passage = Passage::new(&cable, &mesh, motion(), APPROACH).unwrap();

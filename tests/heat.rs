@@ -335,8 +335,8 @@ fn what_heat_needs_is_told() {
             &["did you mean `daily_swing`?"],
         ),
         (
-            &["solver = { method = \"dynamic\" }"],
-            &["`solver.method` = \"dynamic\"", "without inertia"],
+            &["solver = { method = \"explicit\" }"],
+            &["`solver.method` = \"explicit\"", "without inertia"],
         ),
         (
             &["friction = { law = \"sigmoid\", dynamic_coefficient = 0.25, shape_factor = 7e6 }"],

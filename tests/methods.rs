@@ -23,11 +23,11 @@ fn force_after(run: &Run, pass: u64) -> f64 {
 }
 
 #[test]
-fn inertia_is_for_fast_vehicles_and_the_law_for_many() {
+fn explicit_steps_are_for_the_sigmoid_and_the_law_for_many_passes() {
     let cases: [(&[&str], &str); 4] = [
         (&["traffic.passes=3"], "quasi-static"),
-        (&["traffic.passes=3", "vehicles.0.speed=400 km/h"], "dynamic"),
-        (&["traffic.passes=3", "friction.law=sigmoid"], "dynamic"),
+        (&["traffic.passes=3", "vehicles.0.speed=400 km/h"], "quasi-static"),
+        (&["traffic.passes=3", "friction.law=sigmoid"], "explicit"),
         (&["traffic.passes=10000000"], "pass-law"),
     ];
     for (overrides, expected) in cases {
@@ -43,11 +43,48 @@ fn solvers_with_and_without_inertia_agree_at_40_km_per_hour() {
         force_after(&run(&[mesh[0], mesh[1], &method]), 5)
     };
     let quasi_static = force("quasi-static");
-    for method in ["dynamic", "explicit"] {
-        let other = force(method);
+    let explicit = force("explicit");
+    assert!(
+        (explicit / quasi_static - 1.0).abs() < 5e-3,
+        "explicit: {explicit} N, quasi-static: {quasi_static} N"
+    );
+}
+
+/// Where leaving inertia out costs more than the tolerance, plan and run say so and what to do; beyond what is an answer, the run refuses.
+#[test]
+fn inertia_beyond_the_tolerance_is_said_with_a_remedy() {
+    let fast = |speed: &str, tolerance: &str| {
+        let (speed, tolerance) = (
+            format!("vehicles.0.speed={speed}"),
+            format!("solver.tolerance={tolerance}"),
+        );
+        scene(&["traffic.passes=3", &speed, &tolerance])
+    };
+    let remedy = "solver.method = \"explicit\" computes it";
+    let said = |warnings: &[String]| warnings.iter().any(|warning| warning.contains(remedy));
+    let slow = creepage::plan(&fast("40 km/h", "1 %")).expect("a plan").report();
+    assert!(!said(&slow.warnings), "{:?}", slow.warnings);
+    let scene = fast("400 km/h", "1 %");
+    let plan = creepage::plan(&scene).expect("a plan").report();
+    assert!(said(&plan.warnings), "{:?}", plan.warnings);
+    let run = creepage::run(&scene).expect("an answer");
+    assert!(said(&run.warnings), "{:?}", run.warnings);
+    let parts = run.error_estimate.parts;
+    assert!(parts.inertia > 0.01 && parts.mesh < parts.inertia, "{parts:?}");
+    let error = creepage::run(&fast("1500 km/h", "1 %"))
+        .expect_err("no answer")
+        .to_string();
+    assert!(error.contains(remedy), "{error}");
+}
+
+#[test]
+fn friction_is_shown_by_every_method() {
+    for method in ["quasi-static", "explicit", "pass-law"] {
+        let method = format!("solver.method={method}");
+        let slip = run(&["traffic.passes=40", "solver.tolerance=5 %", &method]).slip_lengths;
         assert!(
-            (other / quasi_static - 1.0).abs() < 5e-3,
-            "{method}: {other} N, quasi-static: {quasi_static} N"
+            slip.is_some_and(|slip| slip.forward_m + slip.backward_m > 1.0),
+            "{method}: {slip:?}"
         );
     }
 }

@@ -540,10 +540,6 @@ fn other_scenes_have_their_pages() {
             "wedging alone does not explain the 900 N measured there.",
         ),
         (
-            &["solver.method=dynamic"],
-            "The method dynamic does not show friction",
-        ),
-        (
             &["traffic.passes=2000000", "solver.tolerance=0.05"],
             "2\u{a0}000\u{a0}000 passes",
         ),

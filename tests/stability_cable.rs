@@ -16,6 +16,9 @@ mod implicit;
 #[allow(dead_code, reason = "the example draws what the test only counts")]
 mod long_term;
 
+#[path = "../examples/stability/sigmoid.rs"]
+mod sigmoid;
+
 use cable_map::{Grid, Outcome};
 use creepage::scene::SolverMethod;
 

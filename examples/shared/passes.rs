@@ -5,8 +5,8 @@
 use std::error::Error;
 
 use cable_dem::{
-    CableState, DuctedCable, Dynamic, Explicit, ExplicitOptions, Friction, Mesh, MovingDuct, PassOutcome,
-    Passage, QuasiStatic,
+    CableState, DuctedCable, Explicit, ExplicitOptions, Friction, Mesh, MovingDuct, PassOutcome, Passage,
+    QuasiStatic,
 };
 use creepage::Scene;
 use creepage::figure::Series;
@@ -27,7 +27,6 @@ pub enum Solver {
     QuasiStatic,
     /// The same, every window by dynamic programming instead of iteration.
     ExactStep,
-    Dynamic,
     Explicit,
 }
 
@@ -38,7 +37,6 @@ impl Solver {
         match self {
             Self::QuasiStatic => 1e8,
             Self::ExactStep => 7e7,
-            Self::Dynamic => 8e7,
             Self::Explicit => 3e8,
         }
     }
@@ -116,11 +114,6 @@ pub fn simulate(
                 quasi_static = quasi_static.without_iteration();
             }
             Box::new(move || quasi_static.pass(&passage, &mut state))
-        }
-        Solver::Dynamic => {
-            let duct = MovingDuct::new(&cable, &mesh, motion, approach(scene))?;
-            let mut solver = Dynamic::new(cable, mesh, mass)?;
-            Box::new(move || Ok(solver.pass(&duct, &mut state)?.pass))
         }
         Solver::Explicit => {
             let duct = MovingDuct::new(&cable, &mesh, motion, approach(scene))?;

@@ -1,20 +1,23 @@
 //! Map 1: the explicit solver over time step and shape factor b, and over time step and speed.
 //!
 //! First pass over 15 m of duct with nodes 0.2 m apart. Right is the force of an unconditionally stable solver with the same
-//! law: quasi-static for the elastic-plastic law, dynamic implicit with the same time step for the sigmoid, whose answer is one
+//! law: quasi-static for the elastic-plastic law, implicit with the same time step for the sigmoid, whose answer is one
 //! of the time step. Without guards neither the step limits nor the energy are checked.
 
 use std::error::Error;
 use std::path::Path;
 
 use cable_dem::{
-    CableError, CableState, Dynamic, Explicit, ExplicitOptions, FrictionLaw, Mesh, MovingDuct, Passage,
-    QuasiStatic, StepLimits,
+    CableError, CableState, Explicit, ExplicitOptions, FrictionLaw, Mesh, MovingDuct, Passage, QuasiStatic,
+    StepLimits,
 };
 use creepage::figure::{Axis, Panels, Series};
 use ground_field::DuctMotion;
 
-use crate::cable_map::{Cell, DEPTH, Grid, LIMIT, MASS, cable, decades, judge, silent, truck, unanswered};
+use crate::cable_map::{
+    Cell, DEPTH, EA, Grid, LIMIT, MASS, cable, decades, judge, silent, truck, unanswered,
+};
+use crate::sigmoid::Chain;
 
 const LENGTH: f64 = 15.0;
 const SPACING: f64 = 0.2;
@@ -51,17 +54,20 @@ fn mesh(parts: f64) -> Result<Mesh, CableError> {
 
 /// The right force \[N\]; `parts` time steps take the vehicle from node to node.
 fn expected(law: FrictionLaw, parts: f64, motion: &DuctMotion) -> Result<f64, CableError> {
-    let cable = cable(LENGTH, law)?;
-    if law.has_memory() {
-        let mesh = mesh(2.0)?;
-        let passage = Passage::new(&cable, &mesh, motion, APPROACH)?;
-        let outcome = QuasiStatic::new(cable, mesh)?.pass(&passage, &mut CableState::at_rest(&mesh))?;
-        return Ok(outcome.force.downstream);
+    if let FrictionLaw::Sigmoid { shape_factor } = law {
+        let chain = Chain {
+            elements: (LENGTH / SPACING).round() as usize,
+            spacing: SPACING,
+            axial_stiffness: EA,
+            limit: LIMIT,
+            shape_factor,
+        };
+        return chain.force(motion, APPROACH, SPACING / parts / motion.velocity());
     }
-    let mesh = mesh(parts)?;
-    let duct = MovingDuct::new(&cable, &mesh, motion, APPROACH)?;
-    let outcome = Dynamic::new(cable, mesh, MASS)?.pass(&duct, &mut CableState::at_rest(&mesh))?;
-    Ok(outcome.pass.force.downstream)
+    let (cable, mesh) = (cable(LENGTH, law)?, mesh(2.0)?);
+    let passage = Passage::new(&cable, &mesh, motion, APPROACH)?;
+    let outcome = QuasiStatic::new(cable, mesh)?.pass(&passage, &mut CableState::at_rest(&mesh))?;
+    Ok(outcome.force.downstream)
 }
 
 /// Outcomes of one run without guards and with them; `parts` time steps take the vehicle from node to node.

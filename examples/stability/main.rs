@@ -18,6 +18,7 @@ mod fem;
 mod heat;
 mod implicit;
 mod long_term;
+mod sigmoid;
 
 use std::error::Error;
 use std::path::Path;

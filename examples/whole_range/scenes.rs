@@ -243,7 +243,7 @@ fn solver(draw: &mut Draw, text: &mut String) {
     text.push_str("[solver]\n");
     line(text, "tolerance", draw.value([0.01, 0.05], [0.0005, 0.5]));
     if draw.chance(0.04) {
-        let method = draw.one(&["quasi-static", "dynamic", "explicit", "pass-law"]);
+        let method = draw.one(&["quasi-static", "explicit", "pass-law"]);
         line(text, "method", format!("\"{method}\""));
     }
     if draw.chance(0.02) {

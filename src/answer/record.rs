@@ -50,8 +50,7 @@ pub struct Run {
     /// where none are.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stages: Vec<Stage>,
-    /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure 7); not from solvers
-    /// with inertia.
+    /// Lengths of dynamic friction with the vehicle over the duct's middle (Kashiro et al., Figure 7).
     pub slip_lengths: Option<SlipRecord>,
     /// How wrong the forces may be.
     pub error_estimate: ErrorEstimate,
@@ -127,7 +126,7 @@ pub struct Stage {
     pub pass: u64,
     /// Force along the cable after it.
     pub force_profile: ForceProfile,
-    /// Friction on the cable during it; not from solvers with inertia.
+    /// Friction on the cable during it.
     pub friction: Option<FrictionProfile>,
 }
 

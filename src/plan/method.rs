@@ -1,8 +1,9 @@
 //! How the passes of a scene are computed.
 //!
-//! The quasi-static cable moves only near the vehicle; the solvers with inertia move all of it, and inertia changes the force
+//! The quasi-static cable moves only near the vehicle; the explicit solver moves all of it, with inertia, which changes the force
 //! by at most (v/c)². Long traffic is simulated in part: its passes change the cable ever more slowly, and jumps between
-//! simulated ones follow that (crate `cycle-jump`). Explicit steps are taken only where the scene names them.
+//! simulated ones follow that (crate `cycle-jump`). Explicit steps are taken where the scene names them, and for the sigmoid law,
+//! which has no state of rest.
 
 use cable_dem::{Explicit, ExplicitOptions, Order, inertia_ratio};
 
@@ -13,9 +14,8 @@ use crate::cable;
 use crate::scene::{Scene, SolverMethod};
 use crate::shown;
 
-/// Measured time a node's update takes \[s\] on one core of about 3 GHz: without inertia, with it, and explicit.
+/// Measured time a node's update takes \[s\] on one core of about 3 GHz: without inertia, and explicit.
 const QUASI_STATIC_SECONDS: f64 = 1.1e-8;
-const DYNAMIC_SECONDS: f64 = 6e-8;
 const EXPLICIT_SECONDS: f64 = 1e-9;
 /// Time steps of the explicit solver per step of a vehicle, as a rule.
 const EXPLICIT_STEPS: f64 = 40.0;
@@ -41,8 +41,6 @@ const LONGEST_SECONDS: f64 = 60.0;
 const LONGEST_WITHOUT_REST: f64 = 600.0;
 /// What an even order leaves wrong as a rule where vehicles come in random order: 3 to 4 % of early forces.
 const DRAWN_ERROR: f64 = 0.04;
-/// Share of the tolerance that leaving inertia out may cost.
-const INERTIA_SHARE: f64 = 0.5;
 /// Most passes that are simulated one by one.
 pub const MOST_PASSES: u64 = 1_000_000;
 
@@ -59,7 +57,6 @@ pub enum PassMethod {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CableMethod {
     QuasiStatic,
-    Dynamic,
     Explicit,
 }
 
@@ -89,7 +86,6 @@ impl CableMethod {
     pub fn name(self) -> &'static str {
         match self {
             Self::QuasiStatic => "quasi-static",
-            Self::Dynamic => "dynamic",
             Self::Explicit => "explicit",
         }
     }
@@ -120,7 +116,6 @@ pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodC
         named => {
             let method = match named {
                 SolverMethod::PassLaw => PassMethod::Jumps(CableMethod::QuasiStatic),
-                SolverMethod::Dynamic => estimates.affordable(CableMethod::Dynamic, has_rest),
                 SolverMethod::Explicit => estimates.affordable(CableMethod::Explicit, has_rest),
                 _ => PassMethod::EveryPass(CableMethod::QuasiStatic),
             };
@@ -156,7 +151,7 @@ pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodC
     if scene.solver.method == SolverMethod::Auto && slips && !has_rest && seconds > LONGEST_WITHOUT_REST {
         let reason = format!(
             "without a state of rest the whole cable moves in every step and no pass can be left out, which would take {} or more; \
-             solver.method = \"dynamic\" computes it all the same, and the law \"elastic-plastic\" has a state of rest",
+             solver.method = \"explicit\" computes it all the same, and the law \"elastic-plastic\" has a state of rest",
             shown::time(seconds)
         );
         return Err(unfit("friction.law", "\"sigmoid\"", reason));
@@ -191,17 +186,9 @@ const NO_REST: &str = "the sigmoid law has no state of rest: its friction depend
 fn automatic(scene: &Scene, estimates: &Estimates) -> (PassMethod, String) {
     let tolerance = scene.solver.tolerance;
     if !scene.friction.law.has_memory() {
-        return (PassMethod::EveryPass(CableMethod::Dynamic), NO_REST.into());
+        return (PassMethod::EveryPass(CableMethod::Explicit), NO_REST.into());
     }
-    let inertia = estimates.inertia_in_words();
-    let (method, reason) = if estimates.inertia_matters(tolerance) && scene.warming().is_none() {
-        (
-            CableMethod::Dynamic,
-            format!("{inertia}: too much for the tolerance"),
-        )
-    } else {
-        (CableMethod::QuasiStatic, inertia)
-    };
+    let (method, reason) = (CableMethod::QuasiStatic, estimates.inertia_in_words());
     if !estimates.jumps_pay() {
         return (PassMethod::EveryPass(method), reason);
     }
@@ -229,13 +216,12 @@ pub struct Estimates {
     drawn: bool,
     /// Time of one pass by each method, on the level to begin with \[s\].
     quasi_static: f64,
-    dynamic: f64,
     explicit: f64,
 }
 
-/// Time steps per step of a vehicle where the scene names the explicit method: they follow waves in the cable, stiff ends and slow vehicles.
+/// Time steps per step of a vehicle where the explicit method is taken: they follow waves in the cable, stiff ends and slow vehicles.
 fn explicit_steps(scene: &Scene, levels: &Levels) -> Option<f64> {
-    if scene.solver.method != SolverMethod::Explicit {
+    if scene.solver.method != SolverMethod::Explicit && scene.friction.law.has_memory() {
         return None;
     }
     let first = levels.first();
@@ -280,13 +266,8 @@ impl Estimates {
             stands_in: !period.others.is_empty(),
             drawn: matches!(scene.traffic.order, Order::Random { .. }),
             quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(first, 1),
-            dynamic: DYNAMIC_SECONDS * lattice,
             explicit: EXPLICIT_SECONDS * explicit_steps(scene, levels).unwrap_or(EXPLICIT_STEPS) * lattice,
         })
-    }
-
-    fn inertia_matters(&self, tolerance: f64) -> bool {
-        self.inertia > INERTIA_SHARE * tolerance
     }
 
     fn inertia_in_words(&self) -> String {
@@ -319,7 +300,6 @@ impl Estimates {
     fn one_pass(&self, method: CableMethod) -> f64 {
         match method {
             CableMethod::QuasiStatic => self.quasi_static,
-            CableMethod::Dynamic => self.dynamic,
             CableMethod::Explicit => self.explicit,
         }
     }
@@ -354,9 +334,6 @@ impl Estimates {
             _ if !has_rest && !method.has_inertia() => NO_REST.into(),
             _ if named => "the scene names another method".into(),
             PassMethod::EveryPass(CableMethod::Explicit) => "only where the scene names it".into(),
-            _ if !method.has_inertia() && self.inertia_matters(scene.solver.tolerance) => {
-                self.inertia_in_words()
-            }
             PassMethod::Jumps(_) => format!(
                 "jumps might leave {:.0} of {} passes to be simulated",
                 self.simulated.min(self.passes),
@@ -365,7 +342,6 @@ impl Estimates {
             PassMethod::EveryPass(CableMethod::QuasiStatic) => {
                 format!("all {} passes would be simulated", self.passes)
             }
-            PassMethod::EveryPass(CableMethod::Dynamic) => "more than the tolerance needs".into(),
         }
     }
 }

@@ -64,6 +64,7 @@ pub(crate) fn plan_over(scene: &Scene, ground: Arc<Ground>) -> Result<Plan<'_>, 
     let choice = method::choose(scene, &levels, &period)?;
     let mut warnings = warnings::warnings(scene);
     warnings.extend(warnings::absent(scene)?);
+    warnings.extend(warnings::inertia(scene, choice.inertia));
     Ok(Plan {
         scene,
         ground,

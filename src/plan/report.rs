@@ -148,7 +148,6 @@ impl Plan<'_> {
         let all = [
             PassMethod::Jumps(self.choice.method.cable_method()),
             PassMethod::EveryPass(CableMethod::QuasiStatic),
-            PassMethod::EveryPass(CableMethod::Dynamic),
             PassMethod::EveryPass(CableMethod::Explicit),
         ];
         let candidate = |method: PassMethod| {

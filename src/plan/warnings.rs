@@ -4,8 +4,9 @@ use cable_dem::Order;
 use ground_field::Base;
 
 use super::period::coming;
-use crate::Error;
 use crate::scene::{Scene, unusual};
+use crate::shown::{exact_percent, percent};
+use crate::{Error, ErrorSource};
 
 /// Density of soil \[kg/m³\] for the speed of its shear waves: moist sand and clay have 1700 to 2000.
 const SOIL_DENSITY: f64 = 1800.0;
@@ -55,6 +56,22 @@ pub fn absent(scene: &Scene) -> Result<Option<String>, Error> {
         .collect();
     let passes = scene.traffic.passes;
     Ok((!names.is_empty()).then(|| format!("no pass among the {passes} is one of {}", names.join(", "))))
+}
+
+/// Inertia that is left out, where that may cost more than the tolerance.
+pub fn inertia(scene: &Scene, inertia: f64) -> Option<String> {
+    let remedy = if scene.warming().is_none() {
+        ErrorSource::Inertia.remedy()
+    } else {
+        "days of heat are computed without it"
+    };
+    (inertia > scene.solver.tolerance).then(|| {
+        format!(
+            "leaving the cable's inertia out changes the force by up to {}, more than the tolerance of {}: {remedy}",
+            percent(inertia),
+            exact_percent(scene.solver.tolerance)
+        )
+    })
 }
 
 fn fast(scene: &Scene) -> Option<String> {

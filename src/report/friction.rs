@@ -1,9 +1,8 @@
 //! Friction on the cable with the vehicle over the middle of the duct.
 
-use crate::scene::SolverMethod;
 use crate::{FrictionProfile, Run, RunOptions, Scene};
 
-/// Friction in the first and the last pass where the run shows it, otherwise in the first alone, by a run of its own.
+/// Friction in the first and the last pass; of a cable that is heated every day in the first alone, by a run of its own.
 #[derive(Debug)]
 pub struct Friction {
     /// The passes shown.
@@ -29,30 +28,20 @@ impl Friction {
         let mut scene = scene.clone();
         scene.traffic.passes = 1;
         scene.heat = None;
-        scene.solver.method = SolverMethod::QuasiStatic;
         let options = RunOptions {
             stages: &[1],
             ..RunOptions::default()
         };
-        let (passes, instead) = match crate::run_with(&scene, &options) {
-            Ok(first) => (
+        match crate::run_with(&scene, &options) {
+            Ok(first) => with(
                 shown(&first),
-                "the first pass was computed by the method quasi-static.".into(),
-            ),
-            Err(error) => (
-                Vec::new(),
-                format!("the method quasi-static does not apply: {error}."),
-            ),
-        };
-        if run.heat.is_some() && !passes.is_empty() {
-            return with(
-                passes,
                 Some("Friction is that of the first pass, without heat.".into()),
-            );
+            ),
+            Err(error) => with(
+                Vec::new(),
+                Some(format!("Friction could not be computed: {error}.")),
+            ),
         }
-        let method = &run.plan.cable;
-        let remark = format!("The method {method} does not show friction while a vehicle passes; {instead}");
-        with(passes, Some(remark))
     }
 }
 

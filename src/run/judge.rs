@@ -5,7 +5,7 @@ use cable_dem::Mesh;
 use crate::answer::error_estimate::{self, ErrorParts, Shares};
 use crate::plan::{MOST_PASSES, Plan};
 use crate::shown::{exact_percent, percent};
-use crate::{Error, Scene};
+use crate::{Error, ErrorSource, Scene};
 
 /// Refuses an answer that is none, and warns of one that is not as good as asked.
 pub fn judge(
@@ -54,6 +54,9 @@ fn remedy(error: &ErrorParts, scene: &Scene, stands_in: bool, mesh: &Mesh) -> St
         return format!(
             ": solver.node_spacing = \"{spacing:.2e} m\" takes nodes half as far apart, and about four times as long"
         );
+    }
+    if error.inertia > 0.0 && error.inertia >= others && scene.warming().is_none() {
+        return format!(": {}", ErrorSource::Inertia.remedy());
     }
     if of(error.passes) >= others && scene.traffic.passes <= MOST_PASSES {
         return ": solver.method = \"quasi-static\" simulates every pass".to_owned();

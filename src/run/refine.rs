@@ -143,9 +143,10 @@ impl Refinement<'_> {
     fn is_good_enough(&self, level: usize, passes: &[Passes], error: &ErrorParts) -> bool {
         // Where nothing slips coarse meshes agree, but they see too little of how sharply the duct bends.
         let still = self.scale().is_still(&passes[passes.len() - 1].records);
-        let others = error.total().less(error.passes);
-        let allowed = allowed(self.plan.scene.solver.tolerance, error.passes);
-        self.error_is_known(passes) && (!still || level >= SHARP) && others.is_within(allowed)
+        let others = error.passes + Shares::both(error.inertia);
+        let of_mesh = error.total().less(others);
+        let allowed = allowed(self.plan.scene.solver.tolerance, others);
+        self.error_is_known(passes) && (!still || level >= SHARP) && of_mesh.is_within(allowed)
     }
 
     /// Whether there is a mesh after `level` that is not too costly.

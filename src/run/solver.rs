@@ -1,8 +1,8 @@
 //! A scene's solver of the cable, and how it lets one vehicle pass.
 
 use cable_dem::{
-    CableError, CableState, Dynamic, Explicit, ExplicitOptions, Mesh, PassOutcome, QuasiStatic, SigmoidLeak,
-    Solver, SolverPassage,
+    CableError, CableState, Explicit, ExplicitOptions, Mesh, PassOutcome, QuasiStatic, SigmoidLeak, Solver,
+    SolverPassage,
 };
 use ground_field::DuctMotion;
 
@@ -30,7 +30,6 @@ impl PassSolver {
         let approach = approach(scene, motions)?;
         let solver: Solver = match method {
             CableMethod::QuasiStatic => QuasiStatic::new(cable, mesh)?.into(),
-            CableMethod::Dynamic => Dynamic::new(cable, mesh, mass(scene))?.into(),
             CableMethod::Explicit => {
                 let options = ExplicitOptions {
                     time_step: scene.solver.time_step,

@@ -329,15 +329,13 @@ pub enum SolverMethod {
     Auto,
     /// Implicit, without inertia.
     QuasiStatic,
-    /// Implicit, with inertia.
-    Dynamic,
     /// Explicit time steps, with inertia.
     Explicit,
     /// Without inertia too, but few passes are simulated, with jumps between them.
     PassLaw,
 }
 
-words!(SolverMethod: Auto "auto", QuasiStatic "quasi-static", Dynamic "dynamic", Explicit "explicit", PassLaw "pass-law");
+words!(SolverMethod: Auto "auto", QuasiStatic "quasi-static", Explicit "explicit", PassLaw "pass-law");
 
 impl SolverMethod {
     /// Whether a time step has a meaning with this method.

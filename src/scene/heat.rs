@@ -75,11 +75,11 @@ pub fn is_possible(root: &Table, scene: &Scene) -> Result<(), SceneError> {
             "a `friction.dynamic_coefficient` greater than 0 beside [heat]",
         );
     }
-    match scene.solver.method {
-        method @ (SolverMethod::Dynamic | SolverMethod::Explicit) => refused(
-            format!("[heat] with `solver.method` = \"{method}\""),
+    if scene.solver.method == SolverMethod::Explicit {
+        return refused(
+            "[heat] with `solver.method` = \"explicit\"".to_owned(),
             "\"auto\", \"quasi-static\" or \"pass-law\" beside [heat]: it is computed without inertia",
-        ),
-        _ => Ok(()),
+        );
     }
+    Ok(())
 }

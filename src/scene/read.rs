@@ -210,7 +210,11 @@ fn solver(root: &Table, duct: &Duct) -> Result<Solver, SceneError> {
         let value = table.optional(key);
         value.map(|value| value.quantity_within(STEP, range)).transpose()
     };
-    solver.method = table.word("method", SolverMethod::WORDS, SolverMethod::Auto)?;
+    let gone = (
+        "dynamic",
+        "inertia is computed by \"explicit\", and below 200 km/h it changes next to nothing",
+    );
+    solver.method = table.word_unless("method", SolverMethod::WORDS, SolverMethod::Auto, gone)?;
     if let Some(tolerance) = table.optional_quantity("tolerance", TOLERANCE)? {
         solver.tolerance = tolerance;
     }
@@ -218,7 +222,7 @@ fn solver(root: &Table, duct: &Duct) -> Result<Solver, SceneError> {
     solver.vehicle_step = length("vehicle_step", vehicle_steps(duct.length))?;
     solver.time_step = table.optional_quantity("time_step", TIME_STEP)?;
     if !solver.method.has_time_steps() {
-        let allowed = "`time_step` only with the method \"auto\", \"dynamic\" or \"explicit\"";
+        let allowed = "`time_step` only with the method \"auto\" or \"explicit\"";
         table.refuse("time_step", "method", allowed)?;
         solver.time_step = None;
     }

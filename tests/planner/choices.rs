@@ -53,15 +53,19 @@ fn long_runs_without_a_state_of_rest_are_asked_for_by_name() {
     let planned = |text: &str| {
         creepage::plan(&Scene::from_toml("scene", text).expect("a valid scene")).map(|plan| plan.report())
     };
-    assert_eq!(planned(&text(60.0, "")).expect("a plan").cable, "dynamic");
+    assert_eq!(planned(&text(60.0, "")).expect("a plan").cable, "explicit");
     let error = planned(&text(20_000.0, "")).expect_err("more than a day");
     assert!(error.is_bad_input(), "{error}");
-    let named = planned(&text(20_000.0, "[solver]\nmethod = \"dynamic\"\n")).expect("a plan");
+    let named = planned(&text(20_000.0, "[solver]\nmethod = \"explicit\"\n")).expect("a plan");
     assert!(named.estimated_seconds > 600.0);
     // It says what the plan says of the same scene with the method named.
     let hours = format!("would take {:.0} h or more", named.estimated_seconds / 3600.0);
     let message = error.to_string();
-    for part in ["friction.law: \"sigmoid\"", &hours, "solver.method = \"dynamic\""] {
+    for part in [
+        "friction.law: \"sigmoid\"",
+        &hours,
+        "solver.method = \"explicit\"",
+    ] {
         assert!(message.contains(part), "{message}");
     }
     // Without friction there is nothing to simulate.

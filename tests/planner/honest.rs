@@ -123,7 +123,7 @@ fn reference(scene: &Scene, spacing: f64, work: f64, inertia: bool) -> Option<Ru
     };
     scene.solver.tolerance = 0.5;
     scene.solver.method = if inertia {
-        SolverMethod::Dynamic
+        SolverMethod::Explicit
     } else {
         SolverMethod::QuasiStatic
     };
@@ -148,7 +148,7 @@ fn cases(seed: u64) -> Vec<Case> {
     let Some(finest) = finest else {
         return runs.iter().map(|_| Case::Refused).collect();
     };
-    let inertia = finest.plan.cable == "dynamic";
+    let inertia = finest.plan.cable == "explicit";
     let exact = reference(
         &scene,
         finest.plan.node_spacing_m,

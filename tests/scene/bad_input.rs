@@ -383,7 +383,7 @@ model = "fem" → model = "Burmeister" | ground.model | burmister
 upstream = "free" → upstream = "fre" | ends.upstream | free
 direction = "reverse" → direction = "reversed" | vehicles.1.direction | reverse
 order = "random" → order = "randam" | traffic.order | random
-method = "dynamic" → method = "quasi_static" | solver.method | quasi-static
+method = "explicit" → method = "quasi_static" | solver.method | quasi-static
 "#;
 
 #[test]
@@ -399,12 +399,18 @@ fn an_unknown_word_suggests_the_nearest() {
     }
     let allowed = "allowed: \"auto\", \"boussinesq\", \"burmister\", \"fem\"";
     assert_refused("model = \"fem\"", "model = \"winkler\"", "winkler", &[allowed]);
-    let reason = "no longer there";
+    // Words of earlier versions are refused with the reason.
     assert_refused(
         "model = \"fem\"",
         "model = \"odemark\"",
         "odemark",
-        &[allowed, reason],
+        &[allowed, "no longer there"],
+    );
+    assert_refused(
+        "method = \"explicit\"",
+        "method = \"dynamic\"",
+        "dynamic",
+        &["\"pass-law\"; inertia is computed by \"explicit\""],
     );
 }
 

@@ -78,7 +78,7 @@ per_day = 800
 order = "random"
 seed = 7
 [solver]
-method = "dynamic"
+method = "explicit"
 tolerance = "2 %"
 node_spacing = "0.1 m"
 vehicle_step = "5 cm"
@@ -201,7 +201,7 @@ fn every_key_is_read() {
     assert_eq!(
         scene.solver,
         Solver {
-            method: SolverMethod::Dynamic,
+            method: SolverMethod::Explicit,
             tolerance: 0.02,
             node_spacing: Some(0.1),
             vehicle_step: Some(0.05),
