@@ -25,6 +25,8 @@ mod files;
 mod fuzz;
 #[path = "ground_models/main.rs"]
 mod ground_models;
+#[path = "ground_once.rs"]
+mod ground_once;
 #[path = "heat.rs"]
 mod heat;
 #[path = "house.rs"]

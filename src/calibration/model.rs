@@ -5,7 +5,7 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use cable_dem::Mesh;
 use calibrate::{Model, ModelError, Part};
@@ -17,7 +17,7 @@ use super::cell::Observed;
 use super::options::Series;
 use super::unknown::{Quantity, Unknown};
 use super::watch::Watch;
-use crate::ground::{Ground, road};
+use crate::ground::Ground;
 use crate::plan::{CableMethod, PassMethod, Period, plan};
 use crate::run::passes::{Jumping, Task};
 use crate::{Error, Progress, Scene};
@@ -39,7 +39,7 @@ const MOST_PASSES: u64 = 100_000;
 /// One series, ready to be predicted.
 pub struct SeriesModel {
     scene: Scene,
-    motions: Vec<DuctMotion>,
+    ground: Arc<Ground>,
     method: CableMethod,
     /// The traffic's period and the jumps over it, where not every pass is simulated.
     jumps: Option<(Period, Vec<u64>)>,
@@ -72,21 +72,20 @@ impl SeriesModel {
         stages.sort_unstable();
         stages.dedup();
         scene.traffic.passes = series.readings.last_pass();
-        let (method, period) = {
+        let (method, period, ground) = {
             let plan = plan(&scene)?;
-            (plan.choice.method.cable_method(), plan.period)
+            (plan.choice.method.cable_method(), plan.period, plan.ground)
         };
-        let motions = Ground::new(&scene, None, road::reach(&scene))?.motions;
         let mut model = Self {
             observed,
             stages,
             jumps: None,
             scene,
-            motions,
+            ground,
             method,
         };
         if model.scene.traffic.passes > EVERY_PASS && model.scene.friction.law.has_memory() {
-            let task = model.task(&model.scene, &model.motions, 0)?;
+            let task = model.task(&model.scene, &model.ground.motions, 0)?;
             let passes = task.with_jumps(&jumping(&period, Guide::Free), &[])?;
             model.jumps = Some((period, passes.schedule));
         }
@@ -103,7 +102,7 @@ impl SeriesModel {
 
     /// Largest vertical displacement of the duct under the first vehicle \[m\].
     pub fn peak_vertical(&self) -> f64 {
-        self.motions[0].peak_vertical()
+        self.ground.motions[0].peak_vertical()
     }
 
     /// Whether the scene says how fine to be.
@@ -129,10 +128,10 @@ impl SeriesModel {
     /// What the instruments should show after each reading's pass.
     fn predict(&self, scene: &Scene, stiffness: f64, level: u32) -> Result<Vec<f64>, Error> {
         let motions: Cow<'_, [DuctMotion]> = if stiffness == 1.0 {
-            Cow::Borrowed(&self.motions)
+            Cow::Borrowed(&self.ground.motions)
         } else {
             let softer = |motion: &DuctMotion| motion.clone().scaled(1.0 / stiffness);
-            self.motions.iter().map(softer).collect::<Result<_, _>>()?
+            self.ground.motions.iter().map(softer).collect::<Result<_, _>>()?
         };
         let task = self.task(scene, &motions, level)?;
         let passes = match &self.jumps {

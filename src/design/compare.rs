@@ -1,13 +1,15 @@
 //! Several ways to hold a cable beside each other, each by a run of the scene.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::limits::{DesignError, held};
-use super::runs::on_one_mesh;
+use super::limits::DesignError;
+use super::runs::OneMesh;
 use super::trade_off::{Spring, TradeOff};
-use crate::{Limits, Place, Progress, Scene, finite};
+use crate::ground::Ground;
+use crate::{Error, Limits, Place, Progress, Scene};
 
 /// One way to hold the cable.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,17 +31,25 @@ pub fn compare(
     measures: &[Measure],
     progress: Progress<'_>,
 ) -> Result<Vec<Result<TradeOff, DesignError>>, DesignError> {
+    scene.validate().map_err(Error::from)?;
+    compare_over(scene, &Arc::new(Ground::of(scene)?), measures, progress)
+}
+
+/// The same over a `ground` that is known to be that of a valid `scene`.
+pub(crate) fn compare_over(
+    scene: &Scene,
+    ground: &Arc<Ground>,
+    measures: &[Measure],
+    progress: Progress<'_>,
+) -> Result<Vec<Result<TradeOff, DesignError>>, DesignError> {
     let mut places = measures.iter().map(|measure| measure.place);
     let end = places.find(|place| !matches!(place, Place::Clamp(_)));
-    let scene = on_one_mesh(scene, end.as_slice(), progress)?;
+    let mesh = OneMesh::new(scene, ground, end.as_slice(), progress)?;
     let done = AtomicUsize::new(0);
     let answer = |measure: &Measure| {
-        measure.check(&scene)?;
+        measure.check(scene)?;
         let springs = [Spring::new(measure.place, measure.stiffness)];
-        let run = crate::run(&held(&scene, &springs))?;
-        let point = TradeOff::of(&scene, &run, &springs, &Limits::default());
-        finite::check(&point)?;
-        Ok(point)
+        Ok(mesh.run(&springs, &Limits::default())?)
     };
     measures
         .par_iter()

@@ -29,6 +29,7 @@ mod search;
 mod trade_off;
 
 pub use crate::{ClampLimits, Limits, Place};
+pub(crate) use compare::compare_over;
 pub use compare::{Measure, compare};
 pub use doubt::Doubt;
 pub use limits::DesignError;

@@ -8,12 +8,15 @@
 //!
 //! A map of all stiffnesses finds the best of several valleys, needs no monotony and its runs are made on all cores at once.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::limits::DesignError;
 use super::options::DesignOptions;
 use super::runs::{Runs, stiffnesses};
 use super::trade_off::{Design, TradeOff, in_duct};
+use crate::ground::Ground;
 use crate::{CableEnd, Error, Limited, Limits, Place, Progress, Scene};
 
 /// Points of the grid, and of the map, in a decade of stiffness.
@@ -34,8 +37,12 @@ const SAFE: f64 = 0.99;
 /// Points whose margins differ by less than this share are equally good.
 const EQUAL: f64 = 0.01;
 
-/// Finds the pair with the largest margin to the limits; where no movement is limited, the one with which the ends move least.
-pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, DesignError> {
+/// Over the `ground` of `scene`, finds the pair with the largest margin to the limits; where no movement is limited, the one with which the ends move least.
+pub fn design(
+    scene: &Scene,
+    ground: &Arc<Ground>,
+    options: &DesignOptions<'_>,
+) -> Result<Design, DesignError> {
     let (places, limits) = (options.places(), &options.limits);
     let grid = |per_decade| [0, 1].map(|axis: usize| stiffnesses(scene, places[axis], limits, per_decade));
     let levels = grid(POINTS_PER_DECADE);
@@ -43,7 +50,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
     let mut rough = scene.clone();
     rough.solver.tolerance = scene.solver.tolerance.max(ROUGH);
     let progress = options.progress.part(0.0, ROUGH_SHARE);
-    let runs = Runs::new(&rough, options, progress, all + 1)?;
+    let runs = Runs::new(&rough, ground, options, progress, all + 1)?;
     let points = (0..all)
         .into_par_iter()
         .map(|index| {
@@ -60,7 +67,7 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         aim: Aim::new(limits, scene),
     };
     let progress: Progress<'_> = options.progress.part(ROUGH_SHARE, 1.0);
-    let runs = Runs::new(scene, options, progress, MOST_RUNS + 1)?;
+    let runs = Runs::new(scene, ground, options, progress, MOST_RUNS + 1)?;
     map.follow(&runs)?;
     map.refine(&runs)?;
     let points = runs.points().clone();

@@ -2,11 +2,13 @@
 
 use std::cmp::Ordering;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::limits::held;
 use super::options::DesignOptions;
 use super::trade_off::{Spring, TradeOff};
+use crate::ground::Ground;
+use crate::run::run_over;
 use crate::{Error, Limits, Place, Progress, RunOptions, Scene, finite};
 
 /// Stiffnesses go from this part of the cable's own stiffness EA/L to its inverse.
@@ -16,7 +18,7 @@ const SAME: f64 = 1e-9;
 
 /// What was run, and what is needed to run more.
 pub struct Runs<'a> {
-    scene: Scene,
+    mesh: OneMesh,
     places: Vec<Place>,
     limits: &'a Limits,
     progress: Progress<'a>,
@@ -26,16 +28,17 @@ pub struct Runs<'a> {
 }
 
 impl<'a> Runs<'a> {
-    /// Of `scene`; `expected` runs are all of the progress.
+    /// Of `scene` over its `ground`; `expected` runs are all of the progress.
     pub fn new(
         scene: &Scene,
+        ground: &Arc<Ground>,
         options: &'a DesignOptions<'a>,
         progress: Progress<'a>,
         expected: usize,
     ) -> Result<Self, Error> {
         let places = options.places();
         Ok(Self {
-            scene: on_one_mesh(scene, &places, progress)?,
+            mesh: OneMesh::new(scene, ground, &places, progress)?,
             places,
             limits: &options.limits,
             progress,
@@ -55,9 +58,7 @@ impl<'a> Runs<'a> {
         if let Some(done) = self.done(stiffnesses) {
             return Ok(done);
         }
-        let run = crate::run(&held(&self.scene, &springs))?;
-        let point = TradeOff::of(&self.scene, &run, &springs, self.limits);
-        finite::check(&point)?;
+        let point = self.mesh.run(&springs, self.limits)?;
         self.points().push(point.clone());
         let count = self.count.fetch_add(1, Relaxed);
         let share = count as f64 / self.expected as f64;
@@ -124,19 +125,47 @@ pub fn stiffnesses(scene: &Scene, place: Place, limits: &Limits, per_decade: i32
     first.into_iter().chain(grid).chain(last).collect()
 }
 
-/// The scene on the mesh that its stiffest variant needs: runs that are to be compared are made on the same one, and where the end
-/// is nearly free there is no force whose relative error a finer mesh could make small.
-pub fn on_one_mesh(scene: &Scene, places: &[Place], progress: Progress<'_>) -> Result<Scene, Error> {
-    // This run may be stopped, but its share of the work is not counted.
-    let options = RunOptions {
-        progress: progress.part(0.0, 0.0),
-        ..RunOptions::default()
-    };
-    let ends = places.iter().filter(|place| !matches!(place, Place::Clamp(_)));
-    let fixed: Vec<Spring> = ends.map(|place| Spring::new(*place, f64::INFINITY)).collect();
-    let plan = crate::run_with(&held(scene, &fixed), &options)?.plan;
-    let mut scene = scene.clone();
-    scene.solver.node_spacing.get_or_insert(plan.node_spacing_m);
-    scene.solver.vehicle_step.get_or_insert(plan.vehicle_step_m);
-    Ok(scene)
+/// A scene on the mesh that its stiffest variant needs, and its ground: runs that are to be compared are made on the same ones, and where
+/// the end is nearly free there is no force whose relative error a finer mesh could make small.
+pub struct OneMesh {
+    pub scene: Scene,
+    ground: Arc<Ground>,
+}
+
+impl OneMesh {
+    /// Finds the mesh by a run of `scene`, over its `ground`, with the ends among `places` fixed.
+    pub fn new(
+        scene: &Scene,
+        ground: &Arc<Ground>,
+        places: &[Place],
+        progress: Progress<'_>,
+    ) -> Result<Self, Error> {
+        // This run may be stopped, but its share of the work is not counted.
+        let options = RunOptions {
+            progress: progress.part(0.0, 0.0),
+            ..RunOptions::default()
+        };
+        let ends = places.iter().filter(|place| !matches!(place, Place::Clamp(_)));
+        let fixed: Vec<Spring> = ends.map(|place| Spring::new(*place, f64::INFINITY)).collect();
+        let stiffest = held(scene, &fixed);
+        stiffest.validate()?;
+        let plan = run_over(&stiffest, Arc::clone(ground), &options)?.plan;
+        let mut scene = scene.clone();
+        scene.solver.node_spacing.get_or_insert(plan.node_spacing_m);
+        scene.solver.vehicle_step.get_or_insert(plan.vehicle_step_m);
+        Ok(Self {
+            scene,
+            ground: Arc::clone(ground),
+        })
+    }
+
+    /// Runs the scene with `springs`.
+    pub fn run(&self, springs: &[Spring], limits: &Limits) -> Result<TradeOff, Error> {
+        let scene = held(&self.scene, springs);
+        scene.validate()?;
+        let run = run_over(&scene, Arc::clone(&self.ground), &RunOptions::default())?;
+        let point = TradeOff::of(&self.scene, &run, springs, limits);
+        finite::check(&point)?;
+        Ok(point)
+    }
 }

@@ -1,5 +1,7 @@
 //! One spring: the curve of force against movement, and where it crosses the limits.
 
+use std::sync::Arc;
+
 use argmin::core::{CostFunction, Executor};
 use argmin::solver::brent::BrentRoot;
 use rayon::prelude::*;
@@ -9,6 +11,7 @@ use super::options::DesignOptions;
 use super::pair;
 use super::runs::{Runs, stiffnesses};
 use super::trade_off::{Binding, Design, Side, TradeOff, in_duct};
+use crate::ground::Ground;
 use crate::{Error, Limited, Limits, Place, Scene};
 
 /// The curve has points in half decades.
@@ -44,13 +47,15 @@ pub type Limit = (Place, Limited, f64);
 /// [`DesignError`] where limits or places have no meaning, a run fails, or a limit of one spring is crossed more than once.
 pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, DesignError> {
     limits::check(scene, options)?;
+    scene.validate().map_err(Error::from)?;
+    let ground = Arc::new(Ground::of(scene)?);
     if options.second.is_some() {
-        return pair::design(scene, options);
+        return pair::design(scene, &ground, options);
     }
     let stiffnesses = stiffnesses(scene, options.place, &options.limits, POINTS_PER_DECADE);
     let limits: Vec<Limit> = options.limits.all().chain(in_duct(scene)).collect();
     let expected = stiffnesses.len() + USUAL_STEPS * limits.len() + 1;
-    let runs = Runs::new(scene, options, options.progress, expected)?;
+    let runs = Runs::new(scene, &ground, options, options.progress, expected)?;
     let curve = stiffnesses
         .par_iter()
         .map(|&stiffness| runs.run(&[stiffness]))

@@ -57,7 +57,11 @@ pub fn profile_at(scene: &Scene, positions: &[f64]) -> Result<Profile, Error> {
     let reach = positions
         .iter()
         .fold(scene.duct.depth, |reach, xi| reach.max(xi.abs()));
-    let ground = Ground::new(scene, None, reach)?;
+    profile_over(scene, &Ground::new(scene, None, reach)?, positions)
+}
+
+/// The profile over the `ground` of `scene`, which reaches as far as `positions`.
+pub fn profile_over(scene: &Scene, ground: &Ground, positions: &[f64]) -> Result<Profile, Error> {
     error_estimate::judge(&ErrorParts::new(ground.accuracy, 0.0), scene.solver.tolerance)?;
     let first = &ground.motions[0];
     let profile = Profile {

@@ -7,11 +7,10 @@ use super::quantity::{Shown, round_below};
 use super::source::Source;
 use crate::calibration::CellEnd;
 use crate::design::{Measure, largest_shown};
+use crate::ground::profile::profile_over;
 use crate::readings::Readings;
 use crate::scene::Unit;
-use crate::{
-    Error, Limits, PlanReport, Profile, Progress, Run, RunOptions, Scene, Units, Verdict, profile_at,
-};
+use crate::{Error, Limits, PlanReport, Profile, Progress, Run, RunOptions, Scene, Units, Verdict};
 
 /// Positions at which the motion of the duct is drawn, and how far on either side of the vehicle \[depths\].
 const POSITIONS: i32 = 301;
@@ -95,9 +94,9 @@ impl Report {
         Ok(Self {
             shown: Shown::new(options.units, largest_shown(scene)),
             plan: plan.report(),
-            motion: profile_at(scene, &positions(scene, options.units.length))?,
-            friction: Friction::new(scene, &run),
-            measures: Comparison::new(scene, &run, options.measures, ways)?,
+            motion: profile_over(scene, &plan.ground, &positions(scene, options.units.length))?,
+            friction: Friction::new(scene, &plan.ground, &run),
+            measures: Comparison::new(scene, &plan.ground, &run, options.measures, ways)?,
             verdicts: options.limits.verdicts(&run),
             sources: match options.sources {
                 [] => vec![Source::new("the scene in SI units", scene.to_toml().as_bytes())],

@@ -1,5 +1,9 @@
 //! Friction on the cable with the vehicle over the middle of the duct.
 
+use std::sync::Arc;
+
+use crate::ground::Ground;
+use crate::run::run_over;
 use crate::{FrictionProfile, Run, RunOptions, Scene};
 
 /// Friction in the first and the last pass; of a cable that is heated every day in the first alone, by a run of its own.
@@ -12,7 +16,7 @@ pub struct Friction {
 }
 
 impl Friction {
-    pub fn new(scene: &Scene, run: &Run) -> Self {
+    pub fn new(scene: &Scene, ground: &Arc<Ground>, run: &Run) -> Self {
         let with = |passes, remark| Self { passes, remark };
         if scene.friction_limit() == 0.0 {
             let remark = "There is no friction here, so nothing drags the cable along.";
@@ -32,7 +36,7 @@ impl Friction {
             stages: &[1],
             ..RunOptions::default()
         };
-        match crate::run_with(&scene, &options) {
+        match run_over(&scene, Arc::clone(ground), &options) {
             Ok(first) => with(
                 shown(&first),
                 Some("Friction is that of the first pass, without heat.".into()),

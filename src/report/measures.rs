@@ -1,7 +1,10 @@
 //! Ways to hold the cable, each by a run of the scene.
 
+use std::sync::Arc;
+
 use super::quantity::Shown;
-use crate::design::{DesignError, Measure, Place, Spring, TradeOff, compare};
+use crate::design::{DesignError, Measure, Place, Spring, TradeOff, compare_over};
+use crate::ground::Ground;
 use crate::scene::End;
 use crate::{Error, Limits, PassRecord, Progress, Run, Scene};
 
@@ -37,7 +40,7 @@ pub struct Way {
 }
 
 impl Comparison {
-    /// Runs `scene` with each of `measures`, or with those that suit it. The way in which the scene holds its end is `run` itself, so that
+    /// Runs `scene`, over its `ground`, with each of `measures`, or with those that suit it. The way in which the scene holds its end is `run` itself, so that
     /// one scene has one force.
     ///
     /// # Errors
@@ -45,6 +48,7 @@ impl Comparison {
     /// [`Error::Stopped`] where `progress` stops it.
     pub fn new(
         scene: &Scene,
+        ground: &Arc<Ground>,
         run: &Run,
         measures: Option<&[Measure]>,
         progress: Progress<'_>,
@@ -64,7 +68,7 @@ impl Comparison {
         let compared = if others.is_empty() {
             Ok(Vec::new())
         } else {
-            compare(&scene, &others, progress)
+            compare_over(&scene, ground, &others, progress)
         };
         let (answers, failure) = match compared {
             Ok(answers) => (answers, None),

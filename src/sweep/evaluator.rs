@@ -1,10 +1,7 @@
 //! One row after the other: a scene with some keys set, and its answer.
 
-use std::sync::{Arc, Mutex, PoisonError};
-
-use crate::ground::{Ground, road};
+use crate::ground::KnownGround;
 use crate::run::run_over;
-use crate::scene::{self, TrafficVehicle};
 use crate::{Error, Run, RunOptions, Scene, SceneFile};
 
 /// Computes rows, each of which is one scene with some keys set: without files and without threads of its own.
@@ -32,31 +29,7 @@ use crate::{Error, Run, RunOptions, Scene, SceneFile};
 #[derive(Debug)]
 pub struct Evaluator {
     file: SceneFile,
-    last: Mutex<Option<(Site, Arc<Ground>)>>,
-}
-
-/// All that the motion of the duct depends on.
-#[derive(Debug, Clone, PartialEq)]
-struct Site {
-    ground: scene::Ground,
-    vehicles: Vec<TrafficVehicle>,
-    /// Depth, distance to the side, reach and tolerance.
-    numbers: [f64; 4],
-}
-
-impl Site {
-    fn of(scene: &Scene) -> Self {
-        Self {
-            ground: scene.ground.clone(),
-            vehicles: scene.vehicles.clone(),
-            numbers: [
-                scene.duct.depth,
-                scene.duct.lateral_offset,
-                road::reach(scene),
-                scene.solver.tolerance,
-            ],
-        }
-    }
+    ground: KnownGround,
 }
 
 impl Evaluator {
@@ -64,7 +37,7 @@ impl Evaluator {
     pub fn new(file: SceneFile) -> Self {
         Self {
             file,
-            last: Mutex::default(),
+            ground: KnownGround::default(),
         }
     }
 
@@ -85,17 +58,6 @@ impl Evaluator {
             return crate::run_with(scene, options);
         }
         scene.validate()?;
-        let site = Site::of(scene);
-        let known = self.last().take_if(|(last, _)| *last == site);
-        let ground = match known {
-            Some((_, ground)) => ground,
-            None => Arc::new(Ground::new(scene, None, site.numbers[2])?),
-        };
-        *self.last() = Some((site, Arc::clone(&ground)));
-        run_over(scene, ground, options)
-    }
-
-    fn last(&self) -> std::sync::MutexGuard<'_, Option<(Site, Arc<Ground>)>> {
-        self.last.lock().unwrap_or_else(PoisonError::into_inner)
+        run_over(scene, self.ground.of(scene)?, options)
     }
 }

@@ -409,7 +409,7 @@ fn an_unknown_word_suggests_the_nearest() {
     assert_refused(
         "method = \"explicit\"",
         "method = \"dynamic\"",
-        "dynamic",
+        "method = \"dynamic\"",
         &["\"pass-law\"; inertia is computed by \"explicit\""],
     );
 }
