@@ -24,18 +24,6 @@ const MODEL: &str = "boussinesq half-space";
 ///
 /// Poisson's ratio 0.5 (incompressible) is included.
 ///
-/// ```
-/// use boussinesq::HalfSpace;
-/// use ground_field::{GroundField, Soil, SurfaceLoad};
-///
-/// let ground = HalfSpace::new(Soil::new(800e6, 0.4)?);
-/// // Below a point load u_z = (1+ν)(3−2ν)P/(2πEz).
-/// let below = ground.displacement(SurfaceLoad::point(196_133.0)?, 0.0, 1.2)?;
-/// let exact = 1.4 * 2.2 * 196_133.0 / (std::f64::consts::TAU * 800e6 * 1.2);
-/// assert!((below.vertical / exact - 1.0).abs() < 1e-14);
-/// # Ok::<(), ground_field::GroundError>(())
-/// ```
-///
 /// # At the load itself
 ///
 /// The displacement under a point load grows as 1/R. At R = 0 there is none, and [`GroundError::Singular`] says so, as it

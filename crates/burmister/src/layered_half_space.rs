@@ -13,14 +13,7 @@ pub const DEFAULT_ACCURACY: f64 = 1e-8;
 
 /// Bonded, isotropic, linear elastic layers on a half-space or on rock, solved exactly up to quadrature (Burmister's problem).
 ///
-/// # Equations
-///
-/// By the Hankel transform, with wavenumber m, under a force P at a point or evenly on a disc of radius a
-///
-/// ```text
-/// u_r(r, z) = ∫ U(m, z) J1(mr) p(m) m dm,   u_z(r, z) = ∫ W(m, z) J0(mr) p(m) m dm,   0 < m < ∞
-/// p = P/2π (point),   p = P J1(ma)/(π m a) (disc)
-/// ```
+/// # Method
 ///
 /// 1. **Per wavenumber** U and W follow from the impedance (traction over displacement), carried layer by layer from the base to the
 ///    surface and back to the depth, without growing exponentials and without cancellation in thin layers.
@@ -39,39 +32,8 @@ pub const DEFAULT_ACCURACY: f64 = 1e-8;
 /// [`GroundError::Accuracy`], never a worse value. The error sum is dominated by bounds: the true error is usually a hundred times
 /// smaller. Far to the side, where next to nothing moves, the accuracy is a larger share of what is left.
 ///
-/// # Limits
-///
-/// Small displacements, static load, layers bonded without slip, uniform soil in each layer: a modulus that varies is
-/// [`GroundError::Unsupported`], [`SoilProfile::sublayered`] cuts it into uniform layers. ν from 0 to 0.5, both included. Tested for
-/// modulus contrasts up to 1e6 between neighbours and 1e8 in all, layers of 1 mm to 5 km, up to twenty layers, any
-/// depth including interfaces, radii from 0 to thousands of kilometres. A point load's own point is [`GroundError::Singular`]. At and
-/// below a rigid base the displacement is zero: rock does not move.
-///
-/// # References
-///
-/// - D. M. Burmister, The general theory of stresses and displacements in layered soil systems, J. Appl. Phys. 16 (1945)
-///   89–94, 126–127, 296–302.
-/// - K. L. Johnson, Contact Mechanics, Cambridge University Press (1985), chapter 3.
-/// - D. Levin, Procedures for computing one- and two-dimensional integrals of functions with rapid irregular
-///   oscillations, Math. Comp. 38 (1982) 531–538.
-///
-/// # Example
-///
-/// ```
-/// use burmister::LayeredHalfSpace;
-/// use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
-///
-/// let asphalt = SoilLayer::uniform(0.05, Soil::new(4e9, 0.35)?)?;
-/// let gravel = SoilLayer::uniform(0.05, Soil::new(8e8, 0.35)?)?;
-/// let subgrade = Soil::new(8e8, 0.40)?;
-/// let profile = SoilProfile::new(vec![asphalt, gravel], Base::HalfSpace(subgrade))?;
-///
-/// let ground = LayeredHalfSpace::new(&profile)?;
-/// let wheel = SurfaceLoad::new(196_133.0, 0.15)?;
-/// let below = ground.displacement(wheel, 0.0, 1.2)?;
-/// assert!((below.vertical - 9.764215707520e-5).abs() < 1e-8 * below.vertical);
-/// # Ok::<(), ground_field::GroundError>(())
-/// ```
+/// What is [`GroundError::Unsupported`] is a modulus that varies; a point load's own point is [`GroundError::Singular`]. Limits, references and
+/// an example stand on the front page of the crate.
 #[derive(Debug, Clone)]
 pub struct LayeredHalfSpace {
     ground: Ground,

@@ -1,7 +1,4 @@
-//! Axisymmetric finite elements of layered ground under a wheel.
-//!
-//! [`LayeredFem`] is the model: bonded elastic layers, a Young's modulus that varies linearly with depth within a layer, a half-space or
-//! rock below. Its equations, error estimate and limits stand there.
+#![doc = include_str!("../README.md")]
 
 mod cholesky;
 mod element;
@@ -20,7 +17,3 @@ mod system;
 pub use error::FemError;
 pub use model::LayeredFem;
 pub use options::{ErrorEstimate, FemOptions, FemStatistics};
-
-#[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;

@@ -54,30 +54,10 @@ const MOST_ANSWERS: usize = 512;
 /// of the truth by half. Where the estimate exceeds the accuracy asked, a finer mesh is made, up to the unknowns allowed; beyond, the
 /// answer is [`GroundError::Accuracy`].
 ///
-/// # Limits
-///
-/// Layers are bonded and horizontal; a Poisson's ratio above 0.49999 is replaced by it. The edge of a loaded disc is not meshed: within
-/// about a fifth of its radius below the surface the error falls slowly, and for tight accuracies the answer is an error. So it is
-/// where the largest `u_r` at a depth happens to be tiny, as within a very stiff layer.
-///
 /// # Cost
 ///
 /// Mesh and factorisation are made at construction; each contact radius then costs one solution, each further depth an
 /// interpolation, each further point a few operations. The field is smooth along r (continuous second derivative).
-///
-/// ```
-/// use ground_field::{Base, GroundField, Soil, SoilLayer, SoilProfile, SurfaceLoad};
-/// use layered_fem::LayeredFem;
-///
-/// let road = SoilLayer::uniform(0.2, Soil::new(3e9, 0.35)?)?;
-/// let profile = SoilProfile::new(vec![road], Base::HalfSpace(Soil::new(80e6, 0.4)?))?;
-/// let ground = LayeredFem::new(&profile, 5e-3)?;
-/// let wheel = SurfaceLoad::new(50e3, 0.15)?;
-/// let u = ground.displacement(wheel, 0.8, 1.2)?;
-/// assert!(u.radial > 0.0 && u.vertical > 0.0);
-/// assert!(ground.error_estimate(wheel, 1.2)?.largest() < 5e-3);
-/// # Ok::<(), ground_field::GroundError>(())
-/// ```
 #[derive(Debug)]
 pub struct LayeredFem {
     profile: SoilProfile,
