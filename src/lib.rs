@@ -70,6 +70,7 @@ mod ground;
 pub mod output;
 mod plan;
 pub mod presets;
+mod profile;
 mod progress;
 #[cfg(feature = "calibrate")]
 pub mod readings;
@@ -106,8 +107,8 @@ pub use answer::{
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
 pub use error::{Error, with_causes};
 pub use error_source::ErrorSource;
-pub use ground::profile::{Profile, profile, profile_at};
 pub use plan::{Candidate, Part, Plan, PlanReport, occurrence, plan, plan_on};
+pub use profile::{Profile, profile, profile_at};
 pub use progress::Progress;
 #[cfg(feature = "calibrate")]
 pub use readings::{DataError, ReadOptions, Reading, Readings};

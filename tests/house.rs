@@ -129,6 +129,29 @@ fn every_package_has_its_licences_and_what_it_includes() {
     }
 }
 
+/// The front page of every published crate is its README: problem, equation, assumptions, limits, reference, example.
+#[test]
+fn readmes_are_front_pages() {
+    for source in sources()
+        .into_iter()
+        .filter(|source| source != "src" && !source.contains("testkit"))
+    {
+        let code = fs::read_to_string(root().join(&source).join("lib.rs")).unwrap();
+        assert!(
+            code.starts_with("#![doc = include_str!(\"../README.md\")]"),
+            "{source}"
+        );
+        let page = fs::read_to_string(root().join(&source).join("../README.md")).unwrap();
+        assert!(page.contains("```rust"), "{source}: no example");
+        if source.contains("figure") {
+            continue;
+        }
+        for part in ["*Problem.*", "*Equation", "*Assumptions", "imits.*", "*Reference"] {
+            assert!(page.contains(part), "{source}: {part}");
+        }
+    }
+}
+
 #[test]
 fn imports_run_one_way() {
     let mut circles = Vec::new();
@@ -142,7 +165,7 @@ fn imports_run_one_way() {
     );
 }
 
-/// A test of the test: in a package of four files, one circle.
+/// A test of the test: in a package of four files, one circle of files and one of rooms.
 #[test]
 fn a_circle_is_seen_through_what_a_module_hands_on() {
     let files = [
@@ -162,7 +185,9 @@ fn a_circle_is_seen_through_what_a_module_hands_on() {
     ];
     let files = files.map(|(name, text)| (name.to_owned(), text.to_owned()));
     let circles = Package::new("", files).circles();
-    assert_eq!(circles, ["/a/mod.rs -> /b.rs: helper\n  /b.rs -> /a/mod.rs: Own"]);
+    let of_files = "/a/mod.rs -> /b.rs: helper\n  /b.rs -> /a/mod.rs: Own";
+    let of_rooms = "/a -> /b.rs: helper\n  /b.rs -> /a: Own, Seen";
+    assert_eq!(circles, [of_files, of_rooms]);
 }
 
 /// A path as it is written: `crate::a::b`.
@@ -186,6 +211,7 @@ struct Source {
 
 /// The files of a package by their modules.
 struct Package {
+    folder: String,
     sources: BTreeMap<Names, Source>,
 }
 
@@ -207,6 +233,7 @@ impl Package {
                 (source.module.clone(), source)
             });
         Self {
+            folder: folder.to_owned(),
             sources: sources.collect(),
         }
     }
@@ -281,33 +308,58 @@ impl Package {
     }
 
     /// Each circle in a line: what every one of its files takes from the others.
+    /// Circles of files, and of the folders at the top.
     fn circles(&self) -> Vec<String> {
-        let arrows = self.arrows();
-        let mut reached: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
-        for &(from, _) in arrows.keys() {
-            let mut open = vec![from];
-            let seen = reached.entry(from).or_default();
-            while let Some(file) = open.pop() {
-                let next = arrows
-                    .keys()
-                    .filter(|(start, _)| *start == file)
-                    .map(|(_, end)| *end);
-                open.extend(next.filter(|end| seen.insert(end)));
+        let of_files = self.arrows();
+        let mut of_folders: BTreeMap<(&str, &str), BTreeSet<String>> = BTreeMap::new();
+        for (&(from, to), names) in &of_files {
+            let (from, to) = (self.room(from), self.room(to));
+            if from != to {
+                of_folders
+                    .entry((from, to))
+                    .or_default()
+                    .extend(names.iter().cloned());
             }
         }
-        let together = |a: &str, b: &str| reached.get(a).is_some_and(|seen| seen.contains(b));
-        let mut circles: BTreeMap<&str, Vec<String>> = BTreeMap::new();
-        for (&(from, to), names) in arrows.iter().filter(|((from, to), _)| together(to, from)) {
-            let first = reached[from]
-                .iter()
-                .find(|file| together(file, from))
-                .unwrap_or(&to);
-            let names: Vec<&str> = names.iter().map(String::as_str).collect();
-            let line = format!("{from} -> {to}: {}", names.join(", "));
-            circles.entry(first).or_default().push(line);
-        }
-        circles.into_values().map(|lines| lines.join("\n  ")).collect()
+        [of_files, of_folders].iter().flat_map(circles).collect()
     }
+
+    /// The folder at the top in which a file lies; a file there is a room of its own.
+    fn room<'f>(&self, file: &'f str) -> &'f str {
+        let inner = &file[self.folder.len() + 1..];
+        let end = inner
+            .find('/')
+            .map_or(file.len(), |end| self.folder.len() + 1 + end);
+        &file[..end]
+    }
+}
+
+/// What lies on circles of `arrows` with the names that make them, a text for each.
+fn circles(arrows: &BTreeMap<(&str, &str), BTreeSet<String>>) -> Vec<String> {
+    let mut reached: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    for &(from, _) in arrows.keys() {
+        let mut open = vec![from];
+        let seen = reached.entry(from).or_default();
+        while let Some(file) = open.pop() {
+            let next = arrows
+                .keys()
+                .filter(|(start, _)| *start == file)
+                .map(|(_, end)| *end);
+            open.extend(next.filter(|end| seen.insert(end)));
+        }
+    }
+    let together = |a: &str, b: &str| reached.get(a).is_some_and(|seen| seen.contains(b));
+    let mut circles: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    for (&(from, to), names) in arrows.iter().filter(|((from, to), _)| together(to, from)) {
+        let first = reached[from]
+            .iter()
+            .find(|file| together(file, from))
+            .unwrap_or(&to);
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
+        let line = format!("{from} -> {to}: {}", names.join(", "));
+        circles.entry(first).or_default().push(line);
+    }
+    circles.into_values().map(|lines| lines.join("\n  ")).collect()
 }
 
 impl Source {

@@ -3,7 +3,6 @@
 mod known;
 mod model;
 mod motion;
-pub mod profile;
 pub mod road;
 
 pub use known::KnownGround;

@@ -7,7 +7,7 @@ use super::quantity::{Shown, round_below};
 use super::source::Source;
 use crate::calibration::CellEnd;
 use crate::design::{Measure, largest_shown};
-use crate::ground::profile::profile_over;
+use crate::profile::profile_over;
 use crate::readings::Readings;
 use crate::scene::Unit;
 use crate::{Error, Limits, PlanReport, Profile, Progress, Run, RunOptions, Scene, Units, Verdict};

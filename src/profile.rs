@@ -3,8 +3,8 @@
 use ground_field::GroundError;
 use serde::Serialize;
 
-use super::Ground;
 use crate::answer::error_estimate::{self, ErrorParts};
+use crate::ground::Ground;
 use crate::{Error, Scene, finite};
 
 /// Farthest position from the vehicle \[m\].
