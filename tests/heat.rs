@@ -1,6 +1,7 @@
 //! Daily heat, through scenes: keys, days of traffic, every end, and what is said of them.
 
-use creepage::{DayExtremes, Run, Scene};
+use creepage::report::{Report, ReportOptions};
+use creepage::{DayExtremes, ErrorSource, Run, Scene};
 
 /// The full-scale experiment's upper cable on a half-space, heated by 20 K every day, with few vehicles a day.
 const WARM: [&str; 9] = [
@@ -448,4 +449,39 @@ fn days_that_few_real_periods_keep_restless_settle_with_more() {
     ] {
         assert!((few / many - 1.0).abs() < allowed, "{few} {many} {allowed}");
     }
+}
+
+/// On days of heat too the parts of the error sum to the whole, in the answer and in the table of the report.
+#[test]
+fn the_parts_of_the_error_sum_to_the_whole() {
+    let scene = scene(&["traffic = { passes = 2400, per_day = 240 }"]);
+    let report = Report::new(&scene, &ReportOptions::default()).expect("a report");
+    let error = &report.run().error_estimate;
+    let parts = ErrorSource::ALL.map(|source| error.parts.of(source));
+    assert!(error.parts.of(ErrorSource::Days) > 0.0, "{error:?}");
+    let sum: f64 = parts.iter().sum();
+    assert!(
+        (sum - error.relative).abs() < 1e-12,
+        "{parts:?}, {}",
+        error.relative
+    );
+    let page = report.to_html();
+    let percent = |name: &str| -> f64 {
+        let (_, row) = page
+            .split_once(&format!("<td>{name}</td><td class=\"number\">"))
+            .expect(name);
+        let (text, _) = row.split_once('<').expect("a cell");
+        let number = text
+            .trim_start_matches("&lt; ")
+            .trim_end_matches("\u{a0}%")
+            .trim_end_matches(" %");
+        number.parse().expect(text)
+    };
+    let listed: f64 = ErrorSource::ALL.iter().map(|source| percent(source.name())).sum();
+    // Each to 0.01 %.
+    assert!(
+        (listed - 100.0 * error.relative).abs() < 0.06,
+        "{listed} %, {}",
+        error.relative
+    );
 }
