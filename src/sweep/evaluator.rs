@@ -1,6 +1,6 @@
 //! One row after the other: a scene with some keys set, and its answer.
 
-use crate::ground::KnownGround;
+use super::known_ground::KnownGround;
 use crate::run::run_over;
 use crate::{Error, Run, RunOptions, Scene, SceneFile};
 

@@ -36,6 +36,7 @@ mod error;
 mod evaluator;
 mod grid;
 mod journal;
+mod known_ground;
 mod list;
 #[cfg(feature = "plot")]
 mod map;

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::{Ground, road};
+use crate::ground::{Ground, road};
 use crate::scene::{self, TrafficVehicle};
 use crate::{Error, Scene};
 
