@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::limits::DesignError;
 use super::runs::OneMesh;
 use super::trade_off::{Spring, TradeOff};
-use crate::ground::Ground;
+use crate::ground::{Ground, road};
 use crate::{Error, Limits, Place, Progress, Scene};
 
 /// One way to hold the cable.
@@ -32,7 +32,12 @@ pub fn compare(
     progress: Progress<'_>,
 ) -> Result<Vec<Result<TradeOff, DesignError>>, DesignError> {
     scene.validate().map_err(Error::from)?;
-    compare_over(scene, &Arc::new(Ground::of(scene)?), measures, progress)
+    compare_over(
+        scene,
+        &Arc::new(Ground::new(scene, None, road::reach(scene))?),
+        measures,
+        progress,
+    )
 }
 
 /// The same over a `ground` that is known to be that of a valid `scene`.

@@ -19,7 +19,7 @@
 //!
 //! A limit of one spring that is crossed more than once as the stiffness grows is an error, since there is no single range then.
 
-mod compare;
+pub(crate) mod compare;
 mod doubt;
 mod limits;
 mod options;
@@ -29,7 +29,6 @@ mod search;
 mod trade_off;
 
 pub use crate::{ClampLimits, Limits, Place};
-pub(crate) use compare::compare_over;
 pub use compare::{Measure, compare};
 pub use doubt::Doubt;
 pub use limits::DesignError;

@@ -11,7 +11,7 @@ use super::options::DesignOptions;
 use super::pair;
 use super::runs::{Runs, stiffnesses};
 use super::trade_off::{Binding, Design, Side, TradeOff, in_duct};
-use crate::ground::Ground;
+use crate::ground::{Ground, road};
 use crate::{Error, Limited, Limits, Place, Scene};
 
 /// The curve has points in half decades.
@@ -48,7 +48,7 @@ pub type Limit = (Place, Limited, f64);
 pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, DesignError> {
     limits::check(scene, options)?;
     scene.validate().map_err(Error::from)?;
-    let ground = Arc::new(Ground::of(scene)?);
+    let ground = Arc::new(Ground::new(scene, None, road::reach(scene))?);
     if options.second.is_some() {
         return pair::design(scene, &ground, options);
     }

@@ -9,7 +9,6 @@ use burmister::LayeredHalfSpace;
 use ground_field::{DuctMotion, GroundField, SoilProfile};
 
 use super::motion::{difference, motions};
-use super::road;
 use crate::Error;
 use crate::scene::{GroundModel, Scene};
 
@@ -40,11 +39,6 @@ pub struct Ground {
 }
 
 impl Ground {
-    /// The ground of `scene`, as far along the road as its passes need.
-    pub fn of(scene: &Scene) -> Result<Self, Error> {
-        Self::new(scene, None, road::reach(scene))
-    }
-
     /// The ground of `scene`, or a model that the caller brings along, for |ξ| up to `reach` \[m\].
     pub fn new(scene: &Scene, own: Option<&dyn GroundField>, reach: f64) -> Result<Self, Error> {
         let named = "the scene asks for it";

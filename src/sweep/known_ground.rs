@@ -48,7 +48,7 @@ impl KnownGround {
         let known = last().take_if(|(last, _)| *last == site);
         let ground = match known {
             Some((_, ground)) => ground,
-            None => Arc::new(Ground::of(scene)?),
+            None => Arc::new(Ground::new(scene, None, road::reach(scene))?),
         };
         *last() = Some((site, Arc::clone(&ground)));
         Ok(ground)
