@@ -12,7 +12,6 @@ use std::collections::HashMap;
 use ground_field::{Base, Displacement, Soil, SoilProfile};
 
 use crate::FemError;
-use crate::element::{ElementMatrix, NODES};
 use crate::grading::Lines;
 use crate::line::DepthLine;
 use crate::load;
@@ -95,14 +94,6 @@ impl Level {
             far_displacement,
             solutions: HashMap::new(),
         })
-    }
-
-    /// Bytes held: element matrices, factor, mesh and solutions.
-    pub(crate) fn bytes(&self) -> usize {
-        let mesh = &self.system.mesh;
-        let element = size_of::<ElementMatrix>() + size_of::<[usize; NODES]>();
-        let numbers = self.system.factor.entries() + mesh.dofs() * (3 + self.solutions.len());
-        element * mesh.elements.len() + 8 * numbers
     }
 
     /// The solution u* under a unit load.

@@ -3,6 +3,7 @@
 mod cholesky;
 mod element;
 mod error;
+mod estimate;
 mod front;
 mod grading;
 mod level;
@@ -11,9 +12,8 @@ mod load;
 mod material;
 mod mesh;
 mod model;
-mod options;
 mod system;
 
 pub use error::FemError;
+pub use estimate::{ErrorEstimate, FemStatistics};
 pub use model::LayeredFem;
-pub use options::{ErrorEstimate, FemOptions, FemStatistics};

@@ -3,13 +3,14 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use ground_field::{Displacement, GroundError, GroundField, SoilProfile, SurfaceLoad, check_place};
+use ground_field::{Displacement, GroundError, GroundField, SoilProfile, SurfaceLoad, check_place, checked};
 
 use crate::FemError;
+use crate::estimate::{ErrorEstimate, FemStatistics};
 use crate::grading::Lines;
 use crate::level::Level;
 use crate::line::DepthLine;
-use crate::options::{ErrorEstimate, FemOptions, FemStatistics};
+use crate::system::LEAST_CHANGE;
 
 /// Name in errors.
 const MODEL: &str = "layered finite elements";
@@ -61,7 +62,8 @@ const MOST_ANSWERS: usize = 512;
 #[derive(Debug)]
 pub struct LayeredFem {
     profile: SoilProfile,
-    options: FemOptions,
+    accuracy: f64,
+    max_unknowns: usize,
     /// Spacing of the first mesh.
     alpha: f64,
     meshes: Mutex<Meshes>,
@@ -83,37 +85,53 @@ struct Answer {
 }
 
 impl LayeredFem {
-    /// A model of `profile` with an error of at most `accuracy` of the peak |`u_r`| and |`u_z`| at each depth; see
-    /// [`FemOptions::new`].
+    /// Unknowns allowed unless [`LayeredFem::with_max_unknowns`] says otherwise: within a gigabyte and a few seconds.
+    pub const DEFAULT_MAX_UNKNOWNS: usize = 500_000;
+    /// Most unknowns that can be allowed: some hundred gigabytes.
+    pub const MOST_UNKNOWNS: usize = 50_000_000;
+
+    /// A model of `profile` with an error of at most `accuracy`, as a share of the largest |`u_r`| and of the largest |`u_z`| at each
+    /// depth. (The largest |`u_r`| counts as at least a hundredth of the largest |`u_z`|.)
     ///
     /// # Errors
     ///
-    /// [`GroundError::InvalidParameter`] for an accuracy out of range; [`GroundError::Model`] with a [`FemError`] where the
-    /// mesh cannot be made or factored.
+    /// [`GroundError::InvalidParameter`] unless the accuracy lies between 1e-6 and 0.1; [`GroundError::Model`] with a [`FemError`]
+    /// where the mesh cannot be made or factored.
     pub fn new(profile: &SoilProfile, accuracy: f64) -> Result<Self, GroundError> {
-        Self::with_options(profile, FemOptions::new(accuracy)?)
+        Self::with_max_unknowns(profile, accuracy, Self::DEFAULT_MAX_UNKNOWNS)
     }
 
-    /// A model of `profile` with explicit options.
+    /// The same with another limit on the unknowns of one mesh, [`MOST_UNKNOWNS`](Self::MOST_UNKNOWNS) at most.
+    /// Where the accuracy would need more, the answer is [`GroundError::Accuracy`].
     ///
     /// # Errors
     ///
     /// As for [`LayeredFem::new`].
-    pub fn with_options(profile: &SoilProfile, options: FemOptions) -> Result<Self, GroundError> {
+    pub fn with_max_unknowns(
+        profile: &SoilProfile,
+        accuracy: f64,
+        max_unknowns: usize,
+    ) -> Result<Self, GroundError> {
+        checked("accuracy", accuracy, "between 1e-6 and 0.1", |v| {
+            (1e-6..=0.1).contains(&v)
+        })?;
+        let max_unknowns = max_unknowns.min(Self::MOST_UNKNOWNS);
         let (least, most) = ALPHA_RANGE;
-        let mut alpha = (ALPHA * (options.accuracy() / ALPHA_ACCURACY).cbrt()).clamp(least, most);
+        let mut alpha = (ALPHA * (accuracy / ALPHA_ACCURACY).cbrt()).clamp(least, most);
         // Where the mesh that is likely to be needed is too large, a larger spacing may still prove accurate enough.
-        while alpha < most && Lines::new(profile, alpha, RATIO, options.max_unknowns()).is_err() {
+        while alpha < most && Lines::new(profile, alpha, RATIO, max_unknowns).is_err() {
             alpha *= 1.2;
         }
+        let lines = |parts| Lines::new(profile, alpha, parts, max_unknowns);
         let meshes = Meshes {
-            coarse: level(profile, options, alpha, 1)?,
-            fine: level(profile, options, alpha, RATIO)?,
+            coarse: level(profile, accuracy, lines(1))?,
+            fine: level(profile, accuracy, lines(RATIO))?,
             factorisations: 2,
         };
         Ok(Self {
             profile: profile.clone(),
-            options,
+            accuracy,
+            max_unknowns,
             alpha,
             meshes: Mutex::new(meshes),
             answers: Mutex::default(),
@@ -125,9 +143,9 @@ impl LayeredFem {
         &self.profile
     }
 
-    /// The options.
-    pub fn options(&self) -> FemOptions {
-        self.options
+    /// Asked error, as a share of the peak at a depth.
+    pub fn accuracy(&self) -> f64 {
+        self.accuracy
     }
 
     /// Estimated error of the displacements under `load` at `depth`; at most the accuracy asked.
@@ -140,7 +158,7 @@ impl LayeredFem {
         Ok(self.answer(load.contact_radius(), depth)?.estimate)
     }
 
-    /// Work done and memory held so far.
+    /// Work done so far.
     pub fn statistics(&self) -> FemStatistics {
         let meshes = locked(&self.meshes);
         let (coarse, fine) = (&meshes.coarse, &meshes.fine);
@@ -149,7 +167,6 @@ impl LayeredFem {
             factor_entries: fine.system.factor.entries(),
             factorisations: meshes.factorisations,
             solves: coarse.solutions.len() + fine.solutions.len(),
-            bytes: coarse.bytes() + fine.bytes(),
         }
     }
 
@@ -166,7 +183,7 @@ impl LayeredFem {
             let coarse = meshes.coarse.line(contact_radius, depth).map_err(in_model)?;
             let fine = meshes.fine.line(contact_radius, depth).map_err(in_model)?;
             let estimate = compare(&coarse, &fine, &meshes.fine.columns, gain);
-            if estimate.largest() <= self.options.accuracy() {
+            if estimate.largest() <= self.accuracy {
                 let answer = Arc::new(Answer { line: fine, estimate });
                 let mut answers = locked(&self.answers);
                 if answers.len() >= MOST_ANSWERS {
@@ -181,22 +198,22 @@ impl LayeredFem {
 
     /// Puts a finer mesh in place of the coarse one, or says that the accuracy is out of reach.
     fn refine(&self, meshes: &mut Meshes, estimate: ErrorEstimate, depth: f64) -> Result<(), GroundError> {
-        let excess = estimate.largest() / self.options.accuracy();
+        let excess = estimate.largest() / self.accuracy;
         let parts = meshes.fine.lines.parts;
         let next = RATIO * parts;
         // What the accuracy needs at least, should the error fall as fast as it can.
         let wanted = parts as f64 * excess.powf(1.0 / BEST_ORDER);
-        let fits = |parts| Lines::new(&self.profile, self.alpha, parts, self.options.max_unknowns()).is_ok();
-        if excess.is_nan() || !fits(next) || !fits(wanted as usize) {
+        let lines = |parts| Lines::new(&self.profile, self.alpha, parts, self.max_unknowns);
+        if excess.is_nan() || lines(next).is_err() || lines(wanted as usize).is_err() {
             return Err(GroundError::Accuracy {
                 model: MODEL,
-                asked: self.options.accuracy(),
+                asked: self.accuracy,
                 reached: estimate.largest(),
                 radius: estimate.radius,
                 depth,
             });
         }
-        let finer = level(&self.profile, self.options, self.alpha, next)?;
+        let finer = level(&self.profile, self.accuracy, lines(next))?;
         meshes.coarse = std::mem::replace(&mut meshes.fine, finer);
         meshes.factorisations += 1;
         Ok(())
@@ -224,11 +241,13 @@ impl GroundField for LayeredFem {
     }
 }
 
-/// The mesh with every interval of the first cut into `parts`, factored.
-fn level(profile: &SoilProfile, options: FemOptions, alpha: f64, parts: usize) -> Result<Level, GroundError> {
-    let lines = Lines::new(profile, alpha, parts, options.max_unknowns());
-    let level = lines.and_then(|lines| Level::new(profile, options.rounding(), lines));
-    level.map_err(in_model)
+/// The mesh of `lines`, factored. A last correction may change a solution by rounding alone, a thousandth of the accuracy: where λ is large
+/// relative to a stiff layer rounding is felt long before it matters.
+fn level(profile: &SoilProfile, accuracy: f64, lines: Result<Lines, FemError>) -> Result<Level, GroundError> {
+    let rounding = (1e-3 * accuracy).max(LEAST_CHANGE);
+    lines
+        .and_then(|lines| Level::new(profile, rounding, lines))
+        .map_err(in_model)
 }
 
 /// Estimated error of `fine` from its difference to `coarse`, whose error is at least `gain` times as large.

@@ -3,7 +3,7 @@
 use ground_field::{
     Base, Displacement, GroundError, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad,
 };
-use layered_fem::{FemOptions, LayeredFem};
+use layered_fem::LayeredFem;
 use proptest::prelude::*;
 
 use super::common::{layer, on_soil, task3};
@@ -302,9 +302,8 @@ fn hostile_input_is_an_error_and_never_a_panic() {
             Err(GroundError::InvalidParameter { .. })
         ));
     }
-    let little = FemOptions::new(1e-3).unwrap().with_max_unknowns(100);
     assert!(matches!(
-        LayeredFem::with_options(&task3(), little),
+        LayeredFem::with_max_unknowns(&task3(), 1e-3, 100),
         Err(GroundError::Model { .. })
     ));
     // Grounds at the edge of what numbers can say: an answer or an error.
@@ -327,8 +326,7 @@ fn hostile_input_is_an_error_and_never_a_panic() {
 
 #[test]
 fn accuracy_out_of_reach_is_an_error_with_the_estimate() {
-    let options = FemOptions::new(1e-5).unwrap().with_max_unknowns(100_000);
-    let ground = LayeredFem::with_options(&task3(), options);
+    let ground = LayeredFem::with_max_unknowns(&task3(), 1e-5, 100_000);
     let answer = ground.and_then(|ground| ground.displacement(SurfaceLoad::point(1e5).unwrap(), 0.8, 0.6));
     assert!(matches!(answer, Err(GroundError::Accuracy { reached, .. }) if reached > 1e-5));
 }
@@ -348,7 +346,6 @@ fn one_factorisation_serves_every_load_and_depth() {
     // Two meshes, three contact radii.
     assert_eq!((statistics.factorisations, statistics.solves), (2, 6));
     assert!(statistics.factor_entries > statistics.unknowns);
-    assert!(statistics.bytes < 100_000_000);
 }
 
 /// Work at the default accuracy on the paper's road: the mesh has (2n+1)(2m+1) nodes for n and m intervals that grow with the

@@ -1,14 +1,14 @@
 //! Nothing that can be given to the public interface makes it panic or hang: an answer that is finite, or an error.
 
 use ground_field::{Base, GroundField, Modulus, Soil, SoilLayer, SoilProfile, SurfaceLoad};
-use layered_fem::{FemOptions, LayeredFem};
+use layered_fem::LayeredFem;
 use testkit::NASTY;
 
 #[test]
 fn grounds_are_answered_or_refused() {
     let sizes = [5e-324, 1e-300, 1e-9, 1.0, 1e9, 1e300, f64::MAX];
     // Little room, lest the time goes into meshes.
-    let options = FemOptions::new(0.05).expect("options").with_max_unknowns(20_000);
+    let max_unknowns = 20_000;
     let load = |contact_radius| SurfaceLoad::new(1e5, contact_radius).expect("a load");
     let mut case = 0;
     for thickness in sizes {
@@ -24,7 +24,7 @@ fn grounds_are_answered_or_refused() {
                     Base::HalfSpace(soil)
                 };
                 let profile = SoilProfile::new(vec![layer; 1 + case % 3], base).expect("a profile");
-                let Ok(ground) = LayeredFem::with_options(&profile, options) else {
+                let Ok(ground) = LayeredFem::with_max_unknowns(&profile, 0.05, max_unknowns) else {
                     continue;
                 };
                 for depth in [0.0, NASTY[case % NASTY.len()], 1.2] {
@@ -62,22 +62,21 @@ fn a_point_load_is_never_lost() {
 }
 
 #[test]
-fn options_are_taken_or_refused() {
+fn accuracies_and_limits_are_taken_or_refused() {
+    let soil = Soil::new(1e7, 0.3).expect("a soil");
+    let half_space = SoilProfile::half_space(soil);
     for accuracy in NASTY {
         assert_eq!(
-            FemOptions::new(accuracy).is_ok(),
+            LayeredFem::new(&half_space, accuracy).is_ok(),
             (1e-6..=0.1).contains(&accuracy)
         );
     }
-    let soil = Soil::new(1e7, 0.3).expect("a soil");
     for unknowns in [0, 1, 100, usize::MAX] {
-        let options = FemOptions::new(0.1).expect("options").with_max_unknowns(unknowns);
-        assert!(options.max_unknowns() <= FemOptions::MOST_UNKNOWNS);
-        let ground = LayeredFem::with_options(&SoilProfile::half_space(soil), options);
+        let ground = LayeredFem::with_max_unknowns(&half_space, 0.1, unknowns);
         assert_eq!(ground.is_ok(), unknowns > 100);
         // Lines without end are refused before they are made.
         let layer = SoilLayer::uniform(f64::MAX, soil).expect("a layer");
         let endless = SoilProfile::new(vec![layer; 2], Base::HalfSpace(soil)).expect("a profile");
-        assert!(LayeredFem::with_options(&endless, options).is_err());
+        assert!(LayeredFem::with_max_unknowns(&endless, 0.1, unknowns).is_err());
     }
 }
