@@ -1,7 +1,7 @@
 //! Files as load cells, data loggers and spreadsheets write them: each is read right, or refused with the cause named.
 
 use creepage::readings::{Measured, Place, ReadOptions};
-use creepage::{Reading, Readings};
+use creepage::{CableEnd, Reading, Readings};
 
 /// The series that every readable shape holds: passes and forces \[N\].
 const PASSES: [u64; 6] = [1, 2, 3, 5, 8, 13];
@@ -465,8 +465,8 @@ fn two_cells_and_a_transducer_in_one_file() {
         .map(|reading| (reading.measured, reading.value))
         .collect();
     let expected = [
-        (Measured::Force(Place::Upstream), 50.0),
-        (Measured::Force(Place::Downstream), 94.0),
+        (Measured::Force(Place::End(CableEnd::Upstream)), 50.0),
+        (Measured::Force(Place::End(CableEnd::Downstream)), 94.0),
         (Measured::Movement(Place::Natural), 0.3e-3),
     ];
     for ((measured, value), (kind, expected)) in found.iter().zip(expected) {
@@ -478,7 +478,10 @@ fn two_cells_and_a_transducer_in_one_file() {
     assert_eq!(found.len(), 6);
     // Names that say nothing of the end.
     let data = read("pass,A,B\n1,50,94\n", "force=upstream=A force=downstream=B");
-    assert_eq!(data.readings()[0].measured, Measured::Force(Place::Upstream));
+    assert_eq!(
+        data.readings()[0].measured,
+        Measured::Force(Place::End(CableEnd::Upstream))
+    );
     // A table of this program's own runs: forces after the pass, not the peaks during it.
     let own = "pass,downstream_force_n,downstream_peak_n,upstream_force_n,upstream_peak_n,downstream_displacement_m\n1,94,99,0,2,0.001\n";
     assert_eq!(read(own, "").values(), [94.0, 0.0]);

@@ -4,7 +4,9 @@
 use creepage::calibration::{Quantity, Unknown};
 use creepage::readings::{Measured, Place};
 use creepage::scene::{End, FrictionLaw};
-use creepage::{CalibrateOptions, Calibrated, Reading, Readings, RunOptions, Scene, SceneFile, calibrate};
+use creepage::{
+    CableEnd, CalibrateOptions, Calibrated, Reading, Readings, RunOptions, Scene, SceneFile, calibrate,
+};
 
 const PASSES: u64 = 24;
 const FRICTION: f64 = 0.3;
@@ -91,7 +93,7 @@ fn recovers(answer: &Calibrated, truths: &[f64], share: f64) {
 #[test]
 fn strain_along_the_cable_and_movement_of_an_end() {
     let strain = Measured::Strain(Place::At(10.025));
-    let movement = Measured::Movement(Place::Upstream);
+    let movement = Measured::Movement(Place::End(CableEnd::Upstream));
     let readings = measured(&[(strain, 3e-7), (movement, 1e-6)], 1.0);
     recovers(&fit(&readings, &[]), &[FRICTION, SHAPE_FACTOR], 0.1);
 }
@@ -105,7 +107,7 @@ fn force_at_a_place_along_the_cable() {
 /// The deflection of the duct tells how stiff the ground is, which forces alone hardly do.
 #[test]
 fn deflection_of_the_duct_and_force() {
-    let force = (Measured::Force(Place::Downstream), 1.5);
+    let force = (Measured::Force(Place::End(CableEnd::Downstream)), 1.5);
     let readings = measured(&[force, (Measured::Deflection, 2e-6)], 0.8);
     let truths = [FRICTION, SHAPE_FACTOR, 0.8];
     let answer = fit(&readings, &[Quantity::GroundStiffness]);

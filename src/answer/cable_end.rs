@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::scene::{End, Scene};
+
 /// An end of the cable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -16,11 +18,27 @@ impl CableEnd {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Upstream, Self::Downstream];
 
+    /// What of two values belongs to it, that of the upstream end first.
+    pub fn of<T>(self, [upstream, downstream]: [T; 2]) -> T {
+        match self {
+            Self::Upstream => upstream,
+            Self::Downstream => downstream,
+        }
+    }
+
+    /// The other one.
+    #[must_use]
+    pub fn other(self) -> Self {
+        self.of([Self::Downstream, Self::Upstream])
+    }
+
+    /// How `scene` holds it.
+    pub fn held_in(self, scene: &Scene) -> End {
+        self.of([scene.ends.upstream, scene.ends.downstream])
+    }
+
     /// Its name in scenes.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Upstream => "upstream",
-            Self::Downstream => "downstream",
-        }
+        self.of(["upstream", "downstream"])
     }
 }

@@ -94,31 +94,40 @@ impl HeatRecord {
 impl DayExtremes {
     /// By how much the force on an end changes at most over the day \[N\], and how far an end moves \[m\]: the cyclic load of joints.
     pub fn largest_range(&self) -> (f64, f64) {
-        let force =
-            (self.upstream_max_n - self.upstream_min_n).max(self.downstream_max_n - self.downstream_min_n);
-        let upstream = self.upstream_displacement_max_m - self.upstream_displacement_min_m;
-        let downstream = self.downstream_displacement_max_m - self.downstream_displacement_min_m;
-        (force, upstream.max(downstream))
+        let ends = CableEnd::ALL.map(|end| self.of(end));
+        let largest = |kind: usize| {
+            let ranges = ends.map(|of| of[kind][1] - of[kind][0]);
+            ranges[0].max(ranges[1])
+        };
+        (largest(0), largest(1))
+    }
+
+    /// The least and the largest force on an end \[N\], and displacement of it \[m\].
+    pub(crate) fn of(&self, end: CableEnd) -> [[f64; 2]; 2] {
+        end.of([
+            [
+                [self.upstream_min_n, self.upstream_max_n],
+                [self.upstream_displacement_min_m, self.upstream_displacement_max_m],
+            ],
+            [
+                [self.downstream_min_n, self.downstream_max_n],
+                [
+                    self.downstream_displacement_min_m,
+                    self.downstream_displacement_max_m,
+                ],
+            ],
+        ])
     }
 
     /// Largest force on the end in size \[N\].
     pub fn largest_force(&self, end: CableEnd) -> f64 {
-        let [least, most] = match end {
-            CableEnd::Upstream => [self.upstream_min_n, self.upstream_max_n],
-            CableEnd::Downstream => [self.downstream_min_n, self.downstream_max_n],
-        };
+        let [least, most] = self.of(end)[0];
         least.abs().max(most.abs())
     }
 
     /// How far the end is from where it was laid, whichever way \[m\].
     pub fn movement(&self, end: CableEnd) -> f64 {
-        let [least, most] = match end {
-            CableEnd::Upstream => [self.upstream_displacement_min_m, self.upstream_displacement_max_m],
-            CableEnd::Downstream => [
-                self.downstream_displacement_min_m,
-                self.downstream_displacement_max_m,
-            ],
-        };
+        let [least, most] = self.of(end)[1];
         least.abs().max(most.abs())
     }
 

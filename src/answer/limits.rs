@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::cable_end::CableEnd;
-use super::place::{Limited, Place};
-use super::record::{PassRecord, Run, Saturation};
+use super::place::{Limited, Moment, Place};
+use super::record::{PassRecord, Run};
 use super::units::Units;
 
 /// What must not be exceeded at one place; of either sign.
@@ -73,20 +73,15 @@ pub struct Verdict {
 impl CableEnd {
     /// Largest force on it after a pass and during it, in size \[N\].
     pub fn largest_force(self, record: &PassRecord) -> f64 {
-        let during = match self {
-            Self::Upstream => [record.upstream_peak_n, record.upstream_least_n],
-            Self::Downstream => [record.downstream_peak_n, record.downstream_least_n],
-        };
-        let during = during.map(f64::abs);
-        self.force_after(record).max(during[0]).max(during[1])
+        let peak = self.of([record.upstream_peak_n, record.downstream_peak_n]);
+        let least = self.of([record.upstream_least_n, record.downstream_least_n]);
+        self.force_after(record).max(peak.abs()).max(least.abs())
     }
 
     /// Force on it after a pass, in size \[N\].
     pub fn force_after(self, record: &PassRecord) -> f64 {
-        match self {
-            Self::Upstream => record.upstream_force_n.abs(),
-            Self::Downstream => record.downstream_force_n.abs(),
-        }
+        self.of([record.upstream_force_n, record.downstream_force_n])
+            .abs()
     }
 
     /// How far it is displaced after a pass, and on a spring during it, whichever way \[m\]: a spring moves in proportion to its force.
@@ -103,10 +98,8 @@ impl CableEnd {
 
     /// How far it is displaced after a pass, whichever way \[m\].
     pub fn movement(self, record: &PassRecord) -> f64 {
-        match self {
-            Self::Upstream => record.upstream_displacement_m.abs(),
-            Self::Downstream => record.downstream_displacement_m.abs(),
-        }
+        self.of([record.upstream_displacement_m, record.downstream_displacement_m])
+            .abs()
     }
 }
 
@@ -160,18 +153,12 @@ impl Limits {
 
     /// The limits of one end.
     pub fn of(&self, end: CableEnd) -> &EndLimits {
-        match end {
-            CableEnd::Upstream => &self.upstream,
-            CableEnd::Downstream => &self.downstream,
-        }
+        end.of([&self.upstream, &self.downstream])
     }
 
     /// The same, to be set.
     pub fn of_mut(&mut self, end: CableEnd) -> &mut EndLimits {
-        match end {
-            CableEnd::Upstream => &mut self.upstream,
-            CableEnd::Downstream => &mut self.downstream,
-        }
+        end.of([&mut self.upstream, &mut self.downstream])
     }
 
     /// Every limit that is given.
@@ -192,27 +179,26 @@ impl Limits {
     pub fn verdicts(&self, run: &Run) -> Vec<Verdict> {
         let verdict = |(end, quantity, limit): (Place, Limited, f64)| {
             let largest = run.largest(end, quantity);
+            let exceeds = |moment: Moment<'_>| run.at(end, quantity, moment) > limit;
             let mut passes = run.passes.iter().enumerate();
-            let pass = passes
-                .find(|(index, _)| run.in_pass(end, quantity, *index) > limit)
-                .map(|(_, record)| record.pass);
+            let pass = passes.find(|(index, record)| exceeds(Moment::Pass(*index, record)));
             let mut days = run.days.iter();
-            let day = days.find(|day| run.on_day(end, quantity, day) > limit);
-            let day = day.zip(run.heat.as_ref());
-            let day = day.map(|(day, heat)| day.day * heat.passes_per_day);
+            let day = days.find(|day| exceeds(Moment::Day(day))).zip(run.heat.as_ref());
             let mut extremes = run.extremes.iter();
-            let extreme = extremes.find(|pass| run.in_extreme(end, quantity, pass) > limit);
+            let extreme = extremes.find(|pass| exceeds(Moment::Extreme(pass)));
             let last = run.passes.last().map_or(u64::MAX, |record| record.pass);
-            let extreme = extreme.map(|pass| pass.after.pass.min(last));
-            let first = pass.into_iter().chain(day).chain(extreme).min();
+            let first = [
+                pass.map(|(_, record)| record.pass),
+                day.map(|(day, heat)| day.day * heat.passes_per_day),
+                extreme.map(|pass| pass.after.pass.min(last)),
+            ];
+            let first = first.into_iter().flatten().min();
             let years = |pass| {
                 let listed = run.passes.iter().rfind(|record| record.pass <= pass)?;
                 Some(listed.years? * pass as f64 / listed.pass as f64)
             };
-            let level = run
-                .saturation
-                .as_ref()
-                .and_then(|saturation| level_at(saturation, end));
+            let level = run.saturation.zip(end.end());
+            let level = level.map(|(level, end)| end.of([level.upstream_force_n, level.downstream_force_n]));
             let level = level.filter(|level| {
                 quantity == Limited::Force && first.is_none() && level.abs() > limit && run.heat.is_none()
             });
@@ -235,15 +221,6 @@ impl Limits {
             }
         };
         self.all().map(verdict).collect()
-    }
-}
-
-/// The force \[N\] that an end levels off at.
-fn level_at(saturation: &Saturation, place: Place) -> Option<f64> {
-    match place {
-        Place::Upstream => Some(saturation.upstream_force_n),
-        Place::Downstream => Some(saturation.downstream_force_n),
-        Place::Clamp(_) => None,
     }
 }
 

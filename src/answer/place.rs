@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cable_end::CableEnd;
 use super::heat::DayExtremes;
-use super::record::{ExtremePass, RestraintRecord, Run};
+use super::record::{ExtremePass, PassRecord, Run};
 use super::units::Units;
 use crate::shown::exact;
 
@@ -39,25 +39,30 @@ impl Place {
         matches!(self, Self::Clamp(own) if (own - position).abs() <= SAME_PLACE)
     }
 
+    /// The end that it is, if it is one.
+    pub fn end(self) -> Option<CableEnd> {
+        match self {
+            Self::Upstream => Some(CableEnd::Upstream),
+            Self::Downstream => Some(CableEnd::Downstream),
+            Self::Clamp(_) => None,
+        }
+    }
+
     /// It in words, in units of a reader.
     pub(super) fn shown_in(self, units: &Units) -> String {
-        match self {
-            Self::Upstream => "upstream end".to_owned(),
-            Self::Downstream => "downstream end".to_owned(),
-            Self::Clamp(position) => {
+        match (self, self.end()) {
+            (Self::Clamp(position), _) => {
                 let position = exact(units.length.of_si(position));
                 format!("clamp at {position} {}", units.length.symbol())
             }
+            (_, end) => format!("{} end", end.map_or("", CableEnd::name)),
         }
     }
 }
 
 impl From<CableEnd> for Place {
     fn from(end: CableEnd) -> Self {
-        match end {
-            CableEnd::Upstream => Self::Upstream,
-            CableEnd::Downstream => Self::Downstream,
-        }
+        end.of([Self::Upstream, Self::Downstream])
     }
 }
 
@@ -67,104 +72,93 @@ impl std::fmt::Display for Place {
     }
 }
 
+/// A moment of a run at which forces and movements are known.
+#[derive(Clone, Copy)]
+pub(super) enum Moment<'r> {
+    /// During and after a listed pass, of which this is the index.
+    Pass(usize, &'r PassRecord),
+    /// During and after a pass beside the listed ones.
+    Extreme(&'r ExtremePass),
+    /// A day, when heat is hardest between passes.
+    Day(&'r DayExtremes),
+}
+
 impl Run {
     /// The largest force \[N\] or movement \[m\] at `place` in size, of all listed passes and all days: of an end also the force during
     /// passes and the movement of its spring, of a clamp those after them; in random order, where passes between jumps are means, with the scatter of single ones. Zero
     /// where there is no such clamp.
     pub fn largest(&self, place: impl Into<Place>, quantity: Limited) -> f64 {
         let place = place.into();
-        let passes = (0..self.passes.len()).map(|index| self.in_pass(place, quantity, index));
-        let days = self
-            .heat
-            .iter()
-            .map(|heat| self.on_day(place, quantity, &heat.all_days));
-        let extremes = self.extremes.iter();
-        let extremes = extremes.map(|pass| self.in_extreme(place, quantity, pass));
-        passes.chain(days).chain(extremes).fold(0.0, f64::max)
-    }
-
-    /// The same in a pass beside the listed ones.
-    pub(super) fn in_extreme(&self, place: Place, quantity: Limited, pass: &ExtremePass) -> f64 {
-        let at_end = |end: CableEnd| match quantity {
-            Limited::Force => end.largest_force(&pass.after),
-            Limited::Movement => end.largest_movement(&pass.after),
-        };
-        match place {
-            Place::Upstream => at_end(CableEnd::Upstream),
-            Place::Downstream => at_end(CableEnd::Downstream),
-            Place::Clamp(_) => self.on_clamps(place, quantity, |clamp, _| pass.restraints_n[clamp].abs()),
-        }
+        let values = self.moments().map(|moment| self.at(place, quantity, moment));
+        values.fold(0.0, f64::max)
     }
 
     /// The same without what happens while a vehicle is above the duct.
     pub(super) fn largest_at_rest(&self, place: Place, quantity: Limited) -> f64 {
-        let end = match place {
-            Place::Upstream => CableEnd::Upstream,
-            Place::Downstream => CableEnd::Downstream,
-            Place::Clamp(_) => return self.largest(place, quantity),
-        };
-        let passes = self.passes.iter();
-        let passes = passes.map(|record| match quantity {
-            Limited::Force => end.force_after(record) + self.scatter(end, record),
-            Limited::Movement => end.movement(record),
-        });
-        let days = self.heat.iter();
-        let days = days.map(|heat| self.on_day(place, quantity, &heat.all_days));
-        let extremes = self.extremes.iter().map(|pass| match quantity {
-            Limited::Force => end.force_after(&pass.after),
-            Limited::Movement => end.movement(&pass.after),
-        });
-        passes.chain(days).chain(extremes).fold(0.0, f64::max)
+        let values = self
+            .moments()
+            .map(|moment| self.value(place, quantity, moment, false));
+        values.fold(0.0, f64::max)
     }
 
-    /// The same in the pass at `index` of the listed ones.
-    pub(super) fn in_pass(&self, place: Place, quantity: Limited, index: usize) -> f64 {
-        let record = &self.passes[index];
+    fn moments(&self) -> impl Iterator<Item = Moment<'_>> {
+        let passes = self.passes.iter().enumerate();
+        let passes = passes.map(|(index, record)| Moment::Pass(index, record));
+        let days = self.heat.iter().map(|heat| Moment::Day(&heat.all_days));
+        passes
+            .chain(days)
+            .chain(self.extremes.iter().map(Moment::Extreme))
+    }
+
+    /// The largest at one moment.
+    pub(super) fn at(&self, place: Place, quantity: Limited, moment: Moment<'_>) -> f64 {
         // On days of heat passes between simulated ones have the peaks of others.
-        let during = self.heat.is_none() || !record.interpolated;
-        let at_end = |end: CableEnd| match quantity {
-            Limited::Force if during => end.largest_force(record) + self.scatter(end, record),
+        let is_known = |record: &PassRecord| self.heat.is_none() || !record.interpolated;
+        let during = !matches!(moment, Moment::Pass(_, record) if !is_known(record));
+        self.value(place, quantity, moment, during)
+    }
+
+    /// The same, with what happens while a vehicle is above the duct if `during`.
+    fn value(&self, place: Place, quantity: Limited, moment: Moment<'_>, during: bool) -> f64 {
+        let Some(end) = place.end() else {
+            return self.on_clamps(place, quantity, moment);
+        };
+        let (record, scatter) = match moment {
+            Moment::Day(day) => {
+                return match quantity {
+                    Limited::Force => day.largest_force(end),
+                    Limited::Movement => day.movement(end),
+                };
+            }
+            Moment::Pass(_, record) => (record, self.scatter(end, record)),
+            Moment::Extreme(pass) => (&pass.after, 0.0),
+        };
+        match quantity {
+            Limited::Force if during => end.largest_force(record) + scatter,
+            Limited::Force => end.force_after(record) + scatter,
             Limited::Movement if during => end.largest_movement(record),
-            Limited::Force => end.force_after(record),
             Limited::Movement => end.movement(record),
-        };
-        match place {
-            Place::Upstream => at_end(CableEnd::Upstream),
-            Place::Downstream => at_end(CableEnd::Downstream),
-            Place::Clamp(_) => self.on_clamps(place, quantity, |_, clamp| clamp.after_passes_n[index].abs()),
         }
     }
 
-    /// The same over one of its days, when heat is hardest between passes.
-    pub(super) fn on_day(&self, place: Place, quantity: Limited, day: &DayExtremes) -> f64 {
-        let at_end = |end: CableEnd| match quantity {
-            Limited::Force => day.largest_force(end),
-            Limited::Movement => day.movement(end),
-        };
-        match place {
-            Place::Upstream => at_end(CableEnd::Upstream),
-            Place::Downstream => at_end(CableEnd::Downstream),
-            Place::Clamp(_) => self.on_clamps(place, quantity, |clamp, _| {
-                let range = day.restraints[clamp];
-                range.max_n.abs().max(range.min_n.abs())
-            }),
-        }
-    }
-
-    /// The largest of the clamps at `place`, from the force on each.
-    fn on_clamps(
-        &self,
-        place: Place,
-        quantity: Limited,
-        force: impl Fn(usize, &RestraintRecord) -> f64,
-    ) -> f64 {
+    /// The largest of the clamps at `place`.
+    fn on_clamps(&self, place: Place, quantity: Limited, moment: Moment<'_>) -> f64 {
         let clamps = self.restraints.iter().enumerate();
-        clamps
-            .filter(|(_, clamp)| place.is_clamp_at(clamp.position_m))
-            .map(|(index, clamp)| match quantity {
-                Limited::Force => force(index, clamp),
-                Limited::Movement => force(index, clamp) / clamp.stiffness_n_per_m,
-            })
-            .fold(0.0, f64::max)
+        let clamps = clamps.filter(|(_, clamp)| place.is_clamp_at(clamp.position_m));
+        let values = clamps.map(|(index, clamp)| {
+            let force = match moment {
+                Moment::Pass(pass, _) => clamp.after_passes_n[pass].abs(),
+                Moment::Extreme(pass) => pass.restraints_n[index].abs(),
+                Moment::Day(day) => day.restraints[index]
+                    .max_n
+                    .abs()
+                    .max(day.restraints[index].min_n.abs()),
+            };
+            match quantity {
+                Limited::Force => force,
+                Limited::Movement => force / clamp.stiffness_n_per_m,
+            }
+        });
+        values.fold(0.0, f64::max)
     }
 }

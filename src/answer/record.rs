@@ -213,25 +213,20 @@ impl Run {
     /// The ends on which vehicles that differ leave noticeably different forces once nothing else changes: the least and the largest \[N\].
     /// In random order, where their scatter is known, what one pass in twenty leaves less and more than.
     pub fn by_turns(&self) -> Vec<(CableEnd, f64, f64)> {
-        let of_random = self.random.map(|random| {
-            CableEnd::ALL.map(|end| {
-                let Quantiles { q05_n, q95_n, .. } = *random.of(end);
-                (end, q05_n, q95_n)
-            })
-        });
-        let of_period = self.range.map(|range| {
-            [
-                (CableEnd::Upstream, range.upstream_min_n, range.upstream_max_n),
-                (
-                    CableEnd::Downstream,
-                    range.downstream_min_n,
-                    range.downstream_max_n,
-                ),
-            ]
-        });
-        let ends = of_random.or(of_period).into_iter().flatten();
-        ends.filter(|(_, least, most)| most - least > NOTICEABLE * most.abs().max(least.abs()))
-            .collect()
+        let extremes = |end: CableEnd| {
+            let of_random = self
+                .random
+                .map(|random| [random.of(end).q05_n, random.of(end).q95_n]);
+            let of_period = self.range.map(|range| {
+                end.of([
+                    [range.upstream_min_n, range.upstream_max_n],
+                    [range.downstream_min_n, range.downstream_max_n],
+                ])
+            });
+            let [least, most] = of_random.or(of_period)?;
+            (most - least > NOTICEABLE * most.abs().max(least.abs())).then_some((end, least, most))
+        };
+        CableEnd::ALL.into_iter().filter_map(extremes).collect()
     }
 
     /// How much larger single passes may be than the mean of many that `record` shows, on one end \[N\]: zero but in random order.
@@ -262,10 +257,7 @@ impl Saturation {
 impl RandomSpread {
     /// That of one end.
     pub fn of(&self, end: CableEnd) -> &Quantiles {
-        match end {
-            CableEnd::Upstream => &self.upstream,
-            CableEnd::Downstream => &self.downstream,
-        }
+        end.of([&self.upstream, &self.downstream])
     }
 }
 

@@ -2,68 +2,41 @@
 
 use cable_dem::{End, PassOutcome};
 
-#[cfg(feature = "plot")]
-use crate::PassRecord;
 use crate::answer::{ForceProfile, Stage};
 #[cfg(feature = "plot")]
 use crate::readings::Readings;
 use crate::readings::{Measured, Place};
-use crate::{Error, Scene};
+use crate::{CableEnd, Error, Scene};
 
-/// An end of the cable.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum CellEnd {
-    Upstream,
-    Downstream,
+/// The end that is held in `scene`, the downstream one if both are.
+pub fn held_end(scene: &Scene) -> Result<CableEnd, Error> {
+    match (scene.ends.upstream, scene.ends.downstream) {
+        (End::Free, End::Free) => Err(Error::Unfit {
+            key: "ends",
+            found: "both free",
+            reason: "a load cell was at an end that is held".into(),
+        }),
+        (_, End::Free) => Ok(CableEnd::Upstream),
+        _ => Ok(CableEnd::Downstream),
+    }
 }
 
-impl CellEnd {
-    /// The end that is held in `scene`, the downstream one if both are.
-    pub fn of(scene: &Scene) -> Result<Self, Error> {
-        match (scene.ends.upstream, scene.ends.downstream) {
-            (End::Free, End::Free) => Err(Error::Unfit {
-                key: "ends",
-                found: "both free",
-                reason: "a load cell was at an end that is held".into(),
-            }),
-            (_, End::Free) => Ok(Self::Upstream),
-            _ => Ok(Self::Downstream),
-        }
-    }
-
-    /// The end that moves, the downstream one if both do.
-    fn moving(scene: &Scene) -> Result<Self, Error> {
-        match (scene.ends.upstream, scene.ends.downstream) {
-            (End::Fixed, End::Fixed) => Err(Error::Unfit {
-                key: "ends",
-                found: "both fixed",
-                reason: "an end that moved is free or on a spring".into(),
-            }),
-            (_, End::Fixed) => Ok(Self::Upstream),
-            _ => Ok(Self::Downstream),
-        }
-    }
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Upstream => "upstream",
-            Self::Downstream => "downstream",
-        }
-    }
-
-    /// The force on it after a pass \[N\].
-    #[cfg(feature = "plot")]
-    pub fn force(self, record: &PassRecord) -> f64 {
-        match self {
-            Self::Upstream => record.upstream_force_n,
-            Self::Downstream => record.downstream_force_n,
-        }
+/// The end that moves in `scene`, the downstream one if both do.
+fn moving_end(scene: &Scene) -> Result<CableEnd, Error> {
+    match (scene.ends.upstream, scene.ends.downstream) {
+        (End::Fixed, End::Fixed) => Err(Error::Unfit {
+            key: "ends",
+            found: "both fixed",
+            reason: "an end that moved is free or on a spring".into(),
+        }),
+        (_, End::Fixed) => Ok(CableEnd::Upstream),
+        _ => Ok(CableEnd::Downstream),
     }
 }
 
 /// The force on each end of `scene` that readings are of: the load cells of `readings`, in the order of the file.
 #[cfg(feature = "plot")]
-pub(crate) fn force_ends(scene: &Scene, readings: &Readings) -> Result<Vec<Option<CellEnd>>, Error> {
+pub(crate) fn force_ends(scene: &Scene, readings: &Readings) -> Result<Vec<Option<CableEnd>>, Error> {
     let ends = readings
         .readings()
         .iter()
@@ -78,9 +51,9 @@ pub(crate) fn force_ends(scene: &Scene, readings: &Readings) -> Result<Vec<Optio
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Observed {
     /// Force on an end.
-    Force(CellEnd),
+    Force(CableEnd),
     /// Movement of an end.
-    Movement(CellEnd),
+    Movement(CableEnd),
     /// Force in the cable at x \[m\].
     ForceAt(f64),
     /// Strain of the cable at x \[m\].
@@ -102,45 +75,35 @@ impl Observed {
                     reason: format!("it was taken at {place} m of {length} m").into(),
                 })
         };
-        let held = |end: CellEnd| {
-            let is_free = match end {
-                CellEnd::Upstream => scene.ends.upstream == End::Free,
-                CellEnd::Downstream => scene.ends.downstream == End::Free,
-            };
-            let key = match end {
-                CellEnd::Upstream => "ends.upstream",
-                CellEnd::Downstream => "ends.downstream",
-            };
-            let reason = "readings of a load cell at this end: it was held".into();
-            let found = "free";
-            (!is_free)
-                .then_some(Self::Force(end))
-                .ok_or(Error::Unfit { key, found, reason })
+        let held = |end: CableEnd| {
+            if end.held_in(scene) != End::Free {
+                return Ok(Self::Force(end));
+            }
+            Err(Error::Unfit {
+                key: end.of(["ends.upstream", "ends.downstream"]),
+                found: "free",
+                reason: "readings of a load cell at this end: it was held".into(),
+            })
         };
+        let strain = |end: CableEnd| Ok(Self::StrainAt(end.of([0.0, length])));
         match measured {
-            Measured::Force(Place::Natural) => Ok(Self::Force(CellEnd::of(scene)?)),
-            Measured::Force(Place::Upstream) => held(CellEnd::Upstream),
-            Measured::Force(Place::Downstream) => held(CellEnd::Downstream),
+            Measured::Force(Place::Natural) => Ok(Self::Force(held_end(scene)?)),
+            Measured::Force(Place::End(end)) => held(end),
             Measured::Force(Place::At(place)) => Ok(Self::ForceAt(at(place)?)),
-            Measured::Movement(Place::Natural) => Ok(Self::Movement(CellEnd::moving(scene)?)),
-            Measured::Movement(Place::Upstream) => Ok(Self::Movement(CellEnd::Upstream)),
-            Measured::Movement(Place::Downstream) => Ok(Self::Movement(CellEnd::Downstream)),
+            Measured::Movement(Place::Natural) => Ok(Self::Movement(moving_end(scene)?)),
+            Measured::Movement(Place::End(end)) => Ok(Self::Movement(end)),
             Measured::Movement(Place::At(place)) => {
-                let ends = [(0.0, CellEnd::Upstream), (length, CellEnd::Downstream)];
-                let end = ends.into_iter().find(|(x, _)| *x == place);
-                end.map(|(_, end)| Self::Movement(end)).ok_or(Error::Unfit {
+                let mut ends = CableEnd::ALL.into_iter();
+                let end = ends.find(|end| end.of([0.0, length]) == place);
+                end.map(Self::Movement).ok_or(Error::Unfit {
                     key: "data",
                     found: "a movement between the ends",
                     reason: "movements are those of an end".into(),
                 })
             }
             Measured::Strain(Place::At(place)) => Ok(Self::StrainAt(at(place)?)),
-            Measured::Strain(Place::Upstream) => Ok(Self::StrainAt(0.0)),
-            Measured::Strain(Place::Downstream) => Ok(Self::StrainAt(length)),
-            Measured::Strain(Place::Natural) => match CellEnd::of(scene)? {
-                CellEnd::Upstream => Ok(Self::StrainAt(0.0)),
-                CellEnd::Downstream => Ok(Self::StrainAt(length)),
-            },
+            Measured::Strain(Place::End(end)) => strain(end),
+            Measured::Strain(Place::Natural) => strain(held_end(scene)?),
             Measured::Deflection => Ok(Self::Deflection),
         }
     }
@@ -163,10 +126,8 @@ impl Observed {
     pub fn value(self, scene: &Scene, outcome: &PassOutcome, stage: Option<&Stage>, deflection: f64) -> f64 {
         let force = |place| stage.map_or(f64::NAN, |stage| force_at(&stage.force_profile, place));
         match self {
-            Self::Force(CellEnd::Upstream) => outcome.force.upstream,
-            Self::Force(CellEnd::Downstream) => outcome.force.downstream,
-            Self::Movement(CellEnd::Upstream) => outcome.upstream_displacement,
-            Self::Movement(CellEnd::Downstream) => outcome.downstream_displacement,
+            Self::Force(end) => end.of([outcome.force.upstream, outcome.force.downstream]),
+            Self::Movement(end) => end.of([outcome.upstream_displacement, outcome.downstream_displacement]),
             Self::ForceAt(place) => force(place),
             Self::StrainAt(place) => force(place) / scene.cable.axial_stiffness,
             Self::Deflection => deflection,

@@ -37,7 +37,7 @@ use ::calibrate::{Options, Profiles};
 
 pub use ::calibrate::{CalibrationError, Loss};
 #[cfg(feature = "plot")]
-pub(crate) use cell::{CellEnd, force_ends};
+pub(crate) use cell::{force_ends, held_end};
 #[cfg(feature = "cli")]
 pub(crate) use discrepancy::SHARES;
 pub use judgement::LackOfFit;

@@ -126,10 +126,7 @@ impl LimitArguments {
 
     /// The same without warnings; there may also be limits of clamps `elsewhere`, which are left out.
     pub fn limits_beside(&self, scene: &Scene, elsewhere: &[Place]) -> Result<Limits, Failure> {
-        let held = |end: CableEnd| match end {
-            CableEnd::Upstream => scene.ends.upstream != End::Free,
-            CableEnd::Downstream => scene.ends.downstream != End::Free,
-        };
+        let held = |end: CableEnd| end.held_in(scene) != End::Free;
         let none = !CableEnd::ALL.into_iter().any(held);
         let of = |given: &[Limit], wanted: Named| {
             let limit = given.iter().rfind(|limit| limit.of == wanted);

@@ -32,9 +32,6 @@ pub enum DesignError {
         /// How often.
         crossings: usize,
     },
-    /// The stiffness at the limit of force or movement was not found, and why.
-    #[error("the stiffness at the limit of {0} was not found")]
-    Search(String, #[source] Box<dyn std::error::Error + Send + Sync>),
 }
 
 impl DesignError {

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use argmin::core::{CostFunction, Executor};
-use argmin::solver::brent::BrentRoot;
 use rayon::prelude::*;
 
 use super::limits::{self, DesignError};
@@ -18,7 +16,6 @@ use crate::{Error, Limited, Limits, Place, Scene};
 const POINTS_PER_DECADE: i32 = 2;
 /// Width of the last bracket around a stiffness, as a share of it.
 pub const ACCURACY: f64 = 0.01;
-const MOST_STEPS: u64 = 40;
 /// Runs that finding the stiffness at a limit takes, about: only the progress depends on it.
 const USUAL_STEPS: usize = 8;
 /// Steps to the stiffness nearest to limits that none keeps, to 8 % of it; and the golden section.
@@ -245,39 +242,15 @@ impl Search<'_> {
         })
     }
 
-    /// The last stiffness within the limit, where it is crossed between two.
-    fn edge(&self, low: f64, high: f64, kept_above: bool, limit: &Limit) -> Result<f64, DesignError> {
-        let safe = if kept_above { high } else { low };
-        if low == 0.0 || high.is_infinite() {
-            // Beyond the ends of the curve a stiffness means as little as none, or as much as a fixed end.
-            return Ok(safe);
+    /// The last stiffness within the limit, where it is crossed between two: by bisection of its logarithm.
+    fn edge(&self, low: f64, high: f64, kept_above: bool, limit: &Limit) -> Result<f64, Error> {
+        let (mut low, mut high) = (low, high);
+        // Beyond the ends of the curve a stiffness means as little as none, or as much as a fixed end.
+        while low > 0.0 && high.is_finite() && high > (1.0 + ACCURACY) * low {
+            let middle = (low * high).sqrt();
+            let kept = self.runs.run(&[middle])?.share(*limit) <= 1.0;
+            *(if kept == kept_above { &mut high } else { &mut low }) = middle;
         }
-        let failed =
-            |error: argmin::core::Error| DesignError::Search(limit.1.at(limit.0), error.to_string().into());
-        let solver = BrentRoot::new(low.ln(), high.ln(), ACCURACY);
-        Executor::new(Excess(self.runs, limit), solver)
-            .configure(|state| state.param(low.ln()).max_iters(MOST_STEPS))
-            .run()
-            .map_err(failed)?;
-        // Brent's last bracket holds a run on either side of the limit: the one that keeps it is the edge.
-        let points = self.runs.points();
-        let kept = points.iter().filter(|point| point.share(*limit) <= 1.0);
-        let stiffnesses = kept
-            .filter_map(|point| point.stiffness_n_per_m)
-            .filter(|stiffness| (low..=high).contains(stiffness));
-        let nearer = if kept_above { f64::min } else { f64::max };
-        Ok(stiffnesses.fold(safe, nearer))
-    }
-}
-
-/// By how much a limit is exceeded, over the logarithm of the stiffness.
-struct Excess<'a, 'b>(&'a Runs<'b>, &'a Limit);
-
-impl CostFunction for Excess<'_, '_> {
-    type Param = f64;
-    type Output = f64;
-
-    fn cost(&self, logarithm: &f64) -> Result<f64, argmin::core::Error> {
-        Ok(self.0.run(&[logarithm.exp()])?.share(*self.1) - 1.0)
+        Ok(if kept_above { high } else { low })
     }
 }

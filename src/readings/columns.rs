@@ -2,11 +2,12 @@
 
 use super::error::DataError;
 use super::grid::{Grid, Row};
-use super::header::{EndWord, Name, Role};
+use super::header::{Name, Role};
 use super::layout::{Columns, LONGEST_CELL, Values, option_factor, take_units, unit_factor, unknown_unit};
 use super::number::number;
 use super::options::{ColumnNames, Decimal, ReadOptions};
 use super::reading::{Measured, Place};
+use crate::CableEnd;
 use crate::shown::shortened;
 
 /// Rows above the header: what a data logger says of itself.
@@ -229,7 +230,7 @@ impl Header<'_> {
 
     /// Columns of one kind of value.
     fn values(&self, chosen: &[String], role: Role) -> Result<Vec<Values>, DataError> {
-        let places: Vec<(usize, Option<EndWord>)> = if chosen.is_empty() {
+        let places: Vec<(usize, Option<CableEnd>)> = if chosen.is_empty() {
             let of = |own: bool| -> Vec<usize> {
                 let fits = |name: &Name| {
                     if own {
@@ -280,13 +281,9 @@ impl Header<'_> {
             .collect()
     }
 
-    fn value(&self, role: Role, place: usize, end: Option<EndWord>) -> Result<Values, DataError> {
+    fn value(&self, role: Role, place: usize, end: Option<CableEnd>) -> Result<Values, DataError> {
         let name = &self.names[place];
-        let at = match end {
-            None => Place::Natural,
-            Some(EndWord::Upstream) => Place::Upstream,
-            Some(EndWord::Downstream) => Place::Downstream,
-        };
+        let at = end.map_or(Place::Natural, Place::End);
         let measured = match role {
             Role::Movement => Measured::Movement(at),
             Role::Strain => Measured::Strain(at),
@@ -357,10 +354,10 @@ impl Header<'_> {
 }
 
 /// An end and a column's name: `upstream=NAME`.
-fn split_end(name: &str) -> (Option<EndWord>, &str) {
+fn split_end(name: &str) -> (Option<CableEnd>, &str) {
     match name.split_once('=') {
-        Some(("upstream", name)) => (Some(EndWord::Upstream), name),
-        Some(("downstream", name)) => (Some(EndWord::Downstream), name),
+        Some(("upstream", name)) => (Some(CableEnd::Upstream), name),
+        Some(("downstream", name)) => (Some(CableEnd::Downstream), name),
         _ => (None, name),
     }
 }

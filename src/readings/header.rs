@@ -1,5 +1,6 @@
 //! What a column holds, by its name in the header.
 
+use crate::CableEnd;
 use crate::scene::Dimension;
 
 /// Words for the number of the pass, in the languages of Europe's spreadsheets and Japanese; the first is this program's own.
@@ -103,13 +104,6 @@ const ROLES: [(Role, &[&str]); 10] = [
     (Role::Position, POSITION),
 ];
 
-/// An end of the duct, where a name says it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum EndWord {
-    Upstream,
-    Downstream,
-}
-
 /// A column's name taken apart.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Name {
@@ -167,10 +161,10 @@ impl Name {
         matches!(&self.words[..], [only] if Some(&**only) == own)
     }
 
-    pub fn end(&self) -> Option<EndWord> {
+    pub fn end(&self) -> Option<CableEnd> {
         match (self.has(UPSTREAM), self.has(DOWNSTREAM)) {
-            (true, false) => Some(EndWord::Upstream),
-            (false, true) => Some(EndWord::Downstream),
+            (true, false) => Some(CableEnd::Upstream),
+            (false, true) => Some(CableEnd::Downstream),
             _ => None,
         }
     }
@@ -259,8 +253,8 @@ mod tests {
             let name = Name::of(text);
             assert_eq!((name.role(), name.unit.as_deref()), (role, unit), "{text}");
         }
-        assert_eq!(Name::of("Force upstream [N]").end(), Some(EndWord::Upstream));
-        assert_eq!(Name::of("downstream_force_n").end(), Some(EndWord::Downstream));
+        assert_eq!(Name::of("Force upstream [N]").end(), Some(CableEnd::Upstream));
+        assert_eq!(Name::of("downstream_force_n").end(), Some(CableEnd::Downstream));
         assert!(Name::of("force_n").is_own(Role::Force) && !Name::of("Kraft [N]").is_own(Role::Force));
     }
 

@@ -1,14 +1,14 @@
 //! One reading.
 
+use crate::CableEnd;
+
 /// Where along the duct something was measured.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Place {
     /// The end that the scene holds, the downstream one if it holds both; of movements, the one that moves.
     Natural,
-    /// x = 0.
-    Upstream,
-    /// x = length.
-    Downstream,
+    /// This end.
+    End(CableEnd),
     /// This far from the upstream end \[m\].
     At(f64),
 }

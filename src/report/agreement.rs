@@ -1,14 +1,14 @@
 //! Computed force against readings of a load cell.
 
-use crate::calibration::{CellEnd, force_ends, of_forces};
+use crate::calibration::{force_ends, held_end, of_forces};
 use crate::readings::{Reading, Readings};
-use crate::{Error, PassRecord, Run, Scene};
+use crate::{CableEnd, Error, PassRecord, Run, Scene};
 
 /// Readings beside the force computed at the same passes.
 #[derive(Debug)]
 pub struct Agreement {
     /// The end that pressed on the load cell.
-    pub end: CellEnd,
+    pub end: CableEnd,
     pub readings: Vec<Reading>,
     /// Number of readings whose pass was computed.
     pub compared: usize,
@@ -31,7 +31,7 @@ impl Agreement {
     pub fn new(scene: &Scene, run: &Run, readings: &Readings) -> Result<Self, Error> {
         let ends = force_ends(scene, readings)?;
         // One cell is drawn: of two, the one that the scene holds.
-        let end = CellEnd::of(scene)?;
+        let end = held_end(scene)?;
         let of_end = readings
             .readings()
             .iter()
@@ -68,16 +68,17 @@ impl Agreement {
 }
 
 /// Force on the end after `pass` \[N\]; between listed passes along a straight line, `None` beyond the last.
-fn force_at(passes: &[PassRecord], end: CellEnd, pass: u64) -> Option<f64> {
+fn force_at(passes: &[PassRecord], end: CableEnd, pass: u64) -> Option<f64> {
     if pass == 0 {
         return Some(0.0);
     }
+    let force = |record: &PassRecord| end.of([record.upstream_force_n, record.downstream_force_n]);
     let next = passes.partition_point(|record| record.pass < pass);
     let after = passes.get(next)?;
     if after.pass == pass || next == 0 {
-        return Some(end.force(after));
+        return Some(force(after));
     }
     let before = &passes[next - 1];
     let share = (pass - before.pass) as f64 / (after.pass - before.pass) as f64;
-    Some(end.force(before) + share * (end.force(after) - end.force(before)))
+    Some(force(before) + share * (force(after) - force(before)))
 }

@@ -5,7 +5,7 @@ use super::friction::Friction;
 use super::measures::Comparison;
 use super::quantity::{Shown, round_below};
 use super::source::Source;
-use crate::calibration::CellEnd;
+use crate::calibration::held_end;
 use crate::design::{Measure, largest_shown};
 use crate::profile::profile_over;
 use crate::readings::Readings;
@@ -73,7 +73,7 @@ impl Report {
     pub fn new(scene: &Scene, options: &ReportOptions<'_>) -> Result<Self, Error> {
         scene.validate()?;
         if options.readings.is_some() {
-            CellEnd::of(scene)?;
+            held_end(scene)?;
         }
         let plan = crate::plan(scene)?;
         let stages = stages(scene.traffic.passes);

@@ -1,7 +1,7 @@
 //! Both ends in figures and tables: upstream first, each with a look of its own.
 
 use super::quantity::Shown;
-use crate::answer::{DayExtremes, DayPoint};
+use crate::answer::DayPoint;
 use crate::figure::{Chart, Series};
 use crate::scene::{End, Scene};
 use crate::{CableEnd, PassRecord};
@@ -11,11 +11,8 @@ pub const OTHER: usize = 2;
 
 /// The ends that are not free: a free one carries nothing.
 pub fn held(scene: &Scene) -> Vec<CableEnd> {
-    let ends = [scene.ends.upstream, scene.ends.downstream];
-    let all = CableEnd::ALL.into_iter().zip(ends);
-    all.filter(|(_, held)| *held != End::Free)
-        .map(|(end, _)| end)
-        .collect()
+    let all = CableEnd::ALL.into_iter();
+    all.filter(|end| end.held_in(scene) != End::Free).collect()
 }
 
 /// `chart` with a line for each of `ends`; its name has `more` behind that of the end.
@@ -26,12 +23,8 @@ pub fn lines<Points: IntoIterator<Item = (f64, f64)>>(
     points: impl Fn(CableEnd) -> Points,
 ) -> Chart {
     ends.iter().fold(chart, |chart, end| {
-        let look = match end {
-            CableEnd::Upstream => 1,
-            CableEnd::Downstream => 0,
-        };
         let name = more.map_or_else(String::new, |more| format!("{} end{more}", end.name()));
-        chart.with(Series::line(name, points(*end)).look(look))
+        chart.with(Series::line(name, points(*end)).look(end.of([1, 0])))
     })
 }
 
@@ -45,33 +38,16 @@ pub fn columns(shown: &Shown, moved: &str) -> Vec<(String, CableEnd, usize)> {
 
 /// Force \[N\] and displacement \[m\] of an end after a pass.
 pub fn of_pass(record: &PassRecord, end: CableEnd) -> [f64; 2] {
-    match end {
-        CableEnd::Upstream => [record.upstream_force_n, record.upstream_displacement_m],
-        CableEnd::Downstream => [record.downstream_force_n, record.downstream_displacement_m],
-    }
+    end.of([
+        [record.upstream_force_n, record.upstream_displacement_m],
+        [record.downstream_force_n, record.downstream_displacement_m],
+    ])
 }
 
 /// The same at a time of the day.
 pub fn of_time(point: &DayPoint, end: CableEnd) -> [f64; 2] {
-    match end {
-        CableEnd::Upstream => [point.upstream_force_n, point.upstream_displacement_m],
-        CableEnd::Downstream => [point.downstream_force_n, point.downstream_displacement_m],
-    }
-}
-
-/// The same over a day: the least and the largest of each.
-pub fn of_day(day: &DayExtremes, end: CableEnd) -> [[f64; 2]; 2] {
-    match end {
-        CableEnd::Upstream => [
-            [day.upstream_min_n, day.upstream_max_n],
-            [day.upstream_displacement_min_m, day.upstream_displacement_max_m],
-        ],
-        CableEnd::Downstream => [
-            [day.downstream_min_n, day.downstream_max_n],
-            [
-                day.downstream_displacement_min_m,
-                day.downstream_displacement_max_m,
-            ],
-        ],
-    }
+    end.of([
+        [point.upstream_force_n, point.upstream_displacement_m],
+        [point.downstream_force_n, point.downstream_displacement_m],
+    ])
 }

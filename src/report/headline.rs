@@ -219,13 +219,13 @@ fn by_turns(report: &Report) -> String {
 
 /// How far both ends have moved.
 fn moved(report: &Report, last: &PassRecord) -> String {
-    let ends = &report.scene.ends;
     let (moves, when) = if report.run.heat.is_some() {
         ("moves by up to", "Over all days")
     } else {
         ("has moved", "After the last pass computed")
     };
-    let of = |(end, held): (CableEnd, End)| {
+    let of = |end: CableEnd| {
+        let held = end.held_in(&report.scene);
         let free = if held == End::Free { "free " } else { "" };
         let moved = report
             .shown
@@ -233,11 +233,7 @@ fn moved(report: &Report, last: &PassRecord) -> String {
             .replace("> ", "more than ");
         (held != End::Fixed).then(|| format!("the {free}{} end {moves} {moved}", end.name()))
     };
-    let both = [
-        (CableEnd::Upstream, ends.upstream),
-        (CableEnd::Downstream, ends.downstream),
-    ];
-    let moved: Vec<String> = both.into_iter().filter_map(of).collect();
+    let moved: Vec<String> = CableEnd::ALL.into_iter().filter_map(of).collect();
     if moved.is_empty() {
         return "Both ends are fixed.".to_owned();
     }

@@ -157,9 +157,7 @@ fn over_days(report: &Report, record: &HeatRecord) -> [Chart; 2] {
     let place = |day: &DayExtremes| along.place(passes(day.day));
     let of_ends = |chart, ends: &[CableEnd], kind: usize, unit: Unit| {
         let line = |end, which: usize| {
-            let values = days
-                .iter()
-                .map(move |day| (day, ends::of_day(day, end)[kind][which]));
+            let values = days.iter().map(move |day| (day, day.of(end)[kind][which]));
             values.map(|(day, value)| (place(day), unit.of_si(value)))
         };
         let chart = ends::lines(chart, ends, Some(", most and least"), |end| line(end, 1));
@@ -189,10 +187,10 @@ fn days(html: &mut Html, report: &Report, record: &HeatRecord) {
     let shown = &report.shown;
     let all = &report.run.days;
     let mut columns = ends::columns(shown, "place of the * end");
-    columns.retain(|(_, end, kind)| all.iter().any(|day| ends::of_day(day, *end)[*kind] != [0.0; 2]));
+    columns.retain(|(_, end, kind)| all.iter().any(|day| day.of(*end)[*kind] != [0.0; 2]));
     let row = |name: String, day: &DayExtremes| {
         let ranges = columns.iter().map(|(_, end, kind)| {
-            let [least, most] = ends::of_day(day, *end)[*kind].map(|value| match kind {
+            let [least, most] = day.of(*end)[*kind].map(|value| match kind {
                 0 => shown.force_number(value),
                 _ => shown.movement_number(value),
             });

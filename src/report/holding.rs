@@ -6,7 +6,7 @@ use super::figure::figure;
 use super::html::Html;
 use super::measures::{Comparison, Way};
 use super::quantity::Shown;
-use crate::design::{Place, TradeOff};
+use crate::design::TradeOff;
 use crate::figure::{Axis, Chart, Reference, Series};
 use crate::scene::End;
 use crate::shown::{exact_percent, percent};
@@ -15,8 +15,8 @@ use crate::{CableEnd, Limited};
 /// Room of the chart to the left of the least movement and to the right of the largest, as a factor.
 const ROOM: f64 = 2.0;
 
-/// Its name, the value, and how that is written.
-type Column = (String, fn(&TradeOff) -> f64, fn(&Shown, f64) -> String);
+/// Its name, whose value it has, and how that is written.
+type Column = (String, (CableEnd, Limited), fn(&Shown, f64) -> String);
 
 pub fn holding(html: &mut Html, report: &Report) {
     let (comparison, shown) = (&report.measures, &report.shown);
@@ -61,7 +61,7 @@ pub fn holding(html: &mut Html, report: &Report) {
                 };
                 let values = columns
                     .iter()
-                    .map(|(_, value, written)| written(shown, value(answer)));
+                    .map(|(_, (end, quantity), written)| written(shown, answer.value(*end, *quantity)));
                 values.chain([clamp, error]).collect()
             }
             Err(_) => std::iter::once("failed")
@@ -85,46 +85,30 @@ pub fn holding(html: &mut Html, report: &Report) {
 
 /// The end that is varied.
 fn end(comparison: &Comparison) -> CableEnd {
-    match comparison.end {
-        Place::Upstream => CableEnd::Upstream,
-        _ => CableEnd::Downstream,
-    }
-}
-
-/// Force on an end \[N\], and how far it moves \[m\].
-fn of_end(end: CableEnd) -> [fn(&TradeOff) -> f64; 2] {
-    match end {
-        CableEnd::Upstream => [|way| way.upstream_force_n, |way| way.upstream_movement_m],
-        CableEnd::Downstream => [|way| way.downstream_force_n, |way| way.downstream_movement_m],
-    }
+    comparison.end.end().unwrap_or(CableEnd::Downstream)
 }
 
 /// Force and movement of the end that is varied; of the other one its movement where it is free, and otherwise the force on it.
 fn columns(report: &Report, end: CableEnd) -> Vec<Column> {
     // Soft hyphens: a phone is narrow.
     let name = |end: CableEnd| end.name().replace("stream", "\u{ad}stream");
-    let (other, held) = match end {
-        CableEnd::Upstream => (CableEnd::Downstream, report.scene.ends.downstream),
-        CableEnd::Downstream => (CableEnd::Upstream, report.scene.ends.upstream),
-    };
-    let [force, movement] = of_end(end);
-    let [other_force, other_movement] = of_end(other);
     let shown = &report.shown;
-    let force_on = |end, force| -> Column {
+    let force_on = |end| -> Column {
         let named = shown.in_force(&format!("force {}", name(end)));
-        (named, force, Shown::force_number)
+        (named, (end, Limited::Force), Shown::force_number)
     };
-    let moved = |end, movement| -> Column {
+    let moved = |end| -> Column {
         let named = shown.in_movement(&format!("moved {}", name(end)));
-        (named, movement, Shown::movement_number)
+        (named, (end, Limited::Movement), Shown::movement_number)
     };
+    let other = end.other();
     vec![
-        force_on(end, force),
-        moved(end, movement),
-        if held == End::Free {
-            moved(other, other_movement)
+        force_on(end),
+        moved(end),
+        if other.held_in(&report.scene) == End::Free {
+            moved(other)
         } else {
-            force_on(other, other_force)
+            force_on(other)
         },
     ]
 }
@@ -134,7 +118,8 @@ fn columns(report: &Report, end: CableEnd) -> Vec<Column> {
 fn chart(report: &Report) -> Option<Chart> {
     let (comparison, shown) = (&report.measures, &report.shown);
     let end = end(comparison);
-    let [force, movement] = of_end(end);
+    let force = |way: &TradeOff| way.value(end, Limited::Force);
+    let movement = |way: &TradeOff| way.value(end, Limited::Movement);
     let answers = |wanted: fn(&Way) -> bool| {
         let ways = comparison.ways.iter();
         let drawn = ways.filter(move |way| wanted(way) && !way.is_free_end());
@@ -188,13 +173,14 @@ fn chart(report: &Report) -> Option<Chart> {
 }
 
 fn caption(comparison: &Comparison, shown: &Shown) -> String {
-    let [_, movement] = of_end(end(comparison));
     let free = comparison.ways.iter().find(|way| way.is_free_end());
     let free = free.and_then(|way| way.answer.as_ref().ok());
     let free = free.map_or(String::new(), |answer| {
         format!(
             " A free end, which carries nothing, moves {} and is not drawn.",
-            shown.movement(movement(answer)).replace("> ", "more than ")
+            shown
+                .movement(answer.value(end(comparison), Limited::Movement))
+                .replace("> ", "more than ")
         )
     });
     format!(

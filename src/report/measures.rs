@@ -7,7 +7,7 @@ use crate::design::compare::compare_over;
 use crate::design::{DesignError, Measure, Place, Spring, TradeOff};
 use crate::ground::Ground;
 use crate::scene::End;
-use crate::{Error, Limits, PassRecord, Progress, Run, Scene};
+use crate::{CableEnd, Error, Limits, PassRecord, Progress, Run, Scene};
 
 /// Tolerance of these runs, unless the scene's is looser: they are compared with each other, on one mesh.
 const TOLERANCE: f64 = 0.05;
@@ -183,9 +183,6 @@ fn own_stiffness(scene: &Scene) -> f64 {
 
 /// Stiffness with which `scene` holds the end \[N/m\].
 fn held(scene: &Scene, end: Place) -> f64 {
-    let end = match end {
-        Place::Upstream => scene.ends.upstream,
-        _ => scene.ends.downstream,
-    };
+    let end = end.end().unwrap_or(CableEnd::Downstream).held_in(scene);
     end.stiffness().unwrap_or(f64::INFINITY)
 }

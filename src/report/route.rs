@@ -15,16 +15,12 @@ const RIGHT: f64 = 396.0;
 /// The title's height, and where the directions of traffic stand \[px\].
 const TITLE: f64 = 36.0;
 const TRAFFIC: f64 = 50.0;
-/// The road's least height, and how far the duct is drawn below it \[px\].
+/// Where the road, the duct below it and the axis of lengths are drawn \[px\].
 const ROAD: f64 = 72.0;
-const DEEP: f64 = 44.0;
+const DEEP: f64 = ROAD + 44.0;
+const AXIS: f64 = DEEP + 34.0;
 /// Half the duct's height \[px\].
 const DUCT: f64 = 6.0;
-/// Most that the road is drawn to rise \[px\], and factors of exaggeration, the largest first.
-const RISE: f64 = 48.0;
-const STEEPER: [f64; 12] = [
-    1000.0, 500.0, 200.0, 100.0, 50.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1,
-];
 /// Clamps that are listed at most, and how far apart their numbers are at least \[px\].
 const MOST: usize = 8;
 const APART: f64 = 20.0;
@@ -32,41 +28,34 @@ const APART: f64 = 20.0;
 /// The drawing, and its caption.
 pub fn route(report: &Report) -> (String, String) {
     let Report { scene, shown, .. } = report;
-    let steeper = steeper(scene.duct.slope);
-    let line = Line::new(scene, steeper);
     let clamps = clamps(report);
-    let axis = ROAD + line.rise() + DEEP + 34.0;
-    let words = axis + 44.0;
+    let words = AXIS + 44.0;
     let height = words + Drawing::LINE * (2.0 + clamps.len() as f64) + 4.0;
 
     let mut drawing = Drawing::new("Along the duct", (WIDTH, height));
     drawing.title("Along the duct", (0.5 * WIDTH, 0.5 * TITLE));
     traffic(&mut drawing, scene);
-    let ground = [
-        line.at(0.0, 0.0),
-        line.at(1.0, 0.0),
-        (RIGHT, axis - 6.0),
-        (LEFT, axis - 6.0),
-    ];
-    drawing.area(&ground, Ink::Grey, 0.15);
-    drawing.line(&ground[..2], Ink::Dark, 2.0);
-    for side in [DEEP - DUCT, DEEP + DUCT] {
-        drawing.line(&[line.at(0.0, side), line.at(1.0, side)], Ink::Grey, 1.0);
+    let level = |y: f64| [(LEFT, y), (RIGHT, y)];
+    let [road, below] = [level(ROAD), level(AXIS - 6.0)];
+    drawing.area(&[road[0], road[1], below[1], below[0]], Ink::Grey, 0.15);
+    drawing.line(&road, Ink::Dark, 2.0);
+    for wall in [DEEP - DUCT, DEEP + DUCT] {
+        drawing.line(&level(wall), Ink::Grey, 1.0);
     }
-    drawing.line(&[line.at(0.0, DEEP), line.at(1.0, DEEP)], Ink::Series(0), 3.0);
-    end(&mut drawing, scene.ends.upstream, line.at(0.0, DEEP), -1.0);
-    end(&mut drawing, scene.ends.downstream, line.at(1.0, DEEP), 1.0);
-    draw_clamps(&mut drawing, scene, &line);
+    drawing.line(&level(DEEP), Ink::Series(0), 3.0);
+    end(&mut drawing, scene.ends.upstream, (LEFT, DEEP), -1.0);
+    end(&mut drawing, scene.ends.downstream, (RIGHT, DEEP), 1.0);
+    draw_clamps(&mut drawing, scene);
 
-    drawing.line(&[(LEFT, axis), (RIGHT, axis)], Ink::Dark, 1.2);
+    drawing.line(&level(AXIS), Ink::Dark, 1.2);
     let unit = shown.units.length;
     let length = unit.of_si(scene.duct.length);
     for (place, label) in ticks(length) {
         let x = LEFT + (RIGHT - LEFT) * place / length;
-        drawing.line(&[(x, axis), (x, axis + 5.0)], Ink::Dark, 1.2);
-        drawing.text(&label, (x, axis + 15.0), Anchor::Middle);
+        drawing.line(&[(x, AXIS), (x, AXIS + 5.0)], Ink::Dark, 1.2);
+        drawing.text(&label, (x, AXIS + 15.0), Anchor::Middle);
     }
-    drawing.text(unit.symbol(), (RIGHT + 32.0, axis + 15.0), Anchor::Middle);
+    drawing.text(unit.symbol(), (RIGHT + 32.0, AXIS + 15.0), Anchor::Middle);
     for (name, end, x, anchor) in [
         ("upstream end", scene.ends.upstream, 12.0, Anchor::Start),
         ("downstream end", scene.ends.downstream, WIDTH - 12.0, Anchor::End),
@@ -78,10 +67,10 @@ pub fn route(report: &Report) -> (String, String) {
         let y = words + Drawing::LINE * (k as f64 + 2.3);
         drawing.text(clamp, (12.0, y), Anchor::Start);
     }
-    (drawing.to_svg(), caption(report, steeper))
+    (drawing.to_svg(), caption(report))
 }
 
-fn caption(report: &Report, steeper: f64) -> String {
+fn caption(report: &Report) -> String {
     let Report { scene, shown, .. } = report;
     let slope = scene.duct.slope;
     let way = if slope > 0.0 { "rises" } else { "falls" };
@@ -89,51 +78,12 @@ fn caption(report: &Report, steeper: f64) -> String {
         "The duct is level.".to_owned()
     } else {
         let percent = significant(100.0 * slope.abs());
-        let drawn = if steeper == 1.0 {
-            "drawn as steep as it is".to_owned()
-        } else {
-            format!("drawn {} times as steep", significant(steeper))
-        };
-        format!("The duct {way} by {percent} % toward growing x, {drawn}.")
+        format!("The duct {way} by {percent} % toward growing x, which is not drawn.")
     };
     format!(
         "The cable in its duct from the side, {} deep. The length is to scale, the depth is not. {slope}",
         shown.length(scene.duct.depth)
     )
-}
-
-/// By how much a slope is drawn steeper than it is.
-fn steeper(slope: f64) -> f64 {
-    let fits = |factor: &f64| factor * slope.abs() * (RIGHT - LEFT) <= RISE;
-    STEEPER
-        .into_iter()
-        .find(fits)
-        .unwrap_or(STEEPER[STEEPER.len() - 1])
-}
-
-/// The road's line.
-struct Line {
-    /// Heights of the road at x = 0 and at the duct's end \[px\].
-    heights: [f64; 2],
-}
-
-impl Line {
-    fn new(scene: &Scene, steeper: f64) -> Self {
-        let rise = steeper * scene.duct.slope * (RIGHT - LEFT);
-        Self {
-            heights: [ROAD + rise.max(0.0), ROAD + (-rise).max(0.0)],
-        }
-    }
-
-    fn rise(&self) -> f64 {
-        (self.heights[0] - self.heights[1]).abs()
-    }
-
-    /// A point so far below the road \[px\], at a share of the length.
-    fn at(&self, share: f64, below: f64) -> (f64, f64) {
-        let [from, to] = self.heights;
-        (LEFT + share * (RIGHT - LEFT), from + share * (to - from) + below)
-    }
 }
 
 /// Arrows with the shares of both directions.
@@ -199,10 +149,10 @@ fn held(end: End, shown: &Shown) -> String {
 }
 
 /// Clamps on the cable, numbered where there is room.
-fn draw_clamps(drawing: &mut Drawing, scene: &Scene, line: &Line) {
+fn draw_clamps(drawing: &mut Drawing, scene: &Scene) {
     let mut taken: Vec<f64> = Vec::new();
     for (k, clamp) in scene.restraints.iter().enumerate() {
-        let (x, y) = line.at(clamp.position / scene.duct.length, DEEP);
+        let (x, y) = (LEFT + (RIGHT - LEFT) * clamp.position / scene.duct.length, DEEP);
         for side in [-1.0, 1.0] {
             let near = y + side * 3.0;
             let far = y + side * 11.0;

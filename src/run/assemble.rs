@@ -5,6 +5,7 @@ use cycle_jump::{Record, peaks};
 use super::listing::listed_passes;
 use super::passes::{Passes, Task, force_profile};
 use super::refine::Solved;
+use crate::answer::error_estimate::ErrorParts;
 use crate::answer::{
     Cost, DuctMotionSummary, ErrorEstimate, ErrorShares, ExtremePass, PassRecord, PlanSummary,
     RestraintRecord, Run, Stage, balance, saturation,
@@ -165,55 +166,49 @@ impl<'a> RunBuilder<'a> {
             stages: &[],
             progress: Progress::default(),
         };
-        let first = task.every_pass()?;
-        let profile = force_profile(&first.cable, &first.state)?;
-        let traffic = &self.plan.scene.traffic;
-        let count = traffic.passes;
-        let summary = &mut self.summary;
-        summary.cable = method.name().into();
-        (summary.node_spacing_m, summary.vehicle_step_m) = (mesh.spacing(), mesh.vehicle_step());
-        summary
-            .reasons
-            .push("without friction nothing drags the cable: every pass is like the first".into());
-        let stages = stages.iter().filter(|pass| (1..=count).contains(*pass));
-        let all: Vec<Record> = listed_passes(self.plan.scene, &self.plan.period)
-            .into_iter()
+        let mut first = task.every_pass()?;
+        let force_profile = force_profile(&first.cable, &first.state)?;
+        let stages = stages
+            .iter()
+            .filter(|pass| (1..=self.plan.scene.traffic.passes).contains(*pass));
+        let stage = |&pass| Stage {
+            pass,
+            force_profile: force_profile.clone(),
+            friction: None,
+        };
+        first.stages = stages.map(stage).collect();
+        let listed = listed_passes(self.plan.scene, &self.plan.period).into_iter();
+        let record = first.records[0].clone();
+        first.records = listed
             .map(|pass| Record {
                 pass,
-                ..first.records[0].clone()
+                ..record.clone()
             })
             .collect();
+        self.summary.cable = method.name().into();
+        let solved = Solved {
+            mesh,
+            statistics: first.statistics,
+            passes: Passes {
+                slip: None,
+                leaks: Vec::new(),
+                ..first
+            },
+            error: ErrorParts::new(0.0, 0.0),
+            reasons: vec!["without friction nothing drags the cable: every pass is like the first".into()],
+            random: None,
+            seldom: Vec::new(),
+            heat: None,
+        };
         Ok(Run {
-            title: self.plan.scene.title.clone(),
-            duct_motion: self.duct_motion(),
-            plan: self.summary,
-            passes: all
-                .iter()
-                .map(|record| PassRecord::new(record, traffic))
-                .collect(),
             saturation: None,
             range: None,
-            random: None,
-            extremes: Vec::new(),
-            days: Vec::new(),
-            heat: None,
-            restraints: restraints(&first, &all)?,
-            slip_lengths: None,
-            stages: stages
-                .map(|&pass| Stage {
-                    pass,
-                    force_profile: profile.clone(),
-                    friction: None,
-                })
-                .collect(),
-            force_profile: profile,
             error_estimate: ErrorEstimate {
                 relative: 0.0,
                 method: "exact: without friction the cable stays where it was laid".into(),
                 parts: ErrorShares::default(),
             },
-            cost: Cost::new(1, &first.statistics),
-            warnings: self.warnings,
+            ..self.by_simulation(&solved)?
         })
     }
 }

@@ -3,7 +3,9 @@
 //! A range refuses what the models cannot represent. Between it and what is built lie slips of a unit or a digit, which are
 //! warnings.
 
-use ground_field::{Base, Modulus, SoilProfile};
+use std::ops::RangeInclusive;
+
+use ground_field::{Base, Modulus, SoilProfile, Wheel};
 
 use super::arrangement::may_jam;
 use super::counted::with_count;
@@ -20,28 +22,21 @@ const CONTRAST: f64 = 100.0;
 const INVERTED: f64 = 20.0;
 /// A first layer as thin as this \[m\] is a pavement's.
 const PAVEMENT: f64 = 0.5;
-/// Friction coefficients of cables in ducts are below 1.
-const ROUGHEST: f64 = 1.5;
 /// Where it is farther than this number of depths from the vehicle's axis to the duct's axis, a duct hardly moves.
 const FARTHEST: f64 = 10.0;
 
-/// Depths \[m\] between which ducts lie below roads, weights \[N/m\] and axial stiffnesses \[N\] between which power cables lie.
-const DEPTHS: (f64, f64) = (0.2, 20.0);
-const WEIGHTS: (f64, f64) = (5.0, 600.0);
-const AXIAL_STIFFNESSES: (f64, f64) = (5e5, 1e9);
-/// Springs and clamps softer than this \[N/m\] hold nothing.
-const SLACK: f64 = 1e3;
-/// Friction that builds up more slowly than with this shape factor \[1/m\] needs movements that no traffic makes.
-const SLOW: f64 = 1e4;
-/// Radii \[m\] of what a wheel presses on are a quarter of this.
-const LARGEST_RADIUS: f64 = 0.6;
-/// Vehicles heavier than this \[N\] do not drive, nor any with such a wheel \[N\] or so fast \[m/s\], on a road with more than so many a day
-/// and for so many years.
+/// Vehicles heavier than this \[N\] do not drive, and no road is older \[years\].
 const HEAVIEST: f64 = 5e6;
-const HEAVIEST_WHEEL: f64 = 5e5;
-const FASTEST: f64 = 200.0 / 3.6;
-const BUSIEST: f64 = 2e5;
 const OLDEST: f64 = 200.0;
+
+/// Units in which values are shown: their size in SI and their name.
+type Size = (f64, &'static str);
+const METRE: Size = (1.0, " m");
+const PLAIN: Size = (1.0, "");
+
+/// What follows a value outside its usual range.
+const CABLES: &str = ", but that of power cables is from";
+const HOLDS_NOTHING: &str = ", which holds nothing: springs and clamps are from 0.1 to 1000 MN/m";
 
 /// A warning for every value that is unusual.
 pub(crate) fn unusual(scene: &Scene) -> Vec<String> {
@@ -49,149 +44,121 @@ pub(crate) fn unusual(scene: &Scene) -> Vec<String> {
     warnings.extend(rock(scene));
     warnings.extend(contrast(&scene.ground));
     warnings.extend(may_jam(scene));
-    let coefficient = scene.friction.dynamic_coefficient;
-    if coefficient > ROUGHEST {
-        warnings.push(format!(
-            "`friction.dynamic_coefficient` is {coefficient}: that of cables in ducts is below 1"
-        ));
-    }
-    warnings.extend(sizes(scene));
-    warnings.extend(springs(scene));
-    warnings.extend(traffic(scene));
+    warnings.extend(outside_usual_ranges(scene));
+    warnings.extend(exchanged(scene));
+    warnings.extend(too_much(scene));
     warnings.extend(far(scene));
     warnings.extend(lanes_scaled_alike(scene));
     warnings.iter().map(|warning| with_count(warning)).collect()
 }
 
-/// Sizes of the duct and its cable.
-fn sizes(scene: &Scene) -> impl Iterator<Item = String> {
+/// Values outside the ranges of what is built: key, value, usual range, unit, and what is usual.
+fn outside_usual_ranges(scene: &Scene) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let mut check = |key: &str, value: f64, usual: RangeInclusive<f64>, (size, unit): Size, is: &str| {
+        if !usual.contains(&value) {
+            warnings.push(format!("`{key}` is {}{unit}{is}", four_digits(value / size)));
+        }
+    };
     let Scene {
         duct,
         cable,
         friction,
+        ends,
         ..
     } = scene;
-    let within = |key, value: f64, (least, most), (size, unit), of| {
-        let outside = !(least..=most).contains(&value);
-        let shown = |value: f64| four_digits(value / size);
-        outside.then(|| {
-            format!(
-                "`{key}` is {} {unit}, but {of} from {} to {} {unit}",
-                shown(value),
-                shown(least),
-                shown(most)
-            )
-        })
-    };
-    let metres = (1.0, "m");
-    let depth = within(
-        "duct.depth",
-        duct.depth,
-        DEPTHS,
-        metres,
-        "ducts lie below roads at depths",
-    );
-    let cables = "that of power cables is";
-    let short = (duct.depth > duct.length).then(|| {
-        format!(
-            "`duct.depth` is {} m, more than the duct is long, {} m: were they exchanged?",
-            four_digits(duct.depth),
-            four_digits(duct.length)
-        )
-    });
-    let weight = within("cable.weight", cable.weight, WEIGHTS, (1.0, "N/m"), cables);
-    let (stiffness, meganewtons) = (cable.axial_stiffness, (1e6, "MN"));
-    let stiffness = within(
-        "cable.axial_stiffness",
-        stiffness,
-        AXIAL_STIFFNESSES,
-        meganewtons,
-        cables,
-    );
-    let slow = match friction.law {
-        FrictionLaw::ElasticPlastic { shape_factor } if shape_factor < SLOW => Some(format!(
-            "`friction.shape_factor` is {shape_factor} 1/m: friction builds up over {} mm, more than traffic moves a cable to and fro",
+    let depths = ", but ducts lie below roads at depths from 0.2 to 20 m";
+    check("duct.depth", duct.depth, 0.2..=20.0, METRE, depths);
+    let weights = format!("{CABLES} 5 to 600 N/m");
+    check("cable.weight", cable.weight, 5.0..=600.0, (1.0, " N/m"), &weights);
+    let stiffnesses = format!("{CABLES} 0.5 to 1000 MN");
+    let (own, meganewtons) = (cable.axial_stiffness, (1e6, " MN"));
+    check("cable.axial_stiffness", own, 5e5..=1e9, meganewtons, &stiffnesses);
+    let rough = ": that of cables in ducts is below 1";
+    let (key, coefficient) = ("friction.dynamic_coefficient", friction.dynamic_coefficient);
+    check(key, coefficient, 0.0..=1.5, PLAIN, rough);
+    if let FrictionLaw::ElasticPlastic { shape_factor } = friction.law {
+        let slow = format!(
+            ": friction builds up over {} mm, more than traffic moves a cable to and fro",
             four_digits(2e3 / shape_factor)
-        )),
-        _ => None,
+        );
+        let (key, size) = ("friction.shape_factor", (1.0, " 1/m"));
+        check(key, shape_factor, 1e4..=f64::INFINITY, size, &slow);
+    }
+    let mut holds = |key: &str, stiffness: f64| {
+        let meant = format!(
+            "{HOLDS_NOTHING}; did you mean \"{} MN/m\"?",
+            four_digits(stiffness)
+        );
+        check(key, stiffness, 1e3..=f64::INFINITY, (1.0, " N/m"), &meant);
     };
-    [depth, short, weight, stiffness, slow].into_iter().flatten()
+    for (name, end) in [("upstream", ends.upstream), ("downstream", ends.downstream)] {
+        if let End::Spring(stiffness) = end {
+            holds(&format!("ends.{name}.spring"), stiffness);
+        }
+    }
+    for (index, clamp) in scene.restraints.iter().enumerate() {
+        holds(&format!("restraints.{index}.stiffness"), clamp.stiffness);
+    }
+    for (index, TrafficVehicle { vehicle, .. }) in scene.vehicles.iter().enumerate() {
+        let speeds = ", but trucks drive at 20 to 100 km/h";
+        let key = format!("vehicles.{index}.speed");
+        check(
+            &key,
+            vehicle.speed(),
+            0.0..=200.0 / 3.6,
+            (1.0 / 3.6, " km/h"),
+            speeds,
+        );
+        // Of wheels the first is named that is unusual.
+        let first = |of: fn(&Wheel) -> f64, most: f64| {
+            let mut values = vehicle.wheels().iter().map(of).enumerate();
+            values.find(|(_, value)| *value > most)
+        };
+        let key = |wheel: usize, name: &str| format!("vehicles.{index}.wheels.{wheel}.{name}");
+        if let Some((wheel, load)) =
+            first(|wheel| wheel.load.force(), 5e5).filter(|_| vehicle.wheels().len() > 1)
+        {
+            let carries = ", but a wheel on a road carries from 1 to 200 kN";
+            check(&key(wheel, "load"), load, 0.0..=5e5, (1e3, " kN"), carries);
+        }
+        if let Some((wheel, radius)) = first(|wheel| wheel.load.contact_radius(), 0.6) {
+            let tyres = ": that of tyres is from 0.1 to 0.3 m";
+            check(&key(wheel, "contact_radius"), radius, 0.0..=0.6, METRE, tyres);
+        }
+    }
+    if let Some(per_day) = scene.traffic.per_day {
+        let busy = ": no road has more than 200000 vehicles a day";
+        check("traffic.per_day", per_day, 0.0..=2e5, PLAIN, busy);
+    }
+    warnings
 }
 
-/// Springs and clamps that hold nothing.
-fn springs(scene: &Scene) -> impl Iterator<Item = String> {
-    let of_end = |end| match end {
-        End::Spring(stiffness) => Some(stiffness),
-        _ => None,
-    };
-    let ends = [
-        ("upstream", scene.ends.upstream),
-        ("downstream", scene.ends.downstream),
-    ];
-    let ends = ends
-        .into_iter()
-        .filter_map(move |(name, end)| Some((format!("ends.{name}.spring"), of_end(end)?)));
-    let clamps = scene.restraints.iter().enumerate();
-    let clamps = clamps.map(|(index, clamp)| (format!("restraints.{index}.stiffness"), clamp.stiffness));
-    let slack = ends.chain(clamps).filter(|(_, stiffness)| *stiffness < SLACK);
-    slack.map(|(key, stiffness)| {
-        let stiffness = four_digits(stiffness);
+/// A duct that lies deeper than it is long.
+fn exchanged(scene: &Scene) -> Option<String> {
+    let (depth, length) = (scene.duct.depth, scene.duct.length);
+    (depth > length).then(|| {
         format!(
-            "`{key}` is {stiffness} N/m, which holds nothing: springs and clamps are from 0.1 to 1000 MN/m; did you mean \"{stiffness} MN/m\"?"
+            "`duct.depth` is {} m, more than the duct is long, {} m: were they exchanged?",
+            four_digits(depth),
+            four_digits(length)
         )
     })
 }
 
-/// What drives, and how much of it.
-fn traffic(scene: &Scene) -> Vec<String> {
-    let mut warnings = Vec::new();
-    for (index, vehicle) in scene.vehicles.iter().map(|traffic| &traffic.vehicle).enumerate() {
-        let tonnes = vehicle.weight() / 9806.65;
-        if vehicle.weight() > HEAVIEST {
-            warnings.push(format!(
-                "`vehicles.{index}` weighs {tonnes:.0} t, more than any vehicle on a road"
-            ));
-        }
-        let wheels = vehicle.wheels();
-        let forces = wheels.iter().map(|wheel| wheel.load.force());
-        if let Some((wheel, force)) = forces.enumerate().find(|(_, force)| *force > HEAVIEST_WHEEL)
-            && wheels.len() > 1
-        {
-            warnings.push(format!(
-                "`vehicles.{index}.wheels.{wheel}.load` is {} kN, but a wheel on a road carries from 1 to 200 kN",
-                four_digits(force / 1e3)
-            ));
-        }
-        let speed = vehicle.speed();
-        if speed > FASTEST {
-            warnings.push(format!(
-                "`vehicles.{index}.speed` is {} km/h, but trucks drive at 20 to 100 km/h",
-                four_digits(3.6 * speed)
-            ));
-        }
-        let radii = wheels.iter().map(|wheel| wheel.load.contact_radius());
-        if let Some((wheel, radius)) = radii.enumerate().find(|(_, radius)| *radius > LARGEST_RADIUS) {
-            warnings.push(format!(
-                "`vehicles.{index}.wheels.{wheel}.contact_radius` is {radius} m: that of tyres is from 0.1 to 0.3 m"
-            ));
-        }
-    }
-    let per_day = scene.traffic.per_day;
-    if let Some(per_day) = per_day.filter(|&per_day| per_day > BUSIEST) {
-        warnings.push(format!(
-            "`traffic.per_day` is {per_day}: no road has more than {BUSIEST} vehicles a day"
-        ));
-    }
-    if let Some(years) = scene
-        .traffic
-        .years_after(scene.traffic.passes)
-        .filter(|&years| years > OLDEST)
-    {
-        warnings.push(format!(
-            "`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date"
-        ));
-    }
-    warnings
+/// Vehicles too heavy for any road, and traffic for too long.
+fn too_much(scene: &Scene) -> Vec<String> {
+    let weights = scene.vehicles.iter().map(|traffic| traffic.vehicle.weight());
+    let heavy = weights.enumerate().filter(|(_, weight)| *weight > HEAVIEST);
+    let heavy = heavy.map(|(index, weight)| {
+        let tonnes = weight / 9806.65;
+        format!("`vehicles.{index}` weighs {tonnes:.0} t, more than any vehicle on a road")
+    });
+    let years = scene.traffic.years_after(scene.traffic.passes);
+    let old = years.filter(|&years| years > OLDEST).map(|years| {
+        format!("`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date")
+    });
+    heavy.chain(old).collect()
 }
 
 /// A lane so far away that its vehicles hardly move the duct.
