@@ -98,10 +98,10 @@ pub use plain_figure as figure;
 pub use {boussinesq, burmister, cable_dem, cycle_jump, ground_field};
 
 pub use answer::{
-    CableEnd, ClampLimits, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, ErrorEstimate,
-    ErrorShares, ExtremePass, ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits,
-    PassRecord, Place, PlanSummary, Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run,
-    Saturation, SlipRecord, Stage, Units, Verdict,
+    ClampLimits, Cost, DayExtremes, DayPoint, DuctMotionSummary, EndLimits, ErrorEstimate, ErrorShares,
+    ExtremePass, ForceProfile, ForceRange, FrictionProfile, HeatRecord, Limited, Limits, PassRecord, Place,
+    PlanSummary, Quantiles, RandomSpread, Reached, RestraintRange, RestraintRecord, Run, Saturation,
+    SlipRecord, Stage, Units, Verdict,
 };
 #[cfg(feature = "calibrate")]
 pub use calibration::{CalibrateOptions, Calibrated, Series, calibrate, calibrate_jointly};
@@ -113,7 +113,7 @@ pub use progress::Progress;
 #[cfg(feature = "calibrate")]
 pub use readings::{DataError, ReadOptions, Reading, Readings};
 pub use run::{RunOptions, check, run, run_plan, run_with};
-pub use scene::{Scene, SceneError, SceneFile};
+pub use scene::{CableEnd, Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.
 #[cfg(doctest)]

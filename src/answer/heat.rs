@@ -3,8 +3,8 @@
 use cycle_jump::days::Extremes;
 use serde::{Deserialize, Serialize};
 
-use super::cable_end::CableEnd;
 use super::force_profile::ForceProfile;
+use crate::scene::CableEnd;
 
 /// Largest and least forces and movements over a day, with the cable at rest: after every pass and every change of temperature.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::cable_end::CableEnd;
 use super::place::{Limited, Moment, Place};
 use super::record::{PassRecord, Run};
 use super::units::Units;
+use crate::scene::CableEnd;
 
 /// What must not be exceeded at one place; of either sign.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]

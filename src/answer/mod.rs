@@ -1,7 +1,6 @@
 //! What a run gives, whether it can be true, and how wrong it may be.
 
 pub mod balance;
-mod cable_end;
 mod calendar;
 pub mod error_estimate;
 mod error_shares;
@@ -17,7 +16,6 @@ mod saturation;
 mod table_rows;
 mod units;
 
-pub use cable_end::CableEnd;
 pub use calendar::after;
 pub use error_shares::*;
 pub use force_profile::ForceProfile;

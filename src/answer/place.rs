@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::cable_end::CableEnd;
 use super::heat::DayExtremes;
 use super::record::{ExtremePass, PassRecord, Run};
 use super::units::Units;
+use crate::scene::CableEnd;
 use crate::shown::exact;
 
 /// Clamps nearer to each other than this are at one place \[m\].

@@ -4,11 +4,10 @@ use cable_dem::{SlipLengths, Statistics};
 use cycle_jump::Record;
 use serde::{Deserialize, Serialize};
 
-use super::cable_end::CableEnd;
 use super::error_shares::ErrorEstimate;
 use super::force_profile::ForceProfile;
 use super::heat::{DayExtremes, HeatRecord};
-use crate::scene::Traffic;
+use crate::scene::{CableEnd, Traffic};
 
 /// Forces that differ by a smaller share are the same to a reader.
 const NOTICEABLE: f64 = 0.01;

@@ -42,6 +42,7 @@
 //! ```
 
 mod arrangement;
+mod cable_end;
 mod counted;
 mod data;
 mod document;
@@ -69,6 +70,7 @@ mod unusual;
 mod value;
 mod write;
 
+pub use cable_end::CableEnd;
 pub(crate) use data::DAYS_PER_YEAR;
 #[cfg(feature = "calibrate")]
 pub(crate) use data::words;
