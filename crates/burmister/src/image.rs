@@ -31,15 +31,18 @@ impl Image {
     }
 
     /// m times the transform of (`u_r`, `u_z`) under a unit surface pressure, \[1/Pa\].
-    pub fn transform(&self, wavenumber: f64) -> (f64, f64) {
+    pub fn transform(&self, wavenumber: f64) -> Displacement {
         let soil = self.half_space.soil();
         let nu = soil.poisson_ratio();
         let x = wavenumber * self.depth;
         let scale = self.weight * (-x).exp() / (2.0 * soil.shear_modulus());
-        (scale * (x - (1.0 - 2.0 * nu)), scale * (x + 2.0 * (1.0 - nu)))
+        Displacement {
+            radial: scale * (x - (1.0 - 2.0 * nu)),
+            vertical: scale * (x + 2.0 * (1.0 - nu)),
+        }
     }
 
-    /// Displacement under `load`, and the rounding error of its radial and vertical component.
+    /// Displacement under `load`, and its rounding error.
     ///
     /// # Errors
     ///
@@ -48,13 +51,17 @@ impl Image {
         &self,
         load: SurfaceLoad,
         radius: f64,
-    ) -> Result<(Displacement, (f64, f64)), GroundError> {
+    ) -> Result<(Displacement, Displacement), GroundError> {
         let value = self.half_space.displacement(load, radius, self.depth)? * self.weight;
         let size = ROUNDING * value.vertical.abs();
         // Deep below the load nothing moves aside, and the rounding is that of the small motion.
         let reach = radius + load.contact_radius();
         let lever = reach / reach.hypot(self.depth).max(f64::MIN_POSITIVE);
-        Ok((value, (size * lever, size)))
+        let rounding = Displacement {
+            radial: size * lever,
+            vertical: size,
+        };
+        Ok((value, rounding))
     }
 }
 
@@ -74,7 +81,7 @@ mod tests {
                 rule.iter()
                     .map(move |&(t, w)| (half * (2.0 * f64::from(i) + 1.0 + t), half * w))
             })
-            .map(|(m, w)| w * image.transform(m).1)
+            .map(|(m, w)| w * image.transform(m).vertical)
             .sum();
         let load = SurfaceLoad::point(std::f64::consts::TAU).expect("load");
         let (value, _) = image.displacement(load, 0.0).expect("value");

@@ -10,6 +10,8 @@
 //!
 //! A panel for which neither serves (Levin's method cannot start at m = 0) is halved.
 
+use ground_field::Displacement;
+
 use crate::bessel::j0_j1;
 use crate::gauss::{SIZES, rule_of_class};
 use crate::levin::Setting;
@@ -23,10 +25,9 @@ const MAX_PIECES: usize = 300;
 /// The integrals over one panel, or a sum of them, for one radius.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Integrals {
-    pub radial: f64,
-    pub vertical: f64,
+    pub sum: Displacement,
     /// Bound of the rules' error.
-    pub error: (f64, f64),
+    pub error: Displacement,
     /// Evaluations of (J0, J1).
     pub bessel: usize,
 }
@@ -34,17 +35,17 @@ pub(crate) struct Integrals {
 impl Integrals {
     /// No integral: what neither rule can do.
     const UNKNOWN: Self = Self {
-        radial: 0.0,
-        vertical: 0.0,
-        error: (f64::INFINITY, f64::INFINITY),
+        sum: Displacement::ZERO,
+        error: Displacement {
+            radial: f64::INFINITY,
+            vertical: f64::INFINITY,
+        },
         bessel: 0,
     };
 
     pub fn add(&mut self, other: Self) {
-        self.radial += other.radial;
-        self.vertical += other.vertical;
-        self.error.0 += other.error.0;
-        self.error.1 += other.error.1;
+        self.sum += other.sum;
+        self.error += other.error;
         self.bessel += other.bessel;
     }
 }
@@ -54,9 +55,9 @@ pub(crate) struct Prepared<'a> {
     panel: &'a Panel,
     terms: usize,
     /// Tolerances of the two integrals.
-    tolerance: (f64, f64),
+    tolerance: Displacement,
     /// What trimming the series adds to the error.
-    pub trimmed: (f64, f64),
+    pub trimmed: Displacement,
     /// Whether any rule can meet the tolerances: the series are finite, and nothing is asked exactly.
     possible: bool,
     /// For each Gauss size the largest ω it serves; ascending, negative where it serves none.
@@ -66,13 +67,13 @@ pub(crate) struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    pub fn new(panel: &'a Panel, tolerance: (f64, f64)) -> Self {
+    pub fn new(panel: &'a Panel, tolerance: Displacement) -> Self {
         let (terms, trimmed) = panel.trimmed(tolerance);
         let reach = reach(panel, terms, tolerance);
         let size = panel.size();
         let within = |size: f64, tolerance: f64| size.is_finite() && (tolerance > 0.0 || size == 0.0);
         Self {
-            possible: within(size.0, tolerance.0) && within(size.1, tolerance.1),
+            possible: within(size.radial, tolerance.radial) && within(size.vertical, tolerance.vertical),
             panel,
             terms,
             tolerance,
@@ -131,15 +132,15 @@ impl<'a> Prepared<'a> {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let wavenumbers: Series = std::array::from_fn(|i| middle + half * basis().nodes[i]);
         let values = wavenumbers.map(|m| self.panel.at(m, self.terms));
-        let (radial, vertical) = (values.map(|(r, _)| r), values.map(|(_, v)| v));
+        let (radial, vertical) = (values.map(|v| v.radial), values.map(|v| v.vertical));
         let zero = [0.0; NODES];
         let setting = Setting {
             radius,
             half,
             wavenumbers,
         };
-        let (p_v, q_v, error_v) = setting.antiderivative(&vertical, &zero, self.tolerance.1)?;
-        let (p_r, q_r, error_r) = setting.antiderivative(&zero, &radial, self.tolerance.0)?;
+        let (p_v, q_v, error_v) = setting.antiderivative(&vertical, &zero, self.tolerance.vertical)?;
+        let (p_r, q_r, error_r) = setting.antiderivative(&zero, &radial, self.tolerance.radial)?;
         let (j0_to, j1_to) = j0_j1(to * radius);
         let (j0_from, j1_from) = j0_j1(from * radius);
         let ends = |p: &Series, q: &Series| {
@@ -147,9 +148,14 @@ impl<'a> Prepared<'a> {
             dot(p, last) * j0_to + dot(q, last) * j1_to - dot(p, first) * j0_from - dot(q, first) * j1_from
         };
         Some(Integrals {
-            radial: ends(&p_r, &q_r),
-            vertical: ends(&p_v, &q_v),
-            error: (error_r, error_v),
+            sum: Displacement {
+                radial: ends(&p_r, &q_r),
+                vertical: ends(&p_v, &q_v),
+            },
+            error: Displacement {
+                radial: error_r,
+                vertical: error_v,
+            },
             bessel: 2,
         })
     }
@@ -157,7 +163,7 @@ impl<'a> Prepared<'a> {
 
 /// For each Gauss size the largest ω for which the bound of the module's text is below `tolerance`: the best over a range of
 /// ellipses. Negative for a size that is too small for the series alone.
-fn reach(panel: &Panel, terms: usize, tolerance: (f64, f64)) -> [f64; SIZES.len()] {
+fn reach(panel: &Panel, terms: usize, tolerance: Displacement) -> [f64; SIZES.len()] {
     const ELLIPSES: i32 = 28;
     let mut reach = [-1.0_f64; SIZES.len()];
     for step in 0..ELLIPSES {
@@ -169,7 +175,8 @@ fn reach(panel: &Panel, terms: usize, tolerance: (f64, f64)) -> [f64; SIZES.len(
                 .rev()
                 .fold(0.0, |sum, c| sum * growth + c.abs())
         };
-        let excess = (on_ellipse(&panel.radial) / tolerance.0).max(on_ellipse(&panel.vertical) / tolerance.1);
+        let excess = (on_ellipse(&panel.radial) / tolerance.radial)
+            .max(on_ellipse(&panel.vertical) / tolerance.vertical);
         let excess = (excess * 0.5 * panel.width() * (64.0 / 15.0) / (1.0 - 1.0 / (growth * growth))).ln();
         let sinh = alpha.sinh();
         for (reach, size) in reach.iter_mut().zip(SIZES) {
@@ -187,22 +194,21 @@ fn weighted_nodes(panel: &Panel, terms: usize, from: f64, to: f64, class: usize)
         .map(|&(t, weight)| {
             let m = middle + half * t;
             let weight = weight * half;
-            let (radial, vertical) = panel.at(m, terms);
-            [m, weight * radial, weight * vertical]
+            let value = panel.at(m, terms) * weight;
+            [m, value.radial, value.vertical]
         })
         .collect()
 }
 
-fn sum(nodes: &[[f64; 3]], radius: f64, tolerance: (f64, f64)) -> Integrals {
-    let (mut radial, mut vertical) = (0.0, 0.0);
-    for &[m, r, v] in nodes {
+fn sum(nodes: &[[f64; 3]], radius: f64, tolerance: Displacement) -> Integrals {
+    let mut sum = Displacement::ZERO;
+    for &[m, radial, vertical] in nodes {
         let (j0, j1) = j0_j1(m * radius);
-        radial += r * j1;
-        vertical += v * j0;
+        sum.radial += radial * j1;
+        sum.vertical += vertical * j0;
     }
     Integrals {
-        radial,
-        vertical,
+        sum,
         // The rule's size was chosen so that its bound is below this.
         error: tolerance,
         bessel: nodes.len(),
@@ -225,7 +231,7 @@ mod tests {
             to,
             radial: series_of(&values),
             vertical: series_of(&values),
-            noise: (0.0, 0.0),
+            noise: Displacement::ZERO,
             hidden: 0.0,
         }
     }
@@ -239,7 +245,7 @@ mod tests {
             let middle = panel.from + (2.0 * i as f64 + 1.0) * half;
             for &(t, weight) in rule_of_class(10) {
                 let m = middle + half * t;
-                let (value, _) = panel.at(m, NODES);
+                let value = panel.at(m, NODES).radial;
                 radial += half * weight * value * libm::j1(m * radius);
                 vertical += half * weight * value * libm::j0(m * radius);
             }
@@ -253,22 +259,24 @@ mod tests {
         for (from, to) in [(0.0, 2.0), (2.0, 4.0), (0.5, 1.0)] {
             let panel = panel(from, to);
             for tolerance in [1e-4, 1e-8, 1e-12] {
-                let mut prepared = Prepared::new(&panel, (tolerance, tolerance));
+                let both = Displacement::ZERO.map(|_| tolerance);
+                let mut prepared = Prepared::new(&panel, both);
                 let mut radius = 0.0;
                 while radius < 1e5 {
                     let got = prepared.integrate(radius);
                     let (radial, vertical) = brute_force(&panel, radius);
                     let allowed = |error: f64, trimmed: f64| error + trimmed + 1e-14;
                     assert!(
-                        (got.radial - radial).abs() <= allowed(got.error.0, prepared.trimmed.0),
+                        (got.sum.radial - radial).abs() <= allowed(got.error.radial, prepared.trimmed.radial),
                         "J1 {from} {to} {radius}"
                     );
                     assert!(
-                        (got.vertical - vertical).abs() <= allowed(got.error.1, prepared.trimmed.1),
+                        (got.sum.vertical - vertical).abs()
+                            <= allowed(got.error.vertical, prepared.trimmed.vertical),
                         "J0 {from} {to} {radius}"
                     );
                     assert!(
-                        got.error.0 <= 40.0 * tolerance && got.bessel <= 1200,
+                        got.error.radial <= 40.0 * tolerance && got.bessel <= 1200,
                         "{radius} {got:?}"
                     );
                     radius = radius * 1.7 + 0.31;

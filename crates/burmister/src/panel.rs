@@ -7,6 +7,8 @@
 
 use std::sync::OnceLock;
 
+use ground_field::Displacement;
+
 use crate::remainder::Remainder;
 
 /// Chebyshev nodes a panel.
@@ -25,7 +27,7 @@ pub(crate) struct Panel {
     pub radial: Series,
     pub vertical: Series,
     /// Rounding error of the two integrals.
-    pub noise: (f64, f64),
+    pub noise: Displacement,
     /// What the samples may have missed of either integral.
     pub hidden: f64,
 }
@@ -103,18 +105,17 @@ impl Panel {
         let mut radial = [0.0; NODES];
         let mut vertical = [0.0; NODES];
         for (i, node) in basis().nodes.iter().enumerate() {
-            (radial[i], vertical[i]) = remainder.sample(middle + half * node);
+            let sample = remainder.sample(middle + half * node);
+            (radial[i], vertical[i]) = (sample.radial, sample.vertical);
         }
-        let (early, late) = (
-            remainder.rounding(middle - 0.8 * half),
-            remainder.rounding(middle),
-        );
+        let early = remainder.rounding(middle - 0.8 * half);
+        let noise = early.zip(remainder.rounding(middle), f64::max);
         Self {
             from,
             to,
             radial: series_of(&radial),
             vertical: series_of(&vertical),
-            noise: (2.0 * half * early.0.max(late.0), 2.0 * half * early.1.max(late.1)),
+            noise: noise * (2.0 * half),
             hidden: if from == 0.0 { remainder.hidden(to) } else { 0.0 },
         }
     }
@@ -124,42 +125,36 @@ impl Panel {
     }
 
     /// Value of both series' first `terms` terms at `wavenumber`.
-    pub fn at(&self, wavenumber: f64, terms: usize) -> (f64, f64) {
+    pub fn at(&self, wavenumber: f64, terms: usize) -> Displacement {
         let local = (2.0 * wavenumber - self.from - self.to) / self.width();
-        (
-            evaluate(&self.radial[..terms], local),
-            evaluate(&self.vertical[..terms], local),
-        )
+        self.of_series(|series| evaluate(&series[..terms], local))
+    }
+
+    fn of_series(&self, of: impl Fn(&Series) -> f64) -> Displacement {
+        Displacement {
+            radial: of(&self.radial),
+            vertical: of(&self.vertical),
+        }
     }
 
     /// Error of the integrals of (radial J1, vertical J0) over the panel from the cut of the series and what no sample saw: |J| ≤ 1.
-    pub fn cut(&self) -> (f64, f64) {
+    pub fn cut(&self) -> Displacement {
         let last = |s: &Series| s[NODES - LAST..].iter().fold(0.0, |m: f64, c| m.max(c.abs()));
-        (
-            last(&self.radial) * self.width() + self.hidden,
-            last(&self.vertical) * self.width() + self.hidden,
-        )
+        self.of_series(|series| last(series) * self.width() + self.hidden)
     }
 
     /// Bound of the integrals' absolute values.
-    pub fn size(&self) -> (f64, f64) {
-        let sum = |s: &Series| s.iter().map(|c| c.abs()).sum::<f64>();
-        (
-            sum(&self.radial) * self.width(),
-            sum(&self.vertical) * self.width(),
-        )
+    pub fn size(&self) -> Displacement {
+        self.of_series(|series| series.iter().map(|c| c.abs()).sum::<f64>() * self.width())
     }
 
     /// Number of terms after which the rest of both series adds less than the tolerances to the integrals, and what it adds.
-    pub fn trimmed(&self, tolerance: (f64, f64)) -> (usize, (f64, f64)) {
-        let mut rest = (0.0, 0.0);
+    pub fn trimmed(&self, tolerance: Displacement) -> (usize, Displacement) {
+        let mut rest = Displacement::ZERO;
         let mut terms = NODES;
         while terms > 1 {
-            let next = (
-                rest.0 + self.radial[terms - 1].abs() * self.width(),
-                rest.1 + self.vertical[terms - 1].abs() * self.width(),
-            );
-            if next.0 > tolerance.0 || next.1 > tolerance.1 {
+            let next = rest + self.of_series(|series| series[terms - 1].abs() * self.width());
+            if next.radial > tolerance.radial || next.vertical > tolerance.vertical {
                 break;
             }
             rest = next;
@@ -167,6 +162,11 @@ impl Panel {
         }
         (terms, rest)
     }
+}
+
+/// Whether both components keep their limits.
+pub(crate) fn is_within(value: Displacement, limit: Displacement) -> bool {
+    value.radial <= limit.radial && value.vertical <= limit.vertical
 }
 
 /// Panels that cover the wavenumbers from 0 to where the transform has decayed.
@@ -193,11 +193,10 @@ impl Panels {
 
     /// Halves panels until each one's cut is below `tolerance` or below its rounding error, or `limit` wavenumbers are
     /// solved.
-    pub fn refine(&mut self, remainder: &Remainder, tolerance: (f64, f64), limit: usize) {
+    pub fn refine(&mut self, remainder: &Remainder, tolerance: Displacement, limit: usize) {
         let mut open = std::mem::take(&mut self.list);
         while let Some(panel) = open.pop() {
-            let cut = panel.cut();
-            let good = cut.0 <= tolerance.0.max(panel.noise.0) && cut.1 <= tolerance.1.max(panel.noise.1);
+            let good = is_within(panel.cut(), tolerance.zip(panel.noise, f64::max));
             let middle = 0.5 * (panel.from + panel.to);
             let divisible = panel.from < middle && middle < panel.to;
             if good || !divisible || self.solved + 2 * NODES > limit {
@@ -210,11 +209,9 @@ impl Panels {
         }
     }
 
-    pub fn total(&self, of: impl Fn(&Panel) -> (f64, f64)) -> (f64, f64) {
-        self.list
-            .iter()
-            .map(of)
-            .fold((0.0, 0.0), |s, v| (s.0 + v.0, s.1 + v.1))
+    pub fn total(&self, of: impl Fn(&Panel) -> Displacement) -> Displacement {
+        let parts = self.list.iter().map(of);
+        parts.fold(Displacement::ZERO, |sum, part| sum + part)
     }
 }
 

@@ -64,29 +64,20 @@ impl Remainder {
         }
     }
 
-    /// Transform of the remainder for a load of 2π: the first is the integrand of `u_r` beside J1(mr), the second that of `u_z`
-    /// beside J0(mr).
-    pub fn sample(&self, wavenumber: f64) -> (f64, f64) {
-        let (mut radial, mut vertical) = self.stack.transform(wavenumber);
-        for image in &self.images {
-            let (r, v) = image.transform(wavenumber);
-            radial -= r;
-            vertical -= v;
-        }
-        let factor = disc_factor(wavenumber * self.contact_radius);
-        (radial * factor, vertical * factor)
+    /// Transform of the remainder for a load of 2π: the integrand of `u_r` with J1(mr), and that of `u_z` with J0(mr).
+    pub fn sample(&self, wavenumber: f64) -> Displacement {
+        let images = self.images.iter().map(|image| image.transform(wavenumber));
+        let rest = images.fold(self.stack.transform(wavenumber), |rest, image| rest - image);
+        rest * disc_factor(wavenumber * self.contact_radius)
     }
 
     /// Estimated rounding error of [`Remainder::sample`].
-    pub fn rounding(&self, wavenumber: f64) -> (f64, f64) {
-        let (mut radial, mut vertical) = self.stack.rounding(wavenumber);
-        for image in &self.images {
-            let (r, v) = image.transform(wavenumber);
-            radial += 2.0 * f64::EPSILON * r.abs();
-            vertical += 2.0 * f64::EPSILON * v.abs();
-        }
-        let factor = disc_factor(wavenumber * self.contact_radius).abs();
-        (radial * factor, vertical * factor)
+    pub fn rounding(&self, wavenumber: f64) -> Displacement {
+        let images = self.images.iter().map(|image| image.transform(wavenumber));
+        let sum = images.fold(self.stack.rounding(wavenumber), |sum, image| {
+            sum + image.map(f64::abs) * (2.0 * f64::EPSILON)
+        });
+        sum * disc_factor(wavenumber * self.contact_radius).abs()
     }
 
     /// Bound of what samples between 0 and `wavenumber` may have missed of the integral there. What a deep base does lies below the inverse
@@ -100,7 +91,7 @@ impl Remainder {
     }
 
     /// Transform of the layered field itself, for a point load of 2π.
-    pub fn field(&self, wavenumber: f64) -> (f64, f64) {
+    pub fn field(&self, wavenumber: f64) -> Displacement {
         self.stack.transform(wavenumber)
     }
 
@@ -113,12 +104,12 @@ impl Remainder {
         &self,
         load: SurfaceLoad,
         radius: f64,
-    ) -> Result<(Displacement, (f64, f64)), GroundError> {
-        let (mut sum, mut rounding) = (Displacement::ZERO, (0.0, 0.0));
+    ) -> Result<(Displacement, Displacement), GroundError> {
+        let (mut sum, mut rounding) = (Displacement::ZERO, Displacement::ZERO);
         for image in &self.images {
             let (part, error) = image.displacement(load, radius)?;
             sum += part;
-            rounding = (rounding.0 + error.0, rounding.1 + error.1);
+            rounding += error;
         }
         Ok((sum, rounding))
     }

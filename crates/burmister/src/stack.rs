@@ -2,7 +2,7 @@
 //!
 //! Neighbouring layers of one soil are joined first, so that splitting a layer changes neither the answer nor the cost.
 
-use ground_field::{Base, GroundError, Soil, SoilLayer, SoilProfile};
+use ground_field::{Base, Displacement, GroundError, Soil, SoilLayer, SoilProfile};
 
 use crate::MODEL;
 use crate::lamina::{Lamina, Support};
@@ -126,7 +126,7 @@ pub(crate) struct Stack {
 
 impl Stack {
     /// m times the transform of (`u_r`, `u_z`) at the depth under a unit surface pressure \[1/Pa\], at `wavenumber` > 0.
-    pub fn transform(&self, wavenumber: f64) -> (f64, f64) {
+    pub fn transform(&self, wavenumber: f64) -> Displacement {
         let (mut support, mut descent) = self.bottom(wavenumber);
         for lamina in &self.below {
             support = Support::Elastic(lamina.cross(wavenumber, support).impedance);
@@ -140,9 +140,12 @@ impl Stack {
             // The surface carries no shear and a unit pressure: S u = (0, −1).
             Support::Elastic(surface) => {
                 let response = descent * surface.inverse();
-                (-response.b, -response.d)
+                Displacement {
+                    radial: -response.b,
+                    vertical: -response.d,
+                }
             }
-            Support::Rigid => (0.0, 0.0),
+            Support::Rigid => Displacement::ZERO,
         }
     }
 
@@ -152,7 +155,7 @@ impl Stack {
     /// carries the error δS of what lies below to the top as Dᵀ δS D, D the descent (exact to first order, S being the second
     /// derivative of an energy). A stiff plate on a soft ground is where this grows: its bending stiffness is a small
     /// difference of large membrane terms.
-    pub fn rounding(&self, wavenumber: f64) -> (f64, f64) {
+    pub fn rounding(&self, wavenumber: f64) -> Displacement {
         let (mut support, mut descent) = self.bottom(wavenumber);
         let mut error = match support {
             Support::Elastic(impedance) => impedance.abs() * f64::EPSILON,
@@ -174,11 +177,14 @@ impl Stack {
             support = Support::Elastic(crossing.impedance);
         }
         let Support::Elastic(surface) = support else {
-            return (0.0, 0.0);
+            return Displacement::ZERO;
         };
         let compliance = surface.inverse().abs();
         let response = (descent.abs() * compliance * error + descent_error) * compliance;
-        (response.b, response.d)
+        Displacement {
+            radial: response.b,
+            vertical: response.d,
+        }
     }
 
     /// Impedance of the base and descent from its top to the depth.

@@ -11,7 +11,7 @@ use ground_field::{Displacement, GroundError, SurfaceLoad};
 
 use crate::MODEL;
 use crate::oscillatory::{Integrals, Prepared};
-use crate::panel::{NODES, Panel, Panels};
+use crate::panel::{NODES, Panel, Panels, is_within};
 use crate::remainder::Remainder;
 use crate::statistics::Statistics;
 
@@ -35,8 +35,8 @@ pub(crate) struct Transform<'a> {
     pub probes: Vec<f64>,
 }
 
-/// A displacement with its error, radial and vertical.
-type Bounded = (Displacement, (f64, f64));
+/// A displacement with its error.
+type Bounded = (Displacement, Displacement);
 
 impl Transform<'_> {
     /// Displacements at `radii`, in their order.
@@ -56,15 +56,15 @@ impl Transform<'_> {
         let mut panels = Panels::new(self.remainder, end);
         // First a rough picture, from which the peak is read.
         let (rough, hidden) = (panels.total(Panel::size), panels.total(Panel::cut));
-        if !(rough.0 + rough.1 + hidden.0 + hidden.1).is_finite() {
+        if !(rough + hidden).is_finite() {
             return Err(self.inaccurate((f64::INFINITY, radii[0])));
         }
-        let mut peak = (0.0, 0.0);
-        let mut tolerance = times(1e-3, rough);
+        let mut peak = Displacement::ZERO;
+        let mut tolerance = rough * 1e-3;
         panels.refine(self.remainder, tolerance, MAX_WAVENUMBERS);
         let known = self.closed_forms(&self.probes)?;
         let probed = (&*self.probes, &*known);
-        let probes = self.evaluate(&panels, (0.0, 0.0), tolerance, probed, &mut statistics);
+        let probes = self.evaluate(&panels, Displacement::ZERO, tolerance, probed, &mut statistics);
         raise(&mut peak, &probes);
 
         // Of the error: for the cut series, as much for their integration, the rest for the tail and rounding.
@@ -72,17 +72,18 @@ impl Transform<'_> {
         let mut worst = (f64::INFINITY, 0.0);
         for _ in 0..ROUNDS {
             let unit = TAU / self.load.force() * self.accuracy;
-            tolerance = (goal(peak.0 * unit, tolerance.0), goal(peak.1 * unit, tolerance.1));
+            tolerance = (peak * unit).zip(tolerance, goal);
             let tail = self.extend(&mut panels, &mut end, tolerance);
-            let each = times(share / EXPECTED_PANELS, tolerance);
+            let each = tolerance * (share / EXPECTED_PANELS);
             panels.refine(self.remainder, each, MAX_WAVENUMBERS);
-            let each = times(share / panels.list.len() as f64, tolerance);
+            let each = tolerance * (share / panels.list.len() as f64);
             let round = self.evaluate(&panels, tail, each, (radii, &closed), &mut statistics);
             raise(&mut peak, &round);
 
             worst = (0.0, 0.0);
             for ((_, error), &radius) in round.iter().zip(radii) {
-                let relative = share_of(error.0, peak.0).max(share_of(error.1, peak.1));
+                let shares = error.zip(peak, share_of);
+                let relative = shares.radial.max(shares.vertical);
                 if relative >= worst.0 {
                     worst = (relative, radius);
                 }
@@ -137,16 +138,12 @@ impl Transform<'_> {
     /// A guess where the transform has decayed: compared with its own size near 1/(decay length), for want of the peak.
     fn first_end(&self) -> f64 {
         let unit = 1.0 / self.remainder.decay_length;
-        let mut size = (0.0_f64, 0.0_f64);
-        for wavenumber in [0.25, 0.5, 1.0, 2.0].map(|x| x * unit) {
-            let sample = self.remainder.field(wavenumber);
-            size.0 = size.0.max(wavenumber * sample.0.abs());
-            size.1 = size.1.max(wavenumber * sample.1.abs());
-        }
-        let decayed = |x: f64| {
-            let tail = self.tail(x * unit);
-            tail.0 <= 0.02 * self.accuracy * size.0 && tail.1 <= 0.02 * self.accuracy * size.1
-        };
+        let sizes = [0.25, 0.5, 1.0, 2.0].map(|x| {
+            let wavenumber = x * unit;
+            self.remainder.field(wavenumber).map(f64::abs) * wavenumber
+        });
+        let size = largest(sizes);
+        let decayed = |x: f64| is_within(self.tail(x * unit), size * (0.02 * self.accuracy));
         let (mut low, mut high) = (1.0, LONGEST);
         while high - low > 1.0 {
             let middle = 0.5 * (low + high);
@@ -160,10 +157,10 @@ impl Transform<'_> {
     }
 
     /// Lengthens the range until what lies beyond is below a part of `tolerance`; returns what lies beyond.
-    fn extend(&self, panels: &mut Panels, end: &mut f64, tolerance: (f64, f64)) -> (f64, f64) {
+    fn extend(&self, panels: &mut Panels, end: &mut f64, tolerance: Displacement) -> Displacement {
         let mut tail = self.tail(*end);
         for _ in 0..MAX_EXTENSIONS {
-            if tail.0 <= 0.1 * tolerance.0 && tail.1 <= 0.1 * tolerance.1 {
+            if is_within(tail, tolerance * 0.1) {
                 break;
             }
             panels.list.push(Panel::new(self.remainder, *end, 1.25 * *end));
@@ -176,40 +173,35 @@ impl Transform<'_> {
 
     /// Integral of the transform's decaying end beyond `wavenumber`, from its values just before: what is left after
     /// rounding, over the decay length, with a factor 2 for the powers of m beside the exponential.
-    fn tail(&self, wavenumber: f64) -> (f64, f64) {
-        let (scale, mut tail) = (2.0 / self.remainder.decay_length, (0.0_f64, 0.0_f64));
+    fn tail(&self, wavenumber: f64) -> Displacement {
         // Three places, lest a zero of the disc's factor passes for decay.
-        for wavenumber in [1.0, 0.98, 0.95].map(|part| part * wavenumber) {
-            let sample = self.remainder.sample(wavenumber);
-            let noise = self.remainder.rounding(wavenumber);
-            tail.0 = tail.0.max(scale * (sample.0.abs() - noise.0).max(0.0));
-            tail.1 = tail.1.max(scale * (sample.1.abs() - noise.1).max(0.0));
-        }
-        tail
+        largest([1.0, 0.98, 0.95].map(|part| {
+            let sample = self.remainder.sample(part * wavenumber);
+            let noise = self.remainder.rounding(part * wavenumber);
+            (sample.map(f64::abs) - noise) * (2.0 / self.remainder.decay_length)
+        }))
     }
 
     fn evaluate(
         &self,
         panels: &Panels,
-        tail: (f64, f64),
-        tolerance: (f64, f64),
+        tail: Displacement,
+        tolerance: Displacement,
         (radii, closed): (&[f64], &[Bounded]),
         statistics: &mut Statistics,
     ) -> Vec<Bounded> {
-        let mut fixed = panels.total(Panel::cut);
-        let noise = panels.total(|panel| panel.noise);
-        fixed = (fixed.0 + noise.0 + tail.0, fixed.1 + noise.1 + tail.1);
+        let mut fixed = panels.total(Panel::cut) + panels.total(|panel| panel.noise) + tail;
         let mut sums = vec![Integrals::default(); radii.len()];
         for panel in &panels.list {
             let size = panel.size();
-            if size.0 <= tolerance.0 && size.1 <= tolerance.1 {
-                fixed = (fixed.0 + size.0, fixed.1 + size.1);
+            if is_within(size, tolerance) {
+                fixed += size;
                 continue;
             }
             let mut prepared = Prepared::new(panel, tolerance);
-            fixed = (fixed.0 + prepared.trimmed.0, fixed.1 + prepared.trimmed.1);
+            fixed += prepared.trimmed;
             for (sum, &radius) in sums.iter_mut().zip(radii) {
-                if sum.error.0.is_infinite() {
+                if sum.error.radial.is_infinite() {
                     continue; // given up
                 }
                 sum.add(prepared.integrate(radius));
@@ -218,33 +210,28 @@ impl Transform<'_> {
         statistics.bessel_pairs += sums.iter().map(|sum| sum.bessel).sum::<usize>();
         let unit = self.load.force() / TAU;
         let bounded = |((sum, &radius), &(closed, noise)): ((&Integrals, &f64), &Bounded)| {
-            let mut rest = Displacement {
-                radial: sum.radial,
-                vertical: sum.vertical,
-            };
-            let mut error = (
-                unit * (fixed.0 + sum.error.0) + noise.0,
-                unit * (fixed.1 + sum.error.1) + noise.1,
-            );
+            let mut rest = sum.sum * unit;
+            let mut error = (fixed + sum.error) * unit + noise;
             // On the axis nothing moves aside.
             if radius == 0.0 {
-                (rest.radial, error.0) = (0.0, 0.0);
+                (rest.radial, error.radial) = (0.0, 0.0);
             }
-            (closed + rest * unit, error)
+            (closed + rest, error)
         };
         sums.iter().zip(radii).zip(closed).map(bounded).collect()
     }
 }
 
-fn times(factor: f64, pair: (f64, f64)) -> (f64, f64) {
-    (factor * pair.0, factor * pair.1)
+/// The larger of all components, none below zero.
+fn largest<const N: usize>(values: [Displacement; N]) -> Displacement {
+    let larger = |most: Displacement, value| most.zip(value, f64::max);
+    values.into_iter().fold(Displacement::ZERO, larger)
 }
 
 /// Raises `peak` to the largest value that is certain after its error.
-fn raise(peak: &mut (f64, f64), round: &[Bounded]) {
+fn raise(peak: &mut Displacement, round: &[Bounded]) {
     for (value, error) in round {
-        peak.0 = peak.0.max(value.radial.abs() - error.0);
-        peak.1 = peak.1.max(value.vertical.abs() - error.1);
+        *peak = peak.zip(value.map(f64::abs) - *error, f64::max);
     }
 }
 

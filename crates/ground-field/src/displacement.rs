@@ -19,6 +19,21 @@ impl Displacement {
         vertical: 0.0,
     };
 
+    /// Both components changed by `f`.
+    #[must_use]
+    pub fn map(self, f: impl Fn(f64) -> f64) -> Self {
+        self.zip(self, |value, _| f(value))
+    }
+
+    /// Both components joined with those of `other` by `f`.
+    #[must_use]
+    pub fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+        Self {
+            radial: f(self.radial, other.radial),
+            vertical: f(self.vertical, other.vertical),
+        }
+    }
+
     /// Whether both components are finite numbers.
     pub fn is_finite(self) -> bool {
         self.radial.is_finite() && self.vertical.is_finite()
@@ -28,10 +43,7 @@ impl Displacement {
 impl Add for Displacement {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self {
-            radial: self.radial + other.radial,
-            vertical: self.vertical + other.vertical,
-        }
+        self.zip(other, |one, other| one + other)
     }
 }
 
@@ -51,9 +63,6 @@ impl Sub for Displacement {
 impl Mul<f64> for Displacement {
     type Output = Self;
     fn mul(self, factor: f64) -> Self {
-        Self {
-            radial: self.radial * factor,
-            vertical: self.vertical * factor,
-        }
+        self.map(|value| value * factor)
     }
 }
