@@ -2,7 +2,7 @@
 //!
 //! A stiffer end moves less and is pressed harder; a clamp takes force from the ends and lets them move less. There is no
 //! formula for that: the scene is run with many stiffnesses, which gives the curve of force against movement, and where a limit is
-//! crossed the stiffness is found by bisection of its logarithm, each step a run of the scene. Every point of the answer is a run.
+//! crossed the stiffness is bracketed ever closer, each step a run of the scene. Every point of the answer is a run.
 //!
 //! Force is the largest on an end, during and after the passes, and on a clamp after them; movement is the largest displacement of an end, or
 //! at a clamp, after a pass. Where the cable is heated, both count at all hours of all days: the force of the hottest, the movement of the

@@ -242,14 +242,34 @@ impl Search<'_> {
         })
     }
 
-    /// The last stiffness within the limit, where it is crossed between two: by bisection of its logarithm.
+    /// The last stiffness within the limit, where it is crossed between two: by the law of a spring k against a spring, of which 1/u is linear
+    /// in k and 1/F in 1/k, with the Illinois rule where one side is met twice (M. Dowell, P. Jarratt, BIT 11 (1971) 168).
     fn edge(&self, low: f64, high: f64, kept_above: bool, limit: &Limit) -> Result<f64, Error> {
-        let (mut low, mut high) = (low, high);
+        let room = |stiffness: f64| Ok::<_, Error>(1.0 / self.runs.run(&[stiffness])?.share(*limit) - 1.0);
+        let ((mut low, mut below), (mut high, mut above)) = ((low, room(low)?), (high, room(high)?));
+        let mut last = None;
         // Beyond the ends of the curve a stiffness means as little as none, or as much as a fixed end.
         while low > 0.0 && high.is_finite() && high > (1.0 + ACCURACY) * low {
-            let middle = (low * high).sqrt();
-            let kept = self.runs.run(&[middle])?.share(*limit) <= 1.0;
-            *(if kept == kept_above { &mut high } else { &mut low }) = middle;
+            let share = below / (below - above);
+            let crossing = match limit.1 {
+                _ if !share.is_finite() => (low * high).sqrt(),
+                Limited::Movement => low + share * (high - low),
+                Limited::Force => 1.0 / (1.0 / low + share * (1.0 / high - 1.0 / low)),
+            };
+            let least = 1.0 + 0.5 * ACCURACY;
+            let between = crossing.clamp(low * least, high / least);
+            let value = room(between)?;
+            let is_above = (value >= 0.0) == kept_above;
+            let again = if last.replace(is_above) == Some(is_above) {
+                0.5
+            } else {
+                1.0
+            };
+            if is_above {
+                (high, above, below) = (between, value, again * below);
+            } else {
+                (low, below, above) = (between, value, again * above);
+            }
         }
         Ok(if kept_above { high } else { low })
     }

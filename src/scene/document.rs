@@ -48,9 +48,18 @@ pub struct Entry {
     pub value: Node,
 }
 
-#[cfg(feature = "sweep")]
 impl Node {
+    /// The value of a table at this key, or of a list at this index.
+    pub fn child(&self, segment: &str) -> Option<&Self> {
+        match &self.content {
+            Content::Table(entries) => Some(&entries.iter().find(|entry| entry.key == segment)?.value),
+            Content::Array(items) => items.get(segment.parse::<usize>().ok()?),
+            _ => None,
+        }
+    }
+
     /// Adds all texts below the node at `key`, with their keys.
+    #[cfg(feature = "sweep")]
     pub fn texts(&self, key: String, texts: &mut Vec<(String, String)>) {
         let inner = |name: &str| {
             if key.is_empty() {
@@ -179,6 +188,18 @@ impl Document {
     /// The name of what a place is in: the file, an override or a preset.
     pub fn source(&self, place: &Place) -> &str {
         &self.sources[place.source].name
+    }
+
+    /// The value of `key`, or else the section that would hold it; and whether it is the value.
+    pub fn find(&self, key: &str) -> (&Node, bool) {
+        let mut node = &self.root;
+        for segment in key.split('.') {
+            match node.child(segment) {
+                Some(inner) => node = inner,
+                None => return (node, false),
+            }
+        }
+        (node, true)
     }
 
     /// Where in its source a place is.

@@ -143,29 +143,6 @@ impl SceneError {
         Self::NotUtf8(Location::new(file, &text, valid..valid, true))
     }
 
-    /// The error for a value of a scene that a program made or changed.
-    pub(super) fn value(
-        key: impl Into<String>,
-        found: impl Into<String>,
-        allowed: impl Into<String>,
-    ) -> Self {
-        Self::Wrong(Box::new(Wrong {
-            kind: WrongKind::OutOfRange,
-            key: key.into(),
-            found: found.into(),
-            allowed: allowed.into(),
-            location: None,
-        }))
-    }
-
-    /// The error for a scene that has no file.
-    pub(super) fn without_location(mut self) -> Self {
-        if let Self::Wrong(wrong) = &mut self {
-            wrong.location = None;
-        }
-        self
-    }
-
     /// Where the scene is wrong; `None` if its file cannot be read at all, or the scene is not that of a file.
     pub fn location(&self) -> Option<&Location> {
         match self {

@@ -4,18 +4,16 @@ use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use super::data::{Order, Scene};
-use super::document::{Content, Document, Node};
+use super::check::check;
+use super::data::Scene;
+use super::document::Document;
 use super::error::SceneError;
 use super::location::Location;
-use super::range::shown;
 use super::slips::{self, UnitSlip};
 use super::{histogram, overrides, preset, read};
 
 /// A scene file larger than this \[bytes\] is not a scene file.
 const LARGEST_FILE: u64 = 16 << 20;
-/// How far a share, or a factor beside itself, may be from what it has to be.
-const ROUNDING: f64 = 1e-9;
 
 /// The text of a scene and what was set on top of it.
 ///
@@ -108,25 +106,14 @@ impl SceneFile {
 
     /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
     pub fn locate(&self, key: &str) -> Option<Location> {
-        let mut found = None;
-        let mut node = &self.document.root;
-        for segment in key.split('.') {
-            let Some(inner) = child(node, segment) else {
-                break;
-            };
-            node = inner;
-            found = Some(&node.place);
-        }
-        found.map(|place| self.document.locate(place))
+        let (node, _) = self.document.find(key);
+        (node.place != self.document.root.place).then(|| self.document.locate(&node.place))
     }
 
     /// Whether the file or an override gives `key` a value.
     #[cfg(feature = "sweep")]
     pub(crate) fn names(&self, key: &str) -> bool {
-        let root = Some(&self.document.root);
-        key.split('.')
-            .fold(root, |node, segment| child(node?, segment))
-            .is_some()
+        self.document.find(key).1
     }
 
     /// Numbers without a unit that someone may have meant in another one.
@@ -191,48 +178,6 @@ impl Scene {
     ///
     /// [`SceneError::Wrong`] with the first key whose value is out of its range or contradicts another one.
     pub fn validate(&self) -> Result<(), SceneError> {
-        if let Order::Sequence(sequence) = &self.traffic.order {
-            let count = self.vehicles.len();
-            if let Some(index) = sequence.iter().find(|&&index| index >= count) {
-                let allowed = format!("a vehicle's index, less than {count}");
-                return Err(SceneError::value("traffic.sequence", index.to_string(), allowed));
-            }
-        }
-        // A scene is valid if a file can hold it.
-        let read = SceneFile::from_toml("scene", &self.to_toml()).and_then(|file| file.scene());
-        let read = read.map_err(SceneError::without_location)?;
-        let (factor, follows) = (self.cable.normal_load_factor, read.cable.normal_load_factor);
-        // Written so that NaN fails.
-        let same = (factor - follows).abs() <= ROUNDING * follows;
-        if !same {
-            let allowed = format!(
-                "{}, which follows from the arrangement and the diameters",
-                shown(follows)
-            );
-            return Err(SceneError::value(
-                "cable.normal_load_factor",
-                shown(factor),
-                allowed,
-            ));
-        }
-        for (index, (one, other)) in self.vehicles.iter().zip(&read.vehicles).enumerate() {
-            if (one.share - other.share).abs() > ROUNDING {
-                let allowed = format!(
-                    "{}, with which all shares sum to 1 and suit a sequence",
-                    shown(other.share)
-                );
-                let key = format!("vehicles.{index}.share");
-                return Err(SceneError::value(key, shown(one.share), allowed));
-            }
-        }
-        Ok(())
-    }
-}
-
-pub(super) fn child<'n>(node: &'n Node, segment: &str) -> Option<&'n Node> {
-    match &node.content {
-        Content::Table(entries) => Some(&entries.iter().find(|entry| entry.key == segment)?.value),
-        Content::Array(items) => items.get(segment.parse::<usize>().ok()?),
-        _ => None,
+        check(self).map_err(SceneError::Wrong)
     }
 }

@@ -20,26 +20,11 @@ pub fn ground(root: &Table) -> Result<Ground, SceneError> {
     let model = table.word_unless("model", GroundModel::WORDS, GroundModel::Auto, gone)?;
     let scaling = scaling(&table)?;
     let profile = profile(&table)?;
-    if let (Some(allowed), Some(value)) = (unfit(model, &profile), table.optional("model")) {
-        return Err(value.inconsistent(value.written(), allowed));
-    }
     Ok(Ground {
         model,
         profile,
         scaling,
     })
-}
-
-/// What is allowed instead where a model cannot represent the ground.
-fn unfit(model: GroundModel, profile: &SoilProfile) -> Option<&'static str> {
-    let graded = profile.layers().iter().any(|layer| layer.soil().is_none());
-    match model {
-        GroundModel::Boussinesq if profile.homogeneous().is_none() => Some(
-            "\"boussinesq\" with one layer and no rigid base only; \"auto\", \"burmister\" or \"fem\" here",
-        ),
-        GroundModel::Burmister if graded => Some("\"auto\" or \"fem\" where a modulus varies with depth"),
-        _ => None,
-    }
 }
 
 fn scaling(table: &Table) -> Result<Option<PeakScaling>, SceneError> {

@@ -1,6 +1,6 @@
 //! `[heat]`: the temperature of the cable over the day.
 
-use super::data::{Heat, Scene, SolverMethod, Warming};
+use super::data::{Heat, Warming};
 use super::error::SceneError;
 use super::range::{EXPANSION, OFFSET, SWING, TEMPERATURE, TIME_OF_DAY};
 use super::table::Table;
@@ -24,11 +24,6 @@ pub fn heat(root: &Table) -> Result<Option<Heat>, SceneError> {
                 .inconsistent("neither `daily_swing` nor `profile`", allowed));
         }
     };
-    let traffic = root.table("traffic")?;
-    if traffic.optional("per_day").is_none() {
-        let allowed = "`per_day` in [traffic] beside [heat]: how many vehicles meet each hour's temperature";
-        return Err(table.value.inconsistent("no `traffic.per_day`", allowed));
-    }
     Ok(Some(Heat {
         expansion,
         warming,
@@ -45,41 +40,7 @@ fn profile(list: &Value) -> Result<Vec<(f64, f64)>, SceneError> {
         let [time, kelvin] = &item.items(ALLOWED)?[..] else {
             return Err(item.inconsistent(item.written(), "a point of the day: [\"15 h\", \"20 K\"]"));
         };
-        let seconds = time.quantity(TIME_OF_DAY)?;
-        if points.last().is_some_and(|(before, _)| seconds <= *before) {
-            return Err(time.inconsistent(time.written(), "a time after that of the point before"));
-        }
-        points.push((seconds, kelvin.quantity(TEMPERATURE)?));
-    }
-    if points.len() < 2 {
-        return Err(list.inconsistent("one point", ALLOWED));
+        points.push((time.quantity(TIME_OF_DAY)?, kelvin.quantity(TEMPERATURE)?));
     }
     Ok(points)
-}
-
-/// Refuses what heat is not computed with.
-pub fn is_possible(root: &Table, scene: &Scene) -> Result<(), SceneError> {
-    let (Some(_), Some(section)) = (scene.warming(), root.optional("heat")) else {
-        return Ok(());
-    };
-    let refused = |found: String, allowed: &str| Err(section.inconsistent(found, allowed));
-    if !scene.friction.law.has_memory() {
-        return refused(
-            format!("[heat] with `friction.law` = \"{}\"", scene.friction.law.name()),
-            "\"coulomb\" or \"elastic-plastic\" beside [heat]: temperature steps need a state of rest",
-        );
-    }
-    if scene.friction_limit() == 0.0 {
-        return refused(
-            "[heat] without friction".to_owned(),
-            "a `friction.dynamic_coefficient` greater than 0 beside [heat]",
-        );
-    }
-    if scene.solver.method == SolverMethod::Explicit {
-        return refused(
-            "[heat] with `solver.method` = \"explicit\"".to_owned(),
-            "\"auto\", \"quasi-static\" or \"pass-law\" beside [heat]: it is computed without inertia",
-        );
-    }
-    Ok(())
 }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
 use super::data::TrafficVehicle;
-use super::document::{Content, Document, Node};
+use super::document::{Content, Document};
 use super::error::{SceneError, WrongKind};
 use super::range::{AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS, Quantity};
 use super::value::Value;
@@ -40,15 +40,8 @@ const LIGHTEST: f64 = 1e3;
 
 /// The file that a document names, from the folder of the scene's file `name` on.
 pub fn path(name: &str, document: &Document) -> Option<PathBuf> {
-    let child = |node: &'_ Node, key: &str| match &node.content {
-        Content::Table(entries) => entries
-            .iter()
-            .find(|entry| entry.key == key)
-            .map(|entry| entry.value.clone()),
-        _ => None,
-    };
-    match child(&child(&document.root, "traffic")?, "histogram")?.content {
-        Content::Text(text) => Some(beside(name, &text)),
+    match &document.root.child("traffic")?.child("histogram")?.content {
+        Content::Text(text) => Some(beside(name, text)),
         _ => None,
     }
 }

@@ -43,6 +43,7 @@
 
 mod arrangement;
 mod cable_end;
+mod check;
 mod counted;
 mod data;
 mod document;

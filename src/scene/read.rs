@@ -2,16 +2,15 @@
 
 use std::path::Path;
 
-use super::arrangement::CLOSEST;
+use super::check::check;
 use super::data::{
     Arrangement, Cable, Duct, End, Ends, Friction, FrictionLaw, Restraint, Scene, Solver, SolverMethod,
 };
 use super::document::Document;
-use super::error::SceneError;
+use super::error::{SceneError, Wrong, WrongKind};
 use super::range::{
-    APPROACH, AXIAL_STIFFNESS, CLAMP, COEFFICIENT, DEPTH, DIAMETER, DUCT_LENGTH, Follows, INNER_DIAMETER,
+    APPROACH, AXIAL_STIFFNESS, CLAMP, COEFFICIENT, DEPTH, DIAMETER, DUCT_LENGTH, INNER_DIAMETER,
     LATERAL_OFFSET, LOAD_FACTOR, POSITION, SHAPE_FACTOR, SLOPE, SPRING, STEP, TIME_STEP, TOLERANCE, WEIGHT,
-    diameters, node_spacings, positions, shown, vehicle_steps,
 };
 use super::table::Table;
 use super::units::Dimension;
@@ -32,10 +31,10 @@ pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
     let cable = cable(&root, &duct)?;
     let friction = friction(&root)?;
     let ends = ends(&root)?;
-    let restraints = restraints(&root, &duct)?;
+    let restraints = restraints(&root)?;
     let (vehicles, traffic) = traffic::traffic(name, &root, ground.scaling)?;
     let heat = heat::heat(&root)?;
-    let solver = solver(&root, &duct)?;
+    let solver = solver(&root)?;
     let scene = Scene {
         title,
         duct,
@@ -49,28 +48,18 @@ pub fn scene(name: &str, document: &Document) -> Result<Scene, SceneError> {
         heat,
         solver,
     };
-    is_held(&root, &scene)?;
-    heat::is_possible(&root, &scene)?;
+    check(&scene).map_err(|wrong| located(document, *wrong))?;
     Ok(scene)
 }
 
-/// Refuses a cable that slides out of its duct.
-fn is_held(root: &Table, scene: &Scene) -> Result<(), SceneError> {
-    let Ends { upstream, downstream } = scene.ends;
-    let free = (upstream, downstream) == (End::Free, End::Free) && scene.restraints.is_empty();
-    let (drawn, limit) = (scene.body_force().abs(), scene.friction_limit());
-    match root.table("duct")?.optional("slope") {
-        Some(slope) if free && drawn > 0.0 && drawn >= limit => {
-            let steepest = shown(limit / (scene.cable.weight * scene.duct.cosine()));
-            Err(slope.inconsistent(
-                format!("{} between free ends, where the cable slides out of the duct", slope.written()),
-                format!(
-                    "a slope less than what friction holds, {steepest}, or an end or a clamp that holds the cable"
-                ),
-            ))
-        }
-        _ => Ok(()),
-    }
+/// What is wrong, with the place of its key, and a value as it is written there.
+fn located(document: &Document, wrong: Wrong) -> SceneError {
+    let (node, is_value) = document.find(&wrong.key);
+    let found = match wrong.kind {
+        WrongKind::OutOfRange | WrongKind::UnknownWord { .. } if is_value => document.written(&node.place),
+        _ => wrong.found,
+    };
+    document.wrong(wrong.kind, &node.place, &wrong.key, found, wrong.allowed)
 }
 
 fn duct(root: &Table) -> Result<Duct, SceneError> {
@@ -118,10 +107,7 @@ fn arrangement(
         return Ok((arrangement, diameter, 1.0));
     }
     let inner = root.table("duct")?.quantity("inner_diameter", INNER_DIAMETER)?;
-    let room = diameters(inner, arrangement.is_of_three().then_some(CLOSEST));
-    let diameter = table
-        .required("diameter", &DIAMETER.allowed())?
-        .quantity_within(DIAMETER, room)?;
+    let diameter = table.quantity("diameter", DIAMETER)?;
     Ok((
         arrangement,
         Some(diameter),
@@ -182,34 +168,28 @@ fn end(table: &Table, key: &str) -> Result<End, SceneError> {
     }
 }
 
-fn restraints(root: &Table, duct: &Duct) -> Result<Vec<Restraint>, SceneError> {
+fn restraints(root: &Table) -> Result<Vec<Restraint>, SceneError> {
     let Some(list) = root.optional("restraints") else {
         return Ok(Vec::new());
     };
     let items = list.items("a list of [[restraints]]")?;
-    items.into_iter().map(|item| restraint(item, duct)).collect()
+    items.into_iter().map(restraint).collect()
 }
 
-fn restraint(item: Value, duct: &Duct) -> Result<Restraint, SceneError> {
+fn restraint(item: Value) -> Result<Restraint, SceneError> {
     let table = Table::new(item)?;
-    let position = table.required("position", &POSITION.allowed())?;
     Ok(Restraint {
-        position: position.quantity_within(POSITION, positions(duct.length))?,
+        position: table.quantity("position", POSITION)?,
         stiffness: table.quantity("stiffness", CLAMP)?,
     })
 }
 
-fn solver(root: &Table, duct: &Duct) -> Result<Solver, SceneError> {
+fn solver(root: &Table) -> Result<Solver, SceneError> {
     let mut solver = Solver::default();
     let Some(section) = root.optional("solver") else {
         return Ok(solver);
     };
     let table = Table::new(section)?;
-    // A length that must suit the duct.
-    let length = |key, range: Follows| {
-        let value = table.optional(key);
-        value.map(|value| value.quantity_within(STEP, range)).transpose()
-    };
     let gone = (
         "dynamic",
         "inertia is computed by \"explicit\", and below 200 km/h it changes next to nothing",
@@ -218,8 +198,8 @@ fn solver(root: &Table, duct: &Duct) -> Result<Solver, SceneError> {
     if let Some(tolerance) = table.optional_quantity("tolerance", TOLERANCE)? {
         solver.tolerance = tolerance;
     }
-    solver.node_spacing = length("node_spacing", node_spacings(duct.length))?;
-    solver.vehicle_step = length("vehicle_step", vehicle_steps(duct.length))?;
+    solver.node_spacing = table.optional_quantity("node_spacing", STEP)?;
+    solver.vehicle_step = table.optional_quantity("vehicle_step", STEP)?;
     solver.time_step = table.optional_quantity("time_step", TIME_STEP)?;
     if !solver.method.has_time_steps() {
         let allowed = "`time_step` only with the method \"auto\" or \"explicit\"";

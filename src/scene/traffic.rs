@@ -36,7 +36,7 @@ pub fn traffic(
         let speed = table.optional_quantity("speed", SPEED)?.unwrap_or(AXLE_SPEED);
         (histogram::axles(name, &value, speed)?, random_order(&table)?)
     } else {
-        let vehicles = listed(root, scaling)?;
+        let vehicles = listed(root)?;
         let order = order(&table, &vehicles)?;
         (vehicles, order)
     };
@@ -92,7 +92,7 @@ fn seed(table: &Table) -> Result<u64, SceneError> {
 }
 
 /// The vehicles that the file lists.
-fn listed(root: &Table, scaling: Option<PeakScaling>) -> Result<Vec<TrafficVehicle>, SceneError> {
+fn listed(root: &Table) -> Result<Vec<TrafficVehicle>, SceneError> {
     let allowed = "one [[vehicles]] or more, or traffic.histogram";
     let items = root.required("vehicles", allowed)?.some_items(allowed)?;
     let mut vehicles: Vec<TrafficVehicle> = Vec::with_capacity(items.len());
@@ -100,17 +100,6 @@ fn listed(root: &Table, scaling: Option<PeakScaling>) -> Result<Vec<TrafficVehic
         let table = Table::new(item)?;
         let name = name(&table, index, &vehicles)?;
         let vehicle = vehicle(&table, name)?;
-        if vehicle.weight() == 0.0
-            && let Some(key) = scales(scaling, index)
-        {
-            let allowed = format!("a load greater than 0, which `{key}` can scale");
-            let load = table.alternatives("load", "wheels")?.into_iter().flatten().next();
-            let found = "a vehicle without load";
-            return Err(load.map_or_else(
-                || table.value.inconsistent(found, &allowed),
-                |load| load.inconsistent(found, &allowed),
-            ));
-        }
         let share = table.optional_quantity("share", SHARE)?.unwrap_or(1.0);
         let lateral_offset = table.optional_quantity("lateral_offset", LANE)?;
         vehicles.push(TrafficVehicle {
@@ -228,14 +217,6 @@ fn wheel(item: Value) -> Result<Wheel, SceneError> {
         y: or_zero("y", WHEEL_Y)?,
         load: SurfaceLoad::new(force, contact_radius).map_err(|e| table.rejected(e))?,
     })
-}
-
-/// The key that scales the displacements of the vehicle of this index itself: one without load has none that could be scaled.
-fn scales(scaling: Option<PeakScaling>, index: usize) -> Option<&'static str> {
-    match scaling? {
-        PeakScaling::Longitudinal(_) => Some("ground.longitudinal_peak"),
-        PeakScaling::Vertical(_) => (index == 0).then_some("ground.vertical_peak"),
-    }
 }
 
 fn order(table: &Table, vehicles: &[TrafficVehicle]) -> Result<Order, SceneError> {

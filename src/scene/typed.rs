@@ -1,7 +1,7 @@
 //! What was typed at the keys of a scene, and in which unit.
 
 use super::document::{Content, Node, Origin};
-use super::file::{SceneFile, child};
+use super::file::SceneFile;
 use super::keys::joined;
 use super::units::{Dimension, Unit};
 
@@ -60,9 +60,9 @@ impl SceneFile {
 
     /// The unit of the quantity that was typed at `key`; none for a bare number, and for what a preset gives.
     pub fn typed_unit(&self, key: &str, dimension: Dimension) -> Option<Unit> {
-        let node = key
-            .split('.')
-            .try_fold(&self.document.root, |node, segment| child(node, segment))?;
+        let (node, true) = self.document.find(key) else {
+            return None;
+        };
         let Content::Text(text) = &node.content else {
             return None;
         };

@@ -58,7 +58,6 @@ impl Dimension {
     }
 
     /// The symbol of its SI unit; ratios and slopes have none.
-    #[cfg(feature = "sweep")]
     pub(super) fn si(self) -> Option<&'static str> {
         self.units().next().filter(|unit| *unit != "%")
     }

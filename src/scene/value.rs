@@ -7,7 +7,7 @@ use super::error::{SceneError, WrongKind};
 use super::keys::joined;
 use super::nearest::nearest;
 use super::quantity::{QuantityError, leading_number};
-use super::range::{Follows, Quantity, allowed_whole};
+use super::range::{Quantity, allowed_whole};
 use super::syntax::{with_point, without_thousands};
 use super::units::Dimension;
 
@@ -83,16 +83,6 @@ impl<'d> Value<'d> {
             _ => String::new(),
         };
         Err(self.out_of_range(allowed + &meant))
-    }
-
-    /// A quantity whose range follows from the rest of the scene.
-    pub fn quantity_within(&self, quantity: Quantity, (range, allowed): Follows) -> Result<f64, SceneError> {
-        let value = self.quantity(quantity)?;
-        if range.contains(&value) {
-            Ok(value)
-        } else {
-            Err(self.out_of_range(allowed))
-        }
     }
 
     /// A whole number in `range`.
