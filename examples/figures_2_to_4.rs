@@ -121,15 +121,14 @@ pub fn figure(cases: &[Case]) -> Panels {
         longitudinal = longitudinal.with(Series::line(case.name, pairs(x, &along)).look(look));
         path = path.with(Series::line(case.name, pairs(&along, &up)).look(look));
     }
-    // The letters at the places of the ground that comes nearest to the paper's.
+    // The places on the ground that comes nearest to the paper's.
     let shown = &cases[1].at_places;
     let at = pairs(
         &micro(&shown.longitudinal_m, 1.0),
         &micro(&shown.vertical_m, -1.0),
     );
-    path = path.with(Series::points("vehicle at A to E, on rock", at.clone()).look(6));
-    for ((name, _), (x, y)) in PLACES.iter().zip(at) {
-        path = path.note(x, y + 7.0, *name);
+    for (look, ((name, _), point)) in PLACES.iter().zip(at).enumerate() {
+        path = path.with(Series::points(format!("vehicle at {name}, on rock"), [point]).look(look));
     }
     Panels::new("Motion of the duct under 20 tf, 1.2 m deep")
         .panel_size(800.0, 430.0)

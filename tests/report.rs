@@ -239,7 +239,7 @@ fn all_figures_are_there_and_have_dark_colours() {
     let elements = elements(&page);
     let names: Vec<&str> = elements
         .windows(2)
-        .filter(|pair| pair[0].name == "svg")
+        .filter(|pair| pair[0].name == "svg" && pair[1].name == "title")
         .map(|pair| pair[1].text.as_str())
         .collect();
     assert_eq!(names, FIGURES);
@@ -375,7 +375,7 @@ fn readings_are_drawn_and_compared() {
                 10.0 N, largest reading 500.0 N.";
     assert!(with.contains(said), "{with}");
     let circles = |page: &str| {
-        let drawn = |element: &&Element| element.name == "polygon" || element.name == "polyline";
+        let drawn = |element: &&Element| element.name == "circle" || element.name == "polyline";
         let elements = elements(page);
         let force = |pair: &[Element]| pair[0].name == "svg" && pair[1].text == "Force against passes";
         let svg = elements.windows(2).position(force).expect("a figure");
@@ -383,7 +383,7 @@ fn readings_are_drawn_and_compared() {
             + 1
             + elements[svg + 1..]
                 .iter()
-                .position(|element| element.name == "svg")
+                .position(|element| element.get("role") == "img")
                 .expect("another");
         elements[svg..end]
             .iter()

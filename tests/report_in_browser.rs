@@ -50,7 +50,7 @@ const touch = (a, b) =>
 frame.addEventListener("load", () => {
   const page = frame.contentDocument, view = frame.contentWindow;
   const ground = view.getComputedStyle(page.body).backgroundColor;
-  const figures = [...page.querySelectorAll("svg")].map((svg) => {
+  const figures = [...page.querySelectorAll("svg[role=img]")].map((svg) => {
     const box = svg.getBoundingClientRect();
     const scale = box.width / svg.viewBox.baseVal.width;
     const texts = [...svg.querySelectorAll("text")];

@@ -160,7 +160,7 @@ pub fn run(out: &Path) -> Result<(), Box<dyn Error>> {
         .panel_size(700.0, 480.0);
     let mut table =
         String::from("map,time_step_s,shape_factor_per_m_or_speed_m_per_s,outcome,force_n,right_force_n\n");
-    let steps_axis = |grid: &Grid| Axis::logarithmic("time step").cells(grid.x.clone()).prefixes("s");
+    let steps_axis = |grid: &Grid| Axis::logarithmic("time step, s").cells(grid.x.clone());
     for law in [Law::ElasticPlastic, Law::Sigmoid] {
         for (grid, guards) in over_shape_factor(law, steps, factors)?
             .into_iter()

@@ -1,7 +1,7 @@
 //! An axis as data: its label with the unit, whether it is linear or logarithmic, and what it spans.
 
 use crate::error::FigureError;
-use crate::scale::{Scale, is_sound, round_range};
+use crate::scale::{Scale, Tick, is_sound, round_range};
 
 /// One axis of a [`Chart`](crate::Chart).
 #[derive(Debug, Clone, PartialEq)]
@@ -9,15 +9,11 @@ use crate::scale::{Scale, is_sound, round_range};
 pub struct Axis {
     pub(crate) label: String,
     pub(crate) logarithmic: bool,
-    /// Unit of ticks that have SI prefixes.
-    unit: Option<String>,
     range: Option<(f64, f64)>,
     /// Centres of cells, of a map.
     pub(crate) centres: Vec<f64>,
-    /// Names of these cells, if they have any.
-    names: Vec<String>,
     /// Values that are labelled in place of round numbers, if any.
-    ticks: Vec<(f64, String)>,
+    ticks: Vec<Tick>,
 }
 
 impl Axis {
@@ -26,10 +22,8 @@ impl Axis {
         Self {
             label: label.into(),
             logarithmic: false,
-            unit: None,
             range: None,
             centres: Vec::new(),
-            names: Vec::new(),
             ticks: Vec::new(),
         }
     }
@@ -47,12 +41,9 @@ impl Axis {
         label: impl Into<String>,
         names: impl IntoIterator<Item = Name>,
     ) -> Self {
-        let names: Vec<String> = names.into_iter().map(Into::into).collect();
-        Self {
-            centres: (0..names.len()).map(|k| k as f64).collect(),
-            names,
-            ..Self::linear(label)
-        }
+        let axis = Self::linear(label).ticks((0..).map(f64::from).zip(names));
+        let centres: Vec<f64> = axis.ticks.iter().map(|(centre, _)| *centre).collect();
+        axis.cells(centres)
     }
 
     /// Spans `from` to `to`, whatever the data; what lies beyond is cut off.
@@ -64,12 +55,6 @@ impl Axis {
     /// Spans cells around ascending centres. Their borders lie half-way between the centres, or between their logarithms.
     pub fn cells(mut self, centres: impl IntoIterator<Item = f64>) -> Self {
         self.centres = centres.into_iter().collect();
-        self
-    }
-
-    /// Labels ticks with SI prefixes of `unit`: "1 µm", "10 ms".
-    pub fn prefixes(mut self, unit: impl Into<String>) -> Self {
-        self.unit = Some(unit.into());
         self
     }
 
@@ -158,17 +143,12 @@ impl Axis {
             let (axis, (from, to)) = (self.label.clone(), range);
             return Err(FigureError::BadRange { axis, from, to });
         }
-        if self.names.is_empty() {
-            let unit = self.unit.as_deref();
-            let scale = Scale::new(range, self.logarithmic, ticks, unit);
-            Ok(if self.ticks.is_empty() {
-                scale
-            } else {
-                scale.with_ticks(&self.ticks)
-            })
+        let scale = Scale::new(range, self.logarithmic, ticks);
+        Ok(if self.ticks.is_empty() {
+            scale
         } else {
-            Ok(Scale::names(&self.names))
-        }
+            scale.with_ticks(&self.ticks)
+        })
     }
 }
 

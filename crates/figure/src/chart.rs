@@ -4,7 +4,7 @@ use crate::axis::Axis;
 use crate::error::FigureError;
 use crate::series::{Along, Kind, Reference, Series};
 
-/// Series of points over two axes, with references and notes, or a map: a grid of cells coloured by class or by value.
+/// Series of points over two axes, with references, or a map: a grid of cells coloured by class or by value.
 ///
 /// ```
 /// use plain_figure::{Axis, Chart, Series};
@@ -30,7 +30,6 @@ pub struct Chart {
     pub(crate) cells: Option<Cells>,
     pub(crate) series: Vec<Series>,
     pub(crate) references: Vec<Reference>,
-    pub(crate) notes: Vec<((f64, f64), String)>,
 }
 
 impl Chart {
@@ -43,7 +42,6 @@ impl Chart {
             cells: None,
             series: Vec::new(),
             references: Vec::new(),
-            notes: Vec::new(),
         }
     }
 
@@ -93,12 +91,6 @@ impl Chart {
         self
     }
 
-    /// Adds a text centred at (x, y), moved just far enough to stay in the plot.
-    pub fn note(mut self, x: f64, y: f64, text: impl Into<String>) -> Self {
-        self.notes.push(((x, y), text.into()));
-        self
-    }
-
     pub(crate) fn check(&self) -> Result<(), FigureError> {
         if self.series.is_empty() && self.cells.is_none() {
             return Err(FigureError::empty("chart", &self.title));
@@ -114,11 +106,6 @@ impl Chart {
         for (what, x, y) in self.contents() {
             self.x.check(&what, x)?;
             self.y.check(&what, y)?;
-        }
-        for ((x, y), text) in &self.notes {
-            let what = format!("note \"{text}\"");
-            self.x.check(&what, [*x])?;
-            self.y.check(&what, [*y])?;
         }
         Ok(())
     }

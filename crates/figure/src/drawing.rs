@@ -1,7 +1,7 @@
 //! A drawing in px: lines, areas and texts, in the colours of the charts.
 
 use crate::draw::canvas::{Canvas, Stroke, TEXT, text_width};
-use crate::palette::{Colour, DASHES, GREY, GRID, INK, PALETTE};
+use crate::palette::{Colour, DASHES, GREY, INK, PALETTE};
 
 /// What a line or an area is drawn with; each has its colour in the [dark style](crate::dark_style).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -10,8 +10,6 @@ pub enum Ink {
     Dark,
     /// That of references.
     Grey,
-    /// That of grid lines.
-    Faint,
     /// That of the `index`-th series, from 0.
     Series(usize),
 }
@@ -21,7 +19,6 @@ impl Ink {
         match self {
             Self::Dark => INK,
             Self::Grey => GREY,
-            Self::Faint => GRID,
             Self::Series(index) => PALETTE[index % PALETTE.len()],
         }
     }

@@ -41,9 +41,9 @@ impl Panels {
         self
     }
 
-    /// Width and height of each chart \[px\], 200 to 5000.
+    /// Width and height of each chart \[px\].
     pub fn panel_size(mut self, width: f64, height: f64) -> Self {
-        self.size = (width.clamp(200.0, 5000.0), height.clamp(200.0, 5000.0));
+        self.size = (width, height);
         self
     }
 

@@ -1,10 +1,7 @@
 //! Numbers to places along an axis, and the ticks that stand there.
 
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Tick {
-    pub value: f64,
-    pub label: String,
-}
+/// A value and its label.
+pub(crate) type Tick = (f64, String);
 
 /// A range of numbers, or of cells, laid along an axis.
 #[derive(Debug, Clone, PartialEq)]
@@ -20,9 +17,8 @@ pub(crate) struct Scale {
 const END: f64 = 1e-6;
 
 impl Scale {
-    /// Exactly `range`, with about `count` ticks inside, labelled with SI prefixes of `unit` if given. The range is finite, ascending,
-    /// and positive if logarithmic.
-    pub fn new(range: (f64, f64), logarithmic: bool, count: usize, unit: Option<&str>) -> Self {
+    /// Exactly `range`, with about `count` ticks inside. The range is finite, ascending, and positive if logarithmic.
+    pub fn new(range: (f64, f64), logarithmic: bool, count: usize) -> Self {
         let (values, fine) = if logarithmic {
             logarithmic_ticks(range, count)
         } else {
@@ -31,36 +27,16 @@ impl Scale {
         Self {
             range,
             logarithmic,
-            ticks: labelled(&values, logarithmic, unit),
+            ticks: labelled(&values, logarithmic),
             fine,
         }
     }
 
-    /// Cells named `names`, centred at 0, 1, 2, ...
-    pub fn names(names: &[String]) -> Self {
-        let ticks = names.iter().enumerate().map(|(k, name)| Tick {
-            value: k as f64,
-            label: name.clone(),
-        });
-        Self {
-            range: (-0.5, names.len() as f64 - 0.5),
-            logarithmic: false,
-            ticks: ticks.collect(),
-            fine: Vec::new(),
-        }
-    }
-
     /// These ticks in place of its own, as far as they lie inside.
-    pub fn with_ticks(self, ticks: &[(f64, String)]) -> Self {
-        let inside = ticks
-            .iter()
-            .filter(|(value, _)| (0.0..=1.0).contains(&self.share(*value)));
-        let ticks = inside.map(|(value, label)| Tick {
-            value: *value,
-            label: label.clone(),
-        });
+    pub fn with_ticks(self, ticks: &[Tick]) -> Self {
+        let is_inside = |tick: &&Tick| (0.0..=1.0).contains(&self.share(tick.0));
         Self {
-            ticks: ticks.collect(),
+            ticks: ticks.iter().filter(is_inside).cloned().collect(),
             fine: Vec::new(),
             ..self
         }
@@ -177,20 +153,15 @@ fn logarithmic_ticks(range: (f64, f64), count: usize) -> (Vec<f64>, Vec<f64>) {
 }
 
 /// Ticks with labels, all in one form.
-fn labelled(values: &[f64], logarithmic: bool, unit: Option<&str>) -> Vec<Tick> {
+fn labelled(values: &[f64], logarithmic: bool) -> Vec<Tick> {
     let least = if logarithmic { 1e-3 } else { 1e-4 };
     let is_short = |value: &f64| *value == 0.0 || (least..1e6).contains(&value.abs());
     let short = values.iter().all(is_short);
-    let label = |value: f64| match unit {
-        Some(unit) => prefixed(value, unit),
-        None if short || value == 0.0 => minus(&value.to_string()),
-        None => power_of_ten(value),
+    let label = |value: f64| match value {
+        value if short || value == 0.0 => minus(&value.to_string()),
+        value => power_of_ten(value),
     };
-    let tick = |&value| Tick {
-        value,
-        label: label(value),
-    };
-    values.iter().map(tick).collect()
+    values.iter().map(|&value| (value, label(value))).collect()
 }
 
 /// With a minus sign instead of a hyphen.
@@ -212,26 +183,13 @@ fn power_of_ten(value: f64) -> String {
     }
 }
 
-/// 1 µm, 20 ms.
-fn prefixed(value: f64, unit: &str) -> String {
-    const PREFIXES: [&str; 9] = ["p", "n", "µ", "m", "", "k", "M", "G", "T"];
-    if value == 0.0 {
-        return format!("0 {unit}");
-    }
-    let thousands = (value.abs().log10() / 3.0 + END).floor().clamp(-4.0, 4.0) as i32;
-    let number = value / 10f64.powi(3 * thousands);
-    let number: f64 = format!("{number:.6}").parse().unwrap_or(number);
-    let prefix = PREFIXES[(thousands + 4) as usize];
-    minus(&format!("{number} {prefix}{unit}"))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn labels(range: (f64, f64), logarithmic: bool) -> Vec<String> {
-        let scale = Scale::new(range, logarithmic, 8, None);
-        scale.ticks.into_iter().map(|tick| tick.label).collect()
+        let scale = Scale::new(range, logarithmic, 8);
+        scale.ticks.into_iter().map(|(_, label)| label).collect()
     }
 
     #[test]
@@ -256,14 +214,6 @@ mod tests {
     }
 
     #[test]
-    fn prefixes_of_units() {
-        assert_eq!(prefixed(1e-6, "m"), "1 µm");
-        assert_eq!(prefixed(2e-2, "s"), "20 ms");
-        assert_eq!(prefixed(1000.0, "N"), "1 kN");
-        assert_eq!(prefixed(0.0, "N"), "0 N");
-    }
-
-    #[test]
     fn the_range_holds_the_data_between_round_numbers() {
         let scale = |data, logarithmic| round_range(data, logarithmic, 8);
         assert_eq!(scale((3.0, 187.0), false), (0.0, 200.0));
@@ -278,9 +228,9 @@ mod tests {
 
     #[test]
     fn shares_of_the_axis() {
-        let linear = Scale::new((10.0, 30.0), false, 5, None);
+        let linear = Scale::new((10.0, 30.0), false, 5);
         assert_eq!(linear.share(15.0), 0.25);
-        let logarithmic = Scale::new((1e-2, 1e2), true, 5, None);
+        let logarithmic = Scale::new((1e-2, 1e2), true, 5);
         assert!((logarithmic.share(1e-1) - 0.25).abs() < 1e-15);
     }
 }

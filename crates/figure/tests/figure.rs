@@ -57,8 +57,7 @@ fn a_chart_is_well_formed_and_names_everything() {
         .with(Series::line("dashes", points).dashed())
         .with(Series::area("area\u{1}", points))
         .refer(Reference::horizontal(2.0, "limit"))
-        .refer(Reference::vertical_band(0.5, 0.7, "band"))
-        .note(1.0, 1.0, "a note");
+        .refer(Reference::vertical_band(0.5, 0.7, "band"));
     let svg = chart.to_svg().expect("svg");
     let elements = parse(&svg);
     let texts = texts(&elements);
@@ -73,7 +72,6 @@ fn a_chart_is_well_formed_and_names_everything() {
         "area\u{fffd}",
         "limit",
         "band",
-        "a note",
     ] {
         assert_eq!(
             texts.iter().filter(|found| **found == text).count(),
@@ -139,12 +137,20 @@ fn what_lies_beyond_the_range_is_cut_off() {
     )
     .with(series);
     let elements = parse(&chart.to_svg().expect("svg"));
-    let points = first_line(&elements);
-    let (left, right) = (tick(&elements, "0", "middle"), tick(&elements, "1", "middle"));
-    assert!(
-        (points[0].0 - left).abs() <= 0.1 && (points[3].0 - right).abs() <= 0.1,
-        "{points:?}"
-    );
+    // The line stands in an element of its own, which ends with the axes.
+    let place = elements
+        .iter()
+        .position(|e| e.name == "polyline" && e.points().len() == 4);
+    let place = place.expect("the line, as it was given");
+    let clip = &elements[place - 1];
+    assert_eq!(clip.name, "svg");
+    let [left, right] = ["0", "1"].map(|label| tick(&elements, label, "middle"));
+    let [bottom, top] = ["0", "1"].map(|label| tick(&elements, label, "end"));
+    let [x, y, width, height] = ["x", "y", "width", "height"].map(|name| clip.number(name));
+    for (found, wanted) in [(x, left), (x + width, right), (y, top), (y + height, bottom)] {
+        assert!((found - wanted).abs() <= 0.2, "{found} px, {wanted} px");
+    }
+    assert_eq!(clip.get("viewBox"), format!("{x} {y} {width} {height}"));
 }
 
 #[test]
@@ -247,9 +253,12 @@ fn errors_instead_of_wrong_pictures() {
         is(chart(line()).refer(Reference::horizontal(value, "")), |e| {
             matches!(e, FigureError::NotFinite { .. })
         });
-        is(chart(line()).note(0.0, value, ""), |e| {
-            matches!(e, FigureError::NotFinite { .. })
-        });
+        let sized = Panels::new("").panel_size(400.0, value).with(chart(line()));
+        let refused = sized.to_svg();
+        assert!(
+            matches!(refused, Err(FigureError::NotFinite { index: 1, .. })),
+            "{refused:?}"
+        );
     }
     let on_logarithmic =
         |chart: fn(Chart) -> Chart| chart(Chart::new("", Axis::logarithmic("x"), Axis::linear("y")));
@@ -278,9 +287,11 @@ fn errors_instead_of_wrong_pictures() {
         Chart::new("", Axis::linear(&long), Axis::linear("y")).with(line()),
         |e| matches!(e, FigureError::NoRoom { .. }),
     );
-    is(chart(line()).note(0.5, 0.5, &long), |e| {
+    is(chart(line()).refer(Reference::horizontal(0.5, &long)), |e| {
         matches!(e, FigureError::NoRoom { .. })
     });
+    let small = Panels::new("").panel_size(100.0, 100.0).with(chart(line()));
+    assert!(matches!(small.to_svg(), Err(FigureError::NoRoom { .. })));
     assert!(matches!(
         Panels::new("none").to_svg(),
         Err(FigureError::Empty { .. })

@@ -117,6 +117,24 @@ impl Canvas {
         self.shape("polygon", points, &style);
     }
 
+    pub fn circle(&mut self, (x, y): Point, radius: f64, colour: Colour, stroke: Stroke) {
+        let (x, y, stroke) = (tenths(x), tenths(y), stroke.attributes());
+        let fill = format!("fill=\"#{colour:06X}\" {stroke}");
+        let _ = writeln!(self.0, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius:.1}\" {fill}/>");
+    }
+
+    /// What is drawn by `draw` is cut off at the border of `rect`.
+    pub fn clipped(&mut self, rect: Rect, draw: impl FnOnce(&mut Self)) {
+        let (left, top) = (tenths(rect.left), tenths(rect.top));
+        let (width, height) = (tenths(rect.width()), tenths(rect.height()));
+        let _ = writeln!(
+            self.0,
+            "<svg x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" viewBox=\"{left} {top} {width} {height}\">"
+        );
+        draw(self);
+        self.0.push_str("</svg>\n");
+    }
+
     pub fn rectangle(&mut self, rect: Rect, colour: Colour, opacity: f64) {
         self.area(&rect.corners(), colour, opacity);
     }

@@ -7,7 +7,7 @@ use crate::axis::Axis;
 use crate::chart::{Cells, Chart};
 use crate::error::FigureError;
 use crate::palette::{INK, continuous};
-use crate::scale::{Scale, Tick};
+use crate::scale::Scale;
 
 /// Distance of the bar from the plot, and its width \[px\].
 const GAP: f64 = 18.0;
@@ -51,7 +51,7 @@ impl<'a> Bar<'a> {
         let mut outline = bar.corners().to_vec();
         outline.push(outline[0]);
         canvas.line(&outline, Stroke::solid(INK, 1.0));
-        for Tick { value, label } in &self.scale.ticks {
+        for (value, label) in &self.scale.ticks {
             let y = at(self.scale.share(*value));
             canvas.line(&[(right, y), (right + TICK, y)], AXIS);
             canvas.text(label, (right + 2.0 * TICK, y), "start");

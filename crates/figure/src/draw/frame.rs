@@ -3,7 +3,7 @@
 use super::canvas::{Canvas, Point, Rect, Stroke, TEXT, check_room, text_width};
 use crate::error::FigureError;
 use crate::palette::{FINE_GRID, GRID, INK};
-use crate::scale::{Scale, Tick};
+use crate::scale::Scale;
 
 /// Length of ticks; labels stand twice as far from the axis \[px\].
 pub const TICK: f64 = 5.0;
@@ -18,8 +18,8 @@ const SMALLEST: f64 = 50.0;
 /// Axes and ticks.
 pub const AXIS: Stroke = Stroke::solid(INK, 1.2);
 
-/// Points farther out than this many frames are drawn there, so that lengths stay finite.
-const FAR: f64 = 1e9;
+/// Points farther out than this many frames are drawn there: no program that shows an SVG needs more digits than it has.
+const FAR: f64 = 1e3;
 
 /// The scales of both axes, and the plot's place.
 pub struct Frame {
@@ -35,7 +35,7 @@ pub fn ticks(length: f64, each: f64) -> usize {
 
 /// Width of the widest label of an axis \[px\].
 pub fn widest_label(scale: &Scale) -> f64 {
-    let widths = scale.ticks.iter().map(|tick| text_width(&tick.label, TEXT));
+    let widths = scale.ticks.iter().map(|(_, label)| text_width(label, TEXT));
     widths.fold(0.0, f64::max)
 }
 
@@ -50,7 +50,7 @@ impl Frame {
         right: f64,
     ) -> Result<Self, FigureError> {
         let last = x.ticks.last();
-        let last = last.map_or(0.0, |tick| 0.5 * text_width(&tick.label, TEXT));
+        let last = last.map_or(0.0, |tick| 0.5 * text_width(&tick.1, TEXT));
         let plot = Rect {
             left: outer.left + GAP + TEXT + GAP + widest_label(&y) + 2.0 * TICK,
             right: outer.right - right - RIGHT.max(last + 4.0),
@@ -69,12 +69,12 @@ impl Frame {
         }
         let corner = (plot.left, plot.bottom);
         canvas.line(&[(plot.left, plot.top), corner, (plot.right, plot.bottom)], AXIS);
-        for Tick { value, label } in &frame.x.ticks {
+        for (value, label) in &frame.x.ticks {
             let (x, y) = (frame.x(*value), plot.bottom);
             canvas.line(&[(x, y), (x, y + TICK)], AXIS);
             canvas.text(label, (x, y + 2.0 * TICK + 0.5 * TEXT), "middle");
         }
-        for Tick { value, label } in &frame.y.ticks {
+        for (value, label) in &frame.y.ticks {
             let (x, y) = (plot.left, frame.y(*value));
             canvas.line(&[(x, y), (x - TICK, y)], AXIS);
             canvas.text(label, (x - 2.0 * TICK, y), "end");
@@ -96,7 +96,7 @@ impl Frame {
                 canvas.line(&[(plot.left, y), (plot.right, y)], stroke);
             }
         };
-        let values = |scale: &Scale| -> Vec<f64> { scale.ticks.iter().map(|tick| tick.value).collect() };
+        let values = |scale: &Scale| -> Vec<f64> { scale.ticks.iter().map(|tick| tick.0).collect() };
         lines(&self.x.fine, &self.y.fine, Stroke::solid(FINE_GRID, 0.8));
         lines(&values(&self.x), &values(&self.y), Stroke::solid(GRID, 1.0));
     }
@@ -120,9 +120,9 @@ impl Frame {
 /// Labels of neighbouring ticks on an axis of `length` \[px\] do not touch.
 fn labels_fit(scale: &Scale, length: f64, size: impl Fn(&str) -> f64) -> Result<(), FigureError> {
     for pair in scale.ticks.windows(2) {
-        let room = (scale.share(pair[1].value) - scale.share(pair[0].value)) * length;
-        let needed = 0.5 * (size(&pair[0].label) + size(&pair[1].label));
-        check_room(&pair[1].label, needed, room)?;
+        let room = (scale.share(pair[1].0) - scale.share(pair[0].0)) * length;
+        let needed = 0.5 * (size(&pair[0].1) + size(&pair[1].1));
+        check_room(&pair[1].1, needed, room)?;
     }
     Ok(())
 }

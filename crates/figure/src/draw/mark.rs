@@ -1,7 +1,5 @@
 //! Markers of points and marks in cells.
 
-use std::f64::consts::TAU;
-
 use super::canvas::{Canvas, Point, Rect, Stroke};
 use crate::palette::{BLACK, CLASSES, Colour, WHITE};
 
@@ -20,14 +18,6 @@ const OUTLINES: [&[Point]; 4] = [
 const CROSS: [[Point; 2]; 2] = [[(-0.9, -0.9), (0.9, 0.9)], [(-0.9, 0.9), (0.9, -0.9)]];
 const PLUS: [[Point; 2]; 2] = [[(-1.2, 0.0), (1.2, 0.0)], [(0.0, -1.2), (0.0, 1.2)]];
 
-/// A circle of radius 1.
-fn circle() -> [Point; 16] {
-    std::array::from_fn(|k| {
-        let (sine, cosine) = (TAU * k as f64 / 16.0).sin_cos();
-        (cosine, sine)
-    })
-}
-
 /// A shape of size 1, scaled and moved.
 fn placed(shape: &[Point], at: Point, size: f64) -> Vec<Point> {
     let point = |(x, y): &Point| (at.0 + size * x, at.1 + size * y);
@@ -44,7 +34,7 @@ fn strokes(canvas: &mut Canvas, at: Point, size: f64, lines: &[[Point; 2]], stro
 pub fn marker(canvas: &mut Canvas, index: usize, at: Point, colour: Colour) {
     let stroke = Stroke::solid(colour, 1.7);
     match index % 7 {
-        0 => canvas.outlined(&placed(&circle(), at, RADIUS), WHITE, stroke),
+        0 => canvas.circle(at, RADIUS, WHITE, stroke),
         k @ 1..=4 => canvas.outlined(&placed(OUTLINES[k - 1], at, RADIUS), WHITE, stroke),
         5 => strokes(canvas, at, RADIUS, &[CROSS, PLUS].concat(), stroke),
         _ => strokes(canvas, at, RADIUS, &CROSS, stroke),
@@ -64,11 +54,8 @@ pub fn class_cell(canvas: &mut Canvas, index: usize, cell: Rect) {
     match look {
         1 => strokes(canvas, centre, radius, &CROSS, Stroke::solid(WHITE, 1.6)),
         2 => strokes(canvas, centre, radius, &CROSS[1..], Stroke::solid(BLACK, 1.2)),
-        4 => canvas.area(&placed(&circle(), centre, 0.5 * radius), BLACK, 1.0),
-        5 => {
-            let ring = placed(&circle(), centre, 0.8 * radius);
-            canvas.outlined(&ring, CLASSES[look], Stroke::solid(WHITE, 1.4));
-        }
+        4 => canvas.circle(centre, 0.5 * radius, BLACK, Stroke::solid(BLACK, 0.0)),
+        5 => canvas.circle(centre, 0.8 * radius, CLASSES[look], Stroke::solid(WHITE, 1.4)),
         _ => {}
     }
 }

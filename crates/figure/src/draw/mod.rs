@@ -8,9 +8,9 @@ mod mark;
 mod reference;
 mod series;
 
+use crate::axis::Axis;
 use crate::chart::{Cells, Chart};
 use crate::error::FigureError;
-use crate::palette::INK;
 use crate::panels::Panels;
 use canvas::{Canvas, Rect};
 use cells::Bar;
@@ -49,6 +49,7 @@ impl Panels {
             return Err(FigureError::empty("figure", &self.title));
         }
         self.charts.iter().try_for_each(Chart::check)?;
+        Axis::linear("").check("size of a chart", [self.size.0, self.size.1])?;
         let columns = self.columns.min(self.charts.len());
         let rows = self.charts.len().div_ceil(columns);
         let (width, height) = self.size;
@@ -109,10 +110,7 @@ fn draw(chart: &Chart, canvas: &mut Canvas, outer: Rect) -> Result<(), FigureErr
         shown.draw(canvas, &frame);
     }
     for reference in &chart.references {
-        reference::draw_label(canvas, &frame, reference, &chart.series)?;
-    }
-    for (at, text) in &chart.notes {
-        reference::draw_text(canvas, frame.plot, text, frame.at(*at), INK)?;
+        reference::draw_label(canvas, &frame, reference)?;
     }
     if let Some(bar) = bar {
         bar.draw(canvas, frame.plot)?;
