@@ -137,6 +137,8 @@ pub struct Pass {
     pub before_rest: EndForces,
     /// Of solvers with inertia.
     pub energy: Option<EnergyBalance>,
+    /// Of the quasi-static solver: the cable at the vehicle's last position.
+    pub pushed: Option<CableState>,
 }
 
 impl Run {
@@ -184,6 +186,7 @@ impl Run {
                     outcome,
                     before_rest: last.end_forces(&cable)?,
                     energy: None,
+                    pushed: Some(last),
                 });
             }
             Solver::Explicit(solver, ducts) => solver.pass(&ducts[drive], &mut self.state)?,
@@ -192,6 +195,7 @@ impl Run {
             outcome: transient.pass,
             before_rest: transient.force_before_rest,
             energy: Some(transient.energy),
+            pushed: None,
         })
     }
 
