@@ -3,47 +3,7 @@
 use super::{FULL, assert_override_refused, assert_refused, read, read_with};
 
 #[test]
-fn two_scalings_are_refused() {
-    assert_refused(
-        "longitudinal_peak = \"35.7 um\"",
-        "longitudinal_peak = \"35.7 um\"\nvertical_peak = \"90 um\"",
-        "vertical_peak",
-        &[
-            "`ground.vertical_peak`",
-            "both `longitudinal_peak` and `vertical_peak`",
-            "only one",
-        ],
-    );
-}
-
-#[test]
-fn load_and_wheels_exclude_each_other_and_one_is_needed() {
-    assert_refused(
-        "load = \"20 tf\"",
-        "load = \"20 tf\"\nwheels = [{ load = 1 }]",
-        "wheels = [{ load",
-        &["`vehicles.0.wheels`", "both `load` and `wheels`", "only one"],
-    );
-    assert_refused(
-        "load = \"20 tf\"",
-        "",
-        "[[vehicles]]",
-        &["`vehicles.0`", "neither `load` nor `wheels`"],
-    );
-}
-
-#[test]
 fn shape_factor_belongs_to_the_laws_that_have_one() {
-    assert_refused(
-        "law = \"sigmoid\"",
-        "law = \"coulomb\"",
-        "shape_factor",
-        &[
-            "`friction.shape_factor`",
-            "with `law` = \"coulomb\"",
-            "no `shape_factor`",
-        ],
-    );
     for law in ["sigmoid", "elastic-plastic"] {
         let text = FULL
             .replace("\"sigmoid\"", &format!("\"{law}\""))
@@ -54,26 +14,6 @@ fn shape_factor_belongs_to_the_laws_that_have_one() {
             "{message}"
         );
     }
-}
-
-#[test]
-fn layers_have_a_thickness_but_the_last() {
-    assert_refused(
-        "young_modulus = \"800 MPa\"",
-        "thickness = 2\nyoung_modulus = \"800 MPa\"",
-        "thickness = 2",
-        &[
-            "`ground.layers.2.thickness`",
-            "found 2",
-            "no thickness in the last layer",
-        ],
-    );
-    assert_refused(
-        "thickness = \"50 mm\"",
-        "",
-        "[[ground.layers]]",
-        &["key `ground.layers.0.thickness` (layer 1) is missing"],
-    );
 }
 
 #[test]
@@ -136,33 +76,6 @@ fn a_sequence_names_known_vehicles() {
 }
 
 #[test]
-fn order_and_sequence_exclude_each_other() {
-    assert_refused(
-        "seed = 7",
-        "sequence = [\"van\"]",
-        "sequence",
-        &["`traffic.sequence`", "both `order` and `sequence`"],
-    );
-}
-
-#[test]
-fn a_seed_needs_a_random_order() {
-    let allowed = "`seed` only with order = \"random\"";
-    assert_refused(
-        "order = \"random\"",
-        "",
-        "seed",
-        &["`traffic.seed`", "found 7 with no `order`", allowed],
-    );
-    assert_refused(
-        "order = \"random\"",
-        "order = \"interleaved\"",
-        "seed",
-        &["7 with `order` = \"interleaved\"", allowed],
-    );
-}
-
-#[test]
 fn a_time_step_needs_a_method_that_steps_in_time() {
     for method in ["quasi-static", "pass-law"] {
         assert_refused(
@@ -177,12 +90,6 @@ fn a_time_step_needs_a_method_that_steps_in_time() {
 
 #[test]
 fn a_vehicle_without_load_cannot_be_scaled() {
-    assert_refused(
-        "load = \"20 tf\"",
-        "load = 0",
-        "load = 0",
-        &["`vehicles.0.load`", "without load", "`ground.longitudinal_peak`"],
-    );
     assert!(read_with(&["vehicles.0.load=0", "ground.longitudinal_peak="]).is_ok());
 }
 
