@@ -308,106 +308,47 @@ fn every_shape_of_the_series_is_read_right() {
     }
 }
 
+/// A file, ¶ for an end of line and ⇥ for a tab ‖ options ‖ parts of the message
+const REFUSED: &str = r"
+pass,force_n¶1,94,1¶2,135,8¶3,160,2¶ ‖ - ‖ cell.csv:2 ‖ 3 cells ‖ decimal comma
+1,94,1¶2,135,8¶3,160,2¶ ‖ - ‖ cell.csv:1 ‖ decimal comma
+pass;force_n¶1;94,1¶ ‖ separator=comma ‖ cell.csv:1 ‖ no column pass ‖ separated by semicolons
+pass⇥force_n¶1⇥94.1¶ ‖ separator=semicolon ‖ cell.csv:1 ‖ separated by tabs
+pass;force_n¶1;94,1¶2;135.8¶ ‖ - ‖ cell.csv:3 ‖ 135.8 ‖ a decimal point where other numbers have a comma
+pass;force_n¶1;1,113¶2;2,450¶ ‖ - ‖ cell.csv:2 ‖ 1,113 ‖ --decimal
+Nr;Zelle¶1;94,1¶ ‖ - ‖ no column pass ‖ Nr | Zelle ‖ --column-pass
+pass,cell¶1,94¶ ‖ - ‖ no column force_n ‖ pass | cell ‖ --column-force
+pass,force_n¶1,94¶ ‖ force=Kraft ‖ no column Kraft
+pass,force [V]¶1,94¶ ‖ - ‖ force [V] ‖ `V` ‖ --unit
+pass,force_n¶1,94¶ ‖ unit=kNm ‖ --unit ‖ `kNm`
+pass,force 1 [N],force 2 [N]¶1,94,95¶ ‖ - ‖ second column force 2 ‖ --column-force
+time,force_n¶09:00,94¶09:05,95¶ ‖ - ‖ times ‖ --column-vehicles
+time,vehicles,force_n¶09:00,5,94¶08:55,7,95¶ ‖ - ‖ cell.csv:3 ‖ earlier
+vehicles,force_n¶3,1¶5,2¶9,3¶12,4¶20,5¶ ‖ - ‖ running total ‖ --column-pass
+pass,force_n¶1,94¶2,many¶ ‖ - ‖ cell.csv:3 ‖ force_n ‖ many
+pass,force_n¶1,94 m¶ ‖ - ‖ cell.csv:2 ‖ 94 m ‖ unit
+pass,force_n¶1.5,94¶ ‖ - ‖ cell.csv:2 ‖ 1.5 ‖ whole number
+pass,force_n¶0,0.3¶ ‖ - ‖ cell.csv:2 ‖ at least one pass
+pass,force_n¶1,NaN¶2,#N/A¶ ‖ - ‖ cell.csv:2 ‖ NaN ‖ no number anywhere
+pass,force_n,sigma_n¶1,94,4¶2,135,¶ ‖ - ‖ cell.csv:3 ‖ sigma_n is blank
+pass,force_n,position¶1,94,joint¶ ‖ - ‖ cell.csv:2 ‖ position ‖ joint
+";
+
 /// What is wrong is named: the file, words that the message holds.
 #[test]
-#[allow(clippy::too_many_lines, reason = "a table")]
 fn what_cannot_be_read_is_refused_with_its_cause() {
-    let cases: [(&str, &str, &[&str]); 22] = [
-        (
-            "pass,force_n\n1,94,1\n2,135,8\n3,160,2\n",
-            "",
-            &["cell.csv:2", "3 cells", "decimal comma"],
-        ),
-        ("1,94,1\n2,135,8\n3,160,2\n", "", &["cell.csv:1", "decimal comma"]),
-        (
-            "pass;force_n\n1;94,1\n",
-            "separator=comma",
-            &["cell.csv:1", "no column pass", "separated by semicolons"],
-        ),
-        (
-            "pass\tforce_n\n1\t94.1\n",
-            "separator=semicolon",
-            &["cell.csv:1", "separated by tabs"],
-        ),
-        (
-            "pass;force_n\n1;94,1\n2;135.8\n",
-            "",
-            &[
-                "cell.csv:3",
-                "135.8",
-                "a decimal point where other numbers have a comma",
-            ],
-        ),
-        (
-            "pass;force_n\n1;1,113\n2;2,450\n",
-            "",
-            &["cell.csv:2", "1,113", "--decimal"],
-        ),
-        (
-            "Nr;Zelle\n1;94,1\n",
-            "",
-            &["no column pass", "Nr | Zelle", "--column-pass"],
-        ),
-        (
-            "pass,cell\n1,94\n",
-            "",
-            &["no column force_n", "pass | cell", "--column-force"],
-        ),
-        ("pass,force_n\n1,94\n", "force=Kraft", &["no column Kraft"]),
-        ("pass,force [V]\n1,94\n", "", &["force [V]", "`V`", "--unit"]),
-        ("pass,force_n\n1,94\n", "unit=kNm", &["--unit", "`kNm`"]),
-        (
-            "pass,force 1 [N],force 2 [N]\n1,94,95\n",
-            "",
-            &["second column force 2", "--column-force"],
-        ),
-        (
-            "time,force_n\n09:00,94\n09:05,95\n",
-            "",
-            &["times", "--column-vehicles"],
-        ),
-        (
-            "time,vehicles,force_n\n09:00,5,94\n08:55,7,95\n",
-            "",
-            &["cell.csv:3", "earlier"],
-        ),
-        (
-            "vehicles,force_n\n3,1\n5,2\n9,3\n12,4\n20,5\n",
-            "",
-            &["running total", "--column-pass"],
-        ),
-        (
-            "pass,force_n\n1,94\n2,many\n",
-            "",
-            &["cell.csv:3", "force_n", "many"],
-        ),
-        ("pass,force_n\n1,94 m\n", "", &["cell.csv:2", "94 m", "unit"]),
-        (
-            "pass,force_n\n1.5,94\n",
-            "",
-            &["cell.csv:2", "1.5", "whole number"],
-        ),
-        ("pass,force_n\n0,0.3\n", "", &["cell.csv:2", "at least one pass"]),
-        (
-            "pass,force_n\n1,NaN\n2,#N/A\n",
-            "",
-            &["cell.csv:2", "NaN", "no number anywhere"],
-        ),
-        (
-            "pass,force_n,sigma_n\n1,94,4\n2,135,\n",
-            "",
-            &["cell.csv:3", "sigma_n is blank"],
-        ),
-        (
-            "pass,force_n,position\n1,94,joint\n",
-            "",
-            &["cell.csv:2", "position", "joint"],
-        ),
-    ];
-    for (text, words, parts) in cases {
-        let error = Readings::from_bytes("cell.csv", text.as_bytes(), &options(words))
-            .expect_err(text)
-            .to_string();
+    for row in REFUSED.lines().filter(|row| !row.is_empty()) {
+        let [text, words, ref parts @ ..] = row.split(" ‖ ").collect::<Vec<_>>()[..] else {
+            panic!("{row}")
+        };
+        let text = text.replace('¶', "\n").replace('⇥', "\t");
+        let error = Readings::from_bytes(
+            "cell.csv",
+            text.as_bytes(),
+            &options(words.trim_start_matches('-')),
+        )
+        .expect_err(&text)
+        .to_string();
         for part in parts {
             assert!(error.contains(part), "{text:?}: no {part:?} in {error}");
         }
