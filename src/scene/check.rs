@@ -19,6 +19,7 @@ use super::range::{
     shown, vehicle_steps,
 };
 use super::units::Dimension;
+use crate::shown::four_digits;
 
 /// How far a share, or a factor relative to itself, may be from what it has to be.
 const ROUNDING: f64 = 1e-9;
@@ -150,10 +151,10 @@ fn supports(scene: &Scene) -> Checked {
     let (drawn, limit, slope) = (
         scene.body_force().abs(),
         scene.friction_limit(),
-        shown(scene.duct.slope),
+        four_digits(100.0 * scene.duct.slope),
     );
     let steepest = shown(limit / (scene.cable.weight * scene.duct.cosine()));
-    let found = format!("{slope} between free ends, where the cable slides out of the duct");
+    let found = format!("{slope} % between free ends, where the cable slides out of the duct");
     let allowed = format!(
         "a slope less than what friction holds, {steepest}, or an end or a clamp that holds the cable"
     );
