@@ -204,8 +204,7 @@ impl DuctMotion {
 
     /// Largest |ξ| \[m\] up to which the motion has the accuracy asked; at least the `reach` asked.
     ///
-    /// Beyond it the motion goes on by the power of the distance it has there, for a smooth end: the right order of size, without an
-    /// accuracy. What computes with a motion is to keep within its reach.
+    /// Farther from every wheel the motion is zero: what computes with a motion is to keep within its reach.
     pub fn reach(&self) -> f64 {
         self.reach
     }

@@ -47,7 +47,6 @@ pub struct RadialProfile {
     /// Left ends of the cells, ascending from 0, and the end of the last one.
     edges: Vec<f64>,
     cells: Vec<Cell>,
-    tail: Tail,
     samples: usize,
 }
 
@@ -62,16 +61,8 @@ struct Cell {
     vertical: Series,
 }
 
-/// Powers that continue the profile outward: u ∝ r^(−power), or nothing where the field has died out.
-#[derive(Debug, Clone, Copy)]
-struct Tail {
-    radius: f64,
-    radial: Option<(f64, f64)>,
-    vertical: Option<(f64, f64)>,
-}
-
 /// The profile at one radius.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct ProfilePoint {
     /// u_r / r.
     pub ratio: f64,
@@ -85,7 +76,7 @@ impl RadialProfile {
     /// Samples `field` under a unit load (1 N) on a disc of `contact_radius` \[m\] at `depth` \[m\], for radii up to
     /// `reach` \[m\], to `accuracy` as a share of the largest |u_r| and |u_z| at that depth.
     ///
-    /// Beyond `reach`, and at least two depths, the profile continues by the power of the radius it has there.
+    /// Beyond `reach`, and at least two depths, the profile is zero.
     ///
     /// # Errors
     ///
@@ -119,19 +110,11 @@ impl RadialProfile {
 
         let mut edges: Vec<f64> = found.iter().map(|(start, _, _)| *start).collect();
         edges.push(end);
-        let cells: Vec<Cell> = found.into_iter().map(|(_, _, cell)| cell).collect();
-        let mut profile = Self {
+        Ok(Self {
             edges,
-            cells,
-            tail: Tail {
-                radius: end,
-                radial: None,
-                vertical: None,
-            },
+            cells: found.into_iter().map(|(_, _, cell)| cell).collect(),
             samples: sampler.samples,
-        };
-        profile.tail = profile.outward(end, sampler.peak * (10.0 * accuracy));
-        Ok(profile)
+        })
     }
 
     /// Displacement under the unit load at `radius` \[m\].
@@ -158,50 +141,16 @@ impl RadialProfile {
     }
 
     pub(crate) fn at(&self, radius: f64) -> ProfilePoint {
-        if radius >= self.tail.radius {
-            return self.tail.at(radius);
-        }
         let index = self.edges.partition_point(|&edge| edge <= radius).max(1) - 1;
+        let Some(cell) = self.cells.get(index) else {
+            return ProfilePoint::default();
+        };
         let (start, stop) = (self.edges[index], self.edges[index + 1]);
         let t = (2.0 * radius - start - stop) / (stop - start);
-        let cell = &self.cells[index];
         ProfilePoint {
             ratio: clenshaw(&cell.ratio, t),
             ratio_slope: clenshaw(&cell.ratio_slope, t),
             vertical: clenshaw(&cell.vertical, t),
-        }
-    }
-
-    /// The powers with which both components leave the sampled range; values below `least` have none.
-    fn outward(&self, end: f64, least: Displacement) -> Tail {
-        let power = |inner: f64, outer: f64, least: f64| {
-            // A value at the level of the interpolation error has no power of its own.
-            if outer.abs() <= least || inner * outer <= 0.0 {
-                return None;
-            }
-            let power = (inner / outer).ln() / (1.0 / 0.8_f64).ln();
-            (power > 0.5).then_some((outer, power))
-        };
-        let (inner, outer) = (
-            self.displacement(0.8 * end),
-            self.displacement(end * (1.0 - 1e-12)),
-        );
-        Tail {
-            radius: end,
-            radial: power(inner.radial, outer.radial, least.radial),
-            vertical: power(inner.vertical, outer.vertical, least.vertical),
-        }
-    }
-}
-
-impl Tail {
-    fn at(&self, radius: f64) -> ProfilePoint {
-        let continued = |(value, power): (f64, f64)| (value * (self.radius / radius).powf(power), power);
-        let (radial, power) = self.radial.map_or((0.0, 1.0), continued);
-        ProfilePoint {
-            ratio: radial / radius,
-            ratio_slope: -(power + 1.0) * radial / (radius * radius),
-            vertical: self.vertical.map_or(0.0, |tail| continued(tail).0),
         }
     }
 }

@@ -52,7 +52,7 @@ fn vehicle(wheels: &[(f64, f64, f64)], direction: Direction) -> Vehicle {
 }
 
 fn motion_of(vehicle: &Vehicle, lateral_offset: f64, accuracy: f64) -> DuctMotion {
-    DuctMotion::new(&PointLoad, vehicle, line(lateral_offset), 40.0, accuracy).expect("a smooth field")
+    DuctMotion::new(&PointLoad, vehicle, line(lateral_offset), 200.0, accuracy).expect("a smooth field")
 }
 
 fn truck() -> DuctMotion {
@@ -227,39 +227,6 @@ fn a_lateral_offset_moves_the_wheel_path() {
         assert!((beside.longitudinal(xi) - exact(&[(0.0, 0.0, FORCE)], 1.5, xi).0).abs() < 1e-9 * size);
     }
     assert!(beside.peak_longitudinal() < above.peak_longitudinal());
-}
-
-/// Beyond the sampled range the profile goes on by the power it has there. A half-space's u_r is not quite one: of its tail
-/// (1−2ν)/r a share of z/((1−2ν) r), 12 % at the border of 50 m, is still fading. What that leaves wrong (a third of u_r at
-/// 400 m) is below a thousandth of the peak.
-#[test]
-fn beyond_the_sampled_range_the_tail_goes_on_by_a_power() {
-    let profile = RadialProfile::sample(&PointLoad, 0.0, DEPTH, 1e4, 1e-10).expect("a smooth field");
-    let load = SurfaceLoad::point(1.0).expect("a valid load");
-    for radius in [60.0, 100.0, 400.0, 3000.0] {
-        let (found, exact) = (
-            profile.displacement(radius),
-            PointLoad
-                .displacement(load, radius, DEPTH)
-                .expect("a regular point"),
-        );
-        let difference = (found.radial - exact.radial).abs();
-        assert!(
-            difference < 1e-3 * profile.displacement(0.85).radial,
-            "{radius} m: {found:?}, {exact:?}"
-        );
-        assert!(
-            (found.vertical / exact.vertical - 1.0).abs() < 0.01,
-            "{radius} m: {found:?}, {exact:?}"
-        );
-    }
-    // Without a jump at the border.
-    let (inside, outside) = (
-        profile.displacement(50.0 - 1e-9),
-        profile.displacement(50.0 + 1e-9),
-    );
-    assert!((inside.radial / outside.radial - 1.0).abs() < 1e-6);
-    assert!((inside.vertical / outside.vertical - 1.0).abs() < 1e-6);
 }
 
 #[test]
