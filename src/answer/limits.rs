@@ -120,12 +120,25 @@ impl Limited {
         }
     }
 
-    /// A value of it in units of a reader.
-    pub(crate) fn shown_in(self, units: &Units, value: f64) -> String {
+    /// The symbol of its unit for a reader.
+    pub(crate) fn symbol_in(self, units: &Units) -> &'static str {
         match self {
-            Self::Force => format!("{} {}", units.force(value), units.force.symbol()),
-            Self::Movement => format!("{} {}", units.movement(value), units.movement.symbol()),
+            Self::Force => units.force.symbol(),
+            Self::Movement => units.movement.symbol(),
         }
+    }
+
+    /// A value of it in that unit.
+    pub(crate) fn number_in(self, units: &Units, value: f64) -> String {
+        match self {
+            Self::Force => units.force(value),
+            Self::Movement => units.movement(value),
+        }
+    }
+
+    /// The same with the unit.
+    pub(crate) fn shown_in(self, units: &Units, value: f64) -> String {
+        format!("{} {}", self.number_in(units, value), self.symbol_in(units))
     }
 
     /// The same of a value that was given: "20 kN", not "20.0000 kN".

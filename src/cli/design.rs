@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::design_advice::advice;
-use super::design_units::Shown;
 use super::design_words::{compared, print};
 use super::failure::Failure;
 use super::limits::{LimitArguments, place};
@@ -133,7 +132,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         })
     };
     let limits = ways.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
-    let units = Shown::new(units);
+    let units = units.for_springs();
     let how_far = |now| HowFar::new(now, "runs of the scene with one stiffness after the other");
     let remains = |_| "the search is not finished and has no answer".to_owned();
     let designs = watched(how_far, remains, |progress| {

@@ -1,13 +1,12 @@
 //! What to try where no stiffness keeps the limits.
 
-use super::design_units::Shown;
 use super::design_words::none;
 use crate::design::{Design, Place};
 use crate::shown::percent;
-use crate::{Limited, Scene};
+use crate::{Limited, Scene, Units};
 
 /// Which limits nothing keeps, by how much the nearest exceeds them, and what to try.
-pub fn advice(design: &Design, scene: &Scene, units: &Shown) -> String {
+pub fn advice(design: &Design, scene: &Scene, units: &Units) -> String {
     let Some(nearest) = &design.nearest else {
         return String::new();
     };
@@ -17,7 +16,7 @@ pub fn advice(design: &Design, scene: &Scene, units: &Shown) -> String {
             format!(
                 "the {} exceeds its limit by {} ({})",
                 quantity.at(place),
-                units.shown(quantity, value - limit),
+                quantity.shown_in(units, value - limit),
                 percent(value / limit - 1.0)
             )
         })

@@ -2,16 +2,15 @@
 
 use std::io::Write;
 
-use super::design_units::Shown;
-use crate::Limited;
 use crate::design::{Design, Place, TradeOff};
+use crate::{Limited, Units};
 
 /// What each clamp comes to, whether it is limited or not.
-pub fn clamps(out: &mut impl Write, design: &Design, units: &Shown) -> std::io::Result<()> {
+pub fn clamps(out: &mut impl Write, design: &Design, units: &Units) -> std::io::Result<()> {
     let clamps = design.found().map_or(&[][..], |found| &found.clamps);
     for clamp in clamps {
-        let force = units.shown(Limited::Force, clamp.force_n);
-        let movement = units.shown(Limited::Movement, clamp.movement_m);
+        let force = Limited::Force.shown_in(units, clamp.force_n);
+        let movement = Limited::Movement.shown_in(units, clamp.movement_m);
         let place = Place::Clamp(clamp.position_m);
         writeln!(out, "{place}: force at most {force}, movement at most {movement}")?;
     }
@@ -25,9 +24,9 @@ pub fn clamps(out: &mut impl Write, design: &Design, units: &Shown) -> std::io::
 }
 
 /// Force and movement of the clamps that were designed, where they are.
-pub fn on_clamp(design: &Design, found: &TradeOff, units: &Shown) -> String {
+pub fn on_clamp(design: &Design, found: &TradeOff, units: &Units) -> String {
     let both = |place: &Place| {
-        let shown = |quantity| units.shown(quantity, found.value(*place, quantity));
+        let shown = |quantity: Limited| quantity.shown_in(units, found.value(*place, quantity));
         format!("{}, {}", shown(Limited::Force), shown(Limited::Movement))
     };
     let designed = design.places.iter().filter(|place| has(found, **place));

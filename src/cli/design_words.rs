@@ -3,15 +3,14 @@
 use std::io::Write;
 
 use super::design_clamps::{clamps, has, on_clamp};
-use super::design_units::Shown;
 use super::failure::Failure;
 use super::terminal;
 use crate::design::{Binding, Design, Doubt, Place, Side, Spring, TradeOff, largest_shown};
 use crate::shown::percent;
-use crate::{Limited, Limits, Scene};
+use crate::{Limited, Limits, Scene, Units};
 
 /// One design in full.
-pub fn print(design: &Design, scene: &Scene, units: &Shown) -> Result<(), Failure> {
+pub fn print(design: &Design, scene: &Scene, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
     head(&mut out, design)?;
     limited(&mut out, std::slice::from_ref(design), units)?;
@@ -23,10 +22,10 @@ pub fn print(design: &Design, scene: &Scene, units: &Shown) -> Result<(), Failur
 }
 
 /// The limits of all designs, each once.
-fn limited(out: &mut impl Write, designs: &[Design], units: &Shown) -> std::io::Result<()> {
+fn limited(out: &mut impl Write, designs: &[Design], units: &Units) -> std::io::Result<()> {
     let mut limits: Vec<String> = Vec::new();
     for (place, quantity, limit) in designs.iter().flat_map(|design| design.limits.all()) {
-        let limit = format!("{} {}", quantity.at(place), units.given(quantity, limit));
+        let limit = format!("{} {}", quantity.at(place), quantity.given_in(units, limit));
         if !limits.contains(&limit) {
             limits.push(limit);
         }
@@ -35,7 +34,7 @@ fn limited(out: &mut impl Write, designs: &[Design], units: &Shown) -> std::io::
 }
 
 /// Several beside each other, and the best.
-pub fn compared(best: &Design, all: &[Design], units: &Shown) -> Result<(), Failure> {
+pub fn compared(best: &Design, all: &[Design], units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
     writeln!(
         out,
@@ -115,15 +114,17 @@ fn curve(
     limits: &Limits,
     points: &[TradeOff],
     scene: &Scene,
-    units: &Shown,
+    units: &Units,
 ) -> Vec<Vec<String>> {
     let one = held.len() == 1;
-    let stiffness = units.stiffness_symbol();
+    let stiffness = units.stiffness.symbol();
+    let short = |place: &Place| match place {
+        Place::Clamp(position) => format!("at {position} m"),
+        end => end.end().map_or_else(String::new, |end| end.name().to_owned()),
+    };
     let of_springs = held.iter().map(|place| match place {
         _ if one => format!("stiffness, {stiffness}"),
-        Place::Clamp(position) => format!("{position} m, {stiffness}"),
-        Place::Upstream => format!("upstream, {stiffness}"),
-        Place::Downstream => format!("downstream, {stiffness}"),
+        place => format!("{}, {stiffness}", short(place)),
     });
     let clamped = held
         .iter()
@@ -139,14 +140,8 @@ fn curve(
         .into_iter()
         .flat_map(|quantity| places.iter().map(move |place| (*place, quantity)))
         .collect();
-    let name = |&(place, quantity): &(Place, Limited)| {
-        let unit = units.symbol(quantity);
-        match place {
-            Place::Upstream => format!("upstream, {unit}"),
-            Place::Downstream => format!("downstream, {unit}"),
-            Place::Clamp(position) => format!("at {position} m, {unit}"),
-        }
-    };
+    let name =
+        |(place, quantity): &(Place, Limited)| format!("{}, {}", short(place), quantity.symbol_in(units));
     let last = std::iter::once("within limits".to_owned());
     let mut rows = vec![of_springs.chain(columns.iter().map(name)).chain(last).collect()];
     let most = largest_shown(scene);
@@ -154,11 +149,11 @@ fn curve(
         let value = |&(place, quantity): &(Place, Limited)| match point.value(place, quantity) {
             _ if matches!(place, Place::Clamp(_)) && !has(point, place) => "–".to_owned(),
             value if quantity == Limited::Movement && value > most => {
-                format!("> {}", units.number(quantity, most))
+                format!("> {}", quantity.number_in(units, most))
             }
-            value => units.number(quantity, value),
+            value => quantity.number_in(units, value),
         };
-        let springs = point.springs.iter().map(|spring| units.stiffness(spring));
+        let springs = point.springs.iter().map(|spring| number(units, spring));
         let last = std::iter::once(within(point));
         rows.push(springs.chain(columns.iter().map(value)).chain(last).collect());
     }
@@ -192,7 +187,7 @@ fn table(out: &mut impl Write, rows: &[Vec<String>]) -> std::io::Result<()> {
 }
 
 /// The answer or what comes nearest, and which limits decide.
-fn conclusion(out: &mut impl Write, design: &Design, units: &Shown) -> Result<(), Failure> {
+fn conclusion(out: &mut impl Write, design: &Design, units: &Units) -> Result<(), Failure> {
     if let Some(nearest) = &design.nearest {
         writeln!(
             out,
@@ -226,8 +221,8 @@ fn conclusion(out: &mut impl Write, design: &Design, units: &Shown) -> Result<()
                 "only in these {} passes: with more the {} levels off at {}, above its limit of {}",
                 design.passes,
                 later.quantity.at(later.end),
-                units.shown(later.quantity, later.value),
-                units.given(later.quantity, later.limit)
+                later.quantity.shown_in(units, later.value),
+                later.quantity.given_in(units, later.limit)
             )?;
         }
     }
@@ -253,7 +248,7 @@ pub fn none(design: &Design) -> String {
 }
 
 /// Where the range of stiffness ends and why, or what leaves least room.
-fn deciding(design: &Design, answer: &TradeOff, units: &Shown) -> Vec<String> {
+fn deciding(design: &Design, answer: &TradeOff, units: &Units) -> Vec<String> {
     let named = |limits: &mut dyn Iterator<Item = &Binding>| {
         let names: Vec<String> = limits.map(|limit| limit.quantity.at(limit.end)).collect();
         names.join(", ")
@@ -301,17 +296,35 @@ fn deciding(design: &Design, answer: &TradeOff, units: &Shown) -> Vec<String> {
     lines
 }
 
-/// A stiffness with its unit, or in a word.
-fn stiffness(units: &Shown, spring: &Spring) -> String {
-    let taken = units.stiffness(spring);
+/// A stiffness without its unit, to four digits, or in a word.
+fn number(units: &Units, spring: &Spring) -> String {
+    match (spring.stiffness_n_per_m, spring.place) {
+        (None, _) => "fixed".to_owned(),
+        (Some(0.0), Place::Clamp(_)) => "no clamp".to_owned(),
+        (Some(0.0), _) => "free".to_owned(),
+        (Some(value), _) => {
+            let value = units.stiffness.of_si(value);
+            let whole = value.log10().floor();
+            if (-3.0..5.0).contains(&whole) {
+                format!("{value:.*}", (3.0 - whole).max(0.0) as usize)
+            } else {
+                format!("{value:.3e}")
+            }
+        }
+    }
+}
+
+/// The same with its unit.
+fn stiffness(units: &Units, spring: &Spring) -> String {
+    let taken = number(units, spring);
     match spring.stiffness_n_per_m {
-        Some(value) if value > 0.0 => format!("{taken} {}", units.stiffness_symbol()),
+        Some(value) if value > 0.0 => format!("{taken} {}", units.stiffness.symbol()),
         _ => taken,
     }
 }
 
 /// Springs, and what they make of the limits.
-fn reached(design: &Design, point: &TradeOff, units: &Shown) -> String {
+fn reached(design: &Design, point: &TradeOff, units: &Units) -> String {
     let several = point.springs.len() > 1;
     let spring = |spring: &Spring| {
         let taken = stiffness(units, spring);
@@ -331,11 +344,18 @@ fn reached(design: &Design, point: &TradeOff, units: &Shown) -> String {
         let value = point.value(place, quantity);
         let beside = match value / limit {
             times if times > 1.0 => {
-                format!(", {times:.2} times its limit of {}", units.given(quantity, limit))
+                format!(
+                    ", {times:.2} times its limit of {}",
+                    quantity.given_in(units, limit)
+                )
             }
             _ => String::new(),
         };
-        format!("{} {}{beside}", quantity.at(place), units.shown(quantity, value))
+        format!(
+            "{} {}{beside}",
+            quantity.at(place),
+            quantity.shown_in(units, value)
+        )
     };
     let all: Vec<String> = design.limits.all().map(of).collect();
     let leaves = if point.leaves_duct {

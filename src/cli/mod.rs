@@ -8,7 +8,6 @@ mod days;
 mod design;
 mod design_advice;
 mod design_clamps;
-mod design_units;
 mod design_words;
 mod explain;
 mod failure;

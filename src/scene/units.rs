@@ -239,12 +239,16 @@ impl Unit {
 }
 
 const fn unit(symbol: &'static str, dimension: Dimension, exponent: i32, factor: f64) -> Unit {
+    ratio(symbol, dimension, exponent, factor, 1.0)
+}
+
+const fn ratio(symbol: &'static str, dimension: Dimension, exponent: i32, factor: f64, divisor: f64) -> Unit {
     Unit {
         symbol,
         dimension,
         exponent,
         factor,
-        divisor: 1.0,
+        divisor,
     }
 }
 
@@ -278,14 +282,8 @@ pub const UNITS: &[Unit] = &[
     unit("N/mm2", Dimension::Pressure, 6, 1.0),
     unit("kgf/cm2", Dimension::Pressure, 4, STANDARD_GRAVITY),
     unit("tf/m2", Dimension::Pressure, 3, STANDARD_GRAVITY),
-    Unit {
-        divisor: INCH * INCH,
-        ..unit("psi", Dimension::Pressure, 0, POUND_FORCE)
-    },
-    Unit {
-        divisor: INCH * INCH,
-        ..unit("ksi", Dimension::Pressure, 3, POUND_FORCE)
-    },
+    ratio("psi", Dimension::Pressure, 0, POUND_FORCE, INCH * INCH),
+    ratio("ksi", Dimension::Pressure, 3, POUND_FORCE, INCH * INCH),
     unit("N/m", Dimension::ForcePerLength, 0, 1.0),
     unit("kN/m", Dimension::ForcePerLength, 3, 1.0),
     unit("MN/m", Dimension::ForcePerLength, 6, 1.0),
@@ -294,14 +292,8 @@ pub const UNITS: &[Unit] = &[
     unit("kN/mm", Dimension::ForcePerLength, 6, 1.0),
     unit("kgf/m", Dimension::ForcePerLength, 0, STANDARD_GRAVITY),
     unit("tf/m", Dimension::ForcePerLength, 3, STANDARD_GRAVITY),
-    Unit {
-        divisor: FOOT,
-        ..unit("lbf/ft", Dimension::ForcePerLength, 0, POUND_FORCE)
-    },
-    Unit {
-        divisor: INCH,
-        ..unit("kip/in", Dimension::ForcePerLength, 3, POUND_FORCE)
-    },
+    ratio("lbf/ft", Dimension::ForcePerLength, 0, POUND_FORCE, FOOT),
+    ratio("kip/in", Dimension::ForcePerLength, 3, POUND_FORCE, INCH),
     unit("1/m", Dimension::InverseLength, 0, 1.0),
     unit("1/cm", Dimension::InverseLength, 2, 1.0),
     unit("1/mm", Dimension::InverseLength, 3, 1.0),
@@ -309,15 +301,9 @@ pub const UNITS: &[Unit] = &[
     unit("m/s", Dimension::Speed, 0, 1.0),
     unit("cm/s", Dimension::Speed, -2, 1.0),
     unit("mm/s", Dimension::Speed, -3, 1.0),
-    Unit {
-        divisor: 3.6,
-        ..unit("km/h", Dimension::Speed, 0, 1.0)
-    },
+    ratio("km/h", Dimension::Speed, 0, 1.0, 3.6),
     unit("ft/s", Dimension::Speed, 0, FOOT),
-    Unit {
-        divisor: 3600.0,
-        ..unit("mph", Dimension::Speed, 0, MILE)
-    },
+    ratio("mph", Dimension::Speed, 0, MILE, 3600.0),
     unit("s", Dimension::Time, 0, 1.0),
     unit("ms", Dimension::Time, -3, 1.0),
     unit("us", Dimension::Time, -6, 1.0),
