@@ -95,20 +95,16 @@ fn seed(table: &Table) -> Result<u64, SceneError> {
 fn listed(root: &Table) -> Result<Vec<TrafficVehicle>, SceneError> {
     let allowed = "one [[vehicles]] or more, or traffic.histogram";
     let items = root.required("vehicles", allowed)?.some_items(allowed)?;
-    let mut vehicles: Vec<TrafficVehicle> = Vec::with_capacity(items.len());
-    for (index, item) in items.into_iter().enumerate() {
+    let vehicle = |(index, item)| {
         let table = Table::new(item)?;
-        let name = name(&table, index, &vehicles)?;
-        let vehicle = vehicle(&table, name)?;
-        let share = table.optional_quantity("share", SHARE)?.unwrap_or(1.0);
-        let lateral_offset = table.optional_quantity("lateral_offset", LANE)?;
-        vehicles.push(TrafficVehicle {
-            vehicle,
-            share,
-            lateral_offset: lateral_offset.unwrap_or(0.0),
-        });
-    }
-    Ok(vehicles)
+        let name = name(&table, index)?;
+        Ok(TrafficVehicle {
+            vehicle: vehicle(&table, name)?,
+            share: table.optional_quantity("share", SHARE)?.unwrap_or(1.0),
+            lateral_offset: table.optional_quantity("lateral_offset", LANE)?.unwrap_or(0.0),
+        })
+    };
+    items.into_iter().enumerate().map(vehicle).collect()
 }
 
 /// The passes: as they stand, or those of so many years, rounded to whole ones.
@@ -154,23 +150,12 @@ fn normalise(vehicles: &mut [TrafficVehicle]) {
     }
 }
 
-fn name(table: &Table, index: usize, others: &[TrafficVehicle]) -> Result<String, SceneError> {
-    let allowed = "a name in quotes that no other vehicle has";
-    let taken = |name: &str| others.iter().any(|other| other.vehicle.name() == name);
-    if let Some(value) = table.optional("name") {
-        let name = value.text(allowed)?;
-        if name.trim().is_empty() || taken(&name) {
-            return Err(value.inconsistent(value.written(), allowed));
-        }
-        return Ok(name);
-    }
-    let name = format!("vehicle {}", index + 1);
-    if taken(&name) {
-        return Err(table
-            .value
-            .inconsistent(format!("no name, where \"{name}\" is taken"), allowed));
-    }
-    Ok(name)
+fn name(table: &Table, index: usize) -> Result<String, SceneError> {
+    let name = table.optional("name");
+    name.map_or_else(
+        || Ok(format!("vehicle {}", index + 1)),
+        |name| name.text("a name in quotes that no other vehicle has"),
+    )
 }
 
 fn vehicle(table: &Table, name: String) -> Result<Vehicle, SceneError> {

@@ -57,7 +57,7 @@ fn vehicles_have_different_names() {
         read(&text)
             .unwrap_err()
             .to_string()
-            .contains("`vehicles.1` (vehicle 2): found no name, where \"vehicle 2\" is taken")
+            .contains("`vehicles.1.name` (vehicle 2): found \"vehicle 2\"; allowed: a name")
     );
 }
 

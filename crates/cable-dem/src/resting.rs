@@ -121,71 +121,33 @@ impl RestingCable {
     /// Solves (1 + s K/w) y = b for slopes s ≥ 0 \[m²/N\] at every node: what diffuses b along the cable. `y` holds b before and
     /// the answer after; it is zero at fixed ends.
     pub fn diffuse(&mut self, slope: impl Fn(usize) -> f64, y: &mut [f64]) {
-        let (lo, hi, middle) = self.halves();
-        let Self {
-            step,
-            factor,
-            inverse,
-            ..
-        } = self;
-        let chain = &step.chain;
-        // Row i beside the one before it, whose factor is `before`: what each row waits for is one product, one difference and one ratio.
-        let mut eliminate = |i: usize, before: f64| {
+        let chain = &self.step.chain;
+        let mut before = 0.0;
+        for i in chain.free.nodes() {
             let off = slope(i) * chain.stiffness * chain.nodes[i].per_tributary;
             let pivot = (1.0 + off * chain.nodes[i].diagonal) - off * before;
-            (factor[i], inverse[i]) = (off / pivot, 1.0 / pivot);
-            factor[i]
-        };
-        // From both ends to the middle, so that two rows can wait at once.
-        let (mut below, mut above) = (0.0, 0.0);
-        for k in 0..middle - lo {
-            (below, above) = (eliminate(lo + k, below), eliminate(hi - k, above));
+            (self.factor[i], self.inverse[i]) = (off / pivot, 1.0 / pivot);
+            before = self.factor[i];
         }
-        for i in (middle + 1..=hi + lo - middle).rev() {
-            above = eliminate(i, above);
-        }
-        eliminate(middle, below + above);
         self.diffuse_again(y);
     }
 
     /// Solves the equation of the last [`RestingCable::diffuse`] for another b; before the first one y comes out as zero.
     pub fn diffuse_again(&self, y: &mut [f64]) {
-        let (factor, inverse) = (&self.factor[..], &self.inverse[..]);
-        let (lo, hi, middle) = self.halves();
+        let (factor, inverse, Stretch { lo, hi }) =
+            (&self.factor[..], &self.inverse[..], self.step.chain.free);
         y[..lo].fill(0.0);
         y[hi + 1..].fill(0.0);
-        let (mut below, mut above) = (0.0, 0.0);
-        let mut j = hi;
-        for i in lo..middle {
-            below = inverse[i] * y[i] + factor[i] * below;
-            above = inverse[j] * y[j] + factor[j] * above;
-            (y[i], y[j]) = (below, above);
-            j -= 1;
+        let mut before = 0.0;
+        for i in lo..=hi {
+            before = inverse[i] * y[i] + factor[i] * before;
+            y[i] = before;
         }
-        while j > middle {
-            above = inverse[j] * y[j] + factor[j] * above;
-            y[j] = above;
-            j -= 1;
+        let mut after = 0.0;
+        for i in (lo..=hi).rev() {
+            after = y[i] + factor[i] * after;
+            y[i] = after;
         }
-        y[middle] = inverse[middle] * y[middle] + factor[middle] * (below + above);
-        let (mut left, mut right) = (y[middle], y[middle]);
-        let pairs = middle - lo;
-        for k in 1..=pairs {
-            let (i, j) = (middle - k, middle + k);
-            left = y[i] + factor[i] * left;
-            right = y[j] + factor[j] * right;
-            (y[i], y[j]) = (left, right);
-        }
-        for j in middle + pairs + 1..=hi {
-            right = y[j] + factor[j] * right;
-            y[j] = right;
-        }
-    }
-
-    /// The first and last node that can move, and one in the middle of them.
-    fn halves(&self) -> (usize, usize, usize) {
-        let Stretch { lo, hi } = self.step.chain.free;
-        (lo, hi, lo + (hi - lo) / 2)
     }
 
     /// Lets the cable come to rest: friction beyond its limit yields, and the cable moves as little as equilibrium needs.
