@@ -256,7 +256,8 @@ impl Search<'_> {
                 Limited::Movement => low + share * (high - low),
                 Limited::Force => 1.0 / (1.0 / low + share * (1.0 / high - 1.0 / low)),
             };
-            let least = 1.0 + 0.5 * ACCURACY;
+            // Two such steps are less than what is still searched.
+            let least = 1.0 + 0.4 * ACCURACY;
             let between = crossing.clamp(low * least, high / least);
             let value = room(between)?;
             let is_above = (value >= 0.0) == kept_above;

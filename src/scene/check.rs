@@ -233,7 +233,9 @@ fn traffic(scene: &Scene) -> Checked {
             "{}, with which all shares sum to 1 and suit a sequence",
             shown(right)
         );
-        let suits = (traffic.share - right).abs() <= ROUNDING && share >= 0.0;
+        // A sequence may leave a vehicle out.
+        let drives = share > 0.0 || matches!(scene.traffic.order, Order::Sequence(_));
+        let suits = drives && (traffic.share - right).abs() <= ROUNDING;
         section.hold(
             suits,
             WrongKind::OutOfRange,

@@ -165,6 +165,10 @@ fn ground_and_traffic_have_their_ranges_too() {
     assert_refused("traffic.sequence", |scene| sequence(vec![0, 2])(scene));
     assert_refused("traffic.sequence", |scene| sequence(vec![])(scene));
     assert_refused("vehicles.0.share", |scene| sequence(vec![0, 0, 1])(scene));
+    assert_refused("vehicles.0.share", |scene| {
+        scene.vehicles = vec![vehicle("a"), vehicle("b")];
+        (scene.vehicles[0].share, scene.vehicles[1].share) = (0.0, 1.0);
+    });
     let mut scene = example();
     sequence(vec![0, 1])(&mut scene);
     scene.validate().expect("a scene");
