@@ -72,6 +72,14 @@ impl Shares {
         self.force <= allowed.force && self.movement <= allowed.movement
     }
 
+    pub fn squared(self) -> Self {
+        self.map(self, |a, b| a * b)
+    }
+
+    pub fn root(self) -> Self {
+        self.map(self, |share, _| share.sqrt())
+    }
+
     pub fn times(self, factor: f64) -> Self {
         self.map(self, |share, _| factor * share)
     }

@@ -263,7 +263,7 @@ impl Estimates {
             }),
             simulated: simulated(MOST_PERIODS),
             passes,
-            stands_in: !period.others.is_empty(),
+            stands_in: period.stands_in(),
             drawn: matches!(scene.traffic.order, Order::Random { .. }),
             quasi_static: QUASI_STATIC_SECONDS * levels.node_updates(first, 1),
             explicit: EXPLICIT_SECONDS * explicit_steps(scene, levels).unwrap_or(EXPLICIT_STEPS) * lattice,

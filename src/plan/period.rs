@@ -32,6 +32,8 @@ pub struct Period {
     pub others: Vec<(Vec<usize>, f64)>,
     /// Whether the traffic is in another order than that of its period: at random, or in a sequence that is longer than a day of heat.
     pub reordered: bool,
+    /// Vehicles and their shares of which draws show what a random order changes, if it does.
+    pub drawn: Vec<(usize, f64)>,
     /// Vehicles that come within the passes of the scene, but not in the period.
     pub absent: Vec<usize>,
 }
@@ -44,19 +46,26 @@ impl Period {
                 vehicles,
                 others: Vec::new(),
                 reordered: false,
+                drawn: Vec::new(),
                 absent: Vec::new(),
             });
         }
         let coming = coming(scene)?;
         let shares = shares(scene, &coming);
         let most = longest(scene);
+        let reordered = scene.traffic.order != Order::Interleaved;
+        let at_random = matches!(scene.traffic.order, Order::Random { .. });
+        let is_drawn = |mix: &Mix| at_random && scene.warming().is_none() && mix.len() > FEW;
         let mut others = Vec::new();
+        let mut weights = shares.clone();
         let mix = match stand_ins::advances(scene, motions) {
             Some(advances) if shares.len() > KINDS => {
                 let advances: Vec<f64> = coming.iter().map(|&vehicle| advances[vehicle]).collect();
                 let of = |length| Mix::new(stand_ins::counts(&shares, &advances, length), &shares);
                 others.push((of(STAND_INS / 2), 1.0));
-                of(STAND_INS)
+                let mix = of(STAND_INS);
+                weights = mix.counts.iter().map(|&count| count as f64).collect();
+                mix
             }
             _ => {
                 // On a day of heat every vehicle comes: its largest forces do not depend on how many days it does.
@@ -64,7 +73,7 @@ impl Period {
                 let of_held = |share: &f64| daily || 2.0 * share * most as f64 >= 1.0;
                 let held: Vec<f64> = shares.iter().copied().filter(of_held).collect();
                 let mut mix = Mix::best(&normal(&held), most);
-                if !mix.is_exact {
+                if !mix.is_exact && !is_drawn(&mix) {
                     let (mut other, share) = mix.opposite(&normal(&held), most);
                     other.counts = spread(&other.counts, &shares, of_held);
                     others.push((other, share));
@@ -89,9 +98,13 @@ impl Period {
             .iter()
             .map(|(mix, share)| Ok::<_, Error>((named(mix)?, *share)))
             .collect::<Result<_, _>>()?;
-        let reordered = scene.traffic.order != Order::Interleaved;
-        let at_random = matches!(scene.traffic.order, Order::Random { .. });
-        if reordered && (vehicles.len() > FEW || !at_random) {
+        let drawn = if is_drawn(&mix) {
+            let kinds = (0..coming.len()).filter(|&kind| mix.counts[kind] > 0);
+            kinds.map(|kind| (coming[kind], weights[kind])).collect()
+        } else {
+            Vec::new()
+        };
+        if reordered && drawn.is_empty() && (vehicles.len() > FEW || !at_random) {
             let mut shuffled = vehicles.clone();
             fastrand::Rng::with_seed(0).shuffle(&mut shuffled);
             others.push((shuffled, 1.0));
@@ -104,6 +117,7 @@ impl Period {
             vehicles,
             others,
             reordered,
+            drawn,
         })
     }
 
@@ -126,6 +140,30 @@ impl Period {
     /// Number of its passes.
     pub fn len(&self) -> usize {
         self.vehicles.len()
+    }
+
+    /// As many vehicles by their shares, in an order that is drawn with this seed: of each kind the whole number below or above its part.
+    pub fn draw(&self, seed: u64) -> Vec<usize> {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let begin = random.f64();
+        let all: f64 = self.drawn.iter().map(|(_, share)| share).sum();
+        let mut kinds = self.drawn.iter();
+        let (mut vehicle, mut upto) = (0, 0.0);
+        let mut vehicles = Vec::with_capacity(self.len());
+        for place in 0..self.len() {
+            while (place as f64 + begin) / self.len() as f64 >= upto / all {
+                let Some((next, share)) = kinds.next() else { break };
+                (vehicle, upto) = (*next, upto + share);
+            }
+            vehicles.push(vehicle);
+        }
+        random.shuffle(&mut vehicles);
+        vehicles
+    }
+
+    /// Whether it stands in for the traffic, and others are compared with it.
+    pub fn stands_in(&self) -> bool {
+        !self.drawn.is_empty() || !self.others.is_empty()
     }
 
     /// Whether its passes are those of the scene's traffic.

@@ -3,7 +3,7 @@
 use cable_dem::Mesh;
 
 use crate::answer::error_estimate::{self, ErrorParts, Shares};
-use crate::plan::{MOST_PASSES, Plan};
+use crate::plan::{MOST_PASSES, Period, Plan};
 use crate::shown::{exact_percent, percent};
 use crate::{Error, ErrorSource, Scene};
 
@@ -27,7 +27,7 @@ pub fn judge(
             "{}, above the tolerance of {}{}",
             exceeds.join(" and "),
             exact_percent(tolerance),
-            remedy(error, scene, !period.others.is_empty(), mesh)
+            remedy(error, scene, period, mesh)
         ));
     }
     if !scene.friction.law.has_memory() {
@@ -39,8 +39,8 @@ pub fn judge(
     Ok(())
 }
 
-/// What makes the largest part of an error smaller, where the period of the traffic is its own or only `stands_in`.
-fn remedy(error: &ErrorParts, scene: &Scene, stands_in: bool, mesh: &Mesh) -> String {
+/// What makes the largest part of an error smaller, in traffic with this `period`.
+fn remedy(error: &ErrorParts, scene: &Scene, period: &Period, mesh: &Mesh) -> String {
     let of = |part: Shares| part.force.max(part.movement);
     let others = [
         error.ground,
@@ -61,7 +61,10 @@ fn remedy(error: &ErrorParts, scene: &Scene, stands_in: bool, mesh: &Mesh) -> St
     if of(error.passes) >= others && scene.traffic.passes <= MOST_PASSES {
         return ": solver.method = \"quasi-static\" simulates every pass".to_owned();
     }
-    if of(error.passes) >= others && stands_in {
+    if of(error.passes) >= others && !period.drawn.is_empty() {
+        return ": most of it is the scatter of random orders around their mean".to_owned();
+    }
+    if of(error.passes) >= others && period.stands_in() {
         return ": most of it comes from vehicles that stand in for the traffic; shares in whole numbers, of at most 2000 vehicles in all, need none"
             .to_owned();
     }

@@ -5,10 +5,11 @@
 
 use std::cell::RefCell;
 
-use cable_dem::{CableError, Order, Statistics};
+use cable_dem::{CableError, Statistics};
 use cycle_jump::{Guide, Record};
 
 use super::budget::REFINEMENT_COST;
+use super::draws::{Draw, Draws};
 use super::passes::{Jumping, Passes};
 use crate::answer::error_estimate::{Scale, Shares, difference, differences, extremes_difference};
 use crate::plan::{Period, Plan};
@@ -36,13 +37,18 @@ const MOST_FIRST_PERIODS: u64 = 48;
 const MOST_FIRST_PASSES: u64 = 200;
 /// Jumps are looked for on the level below the first, where they cost a fourth, unless the duct is so many depths short: that costs little,
 /// and the few nodes that a coarser mesh gives it behave differently. Those over the traffic's own periods of more than so many vehicles are looked
-/// for on the level below that one, which spares a sixth of the time of a million passes. What stand-ins change depends more on the mesh.
+/// for on the level below that one, which spares a sixth of the time of a million passes, and so are draws. What stand-ins change depends more on the mesh.
 const SHORT: f64 = 20.0;
 const MANY: usize = 48;
 /// Finer jumps take about so many times the passes. No finer ones are looked for where they would take more nodes than this on the
 /// first level: some ten seconds.
 const COST_OF_FINER: usize = 2;
 const MAX_NODE_UPDATES: usize = 1_000_000_000;
+
+/// Draws of a random order at least, at most, and as long as they take no more nodes than this.
+const FEWEST_DRAWS: usize = 4;
+const MOST_DRAWS: usize = 24;
+const MAX_DRAWN_UPDATES: usize = 500_000_000;
 
 /// Jumps that are good enough.
 pub struct Found {
@@ -51,6 +57,8 @@ pub struct Found {
     pub passes: Passes,
     /// What they leave wrong.
     pub error: Shares,
+    /// What a random order changes.
+    pub draws: Option<Draws>,
     tolerance: f64,
     first_periods: u64,
     first_jump: f64,
@@ -98,7 +106,7 @@ pub fn find<'a>(
     let allowed = Shares::both(share(plan) * plan.scene.solver.tolerance);
     let duct = plan.scene.duct;
     let first = plan.levels.first();
-    let levels_below = if plan.period.len() > MANY && plan.period.is_own() {
+    let levels_below = if plan.period.len() > MANY && plan.period.others.is_empty() {
         2
     } else {
         usize::from(duct.length > SHORT * duct.depth || plan.period.len() > MANY)
@@ -144,6 +152,7 @@ pub fn find<'a>(
             level,
             error: errors.iter().copied().fold(Shares::default(), Shares::max),
             passes: fine,
+            draws: None,
             tolerance: taken.tolerance,
             first_periods: taken.first_periods,
             first_jump: taken.first_jump,
@@ -153,7 +162,12 @@ pub fn find<'a>(
         }
     }
     let mut found = best.expect("the first pair of runs is an answer");
-    found.error = found.error + mix_error(plan, &found, scale, simulate, &mut statistics)?;
+    found.error = found.error + mix_error(plan, &found, scale, &simulate, &mut statistics)?;
+    if !plan.period.drawn.is_empty() {
+        let draws = draws(plan, &found, scale, &simulate, &mut statistics)?;
+        found.error = found.error + draws.error;
+        found.draws = Some(draws);
+    }
     Ok((found, statistics))
 }
 
@@ -176,6 +190,61 @@ fn largest<'a>(plan: &'a Plan<'_>) -> Jumping<'a> {
     }
 }
 
+/// The passes of `vehicles` in place of the period of `plan`, by jumps as good as those that were found.
+fn in_place(
+    plan: &Plan<'_>,
+    found: &Found,
+    vehicles: Vec<usize>,
+    simulate: impl Fn(usize, &Jumping<'_>) -> Result<Passes, Error>,
+) -> Result<Passes, Error> {
+    let period = Period {
+        vehicles,
+        ..plan.period.clone()
+    };
+    let first = found.first_periods * plan.period.len() as u64;
+    let jumping = Jumping {
+        guide: Guide::Free,
+        first_periods: first.div_ceil(period.len() as u64).max(FEWEST_FIRST_PERIODS),
+        ..found.jumping(&period)
+    };
+    simulate(found.level, &jumping)
+}
+
+/// Passes that follow whole periods: the first vehicles of a random order are a draw, which no mix foretells.
+fn drawn(plan: &Plan<'_>) -> u64 {
+    if !plan.period.drawn.is_empty() {
+        2 * plan.period.len() as u64
+    } else {
+        0
+    }
+}
+
+/// What random orders of the period of `plan` leave in the mean, from as many draws as the tolerance needs or as are affordable.
+fn draws(
+    plan: &Plan<'_>,
+    found: &Found,
+    scale: Scale,
+    simulate: impl Fn(usize, &Jumping<'_>) -> Result<Passes, Error>,
+    statistics: &mut Statistics,
+) -> Result<Draws, Error> {
+    let allowed = Shares::both(share(plan) * plan.scene.solver.tolerance);
+    let mut all = Vec::new();
+    let mut work = 0;
+    loop {
+        let vehicles = plan.period.draw(all.len() as u64);
+        let passes = in_place(plan, found, vehicles.clone(), &simulate)?;
+        *statistics += passes.statistics;
+        work += passes.statistics.node_updates + passes.statistics.corners;
+        all.push(Draw { vehicles, passes });
+        if all.len() >= FEWEST_DRAWS {
+            let draws = Draws::new(&found.passes, &all, drawn(plan), scale);
+            if draws.error.is_within(allowed) || work > MAX_DRAWN_UPDATES || all.len() >= MOST_DRAWS {
+                return Ok(draws);
+            }
+        }
+    }
+}
+
 /// What a period that stands in for the traffic changes: its share of what each other one does, forces and movements on the passes that both
 /// show, and the largest of all.
 fn mix_error(
@@ -186,28 +255,14 @@ fn mix_error(
     statistics: &mut Statistics,
 ) -> Result<Shares, Error> {
     let mut error = Shares::default();
-    // The first vehicles of a random order are a draw, which no mix foretells.
-    let drawn = match plan.scene.traffic.order {
-        Order::Random { .. } => 2 * plan.period.len() as u64,
-        _ => 0,
-    };
+    let drawn = drawn(plan);
     let later = |passes: &Passes| -> Vec<Record> {
         let is_shown =
             |record: &&Record| record.pass > drawn && passes.doubtful.binary_search(&record.pass).is_err();
         passes.records.iter().filter(is_shown).cloned().collect()
     };
     for (vehicles, share) in &plan.period.others {
-        let period = Period {
-            vehicles: vehicles.clone(),
-            ..plan.period.clone()
-        };
-        let first = found.first_periods * plan.period.len() as u64;
-        let jumping = Jumping {
-            guide: Guide::Free,
-            first_periods: first.div_ceil(period.len() as u64).max(FEWEST_FIRST_PERIODS),
-            ..found.jumping(&period)
-        };
-        let other = simulate(found.level, &jumping)?;
+        let other = in_place(plan, found, vehicles.clone(), &simulate)?;
         *statistics += other.statistics;
         let rows = difference(&later(&found.passes), &later(&other), scale);
         let all = |passes: &'_ Passes| -> Vec<Record> { [&later(passes)[..], &passes.peaks].concat() };

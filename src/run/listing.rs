@@ -7,6 +7,7 @@
 use cable_dem::{Order, PassOutcome};
 use cycle_jump::{Evolution, Record, peaks};
 
+use super::draws::mean;
 use super::order::OwnOrder;
 use crate::Error;
 use crate::answer::simulated;
@@ -56,12 +57,18 @@ impl<'a> Listing<'a> {
             is_drawn: matches!(scene.traffic.order, Order::Random { .. }),
         };
         // The last passes too are the mean of a whole period: the last vehicle alone says nothing.
-        let mean = |pass: u64| match mean_around(pass, length, count) {
+        let around = |pass: u64| match mean_around(pass, length, count) {
             shown if pass + length / 2 <= count => shown,
             _ => sampled((count + 1).saturating_sub(length).max(1), count),
         };
         if period.is_own() || listing.is_drawn {
-            let shown = |pass: u64| if listing.is_drawn { mean(pass) } else { vec![pass] };
+            let shown = |pass: u64| {
+                if listing.is_drawn {
+                    around(pass)
+                } else {
+                    vec![pass]
+                }
+            };
             listing.rows = listed.iter().map(|&pass| (pass, shown(pass))).collect();
             return Ok(listing);
         }
@@ -89,7 +96,7 @@ impl<'a> Listing<'a> {
             } else if let Some(shown) = own.shown_by(pass, first + 1..=count - last) {
                 listing.rows.push((pass, vec![shown]));
             } else if pass == count {
-                listing.rows.push((pass, mean(pass)));
+                listing.rows.push((pass, around(pass)));
             }
         }
         listing.own = Some(own);
@@ -225,16 +232,6 @@ fn sampled(from: u64, to: u64) -> Vec<u64> {
     (0..OF_A_MEAN)
         .map(|k| from + (2 * k + 1) * all / (2 * OF_A_MEAN))
         .collect()
-}
-
-/// Mean of what passes did.
-fn mean(records: &[Record]) -> PassOutcome {
-    if let [one] = records {
-        return one.outcome.clone();
-    }
-    let share = 1.0 / records.len() as f64;
-    let parts: Vec<_> = records.iter().map(|record| (share, &record.outcome)).collect();
-    PassOutcome::combined(&parts)
 }
 
 #[cfg(test)]

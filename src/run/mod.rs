@@ -3,6 +3,7 @@
 mod assemble;
 mod budget;
 mod days;
+mod draws;
 mod judge;
 mod jumps;
 mod listing;

@@ -9,6 +9,8 @@ use crate::Progress;
 pub struct RunOptions<'a> {
     /// Measure the error by a run on a mesh twice as fine instead of estimating it.
     pub verify: bool,
+    /// The mesh's error, where the scene names its mesh and another run on it has shown this: then no coarser ones are computed.
+    pub mesh_error: Option<f64>,
     /// Called after each pass; it may stop the run.
     pub progress: Progress<'a>,
     /// A ground model of one's own, in place of the scene's.

@@ -38,7 +38,7 @@ pub struct Solved {
     /// Work on all meshes together.
     pub statistics: Statistics,
     pub random: Option<RandomSpread>,
-    /// One more pass of each vehicle that comes too seldom for the period.
+    /// One more pass of each vehicle that comes too seldom for the period; in random order, passes of draws that show more.
     pub seldom: Vec<(usize, Record)>,
     /// Of a cable that is heated every day.
     pub heat: Option<(Vec<DayExtremes>, HeatRecord)>,
@@ -70,16 +70,19 @@ impl Refinement<'_> {
         let way = way.as_ref();
         statistics += work_of(&passes);
         // One mesh alone does not show its error; and no mesh that the scene names is refused for what coarser ones show.
-        let alone = passes.len() == 1;
+        let alone = passes.len() == 1 && self.known_error().is_none();
         let doubtful = levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
         let mesh = levels.mesh(level)?;
-        let finest = passes.pop().expect("the first level was computed");
+        let mut finest = passes.pop().expect("the first level was computed");
         error.road = self.road_error(&finest, mesh, way, &mut statistics)?;
         if self.options.verify || alone || doubtful {
             let finer = self.simulate(level + 1, way, parts(), true)?;
             statistics += finer.statistics;
             error.mesh = measured(&finest.records, &finer.records, self.scale());
             error.measured = true;
+        }
+        if let Some(draws) = found.as_ref().and_then(|found| found.draws.as_ref()) {
+            draws.correct(&mut finest);
         }
         judge(&error, self.plan, &mesh, warnings)?;
         let mut random = None;
@@ -89,12 +92,18 @@ impl Refinement<'_> {
             statistics += work;
             random = spread;
         }
-        let seldom = match self.method {
+        let mut seldom = match self.method {
             PassMethod::Jumps(_) => {
                 seldom_passes(&self.task(scene, mesh), &self.plan.period.absent, &finest.state)?
             }
             PassMethod::EveryPass(_) => Vec::new(),
         };
+        seldom.extend(
+            found
+                .and_then(|found| found.draws)
+                .into_iter()
+                .flat_map(|draws| draws.peaks),
+        );
         Ok(Solved {
             reasons: vec![mesh_reason(self.plan, &mesh)],
             mesh,
@@ -120,6 +129,10 @@ impl Refinement<'_> {
         error.passes = found.map_or(Shares::default(), |found| found.error);
         let mut level = levels.first();
         let progress = parts();
+        if let Some(known) = self.known_error() {
+            error.mesh = Shares::both(known);
+            return Ok((level, vec![self.simulate(level, way, progress, true)?]));
+        }
         let mut passes = self.coarser(level, way, found, progress)?;
         passes.push(self.simulate(level, way, progress.part(share_below(level, level), 1.0), true)?);
         loop {
@@ -177,6 +190,11 @@ impl Refinement<'_> {
         let (found, work) = jumps::find(self.plan, self.scale(), progress, simulate)?;
         *statistics += work;
         Ok(found)
+    }
+
+    /// The error of the mesh that the scene names, where another run has shown it.
+    fn known_error(&self) -> Option<f64> {
+        self.options.mesh_error.filter(|_| self.plan.levels.named())
     }
 
     /// What counts as nothing in this scene.

@@ -2,5 +2,6 @@
 
 mod extremes;
 mod mixes;
+mod random_order;
 mod scenes;
 mod shares;

@@ -130,7 +130,7 @@ fn chosen(name: &str, usual: u64) -> u64 {
     text.and_then(|text| text.parse().ok()).unwrap_or(usual)
 }
 
-/// Every mix with a million passes is answered in seconds of one core, or refused for what is no answer.
+/// Nearly every mix with a million passes is answered in seconds of one core; the others take longer, or are refused for what is no answer.
 #[test]
 #[ignore = "150 random mixes with a million passes: half an hour; FIRST and MIXES choose them; on a quiet machine"]
 fn a_million_passes_of_a_mix_take_seconds() {
@@ -139,7 +139,7 @@ fn a_million_passes_of_a_mix_take_seconds() {
         .build()
         .expect("a thread");
     let (first, count) = (chosen("FIRST", 0), chosen("MIXES", 150));
-    let mut slow = Vec::new();
+    let (mut slow, mut refused) = (Vec::new(), Vec::new());
     for seed in first..first + count {
         let scene = random(seed, Some(1_000_000));
         let begun = Instant::now();
@@ -154,6 +154,8 @@ fn a_million_passes_of_a_mix_take_seconds() {
             ),
             Err(error @ (Error::Inaccurate { .. } | Error::Jumps(_))) => {
                 println!("{seed}: {:.1} s, {error}", took.as_secs_f64());
+                refused.push(seed);
+                continue;
             }
             Err(error) => panic!("mix {seed}: {error}"),
         }
@@ -161,5 +163,9 @@ fn a_million_passes_of_a_mix_take_seconds() {
             slow.push(seed);
         }
     }
-    assert!(slow.len() as f64 <= (1.0 - QUICK) * count as f64, "{slow:?}");
+    let not_quick = (slow.len() + refused.len()) as f64;
+    assert!(
+        not_quick <= (1.0 - QUICK) * count as f64,
+        "slow: {slow:?}, refused: {refused:?}"
+    );
 }

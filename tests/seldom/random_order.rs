@@ -1,0 +1,86 @@
+//! Long traffic in random order shows the mean over random orders.
+
+use creepage::scene::{Order, SolverMethod};
+use creepage::{CableEnd, PassRecord, Run, Scene};
+use rayon::prelude::*;
+
+use super::scenes::by;
+
+/// Random runs of which every pass is simulated, the passes before which they still remember that nothing had passed, and after which the
+/// forces on both ends hardly depend on which pass it is.
+const RUNS: u64 = 6;
+const PASSES: u64 = 1400;
+const FORGOTTEN: u64 = 400;
+
+/// Two kinds of vehicle that drive both ways or one, by their shares, over a cable between a fixed end and one that is free or sprung.
+fn scene(reverse: bool, shares: (f64, f64), loads: (f64, f64), passes: u64) -> Scene {
+    let direction = if reverse { "reverse" } else { "forward" };
+    let text = format!(
+        r#"
+        duct = {{ length = 15, depth = 1.2 }}
+        ground = {{ layers = [{{ young_modulus = "200 MPa", poisson_ratio = 0.4 }}] }}
+        cable = {{ weight = 108.8, axial_stiffness = 8.01e6 }}
+        friction = {{ dynamic_coefficient = 0.25, shape_factor = 6e6 }}
+        ends = {{ upstream = {{ spring = 1e6 }}, downstream = "fixed" }}
+        vehicles = [
+            {{ name = "one", speed = 11, load = "{} kN", share = {} }},
+            {{ name = "other", speed = 9, load = "{} kN", share = {}, direction = "{direction}" }},
+        ]
+        traffic = {{ passes = {passes}, order = "random", seed = 1 }}
+        "#,
+        loads.0, shares.0, loads.1, shares.1
+    );
+    Scene::from_toml("scene", &text).expect("a valid scene")
+}
+
+fn force(record: &PassRecord) -> [f64; 2] {
+    [record.upstream_force_n, record.downstream_force_n]
+}
+
+/// Mean force on both ends over the late passes of a run.
+fn late_mean(run: &Run) -> [f64; 2] {
+    let late: Vec<[f64; 2]> = run
+        .passes
+        .iter()
+        .filter(|pass| pass.pass > FORGOTTEN)
+        .map(force)
+        .collect();
+    [0, 1].map(|end| late.iter().map(|force| force[end]).sum::<f64>() / late.len() as f64)
+}
+
+#[test]
+fn long_traffic_in_random_order_shows_the_mean_over_random_orders() {
+    let mixes = [
+        (true, (0.83, 0.17), (60.0, 120.0)),
+        (true, (0.517, 0.483), (80.0, 80.0)),
+        (false, (0.9, 0.1), (50.0, 150.0)),
+    ];
+    for (reverse, shares, loads) in mixes {
+        let every = |seed: u64| {
+            let mut scene = scene(reverse, shares, loads, PASSES);
+            scene.traffic.order = Order::Random { seed };
+            late_mean(&by(&scene, SolverMethod::QuasiStatic).expect("an answer"))
+        };
+        let runs: Vec<[f64; 2]> = (0..RUNS).into_par_iter().map(every).collect();
+        let found = by(&scene(reverse, shares, loads, 1_000_000), SolverMethod::Auto).expect("an answer");
+        let last = force(found.passes.last().expect("a pass"));
+        let largest = last.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+        let stated = found.error_estimate.relative;
+        for end in [0, 1] {
+            let mean = runs.iter().map(|run| run[end]).sum::<f64>() / RUNS as f64;
+            let square = runs.iter().map(|run| (run[end] - mean).powi(2)).sum::<f64>();
+            // Three standard errors of the mean of the runs.
+            let scatter = 3.0 * (square / (RUNS * (RUNS - 1)) as f64).sqrt();
+            assert!(
+                (last[end] - mean).abs() <= scatter + stated * largest,
+                "{reverse} {shares:?}: {} N, the mean over random runs is {mean} ± {scatter} N, stated {stated}",
+                last[end]
+            );
+        }
+        let random = found.random.expect("a spread");
+        for end in CableEnd::ALL {
+            let spread = random.of(end);
+            assert!(spread.q05_n <= spread.q50_n && spread.q50_n <= spread.q95_n);
+        }
+    }
+}
