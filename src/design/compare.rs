@@ -54,7 +54,7 @@ pub(crate) fn compare_over(
     let answer = |measure: &Measure| {
         measure.check(scene)?;
         let springs = [Spring::new(measure.place, measure.stiffness)];
-        Ok(mesh.run(&springs, &Limits::default())?)
+        Ok(mesh.run(&springs, &Limits::default(), false)?)
     };
     measures
         .par_iter()

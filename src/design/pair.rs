@@ -76,13 +76,11 @@ pub fn design(
         points.min_by(|a, b| worth(a).total_cmp(&worth(b))).cloned()
     };
     let answer = best(&mut points.iter().filter(|point| point.within_limits));
-    let nearest = match answer {
-        Some(_) => None,
-        None => points
-            .iter()
-            .min_by(|a, b| a.excess(limits).total_cmp(&b.excess(limits)))
-            .cloned(),
-    };
+    let nearer = |a: &&TradeOff, b: &&TradeOff| a.excess(limits).total_cmp(&b.excess(limits));
+    let nearest = points.iter().min_by(nearer).filter(|_| answer.is_none());
+    let judged = |point: &TradeOff| runs.judged(point);
+    let nearest = nearest.map(judged).transpose()?;
+    let answer = answer.as_ref().map(judged).transpose()?;
     let found = answer.as_ref().or(nearest.as_ref());
     Ok(Design {
         title: scene.title.clone(),

@@ -58,12 +58,18 @@ impl<'a> Runs<'a> {
         if let Some(done) = self.done(stiffnesses) {
             return Ok(done);
         }
-        let point = self.mesh.run(&springs, self.limits)?;
+        let point = self.mesh.run(&springs, self.limits, false)?;
         self.points().push(point.clone());
         let count = self.count.fetch_add(1, Relaxed);
         let share = count as f64 / self.expected as f64;
         self.progress.report(share.min(1.0))?;
         Ok(point)
+    }
+
+    /// The same `point` with its own error.
+    pub fn judged(&self, point: &TradeOff) -> Result<TradeOff, Error> {
+        self.count.fetch_add(1, Relaxed);
+        self.mesh.run(&point.springs, self.limits, true)
     }
 
     /// The run with these stiffnesses, if it was done.
@@ -128,8 +134,10 @@ pub fn stiffnesses(scene: &Scene, place: Place, limits: &Limits, per_decade: i32
 /// A scene on the mesh that its stiffest variant needs, and its ground: runs that are to be compared are made on the same ones, and where
 /// the end is nearly free there is no force whose relative error a finer mesh could make small.
 pub struct OneMesh {
-    pub scene: Scene,
+    scene: Scene,
     ground: Arc<Ground>,
+    /// Of the stiffest variant on it.
+    error: f64,
 }
 
 impl OneMesh {
@@ -149,21 +157,27 @@ impl OneMesh {
         let fixed: Vec<Spring> = ends.map(|place| Spring::new(*place, f64::INFINITY)).collect();
         let stiffest = held(scene, &fixed);
         stiffest.validate()?;
-        let plan = run_over(&stiffest, Arc::clone(ground), &options)?.plan;
+        let run = run_over(&stiffest, Arc::clone(ground), &options)?;
+        let (plan, error) = (run.plan, run.error_estimate.parts.mesh);
         let mut scene = scene.clone();
         scene.solver.node_spacing.get_or_insert(plan.node_spacing_m);
         scene.solver.vehicle_step.get_or_insert(plan.vehicle_step_m);
         Ok(Self {
             scene,
             ground: Arc::clone(ground),
+            error,
         })
     }
 
-    /// Runs the scene with `springs`.
-    pub fn run(&self, springs: &[Spring], limits: &Limits) -> Result<TradeOff, Error> {
+    /// Runs the scene with `springs`, on coarser meshes too where its own error `is_judged`.
+    pub fn run(&self, springs: &[Spring], limits: &Limits, is_judged: bool) -> Result<TradeOff, Error> {
         let scene = held(&self.scene, springs);
         scene.validate()?;
-        let run = run_over(&scene, Arc::clone(&self.ground), &RunOptions::default())?;
+        let options = RunOptions {
+            mesh_error: (!is_judged).then_some(self.error),
+            ..RunOptions::default()
+        };
+        let run = run_over(&scene, Arc::clone(&self.ground), &options)?;
         let point = TradeOff::of(&self.scene, &run, springs, limits);
         finite::check(&point)?;
         Ok(point)

@@ -82,9 +82,10 @@ pub fn design(scene: &Scene, options: &DesignOptions<'_>) -> Result<Design, Desi
         .transpose()?;
     // Between two stiffnesses that keep a limit every other does; the run has the last word.
     let answer = answer.filter(|answer| answer.within_limits);
+    let answer = answer.map(|answer| runs.judged(&answer)).transpose()?;
     let nearest = match answer {
         Some(_) => None,
-        None => Some(search.nearest()?),
+        None => Some(runs.judged(&search.nearest()?)?),
     };
     let binding = match (&answer, &nearest) {
         (Some(answer), _) => search.at_the_edges(answer, range, &edges),

@@ -63,7 +63,7 @@ pub struct TradeOff {
     /// Whether forces still grow after these passes, and how far is not known.
     #[serde(default)]
     pub still_growing: bool,
-    /// Estimated relative error of the forces.
+    /// Estimated relative error of the forces; but for the answer, and the nearest, with the mesh's part of the run with fixed ends.
     pub error_estimate: f64,
     /// Whether it is within all limits.
     pub within_limits: bool,
