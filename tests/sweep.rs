@@ -601,7 +601,10 @@ fn rows(name: &str, table: &str) -> (PathBuf, Result<Sweep, SweepError>) {
         .unwrap()
         .with(&["traffic.passes=1"])
         .unwrap();
-    (output, Sweep::of_rows(file, &ducts, Samples::default()))
+    (
+        output,
+        Sweep::of_rows(file, &ducts, &TableOptions::default(), Samples::default()),
+    )
 }
 
 #[test]

@@ -379,7 +379,8 @@ fn a_list_of_ducts_may_be_a_workbook_with_units_below_its_names() {
     sheet.write_string(3, 1, "1.5 m").expect("a text");
     book.save(&ducts).expect("a file");
     let file = creepage::SceneFile::read(UPPER).expect("a scene");
-    let sweep = Sweep::of_rows(file.clone(), &ducts, Samples::default()).expect("a list");
+    let sweep =
+        Sweep::of_rows(file.clone(), &ducts, &TableOptions::default(), Samples::default()).expect("a list");
     assert_eq!(sweep.count(), 2);
     let depth = |index| sweep.scene(index).expect("a scene").duct.depth;
     assert!((depth(0) - 4.0 * 0.3048).abs() < 1e-15 && depth(1) == 1.5);
@@ -399,10 +400,11 @@ fn a_list_of_ducts_may_be_a_workbook_with_units_below_its_names() {
     sheet.write_string(0, 0, "duct.depth").expect("a text");
     sheet.write_number(1, 0, 2.0).expect("a number");
     book.save(&ducts).expect("a file");
-    let bare = Sweep::of_rows(file.clone(), &ducts, Samples::default()).expect("a list");
+    let bare =
+        Sweep::of_rows(file.clone(), &ducts, &TableOptions::default(), Samples::default()).expect("a list");
     assert_eq!(bare.scene(0).expect("a scene").duct.depth, 2.0);
     fs::write(&ducts, "duct.depth\n2\n").expect("a file");
-    let error = Sweep::of_rows(file, &ducts, Samples::default())
+    let error = Sweep::of_rows(file, &ducts, &TableOptions::default(), Samples::default())
         .expect_err("no workbook")
         .to_string();
     assert!(error.contains("ducts.xlsx: found no table of ducts"), "{error}");

@@ -134,7 +134,7 @@ fn read_rows(py: Python<'_>, file: PathBuf) -> PyResult<Table> {
             values: AnswerValues::Texts(cells.into_iter().map(Some).collect()),
         };
         Table::of(
-            creepage::sweep::read_rows(&file)?
+            creepage::sweep::read_rows(&file, &creepage::readings::TableOptions::default())?
                 .into_iter()
                 .map(column)
                 .collect(),

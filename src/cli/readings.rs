@@ -3,11 +3,13 @@
 use std::path::Path;
 
 use crate::Error;
-use crate::readings::{ColumnNames, Decimal, Encoding, ReadOptions, Readings, RunStart, Separator};
+use crate::readings::{
+    ColumnNames, Decimal, Encoding, ReadOptions, Readings, RunStart, Separator, TableOptions,
+};
 
 #[derive(Debug, clap::Args)]
-#[command(next_help_heading = "Reading the data, where it is not recognised")]
-pub struct ReadArguments {
+#[command(next_help_heading = "Reading the table, where it is not recognised")]
+pub struct TableArguments {
     /// What stands between cells: comma, semicolon, tab, space, |
     #[arg(long, value_name = "SIGN", allow_hyphen_values = true)]
     separator: Option<Separator>,
@@ -17,6 +19,35 @@ pub struct ReadArguments {
     /// How characters are written: utf-8, utf-16, latin-1, shift_jis, …
     #[arg(long, value_name = "NAME")]
     encoding: Option<Encoding>,
+    /// Line with the names of the columns
+    #[arg(long, value_name = "N")]
+    header_line: Option<u64>,
+    /// Rows below the names that hold no data
+    #[arg(long, value_name = "N")]
+    skip: Option<u64>,
+    /// Sheet of a workbook
+    #[arg(long, value_name = "NAME")]
+    sheet: Option<String>,
+}
+
+impl TableArguments {
+    pub fn options(&self) -> TableOptions {
+        TableOptions {
+            separator: self.separator,
+            decimal: self.decimal,
+            encoding: self.encoding,
+            header_line: self.header_line,
+            skip: self.skip,
+            sheet: self.sheet.clone(),
+        }
+    }
+}
+
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Reading the table, where it is not recognised")]
+pub struct ReadArguments {
+    #[command(flatten)]
+    table: TableArguments,
     /// Column with the number of the pass; 0 is the reading before the first
     #[arg(long, value_name = "NAME")]
     column_pass: Option<String>,
@@ -50,9 +81,7 @@ pub struct ReadArguments {
 impl ReadArguments {
     fn options(&self) -> ReadOptions {
         ReadOptions {
-            separator: self.separator,
-            decimal: self.decimal,
-            encoding: self.encoding,
+            table: self.table.options(),
             columns: ColumnNames {
                 pass: self.column_pass.clone(),
                 vehicles: self.column_vehicles.clone(),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use super::failure::Failure;
 use super::progress::{HowFar, Now, watched};
+use super::readings::TableArguments;
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
 use crate::Units;
@@ -48,6 +49,8 @@ pub struct Arguments {
     /// value of the scene, may be a distribution as in --vary
     #[arg(long, value_name = "FILE", conflicts_with = "vary")]
     rows: Option<PathBuf>,
+    #[command(flatten)]
+    table: TableArguments,
     /// Table to write, FILE.csv or FILE.xlsx
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
@@ -80,7 +83,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         seed: arguments.seed,
     };
     let sweep = match rows {
-        Some(rows) => Sweep::of_rows(file, rows, samples)?,
+        Some(rows) => Sweep::of_rows(file, rows, &arguments.table.options(), samples)?,
         None => Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?,
     };
     warn_of_slips(&sweep.file_at(0)?);

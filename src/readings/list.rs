@@ -1,14 +1,15 @@
 //! Readings, in the order of their file.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
-use super::error::DataError;
-use super::grid::Grid;
+use creepage_tables::{Name, Names, Table};
+
+use super::DataError;
+use super::columns::is_header;
 use super::options::ReadOptions;
 use super::reading::Reading;
-use super::{table, text, workbook};
+use super::rows;
+use crate::scene::Dimension;
 
 /// A file larger than this \[bytes\] holds no readings: it is a million of them many times over.
 const LARGEST_FILE: u64 = 64 << 20;
@@ -48,14 +49,15 @@ impl Readings {
     ///
     /// As for [`Readings::from_file`].
     pub fn from_file_with(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, DataError> {
-        let path = path.as_ref();
-        let file = path.display().to_string();
-        let mut bytes = Vec::new();
-        // One byte more tells a file that is too large, without all of it.
-        match File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes)) {
-            Ok(_) => Self::from_bytes(&file, &bytes, options),
-            Err(source) => Err(DataError::Unreadable(file, source)),
-        }
+        let is_header = |names: &[Name]| is_header(names, &options.columns);
+        let names = Names {
+            is_header: &is_header,
+            unit: Dimension::unit_by_word,
+        };
+        Self::of(
+            Table::from_file(path.as_ref(), LARGEST_FILE, &options.table, &names)?,
+            options,
+        )
     }
 
     /// Reads a table from `bytes`; `file` stands for it in errors.
@@ -74,50 +76,41 @@ impl Readings {
     /// As for [`Readings::from_file`].
     pub fn from_bytes(file: &str, bytes: &[u8], options: &ReadOptions) -> Result<Self, DataError> {
         if bytes.len() as u64 > LARGEST_FILE {
-            return Err(DataError::TooLarge {
-                file: file.to_owned(),
-                allowed: LARGEST_FILE,
-            });
+            let (file, allowed) = (file.to_owned(), LARGEST_FILE);
+            return Err(DataError::TooLarge { file, allowed });
         }
-        let grid = if workbook::is_workbook(bytes) {
-            workbook::read(file, bytes)?
-        } else {
-            let text = text::decoded(bytes, options.encoding).ok_or_else(|| DataError::NoText {
-                file: file.to_owned(),
-                named: options.encoding.map(|encoding| encoding.0.name()),
-            })?;
-            Grid::of(file, &text, options.separator)?
+        let is_header = |names: &[Name]| is_header(names, &options.columns);
+        let names = Names {
+            is_header: &is_header,
+            unit: Dimension::unit_by_word,
         };
-        let found = table::read(file, &grid, options)?;
-        let file = file.to_owned();
+        Self::of(Table::read(file, bytes, &options.table, &names)?, options)
+    }
+
+    fn of(mut table: Table, options: &ReadOptions) -> Result<Self, DataError> {
+        let found = rows::read(&mut table, options)?;
         if found.readings.is_empty() {
-            return Err(DataError::Empty(file));
+            return Err(DataError::Empty(table.file));
         }
-        let wrong = |line: u64, found: &str, allowed: &'static str| DataError::Line {
-            file: file.clone(),
-            line,
-            found: found.into(),
-            allowed: allowed.into(),
-        };
-        if let (Some(first), true) = (
-            found.readings.first(),
-            found.readings.iter().all(|reading| reading.passes == 0),
-        ) {
-            return Err(wrong(
+        let first = found
+            .readings
+            .iter()
+            .find(|_| found.readings.iter().all(|reading| reading.passes == 0));
+        if let Some(first) = first {
+            return Err(table.wrong(
                 first.line,
-                "pass: found \"0\" alone",
+                "pass: found \"0\" alone".into(),
                 "readings after at least one pass",
             ));
         }
         let bare = found.readings.iter().find(|reading| reading.sigma.is_none());
         match bare.filter(|_| found.readings.iter().any(|reading| reading.sigma.is_some())) {
-            Some(bare) => Err(wrong(
-                bare.line,
-                "sigma_n is blank, but given for other readings",
-                "all or none",
-            )),
+            Some(bare) => {
+                let found = "sigma_n is blank, but given for other readings".into();
+                Err(table.wrong(bare.line, found, "all or none"))
+            }
             None => Ok(Self {
-                file,
+                file: table.file,
                 list: found.readings,
                 runs: found.runs,
                 skipped: found.skipped,
@@ -130,17 +123,16 @@ impl Readings {
     ///
     /// # Errors
     ///
-    /// [`DataError::TooFew`].
+    /// [`DataError::Line`].
     pub fn check_count(&self, parameters: usize, needed: usize) -> Result<(), DataError> {
         if self.list.len() >= needed {
             return Ok(());
         }
-        Err(DataError::TooFew {
+        Err(DataError::Line {
             file: self.file.clone(),
-            readings: self.list.len(),
             line: self.list.last().map_or(0, |reading| reading.line),
-            parameters,
-            needed,
+            found: format!("{} readings", self.list.len()),
+            allowed: format!("at least {needed} for {parameters} parameters").into(),
         })
     }
 

@@ -1,28 +1,24 @@
 //! Times, so far as their order goes.
 
-use super::error::DataError;
-use super::grid::Row;
+use creepage_tables::{Row, Table};
+
+use super::DataError;
 use crate::shown::shortened;
 
-use super::layout::LONGEST_CELL;
+/// Longest time that a message repeats \[characters\].
+const LONGEST: usize = 80;
 
-/// Refuses rows that are not in the order of their times: vehicles are counted from row to row.
-pub fn check_order(file: &str, rows: &[Row], place: usize, run: Option<usize>) -> Result<(), DataError> {
+/// Refuses rows that are not in the order of the times in `column`: vehicles are counted from row to row.
+pub fn check_order(table: &Table, column: usize, run: Option<usize>) -> Result<(), DataError> {
     let same_run = |one: &Row, other: &Row| run.is_none_or(|run| one.cell(run) == other.cell(run));
-    for pair in rows.windows(2).filter(|pair| same_run(&pair[0], &pair[1])) {
-        if let (Some(before), Some(after)) = (key(pair[0].cell(place)), key(pair[1].cell(place)))
-            && after < before
+    for pair in table.rows.windows(2).filter(|pair| same_run(&pair[0], &pair[1])) {
+        let [before, after] = [&pair[0], &pair[1]].map(|row| row.cell(column));
+        if let (Some(first), Some(second)) = (key(before), key(after))
+            && second < first
         {
-            return Err(DataError::Line {
-                file: file.to_owned(),
-                line: pair[1].line,
-                found: format!(
-                    "\"{}\", earlier than the row before, \"{}\"",
-                    shortened(pair[1].cell(place), LONGEST_CELL),
-                    shortened(pair[0].cell(place), LONGEST_CELL)
-                ),
-                allowed: "rows in the order of their times".into(),
-            });
+            let [before, after] = [before, after].map(|text| shortened(text, LONGEST));
+            let found = format!("\"{after}\", earlier than the row before, \"{before}\"");
+            return Err(table.wrong(pair[1].line, found, "rows in the order of their times"));
         }
     }
     Ok(())

@@ -49,6 +49,7 @@ macro_rules! keys {
 }
 
 const NONE: Option<&str> = Some("none");
+const RECOGNISED: Option<&str> = Some("recognised");
 const SECTION: Allowed = As("a section");
 const PRESET: Allowed = As("a name that `creepage presets` lists");
 
@@ -109,7 +110,7 @@ pub(super) const KEYS: &[Key] = keys! {
     "traffic" "passes": Whole(of::PASSES), Some("`years` instead"), "Number of passes, all vehicles together.";
     "traffic" "years": Q(of::YEARS), Some("`passes` instead"), "Years of traffic, of 365.25 days; needs `per_day`.";
     "traffic" "per_day": Q(of::PER_DAY), Some("passes have no time"), "Vehicles a day, or axles of a histogram.";
-    "traffic" "histogram": As( "the name of a table, such as \"axles.csv\", with the columns load, count and, if wanted, contact_radius", ), Some("[[vehicles]] instead"),
+    "traffic" "histogram": As( "the name of a table, such as \"axles.csv\", with the columns load, count and, if wanted, contact_radius, or { file = \"axles.csv\", decimal = \"comma\" }", ), Some("[[vehicles]] instead"),
         "Axles as weigh-in-motion counts them, in place of vehicles; from the folder of the scene on.";
     "traffic" "speed": Q(of::SPEED), Some("40 km/h"), "Speed of the axles of a histogram.";
     "traffic" "order": As("\"interleaved\" or \"random\""), Some("\"interleaved\""), "How vehicles follow each other.";
@@ -131,6 +132,17 @@ pub(super) const KEYS: &[Key] = keys! {
     "ground.layers.young_modulus" "bottom": Q(of::MODULUS_AT_AN_END), None, "The same at the bottom.";
     "ends.upstream" "spring": Q(of::SPRING), None, "Stiffness of the spring at this end; `stiffness` is understood too.";
     "ends.downstream" "spring": Q(of::SPRING), None, "Stiffness of the spring at this end; `stiffness` is understood too.";
+    "traffic.histogram" "file": As("the name of a table"), None, "The table, from the folder of the scene on.";
+    "traffic.histogram" "separator": As("comma, semicolon, tab, space or |, in quotes"), RECOGNISED, "What stands between its cells.";
+    "traffic.histogram" "decimal": As("\"point\" or \"comma\""), RECOGNISED, "What stands before its decimals.";
+    "traffic.histogram" "encoding": As("utf-8, utf-16, latin-1, shift_jis, …, in quotes"), RECOGNISED, "How its characters are written.";
+    "traffic.histogram" "header_line": Whole(1..=u64::MAX), RECOGNISED, "Its line with the names of the columns.";
+    "traffic.histogram" "skip": Whole(0..=u64::MAX), RECOGNISED, "Rows below the names that hold no axles.";
+    "traffic.histogram" "sheet": As("a text"), Some("the first with rows"), "Sheet of a workbook.";
+    "traffic.histogram" "unit": As("a unit of force, in quotes"), Some("that of the header"), "Unit of the loads.";
+    "traffic.histogram" "column_load": As("a text"), RECOGNISED, "Name of the column with the loads.";
+    "traffic.histogram" "column_count": As("a text"), RECOGNISED, "Name of the column with the numbers of axles.";
+    "traffic.histogram" "column_contact_radius": As("a text"), RECOGNISED, "Name of the column with the radii.";
     "vehicles.wheels" "x": Q(of::WHEEL_X), Some("0 m"), "Where the wheel is ahead of the vehicle's origin, along the road.";
     "vehicles.wheels" "y": Q(of::WHEEL_Y), Some("0 m"), "Where it is to the left of the vehicle's axis, seen along forward traffic.";
     "vehicles.wheels" "load": Q(of::WHEEL_LOAD), None, "Load of the wheel.";

@@ -57,6 +57,15 @@ impl Dimension {
             .map(|unit| unit.symbol)
     }
 
+    /// The symbol of the unit of force or length that a word is, whatever its case; mN is not MN.
+    pub(crate) fn unit_by_word(word: &str) -> Option<&'static str> {
+        let of_tables = ["daN", "kp", "mN"];
+        let all = || Self::Force.units().chain(Self::Length.units()).chain(of_tables);
+        let exact = all().find(|unit| *unit == word);
+        let is_alike = |unit: &&str| unit.eq_ignore_ascii_case(word) && !word.eq_ignore_ascii_case("mN");
+        exact.or_else(|| all().find(is_alike))
+    }
+
     /// The symbol of its SI unit; ratios and slopes have none.
     pub(super) fn si(self) -> Option<&'static str> {
         self.units().next().filter(|unit| *unit != "%")

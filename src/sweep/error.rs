@@ -30,11 +30,9 @@ pub enum SweepError {
         /// What is allowed.
         allowed: &'static str,
     },
-    /// The table of rows of this name cannot be read, and why.
-    #[error(
-        "{0}: found no table of ducts that can be read; allowed: CSV or an Excel workbook, a row a duct, its columns named as scene keys"
-    )]
-    Rows(String, #[source] std::io::Error),
+    /// The table of rows cannot be read, and why.
+    #[error(transparent)]
+    Rows(#[from] creepage_tables::TableError),
     /// Keys, samples or output do not fit together.
     #[error("found {found}; allowed: {allowed}")]
     Unfit {

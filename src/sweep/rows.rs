@@ -3,26 +3,31 @@
 use std::collections::{BTreeSet, HashSet};
 use std::path::Path;
 
+use creepage_tables::Options;
+
 use super::axis::{Axis, AxisValues};
 use super::distribution::Distribution;
 use super::error::SweepError;
 use super::grid::{Samples, Sweep};
-use super::list;
+use super::list::{self, NAMES};
 use crate::SceneFile;
 
 /// Most samples of a row.
 const MOST_SAMPLES: usize = 1_000_000;
-/// Keys whose text is never a distribution.
-const NAMES: [&str; 3] = ["title", "name", list::ID];
 
 impl Sweep {
-    /// The ducts of a table, `.csv` or `.xlsx`, as [`Sweep::of_table`] takes them.
+    /// The ducts of a table, `.csv` or `.xlsx`, read as `options` say, as [`Sweep::of_table`] takes them.
     ///
     /// # Errors
     ///
     /// [`SweepError::Rows`] where there is no such table, and as for [`Sweep::of_table`].
-    pub fn of_rows(file: SceneFile, table: &Path, samples: Samples) -> Result<Self, SweepError> {
-        Self::of_table(file, list::read(table)?, samples)
+    pub fn of_rows(
+        file: SceneFile,
+        table: &Path,
+        options: &Options,
+        samples: Samples,
+    ) -> Result<Self, SweepError> {
+        Self::of_table(file, list::read(table, options)?, samples)
     }
 
     /// A table of ducts: a row is the scene in `file` with the values of the columns, which are named as keys and equally long. An empty cell

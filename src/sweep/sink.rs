@@ -31,9 +31,6 @@ pub enum Cell {
     Text(String),
 }
 
-/// A table that was read: the names of its columns, and rows of as many cells.
-pub type Cells = (Vec<String>, Vec<Vec<String>>);
-
 pub trait Sink {
     fn row(&mut self, cells: Vec<Cell>) -> io::Result<()>;
     /// Everything that was written, on its way to its place.

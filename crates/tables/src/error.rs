@@ -1,0 +1,54 @@
+//! What is wrong with a table, and where.
+
+use std::borrow::Cow;
+
+/// What is wrong with a table, and where.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TableError {
+    /// The file of this name cannot be read, and why.
+    #[error("{0}: cannot be read")]
+    Unreadable(String, #[source] std::io::Error),
+    /// The file is far larger than any table of its kind.
+    #[error("{file}: found more than {allowed} bytes; allowed: a table of at most {allowed} bytes")]
+    TooLarge {
+        /// The file.
+        file: String,
+        /// Largest size allowed \[bytes\].
+        allowed: u64,
+    },
+    /// The bytes are no text.
+    #[error("{file}: found bytes that are no text{}; allowed: a table as text (UTF-8, UTF-16, Latin-1, Shift_JIS; `encoding` chooses) or an Excel workbook (.xlsx)",
+        .named.map_or_else(String::new, |named| format!(" in {named}")))]
+    NoText {
+        /// The file.
+        file: String,
+        /// The encoding that was asked for.
+        named: Option<&'static str>,
+    },
+    /// The file is no table.
+    #[error("{file}:{line}: not a table")]
+    NotTable {
+        /// The file.
+        file: String,
+        /// The line, 0 if it is not known.
+        line: u64,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
+    /// A line does not hold what it should.
+    #[error("{file}:{line}: {found}; allowed: {allowed}")]
+    Line {
+        /// The file.
+        file: String,
+        /// The line.
+        line: u64,
+        /// What was found.
+        found: String,
+        /// What is allowed.
+        allowed: Cow<'static, str>,
+    },
+    /// There is nothing in the file of this name.
+    #[error("{0}: no rows; allowed: a table with names of its columns")]
+    Empty(String),
+}

@@ -1,0 +1,51 @@
+//! Bytes as text.
+
+use encoding_rs::{Encoding as Standard, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
+
+use crate::options::Encoding;
+
+/// Bytes by which UTF-16 without a mark is recognised.
+const SAMPLE: usize = 512;
+/// Japanese characters one after the other that two letters of Latin-1 hardly ever look like.
+const JAPANESE: usize = 2;
+
+/// The text: by its byte order mark, in the `encoding` that was named, or in the one that it looks like; signs of full width as those of
+/// ASCII. `None` if it is none.
+pub fn decoded(bytes: &[u8], encoding: Option<Encoding>) -> Option<String> {
+    // The mark at the beginning goes before what was named, and is taken away.
+    let standard = encoding.map_or_else(|| recognised(bytes), |named| named.0);
+    let (text, _, malformed) = standard.decode(bytes);
+    let printed =
+        |c: char| !c.is_control() || matches!(c, '\t' | '\n' | '\r' | '\u{c}' | '\u{1a}' | '\u{85}');
+    let narrow = |c: char| match c {
+        '\u{ff01}'..='\u{ff5e}' => char::from_u32(c as u32 - 0xfee0).unwrap_or(c),
+        '\u{3000}' => ' ',
+        c => c,
+    };
+    (!malformed && text.chars().all(printed)).then(|| text.chars().map(narrow).collect())
+}
+
+fn recognised(bytes: &[u8]) -> &'static Standard {
+    let sample = &bytes[..bytes.len().min(SAMPLE) & !1];
+    let zeros = |place: usize| {
+        let every_other = sample.iter().skip(place).step_by(2);
+        every_other.filter(|&&byte| byte == 0).count()
+    };
+    // Digits and separators have a byte of zeros in UTF-16.
+    let many = sample.len() / 4;
+    match (zeros(0), zeros(1)) {
+        (0, odd) if odd > many => UTF_16LE,
+        (even, 0) if even > many => UTF_16BE,
+        _ if std::str::from_utf8(bytes).is_ok() => UTF_8,
+        _ if is_japanese(bytes) => SHIFT_JIS,
+        // Latin-1, and what Windows puts where that has control characters.
+        _ => WINDOWS_1252,
+    }
+}
+
+fn is_japanese(bytes: &[u8]) -> bool {
+    let (text, _, malformed) = SHIFT_JIS.decode(bytes);
+    let of_two_bytes = |c: char| matches!(c, '\u{3040}'..='\u{30ff}' | '\u{4e00}'..='\u{9fff}');
+    let mut runs = text.split(|c| !of_two_bytes(c));
+    !malformed && runs.any(|run| run.chars().count() >= JAPANESE)
+}
