@@ -143,7 +143,7 @@ run SCENE --xlsx o.csv | --xlsx: found o.csv; allowed: a workbook of Excel | a t
 run SCENE --csv o.xls | --csv: found o.xls; allowed: a table of text
 sweep SCENE --out o.csv --rows DUCTS | the column `cable.wieght`, which is no key (did you mean `cable.weight`?)
 sweep SCENE --out o.csv --rows DATA | the column `pass`, which is no key
-sweep SCENE --out o.csv --rows RAGGED | ragged.csv | line 3 has 3 cells and the header 2
+sweep SCENE --out o.csv --rows RAGGED | ragged.csv | ragged.csv:3: 3 cells where the first row has 2
 design SCENE | --limit-force: found no limit; | such as --limit-force 2kN
 design SCENE --limit-force 2kN --at 500m | --at: found 500 m; allowed: a position in the duct, from 0 m to 180 m
 sweep SCENE --out o.csv --vary duct.depth=1m:2m:5 | found 1m:2m:5 | a unit at the STEP too: it is a distance

@@ -43,9 +43,9 @@ fn options(words: &str) -> ReadOptions {
         let (key, value) = word.split_once('=').unwrap();
         let name = Some(value.replace('_', " "));
         match key {
-            "separator" => options.separator = Some(value.parse().unwrap()),
-            "decimal" => options.decimal = Some(value.parse().unwrap()),
-            "encoding" => options.encoding = Some(value.parse().unwrap()),
+            "separator" => options.table.separator = Some(value.parse().unwrap()),
+            "decimal" => options.table.decimal = Some(value.parse().unwrap()),
+            "encoding" => options.table.encoding = Some(value.parse().unwrap()),
             "pass" => options.columns.pass = name,
             "vehicles" => options.columns.vehicles = name,
             "force" => options.columns.force.extend(name),

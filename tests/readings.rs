@@ -41,7 +41,7 @@ fn columns_go_by_the_header_or_by_their_order() {
     assert_eq!(read("1,113.4,2\n").unwrap().sigmas().unwrap(), [2.0]);
     // A column of sigmas that nobody filled in.
     assert_eq!(
-        read("pass,force_n,sigma_n\n1,113.4,\n2,150\n").unwrap().sigmas(),
+        read("pass,force_n,sigma_n\n1,113.4,\n2,150,\n").unwrap().sigmas(),
         None
     );
 }
@@ -78,9 +78,9 @@ fn errors_name_the_line() {
         ("number,force\n1,5\n", "cell.csv:1: no column pass"),
         ("# none\npass,newtons\n1,5\n", "cell.csv:2: no column force_n"),
         ("pass,force_n,pass\n1,5,1\n", "cell.csv:1: a second column pass"),
-        ("", "cell.csv: no readings"),
-        ("# only this\n\n", "cell.csv: no readings"),
-        ("pass,force_n\n", "cell.csv: no readings"),
+        ("", "cell.csv: no rows"),
+        ("# only this\n\n", "cell.csv: no rows"),
+        ("pass,force_n\n", "cell.csv: no rows"),
     ];
     for (text, start) in cases {
         let error = read(text).expect_err(text).to_string();
@@ -93,7 +93,7 @@ fn errors_name_the_line() {
     assert!(
         error
             .to_string()
-            .starts_with("cell.csv: 1 readings, the last on line 2"),
+            .starts_with("cell.csv:2: 1 readings; allowed: at least 3"),
         "{error}"
     );
 }

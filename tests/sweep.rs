@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use creepage::readings::TableOptions;
 use creepage::sweep::{
     Axis, AxisValues, Band, Quantiles, Samples, Sweep, SweepError, SweepOptions, SweepSummary,
 };
@@ -656,8 +657,8 @@ fn bad_rows_are_told() {
         ("id\nA\n", "no column that is named as a key"),
         ("duct.depth,duct.depth\n1,2\n", "two columns `duct.depth`"),
         ("duct.depth\n", "0 rows"),
-        ("", "found no table of ducts"),
-        ("duct.depth,duct.length\n1\n", "found no table of ducts"),
+        ("", "no rows"),
+        ("duct.depth,duct.length\n1\n", "1 cells where the first row has 2"),
     ] {
         let (_, sweep) = rows("bad rows", table);
         let error = sweep.expect_err(table);
@@ -684,6 +685,7 @@ fn parquet_is_refused_with_what_to_do() {
     let rows = Sweep::of_rows(
         SceneFile::read(UPPER).unwrap(),
         Path::new("ducts.parquet"),
+        &TableOptions::default(),
         Samples::default(),
     );
     for error in [error, rows.expect_err("no Parquet")] {

@@ -126,10 +126,17 @@ fn parsed<T: std::str::FromStr<Err = String>>(
 /// The classes of the table that `value` names, each a vehicle of one wheel in the first lane, at `speed` \[m/s\].
 pub fn axles(name: &str, value: &Value, speed: f64) -> Result<Vec<TrafficVehicle>, SceneError> {
     let told = Told::of(value)?;
-    let wrong = |error: TableError| {
-        let source =
-            std::error::Error::source(&error).map_or_else(String::new, |source| format!(": {source}"));
-        value.inconsistent(format!("{error}{source}"), TABLE)
+    let wrong = |error: TableError| match error {
+        TableError::Line {
+            file,
+            line,
+            found,
+            allowed,
+        } => value.inconsistent(format!("{file}:{line}: {found}"), allowed),
+        error => {
+            let why = std::error::Error::source(&error).map_or_else(String::new, |why| format!(": {why}"));
+            value.inconsistent(format!("{error}{why}"), TABLE)
+        }
     };
     let place = |names: &[Name], column: usize| {
         let is_named = |name: &Name| match &told.columns[column] {

@@ -136,8 +136,8 @@ pub(super) const KEYS: &[Key] = keys! {
     "traffic.histogram" "separator": As("comma, semicolon, tab, space or |, in quotes"), RECOGNISED, "What stands between its cells.";
     "traffic.histogram" "decimal": As("\"point\" or \"comma\""), RECOGNISED, "What stands before its decimals.";
     "traffic.histogram" "encoding": As("utf-8, utf-16, latin-1, shift_jis, …, in quotes"), RECOGNISED, "How its characters are written.";
-    "traffic.histogram" "header_line": Whole(1..=u64::MAX), RECOGNISED, "Its line with the names of the columns.";
-    "traffic.histogram" "skip": Whole(0..=u64::MAX), RECOGNISED, "Rows below the names that hold no axles.";
+    "traffic.histogram" "header_line": As("a whole number"), RECOGNISED, "Its line with the names of the columns.";
+    "traffic.histogram" "skip": As("a whole number"), RECOGNISED, "Rows below the names that hold no axles.";
     "traffic.histogram" "sheet": As("a text"), Some("the first with rows"), "Sheet of a workbook.";
     "traffic.histogram" "unit": As("a unit of force, in quotes"), Some("that of the header"), "Unit of the loads.";
     "traffic.histogram" "column_load": As("a text"), RECOGNISED, "Name of the column with the loads.";

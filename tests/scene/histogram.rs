@@ -89,32 +89,32 @@ fn every_row_is_an_axle_with_its_share() {
 #[test]
 fn a_bad_table_is_refused_with_its_line() {
     for (table, parts) in [
-        ("", &["nothing in line 1", "load, count"][..]),
-        ("load\n50 kN\n", &["found \"load\" in line 1"]),
+        ("", &["no rows", "load, count"][..]),
+        ("load\n50 kN\n", &["axles.csv:1", "no column count"]),
         ("load,count\n", &["no row with axles"]),
         ("load,count\n50 kN,0\n", &["no row with axles"]),
         (
             "load,count\n\n50 m,3\n",
-            &["found load \"50 m\" in line 3", "a force"],
+            &["axles.csv:3: load: found \"50 m\"", "a force"],
         ),
-        ("load,count\n0,3\n", &["found load \"0\"", "greater than 0"]),
-        ("load,count\n-5 kN,3\n", &["found load \"-5 kN\""]),
-        ("load,count\n5 kN,-3\n", &["found count \"-3\"", "at least 0"]),
-        ("load,count\n5 kN,nan\n", &["found count \"nan\""]),
-        ("load,count\n5 kN\n", &["found count \"\""]),
+        ("load,count\n0,3\n", &["load: found \"0\"", "greater than 0"]),
+        ("load,count\n-5 kN,3\n", &["load: found \"-5 kN\""]),
+        ("load,count\n5 kN,-3\n", &["count: found \"-3\"", "at least 0"]),
+        ("load,count\n5 kN,nan\n", &["count: found \"nan\""]),
+        ("load,count\n5 kN,\n", &["count: found \"\""]),
+        ("load,count\n5 kN\n", &["1 cells where the first row has 2"]),
         (
             "load,count\n40,3\n130,1\n80,2\n",
             &[
-                "found load \"130\", in N,",
-                "line 3",
+                "axles.csv:3: load: found \"130\", in N,",
                 "\"130 kN\"",
                 "\"load [kN]\"",
             ],
         ),
-        ("load [m],count\n40,3\n", &["found load \"40 m\"", "a force"]),
+        ("load [m],count\n40,3\n", &["load: found \"40 m\"", "a force"]),
         (
             "load,count,contact_radius\n5 kN,1,1 km\n",
-            &["found contact_radius \"1 km\""],
+            &["contact_radius: found \"1 km\""],
         ),
     ] {
         let message = read("bad", table, &[]).expect_err("a bad table").to_string();

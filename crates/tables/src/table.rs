@@ -138,7 +138,6 @@ impl Table {
         let has_units = header.is_some() && table.take_units(names.unit);
         let skipped = options.skip.unwrap_or(u64::from(has_units && toa5));
         table.rows.drain(..(skipped as usize).min(table.rows.len()));
-        table.check_widths()?;
         Ok(table)
     }
 
@@ -241,8 +240,10 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// [`TableError::Line`] at a number that can be read in two ways where no other cell decides.
+    /// [`TableError::Line`] at a row with more or fewer cells than the header, or a number that can be read in two ways where no other cell
+    /// decides.
     pub fn decide(&mut self, columns: &[usize]) -> Result<(), TableError> {
+        self.check_widths()?;
         self.decimals
             .resize(columns.iter().map(|column| column + 1).max().unwrap_or(0), None);
         // Between commas a point is no comma.
