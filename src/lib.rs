@@ -112,7 +112,7 @@ pub use profile::{Profile, profile, profile_at};
 pub use progress::Progress;
 #[cfg(feature = "calibrate")]
 pub use readings::{DataError, ReadOptions, Reading, Readings};
-pub use run::{RunOptions, check, run, run_plan, run_with};
+pub use run::{FixedMesh, RunOptions, check, run, run_plan, run_with};
 pub use scene::{CableEnd, Scene, SceneError, SceneFile};
 
 /// The README's example is a test too.

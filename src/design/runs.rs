@@ -8,7 +8,7 @@ use super::limits::held;
 use super::options::DesignOptions;
 use super::trade_off::{Spring, TradeOff};
 use crate::ground::Ground;
-use crate::run::run_over;
+use crate::run::{FixedMesh, run_over, run_shown};
 use crate::{Error, Limits, Place, Progress, RunOptions, Scene, finite};
 
 /// Stiffnesses go from this part of the cable's own stiffness EA/L to its inverse.
@@ -136,8 +136,8 @@ pub fn stiffnesses(scene: &Scene, place: Place, limits: &Limits, per_decade: i32
 pub struct OneMesh {
     scene: Scene,
     ground: Arc<Ground>,
-    /// Of the stiffest variant on it.
-    error: f64,
+    /// What the run of the stiffest variant has shown of it.
+    shown: Option<FixedMesh>,
 }
 
 impl OneMesh {
@@ -157,15 +157,15 @@ impl OneMesh {
         let fixed: Vec<Spring> = ends.map(|place| Spring::new(*place, f64::INFINITY)).collect();
         let stiffest = held(scene, &fixed);
         stiffest.validate()?;
-        let run = run_over(&stiffest, Arc::clone(ground), &options)?;
-        let (plan, error) = (run.plan, run.error_estimate.parts.mesh);
+        let (run, shown) = run_shown(&stiffest, Arc::clone(ground), &options)?;
+        let plan = run.plan;
         let mut scene = scene.clone();
         scene.solver.node_spacing.get_or_insert(plan.node_spacing_m);
         scene.solver.vehicle_step.get_or_insert(plan.vehicle_step_m);
         Ok(Self {
             scene,
             ground: Arc::clone(ground),
-            error,
+            shown,
         })
     }
 
@@ -174,7 +174,7 @@ impl OneMesh {
         let scene = held(&self.scene, springs);
         scene.validate()?;
         let options = RunOptions {
-            mesh_error: (!is_judged).then_some(self.error),
+            mesh: self.shown.filter(|_| !is_judged),
             ..RunOptions::default()
         };
         let run = run_over(&scene, Arc::clone(&self.ground), &options)?;

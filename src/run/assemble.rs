@@ -198,6 +198,7 @@ impl<'a> RunBuilder<'a> {
             reasons: vec!["without friction nothing drags the cable: every pass is like the first".into()],
             random: None,
             seldom: Vec::new(),
+            shown: None,
             heat: None,
         };
         Ok(Run {

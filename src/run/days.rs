@@ -147,6 +147,7 @@ impl Living<'_> {
         };
         Ok(Solved {
             reasons: vec![mesh_reason(self.plan, &mesh), self.reason(&finest, knots)],
+            shown: None,
             heat: Some(self.record(&finest)?),
             mesh,
             passes: finest.passes,

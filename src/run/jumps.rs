@@ -50,32 +50,49 @@ const FEWEST_DRAWS: usize = 4;
 const MOST_DRAWS: usize = 24;
 const MAX_DRAWN_UPDATES: usize = 500_000_000;
 
-/// Jumps that are good enough.
-pub struct Found {
-    /// The level they were found on, and its passes.
-    pub level: usize,
-    pub passes: Passes,
+/// How jumps are taken that are good enough.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KnownJumps {
     /// What they leave wrong.
     pub error: Shares,
-    /// What a random order changes.
-    pub draws: Option<Draws>,
     tolerance: f64,
     first_periods: u64,
     first_jump: f64,
 }
 
-impl Found {
-    /// These jumps over `period` again, as long as their errors allow it.
-    pub fn jumping<'a>(&'a self, period: &'a Period) -> Jumping<'a> {
+impl KnownJumps {
+    /// These jumps over `period`, for as long as their errors allow.
+    pub fn jumping<'a>(self, period: &'a Period) -> Jumping<'a> {
         Jumping {
             period,
             tolerance: self.tolerance,
             first_periods: self.first_periods,
             first_jump: self.first_jump,
             most_passes: 0,
+            guide: Guide::Free,
+            simulated: None,
+            beyond: false,
+        }
+    }
+}
+
+/// Jumps that are good enough, where they were found.
+pub struct Found {
+    /// The level they were found on, and its passes.
+    pub level: usize,
+    pub passes: Passes,
+    pub known: KnownJumps,
+    /// What a random order changes.
+    pub draws: Option<Draws>,
+}
+
+impl Found {
+    /// The same jumps over `period` again, as long as their errors allow it.
+    pub fn jumping<'a>(&'a self, period: &'a Period) -> Jumping<'a> {
+        Jumping {
             guide: Guide::Follow(&self.passes.schedule),
             simulated: Some(self.passes.simulated),
-            beyond: false,
+            ..self.known.jumping(period)
         }
     }
 }
@@ -150,22 +167,24 @@ pub fn find<'a>(
         coarse = fine.clone();
         best = Some(Found {
             level,
-            error: errors.iter().copied().fold(Shares::default(), Shares::max),
+            known: KnownJumps {
+                error: errors.iter().copied().fold(Shares::default(), Shares::max),
+                tolerance: taken.tolerance,
+                first_periods: taken.first_periods,
+                first_jump: taken.first_jump,
+            },
             passes: fine,
             draws: None,
-            tolerance: taken.tolerance,
-            first_periods: taken.first_periods,
-            first_jump: taken.first_jump,
         });
         if bad.is_none() || early.is_none() && next > MAX_NODE_UPDATES {
             break;
         }
     }
     let mut found = best.expect("the first pair of runs is an answer");
-    found.error = found.error + mix_error(plan, &found, scale, &simulate, &mut statistics)?;
+    found.known.error = found.known.error + mix_error(plan, &found, scale, &simulate, &mut statistics)?;
     if !plan.period.drawn.is_empty() {
         let draws = draws(plan, &found, scale, &simulate, &mut statistics)?;
-        found.error = found.error + draws.error;
+        found.known.error = found.known.error + draws.error;
         found.draws = Some(draws);
     }
     Ok((found, statistics))
@@ -201,7 +220,7 @@ fn in_place(
         vehicles,
         ..plan.period.clone()
     };
-    let first = found.first_periods * plan.period.len() as u64;
+    let first = found.known.first_periods * plan.period.len() as u64;
     let jumping = Jumping {
         guide: Guide::Free,
         first_periods: first.div_ceil(period.len() as u64).max(FEWEST_FIRST_PERIODS),

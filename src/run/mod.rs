@@ -23,7 +23,7 @@ use crate::ground::{Ground, road};
 use crate::plan::{PassMethod, Plan, plan, plan_over};
 use crate::{Error, Run, Scene, finite};
 use assemble::RunBuilder;
-pub use options::RunOptions;
+pub use options::{FixedMesh, RunOptions};
 use refine::Refinement;
 
 /// Computes all passes of `scene`.
@@ -48,7 +48,18 @@ pub fn run_with(scene: &Scene, options: &RunOptions<'_>) -> Result<Run, Error> {
 
 /// Computes all passes of a valid `scene` over a `ground` that is known to be its own.
 pub(crate) fn run_over(scene: &Scene, ground: Arc<Ground>, options: &RunOptions<'_>) -> Result<Run, Error> {
-    run_plan(&plan_over(scene, ground)?, options)
+    run_shown(scene, ground, options).map(|(run, _)| run)
+}
+
+/// The same with what it has shown of its mesh.
+pub(crate) fn run_shown(
+    scene: &Scene,
+    ground: Arc<Ground>,
+    options: &RunOptions<'_>,
+) -> Result<(Run, Option<FixedMesh>), Error> {
+    let (run, shown) = answer(&plan_over(scene, ground)?, options)?;
+    finite::check(&run)?;
+    Ok((run, shown))
 }
 
 /// Checks that `scene` can be computed, without computing its passes.
@@ -66,7 +77,7 @@ pub fn check(scene: &Scene) -> Result<(), Error> {
 ///
 /// [`Error`] when the computation fails.
 pub fn run_plan(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
-    let run = answer(plan, options)?;
+    let (run, _) = answer(plan, options)?;
     finite::check(&run)?;
     Ok(run)
 }
@@ -80,10 +91,10 @@ fn may_help(error: &Error) -> bool {
     }
 }
 
-fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
+fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<(Run, Option<FixedMesh>), Error> {
     let mut answer = RunBuilder::new(plan);
     if plan.scene.friction_limit() == 0.0 {
-        return answer.without_friction(options.stages);
+        return Ok((answer.without_friction(options.stages)?, None));
     }
     let solve = |method, answer: &mut RunBuilder<'_>| {
         let warnings = &mut answer.warnings;
@@ -109,5 +120,5 @@ fn answer(plan: &Plan<'_>, options: &RunOptions<'_>) -> Result<Run, Error> {
         }
         solved => solved?,
     };
-    answer.by_simulation(&solved)
+    Ok((answer.by_simulation(&solved)?, solved.shown))
 }

@@ -6,7 +6,7 @@ use cycle_jump::Record;
 use super::budget::{MAX_NODE_UPDATES, REFINEMENT_COST, allowed, max_node_updates};
 use super::judge::{judge, mesh_reason};
 use super::jumps::{self, Found};
-use super::options::RunOptions;
+use super::options::{FixedMesh, RunOptions};
 use super::passes::{Jumping, Passes, Task, seldom_passes};
 use super::random;
 use crate::answer::error_estimate::{self, ErrorParts, Scale, Shares, difference, measured, of_mesh};
@@ -40,6 +40,8 @@ pub struct Solved {
     pub random: Option<RandomSpread>,
     /// One more pass of each vehicle that comes too seldom for the period; in random order, passes of draws that show more.
     pub seldom: Vec<(usize, Record)>,
+    /// What it has shown of its mesh.
+    pub shown: Option<FixedMesh>,
     /// Of a cable that is heated every day.
     pub heat: Option<(Vec<DayExtremes>, HeatRecord)>,
 }
@@ -59,18 +61,20 @@ impl Refinement<'_> {
         let mut error = ErrorParts::new(ground.accuracy, choice.inertia);
         // What no mesh makes smaller.
         error_estimate::judge(&error, tolerance)?;
+        let known = self.known_mesh();
         let found = match self.method {
+            PassMethod::Jumps(_) if known.is_some() => None,
             PassMethod::Jumps(_) => Some(self.jumps(&mut statistics)?),
             PassMethod::EveryPass(_) => None,
         };
         let left = found.as_ref().map_or(0.0, |_| FINDING);
         let mut parts = self.options.progress.part(left, 1.0).refining();
         let (level, mut passes) = self.meshes(found.as_ref(), &mut error, &mut parts)?;
-        let way = found.as_ref().map(|found| found.jumping(&self.plan.period));
+        let way = self.way(found.as_ref());
         let way = way.as_ref();
         statistics += work_of(&passes);
         // One mesh alone does not show its error; and no mesh that the scene names is refused for what coarser ones show.
-        let alone = passes.len() == 1 && self.known_error().is_none();
+        let alone = passes.len() == 1 && known.is_none();
         let doubtful = levels.named() && error_estimate::is_doubtful(error.total().force, tolerance);
         let mesh = levels.mesh(level)?;
         let mut finest = passes.pop().expect("the first level was computed");
@@ -98,6 +102,7 @@ impl Refinement<'_> {
             }
             PassMethod::EveryPass(_) => Vec::new(),
         };
+        let jumps = found.as_ref().map(|found| found.known);
         seldom.extend(
             found
                 .and_then(|found| found.draws)
@@ -112,6 +117,10 @@ impl Refinement<'_> {
             statistics,
             random,
             seldom,
+            shown: Some(FixedMesh {
+                error: error.mesh,
+                jumps: jumps.or_else(|| known?.jumps),
+            }),
             heat: None,
         })
     }
@@ -124,13 +133,16 @@ impl Refinement<'_> {
         parts: &mut impl FnMut() -> Progress<'p>,
     ) -> Result<(usize, Vec<Passes>), Error> {
         let levels = &self.plan.levels;
-        let way = found.map(|found| found.jumping(&self.plan.period));
+        let way = self.way(found);
         let way = way.as_ref();
-        error.passes = found.map_or(Shares::default(), |found| found.error);
+        let jumps = found
+            .map(|found| found.known)
+            .or_else(|| self.known_mesh()?.jumps);
+        error.passes = jumps.map_or(Shares::default(), |jumps| jumps.error);
         let mut level = levels.first();
         let progress = parts();
-        if let Some(known) = self.known_error() {
-            error.mesh = Shares::both(known);
+        if let Some(known) = self.known_mesh() {
+            error.mesh = known.error;
             return Ok((level, vec![self.simulate(level, way, progress, true)?]));
         }
         let mut passes = self.coarser(level, way, found, progress)?;
@@ -192,9 +204,22 @@ impl Refinement<'_> {
         Ok(found)
     }
 
-    /// The error of the mesh that the scene names, where another run has shown it.
-    fn known_error(&self) -> Option<f64> {
-        self.options.mesh_error.filter(|_| self.plan.levels.named())
+    /// What another run has shown of the mesh that the scene names. The scatter of random orders is every run's own.
+    fn known_mesh(&self) -> Option<FixedMesh> {
+        let known = self.options.mesh.filter(|_| self.plan.levels.named())?;
+        let fits = match self.method {
+            PassMethod::EveryPass(_) => true,
+            PassMethod::Jumps(_) => known.jumps.is_some() && !self.plan.period.reordered,
+        };
+        fits.then_some(known)
+    }
+
+    /// The jumps that were found, or that are known.
+    fn way<'f>(&'f self, found: Option<&'f Found>) -> Option<Jumping<'f>> {
+        let period = &self.plan.period;
+        let found = found.map(|found| found.jumping(period));
+        let is_jumps = matches!(self.method, PassMethod::Jumps(_));
+        found.or_else(|| Some(self.known_mesh().filter(|_| is_jumps)?.jumps?.jumping(period)))
     }
 
     /// What counts as nothing in this scene.
