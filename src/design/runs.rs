@@ -66,10 +66,19 @@ impl<'a> Runs<'a> {
         Ok(point)
     }
 
-    /// The same `point` with its own error.
+    /// The same `point` with its own error, from a run on coarser meshes and with jumps of its own, unless its forces so differ just enough
+    /// to be on the other side of a limit.
     pub fn judged(&self, point: &TradeOff) -> Result<TradeOff, Error> {
         self.count.fetch_add(1, Relaxed);
-        self.mesh.run(&point.springs, self.limits, true)
+        let own = self.mesh.run(&point.springs, self.limits, true)?;
+        if own.within_limits == point.within_limits {
+            return Ok(own);
+        }
+        let error_estimate = own.error_estimate;
+        Ok(TradeOff {
+            error_estimate,
+            ..point.clone()
+        })
     }
 
     /// The run with these stiffnesses, if it was done.
