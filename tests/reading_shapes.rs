@@ -52,6 +52,8 @@ fn options(words: &str) -> ReadOptions {
             "run" => options.columns.run = name,
             "movement" => options.columns.movement.extend(name),
             "position" => options.columns.position = name,
+            "header" => options.table.header_line = value.parse().ok(),
+            "skip" => options.table.skip = value.parse().ok(),
             "unit" => options.unit = name,
             "start" => options.run_start = Some(value.parse().unwrap()),
             "tension" => options.tension_positive = true,
@@ -260,6 +262,47 @@ fn shapes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
             "",
         ),
         (
+            "Shift_JIS",
+            encoding_rs::SHIFT_JIS
+                .encode(&rows("通過回数,荷重［Ｎ］\n", |n, f| format!("{n},{f}")))
+                .0
+                .into_owned(),
+            "",
+        ),
+        (
+            "TOA5 of Campbell's loggers",
+            row(
+                "\"TOA5\",\"duct 4\",\"CR1000X\"\n\"TIMESTAMP\",\"pass\",\"force\"\n\"TS\",\"RN\",\"N\"\n\"\",\"\",\"Avg\"\n",
+                &|n, f| format!("\"2025-12-24 17:{n:02}:00\",{n},{f}"),
+            ),
+            "",
+        ),
+        (
+            "a third row of a header",
+            row("pass;force\n-;N\nsensor;HBM C9\n", &|n, f| format!("{n};{f}")),
+            "skip=1",
+        ),
+        (
+            "a header by its line",
+            row("pass;force\nNr;F\n", &|n, f| format!("{n};{f}")),
+            "header=2 pass=Nr force=F",
+        ),
+        (
+            "X_Value beside passes",
+            row("X_Value,pass,force_n\n", &|n, f| format!("{},{n},{f}", 10 * n)),
+            "",
+        ),
+        (
+            "empty columns at the end",
+            row("pass,force_n,,\n", &|n, f| format!("{n},{f},,")),
+            "",
+        ),
+        (
+            "millinewtons",
+            row("pass,Force mN\n", &|n, f| format!("{n},{}", 1e3 * f)),
+            "",
+        ),
+        (
             "rows in any order",
             text(
                 &(plain
@@ -309,7 +352,7 @@ fn every_shape_of_the_series_is_read_right() {
 }
 
 /// A file, ¶ for an end of line and ⇥ for a tab ‖ options ‖ parts of the message
-const REFUSED: &str = r"
+const REFUSED: &str = r#"
 pass,force_n¶1,94,1¶2,135,8¶3,160,2¶ ‖ - ‖ cell.csv:2 ‖ 3 cells ‖ decimal comma
 1,94,1¶2,135,8¶3,160,2¶ ‖ - ‖ cell.csv:1 ‖ decimal comma
 pass;force_n¶1;94,1¶ ‖ separator=comma ‖ cell.csv:1 ‖ no column pass ‖ separated by semicolons
@@ -331,8 +374,29 @@ pass,force_n¶1.5,94¶ ‖ - ‖ cell.csv:2 ‖ 1.5 ‖ whole number
 pass,force_n¶0,0.3¶ ‖ - ‖ cell.csv:2 ‖ at least one pass
 pass,force_n¶1,NaN¶2,#N/A¶ ‖ - ‖ cell.csv:2 ‖ NaN ‖ no number anywhere
 pass,force_n,sigma_n¶1,94,4¶2,135,¶ ‖ - ‖ cell.csv:3 ‖ sigma_n is blank
+pass,force_n¶1,113¶2,many¶ ‖ - ‖ cell.csv:3: force_n: found "many"
+pass,force_n¶1,113¶¶-2,150¶ ‖ - ‖ cell.csv:4: pass: found "-2"
+pass,force_n¶0,113¶ ‖ - ‖ cell.csv:2: pass: found "0"
+pass,force_n¶1.5,113¶ ‖ - ‖ cell.csv:2: pass: found "1.5"
+pass,force_n¶,113¶ ‖ - ‖ cell.csv:2: pass: found ""
+pass,force_n¶1,NaN¶ ‖ - ‖ cell.csv:2: force_n: found "NaN"
+pass,force_n¶1,inf¶ ‖ - ‖ cell.csv:2: force_n: found "inf"
+pass,force_n¶1e300,5¶ ‖ - ‖ cell.csv:2: pass: found "1e300"
+pass,force_n,sigma_n¶1,5,0¶ ‖ - ‖ cell.csv:2: sigma_n: found "0"
+pass,force_n,sigma_n¶1,5,-1¶ ‖ - ‖ cell.csv:2: sigma_n: found "-1"
+pass,force_n,sigma_n¶1,5,1¶2,6,¶ ‖ - ‖ cell.csv:3: sigma_n is blank
+number,force¶1,5¶ ‖ - ‖ cell.csv:1: no column pass
+# none¶pass,newtons¶1,5¶ ‖ - ‖ cell.csv:2: no column force_n
+pass,force_n,pass¶1,5,1¶ ‖ - ‖ cell.csv:1: a second column pass
+# only this¶¶ ‖ - ‖ cell.csv: no rows
+pass,force_n¶ ‖ - ‖ cell.csv: no rows
 pass,force_n,position¶1,94,joint¶ ‖ - ‖ cell.csv:2 ‖ position ‖ joint
-";
+pass;force_n¶1;1.140¶2;1.520¶ ‖ - ‖ cell.csv:2 ‖ 1.14 or 1140 ‖ --decimal
+pass;force_n¶1;94¶2¶ ‖ - ‖ cell.csv:3 ‖ 1 cells where the first row has 2
+x,force_n¶1,94¶ ‖ - ‖ no column pass
+Station 4, joint¶number,cell force¶1,94¶ ‖ - ‖ cell.csv:2 ‖ no column pass
+pass,force_n¶1,94¶ ‖ header=7 ‖ cell.csv:7 ‖ nothing
+"#;
 
 /// What is wrong is named: the file, words that the message holds.
 #[test]
@@ -371,6 +435,16 @@ fn series(data: &Readings, run: usize) -> Vec<(u64, f64)> {
 
 #[test]
 fn cells_without_a_number_are_told_with_their_lines() {
+    let words = "OVLD #NAME? 1.#QNAN No_Data n.v. k.A. BAD";
+    let rows = words
+        .split(' ')
+        .zip(5..)
+        .map(|(word, pass)| format!("{pass},{}\n", word.replace('_', " ")));
+    let data = read(
+        &format!("pass,force_n\n1,94\n{}4,170\n", rows.collect::<String>()),
+        "",
+    );
+    assert_eq!((data.values(), data.skipped()), (vec![94.0, 170.0], 7));
     let data = read("pass,force_n\n1,94\n2,\n3,#N/A\n4,170\n5,---\n", "");
     assert_eq!(series(&data, 0), [(1, 94.0), (4, 170.0)]);
     assert_eq!(data.skipped(), 3);
@@ -436,6 +510,16 @@ fn places_along_the_cable() {
         places,
         [Measured::Force(Place::At(10.0)), Measured::Force(Place::At(0.0))]
     );
+    for text in [
+        "pass,force_n,Position [mm]\n1,94,10000\n",
+        "pass;force;Ort\n-;N;cm\n1;94;1000\n",
+    ] {
+        assert_eq!(
+            read(text, "").readings()[0].measured,
+            Measured::Force(Place::At(10.0)),
+            "{text}"
+        );
+    }
     let strain = read("pass,strain [µm/m]\n1,12\n", "");
     assert_eq!(
         (strain.readings()[0].measured, strain.values()[0]),

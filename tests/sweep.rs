@@ -619,6 +619,10 @@ fn a_row_is_a_duct_with_its_own_values_and_the_scenes_where_it_has_none() {
             "rows semicolons",
             "\u{feff}# from the office\nid; duct.length; duct.depth; ends.downstream\nA-007;0.04 km;1500 mm;\nB, north;;0.9;free\n",
         ),
+        (
+            "rows units",
+            "id;duct.length [m];duct.depth;ends.downstream\n;;cm;\nA-007;40,0;150;\nB, north;;90;free\n",
+        ),
     ] {
         let (output, sweep) = rows(name, table);
         let sweep = sweep.unwrap();
@@ -652,6 +656,7 @@ fn a_row_is_a_duct_with_its_own_values_and_the_scenes_where_it_has_none() {
 #[test]
 fn bad_rows_are_told() {
     for (table, part) in [
+        ("duct.depth;duct.length\n1.200 m;40\n", "1.2 or 1200"),
         ("id,duct.depht\nA,1\n", "depht"),
         ("duct.lenght,duct.depth\n,1\n40,1\n", "lenght"),
         ("id\nA\n", "no column that is named as a key"),

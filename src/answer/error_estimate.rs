@@ -51,7 +51,8 @@ impl Shares {
         }
     }
 
-    fn map(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
+    /// `f` of each share and that of another.
+    pub fn map(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         Self {
             force: f(self.force, other.force),
             movement: f(self.movement, other.movement),
@@ -70,14 +71,6 @@ impl Shares {
     /// Whether both are at most as large as `allowed`.
     pub fn is_within(self, allowed: Self) -> bool {
         self.force <= allowed.force && self.movement <= allowed.movement
-    }
-
-    pub fn squared(self) -> Self {
-        self.map(self, |a, b| a * b)
-    }
-
-    pub fn root(self) -> Self {
-        self.map(self, |share, _| share.sqrt())
     }
 
     pub fn times(self, factor: f64) -> Self {

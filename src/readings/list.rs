@@ -132,7 +132,7 @@ impl Readings {
             file: self.file.clone(),
             line: self.list.last().map_or(0, |reading| reading.line),
             found: format!("{} readings", self.list.len()),
-            allowed: format!("at least {needed} for {parameters} parameters").into(),
+            allowed: format!("{needed} or more, needed for {parameters} parameters").into(),
         })
     }
 

@@ -12,6 +12,7 @@
 use cable_dem::PassOutcome;
 use cycle_jump::{Beyond, Record, peaks};
 
+use super::listing::mean;
 use super::passes::Passes;
 use crate::answer::error_estimate::{Scale, Shares, differences};
 
@@ -36,8 +37,8 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// From passes of an `even` order and those of two draws or more, on the same mesh. The passes up to `first` differ at random from draw to
-    /// draw, and count in no error.
+    /// From passes of an `even` order and those of two draws or more, on the same mesh. The passes up to `first` are each a
+    /// draw of their own, and stay those of the even order.
     pub fn new(even: &Passes, draws: &[Draw], first: u64, scale: Scale) -> Self {
         let of_draws = |record: &Record| {
             let same = |draw: &Draw| at(&draw.passes.records, record.pass).cloned();
@@ -48,20 +49,22 @@ impl Draws {
                 ..record.clone()
             })
         };
-        let mean: Vec<Record> = even.records.iter().filter_map(of_draws).collect();
-        let later = &mean[mean.partition_point(|record| record.pass <= first)..];
-        let mut squares = vec![Shares::default(); later.len()];
+        let later = even.records.iter().filter(|record| record.pass > first);
+        let mean: Vec<Record> = later.filter_map(of_draws).collect();
+        let mut squares = vec![Shares::default(); mean.len()];
         for draw in draws {
             for (sum, off) in squares
                 .iter_mut()
-                .zip(differences(later, &draw.passes.records, scale))
+                .zip(differences(&mean, &draw.passes.records, scale))
             {
-                *sum = *sum + off.squared();
+                *sum = sum.map(off, |sum, off| sum + off * off);
             }
         }
         let count = draws.len() as f64;
         let square = squares.into_iter().fold(Shares::default(), Shares::max);
-        let error = square.times(1.0 / (count - 1.0) / count).root().times(STATED);
+        let error = square.map(square, |square, _| {
+            STATED * (square / (count - 1.0) / count).sqrt()
+        });
         // Whatever the number of its pass: larger than all of the even order.
         let of_even = even.records.iter().chain(&even.peaks);
         let shown: Vec<Record> = of_even
@@ -127,14 +130,4 @@ fn moved(outcome: &PassOutcome, even: &Record, mean: &Record) -> PassOutcome {
     }
     moved.statistics = outcome.statistics;
     moved
-}
-
-/// Mean of what passes did.
-pub fn mean(records: &[Record]) -> PassOutcome {
-    if let [one] = records {
-        return one.outcome.clone();
-    }
-    let share = 1.0 / records.len() as f64;
-    let parts: Vec<_> = records.iter().map(|record| (share, &record.outcome)).collect();
-    PassOutcome::combined(&parts)
 }

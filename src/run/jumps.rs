@@ -62,7 +62,7 @@ pub struct KnownJumps {
 
 impl KnownJumps {
     /// These jumps over `period`, for as long as their errors allow.
-    pub fn jumping<'a>(self, period: &'a Period) -> Jumping<'a> {
+    pub fn jumping(self, period: &Period) -> Jumping<'_> {
         Jumping {
             period,
             tolerance: self.tolerance,
@@ -181,9 +181,9 @@ pub fn find<'a>(
         }
     }
     let mut found = best.expect("the first pair of runs is an answer");
-    found.known.error = found.known.error + mix_error(plan, &found, scale, &simulate, &mut statistics)?;
+    found.known.error = found.known.error + mix_error(plan, &found, scale, simulate, &mut statistics)?;
     if !plan.period.drawn.is_empty() {
-        let draws = draws(plan, &found, scale, &simulate, &mut statistics)?;
+        let draws = draws(plan, &found, scale, simulate, &mut statistics)?;
         found.known.error = found.known.error + draws.error;
         found.draws = Some(draws);
     }
@@ -231,11 +231,8 @@ fn in_place(
 
 /// Passes that follow whole periods: the first vehicles of a random order are a draw, which no mix foretells.
 fn drawn(plan: &Plan<'_>) -> u64 {
-    if !plan.period.drawn.is_empty() {
-        2 * plan.period.len() as u64
-    } else {
-        0
-    }
+    let is_drawn = !plan.period.drawn.is_empty();
+    2 * plan.period.len() as u64 * u64::from(is_drawn)
 }
 
 /// What random orders of the period of `plan` leave in the mean, from as many draws as the tolerance needs or as are affordable.

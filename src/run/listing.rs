@@ -7,7 +7,6 @@
 use cable_dem::{Order, PassOutcome};
 use cycle_jump::{Evolution, Record, peaks};
 
-use super::draws::mean;
 use super::order::OwnOrder;
 use crate::Error;
 use crate::answer::simulated;
@@ -232,6 +231,16 @@ fn sampled(from: u64, to: u64) -> Vec<u64> {
     (0..OF_A_MEAN)
         .map(|k| from + (2 * k + 1) * all / (2 * OF_A_MEAN))
         .collect()
+}
+
+/// Mean of what passes did.
+pub fn mean(records: &[Record]) -> PassOutcome {
+    if let [one] = records {
+        return one.outcome.clone();
+    }
+    let share = 1.0 / records.len() as f64;
+    let parts: Vec<_> = records.iter().map(|record| (share, &record.outcome)).collect();
+    PassOutcome::combined(&parts)
 }
 
 #[cfg(test)]

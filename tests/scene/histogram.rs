@@ -67,6 +67,7 @@ fn every_row_is_an_axle_with_its_share() {
         "\u{feff}# counted in May\nCount; Load; contact_radius\r\n\"300\"; 50000 ; 150 mm\r\n\r\n100;0.1 MN;0.2\r\n",
         "site\tload\tcount\tcontact_radius\nA\t50 kN\t3\t0.15\nA\t100 kN\t1\t0.2\n",
         "Achslast [kN];Anzahl;contact_radius (cm)\n50,0;300;15\n100;100;0,2 m\n",
+        "Station 12, May\nload,count,contact_radius\nkN,-,m\n50,\"3,000\",0.15\n100,\"1,000.0\",0.2\n",
     ] {
         let scene = read("rows", table, &[]).unwrap();
         assert_eq!(classes(&scene), expected, "{table}");
@@ -84,6 +85,26 @@ fn every_row_is_an_axle_with_its_share() {
     assert_eq!(classes(&points), [(9806.65, 0.0, 1.0)]);
     assert_eq!(points.traffic.order, Order::Random { seed: 9 });
     assert_eq!(points.vehicles[0].vehicle.speed(), 5.0);
+}
+
+/// What a reader cannot know of a table is said in the scene.
+#[test]
+fn a_scene_says_how_its_table_is_written() {
+    let table = "load;count\nAchslast;Zahl\n1.200;3\n2.400;1\n";
+    let told = "traffic.histogram={ file = \"axles.csv\", decimal = \"comma\", header_line = 2, unit = \"kN\", column_load = \"Achslast\", column_count = \"Zahl\" }";
+    assert_eq!(
+        classes(&read("told", table, &[told]).unwrap()),
+        [(1.2e6, 0.0, 0.75), (2.4e6, 0.0, 0.25)]
+    );
+    for (set, part) in [
+        ("decimal = \"dot\"", "point, comma"),
+        ("header_line = \"two\"", "whole number"),
+        ("decimals = 3", "decimal"),
+    ] {
+        let set = format!("traffic.histogram={{ file = \"axles.csv\", {set} }}");
+        let message = read("told", table, &[&set]).expect_err(&set).to_string();
+        assert!(message.contains(part), "{message}");
+    }
 }
 
 #[test]
@@ -111,6 +132,11 @@ fn a_bad_table_is_refused_with_its_line() {
                 "\"load [kN]\"",
             ],
         ),
+        (
+            "load [kN];count\n20;5.200\n",
+            &["axles.csv:2: count: found \"5.200\", 5.2 or 5200"],
+        ),
+        ("load,count\n20 kN,5,7\n", &["axles.csv:2: 3 cells"]),
         ("load [m],count\n40,3\n", &["load: found \"40 m\"", "a force"]),
         (
             "load,count,contact_radius\n5 kN,1,1 km\n",

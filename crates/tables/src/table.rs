@@ -97,12 +97,8 @@ impl Table {
             names.truncate(width);
             names
         };
-        let words = |row: &Row| {
-            row.cells
-                .iter()
-                .filter(|cell| !cell.is_empty() && !is_number(cell))
-                .count()
-        };
+        let begins_a_word = |cell: &&String| cell.starts_with(char::is_alphabetic);
+        let words = |row: &Row| row.cells.iter().filter(begins_a_word).count();
         let preamble = || rows.iter().take(PREAMBLE).enumerate();
         let (Some(first), toa5) = (
             rows.first(),
@@ -121,7 +117,7 @@ impl Table {
         } else {
             let found = preamble().find(|(_, row)| (names.is_header)(&of(row)));
             let numeric = first.cells.len() > 1 && first.cells.iter().take(2).all(|cell| is_number(cell));
-            let likely = || preamble().max_by_key(|(place, row)| (words(row), std::cmp::Reverse(*place)));
+            let likely = || preamble().max_by_key(|(place, row)| (words(row), *place));
             let found = found.or_else(|| if numeric { None } else { likely() });
             found.map(|(place, _)| place)
         };
@@ -246,7 +242,7 @@ impl Table {
         self.check_widths()?;
         self.decimals
             .resize(columns.iter().map(|column| column + 1).max().unwrap_or(0), None);
-        // Between commas a point is no comma.
+        // Between commas a point stands before decimals.
         let between_commas = self.separator == Some(Separator::Character(','));
         let certain = |column: usize| {
             let mut signs = self.rows.iter().map(|row| sign(row.cell(column)));
