@@ -280,7 +280,7 @@ fn shapes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         (
             "a third row of a header",
             row("pass;force\n-;N\nsensor;HBM C9\n", &|n, f| format!("{n};{f}")),
-            "skip=1",
+            "skip=2",
         ),
         (
             "a header by its line",

@@ -22,7 +22,7 @@ pub struct TableArguments {
     /// Line with the names of the columns
     #[arg(long, value_name = "N")]
     header_line: Option<u64>,
-    /// Rows below the names that hold no data
+    /// Rows below the names that hold no data, one of units among them
     #[arg(long, value_name = "N")]
     skip: Option<u64>,
     /// Sheet of a workbook

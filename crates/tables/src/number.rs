@@ -2,65 +2,16 @@
 
 use crate::options::Decimal;
 
-/// What instruments and spreadsheets write if there is no number, in small letters.
-const NO_VALUES: &[&str] = &[
-    "nan",
-    "na",
-    "n/a",
-    "n.a.",
-    "null",
-    "none",
-    "nil",
-    "-",
-    "--",
-    "---",
-    "?",
-    "inf",
-    "+inf",
-    "-inf",
-    "infinity",
-    "-infinity",
-    "overflow",
-    "ovld",
-    "ovl",
-    "ol",
-    "overload",
-    "overrange",
-    "err",
-    "error",
-    "bad",
-    "invalid",
-    "fault",
-    "no data",
-    "nodata",
-    "missing",
-    "n.v.",
-    "k.a.",
-    "k. a.",
-    "keine angabe",
-    "#value!",
-    "#wert!",
-    "#div/0!",
-    "#num!",
-    "#zahl!",
-    "#ref!",
-    "#bezug!",
-    "#n/a",
-    "#nv",
-    "#name?",
-    "#null!",
-    "#####",
-    "1.#qnan",
-    "1.#ind",
-    "-1.#ind",
-    "1.#inf",
-    "-1.#inf",
-    "欠測",
-];
+/// What instruments and spreadsheets write if there is no value, in small letters, between bars.
+const NO_VALUES: &str = "nan|na|n/a|n.a.|null|none|nil|-|--|---|?|inf|+inf|-inf|infinity|-infinity|overflow|ovld|ovl|ol|\
+                         overload|overrange|err|error|bad|invalid|fault|no data|nodata|missing|n.v.|k.a.|k. a.|keine angabe|\
+                         #value!|#wert!|#div/0!|#num!|#zahl!|#ref!|#bezug!|#n/a|#nv|#name?|#null!|#####|1.#qnan|1.#ind|\
+                         -1.#ind|1.#inf|-1.#inf|欠測";
 
 /// Whether the cell says that there is no value.
 pub fn is_no_value(text: &str) -> bool {
-    NO_VALUES.contains(&&*text.to_lowercase())
+    let text = text.to_lowercase();
+    NO_VALUES.split('|').any(|word| word == text)
 }
 
 /// Whether the cell is a bare number in some notation.
@@ -91,7 +42,12 @@ pub fn number(text: &str, decimal: Decimal) -> Option<Number<'_>> {
 fn written(text: &str) -> &str {
     let part = |c: char| c.is_ascii_digit() || "+-−.,'’eE".contains(c) || c.is_whitespace();
     let end = text.find(|c: char| !part(c)).unwrap_or(text.len());
-    text[..end].trim_end_matches(|c: char| !c.is_ascii_digit() && !".,".contains(c))
+    let digits = match text[..end].rsplit_once(char::is_whitespace) {
+        // As in 1/K.
+        Some((digits, "1")) if text[end..].starts_with('/') => digits,
+        _ => &text[..end],
+    };
+    digits.trim_end_matches(|c: char| !c.is_ascii_digit() && !".,".contains(c))
 }
 
 /// The digits as a program reads them, without signs between groups of three.
@@ -186,6 +142,7 @@ mod tests {
             ("9,41E+01", comma, 94.1, ""),
             ("94,1 N", comma, 94.1, "N"),
             ("0.0941kN", point, 0.0941, "kN"),
+            ("1,2e-6 1/K", comma, 1.2e-6, "1/K"),
             ("5.", point, 5.0, ""),
             (".5", point, 0.5, ""),
         ] {

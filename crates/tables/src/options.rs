@@ -15,7 +15,7 @@ pub struct Options {
     pub encoding: Option<Encoding>,
     /// Line of the header, from 1; of a workbook the row of its sheet.
     pub header_line: Option<u64>,
-    /// Rows below the header that hold no data.
+    /// Rows below the header that hold no data, one of units among them.
     pub skip: Option<u64>,
     /// Sheet of a workbook; the first that holds anything if omitted.
     pub sheet: Option<String>,

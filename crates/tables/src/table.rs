@@ -132,7 +132,10 @@ impl Table {
             sheets,
         };
         let has_units = header.is_some() && table.take_units(names.unit);
-        let skipped = options.skip.unwrap_or(u64::from(has_units && toa5));
+        // The row of units is one of those that are skipped.
+        let skipped = options.skip.map_or(u64::from(has_units && toa5), |skip| {
+            skip.saturating_sub(u64::from(has_units))
+        });
         table.rows.drain(..(skipped as usize).min(table.rows.len()));
         Ok(table)
     }
