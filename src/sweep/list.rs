@@ -24,11 +24,8 @@ const LARGEST_FILE: u64 = 256 << 20;
 pub fn read(file: &Path, options: &Options) -> Result<Vec<(String, Vec<String>)>, SweepError> {
     Format::of(file)?;
     // Above its names a table may say of what it is.
-    let is_header = |names: &[Name]| {
-        names
-            .iter()
-            .any(|name| name.text.contains('.') && !name.text.contains(' '))
-    };
+    let is_key = |name: &Name| name.bare == ID || name.text.contains('.') && !name.bare.contains(' ');
+    let is_header = |names: &[Name]| names.iter().any(is_key);
     let names = Names {
         is_header: &is_header,
         unit: |word| {
