@@ -7,7 +7,8 @@
 //! E[F] ≈ F_even(fine) + (mean of F_k(coarse) over draws k − F_even(coarse))
 //! ```
 //!
-//! (M. B. Giles, Oper. Res. 56 (2008) 607, equation (1) with two levels). The draws' standard deviation over the root of their number is its error.
+//! (multilevel Monte Carlo with two levels: M. B. Giles, Oper. Res. 56 (2008) 607). Its error is the draws' standard deviation over the root of their
+//! number.
 
 use cable_dem::PassOutcome;
 use cycle_jump::{Beyond, Record, peaks};
@@ -99,6 +100,7 @@ impl Draws {
         for record in &mut passes.records {
             if let (Some(even), Some(mean)) = (at(&self.even, record.pass), at(&self.mean, record.pass)) {
                 record.outcome = moved(&record.outcome, even, mean);
+                record.interpolated = true;
             }
         }
         if let (Some(Beyond { records, period }), Some(even), Some(mean)) =

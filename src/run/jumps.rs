@@ -229,10 +229,10 @@ fn in_place(
     simulate(found.level, &jumping)
 }
 
-/// Passes that follow whole periods: the first vehicles of a random order are a draw, which no mix foretells.
+/// The first passes of a random order, which are those of a draw that no mix foretells: two periods, or half of the traffic if that is less.
 fn drawn(plan: &Plan<'_>) -> u64 {
-    let is_drawn = !plan.period.drawn.is_empty();
-    2 * plan.period.len() as u64 * u64::from(is_drawn)
+    let first = (2 * plan.period.len() as u64).min(plan.scene.traffic.passes / 2);
+    if plan.period.drawn.is_empty() { 0 } else { first }
 }
 
 /// What random orders of the period of `plan` leave in the mean, from as many draws as the tolerance needs or as are affordable.

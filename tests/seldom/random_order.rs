@@ -84,3 +84,18 @@ fn long_traffic_in_random_order_shows_the_mean_over_random_orders() {
         }
     }
 }
+
+/// Where all of the traffic is shorter than two periods of its shares, what its order changes is stated all the same.
+#[test]
+fn a_random_order_of_few_passes_is_compared_too() {
+    let scene = scene(true, (0.517, 0.483), (80.0, 80.0), 150);
+    match by(&scene, SolverMethod::PassLaw) {
+        Ok(run) if run.plan.cable == "pass-law" => assert!(
+            run.error_estimate.parts.passes > 0.005,
+            "{:?}",
+            run.error_estimate
+        ),
+        Ok(run) => assert_eq!(run.cost.simulated_passes, 150),
+        Err(error) => assert!(matches!(error, creepage::Error::Inaccurate { .. }), "{error}"),
+    }
+}
