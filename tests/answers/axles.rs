@@ -120,7 +120,7 @@ fn stand_ins_keep_the_mean_force_and_the_spread_of_all_axles() {
 fn the_spread_is_that_of_the_last_passes() {
     let run = creepage::run(&scene(
         "creeps",
-        &["solver.method=pass-law", "traffic.passes=60", "duct.length=60 m"],
+        &["solver.method=pass-law", "traffic.passes=100", "duct.length=60 m"],
     ))
     .expect("an answer");
     let last = run.passes.last().expect("a pass").downstream_force_n;
