@@ -1,7 +1,7 @@
 //! An axis as data: its label with the unit, whether it is linear or logarithmic, and what it spans.
 
 use crate::error::FigureError;
-use crate::scale::{Scale, Tick, is_sound, round_range};
+use crate::scale::{Scale, Tick, round_range};
 
 /// One axis of a [`Chart`](crate::Chart).
 #[derive(Debug, Clone, PartialEq)]
@@ -30,10 +30,9 @@ impl Axis {
 
     /// A logarithmic axis.
     pub fn logarithmic(label: impl Into<String>) -> Self {
-        Self {
-            logarithmic: true,
-            ..Self::linear(label)
-        }
+        let mut axis = Self::linear(label);
+        axis.logarithmic = true;
+        axis
     }
 
     /// An axis of cells with names; their centres are 0, 1, 2, …
@@ -70,42 +69,38 @@ impl Axis {
     /// # Ok::<(), plain_figure::FigureError>(())
     /// ```
     pub fn ticks<Label: Into<String>>(mut self, ticks: impl IntoIterator<Item = (f64, Label)>) -> Self {
-        self.ticks = ticks
-            .into_iter()
-            .map(|(value, label)| (value, label.into()))
-            .collect();
+        let ticks = ticks.into_iter();
+        self.ticks = ticks.map(|(value, label)| (value, label.into())).collect();
         self
     }
 
     /// Whether each of the `values` of `what` has a place on this axis.
     pub(crate) fn check(&self, what: &str, values: impl IntoIterator<Item = f64>) -> Result<(), FigureError> {
-        let what = || what.to_owned();
-        for (index, value) in values.into_iter().enumerate() {
-            if !value.is_finite() {
-                return Err(FigureError::NotFinite {
-                    what: what(),
-                    index,
-                    value,
-                });
-            }
-            if self.logarithmic && value <= 0.0 {
-                return Err(FigureError::NotPositive { what: what(), value });
-            }
+        let is_wrong = |value: f64| !value.is_finite() || (self.logarithmic && value <= 0.0);
+        let wrong = values.into_iter().enumerate().find(|(_, value)| is_wrong(*value));
+        let what = what.to_owned();
+        match wrong {
+            None => Ok(()),
+            Some((_, value)) if value.is_finite() => Err(FigureError::NotPositive { what, value }),
+            Some((index, value)) => Err(FigureError::NotFinite { what, index, value }),
         }
-        Ok(())
     }
 
     /// Whether the centres of the cells ascend and have places on this axis.
     pub(crate) fn check_cells(&self) -> Result<(), FigureError> {
         self.check(&self.label, self.centres.iter().copied())?;
-        match self.centres.windows(2).find(|pair| pair[0] >= pair[1]) {
-            None => Ok(()),
-            Some(pair) => Err(FigureError::NotAscending {
-                axis: self.label.clone(),
-                previous: pair[0],
-                next: pair[1],
-            }),
+        let mut pairs = self.centres.windows(2);
+        pairs.try_for_each(|pair| self.check_range((pair[0], pair[1])))
+    }
+
+    /// Whether both ends of a range and what lies between them are numbers that this axis can hold.
+    fn check_range(&self, (from, to): (f64, f64)) -> Result<(), FigureError> {
+        let span = if self.logarithmic { to / from } else { to - from };
+        if from < to && span.is_finite() && (!self.logarithmic || from > 0.0) {
+            return Ok(());
         }
+        let axis = self.label.clone();
+        Err(FigureError::BadRange { axis, from, to })
     }
 
     /// Borders of the cells: of n cells n + 1. The outer cells are as wide on the outside as on the inside.
@@ -123,32 +118,22 @@ impl Axis {
         inner.chain([last + right]).map(from).collect()
     }
 
-    /// The scale of this axis, fitted to `values` unless it has cells or a range, with about `ticks` labelled ticks.
-    pub(crate) fn scale(
-        &self,
-        values: impl Iterator<Item = f64>,
-        ticks: usize,
-    ) -> Result<Scale, FigureError> {
+    /// The scale of this axis, fitted to `data` unless it has cells or a range, with about `ticks` labelled ticks.
+    pub(crate) fn scale(&self, data: impl Iterator<Item = f64>, ticks: usize) -> Result<Scale, FigureError> {
         let borders = self.borders();
         let range = match (self.range, borders.as_slice()) {
             (Some(range), _) => range,
             (None, [first, .., last]) => (*first, *last),
             _ => {
-                let (least, most) = (f64::INFINITY, f64::NEG_INFINITY);
-                let data = values.fold((least, most), |(low, high), v| (low.min(v), high.max(v)));
+                let none = (f64::INFINITY, f64::NEG_INFINITY);
+                let data = data.fold(none, |(low, high), value| (low.min(value), high.max(value)));
                 round_range(data, self.logarithmic, ticks)
             }
         };
-        if !is_sound(range, self.logarithmic) {
-            let (axis, (from, to)) = (self.label.clone(), range);
-            return Err(FigureError::BadRange { axis, from, to });
-        }
+        self.check_range(range)?;
         let scale = Scale::new(range, self.logarithmic, ticks);
-        Ok(if self.ticks.is_empty() {
-            scale
-        } else {
-            scale.with_ticks(&self.ticks)
-        })
+        let own = self.ticks.is_empty();
+        Ok(if own { scale } else { scale.with_ticks(&self.ticks) })
     }
 }
 

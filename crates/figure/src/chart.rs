@@ -1,8 +1,19 @@
 //! A chart: series and cells over two axes.
 
 use crate::axis::Axis;
+use crate::cells::{Bar, Cells};
+use crate::drawing::{Drawing, Rect};
 use crate::error::FigureError;
-use crate::series::{Along, Kind, Reference, Series};
+use crate::frame::{BELOW, Frame, ticks};
+use crate::legend::{self, Legend};
+use crate::panels::Panels;
+use crate::reference::{Along, Reference};
+use crate::series::{Kind, Series};
+
+/// Legends begin this far from the figure's left edge \[px\].
+const INDENT: f64 = 24.0;
+/// What the y axis takes of the width, about \[px\].
+const LEFT: f64 = 90.0;
 
 /// Series of points over two axes, with references, or a map: a grid of cells coloured by class or by value.
 ///
@@ -25,11 +36,11 @@ use crate::series::{Along, Kind, Reference, Series};
 #[must_use]
 pub struct Chart {
     pub(crate) title: String,
-    pub(crate) x: Axis,
-    pub(crate) y: Axis,
-    pub(crate) cells: Option<Cells>,
-    pub(crate) series: Vec<Series>,
-    pub(crate) references: Vec<Reference>,
+    x: Axis,
+    y: Axis,
+    cells: Option<Cells>,
+    series: Vec<Series>,
+    references: Vec<Reference>,
 }
 
 impl Chart {
@@ -56,11 +67,7 @@ impl Chart {
         cells: impl IntoIterator<Item = usize>,
     ) -> Self {
         let classes = classes.into_iter().map(Into::into).collect();
-        let cells = Cells::Classes(classes, cells.into_iter().collect());
-        Self {
-            cells: Some(cells),
-            ..Self::new(title, x, y)
-        }
+        Self::new(title, x, y).filled(Cells::Classes(classes, cells.into_iter().collect()))
     }
 
     /// A map of cells coloured by value on the scale `value`, which is drawn as a bar on the right; `None` leaves a cell white. Axes
@@ -72,16 +79,18 @@ impl Chart {
         value: Axis,
         cells: impl IntoIterator<Item = Option<f64>>,
     ) -> Self {
-        let cells = Cells::Values(value, cells.into_iter().collect());
-        Self {
-            cells: Some(cells),
-            ..Self::new(title, x, y)
-        }
+        Self::new(title, x, y).filled(Cells::Values(value, cells.into_iter().collect()))
+    }
+
+    fn filled(mut self, cells: Cells) -> Self {
+        self.cells = Some(cells);
+        self
     }
 
     /// Adds a series; the later is drawn above the earlier, and all above the cells.
     pub fn with(mut self, series: Series) -> Self {
-        self.series.push(series);
+        let (index, on_cells) = (self.series.len(), self.cells.is_some());
+        self.series.push(series.placed(index, on_cells));
         self
     }
 
@@ -91,17 +100,28 @@ impl Chart {
         self
     }
 
+    /// The chart as an SVG of 800 by 500 px.
+    ///
+    /// # Errors
+    ///
+    /// [`FigureError`] without data, where cells and axes do not fit together, with numbers that are not finite or have no
+    /// place on a logarithmic axis, and where a text has no room.
+    pub fn to_svg(&self) -> Result<String, FigureError> {
+        let panels = Panels::new("").panel_size(800.0, 500.0);
+        panels.with(self.clone()).to_svg()
+    }
+
     pub(crate) fn check(&self) -> Result<(), FigureError> {
         if self.series.is_empty() && self.cells.is_none() {
-            return Err(FigureError::empty("chart", &self.title));
+            return Err(FigureError::Empty(format!("chart \"{}\"", self.title)));
         }
         if let Some(cells) = &self.cells {
-            cells.check(&self.title, self.x.centres.len(), self.y.centres.len())?;
+            cells.check(&self.title, self.x.centres.len() * self.y.centres.len())?;
         }
         self.x.check_cells()?;
         self.y.check_cells()?;
         if let Some(series) = self.series.iter().find(|series| series.points.is_empty()) {
-            return Err(FigureError::empty("series", &series.name));
+            return Err(FigureError::Empty(format!("series \"{}\"", series.name)));
         }
         for (what, x, y) in self.contents() {
             self.x.check(&what, x)?;
@@ -111,7 +131,7 @@ impl Chart {
     }
 
     /// What the axes have to hold: what it is, its abscissae, and its ordinates.
-    pub(crate) fn contents(&self) -> impl Iterator<Item = (String, Vec<f64>, Vec<f64>)> {
+    fn contents(&self) -> impl Iterator<Item = (String, Vec<f64>, Vec<f64>)> {
         let series = self.series.iter().map(|series| {
             let (x, mut y): (Vec<f64>, Vec<f64>) = series.points.iter().copied().unzip();
             // Areas reach down to zero.
@@ -128,46 +148,42 @@ impl Chart {
         });
         series.chain(references)
     }
-}
 
-/// A class or a value for each cell, row by row from the lowest, each row along x.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Cells {
-    /// Names of the classes, and the index of each cell's.
-    Classes(Vec<String>, Vec<usize>),
-    /// Values on the scale of the axis; a cell without value stays white.
-    Values(Axis, Vec<Option<f64>>),
-}
-
-impl Cells {
-    /// Whether they fill the grid of the chart named `chart`, with classes and values that exist.
-    pub fn check(&self, chart: &str, columns: usize, rows: usize) -> Result<(), FigureError> {
-        let (found, with_data) = match self {
-            Self::Classes(_, cells) => (cells.len(), cells.len()),
-            Self::Values(_, cells) => (cells.len(), cells.iter().flatten().count()),
+    /// Draws the chart in its part of the figure.
+    pub(crate) fn draw(&self, drawing: &mut Drawing, mut outer: Rect) -> Result<(), FigureError> {
+        let classes = match &self.cells {
+            Some(Cells::Classes(classes, _)) => classes.as_slice(),
+            _ => &[],
         };
-        if with_data == 0 {
-            return Err(FigureError::empty("chart", chart));
+        outer.top += legend::title(&self.title, drawing, (outer.left, outer.top), outer.width())?;
+        let legend = Legend::new(classes, &self.series, outer.width() - 2.0 * INDENT)?;
+        outer.bottom -= legend.height;
+        let up = ticks(outer.height() - BELOW, 50.0);
+        let bar = Bar::new(self.cells.as_ref(), up)?;
+        let right = bar.as_ref().map_or(0.0, Bar::width);
+        let across = ticks(outer.width() - right - LEFT, 90.0);
+        let scales = (
+            self.x.scale(self.contents().flat_map(|(_, x, _)| x), across)?,
+            self.y.scale(self.contents().flat_map(|(.., y)| y), up)?,
+        );
+        let labels = (self.x.label.as_str(), self.y.label.as_str());
+        let frame = Frame::draw(drawing, outer, scales, labels, self.cells.is_none(), right)?;
+        if let Some(cells) = &self.cells {
+            cells.draw(drawing, &frame, (&self.x, &self.y), bar.as_ref());
         }
-        if found != columns * rows {
-            return Err(FigureError::CellCount {
-                chart: chart.to_owned(),
-                found,
-                columns,
-                rows,
-            });
+        for reference in &self.references {
+            reference.draw(drawing, &frame);
         }
-        match self {
-            Self::Values(axis, cells) => axis.check(&axis.label, cells.iter().flatten().copied()),
-            Self::Classes(classes, cells) => match cells.iter().position(|class| *class >= classes.len()) {
-                None => Ok(()),
-                Some(index) => Err(FigureError::UnknownClass {
-                    chart: chart.to_owned(),
-                    index,
-                    class: cells[index],
-                    classes: classes.len(),
-                }),
-            },
+        for series in &self.series {
+            series.draw(drawing, &frame);
         }
+        for reference in &self.references {
+            reference.draw_label(drawing, &frame)?;
+        }
+        if let Some(bar) = bar {
+            bar.draw(drawing, frame.plot)?;
+        }
+        legend.draw(drawing, (outer.left + INDENT, outer.bottom));
+        Ok(())
     }
 }

@@ -25,30 +25,28 @@ pub enum FigureError {
         /// The number.
         value: f64,
     },
-    /// An axis does not run from a smaller to a larger number.
-    #[error("axis {axis}: range {from} to {to} is invalid: start must be below end")]
+    /// The ends of an axis, or the centres of its rows or columns of cells, do not ascend, or by more than a number can hold.
+    #[error("axis {axis}: {from} to {to} is invalid: ends and centres of cells must ascend")]
     BadRange {
         /// Label of the axis.
         axis: String,
-        /// Its start.
+        /// Its start, or a centre.
         from: f64,
-        /// Its end.
+        /// Its end, or the centre that follows.
         to: f64,
     },
     /// The cells do not fill their grid.
-    #[error("chart {chart}: {found} cells do not fill {columns} columns and {rows} rows")]
+    #[error("chart {chart}: {found} cells do not fill a grid of {grid}")]
     CellCount {
         /// Title of the chart.
         chart: String,
         /// Cells given.
         found: usize,
-        /// Cells along the x axis.
-        columns: usize,
-        /// Cells along the y axis.
-        rows: usize,
+        /// Cells of the grid.
+        grid: usize,
     },
     /// A cell names a class that does not exist.
-    #[error("chart {chart}: cell {index} is of class {class}, and there are {classes}")]
+    #[error("chart {chart}: cell {index} is of class {class}, which does not exist")]
     UnknownClass {
         /// Title of the chart.
         chart: String,
@@ -56,18 +54,6 @@ pub enum FigureError {
         index: usize,
         /// The class it names, from 0.
         class: usize,
-        /// Number of classes.
-        classes: usize,
-    },
-    /// The centres of rows or columns of cells do not ascend.
-    #[error("axis {axis}: centres of cells must ascend, found {next} after {previous}")]
-    NotAscending {
-        /// Label of the axis.
-        axis: String,
-        /// A centre.
-        previous: f64,
-        /// The one that follows.
-        next: f64,
     },
     /// A text would be cut off or cover another.
     #[error("no room for \"{text}\": about {needed:.0} px needed, {room:.0} px there")]
@@ -79,10 +65,4 @@ pub enum FigureError {
         /// The room for it \[px\].
         room: f64,
     },
-}
-
-impl FigureError {
-    pub(crate) fn empty(kind: &str, name: &str) -> Self {
-        Self::Empty(format!("{kind} \"{name}\""))
-    }
 }

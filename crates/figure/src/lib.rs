@@ -1,12 +1,16 @@
 #![doc = include_str!("../README.md")]
 
 mod axis;
+mod cells;
 mod chart;
-mod draw;
 mod drawing;
 mod error;
+mod frame;
+mod legend;
+mod mark;
 mod palette;
 mod panels;
+mod reference;
 mod scale;
 mod series;
 
@@ -16,4 +20,5 @@ pub use drawing::{Anchor, Drawing, Ink};
 pub use error::FigureError;
 pub use palette::dark_style;
 pub use panels::Panels;
-pub use series::{Reference, Series};
+pub use reference::Reference;
+pub use series::Series;

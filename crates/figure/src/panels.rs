@@ -1,6 +1,10 @@
 //! Several charts in one figure.
 
+use crate::axis::Axis;
 use crate::chart::Chart;
+use crate::drawing::{Drawing, Rect};
+use crate::error::FigureError;
+use crate::legend;
 
 /// Charts in rows, under a common title.
 ///
@@ -18,10 +22,10 @@ use crate::chart::Chart;
 #[derive(Debug, Clone, PartialEq)]
 #[must_use]
 pub struct Panels {
-    pub(crate) title: String,
-    pub(crate) columns: usize,
-    pub(crate) size: (f64, f64),
-    pub(crate) charts: Vec<Chart>,
+    title: String,
+    columns: usize,
+    size: (f64, f64),
+    charts: Vec<Chart>,
 }
 
 impl Panels {
@@ -51,5 +55,34 @@ impl Panels {
     pub fn with(mut self, chart: Chart) -> Self {
         self.charts.push(chart);
         self
+    }
+
+    /// The figure as an SVG.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Chart::to_svg`], and without any chart.
+    pub fn to_svg(&self) -> Result<String, FigureError> {
+        if self.charts.is_empty() {
+            return Err(FigureError::Empty(format!("figure \"{}\"", self.title)));
+        }
+        self.charts.iter().try_for_each(Chart::check)?;
+        Axis::linear("").check("size of a chart", [self.size.0, self.size.1])?;
+        let columns = self.columns.min(self.charts.len());
+        let rows = self.charts.len().div_ceil(columns);
+        let (width, height) = self.size;
+        let whole = width * columns as f64;
+        let titles = self.charts.iter().map(|chart| chart.title.as_str());
+        let titles = std::iter::once(self.title.as_str()).chain(titles);
+        let titles: Vec<&str> = titles.filter(|title| !title.is_empty()).collect();
+        let mut drawing = Drawing::new(&titles.join("; "), (whole, 0.0));
+        let top = legend::title(&self.title, &mut drawing, (0.0, 0.0), whole)?;
+        drawing.size.1 = top + height * rows as f64;
+        for (k, chart) in self.charts.iter().enumerate() {
+            let (column, row) = ((k % columns) as f64, (k / columns) as f64);
+            let centre = ((column + 0.5) * width, top + (row + 0.5) * height);
+            chart.draw(&mut drawing, Rect::around(centre, 0.5 * width, 0.5 * height))?;
+        }
+        Ok(drawing.to_svg())
     }
 }

@@ -33,13 +33,11 @@ impl Scale {
     }
 
     /// These ticks in place of its own, as far as they lie inside.
-    pub fn with_ticks(self, ticks: &[Tick]) -> Self {
+    pub fn with_ticks(mut self, ticks: &[Tick]) -> Self {
         let is_inside = |tick: &&Tick| (0.0..=1.0).contains(&self.share(tick.0));
-        Self {
-            ticks: ticks.iter().filter(is_inside).cloned().collect(),
-            fine: Vec::new(),
-            ..self
-        }
+        self.ticks = ticks.iter().filter(is_inside).cloned().collect();
+        self.fine.clear();
+        self
     }
 
     /// 0 at the start of the axis, 1 at its end; below and above beyond them.
@@ -51,12 +49,6 @@ impl Scale {
             (value - from) / (to - from)
         }
     }
-}
-
-/// Whether both ends of a range and what lies between them are numbers that an axis can hold.
-pub(crate) fn is_sound((from, to): (f64, f64), logarithmic: bool) -> bool {
-    let span = if logarithmic { to / from } else { to - from };
-    from < to && span.is_finite() && (!logarithmic || from > 0.0)
 }
 
 /// Share of numbers below which they differ by rounding alone.
@@ -77,10 +69,8 @@ pub(crate) fn round_range((low, high): (f64, f64), logarithmic: bool, count: usi
         _ => (low, high),
     };
     let step = linear_step((low, high), count);
-    (
-        (low / step + END).floor() * step,
-        (high / step - END).ceil() * step,
-    )
+    let (first, last) = ((low / step + END).floor(), (high / step - END).ceil());
+    (first * step, last * step)
 }
 
 /// 1, 2 or 5 times a power of ten, for about `count` steps over the range.
@@ -130,15 +120,10 @@ fn logarithmic_ticks(range: (f64, f64), count: usize) -> (Vec<f64>, Vec<f64>) {
     let last = to.log10().ceil() as i32;
     let inside = |value: &f64| *value >= from * (1.0 - END) && *value <= to * (1.0 + END);
     let at = |factors: &[f64], every: i32| -> Vec<f64> {
-        (first..=last)
-            .filter(|power| power.rem_euclid(every) == 0)
-            .flat_map(|power| {
-                factors
-                    .iter()
-                    .map(move |factor| factor * ten_to(f64::from(power)))
-            })
-            .filter(inside)
-            .collect()
+        let powers = (first..=last).filter(|power| power.rem_euclid(every) == 0);
+        let powers = powers.map(|power| ten_to(f64::from(power)));
+        let numbers = powers.flat_map(|power| factors.iter().map(move |factor| factor * power));
+        numbers.filter(inside).collect()
     };
     let few = at(&[1.0, 2.0, 5.0], 1);
     if few.len() < 2 {
@@ -157,16 +142,17 @@ fn labelled(values: &[f64], logarithmic: bool) -> Vec<Tick> {
     let least = if logarithmic { 1e-3 } else { 1e-4 };
     let is_short = |value: &f64| *value == 0.0 || (least..1e6).contains(&value.abs());
     let short = values.iter().all(is_short);
-    let label = |value: f64| match value {
-        value if short || value == 0.0 => minus(&value.to_string()),
-        value => power_of_ten(value),
+    let is_plain = |value: f64| short || value == 0.0;
+    let label = |value: f64| {
+        if is_plain(value) {
+            value.to_string()
+        } else {
+            power_of_ten(value)
+        }
     };
-    values.iter().map(|&value| (value, label(value))).collect()
-}
-
-/// With a minus sign instead of a hyphen.
-fn minus(number: &str) -> String {
-    number.replace('-', "−")
+    // With a minus sign instead of a hyphen.
+    let tick = |value: &f64| (*value, label(*value).replace('-', "−"));
+    values.iter().map(tick).collect()
 }
 
 /// 10⁻⁶, 2·10⁻⁶.
@@ -178,8 +164,8 @@ fn power_of_ten(value: f64) -> String {
     let exponent: String = exponent.chars().map(raised).collect();
     match mantissa {
         "1" => format!("10{exponent}"),
-        "-1" => format!("−10{exponent}"),
-        mantissa => format!("{}·10{exponent}", minus(mantissa)),
+        "-1" => format!("-10{exponent}"),
+        mantissa => format!("{mantissa}·10{exponent}"),
     }
 }
 

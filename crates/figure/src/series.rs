@@ -1,6 +1,14 @@
-//! What stands in a chart: series of points, reference lines and bands.
+//! Series of points.
 
-use crate::palette::{Colour, GREY, PALETTE};
+use crate::drawing::{Drawing, Point, Stroke};
+use crate::frame::Frame;
+use crate::mark;
+use crate::palette::{Colour, DASHES, PALETTE, WHITE};
+
+/// Width of lines \[px\].
+const LINE_WIDTH: f64 = 2.2;
+/// Opacity of filled areas.
+const SHADE: f64 = 0.25;
 
 /// How a series is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,9 +28,11 @@ pub struct Series {
     pub(crate) name: String,
     pub(crate) kind: Kind,
     pub(crate) points: Vec<(f64, f64)>,
-    pub(crate) colour: Option<usize>,
-    pub(crate) dash: Option<usize>,
-    pub(crate) marker: Option<usize>,
+    colour: Option<usize>,
+    dash: Option<usize>,
+    marker: Option<usize>,
+    /// White on both sides of the line, which shows it on any ground.
+    halo: bool,
 }
 
 impl Series {
@@ -34,6 +44,7 @@ impl Series {
             colour: None,
             dash: None,
             marker: None,
+            halo: false,
         }
     }
 
@@ -92,61 +103,60 @@ impl Series {
         self.dash = Some(2);
         self
     }
-}
 
-/// Which way a reference line or band runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Along {
-    /// At values of y, across the whole width.
-    Horizontal,
-    /// At values of x, over the whole height.
-    Vertical,
-}
+    /// As the `index`-th series of its chart, from 0, on coloured cells or not; what has been set of its look stays.
+    pub(crate) fn placed(mut self, index: usize, on_cells: bool) -> Self {
+        // The first colours of series are also those of classes: lines on cells are black.
+        let colour = if on_cells { PALETTE.len() - 1 } else { index };
+        self.colour.get_or_insert(colour);
+        self.dash.get_or_insert(index);
+        self.marker.get_or_insert(index);
+        self.halo = on_cells;
+        self
+    }
 
-/// A line or band across the whole plot, with a label.
-#[derive(Debug, Clone, PartialEq)]
-#[must_use]
-pub struct Reference {
-    pub(crate) along: Along,
-    pub(crate) from: f64,
-    pub(crate) to: f64,
-    pub(crate) label: String,
-    pub(crate) colour: Colour,
-}
+    /// Draws the series, cut off at the frame.
+    pub(crate) fn draw(&self, drawing: &mut Drawing, frame: &Frame) {
+        let plot = frame.plot;
+        let mut points: Vec<Point> = self.points.iter().map(|point| frame.at(*point)).collect();
+        // On a logarithmic axis zero lies infinitely far down.
+        let zero = frame.y(0.0).clamp(plot.top, plot.bottom);
+        drawing.clipped(plot, |drawing| self.draw_line(drawing, &points, zero));
+        points.retain(|point| plot.holds(*point));
+        self.draw_markers(drawing, &points);
+    }
 
-impl Reference {
-    fn new(along: Along, from: f64, to: f64, label: impl Into<String>) -> Self {
-        Self {
-            along,
-            from,
-            to,
-            label: label.into(),
-            colour: GREY,
+    /// What the legend shows of it, `width` \[px\] wide from `(x, y)` on.
+    pub(crate) fn draw_sample(&self, drawing: &mut Drawing, (x, y): Point, width: f64) {
+        self.draw_line(drawing, &[(x, y), (x + width, y)], y + 8.0);
+        self.draw_markers(drawing, &[(x + 0.5 * width, y)]);
+    }
+
+    /// Draws what the kind of series has of these: the area between the line and `zero` \[px\], and the line.
+    fn draw_line(&self, drawing: &mut Drawing, points: &[Point], zero: f64) {
+        let colour = self.shown_colour();
+        if let (Kind::Area, [first, .., last]) = (self.kind, points) {
+            let ends = [(last.0, zero), (first.0, zero)];
+            drawing.fill(&[points, &ends].concat(), colour, SHADE);
+        }
+        if self.kind != Kind::Points {
+            if self.halo {
+                drawing.stroke(points, Stroke::solid(WHITE, 2.5 * LINE_WIDTH));
+            }
+            let (width, dash) = (LINE_WIDTH, DASHES[self.dash.unwrap_or(0) % DASHES.len()]);
+            drawing.stroke(points, Stroke { colour, width, dash });
         }
     }
 
-    /// A horizontal line at `y`.
-    pub fn horizontal(y: f64, label: impl Into<String>) -> Self {
-        Self::new(Along::Horizontal, y, y, label)
+    fn draw_markers(&self, drawing: &mut Drawing, points: &[Point]) {
+        if matches!(self.kind, Kind::Points | Kind::LinePoints) {
+            for point in points {
+                mark::marker(drawing, self.marker.unwrap_or(0), *point, self.shown_colour());
+            }
+        }
     }
 
-    /// A vertical line at `x`.
-    pub fn vertical(x: f64, label: impl Into<String>) -> Self {
-        Self::new(Along::Vertical, x, x, label)
-    }
-
-    /// A band between two values of x.
-    pub fn vertical_band(from: f64, to: f64, label: impl Into<String>) -> Self {
-        Self::new(Along::Vertical, from.min(to), to.max(from), label)
-    }
-
-    pub(crate) fn is_line(&self) -> bool {
-        self.from == self.to
-    }
-
-    /// Colour of the `index`-th series, from 0; grey otherwise.
-    pub fn colour(mut self, index: usize) -> Self {
-        self.colour = PALETTE[index % PALETTE.len()];
-        self
+    fn shown_colour(&self) -> Colour {
+        PALETTE[self.colour.unwrap_or(0) % PALETTE.len()]
     }
 }

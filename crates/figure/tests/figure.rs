@@ -318,7 +318,11 @@ fn errors_of_maps() {
     ));
     assert!(matches!(
         classes(&[0; 4], grid([1.0, 1.0])),
-        Err(FigureError::NotAscending { .. })
+        Err(FigureError::BadRange {
+            from: 1.0,
+            to: 1.0,
+            ..
+        })
     ));
     assert!(matches!(
         classes(&[0; 4], grid([0.0, f64::NAN])),

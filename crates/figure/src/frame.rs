@@ -1,6 +1,6 @@
 //! The plot's frame: axes with ticks and labels, and where a point lies in it.
 
-use super::canvas::{Canvas, Point, Rect, Stroke, TEXT, check_room, text_width};
+use crate::drawing::{Anchor, Drawing, Point, Rect, Stroke, TEXT, check_room};
 use crate::error::FigureError;
 use crate::palette::{FINE_GRID, GRID, INK};
 use crate::scale::Scale;
@@ -35,14 +35,14 @@ pub fn ticks(length: f64, each: f64) -> usize {
 
 /// Width of the widest label of an axis \[px\].
 pub fn widest_label(scale: &Scale) -> f64 {
-    let widths = scale.ticks.iter().map(|(_, label)| text_width(label, TEXT));
+    let widths = scale.ticks.iter().map(|(_, label)| Drawing::text_width(label));
     widths.fold(0.0, f64::max)
 }
 
 impl Frame {
     /// Draws axes in `outer`, which ends where the legend begins; `right` \[px\] more are left free on the right.
     pub fn draw(
-        canvas: &mut Canvas,
+        drawing: &mut Drawing,
         outer: Rect,
         (x, y): (Scale, Scale),
         (x_label, y_label): (&str, &str),
@@ -50,50 +50,50 @@ impl Frame {
         right: f64,
     ) -> Result<Self, FigureError> {
         let last = x.ticks.last();
-        let last = last.map_or(0.0, |tick| 0.5 * text_width(&tick.1, TEXT));
+        let last = last.map_or(0.0, |tick| 0.5 * Drawing::text_width(&tick.1));
         let plot = Rect {
             left: outer.left + GAP + TEXT + GAP + widest_label(&y) + 2.0 * TICK,
             right: outer.right - right - RIGHT.max(last + 4.0),
             top: outer.top + 0.7 * TEXT,
             bottom: outer.bottom - BELOW,
         };
-        check_room(x_label, text_width(x_label, TEXT), plot.width())?;
-        check_room(y_label, text_width(y_label, TEXT), outer.height())?;
+        check_room(x_label, Drawing::text_width(x_label), plot.width())?;
+        check_room(y_label, Drawing::text_width(y_label), outer.height())?;
         check_room(x_label, SMALLEST, plot.width().min(plot.height()))?;
-        labels_fit(&x, plot.width(), |label| text_width(label, TEXT))?;
+        labels_fit(&x, plot.width(), Drawing::text_width)?;
         labels_fit(&y, plot.height(), |_| TEXT)?;
 
         let frame = Self { x, y, plot };
         if grid {
-            frame.draw_grid(canvas);
+            frame.draw_grid(drawing);
         }
         let corner = (plot.left, plot.bottom);
-        canvas.line(&[(plot.left, plot.top), corner, (plot.right, plot.bottom)], AXIS);
+        drawing.stroke(&[(plot.left, plot.top), corner, (plot.right, plot.bottom)], AXIS);
         for (value, label) in &frame.x.ticks {
             let (x, y) = (frame.x(*value), plot.bottom);
-            canvas.line(&[(x, y), (x, y + TICK)], AXIS);
-            canvas.text(label, (x, y + 2.0 * TICK + 0.5 * TEXT), "middle");
+            drawing.stroke(&[(x, y), (x, y + TICK)], AXIS);
+            drawing.text(label, (x, y + 2.0 * TICK + 0.5 * TEXT), Anchor::Middle);
         }
         for (value, label) in &frame.y.ticks {
             let (x, y) = (plot.left, frame.y(*value));
-            canvas.line(&[(x, y), (x - TICK, y)], AXIS);
-            canvas.text(label, (x - 2.0 * TICK, y), "end");
+            drawing.stroke(&[(x, y), (x - TICK, y)], AXIS);
+            drawing.text(label, (x - 2.0 * TICK, y), Anchor::End);
         }
         let centre = plot.centre();
-        canvas.text(x_label, (centre.0, outer.bottom - 0.75 * TEXT), "middle");
-        canvas.upward(y_label, (outer.left + GAP + 0.5 * TEXT, centre.1));
+        drawing.text(x_label, (centre.0, outer.bottom - 0.75 * TEXT), Anchor::Middle);
+        drawing.upward(y_label, (outer.left + GAP + 0.5 * TEXT, centre.1));
         Ok(frame)
     }
 
     /// Lines at the ticks, and finer ones.
-    fn draw_grid(&self, canvas: &mut Canvas) {
+    fn draw_grid(&self, drawing: &mut Drawing) {
         let plot = self.plot;
         let mut lines = |xs: &[f64], ys: &[f64], stroke| {
             for x in xs.iter().map(|x| self.x(*x)) {
-                canvas.line(&[(x, plot.bottom), (x, plot.top)], stroke);
+                drawing.stroke(&[(x, plot.bottom), (x, plot.top)], stroke);
             }
             for y in ys.iter().map(|y| self.y(*y)) {
-                canvas.line(&[(plot.left, y), (plot.right, y)], stroke);
+                drawing.stroke(&[(plot.left, y), (plot.right, y)], stroke);
             }
         };
         let values = |scale: &Scale| -> Vec<f64> { scale.ticks.iter().map(|tick| tick.0).collect() };

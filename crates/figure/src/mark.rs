@@ -1,6 +1,6 @@
 //! Markers of points and marks in cells.
 
-use super::canvas::{Canvas, Point, Rect, Stroke};
+use crate::drawing::{Drawing, Point, Rect, Stroke};
 use crate::palette::{BLACK, CLASSES, Colour, WHITE};
 
 /// Half the size of a marker \[px\].
@@ -24,27 +24,27 @@ fn placed(shape: &[Point], at: Point, size: f64) -> Vec<Point> {
     shape.iter().map(point).collect()
 }
 
-fn strokes(canvas: &mut Canvas, at: Point, size: f64, lines: &[[Point; 2]], stroke: Stroke) {
+fn strokes(drawing: &mut Drawing, at: Point, size: f64, lines: &[[Point; 2]], stroke: Stroke) {
     for line in lines {
-        canvas.line(&placed(line, at, size), stroke);
+        drawing.stroke(&placed(line, at, size), stroke);
     }
 }
 
 /// Draws the marker of the `index`-th series: circle, square, triangle, diamond, triangle on its tip, star, cross.
-pub fn marker(canvas: &mut Canvas, index: usize, at: Point, colour: Colour) {
+pub fn marker(drawing: &mut Drawing, index: usize, at: Point, colour: Colour) {
     let stroke = Stroke::solid(colour, 1.7);
     match index % 7 {
-        0 => canvas.circle(at, RADIUS, WHITE, stroke),
-        k @ 1..=4 => canvas.outlined(&placed(OUTLINES[k - 1], at, RADIUS), WHITE, stroke),
-        5 => strokes(canvas, at, RADIUS, &[CROSS, PLUS].concat(), stroke),
-        _ => strokes(canvas, at, RADIUS, &CROSS, stroke),
+        0 => drawing.circle(at, RADIUS, WHITE, stroke),
+        k @ 1..=4 => drawing.outlined(&placed(OUTLINES[k - 1], at, RADIUS), WHITE, stroke),
+        5 => strokes(drawing, at, RADIUS, &[CROSS, PLUS].concat(), stroke),
+        _ => strokes(drawing, at, RADIUS, &CROSS, stroke),
     }
 }
 
 /// Fills a cell with the colour and the mark of the `index`-th class.
-pub fn class_cell(canvas: &mut Canvas, index: usize, cell: Rect) {
+pub fn class_cell(drawing: &mut Drawing, index: usize, cell: Rect) {
     let look = index % CLASSES.len();
-    canvas.rectangle(cell, CLASSES[look], 1.0);
+    drawing.rectangle(cell, CLASSES[look], 1.0);
     let size = cell.width().min(cell.height());
     if size < SMALLEST_CELL {
         return;
@@ -52,10 +52,10 @@ pub fn class_cell(canvas: &mut Canvas, index: usize, cell: Rect) {
     let centre = cell.centre();
     let radius = (0.22 * size).min(6.0);
     match look {
-        1 => strokes(canvas, centre, radius, &CROSS, Stroke::solid(WHITE, 1.6)),
-        2 => strokes(canvas, centre, radius, &CROSS[1..], Stroke::solid(BLACK, 1.2)),
-        4 => canvas.circle(centre, 0.5 * radius, BLACK, Stroke::solid(BLACK, 0.0)),
-        5 => canvas.circle(centre, 0.8 * radius, CLASSES[look], Stroke::solid(WHITE, 1.4)),
+        1 => strokes(drawing, centre, radius, &CROSS, Stroke::solid(WHITE, 1.6)),
+        2 => strokes(drawing, centre, radius, &CROSS[1..], Stroke::solid(BLACK, 1.2)),
+        4 => drawing.circle(centre, 0.5 * radius, BLACK, Stroke::solid(BLACK, 0.0)),
+        5 => drawing.circle(centre, 0.8 * radius, CLASSES[look], Stroke::solid(WHITE, 1.4)),
         _ => {}
     }
 }
