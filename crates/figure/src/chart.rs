@@ -7,7 +7,7 @@ use crate::error::FigureError;
 use crate::frame::{BELOW, Frame, ticks};
 use crate::legend::{self, Legend};
 use crate::panels::Panels;
-use crate::reference::{Along, Reference};
+use crate::reference::Reference;
 use crate::series::{Kind, Series};
 
 /// Legends begin this far from the figure's left edge \[px\].
@@ -141,10 +141,12 @@ impl Chart {
         let references = self.references.iter().map(|reference| {
             let what = format!("reference \"{}\"", reference.label);
             let values = vec![reference.from, reference.to];
-            match reference.along {
-                Along::Horizontal => (what, Vec::new(), values),
-                Along::Vertical => (what, values, Vec::new()),
-            }
+            let (x, y) = if reference.is_vertical {
+                (values, vec![])
+            } else {
+                (vec![], values)
+            };
+            (what, x, y)
         });
         series.chain(references)
     }

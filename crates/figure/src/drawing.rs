@@ -100,12 +100,12 @@ pub(crate) struct Stroke {
     pub colour: Colour,
     pub width: f64,
     /// Lengths of strokes and gaps \[px\], in turn; solid without any.
-    pub dash: &'static [f64],
+    pub dash: &'static str,
 }
 
 impl Stroke {
     pub const fn solid(colour: Colour, width: f64) -> Self {
-        let dash = &[];
+        let dash = "";
         Self { colour, width, dash }
     }
 
@@ -115,8 +115,7 @@ impl Stroke {
         if dash.is_empty() {
             return stroke;
         }
-        let lengths: Vec<String> = dash.iter().map(f64::to_string).collect();
-        format!("{stroke} stroke-dasharray=\"{}\"", lengths.join(" "))
+        format!("{stroke} stroke-dasharray=\"{dash}\"")
     }
 }
 

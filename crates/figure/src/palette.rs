@@ -9,14 +9,14 @@ pub(crate) type Colour = u32;
 pub(crate) const PALETTE: [Colour; 7] = [0x0072B2, 0xD55E00, 0x009E73, 0xCC79A7, 0xE69F00, 0x56B4E9, BLACK];
 
 /// Lengths of strokes and gaps \[px\], in turn; solid without any.
-pub(crate) const DASHES: [&[f64]; 7] = [
-    &[],
-    &[9.0, 5.0],
-    &[2.5, 4.0],
-    &[10.0, 4.0, 2.5, 4.0],
-    &[18.0, 5.0],
-    &[5.0, 3.0],
-    &[10.0, 3.0, 2.5, 3.0, 2.5, 3.0],
+pub(crate) const DASHES: [&str; 7] = [
+    "",
+    "9 5",
+    "2.5 4",
+    "10 4 2.5 4",
+    "18 5",
+    "5 3",
+    "10 3 2.5 3 2.5 3",
 ];
 
 /// Fill colours of classes, each of another lightness.

@@ -8,20 +8,12 @@ use crate::palette::{Colour, GREY, INK, PALETTE};
 /// Room between a text and the borders of the plot \[px\].
 const MARGIN: f64 = 4.0;
 
-/// Which way a reference line or band runs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Along {
-    /// At values of y, across the whole width.
-    Horizontal,
-    /// At values of x, over the whole height.
-    Vertical,
-}
-
 /// A line or band across the whole plot, with a label.
 #[derive(Debug, Clone, PartialEq)]
 #[must_use]
 pub struct Reference {
-    pub(crate) along: Along,
+    /// Whether it stands at values of x, over the whole height; otherwise at values of y, across the whole width.
+    pub(crate) is_vertical: bool,
     pub(crate) from: f64,
     pub(crate) to: f64,
     pub(crate) label: String,
@@ -29,9 +21,9 @@ pub struct Reference {
 }
 
 impl Reference {
-    fn new(along: Along, from: f64, to: f64, label: impl Into<String>) -> Self {
+    fn new(is_vertical: bool, from: f64, to: f64, label: impl Into<String>) -> Self {
         Self {
-            along,
+            is_vertical,
             from,
             to,
             label: label.into(),
@@ -41,17 +33,17 @@ impl Reference {
 
     /// A horizontal line at `y`.
     pub fn horizontal(y: f64, label: impl Into<String>) -> Self {
-        Self::new(Along::Horizontal, y, y, label)
+        Self::new(false, y, y, label)
     }
 
     /// A vertical line at `x`.
     pub fn vertical(x: f64, label: impl Into<String>) -> Self {
-        Self::new(Along::Vertical, x, x, label)
+        Self::new(true, x, x, label)
     }
 
     /// A band between two values of x.
     pub fn vertical_band(from: f64, to: f64, label: impl Into<String>) -> Self {
-        Self::new(Along::Vertical, from.min(to), to.max(from), label)
+        Self::new(true, from.min(to), to.max(from), label)
     }
 
     /// Colour of the `index`-th series, from 0; grey otherwise.
@@ -68,9 +60,10 @@ impl Reference {
     fn place(&self, frame: &Frame) -> Option<Rect> {
         let plot = frame.plot;
         let mut place = plot;
-        match self.along {
-            Along::Horizontal => (place.top, place.bottom) = (frame.y(self.to), frame.y(self.from)),
-            Along::Vertical => (place.left, place.right) = (frame.x(self.from), frame.x(self.to)),
+        if self.is_vertical {
+            (place.left, place.right) = (frame.x(self.from), frame.x(self.to));
+        } else {
+            (place.top, place.bottom) = (frame.y(self.to), frame.y(self.from));
         }
         let left_top = (place.left.max(plot.left), place.top.max(plot.top));
         let right_bottom = (place.right.min(plot.right), place.bottom.min(plot.bottom));
@@ -84,7 +77,7 @@ impl Reference {
         };
         let colour = self.colour;
         if self.is_line() {
-            let (width, dash) = (1.3, &[6.0, 4.0]);
+            let (width, dash) = (1.3, "6 4");
             let ends = [(rect.left, rect.top), (rect.right, rect.bottom)];
             drawing.stroke(&ends, Stroke { colour, width, dash });
         } else {
@@ -97,9 +90,11 @@ impl Reference {
         let Some(rect) = self.place(frame).filter(|_| !self.label.is_empty()) else {
             return Ok(());
         };
-        let at = match self.along {
-            Along::Horizontal => (rect.right, rect.top - 0.75 * TEXT),
-            Along::Vertical => (rect.centre().0, rect.top),
+        let beside = (rect.right, rect.top - 0.75 * TEXT);
+        let at = if self.is_vertical {
+            (rect.centre().0, rect.top)
+        } else {
+            beside
         };
         // A light colour does for a band, not for a text.
         let colour = if self.is_line() { self.colour } else { INK };
