@@ -69,7 +69,6 @@ mod ground;
 #[cfg(feature = "sweep")]
 pub mod output;
 mod plan;
-pub mod presets;
 mod profile;
 mod progress;
 #[cfg(feature = "calibrate")]
@@ -77,7 +76,8 @@ pub mod readings;
 #[cfg(feature = "plot")]
 pub mod report;
 mod run;
-pub mod scene;
+pub use creepage_scene as scene;
+pub use creepage_scene::presets;
 #[cfg_attr(
     not(all(feature = "cli", feature = "plot")),
     allow(dead_code, reason = "the terminal and the report show most of it")

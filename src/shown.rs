@@ -1,5 +1,7 @@
 //! Numbers, texts and tables for a reader, as the terminal and the report show them.
 
+pub use crate::scene::{four_digits, shortened};
+
 /// Rows of a table that is read at a glance.
 pub const ROWS: usize = 16;
 
@@ -10,11 +12,6 @@ pub fn rounded(value: f64, decimals: usize) -> String {
         Some(digits) if digits.bytes().all(|byte| matches!(byte, b'0' | b'.')) => digits.to_owned(),
         _ => text,
     }
-}
-
-/// `value` to four digits.
-pub fn four_digits(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 /// A node spacing or a vehicle step: three decimals, and two digits of one that is smaller.
@@ -44,14 +41,6 @@ pub fn exact_percent(share: f64) -> String {
 /// A given number in another unit as it was meant, without the binary digits of the product.
 pub fn exact(number: f64) -> String {
     format!("{}", (1e12 * number).round() / 1e12)
-}
-
-/// The beginning of the text, and how long it is where that is not all.
-pub fn shortened(text: &str, longest: usize) -> String {
-    match text.char_indices().nth(longest) {
-        None => text.to_owned(),
-        Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
-    }
 }
 
 /// A time in words of its size.

@@ -7,6 +7,8 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
+use crate::scene::FULL;
+
 const SCENE: &str = r#"title = "Harbour road, 66 kV"
 
 [duct]
@@ -43,83 +45,240 @@ wheels = [{ y = "0.9 m", load = "50 kN", contact_radius = "0.15 m" }, { y = "-0.
 passes = 20
 "#;
 
-/// What stands in the scene → what an engineer writes in its place (`¶` begins a line) | the line of the message | parts of it.
-/// Some are refused; what is only hardly meant is a warning.
+/// What stands in the scene → what an engineer writes in its place (`¶` begins a line, `∅` is nothing) | exit status of `check` | line of the
+/// message | parts of it. What is only hardly meant is a warning.
 const IN_THE_SCENE: &str = r#"
-weight = "110 N/m" → weight = 11 | 17 | `cable.weight`: 11 without a unit is 11 N/m: did you mean "11 kgf/m"?
-weight = "110 N/m" → weight = "11 kg/m" | 17 | `cable.weight`: unknown unit `kg/m`: found "11 kg/m" (did you mean `kgf/m`?) | units: N/m, kN/m
-axial_stiffness = "60 MN" → axial_stiffness = "60 kN" | 18 | `cable.axial_stiffness` is 0.06 MN, but that of power cables is from 0.5 to 1000 MN
-axial_stiffness = "60 MN" → axial_stiffness = 8e9 | 18 | `cable.axial_stiffness` is 8000 MN
-weight = "110 N/m" → weight = "1088 N/m" | 17 | `cable.weight` is 1088 N/m, but that of power cables is from 5 to 600 N/m
-load = "50 kN" → load = "2500 kN" | 31 | `vehicles.0.wheels.0.load` (vehicle 1, wheel 1) is 2500 kN, but a wheel on a road carries from 1 to 200 kN
-length = "180 m" → length = "1 m" | 5 | `duct.depth` is 1.3 m, more than the duct is long, 1 m: were they exchanged?
-young_modulus = "4000 MPa" → young_modulus = "3 MPa" | 9 | `ground.layers.0.young_modulus` (layer 1) is 27 times less than that of the last layer, 80 MPa: layers stand from the top down
-speed = "50 km/h" → speed = "500 km/h" | 30 | `vehicles.0.speed` (vehicle 1) is 500 km/h, but trucks drive at 20 to 100 km/h
-speed = "50 km/h" → speed = "30 mi/h" | 30 | unknown unit `mi/h`: found "30 mi/h" (did you mean `mph`?)
-axial_stiffness = "60 MN" → axial_stiffness = "120 GPa" | 18 | `cable.axial_stiffness`: wrong dimension: found "120 GPa", a pressure or modulus; allowed: a force
-speed = "50 km/h" → speed = 50 | 30 | `vehicles.0.speed` (vehicle 1): 50 without a unit is 50 m/s, 180 km/h: did you mean "50 km/h"?
-load = 50e3 → load = 5 | 31 | `vehicles.0.wheels.1.load` (vehicle 1, wheel 2): 5 without a unit is 5 N | did you mean "5 tf" or "5 kN"?
-load = "50 kN" → load = "5 t" | 31 | unknown unit `t`: found "5 t" (did you mean `tf`?)
-contact_radius = "0.15 m" → contact_radius = 15 | 31 | `vehicles.0.wheels.0.contact_radius` (vehicle 1, wheel 1) is 15 m: that of tyres is from 0.1 to 0.3 m
-shape_factor = "7e6 1/m" → shape_factor = 7 | 22 | `friction.shape_factor` is 7 1/m: friction builds up over 285.7 mm
-depth = "1.3 m" → depth = 130 | 5 | `duct.depth` is 130 m, but ducts lie below roads at depths from 0.2 to 20 m
-depth = "1.3 m" → depth = "130 mm" | 5 | `duct.depth` is 0.13 m
-length = "180 m" → length = "180 meters" | 4 | unknown unit `meters`: found "180 meters" (did you mean `m`?)
-passes = 20 → passes = 292.000 | 34 | `traffic.passes`: 292.000 without a unit is 292 passes | did you mean 292000?
-passes = 20 → passes = 5,844,000 | 34 | numbers have no thousands separators: passes = 5844000
-passes = 20 → passes = "292 000" | 34 | `traffic.passes`: found the text "292 000"; allowed: 292000: a whole number
-passes = 20 → per_day = 800¶years = "20 years" | 35 | `traffic.years`: found the text "20 years"; allowed: 20: a number
-passes = 20 → per_day = 800¶years = 2026 | 33 | lasts 2026 years | a number of years, not a date
-passes = 20 → passes = 20¶per_day = 5844000 | 35 | `traffic.per_day` is 5844000: no road has more than 200000 vehicles a day
-poisson_ratio = 0.4 → poisson_ratio = 40 | 14 | `ground.layers.1.poisson_ratio` (layer 2): out of range: found 40; allowed: a number from 0 to 0.5 | did you mean 0.4?
-dynamic_coefficient = 0.3 → dynamic_coefficient = 30 | 21 | found 30; allowed: a number from 0 to 10 | did you mean 0.3?
-[[ground.layers]]  # soil → [[ground.layer]] | 12 | unknown key `ground.layer` (did you mean `layers`?)
-[[vehicles]] → [[vehicle]] | 28 | unknown key `vehicle` (did you mean `vehicles`?)
-{ spring = "3 MN/m" } → "spring" | 26 | `ends.downstream`: found "spring"; allowed: "free", "fixed" or { spring = "3 MN/m" }
-{ spring = "3 MN/m" } → "5 MN/m" | 26 | `ends.downstream`: found "5 MN/m" | did you mean { spring = "5 MN/m" }?
-{ spring = "3 MN/m" } → { spring = 3 } | 26 | `ends.downstream.spring` is 3 N/m, which holds nothing | did you mean "3 MN/m"?
-{ spring = "3 MN/m" } → { spring = "300 N/m" } | 26 | `ends.downstream.spring` is 300 N/m, which holds nothing: springs and clamps are from 0.1 to 1000 MN/m
-upstream = "free" → left = "free" | 25 | unknown key `ends.left` (did you mean `upstream`?)
-[traffic] → [[clamps]]¶position = "90 m"¶[traffic] | 33 | unknown key `clamps` (did you mean `restraints`?)
-[[ground.layers]]  # asphalt → [[soil.layers]] | 7 | unknown key `soil` (did you mean `ground`?)
-dynamic_coefficient = 0.3 → friction_coefficient = 0.3 | 21 | unknown key `friction.friction_coefficient` (did you mean `dynamic_coefficient`?)
-weight = "110 N/m" → weight = "11 kg" | 17 | unknown unit `kg`: found "11 kg" (did you mean `kgf/m`?)
-load = 50e3 → load = "5000 kg" | 31 | unknown unit `kg`: found "5000 kg" (did you mean `kgf`?)
-passes = 20 → passes = 20¶[solver]¶tolerance = 5 | 36 | found 5; allowed: a ratio greater than 0 and at most 0.5 | did you mean "5 %"?
-dynamic_coefficient = 0.3 → mu = 0.3 | 21 | unknown key `friction.mu` (did you mean `dynamic_coefficient`?)
-axial_stiffness = "60 MN" → EA = "60 MN" | 18 | unknown key `cable.EA` (did you mean `axial_stiffness`?)
-young_modulus = "80 MPa" → E = "80 MPa" | 13 | unknown key `ground.layers.1.E` (layer 2) (did you mean `young_modulus`?)
-speed = "50 km/h" → velocity = "50 km/h" | 30 | unknown key `vehicles.0.velocity` (vehicle 1) (did you mean `speed`?)
-passes = 20 → years = 20¶trucks_per_day = 800 | 35 | unknown key `traffic.trucks_per_day` (did you mean `per_day`?)
-length = "180 m" → length = "180 m"¶diameter = "200 mm" | 5 | unknown key `duct.diameter` (did you mean `inner_diameter`?)
-depth = "1.3 m" → Depth = "1.3 m" | 5 | unknown key `duct.Depth` (did you mean `depth`?)
-depth = "1.3 m" → depth = "1.3 m | 5 | line 5: not valid TOML: invalid basic string, expected `"`
-depth = "1.3 m" → depth = 1,3 | 5 | not valid TOML: decimals are written with a point: depth = 1.3
-depth = "1.3 m" → depth = 1.3 m | 5 | not valid TOML: a quantity with its unit stands in quotes: depth = "1.3 m"
-depth = "1.3 m" → depth = | 5 | not valid TOML: string values must be quoted
-depth = "1.3 m" → depth == 1.3 | 5 | not valid TOML: extra `=`
-depth = "1.3 m" → dep th = 1.3 | 5 | not valid TOML: key with no value, expected `=`
-depth = "1.3 m" → length = "20 m" | 5 | not valid TOML: duplicate key
-[traffic] → [traffic | 33 | not valid TOML: unclosed table, expected `]`
-depth = "1.3 m" → depth "1.3 m" | 5 | not valid TOML: key with no value, expected `=`
-[friction] → friction | 20 | key with no value, expected `=`
-title = "Harbour road, 66 kV" → title = Harbour road | 1 | string values must be quoted
-passes = 20 → passes = 20¶title = "Harbour" | 35 | unknown key `traffic.title` | `title` stands above the first section
-[traffic] → [duct]¶slope = "3 %"¶[traffic] | 33 | not valid TOML: duplicate key
-speed = "50 km/h" → speed = "50 km/h"¶direction = "northbound" | 31 | found "northbound"; allowed: "forward", toward the downstream end, or "reverse"
-passes = 20 → passes = 20¶sequence = ["t-25"] | 35 | `traffic.sequence.0`: found "t-25"; allowed: "truck"
-passes = 20 → passes = 20¶[heat]¶expansion = "17e-6 1/K"¶daily_swing = "20 °C" | 37 | `heat.daily_swing`: unknown unit `°C` | did you mean `K`?
-passes = 20 → passes = 20¶[heat]¶expansion = 17¶daily_swing = "20 K" | 36 | `heat.expansion`: out of range: found 17 | did you mean "17e-6 1/K"?
-depth = "1.3 m" → depth = "１．３ m" | 5 | `duct.depth`: found the text "１．３ m"; allowed: a length
-young_modulus = "4000 MPa" → young_modulus = "4 000 MPa" | 9 | unknown unit `000 MPa`: found "4 000 MPa"; allowed: a pressure
-young_modulus = "4000 MPa" → young_modulus = "4,000 MPa" | 9 | a decimal point, "4.000 MPa", or "4000 MPa" if the comma separates thousands: a pressure
-young_modulus = "4000 MPa" → young_modulus = 4,000 MPa | 9 | with a point: young_modulus = "4.000 MPa", or "4000 MPa" if the comma separates thousands
-passes = 20 → passes = 5,844 | 34 | or 5844 if the comma separates thousands
-passes = 20 → passes = 1..5 | 34 | a key has one value; `creepage sweep --vary KEY=A:B:STEP` computes a range
-shape_factor = "7e6 1/m" → shape_factor = "7 x 10^6 1/m" | 22 | unknown unit `x 10^6 1/m`: found "7 x 10^6 1/m"; allowed: an inverse length
-shape_factor = "7e6 1/m" → # none | 20 | key `friction.shape_factor` is missing | law = "coulomb" needs none
-passes = 20 → passes = 20¶[heat]¶expansion = "17e-6 1/°C"¶daily_swing = "20 K" | 36 | unknown unit `1/°C` | did you mean `1/K`?
-[traffic] → [vehicles]¶name = "second"¶[traffic] | 33 | not valid TOML: duplicate key
+weight = "110 N/m" → weight = 11 | 0 | 17 | `cable.weight`: 11 without a unit is 11 N/m: did you mean "11 kg/m"?
+weight = "110 N/m" → weight = "11 kg/m" | 0 | 17 | `cable.weight`: "11 kg/m" is a mass per length: times g it weighs 107.9 N/m
+axial_stiffness = "60 MN" → axial_stiffness = "60 kN" | 0 | 18 | `cable.axial_stiffness` is 0.06 MN, but that of power cables is from 0.5 to 1000 MN
+axial_stiffness = "60 MN" → axial_stiffness = 8e9 | 0 | 18 | `cable.axial_stiffness` is 8000 MN
+weight = "110 N/m" → weight = "1088 N/m" | 0 | 17 | `cable.weight` is 1088 N/m, but that of power cables is from 5 to 600 N/m
+load = "50 kN" → load = "2500 kN" | 0 | 31 | `vehicles.0.wheels.0.load` (vehicle 1, wheel 1) is 2500 kN, but a wheel on a road carries from 1 to 200 kN
+length = "180 m" → length = "1 m" | 0 | 5 | `duct.depth` is 1.3 m, more than the duct is long, 1 m: were they exchanged?
+young_modulus = "4000 MPa" → young_modulus = "3 MPa" | 0 | 9 | `ground.layers.0.young_modulus` (layer 1) is 27 times less than that of the last layer, 80 MPa: layers stand from the top down
+speed = "50 km/h" → speed = "500 km/h" | 0 | 30 | `vehicles.0.speed` (vehicle 1) is 500 km/h, but trucks drive at 20 to 100 km/h
+speed = "50 km/h" → speed = "30 mi/h" | 2 | 30 | unknown unit `mi/h`: found "30 mi/h" (did you mean `mph`?)
+axial_stiffness = "60 MN" → axial_stiffness = "120 GPa" | 2 | 18 | `cable.axial_stiffness`: wrong dimension: found "120 GPa", a pressure or modulus; allowed: a force
+speed = "50 km/h" → speed = 50 | 0 | 30 | `vehicles.0.speed` (vehicle 1): 50 without a unit is 50 m/s, 180 km/h: did you mean "50 km/h"?
+load = 50e3 → load = 5 | 0 | 31 | `vehicles.0.wheels.1.load` (vehicle 1, wheel 2): 5 without a unit is 5 N | did you mean "5 tf" or "5 kN"?
+load = "50 kN" → load = "5 t" | 2 | 31 | unknown unit `t`: found "5 t" (did you mean `tf`?)
+contact_radius = "0.15 m" → contact_radius = 15 | 0 | 31 | `vehicles.0.wheels.0.contact_radius` (vehicle 1, wheel 1) is 15 m: that of tyres is from 0.1 to 0.3 m
+shape_factor = "7e6 1/m" → shape_factor = 7 | 0 | 22 | `friction.shape_factor` is 7 1/m: friction builds up over 285.7 mm
+depth = "1.3 m" → depth = 130 | 0 | 5 | `duct.depth` is 130 m, but ducts lie below roads at depths from 0.2 to 20 m
+depth = "1.3 m" → depth = "130 mm" | 0 | 5 | `duct.depth` is 0.13 m
+length = "180 m" → length = "180 meters" | 2 | 4 | unknown unit `meters`: found "180 meters" (did you mean `m`?)
+passes = 20 → passes = 292.000 | 0 | 34 | `traffic.passes`: 292.000 without a unit is 292 passes | did you mean 292000?
+passes = 20 → passes = 5,844,000 | 2 | 34 | without thousands separators: passes = 5844000
+passes = 20 → passes = "292 000" | 2 | 34 | `traffic.passes`: found the text "292 000"; allowed: 292000: a whole number
+passes = 20 → per_day = 800¶years = "20 years" | 2 | 35 | `traffic.years`: found the text "20 years"; allowed: 20: a number
+passes = 20 → per_day = 800¶years = 2026 | 0 | 33 | lasts 2026 years | a number of years, not a date
+passes = 20 → passes = 20¶per_day = 5844000 | 0 | 35 | `traffic.per_day` is 5844000: no road has more than 200000 vehicles a day
+poisson_ratio = 0.4 → poisson_ratio = 40 | 2 | 14 | `ground.layers.1.poisson_ratio` (layer 2): out of range: found 40; allowed: a number from 0 to 0.5 | did you mean 0.4?
+dynamic_coefficient = 0.3 → dynamic_coefficient = 30 | 2 | 21 | found 30; allowed: a number from 0 to 10 | did you mean 0.3?
+[[ground.layers]]  # soil → [[ground.layer]] | 2 | 12 | unknown key `ground.layer` (did you mean `layers`?)
+[[vehicles]] → [[vehicle]] | 2 | 28 | unknown key `vehicle` (did you mean `vehicles`?)
+{ spring = "3 MN/m" } → "spring" | 2 | 26 | `ends.downstream`: found "spring"; allowed: "free", "fixed" or { spring = "3 MN/m" }
+{ spring = "3 MN/m" } → "5 MN/m" | 2 | 26 | `ends.downstream`: found "5 MN/m" | did you mean { spring = "5 MN/m" }?
+{ spring = "3 MN/m" } → { spring = 3 } | 0 | 26 | `ends.downstream.spring` is 3 N/m, which holds nothing | did you mean "3 MN/m"?
+{ spring = "3 MN/m" } → { spring = "300 N/m" } | 0 | 26 | `ends.downstream.spring` is 300 N/m, which holds nothing: springs and clamps are from 0.1 to 1000 MN/m
+upstream = "free" → left = "free" | 2 | 25 | unknown key `ends.left` (did you mean `upstream`?)
+[traffic] → [[clamps]]¶position = "90 m"¶[traffic] | 2 | 33 | unknown key `clamps` (did you mean `restraints`?)
+[[ground.layers]]  # asphalt → [[soil.layers]] | 2 | 7 | unknown key `soil` (did you mean `ground`?)
+dynamic_coefficient = 0.3 → friction_coefficient = 0.3 | 2 | 21 | unknown key `friction.friction_coefficient` (did you mean `dynamic_coefficient`?)
+weight = "110 N/m" → weight = "11 kg" | 2 | 17 | unknown unit `kg`: found "11 kg" (did you mean `kg/m`?)
+load = 50e3 → load = "5000 kg" | 2 | 31 | unknown unit `kg`: found "5000 kg" (did you mean `kgf`?)
+passes = 20 → passes = 20¶[solver]¶tolerance = 5 | 2 | 36 | found 5; allowed: a ratio greater than 0 and at most 0.5 | did you mean "5 %"?
+dynamic_coefficient = 0.3 → mu = 0.3 | 2 | 21 | unknown key `friction.mu` (did you mean `dynamic_coefficient`?)
+axial_stiffness = "60 MN" → EA = "60 MN" | 2 | 18 | unknown key `cable.EA` (did you mean `axial_stiffness`?)
+young_modulus = "80 MPa" → E = "80 MPa" | 2 | 13 | unknown key `ground.layers.1.E` (layer 2) (did you mean `young_modulus`?)
+speed = "50 km/h" → velocity = "50 km/h" | 2 | 30 | unknown key `vehicles.0.velocity` (vehicle 1) (did you mean `speed`?)
+passes = 20 → years = 20¶trucks_per_day = 800 | 2 | 35 | unknown key `traffic.trucks_per_day` (did you mean `per_day`?)
+length = "180 m" → length = "180 m"¶diameter = "200 mm" | 2 | 5 | unknown key `duct.diameter` (did you mean `inner_diameter`?)
+depth = "1.3 m" → Depth = "1.3 m" | 2 | 5 | unknown key `duct.Depth` (did you mean `depth`?)
+depth = "1.3 m" → depth = "1.3 m | 2 | 5 | line 5: not valid TOML: invalid basic string, expected `"`
+depth = "1.3 m" → depth = 1,3 | 2 | 5 | not valid TOML: decimals are written with a point, without thousands separators: depth = 1.3
+depth = "1.3 m" → depth = 1.3 m | 2 | 5 | not valid TOML: a quantity with its unit stands in quotes: depth = "1.3 m"
+depth = "1.3 m" → depth = | 2 | 5 | not valid TOML: string values must be quoted
+depth = "1.3 m" → depth == 1.3 | 2 | 5 | not valid TOML: extra `=`
+depth = "1.3 m" → dep th = 1.3 | 2 | 5 | not valid TOML: key with no value, expected `=`
+depth = "1.3 m" → length = "20 m" | 2 | 5 | not valid TOML: duplicate key
+[traffic] → [traffic | 2 | 33 | not valid TOML: unclosed table, expected `]`
+depth = "1.3 m" → depth "1.3 m" | 2 | 5 | not valid TOML: key with no value, expected `=`
+[friction] → friction | 2 | 20 | key with no value, expected `=`
+title = "Harbour road, 66 kV" → title = Harbour road | 2 | 1 | string values must be quoted
+passes = 20 → passes = 20¶title = "Harbour" | 2 | 35 | unknown key `traffic.title` | `title` stands above the first section
+[traffic] → [duct]¶slope = "3 %"¶[traffic] | 2 | 33 | not valid TOML: duplicate key
+speed = "50 km/h" → speed = "50 km/h"¶direction = "northbound" | 2 | 31 | found "northbound"; allowed: "forward", toward the downstream end, or "reverse"
+passes = 20 → passes = 20¶sequence = ["t-25"] | 2 | 35 | `traffic.sequence.0`: found "t-25"; allowed: "truck"
+passes = 20 → passes = 20¶[heat]¶expansion = "17e-6 1/K"¶daily_swing = "20 °C" | 2 | 37 | `heat.daily_swing`: unknown unit `°C` | did you mean `K`?
+passes = 20 → passes = 20¶[heat]¶expansion = 17¶daily_swing = "20 K" | 2 | 36 | `heat.expansion`: out of range: found 17 | did you mean "17e-6 1/K"?
+depth = "1.3 m" → depth = "１．３ m" | 2 | 5 | `duct.depth`: found the text "１．３ m"; allowed: a length
+young_modulus = "80 MPa" → young_modulus = { top = 1e6, bottom = 2e6 } | 2 | 13 | `ground.layers.1.young_modulus` (layer 2): found a modulus that varies with depth
+young_modulus = "4000 MPa" → young_modulus = "4 000 MPa" | 2 | 9 | unknown unit `000 MPa`: found "4 000 MPa"; allowed: a pressure
+young_modulus = "4000 MPa" → young_modulus = "4,000 MPa" | 2 | 9 | a decimal point, "4.000 MPa", or "4000 MPa" if the comma separates thousands: a pressure
+young_modulus = "4000 MPa" → young_modulus = 4,000 MPa | 2 | 9 | separators: young_modulus = "4.000 MPa", or "4000 MPa" if the comma separates thousands
+passes = 20 → passes = 5,844 | 2 | 34 | or 5844 if the comma separates thousands
+passes = 20 → passes = 1..5 | 2 | 34 | invalid fraction, expected digits
+shape_factor = "7e6 1/m" → shape_factor = "7 x 10^6 1/m" | 2 | 22 | unknown unit `x 10^6 1/m`: found "7 x 10^6 1/m"; allowed: an inverse length
+shape_factor = "7e6 1/m" → # none | 2 | 20 | key `friction.shape_factor` is missing | law = "coulomb" needs none
+passes = 20 → passes = 20¶[heat]¶expansion = "17e-6 1/°C"¶daily_swing = "20 K" | 2 | 36 | unknown unit `1/°C` | did you mean `1/K`?
+[traffic] → [vehicles]¶name = "second"¶[traffic] | 2 | 33 | not valid TOML: duplicate key
+weight = "110 N/m" → weight = "11.2 kg/km" | 0 | 17 | `cable.weight`: "11.2 kg/km" is a mass per length: times g it weighs 0.1098 N/m
+axial_stiffness = "60 MN" → young_modulus = "75 GPa" | 2 | 16 | key `cable.conductor_area` is missing | an area | mm2
+axial_stiffness = "60 MN" → conductor_area = "800 mm2" | 2 | 16 | key `cable.young_modulus` is missing
+axial_stiffness = "60 MN" → axial_stiffness = "60 MN"¶young_modulus = "75 GPa" | 2 | 19 | both `axial_stiffness` and `young_modulus` | only one of the two
+axial_stiffness = "60 MN" → young_modulus = "75 GPa"¶conductor_area = 800 | 0 | 16 | `cable.axial_stiffness`
+speed = "50 km/h" → speed = "50 km/h"¶share = "20 kN" | 2 | 31 | `vehicles.0.share` (vehicle 1): wrong dimension
+passes = 20 → passes = 20¶per_day = 10¶[heat]¶expansion = "17e-6 1/K"¶daily_swing = "200 K" | 0 | 38 | `heat.daily_swing` is 200 K, but a cable's temperature changes by less than 100 K a day
+depth = "1.3 m" → depth = "0.5 m" | 0 | 5 | `duct.depth` is 0.5 m between the wheels of "truck" | the cable may creep backward
+"#;
+
+/// The same of the scene that uses every key; lines that begin with `#` say what follows.
+const IN_A_FULL_SCENE: &str = r#"
+# an unknown key suggests the nearest
+length = "30 m" → lenght = "30 m" | 2 | 3 | unknown key `duct.lenght` | did you mean `length`? | allowed: length, depth, lateral_offset, slope, inner_diameter | ^^^^^^
+[cable] → [cabel] | 2 | 23 | unknown key `cabel` | did you mean `cable`?
+share = 3 → shares = 3 | 2 | 41 | unknown key `vehicles.0.shares` | did you mean `share`?
+{ spring =  → { sprung =  | 2 | 33 | `ends.downstream.sprung` | `spring`?
+x = "0 m", y → x = "0 m", z | 2 | 46 | `vehicles.1.wheels.0.z` | allowed: x, y, load, contact_radius
+# a misplaced key is told its section
+passes = 60 → passes = 60¶shape_factor = 1 | 2 | 53 | unknown key `traffic.shape_factor` | did you mean `friction.shape_factor`?
+# a missing key is named at its section
+depth = "1.2 m" → ∅ | 2 | 2 | key `duct.depth` is missing; allowed: a length greater than 0, from 1 cm to 1 km, such as "1.2 m"
+dynamic_coefficient = 0.25 → ∅ | 2 | 27 | key `friction.dynamic_coefficient` is missing; allowed: a number from 0 to 10
+passes = 60 → ∅ | 2 | 51 | key `traffic.passes` is missing; allowed: a whole number
+upstream = "free" → ∅ | 2 | 31 | key `ends.upstream` is missing; allowed: "free", "fixed" or { spring
+# a wrong dimension is refused
+depth = "1.2 m" → depth = "1.2 kN" | 2 | 4 | `duct.depth`: wrong dimension | found "1.2 kN", a force | allowed: a length greater than 0 | ^^^^^^^^
+speed = "36 km/h" → speed = "36 km" | 2 | 39 | `vehicles.0.speed` | a length | km/h
+stiffness = "1 MN/m" → stiffness = "1 MN" | 2 | 36 | `restraints.0.stiffness`
+# a missing unit is refused
+depth = "1.2 m" → depth = "1.2" | 2 | 4 | `duct.depth` | missing unit | found "1.2" | units: m, cm, mm
+# a decimal comma is told
+depth = "1.2 m" → depth = "1,2 m" | 2 | 4 | `duct.depth` | found the text "1,2 m" | allowed: a decimal point, "1.2 m": a length
+depth = "1.2 m" → depth = 1,2 | 2 | 4 | not valid TOML | decimals are written with a point
+dynamic_coefficient = 0.25 → dynamic_coefficient = "0,25" | 2 | 29 | allowed: 0.25: a number from 0 to 10
+# percent where a number belongs is told its number
+dynamic_coefficient = 0.25 → dynamic_coefficient = "25 %" | 2 | 29 | `friction.dynamic_coefficient` | allowed: 0.25: a number from 0 to 10
+tolerance = "2 %" → tolerance = 2 % | 2 | 58 | not valid TOML | stands in quotes: tolerance = "2 %"
+tolerance = "2 %" → tolerance = 2 | 2 | 58 | out of range: found 2 | such as 0.01 or "1 %"
+depth = "1.2 m" → depth = 1.2 m | 2 | 4 | not valid TOML | stands in quotes: depth = "1.2 m"
+# an unknown unit is refused
+young_modulus = "800 MPa" → young_modulus = "800 Mpa" | 2 | 21 | `ground.layers.2.young_modulus` | unknown unit `Mpa` | found "800 Mpa" | did you mean `MPa`?
+# what is no number is refused
+depth = "1.2 m" → depth = "1,2 m" | 2 | 4 | `duct.depth` | found the text "1,2 m" | a length greater than 0
+depth = "1.2 m" → depth = true | 2 | 4 | found true | allowed: a length
+depth = "1.2 m" → depth = [1] | 2 | 4 | found the list [1] | allowed: a length
+depth = "1.2 m" → depth = {} | 2 | 4 | found the table {} | allowed: a length
+depth = "1.2 m" → depth = 1979-05-27 | 2 | 4 | found 1979-05-27
+# a number in quotes is refused where there is no unit
+dynamic_coefficient = 0.25 → dynamic_coefficient = "0.25" | 2 | 29 | `friction.dynamic_coefficient` | the text "0.25" | without quotes
+passes = 60 → passes = "60" | 2 | 52 | `traffic.passes` | without quotes
+# a value of the wrong kind is refused
+title = "Everything" → title = 3 | 2 | 1 | `title`: found the number 3 | a text
+name = "van" → name = 3 | 2 | 43 | `vehicles.1.name` (vehicle 2): found the number 3
+upstream = "free" → upstream = 3 | 2 | 32 | found the number 3 | "free", "fixed" or
+[[restraints]] → [restraints] | 2 | 34 | `restraints` | a list of [[restraints]]
+[cable] → [[cable]] | 2 | 23 | `cable` | a table with the keys preset, weight
+  { x = "-2.5 m", y = "-0.9 m", load = "7 kN" }, →   "rear", | 2 | 47 | `vehicles.1.wheels.1` | "rear" | a table with the keys x, y
+# an unknown word suggests the nearest
+model = "fem" → model = "winkler" | 2 | 9 | allowed: "auto", "boussinesq", "burmister", "fem"
+model = "fem" → model = "odemark" | 2 | 9 | allowed: "auto", "boussinesq", "burmister", "fem" | no longer there
+method = "explicit" → method = "dynamic" | 2 | 57 | "pass-law"; inertia is computed by "explicit"
+# a spring and a stiffness are understood as each other but not both
+{ spring =  → { stiffness = 1, spring =  | 2 | 33 | `ends.downstream. | both `spring` and `stiffness` | only one
+{ spring = "3 MN/m" } → { stiffness = "3 m" } | 2 | 33 | `ends.downstream. | wrong dimension
+# two scalings are refused
+longitudinal_peak = "35.7 um" → longitudinal_peak = "35.7 um"¶vertical_peak = "90 um" | 2 | 12 | `ground.vertical_peak` | both `longitudinal_peak` and `vertical_peak` | only one
+# load and wheels exclude each other and one is needed
+load = "20 tf" → load = "20 tf"¶wheels = [{ load = 1 }] | 2 | 41 | `vehicles.0.wheels` | both `load` and `wheels` | only one
+load = "20 tf" → ∅ | 2 | 37 | `vehicles.0` | neither `load` nor `wheels`
+# shape factor belongs to the laws that have one
+law = "sigmoid" → law = "coulomb" | 2 | 30 | `friction.shape_factor` | with `law` = "coulomb" | no `shape_factor`
+# layers have a thickness but the last
+young_modulus = "800 MPa" → thickness = 2¶young_modulus = "800 MPa" | 2 | 21 | `ground.layers.2.thickness` | found 2 | no thickness in the last layer
+thickness = "50 mm" → ∅ | 2 | 12 | key `ground.layers.0.thickness` (layer 1) is missing
+# order and sequence exclude each other
+seed = 7 → sequence = ["van"] | 2 | 55 | `traffic.sequence` | both `order` and `sequence`
+# a seed needs a random order
+order = "random" → ∅ | 2 | 55 | `traffic.seed` | found 7 with no `order` | `seed` only with order = "random"
+order = "random" → order = "interleaved" | 2 | 55 | 7 with `order` = "interleaved" | `seed` only with order = "random"
+# a vehicle without load cannot be scaled
+load = "20 tf" → load = 0 | 2 | 40 | `vehicles.0.load` | without load | `ground.longitudinal_peak`
+# what contradicts
+order = "random"¶seed = 7 → sequence = ["truck", "vam"] | 2 | 54 | `traffic.sequence.1`: found "vam" (did you mean `van`?) | allowed: "truck", "van"
+order = "random"¶seed = 7 → sequence = [] | 2 | 54 | `traffic.sequence`: found an empty list
+order = "random"¶seed = 7 → sequence = "truck" | 2 | 54 | `traffic.sequence`: found the text "truck"; allowed: a list
+seed = 7 → seed = 7¶sequence = ["van"] | 2 | 56 | both `order` and `sequence`
+order = "random" → sequence = ["van"] | 2 | 55 | `traffic.seed`: found 7 with `sequence` = ["van"]
+name = "van" → name = "truck" | 2 | 43 | `vehicles.1.name` (vehicle 2): found "truck"; allowed: a name
+name = "van" → name = " " | 2 | 43 | `vehicles.1.name` (vehicle 2): found " "; allowed: a name
+method = "explicit" → method = "quasi-static" | 2 | 61 | `solver.time_step` | with `method` = "quasi-static" | "explicit"
+method = "explicit" → method = "pass-law" | 2 | 61 | `solver.time_step` | with `method` = "pass-law"
+law = "sigmoid" → law = "coulomb" | 2 | 30 | `friction.shape_factor` | no `shape_factor` with the law "coulomb"
+shape_factor = "2e7 1/m" → ∅ | 2 | 27 | key `friction.shape_factor` is missing
+passes = 60 → passes = 60¶years = 2 | 2 | 53 | `traffic.years` | both `passes` and `years` | only one of the two
+passes = 60¶per_day = 800 → years = 2 | 2 | 51 | `traffic.per_day` is missing | vehicles a day beside `years`
+passes = 60 → ∅ | 2 | 51 | `traffic.passes` is missing | or `years` with `per_day`
+# values out of their ranges
+depth = "1.2 m" → depth = 0 | 2 | 4 | `duct.depth` | : out of range: found 0; allowed: | a length greater than 0
+length = "30 m" → length = "-30 m" | 2 | 3 | `duct.length` | : out of range: found "-30 m"; allowed: | a length greater than 0
+length = "30 m" → length = nan | 2 | 3 | `duct.length` | : out of range: found nan; allowed: | a length greater than 0
+length = "30 m" → length = "NaN m" | 2 | 3 | `duct.length` | : out of range: found "NaN m"; allowed: | a length greater than 0
+length = "30 m" → length = inf | 2 | 3 | `duct.length` | : out of range: found inf; allowed: | a length greater than 0
+length = "30 m" → length = 1e999 | 2 | 3 | `duct.length` | : out of range: found 1e999; allowed: | a length greater than 0
+lateral_offset = "-0.5 m" → lateral_offset = "inf m" | 2 | 5 | `duct.lateral_offset` | : out of range: found "inf m"; allowed: | a length of any sign
+slope = "-3 %" → slope = "46 deg" | 2 | 6 | `duct.slope` | : out of range: found "46 deg"; allowed: | a slope of any sign, from -100 % to 100 %
+slope = "-3 %" → slope = "180 deg" | 2 | 6 | `duct.slope` | : out of range: found "180 deg"; allowed: | a slope of any sign, from -100 % to 100 %
+inner_diameter = "20 cm" → inner_diameter = 0 | 2 | 7 | `duct.inner_diameter` | : out of range: found 0; allowed: | a length greater than 0, from 1 mm to 10 m
+slope = "-3 %" → slope = nan | 2 | 6 | `duct.slope` | : out of range: found nan; allowed: | a slope of any sign, from -100 % to 100 %
+slope = "-3 %" → slope = 5 | 2 | 6 | `duct.slope` | : out of range: found 5; allowed: | a bare number is the rise over a distance of 1: did you mean "5 %"?
+longitudinal_peak = "35.7 um" → longitudinal_peak = 0 | 2 | 11 | `ground.longitudinal_peak` | : out of range: found 0; allowed: | greater than 0
+rigid_base_depth = "12 m" → rigid_base_depth = -1 | 2 | 10 | `ground.rigid_base_depth` | : out of range: found -1; allowed: | greater than 0
+rigid_base_depth = "12 m" → rigid_base_depth = "1.05 m" | 2 | 10 | `ground.rigid_base_depth` | : out of range: found "1.05 m"; allowed: | below the upper layers, greater than 1.05 m
+thickness = "50 mm" → thickness = 0 | 2 | 13 | `ground.layers.0.thickness` | : out of range: found 0; allowed: | greater than 0
+poisson_ratio = 0.35 → poisson_ratio = 0.51 | 2 | 15 | `ground.layers.0.poisson_ratio` | : out of range: found 0.51; allowed: | from 0 to 0.5
+poisson_ratio = 0.35 → poisson_ratio = -0.1 | 2 | 15 | `ground.layers.0.poisson_ratio` | : out of range: found -0.1; allowed: | from 0 to 0.5
+young_modulus = "800 MPa" → young_modulus = 300 | 2 | 21 | `ground.layers.2.young_modulus` | : out of range: found 300; allowed: | a bare number is in Pa: did you mean "300 MPa"?
+depth = "1.2 m" → depth = 1500 | 2 | 4 | `duct.depth` | : out of range: found 1500; allowed: | a bare number is in m: did you mean "1500 mm"?
+young_modulus = "800 MPa" → young_modulus = 0 | 2 | 21 | `ground.layers.2.young_modulus` | : out of range: found 0; allowed: | greater than 0
+top = "60 MPa" → top = 0 | 2 | 18 | `ground.layers.1.young_modulus.top` | : out of range: found 0; allowed: | greater than 0
+weight = "108.8 N/m" → weight = -1 | 2 | 24 | `cable.weight` | : out of range: found -1; allowed: | per length greater than 0
+axial_stiffness = 8.01e6 → axial_stiffness = 0 | 2 | 25 | `cable.axial_stiffness` | : out of range: found 0; allowed: | a force greater than 0
+normal_load_factor = 1.5 → normal_load_factor = 0 | 2 | 26 | `cable.normal_load_factor` | : out of range: found 0; allowed: | a number greater than 0
+dynamic_coefficient = 0.25 → dynamic_coefficient = -0.1 | 2 | 29 | `friction.dynamic_coefficient` | : out of range: found -0.1; allowed: | from 0 to 10
+dynamic_coefficient = 0.25 → dynamic_coefficient = 25 | 2 | 29 | `friction.dynamic_coefficient` | : out of range: found 25; allowed: | from 0 to 10
+dynamic_coefficient = 0.25 → dynamic_coefficient = nan | 2 | 29 | `friction.dynamic_coefficient` | : out of range: found nan; allowed: | from 0 to 10
+shape_factor = "2e7 1/m" → shape_factor = 0 | 2 | 30 | `friction.shape_factor` | : out of range: found 0; allowed: | an inverse length greater than 0
+spring = "3 MN/m" → spring = "0 MN/m" | 2 | 33 | `ends.downstream.spring` | : out of range: found "0 MN/m"; allowed: | greater than 0
+position = "20 m" → position = "31 m" | 2 | 35 | `restraints.0.position` | : out of range: found "31 m"; allowed: | a position in the duct, from 0 m to 30 m
+position = "20 m" → position = "-1 m" | 2 | 35 | `restraints.0.position` | : out of range: found "-1 m"; allowed: | a position in the duct, from 0 m to 30 m
+stiffness = "1 MN/m" → stiffness = 0 | 2 | 36 | `restraints.0.stiffness` | : out of range: found 0; allowed: | greater than 0
+speed = "36 km/h" → speed = "0 km/h" | 2 | 39 | `vehicles.0.speed` | : out of range: found "0 km/h"; allowed: | a speed greater than 0
+load = "20 tf" → load = "-20 tf" | 2 | 40 | `vehicles.0.load` | : out of range: found "-20 tf"; allowed: | a force of at least 0
+load = "7 kN" → load = -7 | 2 | 47 | `vehicles.1.wheels.1.load` | : out of range: found -7; allowed: | a force of at least 0
+contact_radius = "0.15 m" → contact_radius = -1 | 2 | 46 | `vehicles.1.wheels.0.contact_radius` | : out of range: found -1; allowed: | of at least 0
+share = 3 → share = 0 | 2 | 41 | `vehicles.0.share` | : out of range: found 0; allowed: | a ratio greater than 0
+share = 3 → share = -1 | 2 | 41 | `vehicles.0.share` | : out of range: found -1; allowed: | a ratio greater than 0
+passes = 60 → passes = 0 | 2 | 52 | `traffic.passes` | : out of range: found 0; allowed: | a whole number from 1 to 1000000000000
+passes = 60 → passes = -60 | 2 | 52 | `traffic.passes` | : out of range: found -60; allowed: | a whole number from 1 to 1000000000000
+passes = 60 → passes = 60.5 | 2 | 52 | `traffic.passes` | : out of range: found 60.5; allowed: | a whole number from 1 to 1000000000000
+passes = 60 → passes = 1e30 | 2 | 52 | `traffic.passes` | : out of range: found 1e30; allowed: | a whole number from 1 to 1000000000000
+passes = 60 → passes = 1e13 | 2 | 52 | `traffic.passes` | : out of range: found 1e13; allowed: | a whole number from 1 to 1000000000000
+seed = 7 → seed = -7 | 2 | 55 | `traffic.seed` | : out of range: found -7; allowed: | a whole number of at least 0
+tolerance = "2 %" → tolerance = 0 | 2 | 58 | `solver.tolerance` | : out of range: found 0; allowed: | greater than 0 and at most 0.5
+tolerance = "2 %" → tolerance = "51 %" | 2 | 58 | `solver.tolerance` | : out of range: found "51 %"; allowed: | greater than 0 and at most 0.5
+node_spacing = "0.1 m" → node_spacing = 0 | 2 | 59 | `solver.node_spacing` | : out of range: found 0; allowed: | greater than 0
+node_spacing = "0.1 m" → node_spacing = "15.1 m" | 2 | 59 | `solver.node_spacing` | : out of range: found "15.1 m"; allowed: | at most half the duct's length, 15 m
+vehicle_step = "5 cm" → vehicle_step = 0 | 2 | 60 | `solver.vehicle_step` | : out of range: found 0; allowed: | greater than 0
+time_step = "0.1 ms" → time_step = 0 | 2 | 61 | `solver.time_step` | : out of range: found 0; allowed: | a time greater than 0
+# the nearest word
+law = "sigmoid" → law = "couloumb" | 2 | 28 | `friction.law` | : found "couloumb" (did you mean `coulomb`?); allowed: "
+model = "fem" → model = "Burmeister" | 2 | 9 | `ground.model` | : found "Burmeister" (did you mean `burmister`?); allowed: "
+upstream = "free" → upstream = "fre" | 2 | 32 | `ends.upstream` | : found "fre" (did you mean `free`?); allowed: "
+direction = "reverse" → direction = "reversed" | 2 | 50 | `vehicles.1.direction` | : found "reversed" (did you mean `reverse`?); allowed: "
+order = "random" → order = "randam" | 2 | 54 | `traffic.order` | : found "randam" (did you mean `random`?); allowed: "
+method = "explicit" → method = "quasi_static" | 2 | 57 | `solver.method` | : found "quasi_static" (did you mean `quasi-static`?); allowed: "
 "#;
 
 /// What an engineer types; SCENE and DATA are good files, DUCTS and RAGGED are not | parts of the message.
@@ -180,14 +339,17 @@ presets vehicel | found `vehicel`; allowed: a name that `creepage presets` lists
 run . | .: cannot be read: this is a folder; a scene is a file
 "#;
 
-/// Runs the program in `folder`; what it says on standard error.
-fn said(folder: &TempDir, arguments: &[&str]) -> String {
+/// Runs the program in `folder`: its exit status, and what it says on standard error.
+fn run(folder: &TempDir, arguments: &[&str]) -> (Option<i32>, String) {
     let output = Command::new(assert_cmd::cargo::cargo_bin!("creepage"))
         .args(arguments)
         .current_dir(folder)
         .output()
         .expect("the program to run");
-    String::from_utf8(output.stderr).expect("UTF-8")
+    (
+        output.status.code(),
+        String::from_utf8(output.stderr).expect("UTF-8"),
+    )
 }
 
 #[test]
@@ -203,22 +365,29 @@ fn each_mistake_gets_a_message_that_helps() {
             failures.push(format!("{what}\n  lacks: {part}\n  said: {message}"));
         }
     };
-    let rows = |table: &'static str| table.lines().filter(|row| !row.is_empty());
-    for row in rows(IN_THE_SCENE) {
+    let rows = |table: &'static str| {
+        table
+            .lines()
+            .filter(|row| !row.is_empty() && !row.starts_with("# "))
+    };
+    let scenes = rows(IN_THE_SCENE).map(|row| (SCENE, row));
+    for (scene, row) in scenes.chain(rows(IN_A_FULL_SCENE).map(|row| (FULL, row))) {
         let (old, row) = row.split_once(" → ").expect("→");
         let cells: Vec<&str> = row.split(" | ").collect();
-        let (new, line, parts) = (cells[0].replace('¶', "\n"), cells[1], &cells[2..]);
-        assert_eq!(SCENE.matches(old).count(), 1, "{old} is one place of the scene");
-        write("scene.toml", &SCENE.replace(old, &new));
-        let message = said(&folder, &["check", "scene.toml"]);
-        judge(
-            &new,
-            &message,
-            &[&[&*format!("scene.toml, line {line}: ")], parts].concat(),
+        let [old, new] = [old, cells[0]].map(|text| text.replace('¶', "\n").replace('∅', ""));
+        assert!(scene.contains(&old), "{old} is a place of the scene");
+        write("scene.toml", &scene.replacen(&old, &new, 1));
+        let (status, message) = run(&folder, &["check", "scene.toml"]);
+        assert_eq!(
+            status.map(|status| status.to_string()).as_deref(),
+            Some(cells[1]),
+            "{new}: {message}"
         );
+        let line = format!("scene.toml, line {}: ", cells[2]);
+        judge(&new, &message, &[&[&*line], &cells[3..]].concat());
     }
     write("scene.toml", SCENE);
-    assert_eq!(said(&folder, &["check", "scene.toml"]), "");
+    assert_eq!(run(&folder, &["check", "scene.toml"]), (Some(0), String::new()));
     for row in rows(ON_THE_COMMAND_LINE) {
         let cells: Vec<&str> = row.split(" | ").collect();
         let file = |word| match word {
@@ -229,7 +398,7 @@ fn each_mistake_gets_a_message_that_helps() {
             word => word,
         };
         let arguments: Vec<&str> = cells[0].split(' ').map(file).collect();
-        let message = said(&folder, &arguments);
+        let (_, message) = run(&folder, &arguments);
         judge(cells[0], &message, &cells[1..]);
         assert!(!message.contains("use '-- "), "{message}");
     }

@@ -70,25 +70,24 @@ pub struct Verdict {
     pub doubtful: bool,
 }
 
-impl CableEnd {
-    /// Largest force on it after a pass and during it, in size \[N\].
-    pub fn largest_force(self, record: &PassRecord) -> f64 {
-        let peak = self.of([record.upstream_peak_n, record.downstream_peak_n]);
-        let least = self.of([record.upstream_least_n, record.downstream_least_n]);
-        self.force_after(record).max(peak.abs()).max(least.abs())
+impl PassRecord {
+    /// Largest force on an end after the pass and during it, in size \[N\].
+    pub fn largest_force(&self, end: CableEnd) -> f64 {
+        let peak = end.of([self.upstream_peak_n, self.downstream_peak_n]);
+        let least = end.of([self.upstream_least_n, self.downstream_least_n]);
+        self.force_after(end).max(peak.abs()).max(least.abs())
     }
 
-    /// Force on it after a pass, in size \[N\].
-    pub fn force_after(self, record: &PassRecord) -> f64 {
-        self.of([record.upstream_force_n, record.downstream_force_n])
-            .abs()
+    /// Force on an end after the pass, in size \[N\].
+    pub fn force_after(&self, end: CableEnd) -> f64 {
+        end.of([self.upstream_force_n, self.downstream_force_n]).abs()
     }
 
-    /// How far it is displaced after a pass, and on a spring during it, whichever way \[m\]: a spring moves in proportion to its force.
+    /// How far an end is displaced after the pass, and on a spring during it, whichever way \[m\]: a spring moves in proportion to its force.
     /// How far a free end moves to and fro during a pass, some micrometres, is left out.
-    pub fn largest_movement(self, record: &PassRecord) -> f64 {
-        let (after, during) = (self.force_after(record), self.largest_force(record));
-        let movement = self.movement(record);
+    pub fn largest_movement(&self, end: CableEnd) -> f64 {
+        let (after, during) = (self.force_after(end), self.largest_force(end));
+        let movement = self.movement(end);
         if after > 0.0 {
             movement * during / after
         } else {
@@ -96,9 +95,9 @@ impl CableEnd {
         }
     }
 
-    /// How far it is displaced after a pass, whichever way \[m\].
-    pub fn movement(self, record: &PassRecord) -> f64 {
-        self.of([record.upstream_displacement_m, record.downstream_displacement_m])
+    /// How far an end is displaced after the pass, whichever way \[m\].
+    pub fn movement(&self, end: CableEnd) -> f64 {
+        end.of([self.upstream_displacement_m, self.downstream_displacement_m])
             .abs()
     }
 }

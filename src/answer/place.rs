@@ -134,10 +134,10 @@ impl Run {
             Moment::Extreme(pass) => (&pass.after, 0.0),
         };
         match quantity {
-            Limited::Force if during => end.largest_force(record) + scatter,
-            Limited::Force => end.force_after(record) + scatter,
-            Limited::Movement if during => end.largest_movement(record),
-            Limited::Movement => end.movement(record),
+            Limited::Force if during => record.largest_force(end) + scatter,
+            Limited::Force => record.force_after(end) + scatter,
+            Limited::Movement if during => record.largest_movement(end),
+            Limited::Movement => record.movement(end),
         }
     }
 

@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::failure::Failure;
 use super::{signals, terminal};
 use crate::output::{Files, Output, OutputError};
-use crate::scene::{DAYS_PER_YEAR, PER_DAY, Range, YEARS};
+use crate::scene::{DAYS_PER_YEAR, PER_DAY, Quantity, YEARS};
 use crate::{Error, Scene, SceneFile};
 
 /// What stands for standard output in place of a file.
@@ -91,9 +91,13 @@ impl TrafficArguments {
 
 /// Vehicles a day, in the range of the scene's own key.
 fn a_day(text: &str) -> Result<f64, String> {
-    let range = PER_DAY.range;
-    let number = text.parse().ok().filter(|&number| range.contains(number));
-    number.ok_or_else(|| format!("allowed: a number of vehicles a day {}, such as 800", range.words))
+    let number = text.parse().ok().filter(|&number| PER_DAY.contains(number));
+    number.ok_or_else(|| {
+        format!(
+            "allowed: a number of vehicles a day {}, such as 800",
+            PER_DAY.words
+        )
+    })
 }
 
 /// A time in years, typed with its unit or in `unit`, in the range of the scene's own key.
@@ -111,8 +115,8 @@ fn years(text: &str, unit: &str) -> Result<f64, String> {
         .trim()
         .parse()
         .map_or(f64::NAN, |number: f64| number / in_a_year);
-    let Range { least, most, .. } = YEARS.range;
-    if YEARS.range.contains(years) {
+    let Quantity { least, most, .. } = YEARS;
+    if YEARS.contains(years) {
         return Ok(years);
     }
     Err(format!(

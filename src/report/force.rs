@@ -156,7 +156,7 @@ fn drawn(report: &Report) -> &[PassRecord] {
 /// Until the cable leaves the duct.
 fn movement(report: &Report) -> Chart {
     let most = report.shown.most;
-    let is_in = |end: CableEnd, record: &PassRecord| end.movement(record) <= most;
+    let is_in = |end: CableEnd, record: &PassRecord| record.movement(end) <= most;
     let passes = drawn(report);
     let inside = passes.partition_point(|record| CableEnd::ALL.into_iter().all(|end| is_in(end, record)));
     let passes = &passes[..inside.max(1).min(passes.len())];

@@ -97,7 +97,7 @@ impl Sweep {
     pub(super) fn knows_keys(&self, index: usize) -> Result<(), SweepError> {
         match self.scene(index) {
             Err(SceneError::Wrong(wrong))
-                if matches!(wrong.kind, WrongKind::UnknownKey { .. } | WrongKind::Override) =>
+                if matches!(wrong.kind, WrongKind::UnknownKey | WrongKind::Override) =>
             {
                 Err(self
                     .unknown_column(&wrong)
@@ -111,7 +111,7 @@ impl Sweep {
     fn unknown_column(&self, wrong: &Wrong) -> Option<SweepError> {
         let inside = format!("{}.", wrong.key);
         let is_meant = |axis: &&Axis| axis.key == wrong.key || axis.key.starts_with(&inside);
-        let is_unknown = self.by_row && matches!(wrong.kind, WrongKind::UnknownKey { .. });
+        let is_unknown = self.by_row && wrong.kind == WrongKind::UnknownKey;
         let Axis { key, .. } = self.axes.iter().find(is_meant).filter(|_| is_unknown)?;
         let meant = did_you_mean(nearest_key(key).as_deref());
         Some(SweepError::Unfit {

@@ -11,6 +11,7 @@ use super::error::SweepError;
 use super::grid::{Samples, Sweep};
 use super::list::{self, NAMES};
 use crate::SceneFile;
+use crate::scene::TypedValue;
 
 /// Most samples of a row.
 const MOST_SAMPLES: usize = 1_000_000;
@@ -238,7 +239,10 @@ pub fn distribution(key: &str, text: &str) -> Option<Result<Distribution, SweepE
 /// The scene with the median where a distribution stood: that one is drawn in rows that have no value of their own.
 fn with_medians(file: SceneFile, axes: &mut Vec<Axis>, samples: Samples) -> Result<SceneFile, SweepError> {
     let mut medians = Vec::new();
-    for (key, text) in file.texts() {
+    for typed in file.typed() {
+        let (key, TypedValue::Text(text)) = (typed.key, typed.value) else {
+            continue;
+        };
         let Some(found) = distribution(&key, &text) else {
             continue;
         };

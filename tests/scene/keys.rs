@@ -83,7 +83,7 @@ fn what_is_required_is_missed_and_nothing_else_is() {
         };
         if key.default.is_none() {
             assert!(missed, "{path} is required");
-        } else if !["passes", "shape_factor", "preset", "thickness"]
+        } else if !["passes", "shape_factor", "preset", "thickness", "axial_stiffness"]
             .iter()
             .any(|name| path.ends_with(name))
         {

@@ -3,7 +3,6 @@
 mod any_input;
 mod arrangement;
 mod bad_input;
-mod contradictions;
 mod edited;
 mod histogram;
 mod keys;
@@ -22,7 +21,7 @@ use creepage::scene::{
 use ground_field::{Base, Direction, Modulus};
 
 /// A scene that uses every key.
-const FULL: &str = r#"title = "Everything"
+pub const FULL: &str = r#"title = "Everything"
 [duct]
 length = "30 m"
 depth = "1.2 m"
@@ -92,36 +91,6 @@ fn read(text: &str) -> Result<Scene, SceneError> {
 fn read_with(overrides: &[&str]) -> Result<Scene, SceneError> {
     let overrides: Vec<String> = overrides.iter().map(ToString::to_string).collect();
     creepage::SceneFile::from_toml("bad.toml", FULL).and_then(|file| file.with(&overrides)?.scene())
-}
-
-/// Replaces one line of the full scene (or removes it where `new` is empty) and asserts that the error names the line
-/// that contains `at` and contains all of `parts`.
-#[track_caller]
-fn assert_refused(old: &str, new: &str, at: &str, parts: &[&str]) {
-    assert_eq!(
-        FULL.matches(old).count(),
-        1,
-        "{old} is not one place of the scene"
-    );
-    let text = if new.is_empty() {
-        FULL.replace(&format!("{old}\n"), "")
-    } else {
-        FULL.replace(old, new)
-    };
-    let message = read(&text).expect_err("the scene is wrong").to_string();
-    let line = 1 + text
-        .lines()
-        .position(|line| line.contains(at))
-        .expect("the line to be named");
-    let place = format!("bad.toml, line {line}: ");
-    assert!(message.starts_with(&place), "{place} is not in\n{message}");
-    assert!(
-        message.contains(text.lines().nth(line - 1).unwrap()),
-        "the line is not in\n{message}"
-    );
-    for part in parts {
-        assert!(message.contains(part), "{part} is not in\n{message}");
-    }
 }
 
 #[track_caller]
@@ -302,4 +271,46 @@ fn a_byte_order_mark_and_carriage_returns_change_nothing() {
         .to_string();
     let start = "bad.toml, line 4: `duct.depth`: wrong dimension: found \"1.2 kN\", a force";
     assert!(message.starts_with(start), "{message}");
+}
+
+#[test]
+fn a_stiffness_is_a_modulus_times_an_area() {
+    let cable = "axial_stiffness = 8.01e6";
+    let product = "young_modulus = \"1e-2 kgf/mm2\"\nconductor_area = \"800 mm2\"";
+    let scene = read(&FULL.replace(cable, product)).unwrap();
+    assert_relative_eq!(
+        scene.cable.axial_stiffness,
+        0.01 * 9.80665 * 800.0,
+        max_relative = 1e-15
+    );
+    // Set later, the stiffness stands in their place.
+    let file = creepage::SceneFile::from_toml("bad.toml", &FULL.replace(cable, product)).unwrap();
+    let later = file
+        .with(&["cable.axial_stiffness=5 MN"])
+        .unwrap()
+        .scene()
+        .unwrap();
+    assert_eq!(later.cable.axial_stiffness, 5e6);
+}
+
+#[test]
+fn a_mass_per_length_stands_for_its_weight() {
+    for (text, weight) in [
+        ("11 kg/m", 11.0 * 9.80665),
+        ("11000 kg/km", 11.0 * 9.80665),
+        ("7392 lb/1000ft", 7.392 * 4.4482216152605 / 0.3048),
+    ] {
+        let scene = read_with(&[&format!("cable.weight={text}")]).unwrap();
+        assert_relative_eq!(scene.cable.weight, weight, max_relative = 1e-14);
+    }
+    let message = read_with(&["restraints.0.stiffness=3 kg/m"])
+        .unwrap_err()
+        .to_string();
+    assert!(message.contains("wrong dimension"), "{message}");
+}
+
+#[test]
+fn shares_may_be_percentages() {
+    let scene = read_with(&["vehicles.0.share=20 %", "vehicles.1.share=80 %"]).unwrap();
+    assert_eq!((scene.vehicles[0].share, scene.vehicles[1].share), (0.2, 0.8));
 }

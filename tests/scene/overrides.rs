@@ -78,6 +78,8 @@ fn an_override_beats_a_key_of_the_file_that_excludes_it() {
         read_with(&["solver.method=pass-law"]).unwrap().solver.time_step,
         None
     );
+    // Without scaling a vehicle may have no load.
+    assert!(read_with(&["vehicles.0.load=0", "ground.longitudinal_peak="]).is_ok());
     // But what has no meaning in the scene is still refused, as are two overrides at odds with each other.
     assert_override_refused(
         &["friction.law=coulomb", "friction.shape_factor=1"],
@@ -98,6 +100,9 @@ duct..length=3 | --set duct..length=3:
 vehicles.2.speed=3 | found `2` | an index from 0 to 1
 vehicles.truck.speed=3 | found `truck` | an index from 0 to 1
 restraints.1.position=3 | the index 0
+vehicles=[] | --set vehicles=[]: `vehicles` | found an empty list; allowed: 
+ground.layers=[] | `ground.layers` | found an empty list
+vehicles.1.wheels=[] | `vehicles.1.wheels` | found an empty list
 ";
 
 #[test]

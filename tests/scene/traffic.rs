@@ -2,7 +2,7 @@
 
 use creepage::{Scene, SceneError};
 
-use super::{FULL, assert_override_refused, assert_refused, read, read_with};
+use super::{FULL, assert_override_refused, read, read_with};
 
 #[test]
 fn years_are_whole_passes_of_an_average_year() {
@@ -35,25 +35,6 @@ fn a_rate_gives_passes_a_time_and_is_written_back() {
 
 #[test]
 fn amounts_of_traffic_that_have_no_meaning_are_refused() {
-    let both = [
-        "`traffic.years`",
-        "both `passes` and `years`",
-        "only one of the two",
-    ];
-    assert_refused("passes = 60", "passes = 60\nyears = 2", "years = 2", &both);
-    let text = FULL
-        .replace("passes = 60", "years = 2")
-        .replace("per_day = 800\n", "");
-    let message = read(&text).unwrap_err().to_string();
-    for part in ["`traffic.per_day` is missing", "vehicles a day beside `years`"] {
-        assert!(message.contains(part), "{message}");
-    }
-    assert_refused(
-        "passes = 60",
-        "",
-        "[traffic]",
-        &["`traffic.passes` is missing", "or `years` with `per_day`"],
-    );
     for bad in ["years=0", "years=-1", "years=nan", "years=1e7"] {
         assert_override_refused(&[&format!("traffic.{bad}")], &["`traffic.years`"]);
     }

@@ -50,7 +50,7 @@ ground.rigid_base_depth=1.5 m | within the rock
 ground.layers.2.young_modulus=300 kPa | `ground.layers.2.young_modulus` (layer 3) is 0.3 MPa, softer than peat
 ground.layers.1.young_modulus=3000 | did you mean "3000 MPa"?
 ground.layers.0.young_modulus=300 GPa | `ground.layers.0.young_modulus` (layer 1) is 300 GPa, stiffer than granite
-ground.rigid_base_depth=12 m ; ground.layers.2.young_modulus={ top = "60 MPa", bottom = "600 GPa" } | `ground.layers.2.young_modulus` (layer 3) is 600 GPa
+ground.rigid_base_depth=12 m ; ground.layers.2.young_modulus={ top = "60 MPa", bottom = "600 GPa" } | `ground.layers.2.young_modulus.bottom` (layer 3) is 600 GPa
 ground.layers.2.young_modulus=1.9 MPa | 105 times less than that of the layer on it
 ground.layers.0.young_modulus=20 MPa ; ground.layers.2.young_modulus=3 GPa | layers stand from the top down
 friction.dynamic_coefficient=2.5 | `friction.dynamic_coefficient` is 2.5

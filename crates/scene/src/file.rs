@@ -1,0 +1,344 @@
+//! A scene file with its overrides, which knows where each value was written.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::string::FromUtf8Error;
+
+use crate::data::Scene;
+use crate::document::{Content, Document};
+use crate::error::{SceneError, Wrong, WrongKind};
+use crate::key::{Kind, Visit, section};
+use crate::keys::{CableKeys, FrictionKeys, GroundKeys, HeatKeys, SceneKeys, TrafficKeys, VehicleKeys};
+use crate::location::Location;
+use crate::slips::{UnitSlip, unit_slips};
+use crate::units::{Dimension, Unit};
+use crate::value::Value;
+use crate::{histogram, overrides, preset, rivals, rules, traffic, written};
+
+/// A scene file larger than this \[bytes\] is not a scene file.
+const LARGEST_FILE: u64 = 16 << 20;
+
+/// The text of a scene and what was set on top of it.
+///
+/// A [`Scene`] is plain data; this is for who needs many scenes of one file, or the line of a key.
+///
+/// ```
+/// use creepage_scene::SceneFile;
+///
+/// let text = std::fs::read_to_string("../../examples/scenes/full-scale-upper.toml")?;
+/// let file = SceneFile::from_toml("upper.toml", &text)?;
+/// let deeper = file.with(&["duct.depth=2 m"])?.scene()?;
+/// assert_eq!((file.scene()?.duct.depth, deeper.duct.depth), (1.2, 2.0));
+/// assert!(file.locate("duct.depth").unwrap().text.starts_with("depth = \"1.2 m\""));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct SceneFile {
+    name: String,
+    pub(crate) document: Document,
+}
+
+impl SceneFile {
+    /// Reads the file at `path`.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] where the file cannot be read, is not TOML, or names a preset that is not known.
+    pub fn read(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        let path = path.as_ref();
+        let file = path.display().to_string();
+        let mut bytes = Vec::new();
+        let read = File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
+        match read {
+            Err(_) if path.is_dir() => {
+                let what = "this is a folder; a scene is a file, such as my-duct.toml";
+                let source = std::io::Error::new(std::io::ErrorKind::IsADirectory, what);
+                return Err(SceneError::Unreadable(file, source));
+            }
+            Err(source) => return Err(SceneError::Unreadable(file, source)),
+            Ok(length) if length as u64 > LARGEST_FILE => {
+                return Err(SceneError::TooLarge(file, LARGEST_FILE));
+            }
+            Ok(_) => {}
+        }
+        let text = String::from_utf8(bytes).map_err(|e| not_utf8(&file, &e))?;
+        Self::from_toml(&file, &text)
+    }
+
+    /// Takes `text` for the file; `name` stands for it in error messages.
+    ///
+    /// # Errors
+    ///
+    /// As for [`SceneFile::read`].
+    pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
+        let mut document = Document::parse(name, text)?;
+        preset::expand(&mut document)?;
+        Ok(Self {
+            name: name.to_owned(),
+            document,
+        })
+    }
+
+    /// The file with each `KEY=VALUE` of `overrides` set in turn.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] where an override is not `KEY=VALUE`, or there is nothing at its key.
+    pub fn with<T: AsRef<str>>(&self, overrides: &[T]) -> Result<Self, SceneError> {
+        let mut file = self.clone();
+        for text in overrides {
+            overrides::apply(&mut file.document, text.as_ref())?;
+            preset::expand(&mut file.document)?;
+        }
+        Ok(file)
+    }
+
+    /// The text of the file, without what was set on top of it.
+    pub fn text(&self) -> &str {
+        self.document.text()
+    }
+
+    /// The scene.
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] with the first thing that is wrong, and where.
+    pub fn scene(&self) -> Result<Scene, SceneError> {
+        let document = &self.document;
+        rivals::contradiction(document, "", &document.root)?;
+        let root = Value {
+            document,
+            path: String::new(),
+            node: &document.root,
+        };
+        let keys = section::<SceneKeys>().read(&root)?;
+        let out_of_range = out_of_range(&keys, |key| match document.find(key) {
+            (node, true) => matches!(node.content, Content::Number { .. }),
+            _ => false,
+        });
+        let scene = out_of_range.and_then(|()| Scene::of(&self.name, &keys));
+        let checked = scene.and_then(|scene| rules::check(&scene).map(|()| scene));
+        checked.map_err(|wrong| document.located(wrong))
+    }
+
+    /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
+    pub fn locate(&self, key: &str) -> Option<Location> {
+        let (node, _) = self.document.find(key);
+        (node.place != self.document.root.place).then(|| self.document.locate(&node.place))
+    }
+
+    /// Numbers without a unit that someone may have meant in another one, and masses that stand for weights.
+    pub fn unit_slips(&self) -> Vec<UnitSlip> {
+        unit_slips(&self.document)
+    }
+
+    /// Whether the file, an override or a preset gives `key` a value.
+    pub fn names(&self, key: &str) -> bool {
+        self.document.find(key).1
+    }
+
+    /// The table of axle loads that the scene reads too, if it names one.
+    pub fn histogram(&self) -> Option<PathBuf> {
+        let histogram = self.document.root.child("traffic")?.child("histogram")?;
+        match &histogram.child("file").unwrap_or(histogram).content {
+            Content::Text(text) => Some(histogram::beside(&self.name, text)),
+            _ => None,
+        }
+    }
+
+    /// All keys and values of the file and its overrides, without comments: two files with the same text make the same scenes, if what
+    /// they name is the same.
+    pub fn values(&self) -> String {
+        format!("{:?}", self.document.root)
+    }
+
+    /// Every key that the file, its overrides or its presets give a value, in their order.
+    pub fn typed(&self) -> Vec<Typed> {
+        let mut found = Vec::new();
+        self.document.root.each_value("", &mut |key, node| {
+            found.push(Typed {
+                key: key.to_owned(),
+                value: match &node.content {
+                    Content::Number { value, .. } => TypedValue::Number(*value),
+                    Content::Text(text) => TypedValue::Text(text.clone()),
+                    _ => TypedValue::Text(self.document.written(&node.place)),
+                },
+                source: self.document.source(&node.place).to_owned(),
+            });
+        });
+        found
+    }
+
+    /// The unit of the quantity that was typed at `key`; none for a bare number, and for what a preset gives.
+    pub fn typed_unit(&self, key: &str, dimension: Dimension) -> Option<Unit> {
+        let (node, true) = self.document.find(key) else {
+            return None;
+        };
+        let Content::Text(text) = &node.content else {
+            return None;
+        };
+        dimension
+            .unit_of(text)
+            .filter(|_| !self.document.is_of_preset(&node.place))
+    }
+}
+
+/// A key and what stands there, as it was typed or as a preset has it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Typed {
+    /// The key with the numbers of list items: `vehicles.0.speed`.
+    pub key: String,
+    /// What stands there.
+    pub value: TypedValue,
+    /// The file, the override or the preset that gives it.
+    pub source: String,
+}
+
+/// A value of a scene file as it was typed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum TypedValue {
+    /// A bare number.
+    Number(f64),
+    /// A text, quantities with their units among them.
+    Text(String),
+}
+
+/// The error for a file whose bytes are not UTF-8.
+fn not_utf8(file: &str, error: &FromUtf8Error) -> SceneError {
+    let valid = error.utf8_error().valid_up_to();
+    let text = String::from_utf8_lossy(error.as_bytes());
+    SceneError::NotUtf8(Location::new(file, &text, valid..valid, true))
+}
+
+/// The first value out of its range, with what was probably meant if it `is_bare`.
+fn out_of_range(keys: &SceneKeys, is_bare: impl Fn(&str) -> bool) -> Result<(), Box<Wrong>> {
+    let mut first = None;
+    let visit: &mut Visit = &mut |key, value, quantity| {
+        if first.is_none() && !quantity.contains(value) {
+            let meant = if is_bare(key) {
+                quantity.bare_number_meant(value)
+            } else {
+                String::new()
+            };
+            let allowed = quantity.allowed() + &meant;
+            first = Some(Wrong::at(
+                WrongKind::OutOfRange,
+                key,
+                quantity.written(value),
+                allowed,
+            ));
+        }
+    };
+    section::<SceneKeys>().each(keys, "", visit);
+    first.map_or(Ok(()), Err)
+}
+
+impl Scene {
+    /// Reads the scene file at `path`. For overrides on top of it there is [`SceneFile::with`].
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError`] with the first thing that is wrong, and where.
+    pub fn from_file(path: impl AsRef<Path>) -> Result<Self, SceneError> {
+        SceneFile::read(path)?.scene()
+    }
+
+    /// Reads a scene from TOML `text`; `name` stands for the file in error messages.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Scene::from_file`].
+    pub fn from_toml(name: &str, text: &str) -> Result<Self, SceneError> {
+        SceneFile::from_toml(name, text)?.scene()
+    }
+
+    /// Checks everything that reading a scene file checks. What computes with a scene does so first.
+    ///
+    /// ```
+    /// use creepage_scene::Scene;
+    ///
+    /// let mut scene = Scene::from_file("../../examples/scenes/full-scale-upper.toml")?;
+    /// scene.validate()?;
+    /// scene.duct.depth = -1.0;
+    /// let error = scene.validate().unwrap_err().to_string();
+    /// assert!(error.starts_with("`duct.depth`: out of range: found \"-1.0 m\"; allowed: a length greater than 0, from 1 cm to 1 km"));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    ///
+    /// [`SceneError::Wrong`] with the first key whose value is out of its range or contradicts another one.
+    pub fn validate(&self) -> Result<(), SceneError> {
+        out_of_range(&self.keys(), |_| false)
+            .and_then(|()| rules::check(self))
+            .map_err(SceneError::Wrong)
+    }
+
+    /// The scene as a TOML file, all quantities in SI: [`Scene::from_toml`] reads the same scene from it.
+    ///
+    /// A time step that the method does not use is left out. The last layer on a rigid base is written as the depth of the base, so the
+    /// thickness that is read may differ in its last digit if a program chose it.
+    ///
+    /// ```
+    /// use creepage_scene::Scene;
+    ///
+    /// let mut scene = Scene::from_file("../../examples/scenes/full-scale-upper.toml")?;
+    /// scene.duct.depth = 1.5;
+    /// let text = scene.to_toml();
+    /// assert!(text.contains("depth = \"1.5 m\""));
+    /// assert_eq!(Scene::from_toml("deeper.toml", &text)?, scene);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn to_toml(&self) -> String {
+        written::document(&self.keys().entries())
+    }
+
+    /// The scene with these keys in the file `name`.
+    fn of(name: &str, keys: &SceneKeys) -> Result<Self, Box<Wrong>> {
+        let stem = || {
+            Path::new(name)
+                .file_stem()
+                .map(|stem| stem.to_string_lossy().into_owned())
+        };
+        let (vehicles, traffic) = traffic::traffic(name, keys)?;
+        Ok(Self {
+            title: keys.title.clone().or_else(stem).unwrap_or_default(),
+            duct: keys.duct,
+            ground: keys.ground.ground()?,
+            cable: keys.cable.cable(&keys.duct)?,
+            friction: keys.friction.friction()?,
+            ends: keys.ends,
+            restraints: keys.restraints.clone(),
+            vehicles,
+            traffic,
+            heat: keys.heat.as_ref().map(HeatKeys::heat).transpose()?,
+            solver: keys.solver,
+        })
+    }
+
+    /// Its keys.
+    pub(crate) fn keys(&self) -> SceneKeys {
+        let in_sequence = matches!(self.traffic.order, cable_dem::Order::Sequence(_));
+        let vehicles = self
+            .vehicles
+            .iter()
+            .map(|vehicle| VehicleKeys::of(vehicle, in_sequence))
+            .collect();
+        let mut solver = self.solver;
+        solver.time_step = solver.time_step.filter(|_| solver.method.has_time_steps());
+        SceneKeys {
+            title: Some(self.title.clone()),
+            duct: self.duct,
+            ground: GroundKeys::of(&self.ground),
+            cable: CableKeys::of(&self.cable),
+            friction: FrictionKeys::of(&self.friction),
+            ends: self.ends,
+            restraints: self.restraints.clone(),
+            vehicles: Some(vehicles),
+            traffic: TrafficKeys::of(self),
+            heat: self.heat.as_ref().map(HeatKeys::of),
+            solver,
+        }
+    }
+}

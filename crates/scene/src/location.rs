@@ -1,0 +1,189 @@
+//! Where something is written, and how to show it.
+
+use std::fmt;
+use std::ops::Range;
+
+use crate::shown::shortened;
+
+/// Longest piece of a line that is shown \[characters\].
+const LONGEST_EXCERPT: usize = 120;
+/// Longest name of a file, or text of an override, that is shown \[characters\].
+const LONGEST_NAME: usize = 300;
+
+/// A place in a scene file or in an override.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Location {
+    /// The file, or `--set KEY=VALUE` for an override.
+    pub file: String,
+    /// Line number from 1; `None` in an override.
+    pub line: Option<usize>,
+    /// The line.
+    pub text: String,
+    /// The faulty part of the line \[bytes\].
+    pub marked: Range<usize>,
+}
+
+impl Location {
+    /// The place of the bytes `span` in `text`. Every span is fine: what lies outside the text is cut off.
+    pub(crate) fn new(file: &str, text: &str, span: Range<usize>, numbered: bool) -> Self {
+        let start = span.start.min(text.len());
+        let line_start = line_start(text, start);
+        let line = text[line_start..].lines().next().unwrap_or_default();
+        let line = line.trim_end_matches('\r');
+        let mut start = (start - line_start).min(line.len());
+        while !line.is_char_boundary(start) {
+            start -= 1;
+        }
+        // At least one character is marked, or the end of the line.
+        let first = line[start..].chars().next().map_or(0, char::len_utf8);
+        let end = span
+            .end
+            .saturating_sub(line_start)
+            .clamp(start + first, line.len());
+        let number = 1 + text[..line_start].matches('\n').count();
+        Self {
+            file: file.to_owned(),
+            line: numbered.then_some(number),
+            text: line.to_owned(),
+            marked: start..end,
+        }
+    }
+
+    /// The line with its number and the faulty part underlined; it begins with a line break.
+    pub fn excerpt(&self) -> String {
+        if self.text.trim().is_empty() {
+            return String::new();
+        }
+        let mut shown = String::new();
+        let mut marks = String::new();
+        let before = self.text.get(..self.marked.start).unwrap_or_default();
+        let before = before.chars().count();
+        // Of a very long line the part around the mark is shown.
+        let skipped = if before < LONGEST_EXCERPT * 3 / 4 {
+            0
+        } else {
+            before - LONGEST_EXCERPT / 2
+        };
+        for (count, (offset, c)) in self.text.char_indices().skip(skipped).enumerate() {
+            if count == LONGEST_EXCERPT {
+                shown.push('…');
+                break;
+            }
+            let mark = if self.marked.contains(&offset) { '^' } else { ' ' };
+            shown.push(match c {
+                '\t' => ' ',
+                c if c.is_control() => '\u{fffd}',
+                c => c,
+            });
+            marks.extend(std::iter::repeat_n(mark, columns(c)));
+        }
+        if self.marked.start == self.text.len() {
+            marks.push('^');
+        }
+        let number = self.line.map_or_else(String::new, |line| line.to_string());
+        let margin = " ".repeat(number.len());
+        let marks = marks.trim_end();
+        format!("\n{margin} |\n{number} | {shown}\n{margin} | {marks}")
+    }
+}
+
+/// Where the line begins that holds the byte at `at`.
+pub(crate) fn line_start(text: &str, at: usize) -> usize {
+    let bytes = &text.as_bytes()[..at.min(text.len())];
+    bytes.iter().rposition(|&b| b == b'\n').map_or(0, |end| end + 1)
+}
+
+impl fmt::Display for Location {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // An override stands here as it was written.
+        f.write_str(&shortened(&self.file, LONGEST_NAME))?;
+        self.line.map_or(Ok(()), |line| write!(f, ", line {line}"))
+    }
+}
+
+/// Columns a character takes on a terminal: Chinese, Japanese and Korean characters take two.
+fn columns(c: char) -> usize {
+    match c {
+        '\u{1100}'..='\u{115f}'
+        | '\u{2e80}'..='\u{a4cf}'
+        | '\u{ac00}'..='\u{d7a3}'
+        | '\u{f900}'..='\u{faff}'
+        | '\u{fe30}'..='\u{fe6f}'
+        | '\u{ff00}'..='\u{ff60}'
+        | '\u{ffe0}'..='\u{ffe6}' => 2,
+        _ => 1,
+    }
+}
+
+/// Lists of a scene, and what one item of each is called.
+const ITEMS: [(&str, &str); 4] = [
+    ("layers", "layer"),
+    ("restraints", "clamp"),
+    ("vehicles", "vehicle"),
+    ("wheels", "wheel"),
+];
+
+/// What stands behind a key with numbers from 0, counted from 1 as people do: ` (vehicle 1, wheel 2)` behind `vehicles.0.wheels.1.load`;
+/// nothing behind other keys.
+pub(crate) fn counted(key: &str) -> String {
+    let parts: Vec<&str> = key.split('.').collect();
+    let items = parts.windows(2).filter_map(|pair| {
+        let (_, item) = ITEMS.iter().find(|(list, _)| *list == pair[0])?;
+        let index: usize = pair[1].parse().ok()?;
+        Some(format!("{item} {}", index.checked_add(1)?))
+    });
+    match items.collect::<Vec<_>>().join(", ") {
+        items if items.is_empty() => items,
+        items => format!(" ({items})"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Location, counted};
+
+    #[test]
+    fn the_marks_stand_below_the_faulty_part() {
+        let text = "a = 1\r\n\tb = { 名 = \"x\" } # c\r\n";
+        let start = text.find('"').unwrap();
+        let location = Location::new("f", text, start..start + 3, true);
+        assert_eq!(location.to_string(), "f, line 2");
+        assert_eq!(
+            location.excerpt(),
+            "\n  |\n2 |  b = { 名 = \"x\" } # c\n  |             ^^^"
+        );
+    }
+
+    #[test]
+    fn any_span_has_a_location() {
+        let text = "長さ = 1\nb";
+        for start in 0..text.len() + 3 {
+            for end in 0..text.len() + 3 {
+                Location::new("f", text, start..end, true).excerpt();
+            }
+        }
+        assert_eq!(Location::new("f", "", 0..0, true).line, Some(1));
+    }
+
+    #[test]
+    fn a_long_line_is_cut() {
+        let text = format!("{}!{}", "x".repeat(5000), "y".repeat(5000));
+        let excerpt = Location::new("f", &text, 5000..5001, true).excerpt();
+        assert!(excerpt.len() < 300 && excerpt.contains("xx!yy"));
+    }
+
+    #[test]
+    fn items_are_counted_from_one() {
+        for (key, words) in [
+            ("vehicles.0.wheels.1.load", " (vehicle 1, wheel 2)"),
+            ("ground.layers.2.thickness", " (layer 3)"),
+            ("restraints.0", " (clamp 1)"),
+            ("vehicles", ""),
+            ("vehicles.name", ""),
+            ("vehicles.18446744073709551615", ""),
+        ] {
+            assert_eq!(counted(key), words, "{key}");
+        }
+    }
+}

@@ -1,0 +1,397 @@
+//! Quantities with units, turned into SI.
+//!
+//! A unit is a power of ten times a factor. The power of ten goes into the decimal exponent before the digits become a
+//! binary number, so that `"35.7 um"` is exactly the number written `35.7e-6`.
+
+use crate::units::{Dimension, UNITS, Unit, normalised};
+
+/// Why a text is not a quantity of the wanted dimension.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum QuantityError {
+    /// The text does not begin with a number.
+    #[error("not a number with a unit")]
+    NotANumber,
+    /// The number is written with commas; here it is with a point.
+    #[error("decimals are written with a point: {0}")]
+    Comma(String),
+    /// There is a number but no unit.
+    #[error("the unit is missing")]
+    MissingUnit,
+    /// The unit is not known.
+    #[error("`{unit}` is not a known unit")]
+    UnknownUnit {
+        /// The unit as written.
+        unit: String,
+        /// The nearest unit of the wanted dimension, if one is near.
+        nearest: Option<&'static str>,
+    },
+    /// The unit belongs to another dimension.
+    #[error("`{unit}` is the unit of {}", .dimension.noun())]
+    WrongDimension {
+        /// The unit as written.
+        unit: String,
+        /// Its dimension.
+        dimension: Dimension,
+    },
+}
+
+impl Dimension {
+    /// The SI value of `text`, a number followed by one of this dimension's [units](Dimension::units).
+    ///
+    /// The value may be infinite or NaN where the text says so or is too large for a number: check its range.
+    ///
+    /// # Errors
+    ///
+    /// [`QuantityError`] if the text is anything else, a number without a unit included.
+    ///
+    /// # Example
+    ///
+    /// ```
+    /// use creepage_scene::Dimension;
+    ///
+    /// assert_eq!(Dimension::Force.parse("20 tf"), Ok(196_133.0));
+    /// assert!(Dimension::Force.parse("20 m").is_err());
+    /// ```
+    pub fn parse(self, text: &str) -> Result<f64, QuantityError> {
+        let (number, rest) = split(text.trim())
+            .ok_or_else(|| with_point(text.trim()).map_or(QuantityError::NotANumber, QuantityError::Comma))?;
+        let written = rest.trim();
+        if written.is_empty() {
+            return Err(QuantityError::MissingUnit);
+        }
+        let symbol = normalised(written);
+        let Some(unit) = UNITS.iter().find(|unit| unit.symbol == symbol) else {
+            return Err(QuantityError::UnknownUnit {
+                unit: written.to_owned(),
+                nearest: self.unit_meant_by(&symbol),
+            });
+        };
+        if !self.takes(unit.dimension) {
+            return Err(QuantityError::WrongDimension {
+                unit: written.to_owned(),
+                dimension: unit.dimension,
+            });
+        }
+        let value = number.shifted(unit.exponent).ok_or(QuantityError::NotANumber)?;
+        Ok(unit.in_si(value))
+    }
+
+    /// The unit in `text`, a number followed by one of this dimension's units; `None` for anything else.
+    pub fn unit_of(self, text: &str) -> Option<Unit> {
+        let (_, rest) = split(text.trim())?;
+        Unit::of(self, rest.trim())
+    }
+
+    /// As [`Dimension::parse`], but a number without a unit is taken as SI: for values typed on a command line.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Dimension::parse`], [`QuantityError::MissingUnit`] excepted.
+    pub fn parse_argument(self, text: &str) -> Result<f64, QuantityError> {
+        match (self.parse(text), text.trim().parse()) {
+            (Err(QuantityError::MissingUnit), Ok(value)) => Ok(value),
+            (parsed, _) => parsed,
+        }
+    }
+}
+
+/// The number that a text begins with, and its unit, which may be empty. `None` where digits or points follow the number.
+pub fn leading_number(text: &str) -> Option<(f64, &str)> {
+    let (number, rest) = split(text.trim())?;
+    let value = number.shifted(0)?;
+    let unit = rest.trim();
+    let goes_on = unit.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+    (value.is_finite() && !goes_on).then_some((value, unit))
+}
+
+/// A number written with commas, with or without a unit, as it is to be written; `None` if there is no comma.
+pub fn with_point(text: &str) -> Option<String> {
+    let digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
+    let bytes = text.as_bytes();
+    let commas: Vec<usize> = (0..bytes.len()).filter(|&i| bytes[i] == b',').collect();
+    let between =
+        |&at: &usize| digit(at.checked_sub(1).and_then(|i| bytes.get(i))) && digit(bytes.get(at + 1));
+    if commas.is_empty() || !commas.iter().all(between) {
+        return None;
+    }
+    // Two commas, or a comma before a point, part thousands.
+    let thousands = commas.len() > 1 || text.contains('.');
+    Some(text.replace(',', if thousands { "" } else { "." }))
+}
+
+/// A number whose only comma may also part thousands, `3,000 MPa`, without it.
+pub fn without_thousands(text: &str) -> Option<String> {
+    let (before, after) = text.split_once(',')?;
+    let digits = after.bytes().take_while(u8::is_ascii_digit).count();
+    let first = before.trim().trim_start_matches(['+', '-']);
+    let groups = (1..=3).contains(&first.len()) && !first.starts_with('0') && digits == 3;
+    (groups && !after.contains([',', '.'])).then(|| format!("{before}{after}"))
+}
+
+/// The digits of a decimal number and its exponent, or a word for a value that is not finite.
+struct Number<'t> {
+    digits: &'t str,
+    exponent: i32,
+}
+
+impl Number<'_> {
+    fn shifted(&self, exponent: i32) -> Option<f64> {
+        if self.digits.ends_with(|c: char| c.is_ascii_alphabetic()) {
+            return self.digits.parse().ok();
+        }
+        format!("{}e{}", self.digits, self.exponent.saturating_add(exponent))
+            .parse()
+            .ok()
+    }
+}
+
+/// Splits a text into the number it begins with and the rest.
+fn split(text: &str) -> Option<(Number<'_>, &str)> {
+    let bytes = text.as_bytes();
+    let digits_from = |start: usize| bytes[start..].iter().take_while(|b| b.is_ascii_digit()).count();
+    let sign = usize::from(bytes.first().is_some_and(|b| matches!(b, b'+' | b'-')));
+    for word in ["infinity", "inf", "nan"] {
+        let end = sign + word.len();
+        let found = text
+            .get(sign..end)
+            .is_some_and(|found| found.eq_ignore_ascii_case(word));
+        if found && !text[end..].starts_with(|c: char| c.is_alphanumeric()) {
+            let (digits, rest) = text.split_at(end);
+            return Some((Number { digits, exponent: 0 }, rest));
+        }
+    }
+    let whole = digits_from(sign);
+    let mut end = sign + whole;
+    let mut fraction = 0;
+    if bytes.get(end) == Some(&b'.') {
+        fraction = digits_from(end + 1);
+        end += 1 + fraction;
+    }
+    if whole + fraction == 0 {
+        return None;
+    }
+    let digits = &text[..end];
+    let mut exponent = 0;
+    if bytes.get(end).is_some_and(|b| matches!(b, b'e' | b'E')) {
+        let sign = usize::from(bytes.get(end + 1).is_some_and(|b| matches!(b, b'+' | b'-')));
+        let count = digits_from((end + 1 + sign).min(bytes.len()));
+        if count > 0 {
+            let written = &text[end + 1..end + 1 + sign + count];
+            // An exponent too large for its type is far beyond any number: its sign decides.
+            let negative = written.starts_with('-');
+            exponent = written
+                .parse()
+                .unwrap_or(if negative { i32::MIN } else { i32::MAX });
+            end += 1 + sign + count;
+        }
+    }
+    // A decimal comma, a second point, a digit separator: not a number in this notation.
+    if text[end..].starts_with([',', '.', '_', '+', '-']) {
+        return None;
+    }
+    Some((Number { digits, exponent }, &text[end..]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_unit_becomes_si() {
+        let cases = [
+            (Dimension::Length, "1.2 m", 1.2),
+            (Dimension::Length, "50mm", 0.05),
+            (Dimension::Length, " 35.7  um ", 35.7e-6),
+            (Dimension::Length, "35.7 µm", 35.7e-6),
+            (Dimension::Length, "35.7 μm", 35.7e-6),
+            (Dimension::Length, "-3 cm", -0.03),
+            (Dimension::Length, "0.3 km", 300.0),
+            (Dimension::Length, ".5 m", 0.5),
+            (Dimension::Length, "5. m", 5.0),
+            (Dimension::Force, "196 kN", 196e3),
+            (Dimension::Force, "8.01e6 N", 8.01e6),
+            (Dimension::Force, "8.01 MN", 8.01e6),
+            (Dimension::Force, "8.01E-3GN", 8.01e6),
+            (Dimension::Force, "20 tf", 20.0 * 9806.65),
+            (Dimension::Force, "1 tf", 9806.65),
+            (Dimension::Force, "1 kgf", 9.80665),
+            (Dimension::Force, "1 lbf", 4.4482216152605),
+            (Dimension::Force, "2 kip", 8896.443230521),
+            (Dimension::Length, "10 ft", 3.048),
+            (Dimension::Length, "1 in", 0.0254),
+            (Dimension::Length, "100 yd", 91.44),
+            (Dimension::Length, "0.5 mi", 804.672),
+            // 1 psi = 1 lbf/in².
+            (Dimension::Pressure, "1 psi", 4.4482216152605 / (0.0254 * 0.0254)),
+            (Dimension::Pressure, "2 ksi", 8896.443230521 / (0.0254 * 0.0254)),
+            (Dimension::ForcePerLength, "1 lbf/ft", 4.4482216152605 / 0.3048),
+            (Dimension::ForcePerLength, "1 kip/in", 4448.2216152605 / 0.0254),
+            (Dimension::Pressure, "4000 MPa", 4e9),
+            (Dimension::Pressure, "10 GPa", 1e10),
+            (Dimension::Pressure, "1 kPa", 1e3),
+            (Dimension::Pressure, "1 Pa", 1.0),
+            (Dimension::Pressure, "1 N/mm2", 1e6),
+            (Dimension::Pressure, "1 N/mm²", 1e6),
+            (Dimension::Pressure, "1 N/mm^2", 1e6),
+            (Dimension::Pressure, "1 kgf/cm2", 98066.5),
+            (Dimension::ForcePerLength, "108.8 N/m", 108.8),
+            (Dimension::ForcePerLength, "3 MN/m", 3e6),
+            (Dimension::ForcePerLength, "3 kN/m", 3e3),
+            (Dimension::ForcePerLength, "3 GN / m", 3e9),
+            (Dimension::ForcePerLength, "3 N/mm", 3e3),
+            (Dimension::ForcePerLength, "1 kgf/m", 9.80665),
+            (Dimension::ForcePerLength, "1 tf/m", 9806.65),
+            (Dimension::InverseLength, "2e7 1/m", 2e7),
+            (Dimension::InverseLength, "2e7/m", 2e7),
+            (Dimension::InverseLength, "20 1/um", 2e7),
+            (Dimension::InverseLength, "2 1/mm", 2e3),
+            (Dimension::InverseLength, "2 m^-1", 2.0),
+            (Dimension::InverseLength, "2 m⁻¹", 2.0),
+            (Dimension::Speed, "36 km/h", 10.0),
+            (Dimension::Speed, "40 km/h", 40.0 / 3.6),
+            (Dimension::Speed, "11 m/s", 11.0),
+            (Dimension::Speed, "30 mph", 30.0 * 1609.344 / 3600.0),
+            (Dimension::Speed, "44 ft/s", 44.0 * 0.3048),
+            (Dimension::Speed, "11 mm/s", 0.011),
+            (Dimension::Time, "0.1 ms", 1e-4),
+            (Dimension::Time, "3 s", 3.0),
+            (Dimension::Time, "3 us", 3e-6),
+            (Dimension::Time, "2 min", 120.0),
+            (Dimension::Time, "2 h", 7200.0),
+            (Dimension::Ratio, "1 %", 0.01),
+            (Dimension::Slope, "-3 %", -0.03),
+        ];
+        for (dimension, text, value) in cases {
+            assert_eq!(dimension.parse(text), Ok(value), "{text}");
+        }
+    }
+
+    #[test]
+    fn an_angle_becomes_its_tangent() {
+        let slope = |text| Dimension::Slope.parse(text).unwrap();
+        for (text, tangent) in [("45 deg", 1.0), ("-30°", -1.0 / 3.0_f64.sqrt()), ("0 deg", 0.0)] {
+            assert!((slope(text) - tangent).abs() < 1e-15, "{text}");
+        }
+        assert_eq!(slope("180 deg"), f64::INFINITY);
+        assert_eq!(slope("-90 deg"), f64::NEG_INFINITY);
+    }
+
+    #[test]
+    fn extreme_values_are_told_by_their_value() {
+        let length = |text| Dimension::Length.parse(text).unwrap();
+        assert_eq!(length("1e400 m"), f64::INFINITY);
+        assert_eq!(length("1e99999999999999 m"), f64::INFINITY);
+        assert_eq!(length("1e-99999999999999 m"), 0.0);
+        assert_eq!(length("-inf m"), f64::NEG_INFINITY);
+        assert!(length("NaN m").is_nan());
+    }
+
+    #[test]
+    fn what_is_no_quantity_is_refused() {
+        let length = |text| Dimension::Length.parse(text).unwrap_err();
+        for text in [
+            "", "m", "abc", "1.2.3 m", "1_000 m", "--1 m", "+", ".", "１ m", "e5 m", "nano m",
+        ] {
+            assert_eq!(length(text), QuantityError::NotANumber, "{text}");
+        }
+        let with_point = "1.2 m".to_owned();
+        assert_eq!(length("1,2 m"), QuantityError::Comma(with_point));
+        for text in ["1.2", "1e3", "-4 ", "inf"] {
+            assert_eq!(length(text), QuantityError::MissingUnit, "{text}");
+        }
+        for (text, unit, nearest) in [
+            ("1 M", "M", Some("m")),
+            ("1 MM", "MM", Some("mm")),
+            ("1 mE", "mE", Some("m")),
+            ("1 furlong", "furlong", None),
+            ("1e", "e", None),
+            ("1 2 m", "2 m", Some("m")),
+        ] {
+            let unit = unit.to_owned();
+            assert_eq!(
+                length(text),
+                QuantityError::UnknownUnit { unit, nearest },
+                "{text}"
+            );
+        }
+    }
+
+    #[test]
+    fn no_unit_passes_for_another_dimension() {
+        for unit in UNITS {
+            let text = format!("1 {}", unit.symbol);
+            for other in UNITS {
+                let parsed = other.dimension.parse(&text);
+                if other.dimension.takes(unit.dimension) {
+                    assert!(parsed.is_ok(), "{text}");
+                } else {
+                    let unit_symbol = unit.symbol.to_owned();
+                    let dimension = unit.dimension;
+                    assert_eq!(
+                        parsed,
+                        Err(QuantityError::WrongDimension {
+                            unit: unit_symbol,
+                            dimension
+                        })
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn values_in_si_go_back_to_every_unit() {
+        for known in UNITS {
+            for number in [0.0, 1.0, -0.25, 12.5] {
+                let text = format!("{number} {}", known.symbol());
+                let found = known.dimension.unit_of(&text).expect("a unit");
+                assert_eq!(found, *known);
+                let back = found.of_si(known.dimension.parse(&text).expect("a quantity"));
+                assert!(
+                    (back - number).abs() <= 1e-15 * f64::abs(number),
+                    "{text}: {back}"
+                );
+            }
+        }
+        assert_eq!(Dimension::Length.unit_of("1.2"), None);
+        assert_eq!(Dimension::Length.unit_of("1 N"), None);
+        assert_eq!(Dimension::Length.unit_of("free"), None);
+    }
+
+    #[test]
+    fn an_argument_may_leave_the_unit_out() {
+        assert_eq!(Dimension::Force.parse_argument("500"), Ok(500.0));
+        assert_eq!(Dimension::Force.parse_argument("0.5 kN"), Ok(500.0));
+        assert!(Dimension::Force.parse_argument("0.5 m").is_err());
+        assert!(Dimension::Force.parse_argument("much").is_err());
+    }
+
+    #[test]
+    fn only_a_comma_before_three_digits_may_part_thousands() {
+        assert_eq!(without_thousands("3,000 MPa").as_deref(), Some("3000 MPa"));
+        assert_eq!(without_thousands("-12,500").as_deref(), Some("-12500"));
+        for text in [
+            "3,00 m",
+            "0,300 m",
+            "3,0000 m",
+            "1234,500 m",
+            "3,000.5 m",
+            "1,000,000",
+            "3",
+        ] {
+            assert_eq!(without_thousands(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn commas_become_points_or_go() {
+        assert_eq!(with_point("1,2 m").as_deref(), Some("1.2 m"));
+        assert_eq!(with_point("-0,25").as_deref(), Some("-0.25"));
+        assert_eq!(with_point("1,200,000 N").as_deref(), Some("1200000 N"));
+        assert_eq!(with_point("1,200.5 N").as_deref(), Some("1200.5 N"));
+        for text in ["1.2 m", ",", "1, 2", ",5", "5,", ""] {
+            assert_eq!(with_point(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! The quantities of a scene file: dimension, range, how one is written, and how to say what is allowed.
+//!
+//! The limits are those of what the models can mean, far outside what is built: beyond them numbers lose their digits, or a run its end.
+
+use std::ops::RangeInclusive;
+
+use crate::units::Dimension;
+
+/// A quantity of a scene.
+#[derive(Debug, Clone, Copy)]
+pub struct Quantity {
+    /// Its dimension; `None` for a plain number.
+    pub dimension: Option<Dimension>,
+    /// Least and largest value in SI.
+    pub least: f64,
+    /// See `least`.
+    pub most: f64,
+    /// The range in words, after "a length".
+    pub words: &'static str,
+    /// How one is written.
+    pub example: &'static str,
+    /// Whether it is a whole number.
+    pub whole: bool,
+}
+
+/// Rows of name, dimension, least, most, range in words, example.
+macro_rules! quantities {
+    ($($name:ident: $dimension:expr, $least:expr, $most:expr, $words:literal, $example:literal;)+) => {
+        $(#[allow(missing_docs)]
+        pub const $name: Quantity = Quantity {
+            dimension: $dimension, least: $least, most: $most, words: $words, example: $example, whole: false,
+        };)+
+    };
+}
+
+use Dimension as D;
+
+/// The smallest number greater than 0, and the last moment of a day \[s\].
+const LEAST: f64 = 5e-324;
+const MIDNIGHT: f64 = 86_400.0_f64.next_down();
+const MAX: f64 = f64::MAX;
+
+quantities! {
+    DUCT_LENGTH: Some(D::Length), 0.1, 1e5, "greater than 0, from 0.1 m to 100 km", "\"30 m\"";
+    DEPTH: Some(D::Length), 0.01, 1e3, "greater than 0, from 1 cm to 1 km", "\"1.2 m\"";
+    LATERAL_OFFSET: Some(D::Length), -1e3, 1e3, "of any sign, at most 1 km", "\"0.5 m\"";
+    LANE: Some(D::Length), -1e3, 1e3, "of any sign, at most 1 km", "\"3.5 m\"";
+    SLOPE: Some(D::Slope), -1.0, 1.0, "of any sign, from -100 % to 100 %", "\"3 %\", \"1.7 deg\" or 0.03";
+    INNER_DIAMETER: Some(D::Length), 1e-3, 10.0, "greater than 0, from 1 mm to 10 m", "\"200 mm\"";
+    DIAMETER: Some(D::Length), 1e-3, 10.0, "greater than 0, from 1 mm to 10 m", "\"67 mm\"";
+    WHEEL_X: Some(D::Length), -1e3, 1e3, "of any sign, at most 1 km", "\"-4 m\"";
+    WHEEL_Y: Some(D::Length), -1e3, 1e3, "of any sign, at most 1 km", "\"0.9 m\"";
+    CONTACT_RADIUS: Some(D::Length), 0.0, 100.0, "of at least 0 and at most 100 m", "\"0.15 m\"";
+    THICKNESS: Some(D::Length), 1e-6, 1e4, "greater than 0, from 1 um to 10 km", "\"50 mm\"";
+    RIGID_BASE_DEPTH: Some(D::Length), 1e-6, 1e4, "greater than 0, from 1 um to 10 km", "\"12 m\"";
+    LONGITUDINAL_PEAK: Some(D::Length), 1e-12, 1.0, "greater than 0, from 1e-6 um to 1 m", "\"35.7 um\"";
+    VERTICAL_PEAK: Some(D::Length), 1e-12, 1.0, "greater than 0, from 1e-6 um to 1 m", "\"90 um\"";
+    POSITION: Some(D::Length), -MAX, MAX, "of any sign", "\"20 m\"";
+    STEP: Some(D::Length), LEAST, MAX, "greater than 0", "\"0.1 m\"";
+    APPROACH: Some(D::Length), 0.1, 1e5, "greater than 0, from 0.1 m to 100 km", "\"15 m\"";
+    MODULUS: Some(D::Pressure), 1e3, 1e13, "greater than 0, from 1 kPa to 10000 GPa",
+        "\"800 MPa\", or { top = \"60 MPa\", bottom = \"200 MPa\" } if it varies with depth";
+    MODULUS_AT_AN_END: Some(D::Pressure), 1e3, 1e13, "greater than 0, from 1 kPa to 10000 GPa", "\"60 MPa\"";
+    WEIGHT: Some(D::Weight), 1e-3, 1e6, "greater than 0, from 1e-3 N/m to 1 MN/m", "\"108.8 N/m\"";
+    AXIAL_STIFFNESS: Some(D::Force), 1.0, 1e15, "greater than 0, from 1 N to 1e15 N", "\"8.01e6 N\"";
+    CONDUCTOR_MODULUS: Some(D::Pressure), 1e3, 1e13, "greater than 0, from 1 kPa to 10000 GPa", "\"12 GPa\"";
+    CONDUCTOR_AREA: Some(D::Area), 1e-9, 1e3, "greater than 0, from 1e-3 mm2 to 1000 m2", "\"800 mm2\"";
+    SHAPE_FACTOR: Some(D::InverseLength), 1.0, 1e18, "greater than 0, from 1 to 1e18 1/m", "\"2e7 1/m\"";
+    SPRING: Some(D::ForcePerLength), 1e-9, 1e18, "greater than 0, from 1e-9 to 1e18 N/m", "\"3 MN/m\"";
+    CLAMP: Some(D::ForcePerLength), 1e-9, 1e18, "greater than 0, from 1e-9 to 1e18 N/m", "\"1 MN/m\"";
+    LOAD: Some(D::Force), 0.0, 1e9, "of at least 0 and at most 1000 MN", "\"20 tf\"";
+    WHEEL_LOAD: Some(D::Force), 0.0, 1e9, "of at least 0 and at most 1000 MN", "\"50 kN\"";
+    AXLE_LOAD: Some(D::Force), LEAST, 1e9, "greater than 0 and at most 1000 MN", "\"100 kN\"";
+    SPEED: Some(D::Speed), 1e-3, 1e3, "greater than 0, from 1 mm/s to 1 km/s", "\"40 km/h\"";
+    EXPANSION: Some(D::InverseTemperature), 0.0, 1e-3, "of at least 0 and at most 1e-3 1/K", "\"17e-6 1/K\"";
+    SWING: Some(D::Temperature), 0.0, 500.0, "of at least 0 and at most 500 K", "\"20 K\"";
+    TEMPERATURE: Some(D::Temperature), -500.0, 500.0, "of any sign, from -500 to 500 K", "\"20 K\"";
+    OFFSET: Some(D::Temperature), -500.0, 500.0, "of any sign, from -500 to 500 K", "\"-5 K\"";
+    TIME_OF_DAY: Some(D::Time), 0.0, MIDNIGHT, "from 0 h on and before 24 h", "\"15 h\"";
+    TIME_STEP: Some(D::Time), LEAST, MAX, "greater than 0", "\"0.1 ms\"";
+    TOLERANCE: Some(D::Ratio), LEAST, 0.5, "greater than 0 and at most 0.5", "0.01 or \"1 %\"";
+    SHARE: Some(D::Ratio), 1e-12, 1e12, "greater than 0, from 1e-12 to 1e12", "3 or \"20 %\"";
+    POISSON: None, 0.0, 0.5, "from 0 to 0.5", "";
+    COEFFICIENT: None, 0.0, 10.0, "from 0 to 10", "";
+    LOAD_FACTOR: None, 1e-6, 1e6, "greater than 0, from 1e-6 to 1e6", "";
+    AXLE_COUNT: None, 0.0, 1e12, "of at least 0 and at most 1e12", "";
+    YEARS: None, 1e-9, 1e6, "greater than 0, from 1e-9 to 1e6", "";
+    PER_DAY: None, 1e-6, 1e9, "greater than 0, from 1e-6 to 1e9", "";
+}
+
+/// Number of passes that can be computed, few of them simulated.
+pub const PASSES: Quantity = whole(1.0, 1e12, "from 1 to 1000000000000");
+/// Any whole number.
+pub const ANY_WHOLE: Quantity = whole(0.0, MAX, "of at least 0");
+
+const fn whole(least: f64, most: f64, words: &'static str) -> Quantity {
+    let (dimension, example, whole) = (None, "", true);
+    Quantity {
+        dimension,
+        least,
+        most,
+        words,
+        example,
+        whole,
+    }
+}
+
+impl Quantity {
+    /// Whether a value \[SI\] is in its range.
+    pub fn contains(self, value: f64) -> bool {
+        (self.least..=self.most).contains(&value)
+    }
+
+    /// What is allowed where this quantity belongs.
+    pub fn allowed(self) -> String {
+        let (words, example) = (self.words, self.example);
+        match self.dimension {
+            None if self.whole => format!("a whole number {words}, without quotes"),
+            None => format!("a number {words}, without quotes or unit"),
+            Some(dimension) => {
+                let units: Vec<&str> = dimension.units().collect();
+                let (noun, units) = (dimension.noun(), units.join(", "));
+                format!("{noun} {words}, such as {example} (units: {units})")
+            }
+        }
+    }
+
+    /// A value as a program has it: in SI.
+    pub fn written(self, value: f64) -> String {
+        match self.dimension.and_then(Dimension::si) {
+            Some(unit) => format!("\"{value:?} {unit}\""),
+            None => shown(value),
+        }
+    }
+
+    /// What a bare number out of its range was probably meant in.
+    pub fn bare_number_meant(self, value: f64) -> String {
+        let (dimension, unit, si) = match self.dimension {
+            None if value > 1.0 && !self.whole && self.contains(value / 100.0) => {
+                return format!("; did you mean {}?", value / 100.0);
+            }
+            // Tables give it in millionths.
+            Some(dimension @ D::InverseTemperature) => (dimension, "e-6 1/K", "in 1/K"),
+            Some(dimension @ D::Length) => (dimension, " mm", "in m"),
+            Some(dimension @ D::Pressure) => (dimension, " MPa", "in Pa"),
+            Some(dimension @ D::Area) => (dimension, " mm2", "in m2"),
+            Some(dimension @ D::Ratio) => (dimension, " %", "a share of 1"),
+            Some(dimension @ D::Slope) => (dimension, " %", "the rise over a distance of 1"),
+            _ => return String::new(),
+        };
+        let meant = format!("{value}{unit}");
+        match dimension.parse(&meant) {
+            Ok(value) if self.contains(value) => {
+                format!("; a bare number is {si}: did you mean \"{meant}\"?")
+            }
+            _ => String::new(),
+        }
+    }
+}
+
+/// Most nodes, and most steps of a vehicle over the duct; if the scene gives no step, there are two to a node.
+const MOST_NODES: f64 = 5e6;
+const MOST_STEPS: f64 = 1e7;
+
+/// A range whose ends follow from the rest of the scene, with its words.
+pub type Follows = (RangeInclusive<f64>, String);
+
+/// Node spacings \[m\] in a duct of this length.
+pub fn node_spacings(length: f64) -> Follows {
+    let half = shown(length / 2.0);
+    let words = format!("at most half the duct's length, {half} m, and at least its five-millionth part");
+    (length / MOST_NODES..=length / 2.0, words)
+}
+
+/// Steps of a vehicle \[m\] over a duct of this length.
+pub fn vehicle_steps(length: f64) -> Follows {
+    let all = shown(length);
+    let words = format!("at most the duct's length, {all} m, and at least its ten-millionth part");
+    (length / MOST_STEPS..=length, words)
+}
+
+/// Diameters \[m\] of a cable alone in a duct of this inner diameter, or of one of three that fit while the duct is `closest` times as wide
+/// as each of them.
+pub fn diameters(inner_diameter: f64, closest: Option<f64>) -> Follows {
+    let inner = shown(inner_diameter);
+    let Some(closest) = closest else {
+        let words = format!("less than the duct's inner diameter, {inner} m");
+        return (0.0..=inner_diameter.next_down(), words);
+    };
+    let most = inner_diameter / closest;
+    let words = format!("at most {most:.4} m, so that three cables fit into the duct's {inner} m");
+    (0.0..=most, words)
+}
+
+/// A number of this program in a message, such as the end of a range.
+pub fn shown(value: f64) -> String {
+    if (1e-6..1e9).contains(&value.abs()) || value == 0.0 {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}

@@ -1,0 +1,150 @@
+//! Keys that exclude each other: what an override sets drops what has no meaning beside it; what a file gives together is an error.
+
+use crate::document::{Content, Document, Entry, Node, joined, without_numbers};
+use crate::error::{SceneError, WrongKind};
+
+/// What is allowed of two rivals.
+const ONE: &str = "only one of the two";
+const THREE: &[&str] = &[
+    "trefoil-upper",
+    "trefoil-lower",
+    "cradled-outer",
+    "cradled-middle",
+];
+
+/// A table, a key of it, the values of that key with which another key has no meaning (none: whatever it is; an empty one: if it is left
+/// out), that other key, and what is allowed.
+type Rule = (
+    &'static str,
+    &'static str,
+    &'static [&'static str],
+    &'static str,
+    &'static str,
+);
+
+#[rustfmt::skip]
+const RULES: &[Rule] = &[
+    ("ground", "longitudinal_peak", &[], "vertical_peak", ONE),
+    ("cable", "arrangement", THREE, "normal_load_factor", ONE),
+    ("cable", "diameter", &[], "normal_load_factor", ONE),
+    ("cable", "axial_stiffness", &[], "young_modulus", ONE),
+    ("cable", "axial_stiffness", &[], "conductor_area", ONE),
+    ("restraints", "stiffness", &[], "spring", ONE),
+    ("ends.upstream", "spring", &[], "stiffness", ONE),
+    ("ends.downstream", "spring", &[], "stiffness", ONE),
+    ("vehicles", "load", &[], "wheels", ONE),
+    ("traffic", "order", &[], "sequence", ONE),
+    ("traffic", "passes", &[], "years", ONE),
+    ("heat", "daily_swing", &[], "profile", ONE),
+    ("friction", "law", &["coulomb"], "shape_factor", "no `shape_factor` with the law \"coulomb\""),
+    ("traffic", "sequence", &[], "seed", "`seed` only with order = \"random\""),
+    ("traffic", "order", &["", "interleaved"], "seed", "`seed` only with order = \"random\""),
+    ("traffic", "histogram", &[""], "speed", "no `speed`: every vehicle has its own"),
+    ("solver", "method", &["quasi-static", "pass-law"], "time_step", "`time_step` only with the method \"auto\" or \"explicit\""),
+];
+
+/// A clamp has a `stiffness`, an end a `spring`: each is understood where the other is meant.
+pub fn other_name(key: &str) -> Option<&'static str> {
+    match key {
+        "spring" => Some("stiffness"),
+        "stiffness" => Some("spring"),
+        _ => None,
+    }
+}
+
+fn value_at<'e>(entries: &'e [Entry], key: &str) -> Option<&'e Node> {
+    Some(&entries.iter().find(|entry| entry.key == key)?.value)
+}
+
+/// Whether a rule holds for a key with this value; nothing if it is left out.
+fn holds((_, _, values, ..): &Rule, value: Option<&Node>) -> bool {
+    match value.map(|value| &value.content) {
+        Some(_) if values.is_empty() => true,
+        Some(Content::Text(text)) => values.contains(&&**text),
+        Some(_) => false,
+        None => values.contains(&""),
+    }
+}
+
+/// Whether the entry `present` of the table at `path` has no meaning beside `set`, which is given later.
+pub fn gives_way(path: &str, present: &Entry, set: &Entry) -> bool {
+    let table = without_numbers(path);
+    RULES.iter().filter(|rule| rule.0 == table).any(|rule| {
+        let (_, key, _, other, allowed) = rule;
+        let drops = *key == set.key && *other == present.key && holds(rule, Some(&set.value));
+        let back = *key == present.key && *other == set.key && holds(rule, Some(&present.value));
+        drops || back && *allowed == ONE
+    })
+}
+
+/// Drops what has no meaning beside the value that an override set at `key`.
+pub fn give_way(document: &mut Document, key: &str) {
+    let (path, name) = key.rsplit_once('.').unwrap_or(("", key));
+    // The table of axles stands in place of `[[vehicles]]`.
+    match key {
+        "vehicles" => remove(&mut document.root, "traffic", "histogram"),
+        "traffic.histogram" => remove(&mut document.root, "", "vehicles"),
+        _ => {}
+    }
+    if let Some(Content::Table(entries)) = document.find_mut(path).map(|node| &mut node.content)
+        && let Some(set) = entries.iter().find(|entry| entry.key == name).cloned()
+    {
+        entries.retain(|present| !gives_way(path, present, &set));
+    }
+}
+
+fn remove(root: &mut Node, section: &str, key: &str) {
+    if let Content::Table(entries) = &mut root.content {
+        if section.is_empty() {
+            entries.retain(|entry| entry.key != key);
+        } else if let Some(entry) = entries.iter_mut().find(|entry| entry.key == section) {
+            remove(&mut entry.value, "", key);
+        }
+    }
+}
+
+/// The first two keys of the document that exclude each other.
+pub fn contradiction(document: &Document, path: &str, node: &Node) -> Result<(), SceneError> {
+    match &node.content {
+        Content::Array(items) => {
+            for (index, item) in items.iter().enumerate() {
+                contradiction(document, &joined(path, &index.to_string()), item)?;
+            }
+        }
+        Content::Table(entries) => {
+            let table = without_numbers(path);
+            for rule in RULES.iter().filter(|rule| rule.0 == table) {
+                let (_, key, _, other, allowed) = rule;
+                let (value, Some(node)) = (value_at(entries, key), value_at(entries, other)) else {
+                    continue;
+                };
+                // The axles of a histogram come at random without a word, a sequence is an order.
+                let random = *other == "seed" && value.is_none() && value_at(entries, "histogram").is_some();
+                if !holds(rule, value) || random {
+                    continue;
+                }
+                let (written, found) = (
+                    document.written(&node.place),
+                    format!("both `{key}` and `{other}`"),
+                );
+                let found = match value {
+                    Some(_) if *allowed == ONE => found,
+                    Some(value) => format!("{written} with `{key}` = {}", document.written(&value.place)),
+                    None => format!("{written} with no `{key}`"),
+                };
+                let key = joined(path, other);
+                return Err(document.wrong(WrongKind::Value, &node.place, &key, found, *allowed));
+            }
+            for entry in entries {
+                contradiction(document, &joined(path, &entry.key), &entry.value)?;
+            }
+            let key = "traffic.histogram";
+            if let ("", (node, true), Some(_)) = (path, document.find(key), value_at(entries, "vehicles")) {
+                let found = "both `traffic.histogram` and [[vehicles]]";
+                return Err(document.wrong(WrongKind::Value, &node.place, key, found, ONE));
+            }
+        }
+        _ => {}
+    }
+    Ok(())
+}

@@ -1,0 +1,121 @@
+//! The JSON Schema of a scene file.
+
+use serde_json::{Map, Value, json};
+
+use crate::key::{Form, Key, Keys};
+use crate::keys::SceneKeys;
+use crate::presets::{PresetKind, of};
+use crate::range::Quantity;
+
+/// The JSON Schema of a scene file, by which editors complete its keys and check their values. What holds between several keys it does not
+/// say.
+pub fn schema() -> Value {
+    let Value::Object(mut root) = table(&SceneKeys::keys(), "") else {
+        return Value::Null;
+    };
+    root.insert(
+        "$schema".into(),
+        "https://json-schema.org/draft/2020-12/schema".into(),
+    );
+    root.insert("title".into(), "Scene of creepage".into());
+    Value::Object(root)
+}
+
+fn table(keys: &[Key], name: &str) -> Value {
+    let property = |key: &Key| {
+        let mut property = match key.name {
+            "preset" => json!({ "enum": presets(name) }),
+            name => form(&key.form, name),
+        };
+        if let Value::Object(property) = &mut property {
+            let default = key
+                .default
+                .map_or("required".to_owned(), |default| format!("if omitted: {default}"));
+            let words = format!("{} Allowed: {}; {default}.", key.meaning, key.form.allowed());
+            property.insert("description".into(), words.into());
+        }
+        (key.name.to_owned(), property)
+    };
+    let mut properties: Map<String, Value> = keys.iter().map(property).collect();
+    let required: Vec<&str> = keys
+        .iter()
+        .filter(|key| key.default.is_none())
+        .map(|key| key.name)
+        .collect();
+    // Other names of keys.
+    for (name, other) in [("spring", "stiffness"), ("stiffness", "spring")] {
+        if let Some(property) = properties.get(name).cloned() {
+            properties.entry(other).or_insert(property);
+        }
+    }
+    let has_other_name = |name: &&&str| !matches!(**name, "spring" | "stiffness");
+    let required: Vec<&&str> = required.iter().filter(has_other_name).collect();
+    let mut table = json!({ "type": "object", "additionalProperties": false });
+    // A preset may give what is required.
+    if properties.contains_key("preset") {
+        table["anyOf"] = json!([{ "required": ["preset"] }, { "required": required }]);
+    } else {
+        table["required"] = json!(required);
+    }
+    table["properties"] = properties.into();
+    table
+}
+
+fn form(form: &Form, name: &str) -> Value {
+    match form {
+        Form::Quantity(quantity) => number(*quantity),
+        Form::Text(_) if name == "profile" => json!({ "type": "array", "minItems": 2, "maxItems": 2 }),
+        Form::Text(_) => json!({ "type": "string" }),
+        Form::Words(words, _) => json!({ "enum": words }),
+        Form::Table(keys) => table(keys, name),
+        Form::List(item, least, _) => {
+            json!({ "type": "array", "minItems": least, "items": self::form(item, name) })
+        }
+        Form::Either(one, keys, _) => json!({ "anyOf": [self::form(one, name), table(keys, name)] }),
+    }
+}
+
+fn number(quantity: Quantity) -> Value {
+    let Quantity { least, most, .. } = quantity;
+    let kind = if quantity.whole { "integer" } else { "number" };
+    let mut number = json!({ "type": kind, "minimum": least });
+    if most < f64::MAX {
+        number["maximum"] = if quantity.whole {
+            json!(most as u64)
+        } else {
+            json!(most)
+        };
+    }
+    if quantity.whole {
+        number["minimum"] = json!(least as u64);
+    }
+    let Some(dimension) = quantity.dimension else {
+        return number;
+    };
+    let escaped = |unit: &str| unit.replace('^', "\\^").replace('.', "\\.");
+    let units: Vec<String> = dimension.units().map(escaped).collect();
+    // Variants of the units are many: a number and anything of their letters.
+    let variants = if dimension
+        .units()
+        .any(|unit| unit.contains(['u', '2', '1', '/', '%']) || unit == "deg")
+    {
+        "|[-µμu²⁻¹°％^0-9/A-Za-z %]+"
+    } else {
+        ""
+    };
+    let pattern = format!(
+        "^\\s*[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?\\s*({}{variants})\\s*$",
+        units.join("|")
+    );
+    json!({ "anyOf": [number, { "type": "string", "pattern": pattern }] })
+}
+
+fn presets(section: &str) -> Vec<&'static str> {
+    let kind = match section {
+        "ground" => PresetKind::Pavement,
+        "cable" => PresetKind::Cable,
+        "friction" => PresetKind::Friction,
+        _ => PresetKind::Vehicle,
+    };
+    of(kind).map(|preset| &*preset.name).collect()
+}

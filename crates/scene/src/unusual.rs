@@ -1,0 +1,266 @@
+//! What is valid and yet hardly meant: values that no ground, cable or road has.
+//!
+//! A range refuses what the models cannot represent. Between it and what is built lie slips of a unit or a digit, which are
+//! warnings.
+
+use cable_dem::FrictionLaw;
+use ground_field::{Base, Modulus};
+
+use crate::arrangement::may_jam;
+use crate::data::{PeakScaling, Scene, TrafficVehicle};
+use crate::document::without_numbers;
+use crate::key::Keys;
+use crate::location::counted;
+use crate::shown::four_digits;
+
+/// A key, the usual range of its values \[SI\], the unit in which they are shown with its size, and what follows.
+type Usual = (&'static str, f64, f64, f64, &'static str, fn(f64) -> String);
+
+const INFINITY: f64 = f64::INFINITY;
+
+const USUAL: &[Usual] = &[
+    ("duct.depth", 0.2, 20.0, 1.0, " m", |_| {
+        ", but ducts lie below roads at depths from 0.2 to 20 m".into()
+    }),
+    (
+        "ground.layers.young_modulus",
+        1e6,
+        INFINITY,
+        1e6,
+        " MPa",
+        softer_than_peat,
+    ),
+    ("ground.layers.young_modulus", 0.0, 1e11, 1e9, " GPa", |_| {
+        ", stiffer than granite".into()
+    }),
+    ("cable.weight", 5.0, 600.0, 1.0, " N/m", |_| {
+        ", but that of power cables is from 5 to 600 N/m".into()
+    }),
+    ("cable.axial_stiffness", 5e5, 1e9, 1e6, " MN", |_| {
+        ", but that of power cables is from 0.5 to 1000 MN".into()
+    }),
+    ("friction.dynamic_coefficient", 0.0, 1.5, 1.0, "", |_| {
+        ": that of cables in ducts is below 1".into()
+    }),
+    ("friction.shape_factor", 1e4, INFINITY, 1.0, " 1/m", slow),
+    ("ends.upstream.spring", 1e3, INFINITY, 1.0, " N/m", holds_nothing),
+    (
+        "ends.downstream.spring",
+        1e3,
+        INFINITY,
+        1.0,
+        " N/m",
+        holds_nothing,
+    ),
+    ("restraints.stiffness", 1e3, INFINITY, 1.0, " N/m", holds_nothing),
+    ("vehicles.speed", 0.0, 200.0 / 3.6, 1.0 / 3.6, " km/h", |_| {
+        ", but trucks drive at 20 to 100 km/h".into()
+    }),
+    ("vehicles.wheels.load", 0.0, 5e5, 1e3, " kN", |_| {
+        ", but a wheel on a road carries from 1 to 200 kN".into()
+    }),
+    ("vehicles.wheels.contact_radius", 0.0, 0.6, 1.0, " m", |_| {
+        ": that of tyres is from 0.1 to 0.3 m".into()
+    }),
+    ("traffic.per_day", 0.0, 2e5, 1.0, "", |_| {
+        ": no road has more than 200000 vehicles a day".into()
+    }),
+    ("heat.daily_swing", 0.0, 100.0, 1.0, " K", |_| {
+        ", but a cable's temperature changes by less than 100 K a day".into()
+    }),
+];
+
+fn softer_than_peat(modulus: f64) -> String {
+    // A bare modulus up to this [Pa] may be one in MPa.
+    const MEGAPASCALS: f64 = 1e5;
+    let meant = format!(", softer than peat; a bare number is in Pa: did you mean \"{modulus} MPa\"?");
+    if modulus <= MEGAPASCALS {
+        meant
+    } else {
+        ", softer than peat".into()
+    }
+}
+
+fn slow(shape_factor: f64) -> String {
+    let length = four_digits(2e3 / shape_factor);
+    format!(": friction builds up over {length} mm, more than traffic moves a cable to and fro")
+}
+
+fn holds_nothing(stiffness: f64) -> String {
+    let meant = four_digits(stiffness);
+    format!(
+        ", which holds nothing: springs and clamps are from 0.1 to 1000 MN/m; did you mean \"{meant} MN/m\"?"
+    )
+}
+
+/// A warning for every value that is unusual, and for values that are so together.
+pub fn unusual(scene: &Scene) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let mut named: Vec<&str> = Vec::new();
+    scene.keys().each("", &mut |key, value, _| {
+        let name = without_numbers(key);
+        let name = name.trim_end_matches(".top").trim_end_matches(".bottom");
+        // Friction that forgets may build up slowly.
+        let forgets =
+            name.starts_with("friction") && !matches!(scene.friction.law, FrictionLaw::ElasticPlastic { .. });
+        for (key_of, least, most, size, unit, words) in USUAL.iter().filter(|usual| usual.0 == name) {
+            // Of the wheels the first is named that is unusual.
+            let again = named.contains(key_of) && key.contains(".wheels.");
+            if !(*least..=*most).contains(&value) && !again && !(forgets && name.ends_with("factor")) {
+                named.push(key_of);
+                warnings.push(format!(
+                    "`{key}` is {}{unit}{}",
+                    four_digits(value / size),
+                    words(value)
+                ));
+            }
+        }
+    });
+    let pairs = [
+        exchanged,
+        far,
+        between_tracks,
+        lanes_scaled_alike,
+        rock,
+        contrast,
+        may_jam,
+    ];
+    warnings.extend(pairs.iter().filter_map(|pair| pair(scene)));
+    warnings.extend(too_much(scene));
+    warnings.iter().map(|warning| with_count(warning)).collect()
+}
+
+/// A warning that begins with its key in backticks, with the items that it names counted from 1.
+fn with_count(warning: &str) -> String {
+    let key = warning.strip_prefix('`').and_then(|rest| rest.split_once('`'));
+    key.map_or_else(
+        || warning.to_owned(),
+        |(key, rest)| format!("`{key}`{}{rest}", counted(key)),
+    )
+}
+
+/// A duct that lies deeper than it is long.
+fn exchanged(scene: &Scene) -> Option<String> {
+    let (depth, length) = (scene.duct.depth, scene.duct.length);
+    let [deep, long] = [depth, length].map(four_digits);
+    (depth > length).then(|| {
+        format!("`duct.depth` is {deep} m, more than the duct is long, {long} m: were they exchanged?")
+    })
+}
+
+/// Vehicles too heavy for any road, and traffic for too long.
+fn too_much(scene: &Scene) -> Vec<String> {
+    // Vehicles heavier than this [N] do not drive, and no road is older [years].
+    const HEAVIEST: f64 = 5e6;
+    const OLDEST: f64 = 200.0;
+    let weights = scene.vehicles.iter().map(|traffic| traffic.vehicle.weight());
+    let heavy = weights.enumerate().filter(|(_, weight)| *weight > HEAVIEST);
+    let heavy = heavy.map(|(index, weight)| {
+        let tonnes = weight / 9806.65;
+        format!("`vehicles.{index}` weighs {tonnes:.0} t, more than any vehicle on a road")
+    });
+    let years = scene.traffic.years_after(scene.traffic.passes);
+    let old = years.filter(|&years| years > OLDEST).map(|years| {
+        format!("`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date")
+    });
+    heavy.chain(old).collect()
+}
+
+/// A lane so far away that its vehicles hardly move the duct.
+fn far(scene: &Scene) -> Option<String> {
+    // Depths between the vehicle's axis and the duct's, beyond which a duct hardly moves.
+    const FARTHEST: f64 = 10.0;
+    let is_far = |traffic: &&TrafficVehicle| scene.offset_from(traffic).abs() > FARTHEST * scene.duct.depth;
+    let traffic = scene.vehicles.iter().find(is_far)?;
+    let (name, offset) = (traffic.vehicle.name(), scene.offset_from(traffic).abs());
+    let subject = if traffic.lateral_offset == 0.0 {
+        format!("`duct.lateral_offset` is {offset} m")
+    } else {
+        format!("the lane of \"{name}\" is {offset} m from the duct")
+    };
+    Some(format!(
+        "{subject}, more than {FARTHEST} times the depth: the duct hardly moves there"
+    ))
+}
+
+/// A shallow duct between the wheels of a vehicle: beside a load the ground near the surface moves toward it, not away.
+fn between_tracks(scene: &Scene) -> Option<String> {
+    let traffic = scene.vehicles.iter().find(|traffic| {
+        let offsets = || {
+            traffic
+                .vehicle
+                .wheels()
+                .iter()
+                .map(|wheel| wheel.y - scene.offset_from(traffic))
+        };
+        let nearest = offsets().fold(f64::INFINITY, |least: f64, offset| least.min(offset.abs()));
+        offsets().any(|offset| offset > 0.0)
+            && offsets().any(|offset| offset < 0.0)
+            && scene.duct.depth < nearest
+    })?;
+    Some(format!(
+        "`duct.depth` is {} m between the wheels of \"{}\", which are farther to either side: so shallow, the ground moves toward a wheel \
+         and not away from it, and the cable may creep backward",
+        four_digits(scene.duct.depth),
+        traffic.vehicle.name()
+    ))
+}
+
+/// Lanes move a duct by different amounts, but a longitudinal peak is that of each vehicle.
+fn lanes_scaled_alike(scene: &Scene) -> Option<String> {
+    let Some(PeakScaling::Longitudinal(_)) = scene.ground.scaling else {
+        return None;
+    };
+    let differs = |traffic: &TrafficVehicle| traffic.lateral_offset != scene.vehicles[0].lateral_offset;
+    scene.vehicles.iter().any(differs).then(|| {
+        "`ground.longitudinal_peak` is the peak under every vehicle, in whatever lane: one in a lane farther away moves the duct as far; \
+         `ground.vertical_peak` keeps the lanes apart"
+            .to_owned()
+    })
+}
+
+/// Rock does not move, and so nothing in it does.
+fn rock(scene: &Scene) -> Option<String> {
+    let (profile, depth) = (&scene.ground.profile, scene.duct.depth);
+    // A sum of thicknesses, as it would be written.
+    let base = (1e6 * profile.base_depth()).round() / 1e6;
+    (profile.base() == Base::Rigid && base <= depth).then(|| {
+        format!(
+            "`ground.rigid_base_depth` is {base} m and the duct lies at {depth} m, within the rock: it does not move, and no force arises"
+        )
+    })
+}
+
+/// Layers that may have been written in the wrong order.
+fn contrast(scene: &Scene) -> Option<String> {
+    // How many times stiffer a layer is than the soil below it, and the ground below than a pavement, if that is hardly meant;
+    // and the thickest first layer that is a pavement's [m].
+    const CONTRAST: f64 = 100.0;
+    const INVERTED: f64 = 20.0;
+    const PAVEMENT: f64 = 0.5;
+    let profile = &scene.ground.profile;
+    let layers = profile.layers();
+    let ends = |modulus: Modulus| match modulus {
+        Modulus::Uniform(modulus) => (modulus, modulus),
+        Modulus::Linear { top, bottom } => (top, bottom),
+    };
+    let (first, last) = (layers.first()?, layers.last()?);
+    let ((top, _), (_, above)) = (ends(first.modulus()), ends(last.modulus()));
+    let (base, index) = match profile.base() {
+        Base::HalfSpace(base) => (base.young_modulus(), layers.len()),
+        Base::Rigid => (above, layers.len() - 1),
+    };
+    if above > CONTRAST * base {
+        let times = above / base;
+        return Some(format!(
+            "`ground.layers.{index}.young_modulus` is {times:.0} times less than that of the layer on it"
+        ));
+    }
+    let (times, last) = (base / top, four_digits(base / 1e6));
+    (first.thickness() <= PAVEMENT && base > INVERTED * top).then(|| {
+        format!(
+            "`ground.layers.0.young_modulus` is {times:.0} times less than that of the last layer, {last} MPa: layers stand from the top \
+             down, and the last one is rarely as stiff as rock"
+        )
+    })
+}
