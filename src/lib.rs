@@ -85,7 +85,7 @@ pub use creepage_scene::presets;
 mod shown;
 #[cfg(feature = "sweep")]
 pub mod sweep;
-pub mod template;
+mod template;
 #[cfg(feature = "xlsx")]
 pub mod workbook;
 
@@ -114,6 +114,7 @@ pub use progress::Progress;
 pub use readings::{DataError, ReadOptions, Reading, Readings};
 pub use run::{FixedMesh, RunOptions, check, run, run_plan, run_with};
 pub use scene::{CableEnd, Scene, SceneError, SceneFile};
+pub use template::template;
 
 /// The README's example is a test too.
 #[cfg(doctest)]

@@ -6,8 +6,7 @@ use std::path::PathBuf;
 use super::failure::Failure;
 use super::shared::Force;
 use super::terminal;
-use crate::Scene;
-use crate::template::{Template, TemplateGround};
+use crate::{Scene, template};
 
 #[derive(Debug, clap::Args)]
 #[command(
@@ -30,7 +29,7 @@ pub struct Arguments {
     /// Depth of the cable below the road surface
     #[arg(long)]
     depth: Option<String>,
-    /// Young's modulus of the ground, where it is one soil
+    /// Young's modulus of the ground, if it is one soil
     #[arg(long, conflicts_with = "pavement")]
     modulus: Option<String>,
     /// Preset of a pavement, in place of one soil
@@ -72,7 +71,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             allowed: "the name of a new file: nothing is overwritten without --force".into(),
         });
     }
-    let text = arguments.template().to_toml(&name)?;
+    let text = template(&name, &arguments.values())?;
     crate::check(&Scene::from_toml(&name, &text)?)?;
     file.write(|out| out.write_all(text.as_bytes()))?;
     writeln!(
@@ -83,24 +82,25 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 impl Arguments {
-    /// The template with what was given in place of its defaults.
-    fn template(&self) -> Template {
-        let usual = Template::default();
-        let given = |given: &Option<String>, usual: String| given.clone().unwrap_or(usual);
-        let modulus = || self.modulus.clone().map(TemplateGround::Modulus);
-        let pavement = self.pavement.clone().map(TemplateGround::Pavement);
-        Template {
-            title: given(&self.title, usual.title),
-            length: given(&self.length, usual.length),
-            depth: given(&self.depth, usual.depth),
-            ground: pavement.or_else(modulus).unwrap_or(usual.ground),
-            cable: given(&self.cable, usual.cable),
-            friction: given(&self.friction, usual.friction),
-            upstream: given(&self.upstream, usual.upstream),
-            downstream: given(&self.downstream, usual.downstream),
-            vehicle: given(&self.vehicle, usual.vehicle),
-            speed: given(&self.speed, usual.speed),
-            passes: given(&self.passes, usual.passes),
-        }
+    /// What was given, by the key of the scene.
+    fn values(&self) -> Vec<(&str, &str)> {
+        let given = [
+            ("title", &self.title),
+            ("duct.length", &self.length),
+            ("duct.depth", &self.depth),
+            ("ground.layers.young_modulus", &self.modulus),
+            ("ground.preset", &self.pavement),
+            ("cable.preset", &self.cable),
+            ("friction.dynamic_coefficient", &self.friction),
+            ("ends.upstream", &self.upstream),
+            ("ends.downstream", &self.downstream),
+            ("vehicles.preset", &self.vehicle),
+            ("vehicles.speed", &self.speed),
+            ("traffic.passes", &self.passes),
+        ];
+        given
+            .into_iter()
+            .filter_map(|(key, value)| Some((key, value.as_deref()?)))
+            .collect()
     }
 }

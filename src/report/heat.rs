@@ -8,7 +8,7 @@ use super::html::Html;
 use super::quantity::{Shown, count, significant};
 use crate::answer::{DayExtremes, HeatRecord, table_days};
 use crate::figure::{Axis, Chart, Series};
-use crate::scene::{DAYS_PER_YEAR, Heat, Unit, Warming};
+use crate::scene::{DAYS_PER_YEAR, Heat, Unit};
 use crate::{CableEnd, Units};
 
 pub fn heat(html: &mut Html, report: &Report) {
@@ -51,23 +51,19 @@ pub fn heat(html: &mut Html, report: &Report) {
 
 /// How warm the cable is.
 fn course(heat: &Heat) -> String {
-    let warming = match &heat.warming {
-        Warming::Swing(swing) => format!(
-            "warms by {} K from midnight to noon and cools again, a cosine",
-            significant(*swing)
-        ),
-        Warming::Profile(points) => {
-            let kelvin = points.iter().map(|(_, kelvin)| *kelvin);
-            let (least, most) = kelvin.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), kelvin| {
-                (least.min(kelvin), most.max(kelvin))
-            });
-            format!(
-                "follows a profile of {} points, from {} to {} K",
-                points.len(),
-                significant(least),
-                significant(most)
-            )
-        }
+    let warming = if let Some(points) = &heat.profile {
+        let kelvin = points.iter().map(|(_, kelvin)| *kelvin);
+        let (least, most) = kelvin.fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), kelvin| {
+            (least.min(kelvin), most.max(kelvin))
+        });
+        let [least, most] = [least, most].map(significant);
+        format!(
+            "follows a profile of {} points, from {least} to {most} K",
+            points.len()
+        )
+    } else {
+        let swing = significant(heat.daily_swing.unwrap_or(0.0));
+        format!("warms by {swing} K from midnight to noon and cools again, a cosine")
     };
     let offset = match heat.offset {
         0.0 => String::new(),

@@ -30,7 +30,6 @@ mod headline;
 mod heat;
 mod holding;
 mod html;
-mod labels;
 mod lanes;
 mod measures;
 mod page;

@@ -12,7 +12,7 @@ use crate::answer::{DayExtremes, DayPoint, HeatRecord, listed};
 use crate::cable::{cable, traffic};
 use crate::ground::peak;
 use crate::plan::{Period, Plan};
-use crate::scene::{DAYS_PER_YEAR, Heat, Scene, Warming};
+use crate::scene::{DAYS_PER_YEAR, Heat, Scene};
 use crate::{Error, Progress};
 
 /// Share of the tolerance that days without real passes may take.
@@ -66,17 +66,12 @@ impl<'a> Living<'a> {
         let passes = a_day(scene);
         let per_kelvin = self.per_kelvin();
         let force = |kelvin: f64| per_kelvin * (self.heat.offset + kelvin);
-        let heat = match &self.heat.warming {
-            Warming::Swing(swing) => DailyHeat::Cosine {
-                lowest: force(0.0),
-                highest: force(*swing),
-            },
-            Warming::Profile(points) => DailyHeat::Profile(
-                points
-                    .iter()
-                    .map(|(seconds, kelvin)| (seconds / SECONDS_A_DAY, force(*kelvin)))
-                    .collect(),
-            ),
+        let heat = if let Some(points) = &self.heat.profile {
+            let point = |(seconds, kelvin): &(f64, f64)| (seconds / SECONDS_A_DAY, force(*kelvin));
+            DailyHeat::Profile(points.iter().map(point).collect())
+        } else {
+            let (lowest, highest) = (force(0.0), force(self.heat.daily_swing.unwrap_or(0.0)));
+            DailyHeat::Cosine { lowest, highest }
         };
         let sequence = self.period.len();
         let few = passes <= FEW.max(sequence as u64) || self.every_pass;

@@ -14,7 +14,6 @@ use creepage::SceneFile;
 use creepage::presets::{self, PresetKind};
 use creepage::scene::{Dimension, SceneError};
 use creepage::sweep::{Axis, AxisValues};
-use creepage::template::{Template, TemplateGround};
 use fastrand::Rng;
 
 use mutate::mutated;
@@ -90,16 +89,14 @@ fn scenes() -> Vec<String> {
     let mut scenes = files("examples/scenes", "toml");
     scenes.extend(files("tests/data/difficult", "toml"));
     for preset in presets::all() {
-        let name = preset.name.clone();
-        let mut template = Template::default();
-        match preset.kind {
-            PresetKind::Vehicle => template.vehicle = name,
-            PresetKind::Cable => template.cable = name,
-            PresetKind::Pavement => template.ground = TemplateGround::Pavement(name),
+        let key = match preset.kind {
+            PresetKind::Vehicle => "vehicles.preset",
+            PresetKind::Cable => "cable.preset",
+            PresetKind::Pavement => "ground.preset",
             PresetKind::Friction => continue,
-        }
+        };
         // What a preset gives may stand in the file too; the template has a speed of its own.
-        let text = template.to_toml("fuzz.toml").expect("a template");
+        let text = creepage::template("fuzz.toml", &[(key, &preset.name)]).expect("a template");
         let values: Vec<&str> = preset
             .toml
             .lines()

@@ -65,7 +65,7 @@ impl CableKeys {
         // Of several cables the factor follows from what is known of them.
         let given = cable.arrangement == Arrangement::Single && cable.diameter.is_none();
         Self {
-            preset: (),
+            preset: None,
             weight: cable.weight,
             axial_stiffness: Some(cable.axial_stiffness),
             young_modulus: None,
@@ -110,7 +110,7 @@ impl FrictionKeys {
         };
         let dynamic_coefficient = friction.dynamic_coefficient;
         Self {
-            preset: (),
+            preset: None,
             law,
             dynamic_coefficient,
             shape_factor,

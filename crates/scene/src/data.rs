@@ -3,10 +3,11 @@
 pub use cable_dem::{End, FrictionLaw, Order, Restraint};
 use ground_field::{SoilProfile, Vehicle};
 
-use crate::key::{Optional, Or, Word, keys};
-use crate::keys::EndKind;
+use crate::either::{EndKind, POINTS, PointKind};
+use crate::key::{List, Optional, Or, Word, keys};
 use crate::range::{
-    APPROACH, DEPTH, DUCT_LENGTH, INNER_DIAMETER, LATERAL_OFFSET, SLOPE, STEP, TIME_STEP, TOLERANCE,
+    APPROACH, DEPTH, DUCT_LENGTH, EXPANSION, INNER_DIAMETER, LATERAL_OFFSET, OFFSET, SLOPE, STEP, SWING,
+    TIME_STEP, TOLERANCE,
 };
 
 /// A text that is not one of the allowed words.
@@ -84,13 +85,12 @@ impl Scene {
         self.friction.dynamic_coefficient * self.cable.normal_load() * self.duct.cosine()
     }
 
-    /// The heat of its days, where it makes any force.
+    /// The heat of its days, if it makes any force.
     pub fn warming(&self) -> Option<&Heat> {
         let heat = self.heat.as_ref()?;
-        let is_flat = match &heat.warming {
-            Warming::Swing(swing) => *swing == 0.0,
-            Warming::Profile(points) => points.iter().all(|(_, kelvin)| *kelvin == 0.0),
-        };
+        let points = heat.profile.iter().flatten();
+        let is_flat =
+            heat.daily_swing.unwrap_or(0.0) == 0.0 && points.into_iter().all(|(_, kelvin)| *kelvin == 0.0);
         let without = heat.expansion == 0.0 || is_flat && heat.offset == 0.0;
         (!without).then_some(heat)
     }
@@ -251,7 +251,6 @@ pub struct TrafficVehicle {
 
 /// How many vehicles drive, in which order.
 #[derive(Debug, Clone, PartialEq)]
-#[non_exhaustive]
 pub struct Traffic {
     /// Number of passes, all vehicles together, at least 1.
     pub passes: u64,
@@ -272,25 +271,18 @@ impl Traffic {
     }
 }
 
-/// Heat of the cable: how much it expands, and how warm it is over a day.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Heat {
-    /// Thermal expansion α per length and degree \[1/K\], at least 0.
-    pub expansion: f64,
-    /// Mean temperature of the cable's section over the day.
-    pub warming: Warming,
-    /// What is added to it \[K\]: the day's lowest temperature above that at laying.
-    pub offset: f64,
-}
-
-/// Temperature over a day that repeats.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Warming {
-    /// A cosine from 0 at midnight to this at noon \[K\].
-    Swing(f64),
-    /// Points joined by straight lines, the last one to the first of the next day: time of the day \[s\], ascending,
-    /// and temperature \[K\].
-    Profile(Vec<(f64, f64)>),
+keys! {
+    /// Heat of the cable: how much it expands, and how warm it is over a day that repeats; in SI. It has a swing or a profile.
+    pub struct Heat {
+        /// Thermal expansion of the cable per length and degree.
+        expansion: f64 = EXPANSION;
+        /// From the day's lowest to its highest mean temperature of the cable, a cosine over the day.
+        daily_swing: Option<f64> = Optional(SWING), "`profile` instead";
+        /// The day's lowest temperature above that at laying; added to a profile.
+        offset: f64 = Or(OFFSET, 0.0), "0 K";
+        /// Temperatures at times of the day, joined by straight lines, every day the same.
+        profile: Option<Vec<(f64, f64)>> = Optional(List(PointKind, 2, POINTS)), "`daily_swing` instead";
+    }
 }
 
 keys! {

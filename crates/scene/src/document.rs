@@ -10,7 +10,6 @@ use crate::error::{SceneError, Wrong, WrongKind};
 use crate::location::{Location, line_start};
 use crate::presets::Preset;
 use crate::quantity::{with_point, without_thousands};
-use crate::rivals::other_name;
 use crate::shown::{quoted, shortened};
 
 /// Where something was written: which source, which bytes of it.
@@ -104,6 +103,15 @@ pub fn joined(path: &str, key: &str) -> String {
 pub fn without_numbers(path: &str) -> String {
     let is_name = |part: &&str| part.parse::<usize>().is_err();
     path.split('.').filter(is_name).collect::<Vec<_>>().join(".")
+}
+
+/// A clamp has a `stiffness`, an end a `spring`: each is understood where the other is meant.
+pub fn other_name(key: &str) -> Option<&'static str> {
+    match key {
+        "spring" => Some("stiffness"),
+        "stiffness" => Some("spring"),
+        _ => None,
+    }
 }
 
 /// A file, an override or a preset.

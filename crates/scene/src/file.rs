@@ -9,12 +9,12 @@ use crate::data::Scene;
 use crate::document::{Content, Document};
 use crate::error::{SceneError, Wrong, WrongKind};
 use crate::key::{Kind, Visit, section};
-use crate::keys::{CableKeys, FrictionKeys, GroundKeys, HeatKeys, SceneKeys, TrafficKeys, VehicleKeys};
+use crate::keys::{CableKeys, FrictionKeys, GroundKeys, SceneKeys, TrafficKeys, VehicleKeys};
 use crate::location::Location;
 use crate::slips::{UnitSlip, unit_slips};
 use crate::units::{Dimension, Unit};
 use crate::value::Value;
-use crate::{histogram, overrides, preset, rivals, rules, traffic, written};
+use crate::{histogram, names, overrides, preset, rivals, rules, traffic, written};
 
 /// A scene file larger than this \[bytes\] is not a scene file.
 const LARGEST_FILE: u64 = 16 << 20;
@@ -112,7 +112,12 @@ impl SceneFile {
             path: String::new(),
             node: &document.root,
         };
-        let keys = section::<SceneKeys>().read(&root)?;
+        let keys = section::<SceneKeys>().read(&root).map_err(|mut error| {
+            if let SceneError::Wrong(wrong) = &mut error {
+                names::advise(wrong);
+            }
+            error
+        })?;
         let out_of_range = out_of_range(&keys, |key| match document.find(key) {
             (node, true) => matches!(node.content, Content::Number { .. }),
             _ => false,
@@ -312,7 +317,7 @@ impl Scene {
             restraints: keys.restraints.clone(),
             vehicles,
             traffic,
-            heat: keys.heat.as_ref().map(HeatKeys::heat).transpose()?,
+            heat: keys.heat.clone(),
             solver: keys.solver,
         })
     }
@@ -337,7 +342,7 @@ impl Scene {
             restraints: self.restraints.clone(),
             vehicles: Some(vehicles),
             traffic: TrafficKeys::of(self),
-            heat: self.heat.as_ref().map(HeatKeys::of),
+            heat: self.heat.clone(),
             solver,
         }
     }

@@ -6,8 +6,8 @@ use creepage_tables::{Name, Names, Options, Row, Table, TableError};
 use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
 use crate::data::TrafficVehicle;
+use crate::either::HistogramKeys;
 use crate::error::{Wrong, WrongKind};
-use crate::keys::HistogramKeys;
 use crate::range::{AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS, Quantity};
 use crate::units::Dimension;
 

@@ -3,10 +3,10 @@
 //! The macro [`keys!`] declares such a type. Reading, writing, checking ranges, `creepage explain` and the JSON Schema all follow from its
 //! rows: a key's documentation, its field, its [`Kind`], and what counts if it is left out.
 
-use crate::document::{Content, Entry, Node, Place, joined};
+use crate::document::{Content, Entry, Node, Place, joined, other_name};
 use crate::error::{SceneError, WrongKind};
 use crate::range::Quantity;
-use crate::value::{Table, Value};
+use crate::value::Value;
 
 /// A table of the file.
 pub trait Keys: Sized {
@@ -86,6 +86,51 @@ pub fn listed<'w>(words: impl Iterator<Item = &'w str>) -> String {
         .join(", ")
 }
 
+/// A table of a document, which knows its keys when it is opened: a misspelt key is reported as such and not as the lack of the right one.
+pub struct Table<'d> {
+    value: Value<'d>,
+    entries: &'d [Entry],
+}
+
+impl<'d> Table<'d> {
+    /// Opens a table, which may hold only the `known` keys.
+    pub fn open(value: &Value<'d>, known: &[Key]) -> Result<Self, SceneError> {
+        let names: Vec<&str> = known.iter().map(|key| key.name).collect();
+        let is_known = |entry: &Entry| {
+            let other = other_name(&entry.key);
+            names.contains(&&*entry.key) || other.is_some_and(|other| names.contains(&other))
+        };
+        let Content::Table(entries) = &value.node.content else {
+            return Err(value.wrong_type(format!("a table with the keys {}", names.join(", "))));
+        };
+        if let Some(entry) = entries.iter().find(|entry| !is_known(entry)) {
+            let key = joined(&value.path, &entry.key);
+            let place = &entry.key_place;
+            return Err(value
+                .document
+                .wrong(WrongKind::UnknownKey, place, &key, "", names.join(", ")));
+        }
+        Ok(Self {
+            value: value.clone(),
+            entries,
+        })
+    }
+
+    /// What stands at `key`.
+    pub fn get<K: Kind>(&self, key: &str, kind: &K) -> Result<K::Value, SceneError> {
+        let is_meant = |entry: &&Entry| entry.key == key || Some(&*entry.key) == other_name(key);
+        if let Some(entry) = self.entries.iter().find(is_meant) {
+            return kind.read(&self.value.child(&entry.key, &entry.value));
+        }
+        kind.absent().ok_or_else(|| {
+            // The section that lacks it is shown.
+            let Value { document, path, node } = &self.value;
+            let (key, allowed) = (joined(path, key), kind.form().allowed());
+            document.wrong(WrongKind::MissingKey, &node.place, &key, "", allowed)
+        })
+    }
+}
+
 /// Declares a table of the file, or the keys of a type that is already there (`for TYPE`).
 macro_rules! keys {
     (
@@ -103,7 +148,7 @@ macro_rules! keys {
     };
     (for $name:ty { $($(#[doc = $meaning:literal])+ $key:ident = $kind:expr $(, $default:literal)?;)+ }) => {
         impl $crate::key::Keys for $name {
-            fn read(table: &$crate::value::Table) -> Result<Self, $crate::error::SceneError> {
+            fn read(table: &$crate::key::Table) -> Result<Self, $crate::error::SceneError> {
                 Ok(Self { $($key: table.get(stringify!($key), &$kind)?,)+ })
             }
 
@@ -382,49 +427,6 @@ impl Entry {
             key,
             key_place: NOWHERE,
             value,
-        }
-    }
-}
-
-/// What a key of a scene means.
-#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
-#[non_exhaustive]
-pub struct KeyMeaning {
-    /// The key with its section, without the numbers of list items: `vehicles.speed`.
-    pub key: String,
-    /// What it means.
-    pub meaning: &'static str,
-    /// What may stand there: range and units, or words.
-    pub allowed: String,
-    /// What counts if it is left out; `None` if it is required.
-    pub default: Option<&'static str>,
-}
-
-/// The meanings of these keys and of all below them.
-pub fn meanings(path: &str, keys: Vec<Key>, found: &mut Vec<KeyMeaning>) {
-    for Key {
-        name,
-        meaning,
-        form,
-        default,
-    } in keys
-    {
-        let (key, allowed) = (joined(path, name), form.allowed());
-        let inner = key.clone();
-        found.push(KeyMeaning {
-            key,
-            meaning,
-            allowed,
-            default,
-        });
-        match form {
-            Form::Table(keys) | Form::Either(_, keys, _) => meanings(&inner, keys, found),
-            Form::List(form, ..) => {
-                if let Form::Table(keys) = *form {
-                    meanings(&inner, keys, found);
-                }
-            }
-            _ => {}
         }
     }
 }

@@ -1,20 +1,18 @@
 //! The tables of a scene file and their keys. Those that a scene has as they are written stand with its data; these are turned into it.
 
-use cable_dem::{End, Restraint};
+use cable_dem::Restraint;
 use ground_field::{Direction, Modulus};
 
-use crate::data::{Arrangement, Duct, Ends, GroundModel, Solver};
-use crate::document::{Content, Entry, Node};
-use crate::error::{SceneError, WrongKind};
-use crate::key::{Form, Keys, Kind, List, Optional, Or, Text, Visit, Whole, Word, keys, section};
+use crate::data::{Arrangement, Duct, Ends, GroundModel, Heat, Solver};
+use crate::document::Entry;
+use crate::either::{HistogramKeys, HistogramKind, ModulusKind};
+use crate::key::{Keys, List, Optional, Or, Text, Whole, Word, keys, section};
 use crate::range::{
     ANY_WHOLE, AXIAL_STIFFNESS, CLAMP, COEFFICIENT, CONDUCTOR_AREA, CONDUCTOR_MODULUS, CONTACT_RADIUS,
-    DIAMETER, EXPANSION, LANE, LOAD, LOAD_FACTOR, LONGITUDINAL_PEAK, MODULUS, MODULUS_AT_AN_END, OFFSET,
-    PASSES, PER_DAY, POISSON, POSITION, RIGID_BASE_DEPTH, SHAPE_FACTOR, SHARE, SPEED, SPRING, SWING,
-    TEMPERATURE, THICKNESS, TIME_OF_DAY, VERTICAL_PEAK, WEIGHT, WHEEL_LOAD, WHEEL_X, WHEEL_Y, YEARS,
+    DIAMETER, LANE, LOAD, LOAD_FACTOR, LONGITUDINAL_PEAK, PASSES, PER_DAY, POISSON, POSITION,
+    RIGID_BASE_DEPTH, SHAPE_FACTOR, SHARE, SPEED, THICKNESS, VERTICAL_PEAK, WEIGHT, WHEEL_LOAD, WHEEL_X,
+    WHEEL_Y, YEARS,
 };
-use crate::units::Dimension;
-use crate::value::Value;
 
 keys! {
     /// A scene file.
@@ -38,12 +36,14 @@ keys! {
         /// How much traffic, and in which order.
         traffic: TrafficKeys = section::<TrafficKeys>();
         /// How warm the cable gets every day; needs `traffic.per_day`.
-        heat: Option<HeatKeys> = Optional(section::<HeatKeys>()), "none";
+        heat: Option<Heat> = Optional(section::<Heat>()), "none";
         /// How to compute.
         solver: Solver = Or(section::<Solver>(), Solver::default()), "all is chosen";
     }
 }
 
+/// The name of a preset, which is no longer there when a table is read.
+const PRESET: Optional<Text> = Optional(Text("a name that `creepage presets` lists"));
 pub const VEHICLES: &str = "one [[vehicles]] or more, or traffic.histogram";
 pub const LAYERS: &str = "one [[ground.layers]] or more, from the top down";
 
@@ -51,7 +51,7 @@ keys! {
     #[derive(Default)]
     pub struct GroundKeys {
         /// A pavement by its name; keys beside it override its values.
-        preset: () = Preset, "none";
+        preset: Option<String> = PRESET, "none";
         /// Model of the ground.
         model: GroundModel = Or(MODEL, GroundModel::Auto), "\"auto\"";
         /// Depth of rock that does not move.
@@ -86,20 +86,9 @@ keys! {
 }
 
 keys! {
-    #[derive(Copy)]
-    pub struct GradedKeys {
-        /// Young's modulus at the top of a layer in which it varies.
-        top: f64 = MODULUS_AT_AN_END;
-        /// The same at the bottom.
-        bottom: f64 = MODULUS_AT_AN_END;
-    }
-}
-
-keys! {
-    #[derive(Copy)]
     pub struct CableKeys {
         /// A cable by its name; keys beside it override its values.
-        preset: () = Preset, "none";
+        preset: Option<String> = PRESET, "none";
         /// Weight of the cable per length; a mass per length is multiplied by g.
         weight: f64 = WEIGHT;
         /// Young's modulus times cross-section, EA.
@@ -132,24 +121,15 @@ const LAWS: &[(&str, Law)] = &[
 ];
 
 keys! {
-    #[derive(Copy)]
     pub struct FrictionKeys {
         /// A pair of surfaces by its name; keys beside it override its values.
-        preset: () = Preset, "none";
+        preset: Option<String> = PRESET, "none";
         /// How friction follows slip.
         law: Law = Or(Word::of(LAWS), Law::ElasticPlastic), "\"elastic-plastic\"";
         /// Friction of the slipping cable in normal forces, μ_d.
         dynamic_coefficient: f64 = COEFFICIENT;
         /// How steeply friction builds up before the cable slips, b: the slope is q b/2.
         shape_factor: Option<f64> = Optional(SHAPE_FACTOR), "required, but not with Coulomb's law";
-    }
-}
-
-keys! {
-    #[derive(Copy)]
-    pub struct SpringKeys {
-        /// Stiffness of the spring at this end; `stiffness` is understood too.
-        spring: f64 = SPRING;
     }
 }
 
@@ -171,7 +151,7 @@ const WHEELS: &str = "a list of wheels, such as [ { x = \"0 m\", y = \"0.9 m\", 
 keys! {
     pub struct VehicleKeys {
         /// A vehicle by its name; keys beside it override its values.
-        preset: () = Preset, "none";
+        preset: Option<String> = PRESET, "none";
         /// Name of the vehicle.
         name: Option<String> = Optional(Text("a name in quotes that no other vehicle has")), "\"vehicle 1\", \"vehicle 2\", …";
         /// Speed of the vehicle.
@@ -226,209 +206,6 @@ keys! {
         seed: Option<u64> = Optional(Whole(ANY_WHOLE)), "1";
         /// Vehicles in this order, over and over; shares do not count.
         sequence: Option<Vec<String>> = Optional(List(Text("a vehicle's name"), 1, NAMES)), "none";
-    }
-}
-
-pub const TABLE: &str = "the name of a table, such as \"axles.csv\"";
-const TEXT: Text = Text("a text in quotes");
-
-keys! {
-    #[derive(Default)]
-    pub struct HistogramKeys {
-        /// The table, from the folder of the scene on.
-        file: String = Text(TABLE);
-        /// What stands between its cells.
-        separator: Option<String> = Optional(Text("comma, semicolon, tab, space or |, in quotes")), "recognised";
-        /// What stands before its decimals.
-        decimal: Option<String> = Optional(Text("\"point\" or \"comma\"")), "recognised";
-        /// How its characters are written.
-        encoding: Option<String> = Optional(Text("utf-8, utf-16, latin-1, shift_jis, …, in quotes")), "recognised";
-        /// Its line with the names of the columns.
-        header_line: Option<u64> = Optional(Whole(ANY_WHOLE)), "recognised";
-        /// Rows below the names that hold no axles.
-        skip: Option<u64> = Optional(Whole(ANY_WHOLE)), "recognised";
-        /// Sheet of a workbook.
-        sheet: Option<String> = Optional(TEXT), "the first with rows";
-        /// Unit of the loads.
-        unit: Option<String> = Optional(Text("a unit of force, in quotes")), "that of the header";
-        /// Name of the column with the loads.
-        column_load: Option<String> = Optional(TEXT), "recognised";
-        /// Name of the column with the numbers of axles.
-        column_count: Option<String> = Optional(TEXT), "recognised";
-        /// Name of the column with the radii.
-        column_contact_radius: Option<String> = Optional(TEXT), "recognised";
-    }
-}
-
-keys! {
-    pub struct HeatKeys {
-        /// Thermal expansion of the cable per length and degree.
-        expansion: f64 = EXPANSION;
-        /// From the day's lowest to its highest mean temperature of the cable, a cosine over the day.
-        daily_swing: Option<f64> = Optional(SWING), "`profile` instead";
-        /// The day's lowest temperature above that at laying; added to a profile.
-        offset: f64 = Or(OFFSET, 0.0), "0 K";
-        /// Temperatures at times of the day, joined by straight lines, every day the same.
-        profile: Option<Vec<(f64, f64)>> = Optional(List(PointKind, 2, POINTS)), "`daily_swing` instead";
-    }
-}
-
-pub const POINTS: &str = "two points of the day or more, such as [[\"0 h\", \"0 K\"], [\"15 h\", \"20 K\"]], their times ascending";
-
-/// The name of a preset, which is no longer there when a table is read.
-pub struct Preset;
-
-impl Kind for Preset {
-    type Value = ();
-
-    fn read(&self, value: &Value) -> Result<(), SceneError> {
-        value.text("a name that `creepage presets` lists").map(|_| ())
-    }
-
-    fn write(&self, (): &()) -> Option<Content> {
-        None
-    }
-
-    fn form(&self) -> Form {
-        Form::Text("a name that `creepage presets` lists")
-    }
-
-    fn absent(&self) -> Option<()> {
-        Some(())
-    }
-}
-
-/// What holds an end: a word, or a table with a spring.
-pub struct EndKind;
-
-const HELD: &[(&str, End)] = &[("free", End::Free), ("fixed", End::Fixed)];
-const END: &str = "\"free\", \"fixed\" or { spring = \"3 MN/m\" }";
-
-impl Kind for EndKind {
-    type Value = End;
-
-    fn read(&self, value: &Value) -> Result<End, SceneError> {
-        if value.is_table() {
-            return Ok(End::Spring(section::<SpringKeys>().read(value)?.spring));
-        }
-        let spring = Dimension::ForcePerLength.parse(&value.text(END)?);
-        let meant = spring.map_or_else(
-            |_| String::new(),
-            |_| format!("; did you mean {{ spring = {} }}?", value.written()),
-        );
-        value.word(HELD, &format!("{END}{meant}"))
-    }
-
-    fn write(&self, value: &End) -> Option<Content> {
-        match value {
-            End::Spring(spring) => section().write(&SpringKeys { spring: *spring }),
-            held => Word::of(HELD).write(held),
-        }
-    }
-
-    fn each(&self, value: &End, path: &str, visit: &mut Visit) {
-        if let End::Spring(spring) = value {
-            SpringKeys { spring: *spring }.each(path, visit);
-        }
-    }
-
-    fn form(&self) -> Form {
-        let words = HELD.iter().map(|(word, _)| *word).collect();
-        Form::Either(Box::new(Form::Words(words, None)), SpringKeys::keys(), Some(END))
-    }
-}
-
-/// A modulus, or a table with those at the top and at the bottom of a layer.
-pub struct ModulusKind;
-
-impl Kind for ModulusKind {
-    type Value = Modulus;
-
-    fn read(&self, value: &Value) -> Result<Modulus, SceneError> {
-        if !value.is_table() {
-            return value.quantity(MODULUS).map(Modulus::Uniform);
-        }
-        let GradedKeys { top, bottom } = section().read(value)?;
-        Ok(Modulus::Linear { top, bottom })
-    }
-
-    fn write(&self, value: &Modulus) -> Option<Content> {
-        match *value {
-            Modulus::Uniform(modulus) => MODULUS.write(&modulus),
-            Modulus::Linear { top, bottom } => section().write(&GradedKeys { top, bottom }),
-        }
-    }
-
-    fn each(&self, value: &Modulus, path: &str, visit: &mut Visit) {
-        match *value {
-            Modulus::Uniform(modulus) => visit(path, modulus, MODULUS),
-            Modulus::Linear { top, bottom } => GradedKeys { top, bottom }.each(path, visit),
-        }
-    }
-
-    fn form(&self) -> Form {
-        Form::Either(Box::new(Form::Quantity(MODULUS)), GradedKeys::keys(), None)
-    }
-}
-
-/// The name of a table of axles, or a table that says how it is to be read.
-pub struct HistogramKind;
-
-const HISTOGRAM: &str = "the name of a table, such as \"axles.csv\", with the columns load, count and, if wanted, contact_radius, \
-                         or { file = \"axles.csv\", decimal = \"comma\" }";
-
-impl Kind for HistogramKind {
-    type Value = HistogramKeys;
-
-    fn read(&self, value: &Value) -> Result<HistogramKeys, SceneError> {
-        if value.is_table() {
-            return section::<HistogramKeys>().read(value);
-        }
-        Ok(HistogramKeys {
-            file: value.text(TABLE)?,
-            ..HistogramKeys::default()
-        })
-    }
-
-    fn write(&self, value: &HistogramKeys) -> Option<Content> {
-        section::<HistogramKeys>().write(value)
-    }
-
-    fn form(&self) -> Form {
-        Form::Either(
-            Box::new(Form::Text(TABLE)),
-            HistogramKeys::keys(),
-            Some(HISTOGRAM),
-        )
-    }
-}
-
-/// A time of the day and a temperature.
-pub struct PointKind;
-
-impl Kind for PointKind {
-    type Value = (f64, f64);
-
-    fn read(&self, value: &Value) -> Result<(f64, f64), SceneError> {
-        let [time, kelvin] = &value.items(POINTS)?[..] else {
-            let allowed = "a point of the day: [\"15 h\", \"20 K\"]";
-            return Err(value.wrong(WrongKind::Value, value.written(), allowed));
-        };
-        Ok((time.quantity(TIME_OF_DAY)?, kelvin.quantity(TEMPERATURE)?))
-    }
-
-    fn write(&self, (time, kelvin): &(f64, f64)) -> Option<Content> {
-        let items = [TIME_OF_DAY.write(time)?, TEMPERATURE.write(kelvin)?];
-        Some(Content::Array(items.map(Node::of_program).into()))
-    }
-
-    fn each(&self, (time, kelvin): &(f64, f64), path: &str, visit: &mut Visit) {
-        visit(&format!("{path}.0"), *time, TIME_OF_DAY);
-        visit(&format!("{path}.1"), *kelvin, TEMPERATURE);
-    }
-
-    fn form(&self) -> Form {
-        Form::Text("a point of the day: [\"15 h\", \"20 K\"]")
     }
 }
 

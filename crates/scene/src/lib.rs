@@ -5,6 +5,7 @@ mod cable;
 mod cable_end;
 mod data;
 mod document;
+mod either;
 mod error;
 mod file;
 mod ground;
@@ -35,13 +36,11 @@ pub use cable_end::CableEnd;
 pub use data::{
     Arrangement, Cable, DAYS_PER_YEAR, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Heat,
     Order, PeakScaling, Restraint, Scene, Solver, SolverMethod, Traffic, TrafficVehicle, UnknownWord,
-    Warming,
 };
 pub use error::{SceneError, Wrong, WrongKind, did_you_mean};
 pub use file::{SceneFile, Typed, TypedValue};
-pub use key::KeyMeaning;
 pub use location::Location;
-pub use names::{key_meanings, nearest_key, si_unit};
+pub use names::{KeyMeaning, key_meanings, nearest_key, si_unit};
 pub use nearest::nearest;
 pub use quantity::{QuantityError, leading_number};
 pub use range::{PER_DAY, Quantity, YEARS};

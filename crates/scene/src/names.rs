@@ -2,11 +2,11 @@
 
 use std::sync::LazyLock;
 
-use crate::document::without_numbers;
-use crate::key::{Form, Key, KeyMeaning, Keys, meanings};
+use crate::document::{joined, other_name, without_numbers};
+use crate::error::{Wrong, WrongKind, did_you_mean};
+use crate::key::{Form, Key, Keys};
 use crate::keys::SceneKeys;
 use crate::nearest::nearest;
-use crate::rivals::other_name;
 
 /// Words and symbols of the field for what a scene calls otherwise.
 #[rustfmt::skip]
@@ -18,6 +18,49 @@ const SYNONYMS: &[(&str, &str)] = &[
     ("pavement", "ground"), ("pipe", "duct"), ("right", "downstream"), ("road", "ground"), ("soil", "ground"),
     ("soils", "ground"), ("start", "upstream"), ("trucks", "vehicles"), ("velocity", "speed"),
 ];
+
+/// What a key of a scene means.
+#[derive(Debug, Clone, PartialEq, Eq, serde::Serialize)]
+#[non_exhaustive]
+pub struct KeyMeaning {
+    /// The key with its section, without the numbers of list items: `vehicles.speed`.
+    pub key: String,
+    /// What it means.
+    pub meaning: &'static str,
+    /// What may stand there: range and units, or words.
+    pub allowed: String,
+    /// What counts if it is left out; `None` if it is required.
+    pub default: Option<&'static str>,
+}
+
+/// The meanings of these keys and of all below them.
+pub fn meanings(path: &str, keys: Vec<Key>, found: &mut Vec<KeyMeaning>) {
+    for Key {
+        name,
+        meaning,
+        form,
+        default,
+    } in keys
+    {
+        let (key, allowed) = (joined(path, name), form.allowed());
+        let inner = key.clone();
+        found.push(KeyMeaning {
+            key,
+            meaning,
+            allowed,
+            default,
+        });
+        match form {
+            Form::Table(keys) | Form::Either(_, keys, _) => meanings(&inner, keys, found),
+            Form::List(form, ..) => {
+                if let Form::Table(keys) = *form {
+                    meanings(&inner, keys, found);
+                }
+            }
+            _ => {}
+        }
+    }
+}
 
 static MEANINGS: LazyLock<Vec<KeyMeaning>> = LazyLock::new(|| {
     let mut found = Vec::new();
@@ -74,37 +117,42 @@ pub fn si_unit(key: &str) -> Option<&'static str> {
     None
 }
 
-/// The key that was probably meant if only `known` ones are, and where else `key` belongs if it is one of the top level: a near miss,
-/// another word for it, the same name with another beginning, or a key of another section.
-pub fn suggestion(key: &str, known: &[&str]) -> (Option<String>, String) {
+/// Says of an unknown key what was probably meant: a near miss of those allowed, another word for one, one with another beginning, or a key
+/// of another section.
+pub fn advise(wrong: &mut Wrong) {
+    if wrong.kind != WrongKind::UnknownKey {
+        return;
+    }
+    let key = last(&wrong.key);
+    let known: Vec<&str> = wrong.allowed.split(", ").collect();
     let word = key.to_lowercase();
     let synonym = SYNONYMS
         .iter()
         .find(|(other, name)| *other == word && known.contains(name));
     let ends = |long: &str, short: &str| long.strip_suffix(short).is_some_and(|head| head.ends_with('_'));
-    let ends_alike = || known.iter().find(|name| ends(name, key) || ends(key, name));
-    // Keys of a section, not of a table inside a value.
-    let elsewhere = || {
-        MEANINGS.iter().find(|found| {
-            let sections = found.key.matches('.').count();
-            last(&found.key) == key
-                && (sections == 1 || sections == 2 && found.key.starts_with("ground.layers."))
-        })
+    let ends_alike = || {
+        known
+            .iter()
+            .copied()
+            .find(|name| ends(name, key) || ends(key, name))
     };
-    let here = synonym
+    // Keys of a section, not of a table inside a value.
+    let of_section = |key: &str| {
+        key.matches('.').count() == 1 || key.starts_with("ground.layers.") && key.matches('.').count() == 2
+    };
+    let keys = || MEANINGS.iter().map(|meaning| &*meaning.key);
+    let meant = synonym
         .map(|(_, name)| *name)
         .or_else(|| nearest(key, known.iter().copied()));
-    let here = here.or_else(|| ends_alike().copied()).map(str::to_owned);
-    let top = MEANINGS.iter().any(|found| found.key == key) && !known.contains(&key);
+    let meant = meant.or_else(ends_alike);
+    let meant = meant.or_else(|| keys().find(|other| of_section(other) && last(other) == key));
     let where_else = match key {
         "title" => "; `title` stands above the first section".to_owned(),
-        _ if top => format!("; `{key}` stands for itself, not in a section"),
+        _ if keys().any(|other| other == key) => format!("; `{key}` stands for itself, not in a section"),
         _ => String::new(),
     };
-    (
-        here.or_else(|| elsewhere().map(|found| found.key.clone())),
-        where_else,
-    )
+    wrong.found = did_you_mean(meant);
+    wrong.allowed += &where_else;
 }
 
 #[cfg(test)]

@@ -43,15 +43,6 @@ const RULES: &[Rule] = &[
     ("solver", "method", &["quasi-static", "pass-law"], "time_step", "`time_step` only with the method \"auto\" or \"explicit\""),
 ];
 
-/// A clamp has a `stiffness`, an end a `spring`: each is understood where the other is meant.
-pub fn other_name(key: &str) -> Option<&'static str> {
-    match key {
-        "spring" => Some("stiffness"),
-        "stiffness" => Some("spring"),
-        _ => None,
-    }
-}
-
 fn value_at<'e>(entries: &'e [Entry], key: &str) -> Option<&'e Node> {
     Some(&entries.iter().find(|entry| entry.key == key)?.value)
 }

@@ -5,7 +5,7 @@ use ground_field::Wheel;
 
 use crate::arrangement::CLOSEST;
 use crate::cable_end::CableEnd;
-use crate::data::{Ground, GroundModel, PeakScaling, Scene, SolverMethod, Warming};
+use crate::data::{Ground, GroundModel, PeakScaling, Scene, SolverMethod};
 use crate::document::joined;
 use crate::error::{Wrong, WrongKind};
 use crate::range::{DIAMETER, Follows, INNER_DIAMETER, diameters, node_spacings, shown, vehicle_steps};
@@ -207,7 +207,16 @@ fn heat(scene: &Scene) -> Checked {
     let Some(heat) = &scene.heat else {
         return Ok(());
     };
-    if let Warming::Profile(points) = &heat.warming {
+    if heat.daily_swing.is_some() == heat.profile.is_some() {
+        let found = [
+            "both `daily_swing` and `profile`",
+            "neither `daily_swing` nor `profile`",
+        ][usize::from(heat.profile.is_none())];
+        let allowed =
+            "one of the two: daily_swing = \"20 K\" or profile = [[\"0 h\", \"0 K\"], [\"15 h\", \"20 K\"]]";
+        return hold(false, "heat", found, allowed);
+    }
+    if let Some(points) = &heat.profile {
         hold(
             points.len() > 1,
             "heat.profile",

@@ -1,13 +1,13 @@
-//! `[[vehicles]]`, `[traffic]` and `[heat]`: from their keys to who drives, how often, in which order and at which temperature, and back.
+//! `[[vehicles]]` and `[traffic]`: from their keys to who drives, how often and in which order, and back.
 
 use cable_dem::Order;
 use ground_field::{SurfaceLoad, Vehicle, Wheel};
 
-use crate::data::{DAYS_PER_YEAR, Heat, Scene, Traffic, TrafficVehicle, Warming};
+use crate::data::{DAYS_PER_YEAR, Scene, Traffic, TrafficVehicle};
 use crate::error::{Wrong, WrongKind, did_you_mean};
 use crate::histogram;
 use crate::key::listed;
-use crate::keys::{HeatKeys, SceneKeys, TrafficKeys, VEHICLES, VehicleKeys, WheelKeys};
+use crate::keys::{SceneKeys, TrafficKeys, VEHICLES, VehicleKeys, WheelKeys};
 use crate::nearest::nearest;
 use crate::range::{PASSES, PER_DAY, shown};
 
@@ -184,7 +184,7 @@ impl VehicleKeys {
             _ => None,
         };
         Self {
-            preset: (),
+            preset: None,
             name: Some(vehicle.name().to_owned()),
             speed: vehicle.speed(),
             load,
@@ -214,41 +214,5 @@ impl TrafficKeys {
             }
         }
         keys
-    }
-}
-
-impl HeatKeys {
-    /// The heat with these keys.
-    pub fn heat(&self) -> Result<Heat, Box<Wrong>> {
-        let warming = match (self.daily_swing, &self.profile) {
-            (Some(swing), _) => Warming::Swing(swing),
-            (None, Some(points)) => Warming::Profile(points.clone()),
-            (None, None) => {
-                let found = "neither `daily_swing` nor `profile`";
-                let allowed = "one of the two: daily_swing = \"20 K\" or profile = [[\"0 h\", \"0 K\"], [\"15 h\", \"20 K\"]]";
-                return Err(Wrong::at(WrongKind::Value, "heat", found, allowed));
-            }
-        };
-        let (expansion, offset) = (self.expansion, self.offset);
-        Ok(Heat {
-            expansion,
-            warming,
-            offset,
-        })
-    }
-
-    /// The keys of a heat.
-    pub fn of(heat: &Heat) -> Self {
-        let (daily_swing, profile) = match &heat.warming {
-            Warming::Swing(swing) => (Some(*swing), None),
-            Warming::Profile(points) => (None, Some(points.clone())),
-        };
-        let (expansion, offset) = (heat.expansion, heat.offset);
-        Self {
-            expansion,
-            daily_swing,
-            offset,
-            profile,
-        }
     }
 }

@@ -1,15 +1,10 @@
-//! One value or one table of a document, read.
-//!
-//! A [`Table`] knows its keys when it is opened, so that a misspelt key is reported as such and not as the lack of the right one.
+//! One value of a document, read.
 
-use crate::document::{Content, Document, Entry, Node, joined};
+use crate::document::{Content, Document, Node, joined};
 use crate::error::{SceneError, WrongKind, did_you_mean};
-use crate::key::{Key, Kind};
-use crate::names::suggestion;
 use crate::nearest::nearest;
 use crate::quantity::{QuantityError, leading_number, with_point, without_thousands};
 use crate::range::Quantity;
-use crate::rivals::other_name;
 use crate::units::Dimension;
 
 #[derive(Clone)]
@@ -20,14 +15,9 @@ pub struct Value<'d> {
     pub node: &'d Node,
 }
 
-pub struct Table<'d> {
-    value: Value<'d>,
-    entries: &'d [Entry],
-}
-
 impl<'d> Value<'d> {
     /// A value within this one.
-    fn child(&self, key: &str, node: &'d Node) -> Self {
+    pub fn child(&self, key: &str, node: &'d Node) -> Self {
         let (document, path) = (self.document, joined(&self.path, key));
         Self { document, path, node }
     }
@@ -125,7 +115,7 @@ impl<'d> Value<'d> {
         self.wrong(WrongKind::Unit(problem), self.written() + &meant, allowed)
     }
 
-    fn wrong_type(&self, allowed: impl Into<String>) -> SceneError {
+    pub fn wrong_type(&self, allowed: impl Into<String>) -> SceneError {
         let kind = match self.node.content {
             Content::Text(_) => "the text ",
             Content::Number { .. } => "the number ",
@@ -139,47 +129,6 @@ impl<'d> Value<'d> {
     pub fn wrong(&self, kind: WrongKind, found: impl Into<String>, allowed: impl Into<String>) -> SceneError {
         self.document
             .wrong(kind, &self.node.place, &self.path, found, allowed)
-    }
-}
-
-impl<'d> Table<'d> {
-    /// Opens a table, which may hold only the `known` keys.
-    pub fn open(value: &Value<'d>, known: &[Key]) -> Result<Self, SceneError> {
-        let names: Vec<&str> = known.iter().map(|key| key.name).collect();
-        let is_known = |entry: &Entry| {
-            let other = other_name(&entry.key);
-            names.contains(&&*entry.key) || other.is_some_and(|other| names.contains(&other))
-        };
-        let Content::Table(entries) = &value.node.content else {
-            return Err(value.wrong_type(format!("a table with the keys {}", names.join(", "))));
-        };
-        if let Some(entry) = entries.iter().find(|entry| !is_known(entry)) {
-            let (meant, elsewhere) = suggestion(&entry.key, &names);
-            let key = joined(&value.path, &entry.key);
-            let allowed = names.join(", ") + &elsewhere;
-            let found = did_you_mean(meant.as_deref());
-            return Err(value
-                .document
-                .wrong(WrongKind::UnknownKey, &entry.key_place, &key, found, allowed));
-        }
-        Ok(Self {
-            value: value.clone(),
-            entries,
-        })
-    }
-
-    /// What stands at `key`.
-    pub fn get<K: Kind>(&self, key: &str, kind: &K) -> Result<K::Value, SceneError> {
-        let is_meant = |entry: &&Entry| entry.key == key || Some(&*entry.key) == other_name(key);
-        if let Some(entry) = self.entries.iter().find(is_meant) {
-            return kind.read(&self.value.child(&entry.key, &entry.value));
-        }
-        kind.absent().ok_or_else(|| {
-            // The section that lacks it is shown.
-            let Value { document, path, node } = &self.value;
-            let (key, allowed) = (joined(path, key), kind.form().allowed());
-            document.wrong(WrongKind::MissingKey, &node.place, &key, "", allowed)
-        })
     }
 }
 
