@@ -157,8 +157,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
             )
         }
     };
-    let remains = |share: f64| format!("no fit after {:.0} model runs", share * most as f64);
-    let answer = watched(how_far, remains, |progress| {
+    let answer = watched(how_far, |progress| {
         let pairs = inputs.iter().zip(&readings);
         let series: Vec<Series<'_>> = pairs
             .map(|(input, readings)| Series {

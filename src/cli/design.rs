@@ -134,8 +134,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let limits = ways.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
     let units = units.for_springs();
     let how_far = |now| HowFar::new(now, "runs of the scene with one stiffness after the other");
-    let remains = |_| "the search is not finished and has no answer".to_owned();
-    let designs = watched(how_far, remains, |progress| {
+    let designs = watched(how_far, |progress| {
         let all = ways.len() as f64;
         let each = ways.iter().zip(&limits).enumerate();
         each.map(|(index, (way, limits))| {

@@ -24,10 +24,7 @@ pub struct Arguments {
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
     let how_far = |now: Now| HowFar::unknown("choosing ground, method and mesh", now.elapsed);
-    let remains = |_| "nothing is planned".to_owned();
-    let plan = watched(how_far, remains, |_| {
-        crate::plan(&input.scene).map(|plan| plan.report())
-    });
+    let plan = watched(how_far, |_| crate::plan(&input.scene).map(|plan| plan.report()));
     let mut plan = input.located(plan)?;
     input.warn(&mut plan.warnings);
     arguments.json.print(&plan, || print(&plan))

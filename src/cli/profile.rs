@@ -51,8 +51,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut files = arguments.output.files(read.into_iter().flatten());
     let destination = arguments.output.destination(&mut files)?;
     let how_far = |now: Now| HowFar::unknown("computing the ground", now.elapsed);
-    let remains = |_| "no motion is computed".to_owned();
-    let answer = watched(how_far, remains, |_| match &arguments.positions {
+    let answer = watched(how_far, |_| match &arguments.positions {
         Some(positions) => crate::profile_at(&input.scene, positions),
         None => crate::profile(&input.scene),
     });

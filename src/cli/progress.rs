@@ -1,7 +1,4 @@
-//! How far a computation is, and what happens when it is stopped.
-//!
-//! The command computes in rayon's threads, as many as `--threads` says, while this one shows how far it is and waits for Ctrl-C:
-//! whatever the computation does, the process ends at once, and says what is left of its work.
+//! How far a computation is. The command computes in rayon's threads, as many as `--threads` says, while this one shows how far it is.
 
 use std::cell::Cell;
 use std::io::{self, IsTerminal, Write};
@@ -18,7 +15,7 @@ use super::{signals, terminal};
 use crate::Progress;
 use crate::shown::time;
 
-/// How often signals are looked for.
+/// How often it is looked at.
 const TICK: Duration = Duration::from_millis(25);
 /// What takes no longer is not shown; where nobody watches, a line is written every few seconds.
 const UNSEEN: Duration = Duration::from_secs(2);
@@ -84,14 +81,12 @@ pub fn rounded(seconds: f64) -> String {
     }
 }
 
-/// Computes something and shows how far it is, in the words of `how_far`. If the process is asked to stop, `remains` says what is left of the
-/// work, of which a share is done, and this never returns.
+/// Computes something and shows how far it is, in the words of `how_far`.
 pub fn watched<A: Send>(
     how_far: impl Fn(Now) -> HowFar,
-    remains: impl FnOnce(f64) -> String,
     compute: impl FnOnce(Progress<'_>) -> A + Send,
 ) -> A {
-    let watch = signals::Watch::new();
+    signals::listen();
     let share = AtomicU64::new(0.0_f64.to_bits());
     let first = OnceLock::new();
     let report = |now: f64| {
@@ -116,13 +111,6 @@ pub fn watched<A: Send>(
                     Ok(()) => unreachable!("it sends before it ends"),
                 },
                 Err(RecvTimeoutError::Timeout) => {}
-            }
-            if let Some(signal) = watch.asked() {
-                screen.clear();
-                let remains = remains(f64::from_bits(share.load(Ordering::Relaxed)));
-                // The reader of standard error may be stopped too.
-                let _ = writeln!(terminal::err(), "stopped: {remains}");
-                signals::end(signal);
             }
             let now = Now {
                 share: f64::from_bits(share.load(Ordering::Relaxed)),

@@ -90,8 +90,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let page = files.output(&arguments.output, "html")?;
     arguments.page_is_html()?;
     let how_far = |now| HowFar::new(now, "the scene's run, then ways to hold the cable");
-    let remains = |_| "no page is written".to_owned();
-    let report = watched(how_far, remains, |progress| {
+    let report = watched(how_far, |progress| {
         Report::new(
             &input.scene,
             &ReportOptions {

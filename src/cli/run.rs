@@ -85,8 +85,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let workbook = arguments.workbook.destination(&mut files)?;
     let units = arguments.limits.units(input.file());
     let how_far = |now| HowFar::new(now, "passes on finer and finer meshes");
-    let remains = |_| "the run is not finished and has no answer".to_owned();
-    let answer = watched(how_far, remains, |progress| {
+    let answer = watched(how_far, |progress| {
         let options = RunOptions {
             verify: arguments.verify,
             progress,

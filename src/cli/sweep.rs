@@ -106,11 +106,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let count = sweep.count();
     let points = |share: f64| format!("{:.0} of {count} points", share * count as f64);
     let how_far = |now: Now| HowFar::new(now, &points(now.share));
-    let remains = |share| {
-        let (points, out) = (points(share), arguments.out.display());
-        format!("{points} are kept beside {out}; the same command goes on from there")
-    };
-    let summary = watched(how_far, remains, |progress| {
+    let out = arguments.out.display();
+    super::signals::leaves(format!(
+        "the finished points are kept beside {out}; the same command goes on from there"
+    ));
+    let summary = watched(how_far, |progress| {
         let options = SweepOptions {
             force: arguments.force.force,
             progress,

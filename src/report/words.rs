@@ -92,7 +92,7 @@ fn beside(report: &Report) -> String {
         Arrangement::TrefoilLower => "a lower one of three cables in trefoil",
         Arrangement::CradledOuter => "an outer one of three cables side by side",
         Arrangement::CradledMiddle => "the middle one of three cables side by side",
-        _ => return String::new(),
+        Arrangement::Single => return String::new(),
     };
     let [inner, own] =
         [scene.duct.inner_diameter, scene.cable.diameter].map(|d| shown.length(d.unwrap_or_default()));

@@ -96,7 +96,7 @@ fn a_stopped_sweep_says_what_it_keeps() {
     let sweep = [&sweep[..], &["friction.dynamic_coefficient=0.001:1:0.001"]].concat();
     let stopped = Stopped::after(Duration::from_secs(1), &folder, &sweep, "INT");
     assert_eq!(stopped.status.code(), Some(130), "{}", stopped.said);
-    let said = "of 1000 points are kept beside table.csv; the same command goes on from there";
+    let said = "the finished points are kept beside table.csv; the same command goes on from there";
     assert!(stopped.said.contains(said), "{}", stopped.said);
     let names = folder.names();
     assert!(names.iter().any(|name| name == "table.csv.journal"), "{names:?}");

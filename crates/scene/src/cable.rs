@@ -3,15 +3,11 @@
 use cable_dem::FrictionLaw;
 
 use crate::data::{Arrangement, Cable, Duct, Friction};
-use crate::error::{Wrong, WrongKind};
+use crate::error::Wrong;
 use crate::keys::{CableKeys, FrictionKeys, Law};
 use crate::range::{
     AXIAL_STIFFNESS, CONDUCTOR_AREA, CONDUCTOR_MODULUS, DIAMETER, INNER_DIAMETER, SHAPE_FACTOR, shown,
 };
-
-fn missing(key: &str, allowed: impl Into<String>) -> Box<Wrong> {
-    Wrong::at(WrongKind::MissingKey, key, "", allowed)
-}
 
 impl CableKeys {
     /// The cable with these keys in `duct`; its normal load factor is given, or as its arrangement and both diameters make it.
@@ -24,8 +20,8 @@ impl CableKeys {
             }
             (None, Some(diameter), Some(inner)) => arrangement.normal_load_factor(inner, diameter),
             _ if !arrangement.is_of_three() => 1.0,
-            (None, _, None) => return Err(missing("duct.inner_diameter", INNER_DIAMETER.allowed())),
-            _ => return Err(missing("cable.diameter", DIAMETER.allowed())),
+            (None, _, None) => return Err(Wrong::missing("duct.inner_diameter", INNER_DIAMETER.allowed())),
+            _ => return Err(Wrong::missing("cable.diameter", DIAMETER.allowed())),
         };
         let (weight, axial_stiffness) = (self.weight, self.axial_stiffness()?);
         Ok(Cable {
@@ -42,9 +38,15 @@ impl CableKeys {
         let (modulus, area) = match (self.axial_stiffness, self.young_modulus, self.conductor_area) {
             (Some(stiffness), ..) => return Ok(stiffness),
             (None, Some(modulus), Some(area)) => (modulus, area),
-            (None, Some(_), None) => return Err(missing("cable.conductor_area", CONDUCTOR_AREA.allowed())),
-            (None, None, Some(_)) => return Err(missing("cable.young_modulus", CONDUCTOR_MODULUS.allowed())),
-            (None, None, None) => return Err(missing("cable.axial_stiffness", AXIAL_STIFFNESS.allowed())),
+            (None, Some(_), None) => {
+                return Err(Wrong::missing("cable.conductor_area", CONDUCTOR_AREA.allowed()));
+            }
+            (None, None, Some(_)) => {
+                return Err(Wrong::missing("cable.young_modulus", CONDUCTOR_MODULUS.allowed()));
+            }
+            (None, None, None) => {
+                return Err(Wrong::missing("cable.axial_stiffness", AXIAL_STIFFNESS.allowed()));
+            }
         };
         let stiffness = modulus * area;
         if AXIAL_STIFFNESS.contains(stiffness) {
@@ -57,7 +59,7 @@ impl CableKeys {
             shown(stiffness)
         );
         let allowed = format!("a product {}", AXIAL_STIFFNESS.words);
-        Err(Wrong::at(WrongKind::Value, "cable.young_modulus", found, allowed))
+        Err(Wrong::value("cable.young_modulus", found, allowed))
     }
 
     /// The keys of a cable.
@@ -83,7 +85,7 @@ impl FrictionKeys {
         let allowed = || format!("{}; law = \"coulomb\" needs none", SHAPE_FACTOR.allowed());
         let shape_factor = || {
             self.shape_factor
-                .ok_or_else(|| missing("friction.shape_factor", allowed()))
+                .ok_or_else(|| Wrong::missing("friction.shape_factor", allowed()))
         };
         let law = match self.law {
             Law::Coulomb => FrictionLaw::Coulomb,

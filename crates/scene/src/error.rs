@@ -87,6 +87,20 @@ impl Wrong {
             location,
         })
     }
+
+    /// A value that is of the wrong type, or contradicts another one.
+    pub(crate) fn value(
+        key: impl Into<String>,
+        found: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> Box<Self> {
+        Self::at(WrongKind::Value, key, found, allowed)
+    }
+
+    /// A key that is missing.
+    pub(crate) fn missing(key: impl Into<String>, allowed: impl Into<String>) -> Box<Self> {
+        Self::at(WrongKind::MissingKey, key, "", allowed)
+    }
 }
 
 impl From<Box<Wrong>> for SceneError {
@@ -109,7 +123,7 @@ impl fmt::Display for Wrong {
             WrongKind::UnknownKey => write!(f, "found unknown key {key}{found}")?,
             WrongKind::MissingKey => write!(f, "key {key} is missing")?,
             WrongKind::Unit(problem) => {
-                write!(f, "{key}: {}: found {found}", shortened(problem, LONGEST_TEXT))?
+                write!(f, "{key}: {}: found {found}", shortened(problem, LONGEST_TEXT))?;
             }
             WrongKind::OutOfRange => write!(f, "{key}: out of range: found {found}")?,
             WrongKind::Override | WrongKind::Value => write!(f, "{key}: found {found}")?,

@@ -22,8 +22,7 @@ impl GroundKeys {
 
     fn profile(&self) -> Result<SoilProfile, Box<Wrong>> {
         let rejected = |index: usize, error: ground_field::GroundError| {
-            Wrong::at(
-                WrongKind::Value,
+            Wrong::value(
                 format!("ground.layers.{index}"),
                 error.to_string(),
                 "another layer",
@@ -33,21 +32,21 @@ impl GroundKeys {
             let layer = SoilLayer::new(thickness, layer.young_modulus, layer.poisson_ratio);
             layer.map_err(|error| rejected(index, error))
         };
-        let empty = || Wrong::at(WrongKind::Value, "ground.layers", "an empty list", LAYERS);
+        let empty = || Wrong::value("ground.layers", "an empty list", LAYERS);
         let (last, upper) = self.layers.split_last().ok_or_else(empty)?;
         let key = |name: &str| format!("ground.layers.{}.{name}", upper.len());
         let mut layers = Vec::with_capacity(self.layers.len());
         for (index, layer) in upper.iter().enumerate() {
             let thickness = layer.thickness.ok_or_else(|| {
                 let key = format!("ground.layers.{index}.thickness");
-                Wrong::at(WrongKind::MissingKey, key, "", THICKNESS.allowed())
+                Wrong::missing(key, THICKNESS.allowed())
             })?;
             layers.push(soil_layer(index, thickness, layer)?);
         }
         if let Some(thickness) = last.thickness {
             let allowed = "no thickness in the last layer: it extends down to ground.rigid_base_depth, or to infinite depth";
             let found = format!("{} m", shown(thickness));
-            return Err(Wrong::at(WrongKind::Value, key("thickness"), found, allowed));
+            return Err(Wrong::value(key("thickness"), found, allowed));
         }
         let base = if let Some(depth) = self.rigid_base_depth {
             let above: f64 = layers.iter().map(SoilLayer::thickness).sum();
@@ -67,7 +66,7 @@ impl GroundKeys {
             let Modulus::Uniform(modulus) = last.young_modulus else {
                 let found = "a modulus that varies with depth";
                 let allowed = "one value in the last layer, which extends to infinite depth; or set ground.rigid_base_depth";
-                return Err(Wrong::at(WrongKind::Value, key("young_modulus"), found, allowed));
+                return Err(Wrong::value(key("young_modulus"), found, allowed));
             };
             Base::HalfSpace(
                 Soil::new(modulus, last.poisson_ratio).map_err(|error| rejected(upper.len(), error))?,

@@ -7,7 +7,7 @@ use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
 use crate::data::TrafficVehicle;
 use crate::either::HistogramKeys;
-use crate::error::{Wrong, WrongKind};
+use crate::error::Wrong;
 use crate::range::{AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS, Quantity};
 use crate::units::Dimension;
 
@@ -69,19 +69,14 @@ fn parsed<T: std::str::FromStr<Err = String>>(
 ) -> Result<Option<T>, Box<Wrong>> {
     let refused = |why| {
         let key = format!("traffic.histogram.{key}");
-        Wrong::at(
-            WrongKind::Value,
-            key,
-            format!("\"{}\"", text.unwrap_or_default()),
-            why,
-        )
+        Wrong::value(key, format!("\"{}\"", text.unwrap_or_default()), why)
     };
     text.map(str::parse).transpose().map_err(refused)
 }
 
 /// The classes of the table that `keys` name, each a vehicle of one wheel in the first lane, at `speed` \[m/s\].
 pub fn axles(name: &str, keys: &HistogramKeys, speed: f64) -> Result<Vec<TrafficVehicle>, Box<Wrong>> {
-    let inconsistent = |found: String, allowed: String| Wrong::at(WrongKind::Value, KEY, found, allowed);
+    let inconsistent = |found: String, allowed: String| Wrong::value(KEY, found, allowed);
     let given = [&keys.column_count, &keys.column_load, &keys.column_contact_radius];
     let wrong = |error: TableError| match error {
         TableError::Line {

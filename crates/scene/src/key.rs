@@ -6,6 +6,7 @@
 use crate::document::{Content, Entry, Node, Place, joined, other_name};
 use crate::error::{SceneError, WrongKind};
 use crate::range::Quantity;
+use crate::units::Dimension;
 use crate::value::Value;
 
 /// A table of the file.
@@ -60,6 +61,24 @@ pub enum Form {
 }
 
 impl Form {
+    /// The keys of a table, or of the tables of a list.
+    pub fn keys(self) -> Vec<Key> {
+        match self {
+            Self::Table(keys) | Self::Either(_, keys, _) => keys,
+            Self::List(form, ..) => form.keys(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// The SI unit of a number, if it has one.
+    pub fn unit(&self) -> Option<&'static str> {
+        match self {
+            Self::Quantity(quantity) => quantity.dimension?.si(),
+            Self::Either(form, ..) => form.unit(),
+            _ => None,
+        }
+    }
+
     /// What is allowed, in words.
     pub fn allowed(&self) -> String {
         match self {
@@ -182,7 +201,7 @@ impl Kind for Quantity {
     }
 
     fn write(&self, value: &f64) -> Option<Content> {
-        Some(match self.dimension.and_then(|dimension| dimension.si()) {
+        Some(match self.dimension.and_then(Dimension::si) {
             Some(unit) => Content::Text(format!("{value:?} {unit}")),
             None => crate::document::number(*value),
         })

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use crate::document::{joined, other_name, without_numbers};
 use crate::error::{Wrong, WrongKind, did_you_mean};
-use crate::key::{Form, Key, Keys};
+use crate::key::{Key, Keys};
 use crate::keys::SceneKeys;
 use crate::nearest::nearest;
 
@@ -29,12 +29,14 @@ pub struct KeyMeaning {
     pub meaning: &'static str,
     /// What may stand there: range and units, or words.
     pub allowed: String,
+    /// The SI unit of its numbers, if they have one.
+    pub unit: Option<&'static str>,
     /// What counts if it is left out; `None` if it is required.
     pub default: Option<&'static str>,
 }
 
 /// The meanings of these keys and of all below them.
-pub fn meanings(path: &str, keys: Vec<Key>, found: &mut Vec<KeyMeaning>) {
+fn meanings(path: &str, keys: Vec<Key>, found: &mut Vec<KeyMeaning>) {
     for Key {
         name,
         meaning,
@@ -42,23 +44,15 @@ pub fn meanings(path: &str, keys: Vec<Key>, found: &mut Vec<KeyMeaning>) {
         default,
     } in keys
     {
-        let (key, allowed) = (joined(path, name), form.allowed());
-        let inner = key.clone();
+        let (key, allowed, unit) = (joined(path, name), form.allowed(), form.unit());
         found.push(KeyMeaning {
-            key,
+            key: key.clone(),
             meaning,
             allowed,
+            unit,
             default,
         });
-        match form {
-            Form::Table(keys) | Form::Either(_, keys, _) => meanings(&inner, keys, found),
-            Form::List(form, ..) => {
-                if let Form::Table(keys) = *form {
-                    meanings(&inner, keys, found);
-                }
-            }
-            _ => {}
-        }
+        meanings(&key, form.keys(), found);
     }
 }
 
@@ -94,27 +88,16 @@ fn last(key: &str) -> &str {
 
 /// The SI unit of a key, `vehicles.0.speed`; none for what is no number or has no unit.
 pub fn si_unit(key: &str) -> Option<&'static str> {
-    let mut keys = SceneKeys::keys();
     let path = without_numbers(key);
-    let mut names = path.split('.').peekable();
-    while let Some(name) = names.next() {
-        let is_meant = |key: &Key| key.name == name || Some(key.name) == other_name(name);
-        let form = keys.into_iter().find(is_meant)?.form;
-        let form = match form {
-            Form::Either(form, ..) if names.peek().is_none() => *form,
-            form => form,
-        };
-        keys = match form {
-            Form::Quantity(quantity) if names.peek().is_none() => return quantity.dimension?.si(),
-            Form::Table(keys) | Form::Either(_, keys, _) => keys,
-            Form::List(form, ..) => match *form {
-                Form::Table(keys) => keys,
-                _ => return None,
-            },
-            _ => return None,
-        };
-    }
-    None
+    let (section, name) = path.rsplit_once('.')?;
+    let is_meant = |meaning: &&KeyMeaning| {
+        let rest = meaning
+            .key
+            .strip_prefix(section)
+            .and_then(|rest| rest.strip_prefix('.'));
+        rest.is_some_and(|key| key == name || other_name(key) == Some(name))
+    };
+    MEANINGS.iter().find(is_meant)?.unit
 }
 
 /// Says of an unknown key what was probably meant: a near miss of those allowed, another word for one, one with another beginning, or a key

@@ -129,68 +129,40 @@ pub fn without_thousands(text: &str) -> Option<String> {
     (groups && !after.contains([',', '.'])).then(|| format!("{before}{after}"))
 }
 
-/// The digits of a decimal number and its exponent, or a word for a value that is not finite.
-struct Number<'t> {
-    digits: &'t str,
-    exponent: i32,
-}
+/// The number that a text begins with, and the rest.
+struct Number<'t>(&'t str);
 
 impl Number<'_> {
+    /// The number times a power of ten, which goes into its exponent.
     fn shifted(&self, exponent: i32) -> Option<f64> {
-        if self.digits.ends_with(|c: char| c.is_ascii_alphabetic()) {
-            return self.digits.parse().ok();
-        }
-        format!("{}e{}", self.digits, self.exponent.saturating_add(exponent))
-            .parse()
-            .ok()
+        let Some((digits, own)) = self.0.split_once(['e', 'E']) else {
+            // A word for a value that is not finite has no exponent.
+            let is_word = self.0.ends_with(|c: char| c.is_ascii_alphabetic());
+            let shifted = || format!("{}e{exponent}", self.0).parse();
+            return if is_word {
+                self.0.parse().ok()
+            } else {
+                shifted().ok()
+            };
+        };
+        // An exponent too large for its type is far beyond any number: its sign decides.
+        let beyond = if own.starts_with('-') { i32::MIN } else { i32::MAX };
+        let own: i32 = own.parse().unwrap_or(beyond);
+        format!("{digits}e{}", own.saturating_add(exponent)).parse().ok()
     }
 }
 
 /// Splits a text into the number it begins with and the rest.
 fn split(text: &str) -> Option<(Number<'_>, &str)> {
-    let bytes = text.as_bytes();
-    let digits_from = |start: usize| bytes[start..].iter().take_while(|b| b.is_ascii_digit()).count();
-    let sign = usize::from(bytes.first().is_some_and(|b| matches!(b, b'+' | b'-')));
-    for word in ["infinity", "inf", "nan"] {
-        let end = sign + word.len();
-        let found = text
-            .get(sign..end)
-            .is_some_and(|found| found.eq_ignore_ascii_case(word));
-        if found && !text[end..].starts_with(|c: char| c.is_alphanumeric()) {
-            let (digits, rest) = text.split_at(end);
-            return Some((Number { digits, exponent: 0 }, rest));
-        }
-    }
-    let whole = digits_from(sign);
-    let mut end = sign + whole;
-    let mut fraction = 0;
-    if bytes.get(end) == Some(&b'.') {
-        fraction = digits_from(end + 1);
-        end += 1 + fraction;
-    }
-    if whole + fraction == 0 {
-        return None;
-    }
-    let digits = &text[..end];
-    let mut exponent = 0;
-    if bytes.get(end).is_some_and(|b| matches!(b, b'e' | b'E')) {
-        let sign = usize::from(bytes.get(end + 1).is_some_and(|b| matches!(b, b'+' | b'-')));
-        let count = digits_from((end + 1 + sign).min(bytes.len()));
-        if count > 0 {
-            let written = &text[end + 1..end + 1 + sign + count];
-            // An exponent too large for its type is far beyond any number: its sign decides.
-            let negative = written.starts_with('-');
-            exponent = written
-                .parse()
-                .unwrap_or(if negative { i32::MIN } else { i32::MAX });
-            end += 1 + sign + count;
-        }
-    }
-    // A decimal comma, a second point, a digit separator: not a number in this notation.
-    if text[end..].starts_with([',', '.', '_', '+', '-']) {
-        return None;
-    }
-    Some((Number { digits, exponent }, &text[end..]))
+    // No number is longer than this.
+    const LONGEST: usize = 400;
+    let is_number = |end: &usize| text.get(..*end).is_some_and(|text| text.parse::<f64>().is_ok());
+    let end = (1..=text.len().min(LONGEST)).rev().find(is_number)?;
+    let (number, rest) = text.split_at(end);
+    let is_word = number.ends_with(|c: char| c.is_ascii_alphabetic());
+    // A decimal comma, a second point, a digit separator, another word: not a number in this notation.
+    let goes_on = |c: char| matches!(c, ',' | '.' | '_' | '+' | '-') || is_word && c.is_alphanumeric();
+    (!rest.starts_with(goes_on)).then_some((Number(number), rest))
 }
 
 #[cfg(test)]

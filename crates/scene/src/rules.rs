@@ -47,7 +47,7 @@ fn hold(
     if holds {
         return Ok(());
     }
-    Err(Wrong::at(WrongKind::Value, key, found, allowed))
+    Err(Wrong::value(key, found, allowed))
 }
 
 /// Refuses a length outside the range that follows from the rest of the scene.
@@ -85,7 +85,7 @@ fn cable(scene: &Scene) -> Checked {
         ("duct.inner_diameter", inner, INNER_DIAMETER),
     ] {
         if of_three && value.is_none() {
-            return Err(Wrong::at(WrongKind::MissingKey, key, "", quantity.allowed()));
+            return Err(Wrong::missing(key, quantity.allowed()));
         }
     }
     let follows = match (cable.diameter, inner) {
@@ -234,29 +234,31 @@ fn heat(scene: &Scene) -> Checked {
             )?;
         }
     }
-    let (law, method, cold) = (scene.friction.law, scene.solver.method, scene.warming().is_none());
+    let (law, cold) = (scene.friction.law, scene.warming().is_none());
+    let of_law = format!("[heat] with `friction.law` = \"{}\"", law.name());
+    let per_day = "`per_day` in [traffic] beside [heat]: how many vehicles meet each hour's temperature";
+    let with_memory =
+        "\"coulomb\" or \"elastic-plastic\" beside [heat]: temperature steps need a state of rest";
+    let rough = "a `friction.dynamic_coefficient` greater than 0 beside [heat]";
+    let implicit = "\"auto\", \"quasi-static\" or \"pass-law\" beside [heat]: it is computed without inertia";
+    let is_explicit = scene.solver.method == SolverMethod::Explicit;
     hold(
         scene.traffic.per_day.is_some(),
         "heat",
         "no `traffic.per_day`",
-        "`per_day` in [traffic] beside [heat]: how many vehicles meet each hour's temperature",
+        per_day,
     )?;
-    hold(
-        cold || law.has_memory(),
-        "heat",
-        format!("[heat] with `friction.law` = \"{}\"", law.name()),
-        "\"coulomb\" or \"elastic-plastic\" beside [heat]: temperature steps need a state of rest",
-    )?;
+    hold(cold || law.has_memory(), "heat", of_law, with_memory)?;
     hold(
         cold || scene.friction_limit() > 0.0,
         "heat",
         "[heat] without friction",
-        "a `friction.dynamic_coefficient` greater than 0 beside [heat]",
+        rough,
     )?;
     hold(
-        cold || method != SolverMethod::Explicit,
+        cold || !is_explicit,
         "heat",
         "[heat] with `solver.method` = \"explicit\"",
-        "\"auto\", \"quasi-static\" or \"pass-law\" beside [heat]: it is computed without inertia",
+        implicit,
     )
 }

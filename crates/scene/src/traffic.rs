@@ -4,7 +4,7 @@ use cable_dem::Order;
 use ground_field::{SurfaceLoad, Vehicle, Wheel};
 
 use crate::data::{DAYS_PER_YEAR, Scene, Traffic, TrafficVehicle};
-use crate::error::{Wrong, WrongKind, did_you_mean};
+use crate::error::{Wrong, did_you_mean};
 use crate::histogram;
 use crate::key::listed;
 use crate::keys::{SceneKeys, TrafficKeys, VEHICLES, VehicleKeys, WheelKeys};
@@ -20,7 +20,7 @@ const AXLE_SPEED: f64 = 40.0 / 3.6;
 pub fn traffic(name: &str, keys: &SceneKeys) -> Result<(Vec<TrafficVehicle>, Traffic), Box<Wrong>> {
     let traffic = &keys.traffic;
     let seed = traffic.seed.unwrap_or(DEFAULT_SEED);
-    let wrong = |key: &str, found: &str, allowed: &str| Wrong::at(WrongKind::Value, key, found, allowed);
+    let wrong = |key: &str, found: &str, allowed: &str| Wrong::value(key, found, allowed);
     let (mut vehicles, order) = if let Some(histogram) = &traffic.histogram {
         if keys.ground.longitudinal_peak.is_some() {
             let found = "a histogram with `ground.longitudinal_peak`";
@@ -41,7 +41,7 @@ pub fn traffic(name: &str, keys: &SceneKeys) -> Result<(Vec<TrafficVehicle>, Tra
         let vehicles = histogram::axles(name, histogram, traffic.speed.unwrap_or(AXLE_SPEED))?;
         (vehicles, Order::Random { seed })
     } else {
-        let missing = || Wrong::at(WrongKind::MissingKey, "vehicles", "", VEHICLES);
+        let missing = || Wrong::missing("vehicles", VEHICLES);
         let listed = keys.vehicles.as_ref().ok_or_else(missing)?.iter().enumerate();
         let vehicles = listed
             .map(|(index, vehicle)| vehicle.vehicle(index))
@@ -76,12 +76,7 @@ fn sequence(names: &[String], vehicles: &[TrafficVehicle]) -> Result<Vec<usize>,
     let index = |(place, name): (usize, &String)| {
         known().position(|known| known == name).ok_or_else(|| {
             let found = format!("\"{name}\"{}", did_you_mean(nearest(name, known())));
-            Wrong::at(
-                WrongKind::Value,
-                format!("traffic.sequence.{place}"),
-                found,
-                listed(known()),
-            )
+            Wrong::value(format!("traffic.sequence.{place}"), found, listed(known()))
         })
     };
     names.iter().enumerate().map(index).collect()
@@ -89,7 +84,7 @@ fn sequence(names: &[String], vehicles: &[TrafficVehicle]) -> Result<Vec<usize>,
 
 /// The passes: as they stand, or those of so many years, rounded to whole ones.
 fn passes(traffic: &TrafficKeys) -> Result<u64, Box<Wrong>> {
-    let missing = |key: &str, allowed: String| Wrong::at(WrongKind::MissingKey, key, "", allowed);
+    let missing = |key: &str, allowed: String| Wrong::missing(key, allowed);
     let Some(years) = traffic.years else {
         let allowed = format!("{}, or `years` with `per_day`", PASSES.allowed());
         return traffic.passes.ok_or_else(|| missing("traffic.passes", allowed));
@@ -105,7 +100,7 @@ fn passes(traffic: &TrafficKeys) -> Result<u64, Box<Wrong>> {
     let [years, per_day, passes] = [years, per_day, passes].map(shown);
     let found = format!("{years} years of {per_day} vehicles a day, {passes} passes");
     let allowed = format!("so many that there are {} passes", PASSES.words);
-    Err(Wrong::at(WrongKind::Value, "traffic.years", found, allowed))
+    Err(Wrong::value("traffic.years", found, allowed))
 }
 
 /// Makes the shares sum to 1, whatever their size. Shares that do so but for rounding are kept to the last digit.
@@ -124,9 +119,7 @@ fn normalise(vehicles: &mut [TrafficVehicle]) {
 impl VehicleKeys {
     /// The vehicle with these keys, the `index`-th of the list.
     fn vehicle(&self, index: usize) -> Result<TrafficVehicle, Box<Wrong>> {
-        let wrong = |found: String, allowed: &str| {
-            Wrong::at(WrongKind::Value, format!("vehicles.{index}"), found, allowed)
-        };
+        let wrong = |found: String, allowed: &str| Wrong::value(format!("vehicles.{index}"), found, allowed);
         let rejected = |error: ground_field::GroundError| wrong(error.to_string(), "another vehicle");
         let at_axis = |load| WheelKeys {
             x: 0.0,

@@ -106,7 +106,8 @@ pub fn unusual(scene: &Scene) -> Vec<String> {
         for (key_of, least, most, size, unit, words) in USUAL.iter().filter(|usual| usual.0 == name) {
             // Of the wheels the first is named that is unusual.
             let again = named.contains(key_of) && key.contains(".wheels.");
-            if !(*least..=*most).contains(&value) && !again && !(forgets && name.ends_with("factor")) {
+            let is_usual = (*least..=*most).contains(&value) || forgets && name.ends_with("factor");
+            if !is_usual && !again {
                 named.push(key_of);
                 warnings.push(format!(
                     "`{key}` is {}{unit}{}",

@@ -21,7 +21,7 @@ fn section(out: &mut String, path: &str, entries: &[Entry]) {
         _ => false,
     };
     for Entry { key, value, .. } in entries.iter().filter(|entry| !is_section(entry)) {
-        *out += &format!("{key} = {}\n", inline(&value.content));
+        out.extend([key, " = ", &inline(&value.content), "\n"]);
     }
     for Entry { key, value, .. } in entries.iter().filter(is_section) {
         let key = inner(key);
