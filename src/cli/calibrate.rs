@@ -11,7 +11,8 @@ use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
 use crate::Readings;
 use crate::calibration::{
-    CalibrateOptions, Calibrated, Deflection, FittedParameter, Loss, ResidualSize, SHARES, Series, Unknown,
+    CalibrateOptions, Calibrated, Deflection, FittedParameter, FittedReading, Loss, ResidualSize, SHARES,
+    Series, Unknown,
 };
 use crate::scene::{Dimension, FrictionLaw};
 use crate::shown::{ROWS, four_digits, percent};
@@ -199,25 +200,31 @@ fn print(answer: &Calibrated, law: FrictionLaw) -> Result<(), Failure> {
     let mut out = terminal::out();
     let titles: Vec<String> = answer.titles.iter().map(|title| terminal::line(title)).collect();
     writeln!(out, "{}, law {}", titles.join("; "), law.name())?;
-    writeln!(
-        out,
-        "\n{:<22} {:>13} {:>15}  {:<30} identifiable",
-        "parameter", "value", "standard error", "95 % interval"
-    )?;
-    for parameter in &answer.parameters {
+    let names = [
+        "parameter",
+        "value",
+        "standard error",
+        "95 % interval",
+        "identifiable",
+    ]
+    .map(str::to_owned);
+    let row = |parameter: &FittedParameter| {
         let error = parameter
             .standard_error
             .map_or_else(|| "unknown".into(), significant);
-        writeln!(
-            out,
-            "{:<22} {:>13} {:>15}  {:<30} {}",
+        let identifiable = if parameter.identifiable { "yes" } else { "NO" };
+        let value = significant(parameter.value);
+        vec![
             label(parameter),
-            significant(parameter.value),
+            value,
             error,
             interval(parameter.interval_95),
-            if parameter.identifiable { "yes" } else { "NO" }
-        )?;
-    }
+            identifiable.to_owned(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = answer.parameters.iter().map(row).collect();
+    writeln!(out)?;
+    terminal::table(&mut out, &names, &rows)?;
     for i in 1..answer.parameters.len() {
         for j in 0..i {
             if let Some(correlation) = answer.correlation[i][j] {
@@ -292,26 +299,32 @@ fn print_readings(out: &mut impl Write, answer: &Calibrated) -> Result<(), Failu
         "1" => name.to_owned(),
         unit => format!("{name}, {unit}"),
     });
-    writeln!(out, "\n{:>9} {measured:>13} {fitted:>11} {residual:>13}", "pass")?;
-    let stride = answer.fit.len().div_ceil(ROWS);
-    for row in answer.fit.iter().step_by(stride.max(1)) {
-        let [measured, fitted, residual] =
-            [row.value, row.fitted, row.residual].map(|value| match row.unit {
-                "N" => format!("{value:.1}"),
-                _ => format!("{value:.3e}"),
-            });
-        write!(out, "{:>9} {measured:>13} {fitted:>11} {residual:>13}", row.pass)?;
+    let names = ["pass".to_owned(), measured, fitted, residual, String::new()];
+    let stride = answer.fit.len().div_ceil(ROWS).max(1);
+    let row = |row: &FittedReading| {
+        let shown = |value: f64| {
+            if row.unit == "N" {
+                format!("{value:.1}")
+            } else {
+                format!("{value:.3e}")
+            }
+        };
+        let [measured, fitted, residual] = [row.value, row.fitted, row.residual].map(shown);
+        let mut of = Vec::new();
         if only(answer).is_none() || row.measured != "force" {
-            write!(out, "  {}, {}", row.measured, row.unit)?;
+            of.push(format!("{}, {}", row.measured, row.unit));
         }
         if answer.titles.len() > 1 {
-            write!(out, "  scene {}", row.series)?;
+            of.push(format!("scene {}", row.series));
         }
         if !row.run.is_empty() {
-            write!(out, "  run {}", terminal::line(&row.run))?;
+            of.push(format!("run {}", terminal::line(&row.run)));
         }
-        writeln!(out)?;
-    }
+        vec![row.pass.to_string(), measured, fitted, residual, of.join("  ")]
+    };
+    let rows: Vec<Vec<String>> = answer.fit.iter().step_by(stride).map(row).collect();
+    writeln!(out)?;
+    terminal::table(out, &names, &rows)?;
     if stride > 1 {
         writeln!(
             out,

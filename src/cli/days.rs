@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+use super::terminal;
 use crate::Units;
 use crate::answer::{DayExtremes, HeatRecord, in_unit, table_days};
 use crate::scene::DAYS_PER_YEAR;
@@ -21,48 +22,34 @@ pub fn print(
         return Ok(());
     };
     let Units { force, movement, .. } = units;
-    let heading = |out: &mut dyn Write, texts: [&str; 5]| {
-        let [day, rest @ ..] = texts;
-        writeln!(
-            out,
-            "{day:>8} {:>19} {:>19} {:>21} {:>21}",
-            rest[0], rest[1], rest[2], rest[3]
-        )
+    let of_ends = |what: &str, unit: &str| {
+        ["upstream", "downstream"].map(|end| [format!("{what} {end}, {unit}: least"), "most".to_owned()])
     };
-    heading(
-        out,
-        [
-            "",
-            &format!("upstream force, {}", force.symbol()),
-            &format!("downstream force, {}", force.symbol()),
-            &format!("upstream end, {}", movement.symbol()),
-            &format!("downstream end, {}", movement.symbol()),
-        ],
-    )?;
-    heading(
-        out,
-        ["day", "least to most", "least to most", "from to", "from to"],
-    )?;
-    let row = |out: &mut dyn Write, name: &str, day: &DayExtremes| {
-        let shown = |value: f64| units.force(value);
-        let place = |value: f64| in_unit(value, *movement, DIGIT);
-        writeln!(
-            out,
-            "{name:>8} {:>9} {:>9} {:>9} {:>9} {:>10} {:>10} {:>10} {:>10}",
-            shown(day.upstream_min_n),
-            shown(day.upstream_max_n),
-            shown(day.downstream_min_n),
-            shown(day.downstream_max_n),
-            place(day.upstream_displacement_min_m),
-            place(day.upstream_displacement_max_m),
-            place(day.downstream_displacement_min_m),
-            place(day.downstream_displacement_max_m),
-        )
+    let mut names = vec!["day".to_owned()];
+    names.extend(of_ends("force", force.symbol()).into_iter().flatten());
+    names.extend(of_ends("moved", movement.symbol()).into_iter().flatten());
+    let row = |name: String, day: &DayExtremes| {
+        let forces = [
+            day.upstream_min_n,
+            day.upstream_max_n,
+            day.downstream_min_n,
+            day.downstream_max_n,
+        ];
+        let places = [
+            day.upstream_displacement_min_m,
+            day.upstream_displacement_max_m,
+            day.downstream_displacement_min_m,
+            day.downstream_displacement_max_m,
+        ];
+        let mut row = vec![name];
+        row.extend(forces.map(|value| units.force(value)));
+        row.extend(places.map(|value| in_unit(value, *movement, DIGIT)));
+        row
     };
-    for day in table_days(days, heat.periodic_from_day) {
-        row(out, &day.day.to_string(), day)?;
-    }
-    row(out, "all days", &heat.all_days)?;
+    let days = table_days(days, heat.periodic_from_day).into_iter();
+    let mut rows: Vec<Vec<String>> = days.map(|day| row(day.day.to_string(), day)).collect();
+    rows.push(row("all days".to_owned(), &heat.all_days));
+    terminal::table(out, &names, &rows)?;
     writeln!(out)?;
     match (heat.periodic_from_day, heat.drift_per_day_m) {
         (Some(day), Some(drift)) if drift != 0.0 => writeln!(

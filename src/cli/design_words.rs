@@ -14,10 +14,9 @@ pub fn print(design: &Design, scene: &Scene, units: &Units) -> Result<(), Failur
     let mut out = terminal::out();
     head(&mut out, design)?;
     limited(&mut out, std::slice::from_ref(design), units)?;
-    table(
-        &mut out,
-        &curve(&design.places, &design.limits, &design.curve, scene, units),
-    )?;
+    let (names, rows) = curve(&design.places, &design.limits, &design.curve, scene, units);
+    terminal::table(&mut out, &names, &rows)?;
+    writeln!(out)?;
     conclusion(&mut out, design, units)
 }
 
@@ -44,18 +43,15 @@ pub fn compared(best: &Design, all: &[Design], units: &Units) -> Result<(), Fail
         best.passes
     )?;
     limited(&mut out, all, units)?;
-    let mut rows = vec![
-        [
-            "held by",
-            "stiffness",
-            "largest share of a limit",
-            "of",
-            "on the clamp",
-            "within limits",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
+    let names = [
+        "held by",
+        "stiffness",
+        "largest share of a limit",
+        "of",
+        "on the clamp",
+        "within limits",
     ];
+    let mut rows = Vec::new();
     for design in all {
         let Some(found) = design.found() else { continue };
         let stiffnesses: Vec<String> = found
@@ -82,7 +78,8 @@ pub fn compared(best: &Design, all: &[Design], units: &Units) -> Result<(), Fail
                 },
         ]);
     }
-    table(&mut out, &rows)?;
+    terminal::table(&mut out, &names.map(str::to_owned), &rows)?;
+    writeln!(out)?;
     if best.answer.is_some() {
         writeln!(out, "best: {}", places(&best.places))?;
     }
@@ -115,7 +112,7 @@ fn curve(
     points: &[TradeOff],
     scene: &Scene,
     units: &Units,
-) -> Vec<Vec<String>> {
+) -> (Vec<String>, Vec<Vec<String>>) {
     let one = held.len() == 1;
     let stiffness = units.stiffness.symbol();
     let short = |place: &Place| match place {
@@ -143,7 +140,8 @@ fn curve(
     let name =
         |(place, quantity): &(Place, Limited)| format!("{}, {}", short(place), quantity.symbol_in(units));
     let last = std::iter::once("within limits".to_owned());
-    let mut rows = vec![of_springs.chain(columns.iter().map(name)).chain(last).collect()];
+    let names = of_springs.chain(columns.iter().map(name)).chain(last).collect();
+    let mut rows = Vec::new();
     let most = largest_shown(scene);
     for point in points {
         let value = |&(place, quantity): &(Place, Limited)| match point.value(place, quantity) {
@@ -157,7 +155,7 @@ fn curve(
         let last = std::iter::once(within(point));
         rows.push(springs.chain(columns.iter().map(value)).chain(last).collect());
     }
-    rows
+    (names, rows)
 }
 
 fn within(point: &TradeOff) -> String {
@@ -168,22 +166,6 @@ fn within(point: &TradeOff) -> String {
         ""
     };
     format!("{within}{leaves}")
-}
-
-/// Columns as wide as they have to be.
-fn table(out: &mut impl Write, rows: &[Vec<String>]) -> std::io::Result<()> {
-    let width = |column: usize| {
-        let cells = rows.iter().map(|row| row[column].chars().count());
-        cells.max().unwrap_or(0)
-    };
-    for row in rows {
-        let cells = row.iter().enumerate();
-        let cells: Vec<String> = cells
-            .map(|(column, cell)| format!("{cell:>0$}", width(column)))
-            .collect();
-        writeln!(out, "{}", cells.join("  "))?;
-    }
-    writeln!(out)
 }
 
 /// The answer or what comes nearest, and which limits decide.

@@ -3,7 +3,6 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use super::advice::advice;
 use super::terminal;
 use crate::output::OutputError;
 
@@ -76,25 +75,19 @@ impl Failure {
     }
 }
 
-/// Prints help, or what is wrong with the arguments of `program`.
-pub fn unparsed(mut error: clap::Error, program: &clap::Command) -> Result<(), Failure> {
+/// Prints help, or what is wrong with the arguments.
+pub fn unparsed(error: &clap::Error) -> Result<(), Failure> {
     if !error.use_stderr() {
         return Ok(error.print()?);
     }
-    let arguments: Vec<String> = std::env::args_os()
-        .map(|argument| argument.to_string_lossy().into_owned())
-        .collect();
-    let advice = advice(&mut error, program, &arguments);
     let text = error.render().to_string();
-    let is_hidden = |argument: &String| argument.contains(terminal::is_hidden);
-    if terminal::cut(&text) == text && !arguments.iter().any(is_hidden) {
+    let mut arguments = std::env::args_os();
+    let is_hidden = arguments.any(|argument| argument.to_string_lossy().contains(terminal::is_hidden));
+    if terminal::cut(&text) == text && !is_hidden {
         // With its colours.
         let _ = error.print();
     } else {
         let _ = writeln!(terminal::err(), "{}", terminal::cut(text.trim_end()));
-    }
-    if let Some(advice) = advice {
-        let _ = writeln!(terminal::err(), "\n{advice}");
     }
     Err(Failure::Unparsed)
 }

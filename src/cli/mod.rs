@@ -1,6 +1,5 @@
 //! The command line: parsing, printing, and the exit status. Everything it does is a call of the library.
 
-mod advice;
 mod calibrate;
 mod check;
 mod completions;
@@ -28,6 +27,7 @@ mod terminal;
 #[cfg(feature = "xlsx")]
 mod workbook;
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -78,7 +78,9 @@ enum Command {
     Presets(presets::Arguments),
     /// Explain the keys of a scene: meaning, units, range, default
     Explain(explain::Arguments),
-    /// Print a script that completes commands and flags in a shell, or put it where the shell finds it
+    /// Print the JSON Schema of a scene, by which editors complete and check it
+    Schema,
+    /// Print a script that completes commands and flags in a shell
     Completions(completions::Arguments),
 }
 
@@ -106,7 +108,7 @@ pub fn main() -> ExitCode {
         Arguments::from_arg_matches_mut(&mut matches)
     });
     match parsed.map_or_else(
-        |error| failure::unparsed(error, &command_line()),
+        |error| failure::unparsed(&error),
         |arguments| execute(&arguments.command),
     ) {
         Ok(()) => ExitCode::SUCCESS,
@@ -140,6 +142,7 @@ fn execute(command: &Command) -> Result<(), Failure> {
         Command::New(arguments) => new::execute(arguments),
         Command::Presets(arguments) => presets::execute(arguments),
         Command::Explain(arguments) => explain::execute(arguments),
+        Command::Schema => Ok(writeln!(terminal::out(), "{:#}", crate::scene::schema())?),
         Command::Completions(arguments) => completions::execute(arguments, &mut Arguments::command()),
     }
 }

@@ -68,20 +68,15 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 fn print(profile: &Profile) -> Result<(), Failure> {
     let mut out = terminal::out();
     writeln!(out, "ground: {}", profile.ground)?;
-    writeln!(
-        out,
-        "{:>10} {:>12} {:>12} {:>14}",
-        "ξ, m", "D_l, µm", "D_v, µm", "V_l, µm/s"
-    )?;
-    for i in 0..profile.positions_m.len() {
-        writeln!(
-            out,
-            "{:>10.3} {:>12.4} {:>12.4} {:>14.3}",
-            profile.positions_m[i],
-            1e6 * profile.longitudinal_m[i],
-            1e6 * profile.vertical_m[i],
-            1e6 * profile.longitudinal_velocity_m_per_s[i]
-        )?;
-    }
-    Ok(())
+    let names = ["ξ, m", "D_l, µm", "D_v, µm", "V_l, µm/s"].map(str::to_owned);
+    let row = |i: usize| {
+        vec![
+            format!("{:.3}", profile.positions_m[i]),
+            format!("{:.4}", 1e6 * profile.longitudinal_m[i]),
+            format!("{:.4}", 1e6 * profile.vertical_m[i]),
+            format!("{:.3}", 1e6 * profile.longitudinal_velocity_m_per_s[i]),
+        ]
+    };
+    let rows: Vec<Vec<String>> = (0..profile.positions_m.len()).map(row).collect();
+    Ok(terminal::table(&mut out, &names, &rows)?)
 }

@@ -272,54 +272,31 @@ fn table(
     let rows = table_rows(passes, traffic);
     let (kind, kinds) = in_rows(&rows, scene, a_day, are_means).unwrap_or_default();
     let mut kinds = kinds.iter();
-    // What has no column is not even a blank.
-    let beside = |text: &str| {
-        if text.is_empty() {
-            String::new()
-        } else {
-            format!("  {text}")
-        }
+    let [force, movement] = [units.force, units.movement].map(|unit| unit.symbol());
+    let mut names = vec!["pass".to_owned()];
+    // Times, and what distinguishes rows, have columns where there are any.
+    names.extend(traffic.per_day.map(|_| "after".to_owned()));
+    names.extend(["upstream", "downstream"].map(|end| format!("force {end}, {force}")));
+    names.extend(["upstream", "downstream"].map(|end| format!("{end} moved, {movement}")));
+    names.push(format!("most in cable, {force}"));
+    names.extend(Some(kind.to_owned()).filter(|kind| !kind.is_empty()));
+    let row = |record: &PassRecord| {
+        let mut row = vec![record.pass.to_string()];
+        row.extend(
+            traffic
+                .per_day
+                .map(|_| record.years.map_or_else(String::new, after)),
+        );
+        row.extend([record.upstream_force_n, record.downstream_force_n].map(|force| units.force(force)));
+        let moved = [record.upstream_displacement_m, record.downstream_displacement_m];
+        row.extend(moved.map(|movement| units.movement(movement)));
+        row.push(units.force(record.max_compression_n));
+        let kind = kinds.next().map_or_else(String::new, |kind| terminal::line(kind));
+        row.extend((row.len() < names.len()).then_some(kind));
+        row
     };
-    // A column of times where they are known.
-    let time = |text: &str| {
-        traffic
-            .per_day
-            .map_or_else(String::new, |_| format!(" {text:>10}"))
-    };
-    writeln!(
-        out,
-        "\n{:>9}{} {:>23} {:>23} {:>12}",
-        "",
-        time(""),
-        format!("force after pass, {}", units.force.symbol()),
-        format!("end moved, {}", units.movement.symbol()),
-        "largest"
-    )?;
-    writeln!(
-        out,
-        "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}{}",
-        "pass",
-        time("after"),
-        "upstream",
-        "downstream",
-        "upstream",
-        "downstream",
-        format!("in cable, {}", units.force.symbol()),
-        beside(kind)
-    )?;
-    for record in rows {
-        writeln!(
-            out,
-            "{:>9}{} {:>11} {:>11} {:>11} {:>11} {:>12}{}",
-            record.pass,
-            time(&record.years.map_or_else(String::new, after)),
-            units.force(record.upstream_force_n),
-            units.force(record.downstream_force_n),
-            units.movement(record.upstream_displacement_m),
-            units.movement(record.downstream_displacement_m),
-            units.force(record.max_compression_n),
-            beside(&kinds.next().map_or_else(String::new, |kind| terminal::line(kind)))
-        )?;
-    }
+    let rows: Vec<Vec<String>> = rows.into_iter().map(row).collect();
+    writeln!(out)?;
+    terminal::table(out, &names, &rows)?;
     writeln!(out)
 }

@@ -10,7 +10,9 @@ use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
 use crate::Units;
 use crate::shown::exact_percent;
-use crate::sweep::{Axis, Band, Format, SAMPLE_TOLERANCE, Samples, Sweep, SweepOptions, SweepSummary};
+use crate::sweep::{
+    Axis, Band, Format, Quantiles, SAMPLE_TOLERANCE, Samples, Sweep, SweepOptions, SweepSummary,
+};
 #[cfg(feature = "plot")]
 use crate::sweep::{MapValue, Row, SweepMap};
 
@@ -167,32 +169,31 @@ fn bands(out: &mut impl Write, band: &Band, units: &Units) -> Result<(), Failure
         .map(|(key, value)| format!("{key} = {value}"))
         .collect();
     writeln!(out, "\n{}", at.join(", "))?;
-    writeln!(
-        out,
-        "{:<12} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}",
-        format!("force, {}", units.force.symbol()),
+    let force = format!("force, {}", units.force.symbol());
+    let names = [
+        &*force,
         "mean",
         "deviation",
         "5 %",
         "25 %",
         "50 %",
         "75 %",
-        "95 %"
-    )?;
+        "95 %",
+    ]
+    .map(str::to_owned);
     let forces = [
         ("downstream", band.downstream_force_n),
         ("upstream", band.upstream_force_n),
         ("largest", band.max_compression_n),
     ];
-    for (name, quantiles) in forces {
-        if let Some(q) = quantiles {
-            write!(out, "{name:<12}")?;
-            for force in [q.mean, q.standard_deviation, q.p05, q.p25, q.p50, q.p75, q.p95] {
-                write!(out, " {:>10}", units.force(force))?;
-            }
-            writeln!(out)?;
-        }
-    }
+    let row = |(name, quantiles): (&str, Option<_>)| {
+        let q: Quantiles = quantiles?;
+        let values = [q.mean, q.standard_deviation, q.p05, q.p25, q.p50, q.p75, q.p95];
+        let values = values.map(|force| units.force(force));
+        Some(std::iter::once(name.to_owned()).chain(values).collect())
+    };
+    let rows: Vec<Vec<String>> = forces.into_iter().filter_map(row).collect();
+    terminal::table(out, &names, &rows)?;
     if band.failed > 0 {
         let all = band.failed + band.samples;
         writeln!(

@@ -47,6 +47,29 @@ pub fn line(text: &str) -> String {
     shortened(&line, LONGEST_TEXT)
 }
 
+/// Writes rows of as many cells below their names, columns as wide as they have to be: numbers to the right, words to the left.
+pub fn table(out: &mut impl Write, names: &[String], rows: &[Vec<String>]) -> io::Result<()> {
+    let is_number = |cell: &String| !cell.starts_with(|c: char| c.is_alphabetic());
+    let column = |column: usize| {
+        let cells = || rows.iter().map(|row| &row[column]);
+        let width = cells()
+            .chain([&names[column]])
+            .map(|cell| cell.chars().count())
+            .max();
+        (width.unwrap_or_default(), cells().all(is_number))
+    };
+    let columns: Vec<(usize, bool)> = (0..names.len()).map(column).collect();
+    for row in std::iter::once(names).chain(rows.iter().map(|row| &row[..])) {
+        let cell = |(cell, (width, is_number)): (&String, &(usize, bool))| match is_number {
+            true => format!("{cell:>width$}"),
+            false => format!("{cell:<width$}"),
+        };
+        let cells: Vec<String> = row.iter().zip(&columns).map(cell).collect();
+        writeln!(out, "{}", cells.join("  ").trim_end())?;
+    }
+    Ok(())
+}
+
 /// A sentence of this program's, which may repeat a text of the user's, as one line of bounded length.
 pub fn sentence(text: &str) -> String {
     cut(&text.replace(['\n', '\r'], REPLACEMENT))
