@@ -2,8 +2,7 @@
 
 use serde::Serialize;
 
-use super::design_advice::advice;
-use super::design_words::{compared, print};
+use super::design_words::{compared, print, why_none};
 use super::failure::Failure;
 use super::limits::{LimitArguments, place};
 use super::progress::{HowFar, watched};
@@ -162,6 +161,6 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     })?;
     match best.answer {
         Some(_) => Ok(()),
-        None => Err(Failure::NotKept(advice(best, &input.scene, &units))),
+        None => Err(Failure::NotKept(why_none(best, &units))),
     }
 }

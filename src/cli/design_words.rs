@@ -219,8 +219,25 @@ fn is_near(design: &Design) -> bool {
     answer.is_some_and(|answer| design.excess() * (1.0 + answer.error_estimate) > 1.0)
 }
 
+/// Which limits nothing keeps, and by how much the nearest exceeds them.
+pub fn why_none(design: &Design, units: &Units) -> String {
+    let fails = |(place, quantity, limit): (Place, Limited, f64)| {
+        let value = design.nearest.as_ref()?.value(place, quantity);
+        let (what, excess) = (quantity.at(place), quantity.shown_in(units, value - limit));
+        let share = percent(value / limit - 1.0);
+        (value > limit).then(|| format!("the {what} exceeds its limit by {excess} ({share})"))
+    };
+    let fails: Vec<String> = design.limits.all().filter_map(fails).collect();
+    format!(
+        "{}: at the nearest, which is on standard output, {}; try springs at both ends or a clamp (--at), a larger limit, or less friction or \
+         load on the duct",
+        none(design),
+        fails.join(" and ")
+    )
+}
+
 /// That nothing is within the limits, as surely as it is known.
-pub fn none(design: &Design) -> String {
+fn none(design: &Design) -> String {
     let less = match design.doubt() {
         None => return "no stiffness stays within the limits".to_owned(),
         Some(Doubt::Error) => "the estimated error".to_owned(),

@@ -8,7 +8,7 @@ use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
 use crate::occurrence::Occurrence;
 use crate::shown::{four_digits, percent, spacing, time};
-use crate::{Part, PlanReport};
+use crate::{Candidate, Part, PlanReport};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -59,22 +59,19 @@ fn print(plan: &PlanReport) -> Result<(), Failure> {
         if candidates.is_empty() {
             continue;
         }
-        writeln!(
-            out,
-            "\n{part:<14} {:>10} {:>10}  why, or why not",
-            "error", "time"
-        )?;
-        for candidate in candidates {
-            writeln!(
-                out,
-                "{} {:<12} {:>10} {:>10}  {}",
-                if candidate.chosen { '→' } else { ' ' },
-                candidate.name,
+        let names = [&*part.to_string(), "error", "time", "why, or why not"].map(str::to_owned);
+        let row = |candidate: &&Candidate| {
+            let chosen = if candidate.chosen { '→' } else { ' ' };
+            vec![
+                format!("{chosen} {}", candidate.name),
                 candidate.estimated_error.map_or_else(String::new, percent),
                 candidate.estimated_seconds.map_or_else(String::new, time),
-                terminal::sentence(&candidate.reason)
-            )?;
-        }
+                terminal::sentence(&candidate.reason),
+            ]
+        };
+        let rows: Vec<Vec<String>> = candidates.iter().map(row).collect();
+        writeln!(out)?;
+        terminal::table(&mut out, &names, &rows)?;
     }
     Ok(())
 }

@@ -49,7 +49,11 @@ pub fn line(text: &str) -> String {
 
 /// Writes rows of as many cells below their names, columns as wide as they have to be: numbers to the right, words to the left.
 pub fn table(out: &mut impl Write, names: &[String], rows: &[Vec<String>]) -> io::Result<()> {
-    let is_number = |cell: &String| !cell.starts_with(|c: char| c.is_alphabetic());
+    let is_number = |cell: &String| {
+        !cell
+            .trim_start_matches(['→', ' '])
+            .starts_with(char::is_alphabetic)
+    };
     let column = |column: usize| {
         let cells = || rows.iter().map(|row| &row[column]);
         let width = cells()

@@ -65,46 +65,23 @@ const CEILING_OF_END: f64 = 1.2;
 /// Poisson's ratio of the table, and how far another may be from it to count as the same.
 const POISSON_RATIO: (f64, f64) = (0.4, 0.05);
 
-/// The row at any Q: cubics in ln Q between the rows that turn nowhere but at a row (F. N. Fritsch and J. Butland, SIAM J. Sci. Stat.
-/// Comput. 5, 1984), the first row below, nothing above the last.
+/// The row at any Q: straight lines in ln Q between the rows, the first row below, nothing above the last.
 pub fn at(number: f64) -> Row {
-    if number > NOTHING_ABOVE {
+    let Some(next) = TABLE.iter().position(|row| number <= row.number) else {
         return row(number, 0.0, 0.0);
-    }
-    let read = |value: fn(&Row) -> f64| interpolate(number.ln(), value);
-    Row {
-        number,
-        locked_share: read(|row| row.locked_share),
-        advance_share: read(|row| row.advance_share),
-    }
-}
-
-fn interpolate(x: f64, value: fn(&Row) -> f64) -> f64 {
-    let place = |k: usize| TABLE[k].number.ln();
-    let width = |k: usize| place(k + 1) - place(k);
-    let rise = |k: usize| (value(&TABLE[k + 1]) - value(&TABLE[k])) / width(k);
-    let last = TABLE.len() - 1;
-    let slope = |k: usize| {
-        if k == 0 || k == last {
-            return 0.0;
-        }
-        let (before, after) = (rise(k - 1), rise(k));
-        if before * after <= 0.0 {
-            return 0.0;
-        }
-        // Weighted harmonic mean: no piece overshoots.
-        let (left, right) = (2.0 * width(k) + width(k - 1), width(k) + 2.0 * width(k - 1));
-        (left + right) / (left / before + right / after)
     };
-    if x <= place(0) {
-        return value(&TABLE[0]);
-    }
-    let k = (0..last).find(|&k| x <= place(k + 1)).unwrap_or(last - 1);
-    let (h, t) = (width(k), (x - place(k)) / width(k));
-    let (from, to) = (value(&TABLE[k]), value(&TABLE[k + 1]));
-    from * (1.0 + 2.0 * t) * (1.0 - t).powi(2)
-        + to * t * t * (3.0 - 2.0 * t)
-        + h * t * (1.0 - t) * (slope(k) * (1.0 - t) - slope(k + 1) * t)
+    let (before, after) = (&TABLE[next.saturating_sub(1)], &TABLE[next]);
+    let share = if next > 0 {
+        (number / before.number).ln() / (after.number / before.number).ln()
+    } else {
+        1.0
+    };
+    let read = |value: fn(&Row) -> f64| value(before) + share * (value(after) - value(before));
+    row(
+        number,
+        read(|row| row.locked_share),
+        read(|row| row.advance_share),
+    )
 }
 
 /// What to expect of a scene before anything is run. The names of the fields are those of the JSON document, units included.

@@ -1,6 +1,5 @@
 //! A TOML document as a tree in which every key and value knows where it was written.
 
-use std::fmt;
 use std::ops::Range;
 
 use toml::Spanned;
@@ -20,7 +19,7 @@ pub struct Place {
     pub span: Range<usize>,
 }
 
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct Node {
     pub place: Place,
     pub content: Content,
@@ -41,7 +40,7 @@ pub enum Content {
     Table(Vec<Entry>),
 }
 
-#[derive(Clone)]
+#[derive(Debug, Clone)]
 pub struct Entry {
     pub key: String,
     pub key_place: Place,
@@ -73,20 +72,6 @@ impl Node {
             }
             _ => visit(key, self),
         }
-    }
-}
-
-// Neither shows its place: equal texts are equal contents.
-
-impl fmt::Debug for Node {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.content.fmt(f)
-    }
-}
-
-impl fmt::Debug for Entry {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:?}={:?}", self.key, self.value)
     }
 }
 
@@ -287,13 +272,12 @@ fn hint(line: &str) -> Option<String> {
             .map_or_else(|_| quoted(value), |_| value.to_owned())
     };
     if let Some(point) = with_point(value) {
-        let or = without_thousands(value).map_or_else(String::new, |whole| {
-            format!(", or {} if the comma separates thousands", as_toml(&whole))
+        let whole = without_thousands(value).map(|whole| as_toml(&whole));
+        let or = whole.map_or_else(String::new, |whole| {
+            format!(", or {whole} if the comma separates thousands")
         });
-        return Some(format!(
-            "decimals are written with a point, without thousands separators: {key} = {}{or}",
-            as_toml(&point)
-        ));
+        let how = "decimals are written with a point, without thousands separators";
+        return Some(format!("{how}: {key} = {}{or}", as_toml(&point)));
     }
     let unit = value.ends_with(|c: char| c.is_alphabetic() || matches!(c, '%' | '2' | '²'));
     (unit && value.parse::<f64>().is_err())

@@ -55,36 +55,40 @@ impl Location {
         if self.text.trim().is_empty() {
             return String::new();
         }
-        let mut shown = String::new();
-        let mut marks = String::new();
-        let before = self.text.get(..self.marked.start).unwrap_or_default();
-        let before = before.chars().count();
+        let before = self
+            .text
+            .get(..self.marked.start)
+            .unwrap_or_default()
+            .chars()
+            .count();
         // Of a very long line the part around the mark is shown.
         let skipped = if before < LONGEST_EXCERPT * 3 / 4 {
             0
         } else {
             before - LONGEST_EXCERPT / 2
         };
-        for (count, (offset, c)) in self.text.char_indices().skip(skipped).enumerate() {
-            if count == LONGEST_EXCERPT {
-                shown.push('…');
-                break;
-            }
-            let mark = if self.marked.contains(&offset) { '^' } else { ' ' };
+        let (mut shown, mut marks) = (String::new(), String::new());
+        for (offset, c) in self.text.char_indices().skip(skipped).take(LONGEST_EXCERPT) {
             shown.push(match c {
                 '\t' => ' ',
                 c if c.is_control() => '\u{fffd}',
                 c => c,
             });
-            marks.extend(std::iter::repeat_n(mark, columns(c)));
+            let mark = if self.marked.contains(&offset) { "^" } else { " " };
+            marks += &mark.repeat(columns(c));
         }
         if self.marked.start == self.text.len() {
             marks.push('^');
         }
+        if self.text.chars().count() > skipped + LONGEST_EXCERPT {
+            shown.push('…');
+        }
         let number = self.line.map_or_else(String::new, |line| line.to_string());
         let margin = " ".repeat(number.len());
-        let marks = marks.trim_end();
-        format!("\n{margin} |\n{number} | {shown}\n{margin} | {marks}")
+        format!(
+            "\n{margin} |\n{number} | {shown}\n{margin} | {}",
+            marks.trim_end()
+        )
     }
 }
 
@@ -104,16 +108,13 @@ impl fmt::Display for Location {
 
 /// Columns a character takes on a terminal: Chinese, Japanese and Korean characters take two.
 fn columns(c: char) -> usize {
-    match c {
-        '\u{1100}'..='\u{115f}'
-        | '\u{2e80}'..='\u{a4cf}'
-        | '\u{ac00}'..='\u{d7a3}'
-        | '\u{f900}'..='\u{faff}'
-        | '\u{fe30}'..='\u{fe6f}'
-        | '\u{ff00}'..='\u{ff60}'
-        | '\u{ffe0}'..='\u{ffe6}' => 2,
-        _ => 1,
-    }
+    const WIDE: [std::ops::RangeInclusive<char>; 4] = [
+        '\u{1100}'..='\u{115f}',
+        '\u{2e80}'..='\u{d7a3}',
+        '\u{f900}'..='\u{ff60}',
+        '\u{ffe0}'..='\u{ffe6}',
+    ];
+    1 + usize::from(WIDE.iter().any(|wide| wide.contains(&c)))
 }
 
 /// Lists of a scene, and what one item of each is called.
