@@ -33,32 +33,22 @@ impl Numbers for f64 {
     }
 }
 
-impl<T: Numbers> Numbers for Option<T> {
-    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
-        if let Some(part) = self {
-            part.each(field, see);
-        }
-    }
+/// Of several parts, those of each.
+macro_rules! of_parts {
+    ($([$($generics:tt)+] $list:ty;)+) => {
+        $(impl<$($generics)+> Numbers for $list {
+            fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
+                self.iter().for_each(|part| part.each(field, see));
+            }
+        })+
+    };
 }
 
-impl<T: Numbers> Numbers for [T] {
-    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
-        for part in self {
-            part.each(field, see);
-        }
-    }
-}
-
-impl<T: Numbers> Numbers for Vec<T> {
-    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
-        self.as_slice().each(field, see);
-    }
-}
-
-impl<T: Numbers, const N: usize> Numbers for [T; N] {
-    fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
-        self.as_slice().each(field, see);
-    }
+of_parts! {
+    [T: Numbers] Option<T>;
+    [T: Numbers] [T];
+    [T: Numbers] Vec<T>;
+    [T: Numbers, const N: usize] [T; N];
 }
 
 /// The fields of records that are numbers or hold some.

@@ -1,7 +1,5 @@
 //! Numbers, texts and tables for a reader, as the terminal and the report show them.
 
-pub use crate::scene::{four_digits, shortened};
-
 /// Rows of a table that is read at a glance.
 pub const ROWS: usize = 16;
 

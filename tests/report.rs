@@ -742,7 +742,7 @@ fn the_side_view_has_clamps_at_their_places_and_ends_where_the_duct_does() {
         "30",
         "free",
         "fixed",
-        "forward, 100 %",
+        "→ forward, 100 %",
         "1: clamp of 1000 kN/m at 12 m",
         "2: clamp of 50 kN/m at 27 m",
     ] {

@@ -62,12 +62,14 @@ fn run_by(
     threads: usize,
     evaluate: &(dyn Fn(&Scene) -> Result<Run, Error> + Sync),
 ) -> Result<SweepSummary, SweepError> {
-    let options = SweepOptions {
-        threads: Some(threads),
-        evaluate: Some(evaluate),
-        ..SweepOptions::default()
-    };
-    sweep.run(output, &options)
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.expect("threads").install(|| {
+        let options = SweepOptions {
+            evaluate: Some(evaluate),
+            ..SweepOptions::default()
+        };
+        sweep.run(output, &options)
+    })
 }
 
 /// A sweep in whose table's place a folder comes while it computes: the journal of all points is left, and nothing else.
@@ -574,20 +576,27 @@ fn a_sweep_that_is_stopped_goes_on_where_it_was() {
             ControlFlow::Break(())
         }
     };
-    let mut options = SweepOptions {
-        threads: Some(1),
-        evaluate: Some(&evaluate),
-        progress: Progress::new(&stop),
-        ..SweepOptions::default()
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .expect("a thread");
+    let run = |progress| {
+        pool.install(|| {
+            let options = SweepOptions {
+                evaluate: Some(&evaluate),
+                progress,
+                ..SweepOptions::default()
+            };
+            sweep.run(&output, &options)
+        })
     };
-    let error = sweep.run(&output, &options).expect_err("stopped");
+    let error = run(Progress::new(&stop)).expect_err("stopped");
     assert!(
         matches!(error, SweepError::Stopped) && !error.is_bad_input(),
         "{error}"
     );
     assert!(!output.exists() && journal(&output).exists());
-    options.progress = Progress::default();
-    let summary = sweep.run(&output, &options).unwrap();
+    let summary = run(Progress::default()).unwrap();
     assert_eq!((summary.points, summary.resumed), (5, 3));
     assert!(output.exists() && !journal(&output).exists());
 }

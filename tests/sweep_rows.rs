@@ -214,12 +214,17 @@ fn a_sweep_does_not_go_on_with_another_table_of_axles() {
                 ControlFlow::Continue(())
             }
         };
-        let options = SweepOptions {
-            progress: Progress::new(&halt),
-            threads: Some(1),
-            ..SweepOptions::default()
-        };
-        sweep.run(&folder.join("out.csv"), &options)
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(1)
+            .build()
+            .expect("a thread");
+        pool.install(|| {
+            let options = SweepOptions {
+                progress: Progress::new(&halt),
+                ..SweepOptions::default()
+            };
+            sweep.run(&folder.join("out.csv"), &options)
+        })
     };
     axles("100 kN");
     assert!(matches!(run(true), Err(SweepError::Stopped)));

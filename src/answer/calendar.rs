@@ -10,15 +10,14 @@ const POWERS: std::ops::Range<i32> = 0..4;
 /// Times that a reader looks for \[days\], with their names.
 fn times() -> impl Iterator<Item = (f64, String)> {
     let years = POWERS.flat_map(|power| [1.0, 2.0, 5.0].map(|leading| leading * 10_f64.powi(power)));
-    let years = years.map(|years| (years * DAYS_PER_YEAR, counted(years, "year")));
+    let years = years.map(|years| {
+        (
+            years * DAYS_PER_YEAR,
+            format!("{years} year{}", if years == 1.0 { "" } else { "s" }),
+        )
+    });
     let short = [(1.0, "1 day"), (MONTH, "1 month")].map(|(days, name)| (days, name.to_owned()));
     short.into_iter().chain(years)
-}
-
-/// A number of units: "1 year", "20 years".
-fn counted(number: f64, unit: &str) -> String {
-    let plural = if number == 1.0 { "" } else { "s" };
-    format!("{number} {unit}{plural}")
 }
 
 /// The passes with which the first day, month and year and round numbers of years end, ascending; none where nothing is known of time.

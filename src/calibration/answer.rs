@@ -11,7 +11,7 @@ use super::result::{
     Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
 };
 use crate::readings::Measured;
-use crate::shown::four_digits;
+use crate::scene::four_digits;
 use crate::{Error, finite};
 
 pub fn answer(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Result<Calibrated, Error> {

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use calibrate::{CalibrationError, Parameter, Prior, Scale};
 
-use crate::scene::{FrictionLaw, Scene, UnknownWord, words};
+use crate::scene::{FrictionLaw, Scene, words};
 
 /// A quantity that can be fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -119,9 +119,9 @@ impl Unknown {
 
 /// As it is printed: a quantity's name, or one with the number of its series, from 1.
 impl FromStr for Unknown {
-    type Err = UnknownWord;
+    type Err = String;
 
-    fn from_str(text: &str) -> Result<Self, UnknownWord> {
+    fn from_str(text: &str) -> Result<Self, String> {
         if let Some((quantity, number)) = text.rsplit_once('_')
             && let (Ok(quantity), Ok(number @ 1..)) = (quantity.parse(), number.parse::<usize>())
         {

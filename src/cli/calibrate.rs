@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Once;
 
 use super::failure::Failure;
-use super::progress::{HowFar, Now, watched};
+use super::progress::watched;
 use super::readings::ReadArguments;
 use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
@@ -14,8 +14,8 @@ use crate::calibration::{
     CalibrateOptions, Calibrated, Deflection, FittedParameter, FittedReading, Loss, ResidualSize, SHARES,
     Series, Unknown,
 };
-use crate::scene::{Dimension, FrictionLaw};
-use crate::shown::{ROWS, four_digits, percent};
+use crate::scene::{Dimension, FrictionLaw, four_digits};
+use crate::shown::{ROWS, percent};
 
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:
@@ -142,23 +142,16 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let most = arguments.max_evaluations;
     let usual = usual_runs(arguments.fit.len()).min(most);
     let told = Once::new();
-    let how_far = |now: Now| {
+    let words = |share: f64| {
         told.call_once(|| tell(&readings, usual, most));
-        let runs = now.share * most as f64;
-        let share = runs / usual as f64;
-        if share < 1.0 {
-            HowFar::new(
-                Now { share, ..now },
-                &format!("{runs:.0} of about {usual} model runs"),
-            )
+        let runs = share * most as f64;
+        if runs < usual as f64 {
+            format!("{runs:.0} of about {usual} model runs")
         } else {
-            HowFar::unknown(
-                &format!("{runs:.0} model runs, more than usual, at most {most}"),
-                now.elapsed,
-            )
+            format!("{runs:.0} model runs, more than usual, at most {most}")
         }
     };
-    let answer = watched(how_far, |progress| {
+    let answer = watched(usual as f64 / most as f64, words, |progress| {
         let pairs = inputs.iter().zip(&readings);
         let series: Vec<Series<'_>> = pairs
             .map(|(input, readings)| Series {

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::design_words::{compared, print, why_none};
 use super::failure::Failure;
 use super::limits::{LimitArguments, place};
-use super::progress::{HowFar, watched};
+use super::progress::watched;
 use super::shared::{Input, Json, TrafficArguments};
 use crate::design::{Design, DesignError, DesignOptions, Place, best, design};
 use crate::scene::{End, Restraint, did_you_mean, nearest};
@@ -132,8 +132,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     };
     let limits = ways.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
     let units = units.for_springs();
-    let how_far = |now| HowFar::new(now, "runs of the scene with one stiffness after the other");
-    let designs = watched(how_far, |progress| {
+    let words = |_| "runs of the scene with one stiffness after the other".to_owned();
+    let designs = watched(1.0, words, |progress| {
         let all = ways.len() as f64;
         let each = ways.iter().zip(&limits).enumerate();
         each.map(|(index, (way, limits))| {

@@ -23,14 +23,18 @@ pub fn clamps(out: &mut impl Write, design: &Design, units: &Units) -> std::io::
     Ok(())
 }
 
-/// Force and movement of the clamps that were designed, where they are.
+/// Force and movement of the clamps that were designed, if there are any.
 pub fn on_clamp(design: &Design, found: &TradeOff, units: &Units) -> String {
-    let both = |place: &Place| {
-        let shown = |quantity: Limited| quantity.shown_in(units, found.value(*place, quantity));
-        format!("{}, {}", shown(Limited::Force), shown(Limited::Movement))
-    };
+    let shown = |place: &Place, quantity: Limited| quantity.shown_in(units, found.value(*place, quantity));
     let designed = design.places.iter().filter(|place| has(found, **place));
-    let all: Vec<String> = designed.map(both).collect();
+    let of_one = |place| {
+        format!(
+            "{}, {}",
+            shown(place, Limited::Force),
+            shown(place, Limited::Movement)
+        )
+    };
+    let all: Vec<String> = designed.map(of_one).collect();
     if all.is_empty() {
         "–".to_owned()
     } else {
@@ -40,6 +44,8 @@ pub fn on_clamp(design: &Design, found: &TradeOff, units: &Units) -> String {
 
 /// Whether there is a clamp at `place`.
 pub fn has(point: &TradeOff, place: Place) -> bool {
-    let mut clamps = point.clamps.iter();
-    clamps.any(|clamp| place.is_clamp_at(clamp.position_m))
+    point
+        .clamps
+        .iter()
+        .any(|clamp| place.is_clamp_at(clamp.position_m))
 }

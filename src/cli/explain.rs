@@ -48,10 +48,12 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
 /// A line for each key.
 fn list(keys: &[KeyMeaning]) -> Result<(), Failure> {
     let mut out = terminal::out();
-    for key in keys {
-        let required = if key.default.is_none() { "*" } else { " " };
-        writeln!(out, "{required} {:<36} {}", key.key, key.meaning)?;
-    }
+    let row = |key: &KeyMeaning| {
+        let required = if key.default.is_none() { "*" } else { "" };
+        vec![key.key.clone(), required.to_owned(), key.meaning.to_owned()]
+    };
+    let rows: Vec<Vec<String>> = keys.iter().map(row).collect();
+    terminal::table(&mut out, &["key", "", "meaning"].map(str::to_owned), &rows)?;
     writeln!(
         out,
         "\n* is required. To see units, range and default: creepage explain KEY"

@@ -92,15 +92,22 @@ const MOST_MOVEMENT: f64 = 1.0;
 impl LimitArguments {
     /// Warns of bare numbers that were probably meant in another unit.
     pub fn warn_of_slips(&self) {
-        let bare = |limit: &&Limit| limit.unit.is_none();
-        let forces = self.limit_force.iter().filter(bare);
-        for Limit { value, .. } in forces.filter(|limit| limit.value < LEAST_FORCE) {
+        let bare = |limits: &[Limit]| -> Vec<f64> {
+            let bare = limits.iter().filter(|limit| limit.unit.is_none());
+            bare.map(|limit| limit.value).collect()
+        };
+        for value in bare(&self.limit_force)
+            .iter()
+            .filter(|value| **value < LEAST_FORCE)
+        {
             terminal::warn(format_args!(
                 "--limit-force is {value} N: did you mean {value}kN?"
             ));
         }
-        let movements = self.limit_movement.iter().filter(bare);
-        for Limit { value, .. } in movements.filter(|limit| limit.value > MOST_MOVEMENT) {
+        for value in bare(&self.limit_movement)
+            .iter()
+            .filter(|value| **value > MOST_MOVEMENT)
+        {
             terminal::warn(format_args!(
                 "--limit-movement is {value} m: did you mean {value}mm?"
             ));
@@ -182,40 +189,35 @@ impl LimitArguments {
 
     /// Refuses limits of clamps that are not there.
     fn check_clamps(&self, scene: &Scene, elsewhere: &[Place]) -> Result<(), Failure> {
-        let positions = || scene.restraints.iter().map(|clamp| clamp.position);
-        let is_clamp = |place: &Place| matches!(place, Place::Clamp(_));
-        let none = positions().next().is_none() && !elsewhere.iter().any(is_clamp);
-        for (argument, given) in [
+        let own = || scene.restraints.iter().map(|clamp| Place::Clamp(clamp.position));
+        let clamps = || own().chain(elsewhere.iter().copied().filter(|place| place.end().is_none()));
+        let is_there = |limit: &&Limit| match limit.of {
+            Named::Clamps => clamps().next().is_some(),
+            Named::One(Place::Clamp(position)) => clamps().any(|clamp| clamp.is_clamp_at(position)),
+            _ => true,
+        };
+        let options = [
             ("--limit-force", &self.limit_force),
             ("--limit-movement", &self.limit_movement),
-        ] {
-            for limit in given {
-                let found = match limit.of {
-                    Named::Clamps if none => "clamp, where there is none".to_owned(),
-                    Named::One(Place::Clamp(position)) => {
-                        let mut all = positions().map(Place::Clamp).chain(elsewhere.iter().copied());
-                        if all.any(|clamp| clamp.is_clamp_at(position)) {
-                            continue;
-                        }
-                        format!("a clamp at {} m, where there is none", exact(position))
-                    }
-                    _ => continue,
-                };
-                let clamps: Vec<String> = positions()
-                    .map(|position| format!("{} m", exact(position)))
-                    .collect();
-                let allowed = match clamps.join(", ") {
-                    none if none.is_empty() => {
-                        "upstream or downstream, as the scene has no clamps".to_owned()
-                    }
-                    clamps => format!("upstream, downstream, or the position of a clamp: {clamps}"),
-                };
-                return Err(Failure::Usage {
-                    argument,
-                    found,
-                    allowed,
-                });
-            }
+        ];
+        for (argument, given) in options {
+            let Some(limit) = given.iter().find(|limit| !is_there(limit)) else {
+                continue;
+            };
+            let found = match limit.of {
+                Named::One(Place::Clamp(position)) => format!("a clamp at {} m", exact(position)),
+                _ => "clamp".to_owned(),
+            };
+            let all: Vec<String> = own().map(|clamp| clamp.to_string()).collect();
+            let allowed = match all.join(", ") {
+                none if none.is_empty() => "upstream or downstream, as the scene has no clamps".to_owned(),
+                all => format!("upstream, downstream, or the position of a clamp: {all}"),
+            };
+            return Err(Failure::Usage {
+                argument,
+                found: format!("{found}, where there is none"),
+                allowed,
+            });
         }
         Ok(())
     }

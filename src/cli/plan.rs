@@ -3,11 +3,12 @@
 use std::io::Write;
 
 use super::failure::Failure;
-use super::progress::{HowFar, Now, watched};
+use super::progress::watched;
 use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
 use crate::occurrence::Occurrence;
-use crate::shown::{four_digits, percent, spacing, time};
+use crate::scene::four_digits;
+use crate::shown::{percent, spacing, time};
 use crate::{Candidate, Part, PlanReport};
 
 #[derive(Debug, clap::Args)]
@@ -23,8 +24,10 @@ pub struct Arguments {
 
 pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let input = Input::of(arguments.scene.read()?)?;
-    let how_far = |now: Now| HowFar::unknown("choosing ground, method and mesh", now.elapsed);
-    let plan = watched(how_far, |_| crate::plan(&input.scene).map(|plan| plan.report()));
+    let words = |_| "choosing ground, method and mesh".to_owned();
+    let plan = watched(1.0, words, |_| {
+        crate::plan(&input.scene).map(|plan| plan.report())
+    });
     let mut plan = input.located(plan)?;
     input.warn(&mut plan.warnings);
     arguments.json.print(&plan, || print(&plan))
@@ -50,16 +53,16 @@ fn print(plan: &PlanReport) -> Result<(), Failure> {
     if let Some(occurrence) = &plan.occurrence {
         print_occurrence(&mut out, occurrence)?;
     }
-    for part in [Part::Ground, Part::Cable, Part::Mesh] {
+    for (name, part) in Part::WORDS {
         let candidates: Vec<_> = plan
             .candidates
             .iter()
-            .filter(|candidate| candidate.part == part)
+            .filter(|candidate| candidate.part == *part)
             .collect();
         if candidates.is_empty() {
             continue;
         }
-        let names = [&*part.to_string(), "error", "time", "why, or why not"].map(str::to_owned);
+        let names = [*name, "error", "time", "why, or why not"].map(str::to_owned);
         let row = |candidate: &&Candidate| {
             let chosen = if candidate.chosen { '→' } else { ' ' };
             vec![

@@ -5,7 +5,7 @@ use std::io::Write;
 use serde::Serialize;
 
 use super::failure::Failure;
-use super::progress::{HowFar, Now, watched};
+use super::progress::watched;
 use super::shared::{Input, OutputArguments, SceneArguments, Threads};
 use super::terminal;
 use crate::Profile;
@@ -50,8 +50,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let read = [Some(&*arguments.scene.scene), table.as_deref()];
     let mut files = arguments.output.files(read.into_iter().flatten());
     let destination = arguments.output.destination(&mut files)?;
-    let how_far = |now: Now| HowFar::unknown("computing the ground", now.elapsed);
-    let answer = watched(how_far, |_| match &arguments.positions {
+    let words = |_| "computing the ground".to_owned();
+    let answer = watched(1.0, words, |_| match &arguments.positions {
         Some(positions) => crate::profile_at(&input.scene, positions),
         None => crate::profile(&input.scene),
     });

@@ -23,57 +23,8 @@ const BETWEEN_LINES: Duration = Duration::from_secs(5);
 /// Steps of a bar.
 const STEPS: u64 = 1000;
 
-/// What a computation has reported, and how long it has taken.
-#[derive(Clone, Copy)]
-pub struct Now {
-    /// The share of the work that is done, and that which was done at the start.
-    pub share: f64,
-    pub first: f64,
-    pub elapsed: Duration,
-}
-
-/// How far a computation is.
-pub struct HowFar {
-    /// The share of the work that is done, where it is known.
-    pub share: Option<f64>,
-    /// In words, with the time left.
-    pub words: String,
-}
-
-impl HowFar {
-    /// A share of the work in words, and the time that the rest takes at the same speed.
-    pub fn new(now: Now, words: &str) -> Self {
-        let Now {
-            share,
-            first,
-            elapsed,
-        } = now;
-        let left = elapsed.as_secs_f64() * (1.0 - share) / (share - first);
-        if !left.is_finite() {
-            return Self::unknown(words, elapsed);
-        }
-        Self {
-            share: Some(share),
-            words: format!("{words}, about {} left", rounded(left.max(1.0))),
-        }
-    }
-
-    /// A computation that does not say how far it is.
-    pub fn unknown(words: &str, elapsed: Duration) -> Self {
-        Self {
-            share: None,
-            words: format!("{words}, {} so far", rounded(elapsed.as_secs_f64())),
-        }
-    }
-
-    fn line(&self) -> String {
-        let percent = |share: f64| format!("{:.0} %, ", 100.0 * share);
-        format!("{}{}", self.share.map_or_else(String::new, percent), self.words)
-    }
-}
-
 /// A time in whole seconds, minutes or hours.
-pub fn rounded(seconds: f64) -> String {
+fn rounded(seconds: f64) -> String {
     if seconds < 100.0 {
         format!("{seconds:.0} s")
     } else {
@@ -81,9 +32,11 @@ pub fn rounded(seconds: f64) -> String {
     }
 }
 
-/// Computes something and shows how far it is, in the words of `how_far`.
+/// Computes something and shows how far it is: the share that is done with the time that the rest takes at the same speed, and `words` of that share.
+/// As a rule it is done at the share `usual`.
 pub fn watched<A: Send>(
-    how_far: impl Fn(Now) -> HowFar,
+    usual: f64,
+    words: impl Fn(f64) -> String,
     compute: impl FnOnce(Progress<'_>) -> A + Send,
 ) -> A {
     signals::listen();
@@ -112,13 +65,23 @@ pub fn watched<A: Send>(
                 },
                 Err(RecvTimeoutError::Timeout) => {}
             }
-            let now = Now {
-                share: f64::from_bits(share.load(Ordering::Relaxed)),
-                first: first.get().copied().unwrap_or_default(),
-                elapsed: begun.elapsed(),
-            };
-            if now.elapsed > UNSEEN {
-                screen.show(now.elapsed, || how_far(now));
+            let elapsed = begun.elapsed();
+            if elapsed > UNSEEN {
+                let share = f64::from_bits(share.load(Ordering::Relaxed));
+                let seconds = elapsed.as_secs_f64();
+                let left = seconds * (usual - share) / (share - first.get().copied().unwrap_or_default());
+                // A computation may not say how far it is, or take longer than usual.
+                let known = left.is_finite() && left > 0.0;
+                let time = if known {
+                    format!("about {} left", rounded(left.max(1.0)))
+                } else {
+                    format!("{} so far", rounded(seconds))
+                };
+                screen.show(
+                    elapsed,
+                    known.then_some(share / usual),
+                    format!("{}, {time}", words(share)),
+                );
             }
         };
         screen.clear();
@@ -135,16 +98,16 @@ struct Screen {
 }
 
 impl Screen {
-    fn show(&self, elapsed: Duration, how_far: impl FnOnce() -> HowFar) {
+    fn show(&self, elapsed: Duration, share: Option<f64>, words: String) {
         if !io::stderr().is_terminal() {
             if elapsed >= self.due.get() {
                 self.due.set(elapsed + BETWEEN_LINES);
-                let _ = writeln!(terminal::err(), "progress: {}", how_far().line());
+                let percent = share.map_or_else(String::new, |share| format!("{:.0} %, ", 100.0 * share));
+                let _ = writeln!(terminal::err(), "progress: {percent}{words}");
             }
             return;
         }
         let bar = self.bar.take().unwrap_or_else(|| ProgressBar::new(STEPS));
-        let HowFar { share, words } = how_far();
         let template = match share {
             Some(_) => "{bar:20} {percent} %, {wide_msg}",
             None => "{spinner} {wide_msg}",

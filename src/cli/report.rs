@@ -8,7 +8,7 @@ use chrono::{DateTime, Utc};
 
 use super::failure::Failure;
 use super::limits::LimitArguments;
-use super::progress::{HowFar, watched};
+use super::progress::watched;
 use super::readings::ReadArguments;
 use super::shared::{Force, Input, TrafficArguments};
 use super::terminal;
@@ -89,8 +89,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let mut files = arguments.force.files(read.into_iter().flatten());
     let page = files.output(&arguments.output, "html")?;
     arguments.page_is_html()?;
-    let how_far = |now| HowFar::new(now, "the scene's run, then ways to hold the cable");
-    let report = watched(how_far, |progress| {
+    let words = |_| "the scene's run, then ways to hold the cable".to_owned();
+    let report = watched(1.0, words, |progress| {
         Report::new(
             &input.scene,
             &ReportOptions {

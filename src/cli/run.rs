@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::days;
 use super::failure::Failure;
 use super::limits::LimitArguments;
-use super::progress::{HowFar, watched};
+use super::progress::watched;
 use super::shared::{Input, OutputArguments, TrafficArguments};
 use super::terminal;
 #[cfg(feature = "xlsx")]
@@ -84,8 +84,8 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     #[cfg(feature = "xlsx")]
     let workbook = arguments.workbook.destination(&mut files)?;
     let units = arguments.limits.units(input.file());
-    let how_far = |now| HowFar::new(now, "passes on finer and finer meshes");
-    let answer = watched(how_far, |progress| {
+    let words = |_| "passes on finer and finer meshes".to_owned();
+    let answer = watched(1.0, words, |progress| {
         let options = RunOptions {
             verify: arguments.verify,
             progress,

@@ -198,8 +198,7 @@ impl Input {
     /// Warns of what an answer warns of, with the line of the key that a warning begins with.
     pub fn warn_all(&self, warnings: &[String]) {
         for warning in warnings.iter().filter(|warning| !self.is_told(warning)) {
-            let key = warning.strip_prefix('`').and_then(|rest| rest.split('`').next());
-            match key.and_then(|key| self.file.locate(key)) {
+            match key_of(warning).and_then(|key| self.file.locate(key)) {
                 Some(location) => terminal::warn(format_args!("{location}: {warning}{}", location.excerpt())),
                 None => terminal::warn(warning),
             }
@@ -215,13 +214,14 @@ impl Input {
 
     /// Whether the warning is of a key that a slip was found at.
     fn is_told(&self, warning: &str) -> bool {
-        let key = warning.strip_prefix('`').and_then(|rest| rest.split('`').next());
-        key.is_some_and(|key| {
-            self.warnings
-                .iter()
-                .any(|slip| slip.contains(&format!("`{key}`")))
-        })
+        let is_of = |slip: &String, key: &str| slip.contains(&format!("`{key}`"));
+        key_of(warning).is_some_and(|key| self.warnings.iter().any(|slip| is_of(slip, key)))
     }
+}
+
+/// The key in backticks that a warning begins with.
+fn key_of(warning: &str) -> Option<&str> {
+    warning.strip_prefix('`')?.split('`').next()
 }
 
 /// Warns of numbers that look like slips.

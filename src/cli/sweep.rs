@@ -4,7 +4,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::failure::Failure;
-use super::progress::{HowFar, Now, watched};
+use super::progress::watched;
 use super::readings::TableArguments;
 use super::shared::{Force, Json, TrafficArguments, warn_of_slips};
 use super::terminal;
@@ -107,12 +107,11 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
     let add = |row: &Row| map.iter().for_each(|(_, map)| map.add(row));
     let count = sweep.count();
     let points = |share: f64| format!("{:.0} of {count} points", share * count as f64);
-    let how_far = |now: Now| HowFar::new(now, &points(now.share));
     let out = arguments.out.display();
     super::signals::leaves(format!(
         "the finished points are kept beside {out}; the same command goes on from there"
     ));
-    let summary = watched(how_far, |progress| {
+    let summary = watched(1.0, points, |progress| {
         let options = SweepOptions {
             force: arguments.force.force,
             progress,

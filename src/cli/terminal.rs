@@ -8,7 +8,7 @@ use std::fmt::Display;
 use std::io::{self, StderrLock, StdoutLock, Write};
 
 use crate::error::with_causes;
-use crate::shown::shortened;
+use crate::scene::shortened;
 
 /// What stands for a character that is not shown.
 const REPLACEMENT: &str = "\u{fffd}";

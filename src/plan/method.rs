@@ -109,18 +109,14 @@ pub fn choose(scene: &Scene, levels: &Levels, period: &Period) -> Result<MethodC
     let estimates = Estimates::new(scene, levels, period)?;
     let has_rest = scene.friction.law.has_memory();
     let count = scene.traffic.passes;
+    let asked = |method| (method, "the scene asks for it".to_owned());
     let (method, reason) = match scene.solver.method {
         SolverMethod::Auto => automatic(scene, &estimates),
         SolverMethod::PassLaw if !has_rest => return Err(no_rest("pass-law")),
         SolverMethod::QuasiStatic if !has_rest => return Err(no_rest("quasi-static")),
-        named => {
-            let method = match named {
-                SolverMethod::PassLaw => PassMethod::Jumps(CableMethod::QuasiStatic),
-                SolverMethod::Explicit => estimates.affordable(CableMethod::Explicit, has_rest),
-                _ => PassMethod::EveryPass(CableMethod::QuasiStatic),
-            };
-            (method, "the scene asks for it".to_owned())
-        }
+        SolverMethod::PassLaw => asked(PassMethod::Jumps(CableMethod::QuasiStatic)),
+        SolverMethod::Explicit => asked(estimates.affordable(CableMethod::Explicit, has_rest)),
+        SolverMethod::QuasiStatic => asked(PassMethod::EveryPass(CableMethod::QuasiStatic)),
     };
     let (method, reason) = match method {
         PassMethod::Jumps(_) if period.len() > LONGEST_PERIOD && count > MOST_PASSES => {
@@ -318,12 +314,8 @@ impl Estimates {
 
     /// Error of `method` beside those of its mesh and its jumps, as a share of the force; `None` where it does not apply.
     pub fn error(&self, scene: &Scene, method: PassMethod) -> Option<f64> {
-        let has_rest = scene.friction.law.has_memory();
-        match method {
-            _ if !has_rest && !method.has_inertia() => None,
-            _ if method.has_inertia() => Some(0.0),
-            _ => Some(self.inertia),
-        }
+        let without = scene.friction.law.has_memory().then_some(self.inertia);
+        if method.has_inertia() { Some(0.0) } else { without }
     }
 
     /// Why `method` was not taken.

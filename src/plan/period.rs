@@ -24,7 +24,7 @@ const STAND_INS: usize = 48;
 const FEW: usize = 12;
 
 /// A period of traffic.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Period {
     /// Its vehicles, by their place in the scene.
     pub vehicles: Vec<usize>,
@@ -44,10 +44,7 @@ impl Period {
         if let Some(vehicles) = Self::own(scene)? {
             return Ok(Self {
                 vehicles,
-                others: Vec::new(),
-                reordered: false,
-                drawn: Vec::new(),
-                absent: Vec::new(),
+                ..Self::default()
             });
         }
         let coming = coming(scene)?;

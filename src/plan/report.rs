@@ -25,15 +25,7 @@ pub enum Part {
     Mesh,
 }
 
-impl std::fmt::Display for Part {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.pad(match self {
-            Self::Ground => "ground",
-            Self::Cable => "cable",
-            Self::Mesh => "mesh",
-        })
-    }
-}
+crate::scene::words!(Part: Ground "ground", Cable "cable", Mesh "mesh");
 
 /// A model or mesh that was considered, chosen or not.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -113,9 +105,15 @@ impl Plan<'_> {
         let mesh_error = levels.expected_error(first);
         let method_error = choice.estimates.error(scene, choice.method).unwrap_or(0.0);
         let spacing = levels.spacing(first);
-        let mut candidates = self.grounds();
-        candidates.extend(self.methods());
-        candidates.extend(self.meshes());
+        let chosen = Candidate {
+            part: Part::Ground,
+            name: ground.name.into(),
+            chosen: true,
+            estimated_error: Some(ground.accuracy),
+            estimated_seconds: None,
+            reason: ground.reason.into(),
+        };
+        let candidates = [chosen].into_iter().chain(self.methods()).chain(self.meshes());
         PlanReport {
             title: scene.title.clone(),
             ground: ground.name.into(),
@@ -126,21 +124,9 @@ impl Plan<'_> {
             estimated_error: mesh_error.map(|error| error + method_error + ground.accuracy),
             estimated_seconds: choice.estimates.seconds(choice.method),
             occurrence: Occurrence::new(scene, &ground.motions),
-            candidates,
+            candidates: candidates.collect(),
             warnings: self.warnings.clone(),
         }
-    }
-
-    fn grounds(&self) -> Vec<Candidate> {
-        let chosen = Candidate {
-            part: Part::Ground,
-            name: self.ground.name.into(),
-            chosen: true,
-            estimated_error: Some(self.ground.accuracy),
-            estimated_seconds: None,
-            reason: self.ground.reason.into(),
-        };
-        vec![chosen]
     }
 
     fn methods(&self) -> Vec<Candidate> {

@@ -54,13 +54,11 @@ impl Readings {
             is_header: &is_header,
             unit: Dimension::unit_by_word,
         };
-        Self::of(
-            Table::from_file(path.as_ref(), LARGEST_FILE, &options.table, &names)?,
-            options,
-        )
+        let table = Table::from_file(path.as_ref(), LARGEST_FILE, &options.table, &names)?;
+        Self::of(table, options)
     }
 
-    /// Reads a table from `bytes`; `file` stands for it in errors.
+    /// Reads a table from `bytes`, recognising how it is written; `file` stands for it in errors.
     ///
     /// # Errors
     ///
@@ -92,13 +90,10 @@ impl Readings {
         if found.readings.is_empty() {
             return Err(DataError::Empty(table.file));
         }
-        let first = found
-            .readings
-            .iter()
-            .find(|_| found.readings.iter().all(|reading| reading.passes == 0));
-        if let Some(first) = first {
+        if found.readings.iter().all(|reading| reading.passes == 0) {
+            let line = found.readings[0].line;
             return Err(table.wrong(
-                first.line,
+                line,
                 "pass: found \"0\" alone".into(),
                 "readings after at least one pass",
             ));

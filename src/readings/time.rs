@@ -3,7 +3,7 @@
 use creepage_tables::{Row, Table};
 
 use super::DataError;
-use crate::shown::shortened;
+use crate::scene::shortened;
 
 /// Longest time that a message repeats \[characters\].
 const LONGEST: usize = 80;

@@ -39,23 +39,13 @@ impl Report {
     /// The page.
     pub fn to_html(&self) -> String {
         let mut html = Html::default();
-        html.raw("<!DOCTYPE html>\n<html lang=\"en\">\n<head>");
-        html.raw("<meta charset=\"utf-8\"/>");
-        html.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>");
-        // Nothing is ever loaded, whatever a text on the page may say.
-        html.raw("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\"/>");
-        html.raw("<meta name=\"color-scheme\" content=\"light dark\"/>");
-        let version = env!("CARGO_PKG_VERSION");
         html.raw(&format!(
-            "<meta name=\"generator\" content=\"creepage {version}\"/>"
+            include_str!("head.html"),
+            version = env!("CARGO_PKG_VERSION"),
+            title = escaped(&self.scene.title),
+            style = STYLE,
+            dark = dark_style(),
         ));
-        let title = escaped(&self.scene.title);
-        html.raw(&format!("<title>{title}: cable creepage</title>"));
-        html.raw(&format!(
-            "<style>\n{STYLE}@media screen and (prefers-color-scheme: dark) {{\n{}}}\n</style>",
-            dark_style()
-        ));
-        html.raw("</head>\n<body>\n<main>");
         headline(&mut html, self);
         for (title, write) in SECTIONS {
             let is_empty = match title {

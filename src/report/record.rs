@@ -10,13 +10,8 @@ impl Report {
             .date
             .as_ref()
             .map_or(String::new(), |date| format!(" on {date}"));
-        let from = if self.is_from_file {
-            self.sources
-                .first()
-                .map_or(String::new(), |source| format!(" from {}", source.name))
-        } else {
-            String::new()
-        };
+        let file = self.sources.first().filter(|_| self.is_from_file);
+        let from = file.map_or(String::new(), |source| format!(" from {}", source.name));
         format!("computed{date} by creepage {}{from}", env!("CARGO_PKG_VERSION"))
     }
 }

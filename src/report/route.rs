@@ -21,9 +21,8 @@ const DEEP: f64 = ROAD + 44.0;
 const AXIS: f64 = DEEP + 34.0;
 /// Half the duct's height \[px\].
 const DUCT: f64 = 6.0;
-/// Clamps that are listed at most, and how far apart their numbers are at least \[px\].
+/// Clamps that are listed at most.
 const MOST: usize = 8;
-const APART: f64 = 20.0;
 
 /// The drawing, and its caption.
 pub fn route(report: &Report) -> (String, String) {
@@ -86,29 +85,21 @@ fn caption(report: &Report) -> String {
     )
 }
 
-/// Arrows with the shares of both directions.
+/// The shares of both directions.
 fn traffic(drawing: &mut Drawing, scene: &Scene) {
-    let share = |direction: Direction| -> f64 {
+    let words = |direction: Direction| {
         let same = scene
             .vehicles
             .iter()
             .filter(|traffic| traffic.vehicle.direction() == direction);
-        same.map(|traffic| traffic.share).sum()
+        let share: f64 = same.map(|traffic| traffic.share).sum();
+        Some(format!("{direction}, {} %", significant(100.0 * share))).filter(|_| share > 0.0)
     };
-    for (direction, from, sign, anchor) in [
-        (Direction::Forward, LEFT, 1.0, Anchor::Start),
-        (Direction::Reverse, RIGHT, -1.0, Anchor::End),
-    ] {
-        let share = share(direction);
-        if share == 0.0 {
-            continue;
-        }
-        let tip = (from + sign * 40.0, TRAFFIC);
-        let barb = |y: f64| (tip.0 - sign * 8.0, tip.1 + y);
-        drawing.line(&[(from, TRAFFIC), tip], Ink::Dark, 1.6);
-        drawing.line(&[barb(-4.0), tip, barb(4.0)], Ink::Dark, 1.6);
-        let text = format!("{direction}, {} %", significant(100.0 * share));
-        drawing.text(&text, (tip.0 + sign * 8.0, TRAFFIC), anchor);
+    if let Some(words) = words(Direction::Forward) {
+        drawing.text(&format!("→ {words}"), (LEFT, TRAFFIC), Anchor::Start);
+    }
+    if let Some(words) = words(Direction::Reverse) {
+        drawing.text(&format!("{words} ←"), (RIGHT, TRAFFIC), Anchor::End);
     }
 }
 
@@ -148,21 +139,17 @@ fn held(end: End, shown: &Shown) -> String {
     }
 }
 
-/// Clamps on the cable, numbered where there is room.
+/// Clamps on the cable, numbered if there are several.
 fn draw_clamps(drawing: &mut Drawing, scene: &Scene) {
-    let mut taken: Vec<f64> = Vec::new();
     for (k, clamp) in scene.restraints.iter().enumerate() {
         let (x, y) = (LEFT + (RIGHT - LEFT) * clamp.position / scene.duct.length, DEEP);
         for side in [-1.0, 1.0] {
-            let near = y + side * 3.0;
-            let far = y + side * 11.0;
+            let [near, far] = [3.0, 11.0].map(|away| y + side * away);
             let jaw = [(x - 4.0, far), (x + 4.0, far), (x + 2.0, near), (x - 2.0, near)];
             drawing.area(&jaw, Ink::Series(1), 1.0);
         }
-        let has_room = taken.iter().all(|other| (x - other).abs() >= APART);
-        if k < MOST && has_room && scene.restraints.len() > 1 {
+        if k < MOST && scene.restraints.len() > 1 {
             drawing.text(&(k + 1).to_string(), (x, y - 20.0), Anchor::Middle);
-            taken.push(x);
         }
     }
 }

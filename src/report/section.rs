@@ -8,6 +8,7 @@ use super::lanes::{Lane, lanes};
 use super::quantity::{Shown, round_below, significant};
 use crate::Scene;
 use crate::figure::{Anchor, Drawing, Ink};
+use crate::scene::shortened;
 
 /// The ground's left and right edge \[px\].
 const LEFT: f64 = 12.0;
@@ -24,6 +25,8 @@ const MOST: usize = 6;
 const BESIDE: f64 = 0.5;
 const SHOWN: f64 = 1.4;
 const DEEPEST: f64 = 250.0;
+/// Longest name of a vehicle that fits \[characters\].
+const LONGEST: usize = 24;
 /// Rock that is drawn, and the longest bar of the scale \[px\].
 const ROCK: f64 = 14.0;
 const BAR: f64 = 70.0;
@@ -158,13 +161,13 @@ fn vehicle(drawing: &mut Drawing, across: &Across, lane: &Lane, number: usize) {
 /// Who drives in which lane.
 fn names(lanes: &[Lane]) -> Vec<String> {
     let name = |(k, lane): (usize, &Lane)| {
-        let way = format!(", {}, {} %", lane.direction, significant(100.0 * lane.share()));
-        let mut name = lane.name();
-        let mut text = format!("{}: {name}{way}", k + 1);
-        while Drawing::text_width(&text) > RIGHT - LEFT && name.pop().is_some() {
-            text = format!("{}: {name}…{way}", k + 1);
-        }
-        text
+        let share = significant(100.0 * lane.share());
+        format!(
+            "{}: {}, {}, {share} %",
+            k + 1,
+            shortened(&lane.name(), LONGEST),
+            lane.direction
+        )
     };
     let mut names: Vec<String> = lanes.iter().take(MOST).enumerate().map(name).collect();
     if lanes.len() > MOST {

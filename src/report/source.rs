@@ -1,7 +1,5 @@
 //! What a page was made from, so that it can be checked later.
 
-use std::fmt::Write;
-
 /// A file that was read for a page.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Source {
@@ -23,14 +21,10 @@ impl Source {
     /// ```
     pub fn new(name: impl Into<String>, content: &[u8]) -> Self {
         let digest = hmac_sha256::Hash::hash(content);
-        let sha256 = digest.iter().fold(String::new(), |mut text, byte| {
-            // Writing to a String does not fail.
-            let _ = write!(text, "{byte:02x}");
-            text
-        });
+        let sha256: Vec<String> = digest.iter().map(|byte| format!("{byte:02x}")).collect();
         Self {
             name: name.into(),
-            sha256,
+            sha256: sha256.concat(),
         }
     }
 }

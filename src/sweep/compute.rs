@@ -8,7 +8,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use super::error::SweepError;
 use super::evaluator::Evaluator;
 use super::grid::Sweep;
-use super::options::{Evaluate, SweepOptions};
+use super::options::SweepOptions;
 use super::row::{Answer, PointError, Row};
 use crate::{Error, Progress, Run, RunOptions, Scene, finite};
 
@@ -29,22 +29,6 @@ impl Sweep {
         keep: &Keep<'_>,
     ) -> Result<(), SweepError> {
         let (progress, evaluate) = (options.progress, options.evaluate);
-        let compute = || self.compute_here(finished, progress, evaluate, keep);
-        let Some(threads) = options.threads else {
-            return compute();
-        };
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-        pool.map_err(|error| SweepError::File("threads".into(), std::io::Error::other(error)))?
-            .install(compute)
-    }
-
-    fn compute_here(
-        &self,
-        finished: &[bool],
-        progress: Progress<'_>,
-        evaluate: Option<&Evaluate<'_>>,
-        keep: &Keep<'_>,
-    ) -> Result<(), SweepError> {
         let done = AtomicUsize::new(finished.iter().filter(|done| **done).count());
         let report = || progress.report(done.load(Ordering::Relaxed) as f64 / finished.len() as f64);
         // A point that takes long can be stopped too.

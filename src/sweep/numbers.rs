@@ -3,34 +3,29 @@
 pub(super) use crate::scene::leading_number as number;
 use crate::scene::{Dimension, Unit};
 
+/// What a dimension makes of a text, quotes around it apart; no unit belongs to two dimensions.
+fn of_dimensions<T>(text: &str, read: impl Fn(Dimension, &str) -> Option<T>) -> Option<T> {
+    let text = text.trim().trim_matches(['"', '\'']);
+    Dimension::ALL.iter().find_map(|dimension| read(*dimension, text))
+}
+
 /// The SI value of a number with or without a unit; `None` for any other text.
 pub fn si(text: &str) -> Option<f64> {
-    let text = text.trim().trim_matches(['"', '\'']);
-    // No unit belongs to two dimensions.
-    let value = Dimension::ALL
-        .iter()
-        .find_map(|dimension| dimension.parse_argument(text).ok())?;
-    value.is_finite().then_some(value)
+    let value = of_dimensions(text, |dimension, text| dimension.parse_argument(text).ok());
+    value.filter(|value| value.is_finite())
 }
 
 /// The unit of a number with a unit.
 pub fn unit(text: &str) -> Option<Unit> {
-    let text = text.trim().trim_matches(['"', '\'']);
-    let mut dimensions = Dimension::ALL.iter();
-    dimensions.find_map(|dimension| dimension.unit_of(text))
+    of_dimensions(text, Dimension::unit_of)
 }
 
 /// The SI unit of a number with a unit.
 #[cfg(feature = "plot")]
 pub fn si_unit(text: &str) -> Option<&'static str> {
-    let text = text.trim().trim_matches(['"', '\'']);
-    Dimension::ALL
-        .iter()
-        .find(|dimension| dimension.parse(text).is_ok())?
-        .units()
-        .next()
-        // Ratios and slopes are bare numbers.
-        .filter(|unit| *unit != "%")
+    of_dimensions(text, |dimension, text| {
+        dimension.parse(text).ok().map(|_| dimension.si())
+    })?
 }
 
 /// Numbers and the one unit that all of them have, or all but none.

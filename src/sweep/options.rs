@@ -1,18 +1,14 @@
 //! How to sweep.
 
-use std::fmt;
-
 use super::row::Row;
 use crate::{Error, Progress, Run, Scene};
 
 /// Computes a point.
 pub type Evaluate<'a> = dyn Fn(&Scene) -> Result<Run, Error> + Sync + 'a;
 
-/// How to sweep.
+/// How to sweep, in rayon's threads: those of the pool in which it is called, or all cores.
 #[derive(Default, Clone, Copy)]
 pub struct SweepOptions<'a> {
-    /// Number of threads; rayon's where it is `None`: those of the pool in which it is called, or all cores.
-    pub threads: Option<usize>,
     /// Called with the share of the points that are done, at the start and after each point; it may stop the sweep, which the same call
     /// resumes later.
     pub progress: Progress<'a>,
@@ -22,14 +18,4 @@ pub struct SweepOptions<'a> {
     pub evaluate: Option<&'a Evaluate<'a>>,
     /// Whether the output replaces a file that is no table of a sweep.
     pub force: bool,
-}
-
-impl fmt::Debug for SweepOptions<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("SweepOptions")
-            .field("threads", &self.threads)
-            .field("progress", &self.progress)
-            .field("force", &self.force)
-            .finish_non_exhaustive()
-    }
 }

@@ -4,7 +4,7 @@ use rust_xlsxwriter::{
     Color, DocProperties, ExcelDateTime, Format, FormatBorder, Workbook, Worksheet, XlsxError,
 };
 
-use crate::shown::shortened;
+use crate::scene::shortened;
 
 /// Letters of a text: Excel takes a few more.
 const LONGEST: usize = 32_000;

@@ -243,5 +243,5 @@ fn words_are_those_of_the_file() {
     }
     let unknown = "newton".parse::<SolverMethod>().expect_err("no method");
     let expected = "found \"newton\"; allowed: auto, quasi-static, explicit, pass-law";
-    assert_eq!(unknown.to_string(), expected);
+    assert_eq!(unknown, expected);
 }

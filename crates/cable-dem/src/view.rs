@@ -1,7 +1,5 @@
 //! A look at the cable while the vehicle passes.
 
-use std::fmt;
-
 use crate::{CableState, Mesh};
 
 /// The cable at one vehicle position.
@@ -28,15 +26,6 @@ pub struct SlipLengths {
 
 /// Friction within this share of its limit counts as slipping.
 const AT_LIMIT: f64 = 1e-6;
-
-impl fmt::Debug for StepView<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("StepView")
-            .field("vehicle_position", &self.vehicle_position)
-            .field("limit", &self.limit)
-            .finish_non_exhaustive()
-    }
-}
 
 impl StepView<'_> {
     /// Position of the vehicle's origin along the duct \[m\].

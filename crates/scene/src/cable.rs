@@ -67,7 +67,6 @@ impl CableKeys {
         // Of several cables the factor follows from what is known of them.
         let given = cable.arrangement == Arrangement::Single && cable.diameter.is_none();
         Self {
-            preset: None,
             weight: cable.weight,
             axial_stiffness: Some(cable.axial_stiffness),
             young_modulus: None,
@@ -112,7 +111,6 @@ impl FrictionKeys {
         };
         let dynamic_coefficient = friction.dynamic_coefficient;
         Self {
-            preset: None,
             law,
             dynamic_coefficient,
             shape_factor,

@@ -10,16 +10,6 @@ use crate::range::{
     TIME_STEP, TOLERANCE,
 };
 
-/// A text that is not one of the allowed words.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("found \"{found}\"; allowed: {allowed}")]
-pub struct UnknownWord {
-    /// The text.
-    pub found: String,
-    /// The allowed words.
-    pub allowed: String,
-}
-
 /// Gives an enum its words: `WORDS`, `Display` and `FromStr`.
 #[macro_export]
 macro_rules! words {
@@ -38,14 +28,12 @@ macro_rules! words {
         }
 
         impl std::str::FromStr for $type {
-            type Err = $crate::UnknownWord;
+            type Err = String;
 
             fn from_str(text: &str) -> Result<Self, Self::Err> {
                 let found = Self::WORDS.iter().find(|(word, _)| *word == text);
-                found.map(|(_, value)| *value).ok_or_else(|| $crate::UnknownWord {
-                    found: text.to_owned(),
-                    allowed: [$($word),+].join(", "),
-                })
+                let allowed = || [$($word),+].join(", ");
+                found.map(|(_, value)| *value).ok_or_else(|| format!("found \"{text}\"; allowed: {}", allowed()))
             }
         }
     };

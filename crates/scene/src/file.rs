@@ -157,7 +157,7 @@ impl SceneFile {
     pub fn values(&self) -> String {
         let mut values = String::new();
         self.document.root.each_value("", &mut |key, node| {
-            values += &format!("{key}={:?}\n", node.content);
+            values.extend([key, "=", &format!("{:?}\n", node.content)]);
         });
         values
     }

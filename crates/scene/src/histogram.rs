@@ -15,29 +15,15 @@ use crate::units::Dimension;
 const MOST: usize = 1000;
 const LARGEST_FILE: u64 = 1 << 20;
 /// A column: its name, words that stand for it, and what it holds.
-struct Column {
-    name: &'static str,
-    words: &'static [&'static str],
-    quantity: Quantity,
-}
+type Column = (&'static str, &'static [&'static str], Quantity);
+const COUNT: &[&str] = &[
+    "count", "counts", "number", "axles", "anzahl", "nombre", "numero", "número", "台数",
+];
+const LOAD: &[&str] = &["load", "achslast", "last", "charge", "carico", "carga", "軸重"];
 const COLUMNS: [Column; 3] = [
-    Column {
-        name: "count",
-        words: &[
-            "count", "counts", "number", "axles", "anzahl", "nombre", "numero", "número", "台数",
-        ],
-        quantity: AXLE_COUNT,
-    },
-    Column {
-        name: "load",
-        words: &["load", "achslast", "last", "charge", "carico", "carga", "軸重"],
-        quantity: AXLE_LOAD,
-    },
-    Column {
-        name: "contact_radius",
-        words: &["radius"],
-        quantity: CONTACT_RADIUS,
-    },
+    ("count", COUNT, AXLE_COUNT),
+    ("load", LOAD, AXLE_LOAD),
+    ("contact_radius", &["radius"], CONTACT_RADIUS),
 ];
 const KEY: &str = "traffic.histogram";
 const TABLE: &str = "a table whose header names the columns load, count and, if wanted, contact_radius, with units in the cells or in the \
@@ -105,7 +91,7 @@ pub fn axles(name: &str, keys: &HistogramKeys, speed: f64) -> Result<Vec<Traffic
     let file = beside(name, &keys.file);
     let mut table = Table::from_file(&file, LARGEST_FILE, &keys.options()?, &names).map_err(wrong)?;
     let [count, load, radius] = [0, 1, 2].map(|column| place(&table.names, column));
-    let missing = |column: usize| wrong(table.missing(COLUMNS[column].name, TABLE));
+    let missing = |column: usize| wrong(table.missing(COLUMNS[column].0, TABLE));
     let count = count.ok_or_else(|| missing(0))?;
     let load = load.ok_or_else(|| missing(1))?;
     if let Some(unit) = &keys.unit {
@@ -161,17 +147,17 @@ pub fn axles(name: &str, keys: &HistogramKeys, speed: f64) -> Result<Vec<Traffic
 
 /// The column whose words the name holds: "axle load" is a load, "axles" their number.
 fn column_of(name: &Name) -> Option<usize> {
-    COLUMNS.iter().position(|column| name.has(column.words))
+    COLUMNS.iter().position(|column| name.has(column.1))
 }
 
 /// A cell with its unit or that of its column, or a bare number in SI.
 fn si(table: &Table, row: &Row, place: usize, column: &Column) -> Result<f64, TableError> {
     let cell = table.written(row, place);
-    let value = match column.quantity.dimension {
+    let value = match column.2.dimension {
         Some(dimension) => dimension.parse_argument(&cell).ok(),
         None => cell.parse().ok(),
     };
-    let value = value.filter(|value| column.quantity.contains(*value));
-    let found = || format!("{}: found \"{cell}\"", column.name);
-    value.ok_or_else(|| table.wrong(row.line, found(), column.quantity.allowed()))
+    let value = value.filter(|value| column.2.contains(*value));
+    let found = || format!("{}: found \"{cell}\"", column.0);
+    value.ok_or_else(|| table.wrong(row.line, found(), column.2.allowed()))
 }

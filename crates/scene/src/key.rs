@@ -55,6 +55,10 @@ pub enum Form {
     Words(Vec<&'static str>, Option<&'static str>),
     Table(Vec<Key>),
     /// A list of so many items at least, and what is allowed in words.
+    #[cfg_attr(
+        not(feature = "schema"),
+        allow(dead_code, reason = "the schema alone says how many")
+    )]
     List(Box<Form>, usize, &'static str),
     /// A value that is no table, or a table, and what is allowed in words; the second is not repeated by it.
     Either(Box<Form>, Vec<Key>, Option<&'static str>),
@@ -155,6 +159,7 @@ macro_rules! keys {
     (
         $(#[$about:meta])*
         $vis:vis struct $name:ident {
+            $(preset $preset:literal;)?
             $($(#[doc = $meaning:literal])+ $key:ident: $type:ty = $kind:expr $(, $default:literal)?;)+
         }
     ) => {
@@ -163,9 +168,9 @@ macro_rules! keys {
         $vis struct $name {
             $($(#[doc = $meaning])+ pub $key: $type,)+
         }
-        $crate::key::keys!(for $name { $($(#[doc = $meaning])+ $key = $kind $(, $default)?;)+ });
+        $crate::key::keys!(for $name { $(preset $preset;)? $($(#[doc = $meaning])+ $key = $kind $(, $default)?;)+ });
     };
-    (for $name:ty { $($(#[doc = $meaning:literal])+ $key:ident = $kind:expr $(, $default:literal)?;)+ }) => {
+    (for $name:ty { $(preset $preset:literal;)? $($(#[doc = $meaning:literal])+ $key:ident = $kind:expr $(, $default:literal)?;)+ }) => {
         impl $crate::key::Keys for $name {
             fn read(table: &$crate::key::Table) -> Result<Self, $crate::error::SceneError> {
                 Ok(Self { $($key: table.get(stringify!($key), &$kind)?,)+ })
@@ -181,12 +186,20 @@ macro_rules! keys {
             }
 
             fn keys() -> Vec<$crate::key::Key> {
-                vec![$($crate::key::Key {
+                // The name of a preset is no longer there when the table is read.
+                let preset: &[&str] = &[$($preset)?];
+                let preset = preset.first().map(|meaning| $crate::key::Key {
+                    name: "preset",
+                    meaning,
+                    form: $crate::key::Form::Text("a name that `creepage presets` lists"),
+                    default: Some("none"),
+                });
+                preset.into_iter().chain([$($crate::key::Key {
                     name: stringify!($key),
                     meaning: concat!($($meaning),+).trim_ascii(),
                     form: $crate::key::Kind::form(&$kind),
                     default: [$($default)?].first().copied(),
-                },)+]
+                },)+]).collect()
             }
         }
     };

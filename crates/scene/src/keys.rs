@@ -42,16 +42,13 @@ keys! {
     }
 }
 
-/// The name of a preset, which is no longer there when a table is read.
-const PRESET: Optional<Text> = Optional(Text("a name that `creepage presets` lists"));
 pub const VEHICLES: &str = "one [[vehicles]] or more, or traffic.histogram";
 pub const LAYERS: &str = "one [[ground.layers]] or more, from the top down";
 
 keys! {
     #[derive(Default)]
     pub struct GroundKeys {
-        /// A pavement by its name; keys beside it override its values.
-        preset: Option<String> = PRESET, "none";
+        preset "A pavement by its name; keys beside it override its values.";
         /// Model of the ground.
         model: GroundModel = Or(MODEL, GroundModel::Auto), "\"auto\"";
         /// Depth of rock that does not move.
@@ -87,8 +84,7 @@ keys! {
 
 keys! {
     pub struct CableKeys {
-        /// A cable by its name; keys beside it override its values.
-        preset: Option<String> = PRESET, "none";
+        preset "A cable by its name; keys beside it override its values.";
         /// Weight of the cable per length; a mass per length is multiplied by g.
         weight: f64 = WEIGHT;
         /// Young's modulus times cross-section, EA.
@@ -122,8 +118,7 @@ const LAWS: &[(&str, Law)] = &[
 
 keys! {
     pub struct FrictionKeys {
-        /// A pair of surfaces by its name; keys beside it override its values.
-        preset: Option<String> = PRESET, "none";
+        preset "A pair of surfaces by its name; keys beside it override its values.";
         /// How friction follows slip.
         law: Law = Or(Word::of(LAWS), Law::ElasticPlastic), "\"elastic-plastic\"";
         /// Friction of the slipping cable in normal forces, μ_d.
@@ -150,8 +145,7 @@ const WHEELS: &str = "a list of wheels, such as [ { x = \"0 m\", y = \"0.9 m\", 
 
 keys! {
     pub struct VehicleKeys {
-        /// A vehicle by its name; keys beside it override its values.
-        preset: Option<String> = PRESET, "none";
+        preset "A vehicle by its name; keys beside it override its values.";
         /// Name of the vehicle.
         name: Option<String> = Optional(Text("a name in quotes that no other vehicle has")), "\"vehicle 1\", \"vehicle 2\", …";
         /// Speed of the vehicle.

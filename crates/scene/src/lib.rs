@@ -35,7 +35,7 @@ mod written;
 pub use cable_end::CableEnd;
 pub use data::{
     Arrangement, Cable, DAYS_PER_YEAR, Duct, End, Ends, Friction, FrictionLaw, Ground, GroundModel, Heat,
-    Order, PeakScaling, Restraint, Scene, Solver, SolverMethod, Traffic, TrafficVehicle, UnknownWord,
+    Order, PeakScaling, Restraint, Scene, Solver, SolverMethod, Traffic, TrafficVehicle,
 };
 pub use error::{SceneError, Wrong, WrongKind, did_you_mean};
 pub use file::{SceneFile, Typed, TypedValue};

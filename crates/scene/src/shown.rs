@@ -1,16 +1,10 @@
 //! Numbers and texts in messages.
 
+pub use creepage_tables::shortened;
+
 /// `value` to four digits.
 pub fn four_digits(value: f64) -> f64 {
     format!("{value:.3e}").parse().unwrap_or(value)
-}
-
-/// The beginning of the text, and how long it is if that is not all.
-pub fn shortened(text: &str, longest: usize) -> String {
-    match text.char_indices().nth(longest) {
-        None => text.to_owned(),
-        Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
-    }
 }
 
 /// A text in quotes, as TOML has it.

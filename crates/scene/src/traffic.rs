@@ -177,7 +177,6 @@ impl VehicleKeys {
             _ => None,
         };
         Self {
-            preset: None,
             name: Some(vehicle.name().to_owned()),
             speed: vehicle.speed(),
             load,

@@ -125,9 +125,10 @@ pub fn unusual(scene: &Scene) -> Vec<String> {
         rock,
         contrast,
         may_jam,
+        too_heavy,
+        too_long,
     ];
     warnings.extend(pairs.iter().filter_map(|pair| pair(scene)));
-    warnings.extend(too_much(scene));
     warnings.iter().map(|warning| with_count(warning)).collect()
 }
 
@@ -149,22 +150,31 @@ fn exchanged(scene: &Scene) -> Option<String> {
     })
 }
 
-/// Vehicles too heavy for any road, and traffic for too long.
-fn too_much(scene: &Scene) -> Vec<String> {
-    // Vehicles heavier than this [N] do not drive, and no road is older [years].
+/// A vehicle too heavy for any road.
+fn too_heavy(scene: &Scene) -> Option<String> {
     const HEAVIEST: f64 = 5e6;
+    let weights = scene
+        .vehicles
+        .iter()
+        .map(|traffic| traffic.vehicle.weight())
+        .enumerate();
+    let (index, weight) = weights.into_iter().find(|(_, weight)| *weight > HEAVIEST)?;
+    let tonnes = weight / 9806.65;
+    Some(format!(
+        "`vehicles.{index}` weighs {tonnes:.0} t, more than any vehicle on a road"
+    ))
+}
+
+/// Traffic for longer than any road is old.
+fn too_long(scene: &Scene) -> Option<String> {
     const OLDEST: f64 = 200.0;
-    let weights = scene.vehicles.iter().map(|traffic| traffic.vehicle.weight());
-    let heavy = weights.enumerate().filter(|(_, weight)| *weight > HEAVIEST);
-    let heavy = heavy.map(|(index, weight)| {
-        let tonnes = weight / 9806.65;
-        format!("`vehicles.{index}` weighs {tonnes:.0} t, more than any vehicle on a road")
-    });
-    let years = scene.traffic.years_after(scene.traffic.passes);
-    let old = years.filter(|&years| years > OLDEST).map(|years| {
-        format!("`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date")
-    });
-    heavy.chain(old).collect()
+    let years = scene
+        .traffic
+        .years_after(scene.traffic.passes)
+        .filter(|&years| years > OLDEST)?;
+    Some(format!(
+        "`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date"
+    ))
 }
 
 /// A lane so far away that its vehicles hardly move the duct.

@@ -17,10 +17,12 @@ pub use number::is_number;
 pub use options::{Decimal, Encoding, Options, Separator};
 pub use table::{Cell, Names, Table};
 
-/// The text, or of a long one the beginning and its length.
-pub(crate) fn shortened(text: &str) -> String {
-    const LONGEST: usize = 80;
-    match text.char_indices().nth(LONGEST) {
+/// Longest text that a message repeats \[characters\].
+const LONGEST: usize = 80;
+
+/// The text, or of one longer than so many characters the beginning and its length.
+pub fn shortened(text: &str, longest: usize) -> String {
+    match text.char_indices().nth(longest) {
         Some((end, _)) => format!("{}… ({} characters)", &text[..end], text.chars().count()),
         None => text.to_owned(),
     }

@@ -9,7 +9,7 @@ use crate::grid::{self, Grid, Row};
 use crate::name::Name;
 use crate::number::{Sign, is_no_value, number, sign};
 use crate::options::{Decimal, Options, Separator};
-use crate::{is_number, shortened, text};
+use crate::{LONGEST, is_number, shortened, text};
 
 /// Rows above the header at most: what a data logger says of itself.
 const PREAMBLE: usize = 40;
@@ -212,24 +212,23 @@ impl Table {
             .filter(|name| !name.is_empty());
         let names: Vec<&str> = names.collect();
         let separated = self.separator.map_or("a workbook", Separator::name);
-        let cause = match &names[..] {
-            [only] => {
-                let mut other = [';', '\t', ',', ' ']
-                    .into_iter()
-                    .filter(|sign| only.contains(*sign));
-                let name = other.next().map(|sign| match sign {
-                    ' ' => Separator::Spaces.name(),
-                    sign => Separator::Character(sign).name(),
-                });
-                name.map_or_else(String::new, |name| format!("; it looks separated by {name}"))
-            }
-            _ => String::new(),
-        };
+        // One name that another separator would cut.
+        let other = [';', '\t', ',', ' ']
+            .into_iter()
+            .find(|sign| names.len() == 1 && names[0].contains(*sign));
+        let cause = other.map_or_else(String::new, |sign| {
+            let separator = if sign == ' ' {
+                Separator::Spaces
+            } else {
+                Separator::Character(sign)
+            };
+            format!("; it looks separated by {}", separator.name())
+        });
         let sheets = match &self.sheets[..] {
             [] => String::new(),
             sheets => format!("; other sheets: {}", sheets.join(", ")),
         };
-        let names = shortened(&names.join(" | "));
+        let names = shortened(&names.join(" | "), LONGEST);
         let found =
             format!("no column {column} in \"{names}\" (read as separated by {separated}{cause}{sheets})");
         self.wrong(self.line, found, allowed)
@@ -271,7 +270,7 @@ impl Table {
                     row.line,
                     format!(
                         "{name}: found \"{}\", {} or {}",
-                        shortened(cell),
+                        shortened(cell, LONGEST),
                         a.min(b),
                         a.max(b)
                     ),
@@ -330,7 +329,7 @@ impl Table {
         column: usize,
         allowed: impl Into<std::borrow::Cow<'static, str>>,
     ) -> TableError {
-        let cell = shortened(row.cell(column));
+        let cell = shortened(row.cell(column), LONGEST);
         let is = |decimal| number(&cell, decimal).is_some();
         let cause = match self.decimal(column) {
             Decimal::Point if cell.contains(',') && is(Decimal::Comma) => {
