@@ -38,7 +38,9 @@ macro_rules! of_parts {
     ($([$($generics:tt)+] $list:ty;)+) => {
         $(impl<$($generics)+> Numbers for $list {
             fn each(&self, field: &'static str, see: &mut dyn FnMut(&'static str, f64)) {
-                self.iter().for_each(|part| part.each(field, see));
+                for part in self.iter() {
+                    part.each(field, see);
+                }
             }
         })+
     };
