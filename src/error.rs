@@ -43,7 +43,7 @@ pub enum Error {
     Calibration(#[from] CalibrationError),
     /// The finest affordable mesh leaves too large an error.
     #[error(
-        "the estimated error of {}, from {}, is too far above the tolerance of {}: an error of more than 10 % is no answer; {}",
+        "the estimated error of {}, mainly of {}, is too far above the tolerance of {}: an error of more than 10 % is no answer; {}",
         percent(*.reached),
         cause.name(),
         exact_percent(*.asked),

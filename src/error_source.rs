@@ -32,18 +32,6 @@ impl ErrorSource {
     /// What it is called.
     pub fn name(self) -> &'static str {
         match self {
-            Self::Mesh => "the mesh",
-            Self::Ground => "the ground",
-            Self::Inertia => "inertia, which is left out",
-            Self::Road => "road beyond solver.approach",
-            Self::Passes => "passes that are not simulated",
-            Self::Days => "days that are not simulated",
-        }
-    }
-
-    /// The same in a word or two.
-    pub(crate) fn short_name(self) -> &'static str {
-        match self {
             Self::Mesh => "mesh",
             Self::Ground => "ground",
             Self::Inertia => "inertia",

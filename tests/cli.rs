@@ -274,12 +274,11 @@ fn years_and_vehicles_a_day_give_the_passes_a_time() {
     assert_eq!(time(rows.last().expect("a pass")).0, 10_958);
     assert!(rows.iter().any(|row| time(row).0 == 1826), "the first month");
     let said = printed(&run(&[]));
-    for line in [
-        "       60      1 day",
-        "     1826    1 month",
-        "    10958   183 days",
-    ] {
-        assert!(said.contains(line), "{said}");
+    for line in ["60 1 day ", "1826 1 month ", "10958 183 days "] {
+        let words = said
+            .lines()
+            .map(|line| line.split_whitespace().collect::<Vec<_>>().join(" "));
+        assert!(words.into_iter().any(|words| words.starts_with(line)), "{said}");
     }
     printed(&[&run(&[])[..], &["--csv", text(&file)]].concat());
     assert_eq!(table(&file).0[..2], ["pass", "years"]);
@@ -714,10 +713,10 @@ fn help_and_version_are_no_errors() {
 fn keys_are_listed_and_explained() {
     let list = printed(&["explain"]);
     for line in [
-        "* duct.depth ",
-        "  duct.slope ",
-        "  traffic.per_day ",
-        "* vehicles.wheels.load ",
+        "\n*  duct.depth ",
+        "\n   duct.slope ",
+        "\n   traffic.per_day ",
+        "\n*  vehicles.wheels.load ",
     ] {
         assert!(list.contains(line), "{list}");
     }

@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use creepage::Scene;
 use creepage::design::{DesignOptions, Limits, Place, design};
 use creepage::report::{Report, ReportOptions};
+use creepage::{CalibrateOptions, Reading, Readings, Scene};
 
 /// Finite elements, whose ground takes many times as long as a pass.
 fn scene() -> Scene {
@@ -26,14 +26,25 @@ fn time(mut work: impl FnMut()) -> Duration {
 }
 
 #[test]
-fn design_and_report_take_little_longer_than_the_ground() {
+fn what_takes_many_runs_takes_little_longer_than_the_ground() {
     let scene = scene();
     let ground = time(|| {
         creepage::plan(&scene).expect("a plan");
     });
     let limits = Limits::both(Some(60.0), None);
     let options = DesignOptions::new(Place::Downstream, limits);
-    let works: [(&str, f64, &mut dyn FnMut()); 2] = [
+    let mut measured = scene.clone();
+    measured.traffic.passes = 6;
+    let forces = creepage::run(&measured).expect("a run").passes;
+    let forces = forces
+        .iter()
+        .map(|record| Reading::force(record.pass, record.downstream_force_n));
+    let readings: Readings = forces.collect();
+    let works: [(&str, f64, &mut dyn FnMut()); 3] = [
+        // Some thirty model runs.
+        ("calibration", 6.0, &mut || {
+            drop(creepage::calibrate(&scene, &readings, &CalibrateOptions::default()).expect("a fit"));
+        }),
         // Some twenty runs.
         ("design", 6.0, &mut || {
             drop(design(&scene, &options).expect("a design"));

@@ -38,6 +38,12 @@ fn with_slips(file: &SceneFile, warnings: &mut Vec<String>) {
     warnings.splice(0..0, file.unit_slips().iter().map(ToString::to_string));
 }
 
+/// The JSON Schema of a scene, as JSON.
+#[pyfunction]
+fn schema() -> String {
+    creepage::scene::schema().to_string()
+}
+
 /// The run of a scene as JSON.
 #[pyfunction]
 fn run(py: Python<'_>, scene: Source, verify: bool, call: Call) -> PyResult<String> {
@@ -178,6 +184,7 @@ fn calibrate(
 #[pymodule]
 fn _creepage(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Table>()?;
+    module.add_function(wrap_pyfunction!(schema, module)?)?;
     module.add_function(wrap_pyfunction!(run, module)?)?;
     module.add_function(wrap_pyfunction!(report, module)?)?;
     module.add_function(wrap_pyfunction!(sweep, module)?)?;

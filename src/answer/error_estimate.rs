@@ -204,7 +204,7 @@ impl std::fmt::Display for ErrorParts {
                 || self.of(*source) != Shares::default()
         };
         let shown = ErrorSource::ALL.into_iter().filter(is_shown);
-        let parts = shown.map(|source| format!("{} {}", source.short_name(), percent(self.of(source).force)));
+        let parts = shown.map(|source| format!("{} {}", source.name(), percent(self.of(source).force)));
         let parts = parts.collect::<Vec<_>>().join(", ");
         write!(
             f,

@@ -50,10 +50,10 @@ fn list(keys: &[KeyMeaning]) -> Result<(), Failure> {
     let mut out = terminal::out();
     let row = |key: &KeyMeaning| {
         let required = if key.default.is_none() { "*" } else { "" };
-        vec![key.key.clone(), required.to_owned(), key.meaning.to_owned()]
+        vec![required.to_owned(), key.key.clone(), key.meaning.to_owned()]
     };
     let rows: Vec<Vec<String>> = keys.iter().map(row).collect();
-    terminal::table(&mut out, &["key", "", "meaning"].map(str::to_owned), &rows)?;
+    terminal::table(&mut out, &["", "key", "meaning"].map(str::to_owned), &rows)?;
     writeln!(
         out,
         "\n* is required. To see units, range and default: creepage explain KEY"

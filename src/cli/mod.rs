@@ -78,6 +78,7 @@ enum Command {
     /// Explain the keys of a scene: meaning, units, range, default
     Explain(explain::Arguments),
     /// Print the JSON Schema of a scene, by which editors complete and check it
+    #[command(after_help = "Examples:\n  creepage schema > creepage.schema.json")]
     Schema,
     /// Print a script that completes commands and flags in a shell
     Completions(completions::Arguments),

@@ -49,24 +49,24 @@ pub fn line(text: &str) -> String {
 
 /// Writes rows of as many cells below their names, columns as wide as they have to be: numbers to the right, words to the left.
 pub fn table(out: &mut impl Write, names: &[String], rows: &[Vec<String>]) -> io::Result<()> {
-    let is_number = |cell: &String| {
-        !cell
-            .trim_start_matches(['→', ' '])
-            .starts_with(char::is_alphabetic)
-    };
+    let begins = |c: char| c.is_ascii_digit() || "-+<>–".contains(c);
+    let is_number = |cell: &String| cell.trim_start_matches(['→', ' ']).starts_with(begins);
     let column = |column: usize| {
         let cells = || rows.iter().map(|row| &row[column]);
         let width = cells()
             .chain([&names[column]])
             .map(|cell| cell.chars().count())
             .max();
-        (width.unwrap_or_default(), cells().all(is_number))
+        (width.unwrap_or_default(), cells().any(is_number))
     };
     let columns: Vec<(usize, bool)> = (0..names.len()).map(column).collect();
     for row in std::iter::once(names).chain(rows.iter().map(|row| &row[..])) {
-        let cell = |(cell, (width, is_number)): (&String, &(usize, bool))| match is_number {
-            true => format!("{cell:>width$}"),
-            false => format!("{cell:<width$}"),
+        let cell = |(cell, (width, is_number)): (&String, &(usize, bool))| {
+            if *is_number {
+                format!("{cell:>width$}")
+            } else {
+                format!("{cell:<width$}")
+            }
         };
         let cells: Vec<String> = row.iter().zip(&columns).map(cell).collect();
         writeln!(out, "{}", cells.join("  ").trim_end())?;

@@ -73,7 +73,7 @@ fn every_preset_makes_a_scene_and_is_as_good_as_its_values() {
         assert_eq!(read_with(&written, &[]), named, "{}", preset.name);
         count[preset.kind as usize] += 1;
     }
-    assert_eq!(count, [6, 2, 4, 10]);
+    assert_eq!(count, [12, 2, 4, 10]);
 }
 
 #[test]
@@ -121,6 +121,28 @@ fn design_trucks_weigh_their_gross_load_on_discs_of_the_tyres_area() {
             let front = wheel.x > 0.0;
             assert!((wheel.load.force() - if front { 0.1 } else { 0.4 } * gross).abs() < 1e-6);
         }
+    }
+}
+
+/// Sums of EN 1991-2:2003, Table 4.7, and of AASHTO's HS20-44: 8, 32 and 32 kip.
+#[test]
+fn lorries_weigh_what_their_codes_say() {
+    for (name, gross, axles) in [
+        ("en-lorry-1", 200e3, 2),
+        ("en-lorry-2", 310e3, 3),
+        ("en-lorry-3", 490e3, 5),
+        ("en-lorry-4", 390e3, 4),
+        ("en-lorry-5", 450e3, 5),
+        ("hs20-44", 72.0 * 4448.2216152605, 3),
+    ] {
+        let scene = read_with(SCENE, &[&format!("vehicles.0.preset={name}")]);
+        let vehicle = &scene.vehicles[0].vehicle;
+        assert!(
+            (vehicle.weight() / gross - 1.0).abs() < 1e-12,
+            "{name}: {}",
+            vehicle.weight()
+        );
+        assert_eq!(vehicle.wheels().len(), 2 * axles, "{name}");
     }
 }
 

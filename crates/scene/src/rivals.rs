@@ -43,6 +43,15 @@ const RULES: &[Rule] = &[
     ("solver", "method", &["quasi-static", "pass-law"], "time_step", "`time_step` only with the method \"auto\" or \"explicit\""),
 ];
 
+/// The rivals among the keys of a table.
+#[cfg(feature = "schema")]
+pub fn rivals(table: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
+    let own = RULES
+        .iter()
+        .filter(move |rule| rule.0 == table && rule.2.is_empty());
+    own.map(|(_, one, _, other, _)| (*one, *other))
+}
+
 fn value_at<'e>(entries: &'e [Entry], key: &str) -> Option<&'e Node> {
     Some(&entries.iter().find(|entry| entry.key == key)?.value)
 }

@@ -2,10 +2,12 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::document::joined;
 use crate::key::{Form, Key, Keys};
 use crate::keys::SceneKeys;
 use crate::presets::{PresetKind, of};
 use crate::range::Quantity;
+use crate::rivals::rivals;
 
 /// The JSON Schema of a scene file, by which editors complete its keys and check their values. What holds between several keys it does not
 /// say.
@@ -21,11 +23,11 @@ pub fn schema() -> Value {
     Value::Object(root)
 }
 
-fn table(keys: &[Key], name: &str) -> Value {
+fn table(keys: &[Key], path: &str) -> Value {
     let property = |key: &Key| {
         let mut property = match key.name {
-            "preset" => json!({ "enum": presets(name) }),
-            name => form(&key.form, name),
+            "preset" => json!({ "enum": presets(path) }),
+            name => form(&key.form, &joined(path, name)),
         };
         if let Value::Object(property) = &mut property {
             let default = key
@@ -58,20 +60,26 @@ fn table(keys: &[Key], name: &str) -> Value {
         table["required"] = json!(required);
     }
     table["properties"] = properties.into();
+    let rivals: Vec<Value> = rivals(path)
+        .map(|(one, other)| json!({ "required": [one, other] }))
+        .collect();
+    if !rivals.is_empty() {
+        table["not"] = json!({ "anyOf": rivals });
+    }
     table
 }
 
-fn form(form: &Form, name: &str) -> Value {
+fn form(form: &Form, path: &str) -> Value {
     match form {
         Form::Quantity(quantity) => number(*quantity),
-        Form::Text(_) if name == "profile" => json!({ "type": "array", "minItems": 2, "maxItems": 2 }),
+        Form::Text(_) if path == "heat.profile" => json!({ "type": "array", "minItems": 2, "maxItems": 2 }),
         Form::Text(_) => json!({ "type": "string" }),
         Form::Words(words, _) => json!({ "enum": words }),
-        Form::Table(keys) => table(keys, name),
+        Form::Table(keys) => table(keys, path),
         Form::List(item, least, _) => {
-            json!({ "type": "array", "minItems": least, "items": self::form(item, name) })
+            json!({ "type": "array", "minItems": least, "items": self::form(item, path) })
         }
-        Form::Either(one, keys, _) => json!({ "anyOf": [self::form(one, name), table(keys, name)] }),
+        Form::Either(one, keys, _) => json!({ "anyOf": [self::form(one, path), table(keys, path)] }),
     }
 }
 
@@ -92,22 +100,29 @@ fn number(quantity: Quantity) -> Value {
     let Some(dimension) = quantity.dimension else {
         return number;
     };
-    let escaped = |unit: &str| unit.replace('^', "\\^").replace('.', "\\.");
-    let units: Vec<String> = dimension.units().map(escaped).collect();
-    // Variants of the units are many: a number and anything of their letters.
-    let variants = if dimension
-        .units()
-        .any(|unit| unit.contains(['u', '2', '1', '/', '%']) || unit == "deg")
-    {
-        "|[-µμu²⁻¹°％^0-9/A-Za-z %]+"
-    } else {
-        ""
-    };
-    let pattern = format!(
-        "^\\s*[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?\\s*({}{variants})\\s*$",
-        units.join("|")
-    );
+    let units: Vec<String> = dimension.units().map(unit).collect();
+    let digits = "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?";
+    let pattern = format!("^\\s*{digits}\\s*({})\\s*$", units.join("|"));
     json!({ "anyOf": [number, { "type": "string", "pattern": pattern }] })
+}
+
+/// A unit in all its spellings, as a regular expression.
+fn unit(symbol: &str) -> String {
+    if let Some(inverse) = symbol.strip_prefix("1/") {
+        let inverse = unit(inverse);
+        return format!("(1\\s*)?/\\s*{inverse}|{inverse}\\s*(\\^?-1|⁻¹)");
+    }
+    let letter = |(place, letter): (usize, char)| match letter {
+        'u' if place == 0 => "[uµμ]".to_owned(),
+        '2' if place > 0 => "(\\^?2|²)".to_owned(),
+        '/' => "\\s*/\\s*".to_owned(),
+        '%' => "[%％]".to_owned(),
+        letter => letter.to_string(),
+    };
+    match symbol {
+        "deg" => "deg|°".to_owned(),
+        _ => symbol.chars().enumerate().map(letter).collect(),
+    }
 }
 
 fn presets(section: &str) -> Vec<&'static str> {

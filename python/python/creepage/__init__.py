@@ -8,6 +8,7 @@
 from ._creepage import Table, __version__
 from ._errors import ComputationError, CreepageError, InputError
 from ._run import Run, calibrate, run, sweep
+from ._scene import schema
 from ._study import Study, compute_part, study
 
 __all__ = [
@@ -21,6 +22,7 @@ __all__ = [
     "calibrate",
     "compute_part",
     "run",
+    "schema",
     "study",
     "sweep",
 ]

@@ -6,10 +6,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, Optional, Union
 
+from . import _creepage
 from ._arguments import path_of
 from ._errors import InputError
 
 Scene = Union[str, "os.PathLike[str]", Mapping[str, Any]]
+
+
+def schema() -> dict[str, Any]:
+    """The JSON Schema of a scene: what keys it may have, and what may stand there."""
+    return json.loads(_creepage.schema())
 
 
 class Source(NamedTuple):
