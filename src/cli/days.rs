@@ -23,7 +23,7 @@ pub fn print(
     };
     let Units { force, movement, .. } = units;
     let of_ends = |what: &str, unit: &str| {
-        ["upstream", "downstream"].map(|end| [format!("{what} {end}, {unit}: least"), "most".to_owned()])
+        ["upstream", "downstream"].map(|end| [format!("{end} {what}, {unit}: least"), "most".to_owned()])
     };
     let mut names = vec!["day".to_owned()];
     names.extend(of_ends("force", force.symbol()).into_iter().flatten());

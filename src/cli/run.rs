@@ -276,7 +276,7 @@ fn table(
     let mut names = vec!["pass".to_owned()];
     // Times, and what distinguishes rows, have columns where there are any.
     names.extend(traffic.per_day.map(|_| "after".to_owned()));
-    names.extend(["upstream", "downstream"].map(|end| format!("force {end}, {force}")));
+    names.extend(["upstream", "downstream"].map(|end| format!("{end} force, {force}")));
     names.extend(["upstream", "downstream"].map(|end| format!("{end} moved, {movement}")));
     names.push(format!("most in cable, {force}"));
     names.extend(Some(kind.to_owned()).filter(|kind| !kind.is_empty()));

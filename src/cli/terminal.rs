@@ -18,6 +18,9 @@ const LONGEST_MESSAGE: usize = 1800;
 const KEPT_END: usize = 700;
 /// Longest text of the user's within a line \[characters\].
 const LONGEST_TEXT: usize = 200;
+/// Width of a table that a terminal shows without breaking its lines, and of a name that is not broken \[characters\].
+const TERMINAL_WIDTH: usize = 80;
+const SHORT_NAME: usize = 13;
 
 pub fn out() -> Shown<StdoutLock<'static>> {
     Shown(io::stdout().lock())
@@ -47,31 +50,58 @@ pub fn line(text: &str) -> String {
     shortened(&line, LONGEST_TEXT)
 }
 
-/// Writes rows of as many cells below their names, columns as wide as they have to be: numbers to the right, words to the left.
+/// Writes rows of as many cells below their names, columns as wide as they have to be: numbers to the right, words to the left. Where that
+/// is wider than a terminal, long names are broken at blanks.
 pub fn table(out: &mut impl Write, names: &[String], rows: &[Vec<String>]) -> io::Result<()> {
+    let width = |text: &String| text.chars().count();
     let begins = |c: char| c.is_ascii_digit() || "-+<>–".contains(c);
     let is_number = |cell: &String| cell.trim_start_matches(['→', ' ']).starts_with(begins);
-    let column = |column: usize| {
-        let cells = || rows.iter().map(|row| &row[column]);
-        let width = cells()
-            .chain([&names[column]])
-            .map(|cell| cell.chars().count())
-            .max();
-        (width.unwrap_or_default(), cells().any(is_number))
+    let cells = |column: usize| rows.iter().map(move |row| &row[column]);
+    let widths = (0..names.len()).map(|column| cells(column).map(width).max().unwrap_or_default());
+    let widths: Vec<usize> = widths.collect();
+    let whole: usize = names
+        .iter()
+        .zip(&widths)
+        .map(|(name, cells)| width(name).max(*cells) + 2)
+        .sum();
+    let heading = |(name, cells): (&String, &usize)| match whole > TERMINAL_WIDTH + 2 {
+        true => broken(name, SHORT_NAME.max(*cells)),
+        false => vec![name.clone()],
     };
-    let columns: Vec<(usize, bool)> = (0..names.len()).map(column).collect();
-    for row in std::iter::once(names).chain(rows.iter().map(|row| &row[..])) {
-        let cell = |(cell, (width, is_number)): (&String, &(usize, bool))| {
-            if *is_number {
-                format!("{cell:>width$}")
-            } else {
-                format!("{cell:<width$}")
-            }
+    let mut headings: Vec<Vec<String>> = names.iter().zip(&widths).map(heading).collect();
+    let height = headings.iter().map(Vec::len).max().unwrap_or_default();
+    let mut columns = Vec::new();
+    for (column, heading) in headings.iter_mut().enumerate() {
+        let widest = heading.iter().map(width).max().unwrap_or_default();
+        columns.push((widest.max(widths[column]), cells(column).any(is_number)));
+        // Names stand just above their columns.
+        heading.splice(..0, vec![String::new(); height - heading.len()]);
+    }
+    let line = |line: usize| headings.iter().map(|heading| heading[line].clone()).collect();
+    let names: Vec<Vec<String>> = (0..height).map(line).collect();
+    for row in names.iter().chain(rows) {
+        let cell = |(cell, (width, is_number)): (&String, &(usize, bool))| match is_number {
+            true => format!("{cell:>width$}"),
+            false => format!("{cell:<width$}"),
         };
         let cells: Vec<String> = row.iter().zip(&columns).map(cell).collect();
         writeln!(out, "{}", cells.join("  ").trim_end())?;
     }
     Ok(())
+}
+
+/// A text in lines of at most `width` characters, if its words allow that.
+fn broken(text: &str, width: usize) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split(' ') {
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => {
+                line.extend([" ", word]);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
 }
 
 /// A sentence of this program's, which may repeat a text of the user's, as one line of bounded length.

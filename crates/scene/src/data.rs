@@ -4,7 +4,8 @@ pub use cable_dem::{End, FrictionLaw, Order, Restraint};
 use ground_field::{SoilProfile, Vehicle};
 
 use crate::either::{EndKind, POINTS, PointKind};
-use crate::key::{List, Optional, Or, Word, keys};
+use crate::key::keys;
+use crate::kind::{List, Optional, Or, Word};
 use crate::range::{
     APPROACH, DEPTH, DUCT_LENGTH, EXPANSION, INNER_DIAMETER, LATERAL_OFFSET, OFFSET, SLOPE, STEP, SWING,
     TIME_STEP, TOLERANCE,

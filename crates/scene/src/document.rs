@@ -47,7 +47,32 @@ pub struct Entry {
     pub value: Node,
 }
 
+/// Where what a program has stands: nowhere.
+const NOWHERE: Place = Place {
+    source: 0,
+    span: 0..0,
+};
+
+impl Entry {
+    /// A key and a value that a program has.
+    pub fn of_program(key: &str, content: Content) -> Self {
+        Self {
+            key: key.to_owned(),
+            key_place: NOWHERE,
+            value: Node::of_program(content),
+        }
+    }
+}
+
 impl Node {
+    /// A value that a program has.
+    pub fn of_program(content: Content) -> Self {
+        Self {
+            place: NOWHERE,
+            content,
+        }
+    }
+
     /// The value of a table at this key, or of a list at this index.
     pub fn child(&self, segment: &str) -> Option<&Self> {
         match &self.content {

@@ -5,7 +5,8 @@ use ground_field::Modulus;
 
 use crate::document::{Content, Node};
 use crate::error::{SceneError, WrongKind};
-use crate::key::{Form, Keys, Kind, Optional, Text, Visit, Whole, Word, keys, section};
+use crate::key::{Form, Keys, Kind, Visit, keys};
+use crate::kind::{Optional, Text, Whole, Word, section};
 use crate::range::{ANY_WHOLE, MODULUS, MODULUS_AT_AN_END, SPRING, TEMPERATURE, TIME_OF_DAY};
 use crate::units::Dimension;
 use crate::value::Value;

@@ -6,7 +6,8 @@ use ground_field::{Direction, Modulus};
 use crate::data::{Arrangement, Duct, Ends, GroundModel, Heat, Solver};
 use crate::document::Entry;
 use crate::either::{HistogramKeys, HistogramKind, ModulusKind};
-use crate::key::{Keys, List, Optional, Or, Text, Whole, Word, keys, section};
+use crate::key::{Keys, keys};
+use crate::kind::{List, Optional, Or, Text, Whole, Word, section};
 use crate::range::{
     ANY_WHOLE, AXIAL_STIFFNESS, CLAMP, COEFFICIENT, CONDUCTOR_AREA, CONDUCTOR_MODULUS, CONTACT_RADIUS,
     DIAMETER, LANE, LOAD, LOAD_FACTOR, LONGITUDINAL_PEAK, PASSES, PER_DAY, POISSON, POSITION,

@@ -12,6 +12,7 @@ mod ground;
 mod histogram;
 mod key;
 mod keys;
+mod kind;
 mod location;
 mod names;
 mod nearest;
