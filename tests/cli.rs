@@ -305,7 +305,7 @@ fn years_and_vehicles_a_day_give_the_passes_a_time() {
         &["'-1' for '--years <N>'"],
     );
     let few = printed(&["run", UPPER, "--trucks-per-day", "2", "--set", "traffic.passes=3"]);
-    assert!(few.contains("        3   1.5 days"), "{few}");
+    assert!(few.contains("  3  1.5 days"), "{few}");
 }
 
 #[test]
@@ -1174,7 +1174,7 @@ fn design_takes_pairs_several_places_and_limits_of_clamps() {
     assert_fails(
         &[&run[..], &["--limit-force", "5m=1N"]].concat(),
         2,
-        &["the position of a clamp: 13 m"],
+        &["the position of a clamp: clamp at 13 m"],
     );
 }
 
@@ -1630,7 +1630,7 @@ fn readme_commands(test: &str, said: impl Fn(&str) -> String) {
 /// The same command with twelve passes, where it reads a scene and names no passes itself.
 fn short(line: &str) -> String {
     let words = line.split('#').next().unwrap_or_default().trim_end();
-    let sceneless = ["new ", "presets", "explain", "completions"];
+    let sceneless = ["new ", "presets", "explain", "schema", "completions"];
     if words.contains("traffic.passes") || sceneless.iter().any(|name| words.starts_with(name)) {
         words.to_owned()
     } else {

@@ -307,8 +307,8 @@ heat = { daily_swing = 20 } | `heat.expansion`
 heat = { expansion = "17e-6 K", daily_swing = 20 } | a difference of temperatures; allowed: an expansion per degree
 heat = { expansion = 17e-6, daily_swing = 20, profile = [[0, 0], [3600, 5]] } | both `daily_swing` and `profile`
 heat = { expansion = 17e-6, profile = [["8 h", "5 K"], ["6 h", "0 K"]] } | heat.profile.1.0 | after that of the point before
-heat = { expansion = 17e-6, profile = [["24 h", "5 K"]] } | before 24 h
-heat = { expansion = 17e-6, profile = [["8 h", "5 K"]] } | one point | two points of the day or more
+heat = { expansion = 17e-6, profile = [["0 h", "0 K"], ["24 h", "5 K"]] } | before 24 h
+heat = { expansion = 17e-6, profile = [["8 h", "5 K"]] } | one item | two points of the day or more
 heat = { expansion = 17e-6, daily_swings = 20 } | did you mean `daily_swing`?
 solver = { method = "explicit" } | `solver.method` = "explicit" | without inertia
 friction = { law = "sigmoid", dynamic_coefficient = 0.25, shape_factor = 7e6 } | `friction.law` = "sigmoid" | state of rest

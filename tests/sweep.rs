@@ -549,7 +549,13 @@ fn an_axis_without_values_and_a_probability_that_is_none_are_no_panics() {
         values: AxisValues::List(Vec::new()),
     };
     assert!(Sweep::new(file, vec![axis], Samples::default()).is_err());
-    for law in ["normal(1, 2)", "lognormal(1, 2)", "uniform(1, 2)"] {
+    for law in [
+        "normal(1, 2)",
+        "lognormal(1, 2)",
+        "uniform(1, 2)",
+        "triangular(1, 2, 3)",
+        "normal(1, 2, max=3)",
+    ] {
         let axis = Axis::parse(&format!("duct.depth={law}")).expect("an axis");
         let AxisValues::Drawn(distribution) = axis.values else {
             panic!("a distribution")

@@ -65,7 +65,7 @@ impl TrafficArguments {
     pub fn read(&self) -> Result<SceneFile, Failure> {
         let file = SceneFile::read(&self.file.scene)?.with(&self.overrides())?;
         let lasts = self.years.or(self.days).is_some();
-        if lasts && !file.typed().iter().any(|typed| typed.key == "traffic.per_day") {
+        if lasts && !file.names("traffic.per_day") {
             return Err(Failure::Usage {
                 argument: "--trucks-per-day",
                 found: "none, and `traffic.per_day` is missing in the scene".into(),

@@ -39,7 +39,9 @@ mod unix {
                 return;
             };
             let _until_the_end = crate::output::remove_all();
-            let left = super::LEFT.lock().unwrap_or_else(PoisonError::into_inner);
+            let left = crate::cli::signals::LEFT
+                .lock()
+                .unwrap_or_else(PoisonError::into_inner);
             let left = if left.is_empty() {
                 "nothing is computed or written"
             } else {

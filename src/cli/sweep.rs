@@ -37,7 +37,8 @@ pub struct Arguments {
     /// KEY=V1,V2,…
     /// KEY=normal(MEAN, SD)
     /// KEY=lognormal(MEDIAN, SIGMA), SIGMA of the logarithm
-    /// KEY=uniform(LOW, HIGH)
+    /// KEY=uniform(LOW, HIGH), KEY=triangular(LOW, MODE, HIGH)
+    /// each also between bounds: KEY=normal(MEAN, SD, min=LOW, max=HIGH)
     #[arg(
         long,
         verbatim_doc_comment,

@@ -59,16 +59,18 @@ pub fn table(out: &mut impl Write, names: &[String], rows: &[Vec<String>]) -> io
     let cells = |column: usize| rows.iter().map(move |row| &row[column]);
     let widths = (0..names.len()).map(|column| cells(column).map(width).max().unwrap_or_default());
     let widths: Vec<usize> = widths.collect();
-    let whole: usize = names
-        .iter()
-        .zip(&widths)
-        .map(|(name, cells)| width(name).max(*cells) + 2)
-        .sum();
-    let heading = |(name, cells): (&String, &usize)| match whole > TERMINAL_WIDTH + 2 {
-        true => broken(name, SHORT_NAME.max(*cells)),
-        false => vec![name.clone()],
+    let columns = || names.iter().zip(&widths);
+    let whole = columns().map(|(name, cells)| width(name).max(*cells) + 2);
+    let is_wide = whole.sum::<usize>() > TERMINAL_WIDTH + 2;
+    let longest = |cells: usize| {
+        if is_wide {
+            SHORT_NAME.max(cells)
+        } else {
+            usize::MAX
+        }
     };
-    let mut headings: Vec<Vec<String>> = names.iter().zip(&widths).map(heading).collect();
+    let heading = |(name, cells): (&String, &usize)| broken(name, longest(*cells));
+    let mut headings: Vec<Vec<String>> = columns().map(heading).collect();
     let height = headings.iter().map(Vec::len).max().unwrap_or_default();
     let mut columns = Vec::new();
     for (column, heading) in headings.iter_mut().enumerate() {

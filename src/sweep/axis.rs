@@ -30,7 +30,8 @@ pub enum AxisValues {
 
 impl Axis {
     /// Reads `KEY=A:B:STEP`, `KEY=V1,V2,…`, or `KEY=` with a distribution: `normal(MEAN, SD)`, `lognormal(MEDIAN, SIGMA)` with the
-    /// standard deviation SIGMA of the logarithm, `uniform(LOW, HIGH)`. Numbers may have a unit: `0.6m:2m:0.2m`.
+    /// standard deviation SIGMA of the logarithm, `uniform(LOW, HIGH)`, `triangular(LOW, MODE, HIGH)`, each also with bounds, `min=LOW` and
+    /// `max=HIGH`. Numbers may have a unit: `0.6m:2m:0.2m`.
     ///
     /// # Errors
     ///

@@ -1,13 +1,15 @@
 //! Distributions that a key's values are drawn from.
 
-use statrs::distribution::{ContinuousCDF, LogNormal, Normal, Uniform};
+use statrs::distribution::{ContinuousCDF, LogNormal, Normal, Triangular, Uniform};
 
 use super::numbers::{number, numbers};
 
-/// A distribution of a key's value.
+/// A distribution of a key's value, whole or between two bounds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Distribution {
     law: Law,
+    /// Least and largest value that is drawn, in the unit.
+    bounds: [f64; 2],
     /// Unit behind every drawn number; may be empty.
     unit: String,
 }
@@ -17,11 +19,29 @@ enum Law {
     Normal(Normal),
     LogNormal(LogNormal),
     Uniform(Uniform),
+    Triangular(Triangular),
 }
 
+impl Law {
+    fn distribution(&self) -> &dyn ContinuousCDF<f64, f64> {
+        match self {
+            Self::Normal(law) => law,
+            Self::LogNormal(law) => law,
+            Self::Uniform(law) => law,
+            Self::Triangular(law) => law,
+        }
+    }
+}
+
+const NORMAL: &str = "normal(MEAN, SD) with SD > 0, in one unit";
+const LOGNORMAL: &str = "lognormal(MEDIAN, SIGMA) with MEDIAN > 0 and SIGMA > 0, the standard deviation of the logarithm, a bare number";
+const UNIFORM: &str = "uniform(LOW, HIGH) with LOW < HIGH, in one unit";
+const TRIANGULAR: &str = "triangular(LOW, MODE, HIGH) with LOW < HIGH and MODE between them, in one unit";
+const BOUNDS: &str = "min=LOW and max=HIGH behind the parameters, in their unit, with at least a thousandth of all values between them";
+
 impl Distribution {
-    /// Reads `normal(MEAN, SD)`, `lognormal(MEDIAN, SIGMA)` or `uniform(LOW, HIGH)`; the error is what is allowed. `None` for a text that
-    /// is no call.
+    /// Reads `normal(MEAN, SD)`, `lognormal(MEDIAN, SIGMA)`, `uniform(LOW, HIGH)` or `triangular(LOW, MODE, HIGH)`, each also with `min=LOW`
+    /// or `max=HIGH` behind its parameters; the error is what is allowed. `None` for a text that is no call.
     pub(super) fn parse(text: &str) -> Option<Result<Self, &'static str>> {
         let (name, rest) = text.split_once('(')?;
         let (name, parameters) = (name.trim(), rest.strip_suffix(')')?);
@@ -31,11 +51,14 @@ impl Distribution {
 
     /// The value below which the share `probability` of all draws lies, and its text with the unit; NaN unless it is from 0 to 1.
     pub fn quantile(&self, probability: f64) -> (f64, String) {
-        let value = match &self.law {
-            _ if !(0.0..=1.0).contains(&probability) => f64::NAN,
-            Law::Normal(law) => law.inverse_cdf(probability),
-            Law::LogNormal(law) => law.inverse_cdf(probability),
-            Law::Uniform(law) => law.inverse_cdf(probability),
+        let (law, [least, most]) = (self.law.distribution(), self.bounds);
+        let [below, upto] = self.bounds.map(|bound| law.cdf(bound));
+        let is_share = (0.0..=1.0).contains(&probability);
+        let within = below + probability * (upto - below);
+        let value = if is_share {
+            law.inverse_cdf(within).clamp(least, most)
+        } else {
+            f64::NAN
         };
         (value, format!("{value:?} {}", self.unit).trim_end().to_owned())
     }
@@ -43,37 +66,69 @@ impl Distribution {
 
 fn distribution(name: &str, parameters: &str) -> Result<Distribution, &'static str> {
     let parts: Vec<&str> = parameters.split(',').collect();
+    let count = parts
+        .iter()
+        .position(|part| part.contains('='))
+        .unwrap_or(parts.len());
+    let (parts, limits) = parts.split_at(count);
     let (law, unit) = match name {
         "normal" => {
-            let allowed = "normal(MEAN, SD) with SD > 0, in one unit";
-            let ([mean, deviation], unit) = numbers(&parts).ok_or(allowed)?;
+            let ([mean, deviation], unit) = numbers(parts).ok_or(NORMAL)?;
             (
-                Law::Normal(Normal::new(mean, deviation).map_err(|_| allowed)?),
+                Law::Normal(Normal::new(mean, deviation).map_err(|_| NORMAL)?),
                 unit,
             )
         }
         "lognormal" => {
-            let allowed = "lognormal(MEDIAN, SIGMA) with MEDIAN > 0 and SIGMA > 0, the standard deviation of the logarithm, a bare number";
-            let [median, sigma] = parts[..] else {
-                return Err(allowed);
+            let &[median, sigma] = parts else {
+                return Err(LOGNORMAL);
             };
-            let (median, unit) = number(median).ok_or(allowed)?;
-            let (sigma, none) = number(sigma).ok_or(allowed)?;
+            let (median, unit) = number(median).ok_or(LOGNORMAL)?;
+            let (sigma, none) = number(sigma).ok_or(LOGNORMAL)?;
             if median <= 0.0 || !none.is_empty() {
-                return Err(allowed);
+                return Err(LOGNORMAL);
             }
-            let law = LogNormal::new(median.ln(), sigma).map_err(|_| allowed)?;
+            let law = LogNormal::new(median.ln(), sigma).map_err(|_| LOGNORMAL)?;
             (Law::LogNormal(law), unit.to_owned())
         }
         "uniform" => {
-            let allowed = "uniform(LOW, HIGH) with LOW < HIGH, in one unit";
-            let ([low, high], unit) = numbers(&parts).ok_or(allowed)?;
-            (Law::Uniform(Uniform::new(low, high).map_err(|_| allowed)?), unit)
+            let ([low, high], unit) = numbers(parts).ok_or(UNIFORM)?;
+            (Law::Uniform(Uniform::new(low, high).map_err(|_| UNIFORM)?), unit)
         }
-        _ => return Err("normal(MEAN, SD), lognormal(MEDIAN, SIGMA) or uniform(LOW, HIGH)"),
+        "triangular" => {
+            let ([low, mode, high], unit) = numbers(parts).ok_or(TRIANGULAR)?;
+            let law = Triangular::new(low, high, mode).map_err(|_| TRIANGULAR)?;
+            (Law::Triangular(law), unit)
+        }
+        _ => {
+            return Err(
+                "normal(MEAN, SD), lognormal(MEDIAN, SIGMA), uniform(LOW, HIGH) or triangular(LOW, MODE, HIGH)",
+            );
+        }
     };
-    Ok(Distribution { law, unit })
+    let mut bounds = [f64::NEG_INFINITY, f64::INFINITY];
+    for limit in limits {
+        let (name, value) = limit.split_once('=').ok_or(BOUNDS)?;
+        let (value, own) = number(value).ok_or(BOUNDS)?;
+        let bound = match name.trim() {
+            "min" => &mut bounds[0],
+            "max" => &mut bounds[1],
+            _ => return Err(BOUNDS),
+        };
+        if own != unit || bound.is_finite() {
+            return Err(BOUNDS);
+        }
+        *bound = value;
+    }
+    let [below, upto] = bounds.map(|bound| law.distribution().cdf(bound));
+    if upto - below < LEAST_SHARE {
+        return Err(BOUNDS);
+    }
+    Ok(Distribution { law, bounds, unit })
 }
+
+/// Of what lies farther out the distribution function has too few digits.
+const LEAST_SHARE: f64 = 1e-3;
 
 #[cfg(test)]
 mod tests {
@@ -94,5 +149,30 @@ mod tests {
         close(quantile("lognormal(2, 0.5)", 0.975).0, 2.0 * (0.5 * z).exp());
         close(quantile("uniform(3, 7)", 0.25).0, 4.0);
         assert_eq!(quantile("uniform(10 tf, 20 tf)", 0.5).1, "15.0 tf");
+        // A quarter of the triangle lies below its mode, and half of that area below 1/√2 of the way there.
+        close(quantile("triangular(0, 1, 4)", 0.25).0, 1.0);
+        close(quantile("triangular(0, 1, 4)", 0.125).0, 0.5_f64.sqrt());
+        // Of the upper half of a normal distribution, half lies below the upper quartile of the whole.
+        close(quantile("normal(0, 1, min=0)", 0.5).0, 0.6744897501960817);
+        close(quantile("normal(0.25, 0.03, min=0.2, max=0.3)", 0.5).0, 0.25);
+        assert_eq!(quantile("normal(1 kN, 5 kN, min=0 kN)", 0.0).1, "0.0 kN");
+        assert_eq!(quantile("lognormal(2 m, 0.5, max=2 m)", 1.0).1, "2.0 m");
+    }
+
+    #[test]
+    fn bounds_leave_something_to_draw() {
+        for text in [
+            "normal(0, 1, min=4)",
+            "normal(0, 1, min=1, max=0)",
+            "normal(0 m, 1 m, min=0)",
+            "normal(0, 1, min=0, min=1)",
+            "normal(0, 1, least=0)",
+            "normal(0, min=0, 1)",
+            "uniform(0, 1, max=nan)",
+            "triangular(1, 5, 4)",
+            "triangular(1, 1, 1)",
+        ] {
+            assert!(Distribution::parse(text).expect("a call").is_err(), "{text}");
+        }
     }
 }

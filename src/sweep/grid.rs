@@ -223,14 +223,15 @@ impl Sweep {
     /// What distinguishes this sweep from another: program, scene, keys, values, and what stands in the files that they name.
     pub(super) fn name(&self) -> u64 {
         let version = env!("CARGO_PKG_VERSION");
-        let scene = self.file.values();
+        let typed = self.file.typed().into_iter();
+        let scene: Vec<_> = typed.map(|typed| (typed.key, typed.value)).collect();
         let files: Vec<_> = self
             .files()
             .into_iter()
             .map(|file| std::fs::read(file).ok())
             .collect();
         let text = format!(
-            "{version}\0{scene}\0{:?}\0{:?}\0{}\0{files:?}",
+            "{version}\0{scene:?}\0{:?}\0{:?}\0{}\0{files:?}",
             self.axes, self.samples, self.by_row
         );
         checksum(text.as_bytes())

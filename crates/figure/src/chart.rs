@@ -6,7 +6,6 @@ use crate::drawing::{Drawing, Rect};
 use crate::error::FigureError;
 use crate::frame::{BELOW, Frame, ticks};
 use crate::legend::{self, Legend};
-use crate::panels::Panels;
 use crate::reference::Reference;
 use crate::series::{Kind, Series};
 
@@ -98,17 +97,6 @@ impl Chart {
     pub fn refer(mut self, reference: Reference) -> Self {
         self.references.push(reference);
         self
-    }
-
-    /// The chart as an SVG of 800 by 500 px.
-    ///
-    /// # Errors
-    ///
-    /// [`FigureError`] without data, where cells and axes do not fit together, with numbers that are not finite or have no
-    /// place on a logarithmic axis, and where a text has no room.
-    pub fn to_svg(&self) -> Result<String, FigureError> {
-        let panels = Panels::new("").panel_size(800.0, 500.0);
-        panels.with(self.clone()).to_svg()
     }
 
     pub(crate) fn check(&self) -> Result<(), FigureError> {

@@ -86,3 +86,16 @@ impl Panels {
         Ok(drawing.to_svg())
     }
 }
+
+impl Chart {
+    /// The chart as an SVG of 800 by 500 px.
+    ///
+    /// # Errors
+    ///
+    /// [`FigureError`] without data, where cells and axes do not fit together, with numbers that are not finite or have no
+    /// place on a logarithmic axis, and where a text has no room.
+    pub fn to_svg(&self) -> Result<String, FigureError> {
+        let panels = Panels::new("").panel_size(800.0, 500.0);
+        panels.with(self.clone()).to_svg()
+    }
+}

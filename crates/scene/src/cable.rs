@@ -6,7 +6,8 @@ use crate::data::{Arrangement, Cable, Duct, Friction};
 use crate::error::Wrong;
 use crate::keys::{CableKeys, FrictionKeys, Law};
 use crate::range::{
-    AXIAL_STIFFNESS, CONDUCTOR_AREA, CONDUCTOR_MODULUS, DIAMETER, INNER_DIAMETER, SHAPE_FACTOR, shown,
+    AXIAL_STIFFNESS, CONDUCTOR_AREA, CONDUCTOR_MODULUS, DIAMETER, INNER_DIAMETER, Quantity, SHAPE_FACTOR,
+    shown,
 };
 
 impl CableKeys {
@@ -35,29 +36,21 @@ impl CableKeys {
 
     /// EA \[N\], given or as a modulus times an area.
     fn axial_stiffness(&self) -> Result<f64, Box<Wrong>> {
+        let missing =
+            |key: &str, quantity: Quantity| Wrong::missing(format!("cable.{key}"), quantity.allowed());
         let (modulus, area) = match (self.axial_stiffness, self.young_modulus, self.conductor_area) {
             (Some(stiffness), ..) => return Ok(stiffness),
             (None, Some(modulus), Some(area)) => (modulus, area),
-            (None, Some(_), None) => {
-                return Err(Wrong::missing("cable.conductor_area", CONDUCTOR_AREA.allowed()));
-            }
-            (None, None, Some(_)) => {
-                return Err(Wrong::missing("cable.young_modulus", CONDUCTOR_MODULUS.allowed()));
-            }
-            (None, None, None) => {
-                return Err(Wrong::missing("cable.axial_stiffness", AXIAL_STIFFNESS.allowed()));
-            }
+            (None, Some(_), None) => return Err(missing("conductor_area", CONDUCTOR_AREA)),
+            (None, None, Some(_)) => return Err(missing("young_modulus", CONDUCTOR_MODULUS)),
+            (None, None, None) => return Err(missing("axial_stiffness", AXIAL_STIFFNESS)),
         };
         let stiffness = modulus * area;
         if AXIAL_STIFFNESS.contains(stiffness) {
             return Ok(stiffness);
         }
-        let found = format!(
-            "{} Pa times {} m2, {} N",
-            shown(modulus),
-            shown(area),
-            shown(stiffness)
-        );
+        let [modulus, area, force] = [modulus, area, stiffness].map(shown);
+        let found = format!("{modulus} Pa times {area} m2, {force} N");
         let allowed = format!("a product {}", AXIAL_STIFFNESS.words);
         Err(Wrong::value("cable.young_modulus", found, allowed))
     }
@@ -82,18 +75,12 @@ impl FrictionKeys {
     /// The friction with these keys.
     pub fn friction(&self) -> Result<Friction, Box<Wrong>> {
         let allowed = || format!("{}; law = \"coulomb\" needs none", SHAPE_FACTOR.allowed());
-        let shape_factor = || {
-            self.shape_factor
-                .ok_or_else(|| Wrong::missing("friction.shape_factor", allowed()))
-        };
-        let law = match self.law {
-            Law::Coulomb => FrictionLaw::Coulomb,
-            Law::ElasticPlastic => FrictionLaw::ElasticPlastic {
-                shape_factor: shape_factor()?,
-            },
-            Law::Sigmoid => FrictionLaw::Sigmoid {
-                shape_factor: shape_factor()?,
-            },
+        let missing = || Wrong::missing("friction.shape_factor", allowed());
+        let law = match (self.law, self.shape_factor) {
+            (Law::Coulomb, _) => FrictionLaw::Coulomb,
+            (_, None) => return Err(missing()),
+            (Law::ElasticPlastic, Some(shape_factor)) => FrictionLaw::ElasticPlastic { shape_factor },
+            (Law::Sigmoid, Some(shape_factor)) => FrictionLaw::Sigmoid { shape_factor },
         };
         let dynamic_coefficient = self.dynamic_coefficient;
         Ok(Friction {

@@ -3,7 +3,7 @@
 pub use cable_dem::{End, FrictionLaw, Order, Restraint};
 use ground_field::{SoilProfile, Vehicle};
 
-use crate::either::{EndKind, POINTS, PointKind};
+use crate::either::{END, POINTS, PointKind};
 use crate::key::keys;
 use crate::kind::{List, Optional, Or, Word};
 use crate::range::{
@@ -220,9 +220,9 @@ keys! {
     #[derive(Copy)]
     pub struct Ends {
         /// What holds the end at x = 0, where forward vehicles come in.
-        upstream: End = EndKind;
+        upstream: End = END;
         /// What holds the end at x = length.
-        downstream: End = EndKind;
+        downstream: End = END;
     }
 }
 

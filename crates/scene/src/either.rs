@@ -7,8 +7,7 @@ use crate::document::{Content, Node};
 use crate::error::{SceneError, WrongKind};
 use crate::key::{Form, Keys, Kind, Visit, keys};
 use crate::kind::{Optional, Text, Whole, Word, section};
-use crate::range::{ANY_WHOLE, MODULUS, MODULUS_AT_AN_END, SPRING, TEMPERATURE, TIME_OF_DAY};
-use crate::units::Dimension;
+use crate::range::{ANY_WHOLE, MODULUS, MODULUS_AT_AN_END, Quantity, SPRING, TEMPERATURE, TIME_OF_DAY};
 use crate::value::Value;
 
 keys! {
@@ -62,108 +61,102 @@ keys! {
 
 pub const POINTS: &str = "two points of the day or more, such as [[\"0 h\", \"0 K\"], [\"15 h\", \"20 K\"]], their times ascending";
 
-/// What holds an end: a word, or a table with a spring.
-pub struct EndKind;
-
-const HELD: &[(&str, End)] = &[("free", End::Free), ("fixed", End::Fixed)];
-const END: &str = "\"free\", \"fixed\" or { spring = \"3 MN/m\" }";
-
-impl Kind for EndKind {
-    type Value = End;
-
-    fn read(&self, value: &Value) -> Result<End, SceneError> {
-        if value.is_table() {
-            return Ok(End::Spring(section::<SpringKeys>().read(value)?.spring));
-        }
-        let spring = Dimension::ForcePerLength.parse(&value.text(END)?);
-        let meant = spring.map_or_else(
-            |_| String::new(),
-            |_| format!("; did you mean {{ spring = {} }}?", value.written()),
-        );
-        value.word(HELD, &format!("{END}{meant}"))
-    }
-
-    fn write(&self, value: &End) -> Option<Content> {
-        match value {
-            End::Spring(spring) => section().write(&SpringKeys { spring: *spring }),
-            held => Word::of(HELD).write(held),
-        }
-    }
-
-    fn each(&self, value: &End, path: &str, visit: &mut Visit) {
-        if let End::Spring(spring) = value {
-            SpringKeys { spring: *spring }.each(path, visit);
-        }
-    }
-
-    fn form(&self) -> Form {
-        let words = HELD.iter().map(|(word, _)| *word).collect();
-        Form::Either(Box::new(Form::Words(words, None)), SpringKeys::keys(), Some(END))
-    }
+/// A value that is no table, or a table with the keys of `T`.
+pub struct Either<K: Kind, T, V> {
+    plain: K,
+    /// What is allowed, if that is more than what is allowed of the plain value.
+    allowed: Option<&'static str>,
+    of_plain: fn(K::Value) -> V,
+    of_table: fn(T) -> V,
+    /// Its table, or else its plain value.
+    parts: fn(&V) -> Result<T, K::Value>,
 }
 
-/// A modulus, or a table with those at the top and at the bottom of a layer.
-pub struct ModulusKind;
+const HELD: Word<End> = Word {
+    words: &[("free", End::Free), ("fixed", End::Fixed)],
+    allowed: Some("\"free\", \"fixed\" or { spring = \"3 MN/m\" }"),
+    gone: None,
+};
 
-impl Kind for ModulusKind {
-    type Value = Modulus;
+/// What holds an end.
+pub const END: Either<Word<End>, SpringKeys, End> = Either {
+    plain: HELD,
+    allowed: None,
+    of_plain: |held| held,
+    of_table: |keys| End::Spring(keys.spring),
+    parts: |end| match *end {
+        End::Spring(spring) => Ok(SpringKeys { spring }),
+        held => Err(held),
+    },
+};
 
-    fn read(&self, value: &Value) -> Result<Modulus, SceneError> {
-        if !value.is_table() {
-            return value.quantity(MODULUS).map(Modulus::Uniform);
-        }
-        let GradedKeys { top, bottom } = section().read(value)?;
-        Ok(Modulus::Linear { top, bottom })
-    }
-
-    fn write(&self, value: &Modulus) -> Option<Content> {
-        match *value {
-            Modulus::Uniform(modulus) => MODULUS.write(&modulus),
-            Modulus::Linear { top, bottom } => section().write(&GradedKeys { top, bottom }),
-        }
-    }
-
-    fn each(&self, value: &Modulus, path: &str, visit: &mut Visit) {
-        match *value {
-            Modulus::Uniform(modulus) => visit(path, modulus, MODULUS),
-            Modulus::Linear { top, bottom } => GradedKeys { top, bottom }.each(path, visit),
-        }
-    }
-
-    fn form(&self) -> Form {
-        Form::Either(Box::new(Form::Quantity(MODULUS)), GradedKeys::keys(), None)
-    }
-}
+/// A modulus, the same everywhere or changing with depth.
+pub const LAYER_MODULUS: Either<Quantity, GradedKeys, Modulus> = Either {
+    plain: MODULUS,
+    allowed: None,
+    of_plain: Modulus::Uniform,
+    of_table: |GradedKeys { top, bottom }| Modulus::Linear { top, bottom },
+    parts: |modulus| match *modulus {
+        Modulus::Uniform(modulus) => Err(modulus),
+        Modulus::Linear { top, bottom } => Ok(GradedKeys { top, bottom }),
+    },
+};
 
 /// The name of a table of axles, or a table that says how it is to be read.
-pub struct HistogramKind;
+pub const HISTOGRAM: Either<Text, HistogramKeys, HistogramKeys> = Either {
+    plain: Text(TABLE),
+    allowed: Some(
+        "the name of a table, such as \"axles.csv\", with the columns load, count and, if wanted, contact_radius, or { file = \
+         \"axles.csv\", decimal = \"comma\" }",
+    ),
+    of_plain: |file| HistogramKeys {
+        file,
+        ..HistogramKeys::default()
+    },
+    of_table: |keys| keys,
+    parts: |keys| Ok(keys.clone()),
+};
 
-const HISTOGRAM: &str = "the name of a table, such as \"axles.csv\", with the columns load, count and, if wanted, contact_radius, \
-                         or { file = \"axles.csv\", decimal = \"comma\" }";
+impl<K: Kind, T: Keys, V> Kind for Either<K, T, V> {
+    type Value = V;
 
-impl Kind for HistogramKind {
-    type Value = HistogramKeys;
-
-    fn read(&self, value: &Value) -> Result<HistogramKeys, SceneError> {
+    fn read(&self, value: &Value) -> Result<V, SceneError> {
         if value.is_table() {
-            return section::<HistogramKeys>().read(value);
+            return section::<T>().read(value).map(self.of_table);
         }
-        Ok(HistogramKeys {
-            file: value.text(TABLE)?,
-            ..HistogramKeys::default()
+        self.plain.read(value).map(self.of_plain).map_err(|mut error| {
+            // What stands there may belong into the table: `"3 MN/m"` in place of `{ spring = "3 MN/m" }`.
+            if let (SceneError::Wrong(wrong), Some(key)) = (&mut error, T::keys().first())
+                && let (Form::Quantity(quantity), Content::Text(text)) = (&key.form, &value.node.content)
+                && quantity
+                    .dimension
+                    .is_some_and(|dimension| dimension.parse(text).is_ok())
+            {
+                let meant = [key.name, " = ", &value.written(), " }?"];
+                wrong
+                    .allowed
+                    .extend(["; did you mean { "].into_iter().chain(meant));
+            }
+            error
         })
     }
 
-    fn write(&self, value: &HistogramKeys) -> Option<Content> {
-        section::<HistogramKeys>().write(value)
+    fn write(&self, value: &V) -> Option<Content> {
+        match (self.parts)(value) {
+            Ok(table) => section().write(&table),
+            Err(plain) => self.plain.write(&plain),
+        }
+    }
+
+    fn each(&self, value: &V, path: &str, visit: &mut Visit) {
+        match (self.parts)(value) {
+            Ok(table) => table.each(path, visit),
+            Err(plain) => self.plain.each(&plain, path, visit),
+        }
     }
 
     fn form(&self) -> Form {
-        Form::Either(
-            Box::new(Form::Text(TABLE)),
-            HistogramKeys::keys(),
-            Some(HISTOGRAM),
-        )
+        Form::Either(Box::new(self.plain.form()), T::keys(), self.allowed)
     }
 }
 

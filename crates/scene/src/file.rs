@@ -153,16 +153,6 @@ impl SceneFile {
         }
     }
 
-    /// All keys and values of the file and its overrides, without comments: two files with the same text make the same scenes, if what
-    /// they name is the same.
-    pub fn values(&self) -> String {
-        let mut values = String::new();
-        self.document.root.each_value("", &mut |key, node| {
-            values.extend([key, "=", &format!("{:?}\n", node.content)]);
-        });
-        values
-    }
-
     /// Every key that the file, its overrides or its presets give a value, in their order.
     pub fn typed(&self) -> Vec<Typed> {
         let mut found = Vec::new();

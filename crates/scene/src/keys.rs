@@ -5,7 +5,7 @@ use ground_field::{Direction, Modulus};
 
 use crate::data::{Arrangement, Duct, Ends, GroundModel, Heat, Solver};
 use crate::document::Entry;
-use crate::either::{HistogramKeys, HistogramKind, ModulusKind};
+use crate::either::{HISTOGRAM, HistogramKeys, LAYER_MODULUS};
 use crate::key::{Keys, keys};
 use crate::kind::{List, Optional, Or, Text, Whole, Word, section};
 use crate::range::{
@@ -77,7 +77,7 @@ keys! {
         /// Thickness of the layer.
         thickness: Option<f64> = Optional(THICKNESS), "the last layer has none";
         /// Young's modulus at small strains, several times that of a settlement test.
-        young_modulus: Modulus = ModulusKind;
+        young_modulus: Modulus = LAYER_MODULUS;
         /// Poisson's ratio.
         poisson_ratio: f64 = POISSON;
     }
@@ -165,7 +165,7 @@ keys! {
 }
 
 keys! {
-    #[derive(Copy)]
+    #[derive(Copy, Default)]
     pub struct WheelKeys {
         /// Where the wheel is ahead of the vehicle's origin, along the road.
         x: f64 = Or(WHEEL_X, 0.0), "0 m";
@@ -192,7 +192,7 @@ keys! {
         /// Vehicles a day, or axles of a histogram.
         per_day: Option<f64> = Optional(PER_DAY), "passes have no time";
         /// Axles as weigh-in-motion counts them, in place of vehicles; from the folder of the scene on.
-        histogram: Option<HistogramKeys> = Optional(HistogramKind), "[[vehicles]] instead";
+        histogram: Option<HistogramKeys> = Optional(HISTOGRAM), "[[vehicles]] instead";
         /// Speed of the axles of a histogram.
         speed: Option<f64> = Optional(SPEED), "40 km/h";
         /// How vehicles follow each other; the axles of a histogram come at random.

@@ -1,7 +1,6 @@
 //! What holds between the values of a scene, each of which is in its own range.
 
 use cable_dem::{End, Order};
-use ground_field::Wheel;
 
 use crate::arrangement::CLOSEST;
 use crate::cable_end::CableEnd;
@@ -10,6 +9,7 @@ use crate::document::joined;
 use crate::error::{Wrong, WrongKind};
 use crate::range::{DIAMETER, Follows, INNER_DIAMETER, diameters, node_spacings, shown, vehicle_steps};
 use crate::shown::four_digits;
+use crate::traffic::concentrated;
 
 /// How far a share, or a factor relative to itself, may be from what it has to be.
 const ROUNDING: f64 = 1e-9;
@@ -18,23 +18,15 @@ type Checked = Result<(), Box<Wrong>>;
 
 /// The first rule that the scene breaks.
 pub fn check(scene: &Scene) -> Checked {
-    let (duct, solver) = (&scene.duct, &scene.solver);
+    let (length, solver) = (scene.duct.length, &scene.solver);
     ground(&scene.ground)?;
     cable(scene)?;
     supports(scene)?;
     vehicles(scene)?;
     shares(scene)?;
     heat(scene)?;
-    suits(
-        "solver.node_spacing",
-        solver.node_spacing,
-        node_spacings(duct.length),
-    )?;
-    suits(
-        "solver.vehicle_step",
-        solver.vehicle_step,
-        vehicle_steps(duct.length),
-    )
+    suits("solver.node_spacing", solver.node_spacing, node_spacings(length))?;
+    suits("solver.vehicle_step", solver.vehicle_step, vehicle_steps(length))
 }
 
 /// Refuses what was `found` at `key` unless it `holds`.
@@ -52,15 +44,11 @@ fn hold(
 
 /// Refuses a length outside the range that follows from the rest of the scene.
 fn suits(key: impl Into<String>, value: Option<f64>, (range, allowed): Follows) -> Checked {
-    match value.filter(|value| !range.contains(value)) {
-        None => Ok(()),
-        Some(value) => Err(Wrong::at(
-            WrongKind::OutOfRange,
-            key,
-            format!("\"{value:?} m\""),
-            allowed,
-        )),
-    }
+    let Some(value) = value.filter(|value| !range.contains(value)) else {
+        return Ok(());
+    };
+    let found = format!("\"{value:?} m\"");
+    Err(Wrong::at(WrongKind::OutOfRange, key, found, allowed))
 }
 
 fn ground(ground: &Ground) -> Checked {
@@ -152,9 +140,8 @@ fn vehicles(scene: &Scene) -> Checked {
             Some(PeakScaling::Vertical(_)) if index == 0 => "ground.vertical_peak",
             _ => continue,
         };
-        let at_axis = |wheel: &Wheel| (wheel.x, wheel.y, wheel.load.contact_radius()) == (0.0, 0.0, 0.0);
-        let one = matches!(vehicle.wheels(), [wheel] if at_axis(wheel));
-        let load = joined(&key, if one { "load" } else { "wheels" });
+        let load = concentrated(vehicle).map_or("wheels", |_| "load");
+        let load = joined(&key, load);
         let allowed = format!("a load greater than 0, which `{scaled}` can scale");
         hold(vehicle.weight() > 0.0, load, "a vehicle without load", allowed)?;
     }
@@ -236,29 +223,19 @@ fn heat(scene: &Scene) -> Checked {
     }
     let (law, cold) = (scene.friction.law, scene.warming().is_none());
     let of_law = format!("[heat] with `friction.law` = \"{}\"", law.name());
-    let per_day = "`per_day` in [traffic] beside [heat]: how many vehicles meet each hour's temperature";
-    let with_memory =
-        "\"coulomb\" or \"elastic-plastic\" beside [heat]: temperature steps need a state of rest";
-    let rough = "a `friction.dynamic_coefficient` greater than 0 beside [heat]";
-    let implicit = "\"auto\", \"quasi-static\" or \"pass-law\" beside [heat]: it is computed without inertia";
     let is_explicit = scene.solver.method == SolverMethod::Explicit;
-    hold(
-        scene.traffic.per_day.is_some(),
-        "heat",
-        "no `traffic.per_day`",
-        per_day,
-    )?;
-    hold(cold || law.has_memory(), "heat", of_law, with_memory)?;
-    hold(
-        cold || scene.friction_limit() > 0.0,
-        "heat",
-        "[heat] without friction",
-        rough,
-    )?;
-    hold(
-        cold || !is_explicit,
-        "heat",
-        "[heat] with `solver.method` = \"explicit\"",
-        implicit,
-    )
+    #[rustfmt::skip]
+    let rules = [
+        (scene.traffic.per_day.is_some(), "no `traffic.per_day`",
+            "`per_day` in [traffic] beside [heat]: how many vehicles meet each hour's temperature"),
+        (cold || law.has_memory(), &of_law,
+            "\"coulomb\" or \"elastic-plastic\" beside [heat]: temperature steps need a state of rest"),
+        (cold || scene.friction_limit() > 0.0, "[heat] without friction",
+            "a `friction.dynamic_coefficient` greater than 0 beside [heat]"),
+        (cold || !is_explicit, "[heat] with `solver.method` = \"explicit\"",
+            "\"auto\", \"quasi-static\" or \"pass-law\" beside [heat]: it is computed without inertia"),
+    ];
+    rules
+        .into_iter()
+        .try_for_each(|(holds, found, allowed)| hold(holds, "heat", found, allowed))
 }

@@ -116,19 +116,25 @@ fn normalise(vehicles: &mut [TrafficVehicle]) {
     }
 }
 
+/// The load of a vehicle that is one concentrated load on its axis.
+pub fn concentrated(vehicle: &Vehicle) -> Option<f64> {
+    let at_axis = |wheel: &Wheel| (wheel.x, wheel.y, wheel.load.contact_radius()) == (0.0, 0.0, 0.0);
+    match vehicle.wheels() {
+        [wheel] if at_axis(wheel) => Some(wheel.load.force()),
+        _ => None,
+    }
+}
+
 impl VehicleKeys {
     /// The vehicle with these keys, the `index`-th of the list.
     fn vehicle(&self, index: usize) -> Result<TrafficVehicle, Box<Wrong>> {
         let wrong = |found: String, allowed: &str| Wrong::value(format!("vehicles.{index}"), found, allowed);
         let rejected = |error: ground_field::GroundError| wrong(error.to_string(), "another vehicle");
-        let at_axis = |load| WheelKeys {
-            x: 0.0,
-            y: 0.0,
-            load,
-            contact_radius: 0.0,
-        };
         let wheels = match (self.load, &self.wheels) {
-            (Some(load), _) => vec![at_axis(load)],
+            (Some(load), _) => vec![WheelKeys {
+                load,
+                ..WheelKeys::default()
+            }],
             (None, Some(wheels)) => wheels.clone(),
             (None, None) => {
                 let allowed = "one of the two: load = \"20 tf\" or wheels = [ { load = \"50 kN\" } ]";
@@ -165,17 +171,7 @@ impl VehicleKeys {
             contact_radius: wheel.load.contact_radius(),
         };
         let wheels: Vec<WheelKeys> = vehicle.wheels().iter().map(wheel).collect();
-        let load = match wheels[..] {
-            [
-                WheelKeys {
-                    x: 0.0,
-                    y: 0.0,
-                    load,
-                    contact_radius: 0.0,
-                },
-            ] => Some(load),
-            _ => None,
-        };
+        let load = concentrated(vehicle);
         Self {
             name: Some(vehicle.name().to_owned()),
             speed: vehicle.speed(),

@@ -18,56 +18,23 @@ type Usual = (&'static str, f64, f64, f64, &'static str, fn(f64) -> String);
 
 const INFINITY: f64 = f64::INFINITY;
 
+#[rustfmt::skip]
 const USUAL: &[Usual] = &[
-    ("duct.depth", 0.2, 20.0, 1.0, " m", |_| {
-        ", but ducts lie below roads at depths from 0.2 to 20 m".into()
-    }),
-    (
-        "ground.layers.young_modulus",
-        1e6,
-        INFINITY,
-        1e6,
-        " MPa",
-        softer_than_peat,
-    ),
-    ("ground.layers.young_modulus", 0.0, 1e11, 1e9, " GPa", |_| {
-        ", stiffer than granite".into()
-    }),
-    ("cable.weight", 5.0, 600.0, 1.0, " N/m", |_| {
-        ", but that of power cables is from 5 to 600 N/m".into()
-    }),
-    ("cable.axial_stiffness", 5e5, 1e9, 1e6, " MN", |_| {
-        ", but that of power cables is from 0.5 to 1000 MN".into()
-    }),
-    ("friction.dynamic_coefficient", 0.0, 1.5, 1.0, "", |_| {
-        ": that of cables in ducts is below 1".into()
-    }),
+    ("duct.depth", 0.2, 20.0, 1.0, " m", |_| ", but ducts lie below roads at depths from 0.2 to 20 m".into()),
+    ("ground.layers.young_modulus", 1e6, INFINITY, 1e6, " MPa", softer_than_peat),
+    ("ground.layers.young_modulus", 0.0, 1e11, 1e9, " GPa", |_| ", stiffer than granite".into()),
+    ("cable.weight", 5.0, 600.0, 1.0, " N/m", |_| ", but that of power cables is from 5 to 600 N/m".into()),
+    ("cable.axial_stiffness", 5e5, 1e9, 1e6, " MN", |_| ", but that of power cables is from 0.5 to 1000 MN".into()),
+    ("friction.dynamic_coefficient", 0.0, 1.5, 1.0, "", |_| ": that of cables in ducts is below 1".into()),
     ("friction.shape_factor", 1e4, INFINITY, 1.0, " 1/m", slow),
     ("ends.upstream.spring", 1e3, INFINITY, 1.0, " N/m", holds_nothing),
-    (
-        "ends.downstream.spring",
-        1e3,
-        INFINITY,
-        1.0,
-        " N/m",
-        holds_nothing,
-    ),
+    ("ends.downstream.spring", 1e3, INFINITY, 1.0, " N/m", holds_nothing),
     ("restraints.stiffness", 1e3, INFINITY, 1.0, " N/m", holds_nothing),
-    ("vehicles.speed", 0.0, 200.0 / 3.6, 1.0 / 3.6, " km/h", |_| {
-        ", but trucks drive at 20 to 100 km/h".into()
-    }),
-    ("vehicles.wheels.load", 0.0, 5e5, 1e3, " kN", |_| {
-        ", but a wheel on a road carries from 1 to 200 kN".into()
-    }),
-    ("vehicles.wheels.contact_radius", 0.0, 0.6, 1.0, " m", |_| {
-        ": that of tyres is from 0.1 to 0.3 m".into()
-    }),
-    ("traffic.per_day", 0.0, 2e5, 1.0, "", |_| {
-        ": no road has more than 200000 vehicles a day".into()
-    }),
-    ("heat.daily_swing", 0.0, 100.0, 1.0, " K", |_| {
-        ", but a cable's temperature changes by less than 100 K a day".into()
-    }),
+    ("vehicles.speed", 0.0, 200.0 / 3.6, 1.0 / 3.6, " km/h", |_| ", but trucks drive at 20 to 100 km/h".into()),
+    ("vehicles.wheels.load", 0.0, 5e5, 1e3, " kN", |_| ", but a wheel on a road carries from 1 to 200 kN".into()),
+    ("vehicles.wheels.contact_radius", 0.0, 0.6, 1.0, " m", |_| ": that of tyres is from 0.1 to 0.3 m".into()),
+    ("traffic.per_day", 0.0, 2e5, 1.0, "", |_| ": no road has more than 200000 vehicles a day".into()),
+    ("heat.daily_swing", 0.0, 100.0, 1.0, " K", |_| ", but a cable's temperature changes by less than 100 K a day".into()),
 ];
 
 fn softer_than_peat(modulus: f64) -> String {
@@ -109,36 +76,20 @@ pub fn unusual(scene: &Scene) -> Vec<String> {
             let is_usual = (*least..=*most).contains(&value) || forgets && name.ends_with("factor");
             if !is_usual && !again {
                 named.push(key_of);
-                warnings.push(format!(
-                    "`{key}` is {}{unit}{}",
-                    four_digits(value / size),
-                    words(value)
-                ));
+                let value_in_unit = four_digits(value / size);
+                warnings.push(of(key, &format!("is {value_in_unit}{unit}{}", words(value))));
             }
         }
     });
-    let pairs = [
-        exchanged,
-        far,
-        between_tracks,
-        lanes_scaled_alike,
-        rock,
-        contrast,
-        may_jam,
-        too_heavy,
-        too_long,
-    ];
+    #[rustfmt::skip]
+    let pairs = [exchanged, far, between_tracks, lanes_scaled_alike, rock, contrast, may_jam, too_heavy, too_long];
     warnings.extend(pairs.iter().filter_map(|pair| pair(scene)));
-    warnings.iter().map(|warning| with_count(warning)).collect()
+    warnings
 }
 
-/// A warning that begins with its key in backticks, with the items that it names counted from 1.
-fn with_count(warning: &str) -> String {
-    let key = warning.strip_prefix('`').and_then(|rest| rest.split_once('`'));
-    key.map_or_else(
-        || warning.to_owned(),
-        |(key, rest)| format!("`{key}`{}{rest}", counted(key)),
-    )
+/// A warning of a key, with the items that it names counted from 1.
+fn of(key: &str, words: &str) -> String {
+    format!("`{key}`{} {words}", counted(key))
 }
 
 /// A duct that lies deeper than it is long.
@@ -153,28 +104,20 @@ fn exchanged(scene: &Scene) -> Option<String> {
 /// A vehicle too heavy for any road.
 fn too_heavy(scene: &Scene) -> Option<String> {
     const HEAVIEST: f64 = 5e6;
-    let weights = scene
-        .vehicles
-        .iter()
-        .map(|traffic| traffic.vehicle.weight())
-        .enumerate();
-    let (index, weight) = weights.into_iter().find(|(_, weight)| *weight > HEAVIEST)?;
-    let tonnes = weight / 9806.65;
-    Some(format!(
-        "`vehicles.{index}` weighs {tonnes:.0} t, more than any vehicle on a road"
-    ))
+    let is_heavy = |traffic: &TrafficVehicle| traffic.vehicle.weight() > HEAVIEST;
+    let index = scene.vehicles.iter().position(is_heavy)?;
+    let tonnes = scene.vehicles[index].vehicle.weight() / 9806.65;
+    let words = format!("weighs {tonnes:.0} t, more than any vehicle on a road");
+    Some(of(&format!("vehicles.{index}"), &words))
 }
 
 /// Traffic for longer than any road is old.
 fn too_long(scene: &Scene) -> Option<String> {
     const OLDEST: f64 = 200.0;
-    let years = scene
-        .traffic
-        .years_after(scene.traffic.passes)
-        .filter(|&years| years > OLDEST)?;
-    Some(format!(
-        "`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date"
-    ))
+    let years = scene.traffic.years_after(scene.traffic.passes)?;
+    (years > OLDEST).then(|| {
+        format!("`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date")
+    })
 }
 
 /// A lane so far away that its vehicles hardly move the duct.
@@ -197,17 +140,10 @@ fn far(scene: &Scene) -> Option<String> {
 /// A shallow duct between the wheels of a vehicle: beside a load the ground near the surface moves toward it, not away.
 fn between_tracks(scene: &Scene) -> Option<String> {
     let traffic = scene.vehicles.iter().find(|traffic| {
-        let offsets = || {
-            traffic
-                .vehicle
-                .wheels()
-                .iter()
-                .map(|wheel| wheel.y - scene.offset_from(traffic))
-        };
-        let nearest = offsets().fold(f64::INFINITY, |least: f64, offset| least.min(offset.abs()));
-        offsets().any(|offset| offset > 0.0)
-            && offsets().any(|offset| offset < 0.0)
-            && scene.duct.depth < nearest
+        let wheels = traffic.vehicle.wheels().iter();
+        let offsets: Vec<f64> = wheels.map(|wheel| wheel.y - scene.offset_from(traffic)).collect();
+        let both_sides = offsets.iter().any(|y| *y > 0.0) && offsets.iter().any(|y| *y < 0.0);
+        both_sides && offsets.iter().all(|y| scene.duct.depth < y.abs())
     })?;
     Some(format!(
         "`duct.depth` is {} m between the wheels of \"{}\", which are farther to either side: so shallow, the ground moves toward a wheel \
@@ -263,15 +199,16 @@ fn contrast(scene: &Scene) -> Option<String> {
     };
     if above > CONTRAST * base {
         let times = above / base;
-        return Some(format!(
-            "`ground.layers.{index}.young_modulus` is {times:.0} times less than that of the layer on it"
-        ));
+        let key = format!("ground.layers.{index}.young_modulus");
+        let words = format!("is {times:.0} times less than that of the layer on it");
+        return Some(of(&key, &words));
     }
     let (times, last) = (base / top, four_digits(base / 1e6));
     (first.thickness() <= PAVEMENT && base > INVERTED * top).then(|| {
-        format!(
-            "`ground.layers.0.young_modulus` is {times:.0} times less than that of the last layer, {last} MPa: layers stand from the top \
-             down, and the last one is rarely as stiff as rock"
-        )
+        let words = format!(
+            "is {times:.0} times less than that of the last layer, {last} MPa: layers stand from the top down, and the last one is rarely as \
+             stiff as rock"
+        );
+        of("ground.layers.0.young_modulus", &words)
     })
 }
