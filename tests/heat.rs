@@ -37,11 +37,6 @@ fn run(lines: &[&str]) -> Run {
     creepage::run(&scene(lines)).unwrap_or_else(|error| panic!("{lines:?}: {error}"))
 }
 
-fn refused(lines: &[&str]) -> String {
-    let error = Scene::from_toml("warm.toml", &text(lines)).expect_err("a wrong scene");
-    error.to_string()
-}
-
 fn day(run: &Run, day: u64) -> &DayExtremes {
     let found = run.days.iter().find(|record| record.day == day);
     found.expect("a listed day")
@@ -297,34 +292,6 @@ fn a_cable_walks_down_its_slope_for_twenty_years() {
     // Traffic draws a cable together that is warmest at noon before that, and cold it is pulled apart.
     let mean = |profile: &creepage::ForceProfile| profile.force_n.iter().sum::<f64>();
     assert!(mean(&heat.hot_profile) > mean(&heat.cold_profile));
-}
-
-/// Line in place of the scene's own | parts of the message
-const REFUSED: &str = r#"
-traffic = { passes = 48 } | no `traffic.per_day` | `per_day` in [traffic]
-heat = { expansion = 17e-6 } | neither `daily_swing` nor `profile`
-heat = { daily_swing = 20 } | `heat.expansion`
-heat = { expansion = "17e-6 K", daily_swing = 20 } | a difference of temperatures; allowed: an expansion per degree
-heat = { expansion = 17e-6, daily_swing = 20, profile = [[0, 0], [3600, 5]] } | both `daily_swing` and `profile`
-heat = { expansion = 17e-6, profile = [["8 h", "5 K"], ["6 h", "0 K"]] } | heat.profile.1.0 | after that of the point before
-heat = { expansion = 17e-6, profile = [["0 h", "0 K"], ["24 h", "5 K"]] } | before 24 h
-heat = { expansion = 17e-6, profile = [["8 h", "5 K"]] } | one item | two points of the day or more
-heat = { expansion = 17e-6, daily_swings = 20 } | did you mean `daily_swing`?
-solver = { method = "explicit" } | `solver.method` = "explicit" | without inertia
-friction = { law = "sigmoid", dynamic_coefficient = 0.25, shape_factor = 7e6 } | `friction.law` = "sigmoid" | state of rest
-friction = { law = "coulomb", dynamic_coefficient = 0 } | without friction
-"#;
-
-#[test]
-fn what_heat_needs_is_told() {
-    for row in REFUSED.lines().filter(|row| !row.is_empty()) {
-        let parts: Vec<&str> = row.split(" | ").collect();
-        let (lines, told) = (&parts[..1], &parts[1..]);
-        let message = refused(lines);
-        for told in told {
-            assert!(message.contains(told), "{lines:?}: {message}");
-        }
-    }
 }
 
 #[test]

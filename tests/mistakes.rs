@@ -130,6 +130,16 @@ axial_stiffness = "60 MN" → axial_stiffness = "60 MN"¶young_modulus = "75 GPa
 axial_stiffness = "60 MN" → young_modulus = "75 GPa"¶conductor_area = 800 | 0 | 16 | `cable.axial_stiffness`
 speed = "50 km/h" → speed = "50 km/h"¶share = "20 kN" | 2 | 31 | `vehicles.0.share` (vehicle 1): wrong dimension
 passes = 20 → passes = 20¶per_day = 10¶[heat]¶expansion = "17e-6 1/K"¶daily_swing = "200 K" | 0 | 38 | `heat.daily_swing` is 200 K, but a cable's temperature changes by less than 100 K a day
+passes = 20 → passes = 20¶[heat]¶expansion = 17e-6¶daily_swing = 20 | 2 | 35 | no `traffic.per_day` | `per_day` in [traffic]
+passes = 20 → passes = 20¶per_day = 24¶[heat]¶expansion = 17e-6 | 2 | 36 | neither `daily_swing` nor `profile`
+passes = 20 → passes = 20¶per_day = 24¶[heat]¶daily_swing = 20 | 2 | 36 | key `heat.expansion` is missing
+passes = 20 → passes = 20¶per_day = 24¶[heat]¶expansion = "17e-6 K"¶daily_swing = 20 | 2 | 37 | a difference of temperatures; allowed: an expansion per degree
+passes = 20 → passes = 20¶per_day = 24¶[heat]¶expansion = 17e-6¶daily_swing = 20¶profile = [[0, 0], [3600, 5]] | 2 | 39 | both `daily_swing` and `profile`
+passes = 20 → passes = 20¶per_day = 24¶[heat]¶expansion = 17e-6¶profile = [["8 h", "5 K"], ["6 h", "0 K"]] | 2 | 38 | heat.profile.1.0 | after that of the point before
+passes = 20 → passes = 20¶per_day = 24¶[heat]¶expansion = 17e-6¶profile = [["0 h", "0 K"], ["24 h", "5 K"]] | 2 | 38 | before 24 h
+passes = 20 → passes = 20¶per_day = 24¶[heat]¶expansion = 17e-6¶profile = [["8 h", "5 K"]] | 2 | 38 | one item | two points of the day or more
+passes = 20 → passes = 20¶per_day = 24¶[heat]¶expansion = 17e-6¶daily_swings = 20 | 2 | 38 | did you mean `daily_swing`?
+passes = 20 → passes = 20¶per_day = 24¶[heat]¶expansion = 17e-6¶daily_swing = 20¶[solver]¶method = "explicit" | 2 | 36 | `solver.method` = "explicit" | without inertia
 depth = "1.3 m" → depth = "0.5 m" | 0 | 5 | `duct.depth` is 0.5 m between the wheels of "truck" | the cable may creep backward
 "#;
 
@@ -272,6 +282,8 @@ node_spacing = "0.1 m" → node_spacing = 0 | 2 | 59 | `solver.node_spacing` | :
 node_spacing = "0.1 m" → node_spacing = "15.1 m" | 2 | 59 | `solver.node_spacing` | : out of range: found "15.1 m"; allowed: | at most half the duct's length, 15 m
 vehicle_step = "5 cm" → vehicle_step = 0 | 2 | 60 | `solver.vehicle_step` | : out of range: found 0; allowed: | greater than 0
 time_step = "0.1 ms" → time_step = 0 | 2 | 61 | `solver.time_step` | : out of range: found 0; allowed: | a time greater than 0
+# heat needs a state of rest
+[solver] → [heat]¶expansion = 17e-6¶daily_swing = 20¶[solver] | 2 | 56 | `friction.law` = "sigmoid" | state of rest
 # the nearest word
 law = "sigmoid" → law = "couloumb" | 2 | 28 | `friction.law` | : found "couloumb" (did you mean `coulomb`?); allowed: "
 model = "fem" → model = "Burmeister" | 2 | 9 | `ground.model` | : found "Burmeister" (did you mean `burmister`?); allowed: "
@@ -284,6 +296,7 @@ method = "explicit" → method = "quasi_static" | 2 | 57 | `solver.method` | : f
 /// What an engineer types; SCENE and DATA are good files, DUCTS and RAGGED are not | parts of the message.
 const ON_THE_COMMAND_LINE: &str = r#"
 run DATA | data.csv, line 1: not valid TOML: key with no value
+check SCENE --set friction.dynamic_coefficient=0 --set traffic.per_day=24 --set heat={expansion=17e-6,daily_swing=20} | [heat] without friction
 check SCENE --set depth=1.5m | --set depth=1.5m: found unknown key `depth` (did you mean `duct.depth`?)
 check SCENE --set ground.layers[1].young_modulus=60MPa | allowed: `ground.layers.1.young_modulus`: an item of a list by its number
 run SCENE --set traffic.passes=1 --limit-movement 10 | --limit-movement is 10 m: did you mean 10mm?

@@ -19,12 +19,10 @@ pub enum Format {
 
 /// Formats of this program, by the endings of their names.
 const ALLOWED: &str = if cfg!(feature = "xlsx") {
-    "a file that ends in .csv or .xlsx"
+    "a file that ends in .csv or .xlsx; in Python, pyarrow reads and writes Parquet from and to the tables of creepage.sweep"
 } else {
     "a file that ends in .csv: this program was built without workbooks"
 };
-/// What is said of a Parquet file.
-const NO_PARQUET: &str = "a file that ends in .csv or .xlsx; in Python, pyarrow reads and writes Parquet from and to the tables of creepage.sweep";
 
 impl Format {
     /// The format that the file's name asks for.
@@ -34,13 +32,9 @@ impl Format {
             Some("csv") => Ok(Self::Csv),
             #[cfg(feature = "xlsx")]
             Some("xlsx") => Ok(Self::Xlsx),
-            extension => Err(SweepError::Unfit {
+            _ => Err(SweepError::Unfit {
                 found: format!("the table {}", file.display()),
-                allowed: if extension == Some("parquet") {
-                    NO_PARQUET
-                } else {
-                    ALLOWED
-                },
+                allowed: ALLOWED,
             }),
         }
     }
