@@ -3,6 +3,11 @@
 /// Rows of a table that is read at a glance.
 pub const ROWS: usize = 16;
 
+/// Words that are said only if something holds.
+pub fn words_if(holds: bool, words: &str) -> &str {
+    if holds { words } else { "" }
+}
+
 /// `value` with this number of decimals, and no minus before zeros.
 pub fn rounded(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");

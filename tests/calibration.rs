@@ -145,6 +145,53 @@ fn a_steep_law_is_called_not_identifiable() {
     }
 }
 
+/// An instrument that is overloaded writes a number that no cable can make: the fit is that without the row.
+#[test]
+fn an_overload_is_no_reading() {
+    let clean = readings(&noisy(series(), 3.0, 1)[..12]);
+    let mut list = clean.readings().to_vec();
+    list.insert(7, Reading::force(8, -9.9e37));
+    let options = CalibrateOptions {
+        unknowns: vec![Unknown::shared(Quantity::DynamicCoefficient)],
+        ..CalibrateOptions::default()
+    };
+    let fit = |readings: &Readings| calibrate(&upper(), readings, &options).unwrap();
+    let (without, with) = (fit(&clean), fit(&list.into_iter().collect()));
+    assert_eq!(with.parameters, without.parameters);
+    assert!(
+        with.warnings[0].ends_with("left out: pass 8 (line 8)"),
+        "{:?}",
+        with.warnings
+    );
+}
+
+/// Readings of a run each are tested together: forces that stay where the model lets them grow do not follow it.
+#[test]
+fn readings_of_a_run_each_are_judged_together() {
+    let fit = |force: &dyn Fn(usize) -> f64| {
+        let row = |pass: usize| format!("run {pass},{pass},{}\n", force(pass));
+        let rows: String = (1..=14).map(row).collect();
+        let text = format!("run,pass,force_n\n{rows}");
+        let readings = Readings::from_csv("runs.csv", text.as_bytes()).unwrap();
+        let unknowns = vec![Unknown::shared(Quantity::DynamicCoefficient)];
+        calibrate(
+            &upper(),
+            &readings,
+            &CalibrateOptions {
+                unknowns,
+                ..CalibrateOptions::default()
+            },
+        )
+        .unwrap()
+    };
+    let noise = noisy(&[0.0; 15], 3.0, 4);
+    let level = fit(&|pass| 230.0 + noise[pass]).lack_of_fit;
+    assert!(level.suspicious && level.p_runs < 0.01, "{level:?}");
+    let followed = forces(0.25, 7352941.0, 14);
+    let lack = fit(&|pass| followed[pass - 1] + noise[pass]).lack_of_fit;
+    assert!(!lack.suspicious && lack.p_noise.is_some(), "{lack:?}");
+}
+
 /// 5 % of the readings off by 30 %.
 #[test]
 #[ignore = "a quarter of a minute: see calibration_coverage.rs for the command"]

@@ -51,6 +51,8 @@ mod readings;
 mod report;
 #[path = "scene/main.rs"]
 mod scene;
+#[path = "scene_page.rs"]
+mod scene_page;
 #[path = "seldom/main.rs"]
 mod seldom;
 #[path = "several_kinds.rs"]

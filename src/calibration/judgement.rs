@@ -15,6 +15,7 @@ use super::unknown::Quantity;
 use crate::Error;
 use crate::readings::Reading;
 use crate::scene::FrictionLaw;
+use crate::shown::words_if;
 
 /// Probability below which chance is no longer believed. Four tests then call about three clean series in a hundred suspicious.
 const CHANCE: f64 = 0.01;
@@ -27,6 +28,8 @@ const OUTLIER: f64 = 4.5;
 const MEDIAN_TO_SIGMA: f64 = 1.4826;
 /// Weight below which a robust fit left a reading out.
 pub const LEFT_OUT: f64 = 0.35;
+/// Fewest readings of an instrument in a run that show by themselves whether they follow the model.
+const SHORTEST: usize = 3;
 /// Fewest readings that are judged beside the parameters.
 const FEWEST: f64 = 3.0;
 
@@ -82,19 +85,14 @@ pub fn judge(problem: &Problem<'_>, found: &Final, mistakes: Vec<String>) -> Res
     };
     let misses = lack_of_fit.misses();
     let is_robust = problem.options.loss != Loss::Squares;
-    lack_of_fit.suspicious = misses || !mistakes.is_empty() || (!outliers.is_empty() && !is_robust);
+    let draw = !outliers.is_empty() && !is_robust;
+    lack_of_fit.suspicious = misses || !mistakes.is_empty() || draw;
     let mut warnings = mistakes;
     if !outliers.is_empty() {
         warnings.push(rows.told(&outliers, is_robust));
     }
     if misses {
-        warnings.push(explanation(
-            problem,
-            fit,
-            &lack_of_fit,
-            alternatives,
-            !outliers.is_empty() && !is_robust,
-        ));
+        warnings.push(explanation(problem, fit, &lack_of_fit, alternatives, draw));
     }
     Ok(Judgement {
         lack_of_fit,
@@ -122,25 +120,17 @@ fn explanation(
     has_outliers: bool,
 ) -> String {
     let chance = |p: f64| format!("{p:.1e}");
-    let mut shown = Vec::new();
-    if lack.p_runs < CHANCE {
-        shown.push(format!(
-            "they keep their sign (by chance {})",
-            chance(lack.p_runs)
-        ));
-    }
-    if let Some(p) = lack.p_noise.filter(|&p| p < CHANCE) {
-        shown.push(format!(
-            "they are larger than neighbouring readings differ (by chance {})",
-            chance(p)
-        ));
-    }
-    if let Some(p) = lack.p_sigma.filter(|&p| p < CHANCE) {
-        shown.push(format!(
-            "they are larger than their sigmas (by chance {})",
-            chance(p)
-        ));
-    }
+    let tests = [
+        (Some(lack.p_runs), "they keep their sign"),
+        (lack.p_noise, "they are larger than neighbouring readings differ"),
+        (lack.p_sigma, "they are larger than their sigmas"),
+    ];
+    let struck = tests
+        .into_iter()
+        .filter_map(|(p, words)| Some((p.filter(|&p| p < CHANCE)?, words)));
+    let mut shown: Vec<String> = struck
+        .map(|(p, words)| format!("{words} (by chance {})", chance(p)))
+        .collect();
     let mut best: Option<Alternative<'_>> = None;
     for found in found
         .into_iter()
@@ -190,11 +180,7 @@ fn explanation(
         None => format!(
             "see whether ground, cable and vehicles are those of the scene; try --fit {} or ground_stiffness with --deflection{}",
             fit_it(Quantity::ZeroOffset),
-            if fit.discrepancy.is_none() {
-                "; where the model itself is not the truth, --discrepancy makes the intervals as wide as that leaves them"
-            } else {
-                ""
-            }
+            words_if(fit.discrepancy.is_none(), "; where the model itself is not the truth, --discrepancy makes the intervals as wide as that leaves them")
         ),
     };
     let explained = fit
@@ -249,7 +235,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Residuals of each run and instrument, in the order of the passes, without the outliers.
+    /// Residuals of each run and instrument, or of all together that have few, in the order of the passes, without the outliers.
     fn sequences(&self, outliers: &[usize]) -> Vec<Vec<f64>> {
         let of = |&(row, ..): &(usize, usize, &Reading, Observed)| self.standardised[row];
         let groups = self.groups(outliers);
@@ -274,7 +260,13 @@ impl<'a> Rows<'a> {
         for group in &mut groups {
             group.sort_by_key(|(_, _, reading, _)| reading.passes);
         }
-        groups
+        // Instruments and runs with too few readings to tell anything are judged as one, in the order of the file.
+        let (mut long, short): (Vec<_>, Vec<_>) =
+            groups.into_iter().partition(|group| group.len() >= SHORTEST);
+        let mut short = short.concat();
+        short.sort_by_key(|(row, ..)| *row);
+        long.push(short);
+        long
     }
 
     /// The outliers by pass and line.
@@ -282,12 +274,13 @@ impl<'a> Rows<'a> {
         let several = self.list.iter().any(|(_, series, ..)| *series > 0);
         let one = |row: &usize| {
             let (_, series, reading, _) = &self.list[*row];
-            let of = if several {
-                format!(" of series {}", series + 1)
-            } else {
-                String::new()
-            };
-            format!("pass {}{of} (line {})", reading.pass, reading.line)
+            let of_series = format!(" of series {}", series + 1);
+            format!(
+                "pass {}{} (line {})",
+                reading.pass,
+                words_if(several, &of_series),
+                reading.line
+            )
         };
         let list: Vec<String> = outliers.iter().map(one).collect();
         let count = if outliers.len() == 1 {

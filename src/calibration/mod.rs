@@ -27,6 +27,7 @@ mod mistakes;
 mod model;
 mod noise;
 mod options;
+mod overload;
 mod problem;
 mod result;
 mod terms;
@@ -75,6 +76,12 @@ pub fn calibrate(
 ///
 /// As for [`calibrate()`].
 pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
+    let kept: Vec<(Readings, Option<String>)> = series.iter().map(overload::within_reach).collect();
+    let all = series.iter().zip(&kept);
+    let series: Vec<Series<'_>> = all
+        .map(|(one, (readings, _))| Series { readings, ..*one })
+        .collect();
+    let series = &series[..];
     let unknowns = problem::unknowns(series, options)?;
     let models = series
         .iter()
@@ -102,7 +109,11 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
     if watch.is_stopped() {
         return Err(Error::Stopped);
     }
+    let mut answer = answer?;
     answer
+        .warnings
+        .splice(..0, kept.into_iter().filter_map(|(_, words)| words));
+    Ok(answer)
 }
 
 fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, Error> {

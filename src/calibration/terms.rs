@@ -9,6 +9,7 @@ use super::model::SeriesModel;
 use super::options::{CalibrateOptions, Series};
 use super::unknown::{Quantity, Unknown};
 use crate::Error;
+use crate::shown::words_if;
 
 /// Standard deviation of a cell's error before the readings, as a share of its largest force: any more would be seen at a glance.
 const ERROR: f64 = 0.25;
@@ -78,17 +79,13 @@ pub fn cells(series: &[Series<'_>], models: &[SeriesModel]) -> Vec<Cell> {
 impl Cell {
     /// The name of its error, with the series and the place where there are several.
     pub fn name(&self, quantity: Quantity, series: usize) -> String {
-        let series = if series > 1 {
-            format!("_{}", self.series + 1)
-        } else {
-            String::new()
-        };
-        let place = if self.shares {
-            format!("_{}", self.observed.place().replace(' ', ""))
-        } else {
-            String::new()
-        };
-        format!("{quantity}{series}{place}")
+        let of_series = format!("_{}", self.series + 1);
+        let of_place = format!("_{}", self.observed.place().replace(' ', ""));
+        format!(
+            "{quantity}{}{}",
+            words_if(series > 1, &of_series),
+            words_if(self.shares, &of_place)
+        )
     }
 }
 

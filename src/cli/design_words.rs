@@ -6,13 +6,14 @@ use super::design_clamps::{clamps, has, on_clamp};
 use super::failure::Failure;
 use super::terminal;
 use crate::design::{Binding, Design, Doubt, Place, Side, Spring, TradeOff, largest_shown};
-use crate::shown::percent;
+use crate::shown::{percent, words_if};
 use crate::{Limited, Limits, Scene, Units};
 
 /// One design in full.
 pub fn print(design: &Design, scene: &Scene, units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
-    head(&mut out, design)?;
+    let (title, held) = (terminal::line(&design.title), places(&design.places));
+    writeln!(out, "{title}: {held}, {} passes", design.passes)?;
     limited(&mut out, std::slice::from_ref(design), units)?;
     let (names, rows) = curve(&design.places, &design.limits, &design.curve, scene, units);
     terminal::table(&mut out, &names, &rows)?;
@@ -35,47 +36,28 @@ fn limited(out: &mut impl Write, designs: &[Design], units: &Units) -> std::io::
 /// Several beside each other, and the best.
 pub fn compared(best: &Design, all: &[Design], units: &Units) -> Result<(), Failure> {
     let mut out = terminal::out();
+    let (title, ways) = (terminal::line(&best.title), all.len());
     writeln!(
         out,
-        "{}: {} ways to hold the cable, {} passes",
-        terminal::line(&best.title),
-        all.len(),
+        "{title}: {ways} ways to hold the cable, {} passes",
         best.passes
     )?;
     limited(&mut out, all, units)?;
-    let names = [
-        "held by",
-        "stiffness",
-        "largest share of a limit",
-        "of",
-        "on the clamp",
-        "within limits",
-    ];
+    #[rustfmt::skip]
+    let names = ["held by", "stiffness", "largest share of a limit", "of", "on the clamp", "within limits"];
     let mut rows = Vec::new();
     for design in all {
         let Some(found) = design.found() else { continue };
-        let stiffnesses: Vec<String> = found
-            .springs
-            .iter()
-            .map(|spring| stiffness(units, spring))
-            .collect();
+        let springs = found.springs.iter().map(|spring| stiffness(units, spring));
         let tightest = found.tightest(&design.limits);
-        let of: Vec<String> = tightest
-            .iter()
-            .map(|limit| limit.quantity.at(limit.end))
-            .collect();
+        let of = tightest.iter().map(|limit| limit.quantity.at(limit.end));
         rows.push(vec![
             places(&design.places),
-            stiffnesses.join(" and "),
+            springs.collect::<Vec<_>>().join(" and "),
             percent(design.excess()),
-            of.join(", "),
+            of.collect::<Vec<_>>().join(", "),
             on_clamp(design, found, units),
-            within(found)
-                + if is_near(design) {
-                    ", nearer than the error"
-                } else {
-                    ""
-                },
+            within(found) + words_if(is_near(design), ", nearer than the error"),
         ]);
     }
     terminal::table(&mut out, &names.map(str::to_owned), &rows)?;
@@ -84,16 +66,6 @@ pub fn compared(best: &Design, all: &[Design], units: &Units) -> Result<(), Fail
         writeln!(out, "best: {}", places(&best.places))?;
     }
     conclusion(&mut out, best, units)
-}
-
-fn head(out: &mut impl Write, design: &Design) -> std::io::Result<()> {
-    let places = places(&design.places);
-    writeln!(
-        out,
-        "{}: {places}, {} passes",
-        terminal::line(&design.title),
-        design.passes
-    )
 }
 
 fn places(places: &[Place]) -> String {
@@ -160,51 +132,44 @@ fn curve(
 
 fn within(point: &TradeOff) -> String {
     let within = if point.within_limits { "yes" } else { "no" };
-    let leaves = if point.leaves_duct {
-        ", leaves the duct"
-    } else {
-        ""
-    };
+    let leaves = words_if(point.leaves_duct, ", leaves the duct");
     format!("{within}{leaves}")
 }
 
 /// The answer or what comes nearest, and which limits decide.
 fn conclusion(out: &mut impl Write, design: &Design, units: &Units) -> Result<(), Failure> {
     if let Some(nearest) = &design.nearest {
-        writeln!(
-            out,
-            "{}; nearest: {}",
-            none(design),
-            reached(design, nearest, units)
-        )?;
+        let nearest = reached(design, nearest, units);
+        writeln!(out, "{}; nearest: {nearest}", none(design))?;
     }
     if let Some(answer) = &design.answer {
+        let passes = design.passes;
         writeln!(out, "answer: {}", reached(design, answer, units))?;
         for line in deciding(design, answer, units) {
             writeln!(out, "{line}")?;
         }
         if is_near(design) {
+            let error = percent(answer.error_estimate);
             writeln!(
                 out,
-                "nearer to a limit than the estimated error of {}: repeat the search with limits smaller by that",
-                percent(answer.error_estimate)
+                "nearer to a limit than the estimated error of {error}: repeat the search with limits smaller by that"
             )?;
         }
         if answer.still_growing {
             writeln!(
                 out,
-                "only in these {} passes: the forces still grow after them",
-                design.passes
+                "only in these {passes} passes: the forces still grow after them"
             )?;
         }
         for later in &answer.exceeded_later {
-            writeln!(
-                out,
-                "only in these {} passes: with more the {} levels off at {}, above its limit of {}",
-                design.passes,
+            let (what, value) = (
                 later.quantity.at(later.end),
                 later.quantity.shown_in(units, later.value),
-                later.quantity.given_in(units, later.limit)
+            );
+            let limit = later.quantity.given_in(units, later.limit);
+            writeln!(
+                out,
+                "only in these {passes} passes: with more the {what} levels off at {value}, above its limit of {limit}"
             )?;
         }
     }
@@ -254,27 +219,14 @@ fn deciding(design: &Design, answer: &TradeOff, units: &Units) -> Vec<String> {
     };
     let mut lines = Vec::new();
     if let (Some((from, to)), [spring]) = (design.range_n_per_m, &answer.springs[..]) {
-        let stiffness = |value: f64| {
-            stiffness(
-                units,
-                &Spring {
-                    place: spring.place,
-                    stiffness_n_per_m: Some(value),
-                },
-            )
+        let with = |stiffness| Spring {
+            place: spring.place,
+            stiffness_n_per_m: Some(stiffness),
         };
-        match to {
-            None => lines.push(format!(
-                "within the limits: {} and everything stiffer",
-                stiffness(from)
-            )),
-            Some(to) if to > from => {
-                lines.push(format!(
-                    "within the limits: {} to {}",
-                    stiffness(from),
-                    stiffness(to)
-                ));
-            }
+        let from = stiffness(units, &with(from));
+        match to.map(|to| stiffness(units, &with(to))) {
+            None => lines.push(format!("within the limits: {from} and everything stiffer")),
+            Some(to) if to != from => lines.push(format!("within the limits: {from} to {to}")),
             Some(_) => {}
         }
     }
@@ -287,10 +239,8 @@ fn deciding(design: &Design, answer: &TradeOff, units: &Units) -> Vec<String> {
     }
     let tightest = named(&mut design.binding.iter().filter(|limit| limit.exceeded_by.is_none()));
     if !tightest.is_empty() {
-        lines.push(format!(
-            "least room: {tightest}: {} of the limit",
-            percent(design.excess())
-        ));
+        let share = percent(design.excess());
+        lines.push(format!("least room: {tightest}: {share} of the limit"));
     }
     lines
 }
@@ -341,27 +291,13 @@ fn reached(design: &Design, point: &TradeOff, units: &Units) -> String {
     let springs: Vec<String> = point.springs.iter().map(spring).collect();
     let of = |(place, quantity, limit): (Place, Limited, f64)| {
         let value = point.value(place, quantity);
-        let beside = match value / limit {
-            times if times > 1.0 => {
-                format!(
-                    ", {times:.2} times its limit of {}",
-                    quantity.given_in(units, limit)
-                )
-            }
-            _ => String::new(),
-        };
-        format!(
-            "{} {}{beside}",
-            quantity.at(place),
-            quantity.shown_in(units, value)
-        )
+        let (times, allowed) = (value / limit, quantity.given_in(units, limit));
+        let exceeds = format!(", {times:.2} times its limit of {allowed}");
+        let what = format!("{} {}", quantity.at(place), quantity.shown_in(units, value));
+        what + words_if(times > 1.0, &exceeds)
     };
     let all: Vec<String> = design.limits.all().map(of).collect();
-    let leaves = if point.leaves_duct {
-        "; the cable leaves the duct"
-    } else {
-        ""
-    };
+    let leaves = words_if(point.leaves_duct, "; the cable leaves the duct");
     let error = percent(point.error_estimate);
     format!(
         "{}; {}{leaves}; estimated error {error}",

@@ -8,7 +8,7 @@ use super::shared::{Input, Json, TrafficArguments};
 use super::terminal;
 use crate::occurrence::Occurrence;
 use crate::scene::four_digits;
-use crate::shown::{percent, spacing, time};
+use crate::shown::{percent, spacing, time, words_if};
 use crate::{Candidate, Part, PlanReport};
 
 #[derive(Debug, clap::Args)]
@@ -92,11 +92,10 @@ fn print_occurrence(out: &mut impl Write, occurrence: &Occurrence) -> Result<(),
     } else {
         write!(out, "nothing creeps")?;
     }
-    let rough = if occurrence.rough {
-        " (rough: the numbers are those of one concentrated load on a half-space)"
-    } else {
-        ""
-    };
+    let rough = words_if(
+        occurrence.rough,
+        " (rough: the numbers are those of one concentrated load on a half-space)",
+    );
     writeln!(out, "{rough}")?;
     Ok(())
 }

@@ -14,7 +14,7 @@ use super::terminal;
 use super::workbook::WorkbookArguments;
 use crate::answer::{Place, after, in_rows, table_rows};
 use crate::scene::Traffic;
-use crate::shown::{exact, percent, spacing};
+use crate::shown::{exact, percent, spacing, words_if};
 use crate::{
     CableEnd, DuctMotionSummary, Limited, Limits, PassRecord, Reached, Run, RunOptions, Scene, Units, Verdict,
 };
@@ -191,11 +191,7 @@ fn print(run: &Run, scene: &Scene, units: &Units) -> Result<(), Failure> {
             "saturation: {} {}{}, 95 % of {} after {} passes{}",
             force(saturation.force_n),
             units.force.symbol(),
-            if saturation.is_beyond(&run.passes) {
-                " beyond these passes"
-            } else {
-                ""
-            },
+            words_if(saturation.is_beyond(&run.passes), " beyond these passes"),
             if run.random.is_some() { "the mean" } else { "it" },
             saturation.passes_to_95_percent,
             in_time(&scene.traffic, saturation.passes_to_95_percent)

@@ -136,6 +136,14 @@ impl Readings {
         &self.list
     }
 
+    /// Those of the readings that are to be kept.
+    #[must_use]
+    pub fn keep(&self, keep: impl Fn(&Reading) -> bool) -> Self {
+        let mut kept = self.clone();
+        kept.list.retain(keep);
+        kept
+    }
+
     /// The file's name.
     pub fn file(&self) -> &str {
         &self.file

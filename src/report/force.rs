@@ -8,6 +8,7 @@ use super::html::Html;
 use super::quantity::{Shown, count};
 use crate::answer::{after, in_rows, table_rows};
 use crate::figure::{Axis, Chart, Reference, Series};
+use crate::shown::words_if;
 use crate::{CableEnd, ForceProfile, Limited, PassRecord, Place, Units};
 
 /// Readings that are drawn at most: of more every second, third, … is.
@@ -17,11 +18,7 @@ pub fn force(html: &mut Html, report: &Report) {
     html.raw("<div class=\"figures\">");
     let measured = report.agreement.as_ref();
     let measured = measured.map_or(String::new(), |agreement| measured_in(agreement, &report.shown));
-    let when = if report.run.heat.is_some() {
-        ", on the first day"
-    } else {
-        ""
-    };
+    let when = words_if(report.run.heat.is_some(), ", on the first day");
     let caption =
         format!("Force after each pass{when}, compression positive. A free end carries none.{measured}");
     figure(html, [over_passes(report)], &caption);
@@ -63,11 +60,10 @@ fn clamps(html: &mut Html, report: &Report) {
 
 fn measured_in(agreement: &Agreement, shown: &Shown) -> String {
     let [rms, mean, largest] = agreement.numbers().map(|force| shown.force(force));
-    let bars = if agreement.readings.iter().any(|reading| reading.sigma.is_some()) {
-        " Bars are one standard deviation long to either side."
-    } else {
-        ""
-    };
+    let bars = words_if(
+        agreement.readings.iter().any(|reading| reading.sigma.is_some()),
+        " Bars are one standard deviation long to either side.",
+    );
     format!(
         " {} readings at the {} end; measured minus computed force of {} of them: mean {mean}, root of the mean square {rms}, \
          largest reading {largest}.{bars} “creepage calibrate” says whether friction, ground or an error of the cell makes the difference.",

@@ -10,7 +10,7 @@ use crate::answer::after;
 use crate::design::Place;
 use crate::scene::CableEnd;
 use crate::scene::{End, Scene};
-use crate::shown::percent;
+use crate::shown::{percent, words_if};
 use crate::{Limited, PassRecord, Run, Saturation};
 
 /// Title and the most important numbers.
@@ -19,11 +19,7 @@ pub fn headline(html: &mut Html, report: &Report) {
     html.paragraph(&format!(
         "Creepage of the cable in its duct under traffic, {}.{}",
         report.made(),
-        if report.warnings.is_empty() {
-            " No warnings."
-        } else {
-            ""
-        }
+        words_if(report.warnings.is_empty(), " No warnings.")
     ));
     let Some(last) = report.run.passes.last() else {
         return;
@@ -121,11 +117,7 @@ fn forces(html: &mut Html, report: &Report, last: &PassRecord) {
     }
     if let Some(saturation) = &run.saturation {
         let place = levelled(&report.scene, saturation);
-        let later = if saturation.is_beyond(&run.passes) {
-            BEYOND
-        } else {
-            ""
-        };
+        let later = words_if(saturation.is_beyond(&run.passes), BEYOND);
         let note = format!("{}, {AFTER}{later}{}", on(place), tension(saturation.force_n));
         html.headline("Saturated force", &shown.force(saturation.force_n), &note);
         let reached = saturation.passes_to_95_percent;
@@ -239,11 +231,10 @@ fn moved(report: &Report, last: &PassRecord) -> String {
         return "Both ends are fixed.".to_owned();
     }
     let is_out = |end| movement(&report.run, last, end).abs() > report.shown.most;
-    let leaves = if CableEnd::ALL.into_iter().any(is_out) {
-        "; the cable leaves the duct"
-    } else {
-        ""
-    };
+    let leaves = words_if(
+        CableEnd::ALL.into_iter().any(is_out),
+        "; the cable leaves the duct",
+    );
     format!("{when} {}{leaves}.", moved.join(" and "))
 }
 

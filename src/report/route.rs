@@ -8,6 +8,7 @@ use super::quantity::{Shown, significant};
 use crate::Scene;
 use crate::figure::{Anchor, Drawing, Ink};
 use crate::scene::End;
+use crate::shown::words_if;
 
 /// Where the duct begins and ends \[px\].
 const LEFT: f64 = 44.0;
@@ -159,11 +160,8 @@ fn clamps(report: &Report) -> Vec<String> {
     let Report { scene, shown, .. } = report;
     let clamps = &scene.restraints;
     let name = |(k, clamp): (usize, &crate::scene::Restraint)| {
-        let number = if clamps.len() > 1 {
-            format!("{}: ", k + 1)
-        } else {
-            String::new()
-        };
+        let number = format!("{}: ", k + 1);
+        let number = words_if(clamps.len() > 1, &number);
         let (stiff, place) = (shown.stiffness(clamp.stiffness), shown.length(clamp.position));
         format!("{number}clamp of {stiff} at {place}")
     };

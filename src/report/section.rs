@@ -9,6 +9,7 @@ use super::quantity::{Shown, round_below, significant};
 use crate::Scene;
 use crate::figure::{Anchor, Drawing, Ink};
 use crate::scene::shortened;
+use crate::shown::words_if;
 
 /// The ground's left and right edge \[px\].
 const LEFT: f64 = 12.0;
@@ -69,11 +70,7 @@ pub fn section(report: &Report) -> (String, String) {
         let y = bar + Drawing::LINE * (k as f64 + 1.2);
         drawing.text(name, (LEFT, y), Anchor::Start);
     }
-    let enlarged = if inner < SMALLEST {
-        " The duct is drawn larger than it is."
-    } else {
-        ""
-    };
+    let enlarged = words_if(inner < SMALLEST, " The duct is drawn larger than it is.");
     let darker = if scene.ground.profile.layers().is_empty() {
         ""
     } else {

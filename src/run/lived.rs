@@ -13,6 +13,7 @@ use crate::cable::{cable, traffic};
 use crate::ground::peak;
 use crate::plan::{Period, Plan};
 use crate::scene::{DAYS_PER_YEAR, Heat, Scene};
+use crate::shown::words_if;
 use crate::{Error, Progress};
 
 /// Share of the tolerance that days without real passes may take.
@@ -240,11 +241,7 @@ impl<'a> Living<'a> {
         let lasting = periodic_from.map_or_else(String::new, |day| {
             format!("; from day {day} on every day is like the one before")
         });
-        let others = if corrected < days {
-            ", the others follow from them"
-        } else {
-            ""
-        };
+        let others = words_if(corrected < days, ", the others follow from them");
         format!("days: {corrected} of {days} were simulated with {real} each{others}{lasting}")
     }
 

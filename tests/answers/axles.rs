@@ -1,38 +1,22 @@
 //! Many passes of an axle histogram: stand-ins beside every axle at random.
 
-use creepage::{CableEnd, Limited, Scene, SceneFile};
+use creepage::{CableEnd, Limited, Scene};
 
-const SCENE: &str = r#"
-[duct]
-length = "15 m"
-depth = "1.2 m"
-[ground]
-[[ground.layers]]
-young_modulus = "100 MPa"
-poisson_ratio = 0.4
-[cable]
-preset = "xlpe-800-single-core"
-[friction]
-law = "coulomb"
-dynamic_coefficient = 0.25
-[ends]
-upstream = "free"
-downstream = { spring = "3 MN/m" }
-[traffic]
-histogram = "axles.csv"
-passes = 2000
-[solver]
-tolerance = 0.05
-node_spacing = "0.15 m"
-vehicle_step = "0.075 m"
-"#;
+use crate::scene::histogram::read;
+
+/// What differs from the scene of the tests of histograms.
+const OWN: [&str; 5] = [
+    "ends.downstream={ spring = 3e6 }",
+    "traffic.passes=2000",
+    "solver.tolerance=0.05",
+    "solver.node_spacing=0.15",
+    "solver.vehicle_step=0.075",
+];
 /// Passes after which nothing but the order of the axles changes.
 const SETTLED: usize = 300;
 
 /// Light axles, most of them near 60 kN, and one in a hundred far heavier, in a folder of this name.
 fn scene(name: &str, overrides: &[&str]) -> Scene {
-    let folder = std::path::PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
-    std::fs::create_dir_all(&folder).expect("a folder");
     let row = |load: i32| {
         let off = (f64::from(load) - 60.0) / 25.0;
         format!("{load} kN,{:.3},0.15 m\n", 1000.0 * (-0.5 * off * off).exp())
@@ -40,11 +24,7 @@ fn scene(name: &str, overrides: &[&str]) -> Scene {
     let rows: Vec<String> = (5..=120).step_by(5).map(row).collect();
     let heavy = "170 kN,80,0.15 m\n210 kN,40,0.15 m\n";
     let table = format!("load,count,contact_radius\n{}{heavy}", rows.concat());
-    std::fs::write(folder.join("axles.csv"), table).expect("a table");
-    let name = folder.join("duct.toml");
-    SceneFile::from_toml(&name.display().to_string(), SCENE)
-        .and_then(|file| file.with(overrides)?.scene())
-        .expect("a scene")
+    read(name, &table, &[&OWN, overrides].concat()).expect("a scene")
 }
 
 /// When the mean has come near to its end does not depend on how many axles come afterwards.

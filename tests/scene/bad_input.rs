@@ -22,41 +22,28 @@ fn a_missing_section_is_named() {
 }
 
 #[test]
-fn what_is_not_toml_is_located() {
-    for (text, line) in [
-        ("[duct]\nlength = 1.2 m\n", 2),
-        ("[duct\n", 1),
-        ("a = 1\na = 2\n", 2),
-        ("\n\na = \"x\n", 3),
-        ("a = 1\r\nb = = 2\r\n", 2),
-    ] {
-        let error = read(text).unwrap_err();
-        assert!(matches!(error, SceneError::Syntax { .. }), "{error}");
-        assert_eq!(error.location().unwrap().line, Some(line), "{error}");
-        assert!(
-            error
-                .to_string()
-                .starts_with(&format!("bad.toml, line {line}: not valid TOML: ")),
-            "{error}"
-        );
-    }
-}
-
-#[test]
-fn what_is_not_toml_is_told_where_the_parser_gave_up() {
+fn what_is_not_toml_is_located_where_the_parser_gave_up() {
     let deep = format!("a = 1\n[duct]\nlength{} = 1\n", ".a".repeat(100));
     let nested = format!("a = 1\nb = 2\nc = {}1{}\n", "[".repeat(100), "]".repeat(100));
     for (text, line, part) in [
+        ("[duct]\nlength = 1.2 m\n", 2, "in quotes"),
+        ("[duct\n", 1, "unclosed"),
+        ("\n\na = \"x\n", 3, "invalid basic string"),
+        ("a = 1\r\nb = = 2\r\n", 2, "extra `=`"),
         (deep.as_str(), 3, "recursion"),
         (&nested, 3, "recursion"),
         ("[duct]\nlength = 1\ndepth = 1\nlength = 2\n", 4, "duplicate key"),
         ("[duct]\nlength = 1\n[cable]\n[duct]\n", 4, "duplicate key"),
-        ("a = [\n  { x = 1 y = 2 },\n]\n", 2, "not valid TOML"),
+        ("a = [\n  { x = 1 y = 2 },\n]\n", 2, ""),
     ] {
         let error = read(text).unwrap_err();
         assert!(matches!(error, SceneError::Syntax { .. }), "{error}");
         assert_eq!(error.location().unwrap().line, Some(line), "{error}");
-        assert!(error.to_string().contains(part), "{error}");
+        let (said, begin) = (
+            error.to_string(),
+            format!("bad.toml, line {line}: not valid TOML: "),
+        );
+        assert!(said.starts_with(&begin) && said.contains(part), "{said}");
     }
 }
 

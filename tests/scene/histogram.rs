@@ -44,7 +44,7 @@ fn folder(test: &str, table: &str) -> PathBuf {
     folder.join("duct.toml")
 }
 
-fn read(test: &str, table: &str, overrides: &[&str]) -> Result<Scene, SceneError> {
+pub fn read(test: &str, table: &str, overrides: &[&str]) -> Result<Scene, SceneError> {
     SceneFile::read(folder(test, table))?.with(overrides)?.scene()
 }
 

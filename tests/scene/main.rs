@@ -4,7 +4,7 @@ mod any_input;
 mod arrangement;
 mod bad_input;
 mod edited;
-mod histogram;
+pub mod histogram;
 mod keys;
 mod overrides;
 mod presets;

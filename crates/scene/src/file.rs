@@ -216,18 +216,10 @@ fn out_of_range(keys: &SceneKeys, is_bare: impl Fn(&str) -> bool) -> Result<(), 
     let mut first = None;
     let visit: &mut Visit = &mut |key, value, quantity| {
         if first.is_none() && !quantity.contains(value) {
-            let meant = if is_bare(key) {
-                quantity.bare_number_meant(value)
-            } else {
-                String::new()
-            };
-            let allowed = quantity.allowed() + &meant;
-            first = Some(Wrong::at(
-                WrongKind::OutOfRange,
-                key,
-                quantity.written(value),
-                allowed,
-            ));
+            let meant = Some(quantity.bare_number_meant(value)).filter(|_| is_bare(key));
+            let allowed = quantity.allowed() + &meant.unwrap_or_default();
+            let found = quantity.written(value);
+            first = Some(Wrong::at(WrongKind::OutOfRange, key, found, allowed));
         }
     };
     section::<SceneKeys>().each(keys, "", visit);

@@ -117,7 +117,7 @@ const IN_WORDS: &[(&str, &str)] = &[
     ("mile", "mi"), ("miles", "mi"), ("mi/h", "mph"), ("miles/h", "mph"), ("fps", "ft/s"),
     ("kph", "km/h"), ("km/hr", "km/h"), ("kmph", "km/h"),
     ("meter", "m"), ("meters", "m"), ("metre", "m"), ("metres", "m"),
-    ("kg", "kgf"), ("kg", "kg/m"), ("t", "tf"), ("ton", "tf"), ("tonnes", "tf"), ("sqmm", "mm2"),
+    ("kg", "kgf"), ("kg", "kg/m"), ("kg/mm", "kgf/mm"), ("t", "tf"), ("ton", "tf"), ("tonnes", "tf"), ("sqmm", "mm2"),
 ];
 
 /// A unit of a scene file: one of it is `factor / divisor · 10^exponent` in SI; for a slope that is the angle, and its tangent counts.
@@ -251,7 +251,7 @@ units! {
         "kgf/cm2" 4 STANDARD_GRAVITY, "kgf/mm2" 6 STANDARD_GRAVITY, "tf/m2" 3 STANDARD_GRAVITY,
         "psi" 0 POUND_FORCE / SQUARE_INCH, "ksi" 3 POUND_FORCE / SQUARE_INCH;
     ForcePerLength: "N/m" 0 1.0, "kN/m" 3 1.0, "MN/m" 6 1.0, "GN/m" 9 1.0, "N/mm" 3 1.0, "kN/mm" 6 1.0,
-        "kgf/m" 0 STANDARD_GRAVITY, "tf/m" 3 STANDARD_GRAVITY, "lbf/ft" 0 POUND_FORCE / FOOT, "kip/in" 3 POUND_FORCE / INCH;
+        "kgf/m" 0 STANDARD_GRAVITY, "kgf/mm" 3 STANDARD_GRAVITY, "tf/m" 3 STANDARD_GRAVITY, "lbf/ft" 0 POUND_FORCE / FOOT, "kip/in" 3 POUND_FORCE / INCH;
     Weight: "kg/m" 0 STANDARD_GRAVITY, "kg/km" -3 STANDARD_GRAVITY, "lb/1000ft" -3 POUND_FORCE / FOOT;
     InverseLength: "1/m" 0 1.0, "1/cm" 2 1.0, "1/mm" 3 1.0, "1/um" 6 1.0;
     Area: "m2" 0 1.0, "cm2" -4 1.0, "mm2" -6 1.0, "in2" 0 SQUARE_INCH;
