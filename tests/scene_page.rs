@@ -25,7 +25,7 @@ fn page() -> String {
             writeln!(page, "| `{}` | {} | {} | {} |", row[0], row[1], row[2], row[3]).unwrap();
             continue;
         }
-        write!(page, "\n## `{}`\n\n{} {}.\n", key.key, key.meaning, row[3]).unwrap();
+        write!(page, "\n## `{}`\n\n{} ({})\n", key.key, row[1], row[3]).unwrap();
         if keys.get(index + 1).is_some_and(|next| next.key.contains('.')) {
             page += "\n| key | meaning | allowed | default |\n|---|---|---|---|\n";
         }
