@@ -490,17 +490,8 @@ fn a_mirrored_scene_has_the_mirrored_answer() {
 
 #[test]
 fn the_same_command_gives_the_same_answer() {
-    let arguments = [
-        "run",
-        UPPER,
-        "--json",
-        "--set",
-        "traffic.passes=4",
-        "--set",
-        "traffic.order=random",
-        "--set",
-        "traffic.seed=3",
-    ];
+    let random = set(&["traffic.passes=4", "traffic.order=random", "traffic.seed=3"]);
+    let arguments = [&["run", UPPER, "--json"][..], &random].concat();
     assert_eq!(printed(&arguments), printed(&arguments));
 }
 
@@ -1012,14 +1003,11 @@ fn a_sweep_draws_a_map_of_two_keys() {
 
 #[test]
 fn design_answers_in_words_and_as_json() {
-    let set = [
-        "--set",
+    let set = set(&[
         "traffic.passes=8",
-        "--set",
         "duct.length=15 m",
-        "--set",
         "solver.node_spacing=0.25 m",
-    ];
+    ]);
     let design = |more: &[&'static str]| [&["design", UPPER][..], &set, more].concat();
     let said = printed(&design(&["--limit-force", "150 N"]));
     let document = json(&design(&["--limit-force", "150 N"]));
@@ -1075,14 +1063,11 @@ fn design_answers_in_words_and_as_json() {
 
 #[test]
 fn design_takes_pairs_several_places_and_limits_of_clamps() {
-    let set = [
-        "--set",
+    let set = set(&[
         "traffic.passes=4",
-        "--set",
         "duct.length=15 m",
-        "--set",
         "solver.node_spacing=0.3 m",
-    ];
+    ]);
     let design = |more: &[&'static str]| [&["design", UPPER][..], &set, more].concat();
     let tight = design(&[
         "--at",

@@ -358,13 +358,13 @@ fn texts_of_the_user_stay_texts() {
 #[test]
 fn readings_are_drawn_and_compared() {
     let run = creepage::run(&scene(&["traffic.passes=6"])).expect("a run");
-    // Ten newtons above what is computed, and one reading beyond the passes.
+    // Ten newtons above what is computed, one reading beyond the passes, and an overload.
     let rows: Vec<String> = run
         .passes
         .iter()
         .map(|record| format!("{},{},5\n", record.pass, record.downstream_force_n + 10.0))
         .collect();
-    let csv = format!("pass,force_n,sigma_n\n{}9,500,5\n", rows.concat());
+    let csv = format!("pass,force_n,sigma_n\n{}9,500,5\n10,9.9e37,5\n", rows.concat());
     let readings = Readings::from_csv("cell.csv", csv.as_bytes()).expect("readings");
     let options = ReportOptions {
         readings: Some(&readings),
@@ -373,7 +373,10 @@ fn readings_are_drawn_and_compared() {
     let with = page(&[], &options);
     let said = "7 readings at the downstream end; measured minus computed force of 6 of them: mean 10.0 N, root of the mean square \
                 10.0 N, largest reading 500.0 N.";
-    assert!(with.contains(said), "{with}");
+    assert!(
+        with.contains(said) && with.contains("left out: pass 10 (line 9)"),
+        "{with}"
+    );
     let circles = |page: &str| {
         let drawn = |element: &&Element| element.name == "circle" || element.name == "polyline";
         let elements = elements(page);

@@ -28,8 +28,6 @@ const OUTLIER: f64 = 4.5;
 const MEDIAN_TO_SIGMA: f64 = 1.4826;
 /// Weight below which a robust fit left a reading out.
 pub const LEFT_OUT: f64 = 0.35;
-/// Fewest readings of an instrument in a run that show by themselves whether they follow the model.
-const SHORTEST: usize = 3;
 /// Fewest readings that are judged beside the parameters.
 const FEWEST: f64 = 3.0;
 
@@ -235,7 +233,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Residuals of each run and instrument, or of all together that have few, in the order of the passes, without the outliers.
+    /// Residuals of each run and instrument, or of all that have one reading, in the order of the passes, without the outliers.
     fn sequences(&self, outliers: &[usize]) -> Vec<Vec<f64>> {
         let of = |&(row, ..): &(usize, usize, &Reading, Observed)| self.standardised[row];
         let groups = self.groups(outliers);
@@ -260,13 +258,12 @@ impl<'a> Rows<'a> {
         for group in &mut groups {
             group.sort_by_key(|(_, _, reading, _)| reading.passes);
         }
-        // Instruments and runs with too few readings to tell anything are judged as one, in the order of the file.
-        let (mut long, short): (Vec<_>, Vec<_>) =
-            groups.into_iter().partition(|group| group.len() >= SHORTEST);
-        let mut short = short.concat();
-        short.sort_by_key(|(row, ..)| *row);
-        long.push(short);
-        long
+        // Readings that are each of a run or an instrument of their own are judged as one series.
+        let (mut groups, alone): (Vec<_>, Vec<_>) = groups.into_iter().partition(|group| group.len() > 1);
+        let mut alone = alone.concat();
+        alone.sort_by_key(|(row, _, reading, _)| (reading.passes, *row));
+        groups.push(alone);
+        groups
     }
 
     /// The outliers by pass and line.

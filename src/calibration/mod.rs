@@ -45,6 +45,8 @@ pub use judgement::LackOfFit;
 #[cfg(feature = "plot")]
 pub(crate) use mistakes::of_forces;
 pub use options::{CalibrateOptions, Deflection, Series};
+#[cfg(feature = "plot")]
+pub(crate) use overload::within_reach;
 pub use result::{
     Calibrated, FitMethod, FittedParameter, FittedReading, ModelErrorEstimate, ProfilePoint, ResidualSize,
 };
@@ -76,7 +78,16 @@ pub fn calibrate(
 ///
 /// As for [`calibrate()`].
 pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
-    let kept: Vec<(Readings, Option<String>)> = series.iter().map(overload::within_reach).collect();
+    let fits_cell = options
+        .unknowns
+        .iter()
+        .any(|unknown| unknown.quantity.is_of_cell());
+    // What a cell reads too much of any force may be as large as it likes.
+    let within = |one: &Series<'_>| match fits_cell.then(|| one.readings.clone()) {
+        Some(all) => (all, None),
+        None => overload::within_reach(one),
+    };
+    let kept: Vec<(Readings, Option<String>)> = series.iter().map(within).collect();
     let all = series.iter().zip(&kept);
     let series: Vec<Series<'_>> = all
         .map(|(one, (readings, _))| Series { readings, ..*one })

@@ -1,7 +1,7 @@
-//! Readings beyond anything that friction could do: overloads of an instrument, any one of which would outweigh all others.
+//! Forces beyond any that friction could make: overloads of an instrument, any one of which would outweigh all other readings.
 //!
-//! Friction along the whole duct, with the largest coefficient that a fit considers, and the weight along its slope bound the force of a cable
-//! without heat: F ≤ (μ N′ + |p|) L. No end moves farther than the duct is long.
+//! Friction along the whole duct, with the largest coefficient that is considered, and the weight along its slope bound the force in a cable
+//! without heat: F ≤ (μ N′ + |p|) L.
 
 use super::cell::Observed;
 use super::options::Series;
@@ -9,41 +9,56 @@ use super::unknown::Quantity;
 use crate::readings::Readings;
 use crate::scene::{Scene, four_digits};
 
-/// Of the readings, the share beyond which they are no exceptions: then unit, sign or scene are not what they seem.
+/// Share of an instrument's readings beyond which they are no exceptions, but unit, sign or scene not what they seem; and the fewest readings
+/// of which that can be said.
 const FEW: f64 = 0.25;
+const FEWEST: usize = 6;
 
 /// Largest force that friction makes in the cable of `scene` \[N\].
 fn largest_force(scene: &Scene) -> f64 {
     let (_, most) = Quantity::DynamicCoefficient.bounds();
+    let most = most.max(scene.friction.dynamic_coefficient);
     (most * scene.cable.normal_load() + scene.body_force().abs()) * scene.duct.length
 }
 
-/// The readings without those that are out of reach, and words on these if there are any.
+/// The readings without those that are beyond reach, and words on these if there are any.
 pub fn within_reach(one: &Series<'_>) -> (Readings, Option<String>) {
-    let (scene, force) = (one.scene, largest_force(one.scene));
-    let reach = |measured| match Observed::of(scene, measured) {
-        Ok(Observed::Force(_) | Observed::ForceAt(_)) => force,
-        Ok(Observed::StrainAt(_)) => force / scene.cable.axial_stiffness,
-        Ok(Observed::Movement(_)) => scene.duct.length,
-        _ => f64::INFINITY,
+    let (scene, most) = (one.scene, largest_force(one.scene));
+    let list = one.readings.readings();
+    let mut cells: Vec<(Observed, usize, usize)> = Vec::new();
+    let cell_of = |measured| match Observed::of(scene, measured) {
+        Ok(cell @ (Observed::Force(_) | Observed::ForceAt(_))) => Some(cell),
+        _ => None,
     };
-    let readings = one.readings.readings();
-    let beyond = readings
-        .iter()
-        .filter(|reading| reading.value.abs() > reach(reading.measured));
-    let passes: Vec<String> = beyond
-        .map(|reading| format!("pass {} (line {})", reading.pass, reading.line))
-        .collect();
-    if passes.is_empty() || scene.heat.is_some() || passes.len() as f64 > FEW * readings.len() as f64 {
+    for reading in list {
+        let Some(cell) = cell_of(reading.measured) else {
+            continue;
+        };
+        let place = cells
+            .iter()
+            .position(|(other, ..)| *other == cell)
+            .unwrap_or(cells.len());
+        if place == cells.len() {
+            cells.push((cell, 0, 0));
+        }
+        cells[place].1 += 1;
+        cells[place].2 += usize::from(reading.value.abs() > most);
+    }
+    cells.retain(|&(_, all, beyond)| all >= FEWEST && beyond > 0 && beyond as f64 <= FEW * all as f64);
+    let is_beyond = |reading: &crate::Reading| {
+        let of = |cell| cells.iter().any(|(other, ..)| *other == cell);
+        reading.value.abs() > most && cell_of(reading.measured).is_some_and(of)
+    };
+    let kept = one.readings.keep(|reading| !is_beyond(reading));
+    if cells.is_empty() || scene.heat.is_some() || kept.last_pass() == 0 {
         return (one.readings.clone(), None);
     }
-    let kept = one
-        .readings
-        .keep(|reading| reading.value.abs() <= reach(reading.measured));
+    let beyond = list.iter().filter(|reading| is_beyond(reading));
+    let passes = beyond.map(|reading| format!("pass {} (line {})", reading.pass, reading.line));
     let words = format!(
-        "readings larger than friction could make them in this duct, where no force is above {} N, were left out: {}",
-        four_digits(force),
-        passes.join(", ")
+        "forces larger than friction makes in this duct, at most {} N, were left out: {}",
+        four_digits(most),
+        passes.collect::<Vec<_>>().join(", ")
     );
     (kept, Some(words))
 }

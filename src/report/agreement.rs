@@ -1,6 +1,6 @@
 //! Computed force against readings of a load cell.
 
-use crate::calibration::{force_ends, held_end, of_forces};
+use crate::calibration::{Series, force_ends, held_end, of_forces, within_reach};
 use crate::readings::{Reading, Readings};
 use crate::{CableEnd, Error, PassRecord, Run, Scene};
 
@@ -29,7 +29,8 @@ impl Agreement {
     ///
     /// [`Error`] where no end of the cable is held.
     pub fn new(scene: &Scene, run: &Run, readings: &Readings) -> Result<Self, Error> {
-        let ends = force_ends(scene, readings)?;
+        let (readings, beyond) = within_reach(&Series { scene, readings });
+        let ends = force_ends(scene, &readings)?;
         // One cell is drawn: of two, the one that the scene holds.
         let end = held_end(scene)?;
         let of_end = readings
@@ -44,7 +45,7 @@ impl Agreement {
         // The zero reading has no sign and no size.
         let loaded = compared.iter().filter(|(reading, _)| reading.passes > 0);
         let both: Vec<(f64, f64)> = loaded.map(|(read, force)| (read.value, *force)).collect();
-        let mistakes = of_forces(end.name(), &both);
+        let mistakes = of_forces(end.name(), &both).into_iter().chain(beyond).collect();
         let mean = |of: fn(f64) -> f64| {
             differences.iter().map(|d| of(*d)).sum::<f64>() / differences.len().max(1) as f64
         };

@@ -121,7 +121,7 @@ fn distribution(name: &str, parameters: &str) -> Result<Distribution, &'static s
         *bound = value;
     }
     let [below, upto] = bounds.map(|bound| law.distribution().cdf(bound));
-    if upto - below < LEAST_SHARE {
+    if !(LEAST_SHARE..=1.0).contains(&(upto - below)) {
         return Err(BOUNDS);
     }
     Ok(Distribution { law, bounds, unit })
@@ -171,6 +171,8 @@ mod tests {
             "normal(0, min=0, 1)",
             "uniform(0, 1, max=nan)",
             "triangular(1, 5, 4)",
+            "triangular(0, 1e200, 2e200, min=1e200)",
+            "uniform(-1.5e308, 1.5e308, max=1e308)",
             "triangular(1, 1, 1)",
         ] {
             assert!(Distribution::parse(text).expect("a call").is_err(), "{text}");

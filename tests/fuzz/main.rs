@@ -8,7 +8,7 @@ mod mutate;
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use creepage::Readings;
 use creepage::SceneFile;
@@ -286,7 +286,7 @@ fn axis(text: &str) -> bool {
 // The tests.
 
 /// Checks so many inputs, and shows the one that fails.
-fn fuzz(count: u64, seed: u64) {
+fn fuzz(count: u64, seed: u64, longest: Duration) {
     for kind in kinds() {
         for good in &kind.good {
             assert!((kind.check)(good), "{}: {good}", kind.name);
@@ -299,11 +299,7 @@ fn fuzz(count: u64, seed: u64) {
             let begin = Instant::now();
             let fine = catch_unwind(AssertUnwindSafe(|| (kind.check)(&input)))
                 .unwrap_or_else(|_| panic!("{} {number} of seed {seed}:\n{input}\n{input:?}", kind.name));
-            assert!(
-                begin.elapsed().as_secs() < 1,
-                "{} {number} of seed {seed}",
-                kind.name
-            );
+            assert!(begin.elapsed() < longest, "{} {number} of seed {seed}", kind.name);
             accepted += u64::from(fine);
         }
         // Where nearly all or nearly none are accepted the other half was not looked at.
@@ -315,11 +311,11 @@ fn fuzz(count: u64, seed: u64) {
 
 #[test]
 fn a_hundred_thousand_inputs_are_read_or_refused() {
-    fuzz(FEW, 1);
+    fuzz(FEW, 1, Duration::from_secs(60));
 }
 
 #[test]
 #[ignore = "two minutes, cargo test --release --test main fuzz:: -- --ignored"]
 fn a_million_scenes_and_a_million_tables_are_read_or_refused() {
-    fuzz(MANY, 2);
+    fuzz(MANY, 2, Duration::from_secs(1));
 }

@@ -77,14 +77,12 @@ impl Wrong {
         found: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Box<Self> {
-        let (key, found, allowed) = (key.into(), found.into(), allowed.into());
-        let location = None;
         Box::new(Self {
             kind,
-            key,
-            found,
-            allowed,
-            location,
+            key: key.into(),
+            found: found.into(),
+            allowed: allowed.into(),
+            location: None,
         })
     }
 

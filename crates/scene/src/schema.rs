@@ -110,18 +110,22 @@ fn number(quantity: Quantity) -> Value {
 fn unit(symbol: &str) -> String {
     if let Some(inverse) = symbol.strip_prefix("1/") {
         let inverse = unit(inverse);
-        return format!("(1\\s*)?/\\s*{inverse}|{inverse}\\s*(\\^?-1|⁻¹)");
+        return format!("(1\\s*)?/\\s*{inverse}|{inverse}\\s*(\\^?\\s*-\\s*1|⁻\\s*¹)");
     }
     let letter = |(place, letter): (usize, char)| match letter {
         'u' if place == 0 => "[uµμ]".to_owned(),
-        '2' if place > 0 => "(\\^?2|²)".to_owned(),
-        '/' => "\\s*/\\s*".to_owned(),
+        '2' if place > 0 => "(\\^?\\s*2|²)".to_owned(),
         '%' => "[%％]".to_owned(),
         letter => letter.to_string(),
     };
     match symbol {
         "deg" => "deg|°".to_owned(),
-        _ => symbol.chars().enumerate().map(letter).collect(),
+        _ => symbol
+            .chars()
+            .enumerate()
+            .map(letter)
+            .collect::<Vec<_>>()
+            .join("\\s*"),
     }
 }
 
