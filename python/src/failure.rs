@@ -31,6 +31,11 @@ impl Failure {
         Self::of("InputError", with_causes(error))
     }
 
+    /// An argument that is none, in words.
+    pub fn argument(message: String) -> Self {
+        Self::of("InputError", message)
+    }
+
     /// A column of a type that no cell has.
     pub fn column(name: &str, found: &impl std::fmt::Display) -> Self {
         let message =

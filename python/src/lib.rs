@@ -3,6 +3,7 @@
 mod arrow;
 mod call;
 mod failure;
+mod reading;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -28,6 +29,10 @@ impl Source {
         Ok(SceneFile::from_toml(name, text)?.with(overrides)?)
     }
 }
+
+/// A table of readings: the name that errors give it, its bytes, and how they are to be read.
+#[derive(FromPyObject)]
+struct Written(String, Vec<u8>, Vec<(String, String)>);
 
 fn json(answer: &impl serde::Serialize) -> Result<String, Failure> {
     serde_json::to_string(answer).map_err(|error| Failure::computation(&error))
@@ -153,16 +158,17 @@ fn read_rows(py: Python<'_>, file: PathBuf) -> PyResult<Table> {
 fn calibrate(
     py: Python<'_>,
     scene: Source,
-    name: &str,
-    readings: &[u8],
+    readings: Written,
     fit: Vec<String>,
     robust: bool,
     call: Call,
 ) -> PyResult<String> {
     watched(py, call, |progress| {
         let file = scene.file()?;
-        let readings = Readings::from_csv(name, readings).map_err(creepage::Error::from)?;
-        let unknown = |name: &String| name.parse::<Unknown>().map_err(|error| Failure::input(&error));
+        let Written(name, bytes, read) = readings;
+        let readings = Readings::from_bytes(&name, &bytes, &reading::options(read)?);
+        let readings = readings.map_err(creepage::Error::from)?;
+        let unknown = |name: &String| name.parse::<Unknown>().map_err(Failure::argument);
         let options = CalibrateOptions {
             unknowns: fit.iter().map(unknown).collect::<Result<_, _>>()?,
             loss: if robust { Loss::TUKEY } else { Loss::Squares },

@@ -27,8 +27,7 @@ def texts(rows: Any) -> tuple[list[str], list[list[str]]]: ...
 def read_rows(file: Union[str, PathLike[str]]) -> Table: ...
 def calibrate(
     scene: Source,
-    name: str,
-    readings: bytes,
+    readings: tuple[str, bytes, list[tuple[str, str]]],
     fit: list[str],
     robust: bool,
     call: Call,

@@ -100,6 +100,7 @@ def calibrate(
     *,
     fit: Iterable[str] = (),
     robust: bool = False,
+    read: Optional[Mapping[str, Any]] = None,
     threads: Optional[int] = None,
     progress: Any = None,
 ) -> dict:
@@ -107,6 +108,8 @@ def calibrate(
 
     rows: columns ``pass``, ``force_n`` and, if wanted, ``sigma_n``, or others that the command reads, in anything with
     ``__arrow_c_stream__``; or the path of such a table. fit: names of what is fitted. robust: ignore outliers.
+    read: how the table is written, where that is not recognised, by the names of the command's options:
+    ``{"decimal": "comma", "column_force": "Kraft", "unit": "kN"}``; a list names several columns.
     """
     if isinstance(rows, (str, os.PathLike)):
         name = os.fspath(rows)
@@ -119,7 +122,11 @@ def calibrate(
     call = (threads_of(threads), callback(progress))
     own = source(scene, overrides)
     names = [fit] if isinstance(fit, str) else [str(name) for name in fit or ()]
-    return json.loads(_creepage.calibrate(own, name, readings, names, bool(robust), call))
+    if not isinstance(read, (Mapping, type(None))):
+        raise InputError(f"found read = {read!r}; allowed: a dict of options")
+    values = ((option, given if isinstance(given, (list, tuple)) else [given]) for option, given in (read or {}).items())
+    options = [(str(option), str(value)) for option, given in values for value in given if value is not None]
+    return json.loads(_creepage.calibrate(own, (name, readings, options), names, bool(robust), call))
 
 
 def _stream(rows: Any) -> Any:
