@@ -8,7 +8,6 @@ use super::lanes::{Lane, lanes};
 use super::quantity::{Shown, round_below, significant};
 use crate::Scene;
 use crate::figure::{Anchor, Drawing, Ink};
-use crate::scene::shortened;
 use crate::shown::words_if;
 
 /// The ground's left and right edge \[px\].
@@ -26,8 +25,6 @@ const MOST: usize = 6;
 const BESIDE: f64 = 0.5;
 const SHOWN: f64 = 1.4;
 const DEEPEST: f64 = 250.0;
-/// Longest name of a vehicle that fits \[characters\].
-const LONGEST: usize = 24;
 /// Rock that is drawn, and the longest bar of the scale \[px\].
 const ROCK: f64 = 14.0;
 const BAR: f64 = 70.0;
@@ -49,8 +46,26 @@ pub fn section(report: &Report) -> (String, String) {
     let mut drawing = Drawing::new("Cross-section of the road", (WIDTH, height));
     drawing.title("Cross-section of the road", (0.5 * WIDTH, 0.5 * TITLE));
     ground(&mut drawing, scene, across.scale, high);
+    // Signs stand in two rows; where both are taken, the list below alone names the lane.
+    let mut signs: [Vec<f64>; 2] = Default::default();
     for (k, lane) in drawn.iter().enumerate() {
-        vehicle(&mut drawing, &across, lane, k);
+        vehicle(&mut drawing, &across, lane);
+        let sign = format!(
+            "{} {}",
+            if lane.direction == Direction::Forward {
+                "⊗"
+            } else {
+                "⊙"
+            },
+            k + 1
+        );
+        let (x, room) = (across.place(lane.middle), Drawing::text_width(&sign) + 8.0);
+        let is_free = |row: &usize| signs[*row].iter().all(|other| (other - x).abs() > room);
+        if let Some(row) = (0..2).find(is_free) {
+            signs[row].push(x);
+            let y = SURFACE - WHEEL - Drawing::LINE * (0.7 + row as f64);
+            drawing.text(&sign, (x, y), Anchor::Middle);
+        }
     }
     let duct = (
         across.place(scene.duct.lateral_offset),
@@ -71,11 +86,8 @@ pub fn section(report: &Report) -> (String, String) {
         drawing.text(name, (LEFT, y), Anchor::Start);
     }
     let enlarged = words_if(inner < SMALLEST, " The duct is drawn larger than it is.");
-    let darker = if scene.ground.profile.layers().is_empty() {
-        ""
-    } else {
-        " Stiffer layers are darker."
-    };
+    let has_layers = !scene.ground.profile.layers().is_empty();
+    let darker = words_if(has_layers, " Stiffer layers are darker.");
     let caption = format!(
         "The road seen along the duct toward growing x: ⊗ marks vehicles that drive away, ⊙ those that come. To scale but for the height of \
          wheels.{enlarged}{darker}"
@@ -124,8 +136,8 @@ impl Across {
     }
 }
 
-/// The heaviest vehicle of a lane, from behind or in front, with the lane's sign above it; signs of lanes stand in two rows by turns.
-fn vehicle(drawing: &mut Drawing, across: &Across, lane: &Lane, number: usize) {
+/// The heaviest vehicle of a lane, from behind or in front.
+fn vehicle(drawing: &mut Drawing, across: &Across, lane: &Lane) {
     let wheels = lane.wheels();
     let ends = wheels
         .iter()
@@ -143,28 +155,18 @@ fn vehicle(drawing: &mut Drawing, across: &Across, lane: &Lane, number: usize) {
             1.0,
         );
     }
-    let way = match lane.direction {
-        Direction::Forward => "⊗",
-        Direction::Reverse => "⊙",
-    };
-    let y = SURFACE - WHEEL - Drawing::LINE * (0.7 + (number % 2) as f64);
-    drawing.text(
-        &format!("{way} {}", number + 1),
-        (across.place(lane.middle), y),
-        Anchor::Middle,
-    );
 }
 
 /// Who drives in which lane.
 fn names(lanes: &[Lane]) -> Vec<String> {
     let name = |(k, lane): (usize, &Lane)| {
-        let share = significant(100.0 * lane.share());
-        format!(
-            "{}: {}, {}, {share} %",
-            k + 1,
-            shortened(&lane.name(), LONGEST),
-            lane.direction
-        )
+        let rest = format!(", {}, {} %", lane.direction, significant(100.0 * lane.share()));
+        let (mut name, mut end) = (format!("{}: {}", k + 1, lane.name()), "");
+        // As much of a long name as there is room for.
+        while Drawing::text_width(&format!("{name}…{rest}")) > RIGHT - LEFT && name.pop().is_some() {
+            end = "…";
+        }
+        name + end + &rest
     };
     let mut names: Vec<String> = lanes.iter().take(MOST).enumerate().map(name).collect();
     if lanes.len() > MOST {
