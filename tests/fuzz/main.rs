@@ -315,7 +315,7 @@ fn a_hundred_thousand_inputs_are_read_or_refused() {
 }
 
 #[test]
-#[ignore = "two minutes, cargo test --release --test main fuzz:: -- --ignored"]
+#[ignore = "some ten minutes, cargo test --release --test main fuzz:: -- --ignored"]
 fn a_million_scenes_and_a_million_tables_are_read_or_refused() {
     fuzz(MANY, 2, Duration::from_secs(1));
 }
