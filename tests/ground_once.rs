@@ -38,15 +38,15 @@ fn what_takes_many_runs_takes_little_longer_than_the_ground() {
     let readings: Readings = forces.collect();
     let works: [(&str, f64, &mut dyn FnMut()); 3] = [
         // Some thirty model runs.
-        ("calibration", 1.8, &mut || {
+        ("calibration", 1.5, &mut || {
             drop(creepage::calibrate(&scene, &readings, &CalibrateOptions::default()).expect("a fit"));
         }),
         // Some twenty runs.
-        ("design", 1.8, &mut || {
+        ("design", 1.5, &mut || {
             drop(design(&scene, &options).expect("a design"));
         }),
         // A dozen ways to hold the cable, and the motion of the duct.
-        ("report", 1.8, &mut || {
+        ("report", 1.5, &mut || {
             drop(Report::new(&scene, &ReportOptions::default()).expect("a report"));
         }),
     ];

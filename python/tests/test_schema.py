@@ -59,7 +59,7 @@ def test_mistakes_that_a_schema_can_see_are_refused(validator):
             missed += 1
         else:
             refused += 1
-    # What it cannot see are keys that contradict each other, and numbers that follow from others.
+    # What it cannot see are values that contradict each other, and numbers that follow from others.
     assert refused >= 120 and missed <= 40, (refused, missed)
 
 

@@ -272,12 +272,8 @@ impl<'a> Rows<'a> {
         let one = |row: &usize| {
             let (_, series, reading, _) = &self.list[*row];
             let of_series = format!(" of series {}", series + 1);
-            format!(
-                "pass {}{} (line {})",
-                reading.pass,
-                words_if(several, &of_series),
-                reading.line
-            )
+            let (pass, of, line) = (reading.pass, words_if(several, &of_series), reading.line);
+            format!("pass {pass}{of} (line {line})")
         };
         let list: Vec<String> = outliers.iter().map(one).collect();
         let count = if outliers.len() == 1 {

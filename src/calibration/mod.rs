@@ -78,21 +78,26 @@ pub fn calibrate(
 ///
 /// As for [`calibrate()`].
 pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
+    // What a cell reads too much of any force may be as large as it likes.
     let fits_cell = options
         .unknowns
         .iter()
         .any(|unknown| unknown.quantity.is_of_cell());
-    // What a cell reads too much of any force may be as large as it likes.
-    let within = |one: &Series<'_>| match fits_cell.then(|| one.readings.clone()) {
-        Some(all) => (all, None),
-        None => overload::within_reach(one),
-    };
-    let kept: Vec<(Readings, Option<String>)> = series.iter().map(within).collect();
-    let all = series.iter().zip(&kept);
-    let series: Vec<Series<'_>> = all
+    if fits_cell {
+        return fit(series, options);
+    }
+    let kept: Vec<(Readings, Option<String>)> = series.iter().map(overload::within_reach).collect();
+    let within = series.iter().zip(&kept);
+    let within: Vec<Series<'_>> = within
         .map(|(one, (readings, _))| Series { readings, ..*one })
         .collect();
-    let series = &series[..];
+    let mut answer = fit(&within, options)?;
+    let words = kept.into_iter().filter_map(|(_, words)| words);
+    answer.warnings.splice(..0, words);
+    Ok(answer)
+}
+
+fn fit(series: &[Series<'_>], options: &CalibrateOptions<'_>) -> Result<Calibrated, Error> {
     let unknowns = problem::unknowns(series, options)?;
     let models = series
         .iter()
@@ -120,11 +125,7 @@ pub fn calibrate_jointly(series: &[Series<'_>], options: &CalibrateOptions<'_>) 
     if watch.is_stopped() {
         return Err(Error::Stopped);
     }
-    let mut answer = answer?;
     answer
-        .warnings
-        .splice(..0, kept.into_iter().filter_map(|(_, words)| words));
-    Ok(answer)
 }
 
 fn answer(problem: &Problem<'_>, limit: usize) -> Result<Calibrated, Error> {

@@ -81,11 +81,8 @@ impl Cell {
     pub fn name(&self, quantity: Quantity, series: usize) -> String {
         let of_series = format!("_{}", self.series + 1);
         let of_place = format!("_{}", self.observed.place().replace(' ', ""));
-        format!(
-            "{quantity}{}{}",
-            words_if(series > 1, &of_series),
-            words_if(self.shares, &of_place)
-        )
+        let (series, place) = (words_if(series > 1, &of_series), words_if(self.shares, &of_place));
+        format!("{quantity}{series}{place}")
     }
 }
 

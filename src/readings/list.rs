@@ -137,8 +137,7 @@ impl Readings {
     }
 
     /// Those of the readings that are to be kept.
-    #[must_use]
-    pub fn keep(&self, keep: impl Fn(&Reading) -> bool) -> Self {
+    pub(crate) fn keep(&self, keep: impl Fn(&Reading) -> bool) -> Self {
         let mut kept = self.clone();
         kept.list.retain(keep);
         kept

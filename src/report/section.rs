@@ -50,22 +50,7 @@ pub fn section(report: &Report) -> (String, String) {
     let mut signs: [Vec<f64>; 2] = Default::default();
     for (k, lane) in drawn.iter().enumerate() {
         vehicle(&mut drawing, &across, lane);
-        let sign = format!(
-            "{} {}",
-            if lane.direction == Direction::Forward {
-                "⊗"
-            } else {
-                "⊙"
-            },
-            k + 1
-        );
-        let (x, room) = (across.place(lane.middle), Drawing::text_width(&sign) + 8.0);
-        let is_free = |row: &usize| signs[*row].iter().all(|other| (other - x).abs() > room);
-        if let Some(row) = (0..2).find(is_free) {
-            signs[row].push(x);
-            let y = SURFACE - WHEEL - Drawing::LINE * (0.7 + row as f64);
-            drawing.text(&sign, (x, y), Anchor::Middle);
-        }
+        sign(&mut drawing, &across, lane, k + 1, &mut signs);
     }
     let duct = (
         across.place(scene.duct.lateral_offset),
@@ -157,15 +142,35 @@ fn vehicle(drawing: &mut Drawing, across: &Across, lane: &Lane) {
     }
 }
 
+/// Which way a lane's vehicles drive and its number, above its middle in the first row of `signs` that has room there.
+fn sign(drawing: &mut Drawing, across: &Across, lane: &Lane, number: usize, signs: &mut [Vec<f64>; 2]) {
+    let way = match lane.direction {
+        Direction::Forward => "⊗",
+        Direction::Reverse => "⊙",
+    };
+    let (sign, x) = (format!("{way} {number}"), across.place(lane.middle));
+    let room = Drawing::text_width(&sign) + 8.0;
+    let is_free = |row: &usize| signs[*row].iter().all(|other| (other - x).abs() > room);
+    if let Some(row) = (0..2).find(is_free) {
+        signs[row].push(x);
+        let y = SURFACE - WHEEL - Drawing::LINE * (0.7 + row as f64);
+        drawing.text(&sign, (x, y), Anchor::Middle);
+    }
+}
+
 /// Who drives in which lane.
 fn names(lanes: &[Lane]) -> Vec<String> {
     let name = |(k, lane): (usize, &Lane)| {
         let rest = format!(", {}, {} %", lane.direction, significant(100.0 * lane.share()));
-        let (mut name, mut end) = (format!("{}: {}", k + 1, lane.name()), "");
+        let whole = format!("{}: {}", k + 1, lane.name());
         // As much of a long name as there is room for.
-        while Drawing::text_width(&format!("{name}…{rest}")) > RIGHT - LEFT && name.pop().is_some() {
-            end = "…";
-        }
+        let mut room = RIGHT - LEFT - Drawing::text_width(&format!("…{rest}"));
+        let has_room = |letter: &char| {
+            room -= Drawing::text_width(letter.encode_utf8(&mut [0; 4]));
+            room >= 0.0
+        };
+        let name: String = whole.chars().take_while(has_room).collect();
+        let end = words_if(name.len() < whole.len(), "…");
         name + end + &rest
     };
     let mut names: Vec<String> = lanes.iter().take(MOST).enumerate().map(name).collect();

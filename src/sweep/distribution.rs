@@ -39,6 +39,9 @@ const UNIFORM: &str = "uniform(LOW, HIGH) with LOW < HIGH, in one unit";
 const TRIANGULAR: &str = "triangular(LOW, MODE, HIGH) with LOW < HIGH and MODE between them, in one unit";
 const BOUNDS: &str = "min=LOW and max=HIGH behind the parameters, in their unit, with at least a thousandth of all values between them";
 
+/// Share of a law that lies between its bounds at least: of what lies farther out the distribution function has too few digits.
+const LEAST_SHARE: f64 = 1e-3;
+
 impl Distribution {
     /// Reads `normal(MEAN, SD)`, `lognormal(MEDIAN, SIGMA)`, `uniform(LOW, HIGH)` or `triangular(LOW, MODE, HIGH)`, each also with `min=LOW`
     /// or `max=HIGH` behind its parameters; the error is what is allowed. `None` for a text that is no call.
@@ -126,9 +129,6 @@ fn distribution(name: &str, parameters: &str) -> Result<Distribution, &'static s
     }
     Ok(Distribution { law, bounds, unit })
 }
-
-/// Of what lies farther out the distribution function has too few digits.
-const LEAST_SHARE: f64 = 1e-3;
 
 #[cfg(test)]
 mod tests {

@@ -23,7 +23,7 @@ use mutate::mutated;
 const FEW: u64 = 100_000;
 const MANY: u64 = 2_500_000;
 
-/// A kind of input: its share of all, in percent, good ones, and what must hold for any.
+/// A kind of input: how many of it for every hundred that are asked for, good ones, and what must hold for any.
 struct Kind {
     name: &'static str,
     share: u64,
@@ -48,7 +48,7 @@ fn kinds() -> [Kind; 5] {
         },
         Kind {
             name: "overrides",
-            share: 10,
+            share: 20,
             good: fitting,
             check: overrides,
         },
@@ -60,13 +60,13 @@ fn kinds() -> [Kind; 5] {
         },
         Kind {
             name: "quantities",
-            share: 5,
+            share: 15,
             good: quantities(),
             check: quantity,
         },
         Kind {
             name: "axes",
-            share: 5,
+            share: 10,
             good: axes(),
             check: axis,
         },

@@ -28,6 +28,7 @@ fn what_is_not_toml_is_located_where_the_parser_gave_up() {
     for (text, line, part) in [
         ("[duct]\nlength = 1.2 m\n", 2, "in quotes"),
         ("[duct\n", 1, "unclosed"),
+        ("a = 1\na = 2\n", 2, "duplicate key"),
         ("\n\na = \"x\n", 3, "invalid basic string"),
         ("a = 1\r\nb = = 2\r\n", 2, "extra `=`"),
         (deep.as_str(), 3, "recursion"),

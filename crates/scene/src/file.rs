@@ -216,7 +216,7 @@ fn out_of_range(keys: &SceneKeys, is_bare: impl Fn(&str) -> bool) -> Result<(), 
     let mut first = None;
     let visit: &mut Visit = &mut |key, value, quantity| {
         if first.is_none() && !quantity.contains(value) {
-            let meant = Some(quantity.bare_number_meant(value)).filter(|_| is_bare(key));
+            let meant = is_bare(key).then(|| quantity.bare_number_meant(value));
             let allowed = quantity.allowed() + &meant.unwrap_or_default();
             let found = quantity.written(value);
             first = Some(Wrong::at(WrongKind::OutOfRange, key, found, allowed));

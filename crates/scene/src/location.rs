@@ -60,8 +60,11 @@ impl Location {
             .get(..self.marked.start)
             .map_or(0, |text| text.chars().count());
         // Of a very long line the part around the mark is shown.
-        let is_far = before >= LONGEST_EXCERPT * 3 / 4;
-        let skipped = before.saturating_sub(LONGEST_EXCERPT / 2) * usize::from(is_far);
+        let skipped = if before < LONGEST_EXCERPT * 3 / 4 {
+            0
+        } else {
+            before - LONGEST_EXCERPT / 2
+        };
         let (mut shown, mut marks) = (String::new(), String::new());
         for (offset, c) in self.text.char_indices().skip(skipped).take(LONGEST_EXCERPT) {
             shown.push(match c {

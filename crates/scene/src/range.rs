@@ -94,13 +94,14 @@ pub const PASSES: Quantity = whole(1.0, 1e12, "from 1 to 1000000000000");
 pub const ANY_WHOLE: Quantity = whole(0.0, MAX, "of at least 0");
 
 const fn whole(least: f64, most: f64, words: &'static str) -> Quantity {
-    let whole = true;
+    let (dimension, example, whole) = (None, "", true);
     Quantity {
+        dimension,
         least,
         most,
         words,
+        example,
         whole,
-        ..AXLE_COUNT
     }
 }
 

@@ -9,8 +9,8 @@ use crate::presets::{PresetKind, of};
 use crate::range::Quantity;
 use crate::rivals::rivals;
 
-/// The JSON Schema of a scene file, by which editors complete its keys and check their values. What holds between several keys it does not
-/// say.
+/// The JSON Schema of a scene file, by which editors complete its keys and check their values. Of what
+/// holds between several keys it says which of them exclude each other.
 pub fn schema() -> Value {
     let Value::Object(mut root) = table(&SceneKeys::keys(), "") else {
         return Value::Null;
@@ -118,15 +118,11 @@ fn unit(symbol: &str) -> String {
         '%' => "[%％]".to_owned(),
         letter => letter.to_string(),
     };
-    match symbol {
-        "deg" => "deg|°".to_owned(),
-        _ => symbol
-            .chars()
-            .enumerate()
-            .map(letter)
-            .collect::<Vec<_>>()
-            .join("\\s*"),
+    if symbol == "deg" {
+        return "deg|°".to_owned();
     }
+    let letters = symbol.chars().enumerate().map(letter);
+    letters.collect::<Vec<_>>().join("\\s*")
 }
 
 fn presets(section: &str) -> Vec<&'static str> {
