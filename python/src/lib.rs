@@ -40,7 +40,8 @@ fn json(answer: &impl serde::Serialize) -> Result<String, Failure> {
 
 /// What looks like a slip in the scene, before the warnings of an answer, as the command line tells them.
 fn with_slips(file: &SceneFile, warnings: &mut Vec<String>) {
-    warnings.splice(0..0, file.unit_slips().iter().map(ToString::to_string));
+    let slips = file.slips().into_iter();
+    warnings.splice(0..0, slips.map(|(location, words)| format!("{location}: {words}")));
 }
 
 /// The JSON Schema of a scene, as JSON.

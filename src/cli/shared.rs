@@ -226,11 +226,12 @@ fn key_of(warning: &str) -> Option<&str> {
 
 /// Warns of numbers that look like slips.
 pub fn warn_of_slips(file: &SceneFile) -> Vec<String> {
-    let slips = file.unit_slips();
-    for slip in &slips {
-        terminal::warn(format_args!("{slip}{}", slip.location.excerpt()));
-    }
-    slips.iter().map(ToString::to_string).collect()
+    let warned = file.slips().into_iter().map(|(location, words)| {
+        let warning = format!("{location}: {words}");
+        terminal::warn(format_args!("{warning}{}", location.excerpt()));
+        warning
+    });
+    warned.collect()
 }
 
 impl Force {

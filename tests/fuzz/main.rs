@@ -175,7 +175,7 @@ const DIMENSIONS: [Dimension; 10] = [
 
 fn scene(text: &str) -> bool {
     let read = SceneFile::from_toml("fuzz.toml", text).and_then(|file| {
-        file.unit_slips();
+        file.slips();
         file.scene()
     });
     match &read {

@@ -121,7 +121,7 @@ impl<K: Kind, T: Keys, V> Kind for Either<K, T, V> {
     type Value = V;
 
     fn read(&self, value: &Value) -> Result<V, SceneError> {
-        if value.is_table() {
+        if let Content::Table(_) = value.node.content {
             return section::<T>().read(value).map(self.of_table);
         }
         self.plain.read(value).map(self.of_plain).map_err(|mut error| {
@@ -171,12 +171,12 @@ impl Kind for PointKind {
             let allowed = "a point of the day: [\"15 h\", \"20 K\"]";
             return Err(value.wrong(WrongKind::Value, value.written(), allowed));
         };
-        Ok((time.quantity(TIME_OF_DAY)?, kelvin.quantity(TEMPERATURE)?))
+        Ok((TIME_OF_DAY.read(time)?, TEMPERATURE.read(kelvin)?))
     }
 
     fn write(&self, (time, kelvin): &(f64, f64)) -> Option<Content> {
         let items = [TIME_OF_DAY.write(time)?, TEMPERATURE.write(kelvin)?];
-        Some(Content::Array(items.map(Node::of_program).into()))
+        Some(Content::List(items.map(Node::from).into()))
     }
 
     fn each(&self, (time, kelvin): &(f64, f64), path: &str, visit: &mut Visit) {

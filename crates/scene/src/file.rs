@@ -12,10 +12,9 @@ use crate::key::{Kind, Visit};
 use crate::keys::{CableKeys, FrictionKeys, GroundKeys, SceneKeys, TrafficKeys, VehicleKeys};
 use crate::kind::section;
 use crate::location::Location;
-use crate::slips::{UnitSlip, unit_slips};
 use crate::units::{Dimension, Unit};
 use crate::value::Value;
-use crate::{histogram, names, overrides, preset, rivals, rules, traffic, written};
+use crate::{histogram, names, overrides, preset, rivals, rules, traffic, unusual};
 
 /// A scene file larger than this \[bytes\] is not a scene file.
 const LARGEST_FILE: u64 = 16 << 20;
@@ -120,7 +119,7 @@ impl SceneFile {
             error
         })?;
         let out_of_range = out_of_range(&keys, |key| match document.find(key) {
-            (node, true) => matches!(node.content, Content::Number { .. }),
+            (node, true) => node.content.as_number().is_some(),
             _ => false,
         });
         let scene = out_of_range.and_then(|()| Scene::of(&self.name, &keys));
@@ -131,12 +130,13 @@ impl SceneFile {
     /// Where the value of `key` stands, such as `vehicles.0.speed`, or else the section that would hold it.
     pub fn locate(&self, key: &str) -> Option<Location> {
         let (node, _) = self.document.find(key);
-        (node.place != self.document.root.place).then(|| self.document.locate(&node.place))
+        (node.span != self.document.root.span).then(|| self.document.locate(&node.span))
     }
 
-    /// Numbers without a unit that someone may have meant in another one, and masses that stand for weights.
-    pub fn unit_slips(&self) -> Vec<UnitSlip> {
-        unit_slips(&self.document)
+    /// Warnings of numbers without a unit that someone may have meant in another one, and of masses that stand for weights; each
+    /// with its place.
+    pub fn slips(&self) -> Vec<(Location, String)> {
+        unusual::slips(&self.document)
     }
 
     /// Whether the file, an override or a preset gives `key` a value.
@@ -160,11 +160,10 @@ impl SceneFile {
             found.push(Typed {
                 key: key.to_owned(),
                 value: match &node.content {
-                    Content::Number { value, .. } => TypedValue::Number(*value),
                     Content::Text(text) => TypedValue::Text(text.clone()),
-                    _ => TypedValue::Text(self.document.written(&node.place)),
+                    _ => TypedValue::Text(self.document.written(&node.span)),
                 },
-                source: self.document.source(&node.place).to_owned(),
+                source: self.document.source(&node.span).name.clone(),
             });
         });
         found
@@ -180,7 +179,7 @@ impl SceneFile {
         };
         dimension
             .unit_of(text)
-            .filter(|_| !self.document.is_of_preset(&node.place))
+            .filter(|_| !self.document.source(&node.span).is_preset)
     }
 }
 
@@ -283,7 +282,7 @@ impl Scene {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn to_toml(&self) -> String {
-        written::document(&self.keys().entries())
+        toml::to_string(&section().write(&self.keys())).unwrap_or_default()
     }
 
     /// The scene with these keys in the file `name`.

@@ -127,10 +127,10 @@ impl<'d> Table<'d> {
         };
         if let Some(entry) = entries.iter().find(|entry| !is_known(entry)) {
             let key = joined(&value.path, &entry.key);
-            let place = &entry.key_place;
+            let known = names.join(", ");
             return Err(value
                 .document
-                .wrong(WrongKind::UnknownKey, place, &key, "", names.join(", ")));
+                .wrong(WrongKind::UnknownKey, &entry.span, &key, "", known));
         }
         Ok(Self {
             value: value.clone(),
@@ -148,7 +148,7 @@ impl<'d> Table<'d> {
             // The section that lacks it is shown.
             let Value { document, path, node } = &self.value;
             let (key, allowed) = (joined(path, key), kind.form().allowed());
-            document.wrong(WrongKind::MissingKey, &node.place, &key, "", allowed)
+            document.wrong(WrongKind::MissingKey, &node.span, &key, "", allowed)
         })
     }
 }

@@ -4,9 +4,8 @@ use cable_dem::Restraint;
 use ground_field::{Direction, Modulus};
 
 use crate::data::{Arrangement, Duct, Ends, GroundModel, Heat, Solver};
-use crate::document::Entry;
 use crate::either::{HISTOGRAM, HistogramKeys, LAYER_MODULUS};
-use crate::key::{Keys, keys};
+use crate::key::keys;
 use crate::kind::{List, Optional, Or, Text, Whole, Word, section};
 use crate::range::{
     ANY_WHOLE, AXIAL_STIFFNESS, CLAMP, COEFFICIENT, CONDUCTOR_AREA, CONDUCTOR_MODULUS, CONTACT_RADIUS,
@@ -201,13 +200,5 @@ keys! {
         seed: Option<u64> = Optional(Whole(ANY_WHOLE)), "1";
         /// Vehicles in this order, over and over; shares do not count.
         sequence: Option<Vec<String>> = Optional(List(Text("a vehicle's name"), 1, NAMES)), "none";
-    }
-}
-
-impl SceneKeys {
-    /// The keys as entries of a document.
-    pub fn entries(&self) -> Vec<Entry> {
-        let entry = |(key, content)| Entry::of_program(key, content);
-        self.write().into_iter().map(entry).collect()
     }
 }

@@ -1,8 +1,11 @@
 //! What may stand at a key: a number with a unit, a text, a word, a list, a table.
 
-use crate::document::{Content, Entry, Node, joined, number};
-use crate::error::{SceneError, WrongKind};
+use std::marker::PhantomData;
+
+use crate::document::{Content, Entry, Node, joined};
+use crate::error::{SceneError, WrongKind, did_you_mean};
 use crate::key::{Form, Keys, Kind, Table, Visit};
+use crate::quantity::{QuantityError, leading_number, with_point, without_thousands};
 use crate::range::Quantity;
 use crate::units::Dimension;
 use crate::value::Value;
@@ -11,13 +14,40 @@ impl Kind for Quantity {
     type Value = f64;
 
     fn read(&self, value: &Value) -> Result<f64, SceneError> {
-        value.quantity(*self)
+        let allowed = self.allowed();
+        if let Some(number) = value.node.content.as_number() {
+            return Ok(number);
+        }
+        let text = value.text(&allowed)?;
+        let Some(dimension) = self.dimension else {
+            let meant = bare(text).filter(|&number| self.contains(number));
+            return Err(value.wrong_type(before(meant, &allowed)));
+        };
+        dimension.parse(text).map_err(|error| {
+            let (problem, meant) = match error {
+                QuantityError::NotANumber => return value.wrong_type(allowed),
+                QuantityError::Comma(point) => {
+                    let thousands = without_thousands(text)
+                        .map(|whole| format!(", or \"{whole}\" if the comma separates thousands"));
+                    let thousands = thousands.unwrap_or_default();
+                    return value.wrong_type(format!("a decimal point, \"{point}\"{thousands}: {allowed}"));
+                }
+                QuantityError::MissingUnit => ("missing unit".to_owned(), String::new()),
+                QuantityError::UnknownUnit { unit, nearest } => {
+                    (format!("unknown unit `{unit}`"), did_you_mean(nearest))
+                }
+                QuantityError::WrongDimension { dimension, .. } => {
+                    ("wrong dimension".to_owned(), format!(", {}", dimension.noun()))
+                }
+            };
+            value.wrong(WrongKind::Unit(problem), value.written() + &meant, allowed)
+        })
     }
 
     fn write(&self, value: &f64) -> Option<Content> {
         Some(match self.dimension.and_then(Dimension::si) {
             Some(unit) => Content::Text(format!("{value:?} {unit}")),
-            None => number(*value),
+            None => Content::number(*value),
         })
     }
 
@@ -30,6 +60,19 @@ impl Kind for Quantity {
     }
 }
 
+/// What is allowed, behind the number that was probably meant.
+fn before(meant: Option<impl ToString>, allowed: &str) -> String {
+    meant.map_or_else(String::new, |meant| meant.to_string() + ": ") + allowed
+}
+
+/// A number without a dimension that was written as a percentage, with a comma or with a word behind it.
+fn bare(text: &str) -> Option<f64> {
+    let point = with_point(text).unwrap_or_else(|| text.to_owned());
+    let percentage = Dimension::Ratio.parse(&point).ok();
+    let number = percentage.or_else(|| leading_number(&point).map(|(number, _)| number));
+    number.filter(|number: &f64| number.is_finite())
+}
+
 /// A whole number.
 pub struct Whole(pub Quantity);
 
@@ -37,14 +80,22 @@ impl Kind for Whole {
     type Value = u64;
 
     fn read(&self, value: &Value) -> Result<u64, SceneError> {
-        value.integer(self.0)
+        let allowed = self.0.allowed();
+        let fits = |whole: &u64| self.0.contains(*whole as f64);
+        match &value.node.content {
+            Content::Whole(whole) if fits(whole) => Ok(*whole),
+            Content::Whole(_) | Content::Number(_) => {
+                Err(value.wrong(WrongKind::OutOfRange, value.written(), allowed))
+            }
+            _ => {
+                let meant = whole(value.text(&allowed)?).filter(fits);
+                Err(value.wrong_type(before(meant, &allowed)))
+            }
+        }
     }
 
     fn write(&self, value: &u64) -> Option<Content> {
-        Some(Content::Number {
-            value: *value as f64,
-            integer: Some(*value),
-        })
+        Some(Content::Whole(*value))
     }
 
     fn each(&self, value: &u64, path: &str, visit: &mut Visit) {
@@ -56,6 +107,15 @@ impl Kind for Whole {
     }
 }
 
+/// A whole number that was written with marks between its thousands.
+fn whole(text: &str) -> Option<u64> {
+    let marks = |c: char| c.is_whitespace() || matches!(c, ',' | '.' | '\'' | '’' | '_');
+    let groups: Vec<&str> = text.trim().split(marks).collect();
+    let (first, others) = groups.split_first()?;
+    let thousands = (1..=3).contains(&first.len()) && others.iter().all(|group| group.len() == 3);
+    (thousands || others.is_empty()).then(|| groups.concat().parse().ok())?
+}
+
 /// A text, and what is allowed in words.
 pub struct Text(pub &'static str);
 
@@ -63,7 +123,7 @@ impl Kind for Text {
     type Value = String;
 
     fn read(&self, value: &Value) -> Result<String, SceneError> {
-        value.text(self.0)
+        value.text(self.0).map(str::to_owned)
     }
 
     fn write(&self, value: &String) -> Option<Content> {
@@ -96,13 +156,13 @@ impl<T: Copy + PartialEq> Kind for Word<T> {
     type Value = T;
 
     fn read(&self, value: &Value) -> Result<T, SceneError> {
-        match (value.text(""), self.gone) {
-            (Ok(text), Some((word, reason))) if text == word => {
-                let allowed = format!("{}; {reason}", self.form().allowed());
-                Err(value.wrong(WrongKind::Value, value.written(), allowed))
-            }
-            _ => value.word(self.words, &self.form().allowed()),
+        let mut allowed = self.form().allowed();
+        if let Some((word, reason)) = self.gone
+            && value.text("").is_ok_and(|text| text == word)
+        {
+            allowed = format!("{allowed}; {reason}");
         }
+        value.word(self.words, &allowed)
     }
 
     fn write(&self, value: &T) -> Option<Content> {
@@ -187,9 +247,9 @@ impl<K: Kind> Kind for List<K> {
     }
 
     fn write(&self, value: &Self::Value) -> Option<Content> {
-        let items = value.iter().filter_map(|item| self.0.write(item));
-        let items: Vec<Node> = items.map(Node::of_program).collect();
-        (!items.is_empty()).then_some(Content::Array(items))
+        let items = value.iter().filter_map(|item| self.0.write(item).map(Node::from));
+        let items: Vec<Node> = items.collect();
+        (!items.is_empty()).then_some(Content::List(items))
     }
 
     fn each(&self, value: &Self::Value, path: &str, visit: &mut Visit) {
@@ -208,11 +268,11 @@ impl<K: Kind> Kind for List<K> {
 }
 
 /// A table with the keys of `T`.
-pub struct Section<T>(std::marker::PhantomData<T>);
+pub struct Section<T>(PhantomData<T>);
 
 /// A table with the keys of `T`.
 pub const fn section<T: Keys>() -> Section<T> {
-    Section(std::marker::PhantomData)
+    Section(PhantomData)
 }
 
 impl<T: Keys> Kind for Section<T> {
@@ -223,7 +283,11 @@ impl<T: Keys> Kind for Section<T> {
     }
 
     fn write(&self, value: &T) -> Option<Content> {
-        let entry = |(key, content)| Entry::of_program(key, content);
+        let entry = |(key, content): (&str, Content)| Entry {
+            key: key.to_owned(),
+            span: 0..0,
+            value: content.into(),
+        };
         Some(Content::Table(value.write().into_iter().map(entry).collect()))
     }
 

@@ -26,12 +26,10 @@ mod rules;
 #[cfg(feature = "schema")]
 mod schema;
 mod shown;
-mod slips;
 mod traffic;
 mod units;
 mod unusual;
 mod value;
-mod written;
 
 pub use cable_end::CableEnd;
 pub use data::{
@@ -48,6 +46,5 @@ pub use range::{PER_DAY, Quantity, YEARS};
 #[cfg(feature = "schema")]
 pub use schema::schema;
 pub use shown::{four_digits, quoted, shortened};
-pub use slips::UnitSlip;
 pub use units::{Dimension, Unit};
 pub use unusual::unusual;

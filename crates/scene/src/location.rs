@@ -27,24 +27,18 @@ pub struct Location {
 impl Location {
     /// The place of the bytes `span` in `text`. Every span is fine: what lies outside the text is cut off.
     pub(crate) fn new(file: &str, text: &str, span: Range<usize>, numbered: bool) -> Self {
-        let start = span.start.min(text.len());
-        let line_start = line_start(text, start);
-        let line = text[line_start..].lines().next().unwrap_or_default();
-        let line = line.trim_end_matches('\r');
-        let mut start = (start - line_start).min(line.len());
-        while !line.is_char_boundary(start) {
-            start -= 1;
-        }
+        let start = (0..=span.start.min(text.len()))
+            .rev()
+            .find(|&at| text.is_char_boundary(at));
+        let start = start.unwrap_or(0);
+        let (begin, line) = line_of(text, start);
+        let start = (start - begin).min(line.len());
         // At least one character is marked, or the end of the line.
         let first = line[start..].chars().next().map_or(0, char::len_utf8);
-        let end = span
-            .end
-            .saturating_sub(line_start)
-            .clamp(start + first, line.len());
-        let number = 1 + text[..line_start].matches('\n').count();
+        let end = span.end.saturating_sub(begin).clamp(start + first, line.len());
         Self {
             file: file.to_owned(),
-            line: numbered.then_some(number),
+            line: numbered.then(|| 1 + text[..begin].matches('\n').count()),
             text: line.to_owned(),
             marked: start..end,
         }
@@ -55,11 +49,12 @@ impl Location {
         if self.text.trim().is_empty() {
             return String::new();
         }
+        // Of a very long line the part around the mark is shown.
         let before = self
             .text
-            .get(..self.marked.start)
-            .map_or(0, |text| text.chars().count());
-        // Of a very long line the part around the mark is shown.
+            .char_indices()
+            .take_while(|(offset, _)| *offset < self.marked.start)
+            .count();
         let skipped = if before < LONGEST_EXCERPT * 3 / 4 {
             0
         } else {
@@ -73,7 +68,9 @@ impl Location {
                 c => c,
             });
             let mark = if self.marked.contains(&offset) { "^" } else { " " };
-            marks += &mark.repeat(columns(c));
+            // Chinese, Japanese and Korean characters take two columns of a terminal.
+            let wide = matches!(c, '\u{1100}'..='\u{115f}' | '\u{2e80}'..='\u{d7a3}' | '\u{f900}'..='\u{ff60}' | '\u{ffe0}'..='\u{ffe6}');
+            marks += &mark.repeat(1 + usize::from(wide));
         }
         if self.marked.start == self.text.len() {
             marks.push('^');
@@ -90,10 +87,17 @@ impl Location {
     }
 }
 
-/// Where the line begins that holds the byte at `at`.
-pub(crate) fn line_start(text: &str, at: usize) -> usize {
-    let bytes = &text.as_bytes()[..at.min(text.len())];
-    bytes.iter().rposition(|&b| b == b'\n').map_or(0, |end| end + 1)
+/// Where the line with the byte at `at` begins, and the line.
+pub(crate) fn line_of(text: &str, at: usize) -> (usize, &str) {
+    let begin = text[..at].rfind('\n').map_or(0, |end| end + 1);
+    (
+        begin,
+        text[begin..]
+            .lines()
+            .next()
+            .unwrap_or_default()
+            .trim_end_matches('\r'),
+    )
 }
 
 impl fmt::Display for Location {
@@ -104,37 +108,31 @@ impl fmt::Display for Location {
     }
 }
 
-/// Columns a character takes on a terminal: Chinese, Japanese and Korean characters take two.
-fn columns(c: char) -> usize {
-    const WIDE: [std::ops::RangeInclusive<char>; 4] = [
-        '\u{1100}'..='\u{115f}',
-        '\u{2e80}'..='\u{d7a3}',
-        '\u{f900}'..='\u{ff60}',
-        '\u{ffe0}'..='\u{ffe6}',
-    ];
-    1 + usize::from(WIDE.iter().any(|wide| wide.contains(&c)))
-}
-
-/// Lists of a scene, and what one item of each is called.
-const ITEMS: [(&str, &str); 4] = [
-    ("layers", "layer"),
-    ("restraints", "clamp"),
-    ("vehicles", "vehicle"),
-    ("wheels", "wheel"),
-];
-
 /// What stands behind a key with numbers from 0, counted from 1 as people do: ` (vehicle 1, wheel 2)` behind `vehicles.0.wheels.1.load`;
 /// nothing behind other keys.
 pub(crate) fn counted(key: &str) -> String {
-    let parts: Vec<&str> = key.split('.').collect();
-    let items = parts.windows(2).filter_map(|pair| {
-        let (_, item) = ITEMS.iter().find(|(list, _)| *list == pair[0])?;
-        let index: usize = pair[1].parse().ok()?;
-        Some(format!("{item} {}", index.checked_add(1)?))
-    });
-    match items.collect::<Vec<_>>().join(", ") {
-        items if items.is_empty() => items,
-        items => format!(" ({items})"),
+    let mut items = Vec::new();
+    let mut list = "";
+    for part in key.split('.') {
+        let item = match list {
+            "layers" => "layer",
+            "restraints" => "clamp",
+            "vehicles" => "vehicle",
+            "wheels" => "wheel",
+            _ => "",
+        };
+        if let (false, Some(number)) = (
+            item.is_empty(),
+            part.parse().ok().and_then(|i: usize| i.checked_add(1)),
+        ) {
+            items.push(format!("{item} {number}"));
+        }
+        list = part;
+    }
+    if items.is_empty() {
+        String::new()
+    } else {
+        format!(" ({})", items.join(", "))
     }
 }
 

@@ -52,10 +52,6 @@ pub fn rivals(table: &str) -> impl Iterator<Item = (&'static str, &'static str)>
     own.map(|(_, one, _, other, _)| (*one, *other))
 }
 
-fn value_at<'e>(entries: &'e [Entry], key: &str) -> Option<&'e Node> {
-    Some(&entries.iter().find(|entry| entry.key == key)?.value)
-}
-
 /// Whether a rule holds for a key with this value; nothing if it is left out.
 fn holds((_, _, values, ..): &Rule, value: Option<&Node>) -> bool {
     match value.map(|value| &value.content) {
@@ -77,74 +73,45 @@ pub fn gives_way(path: &str, present: &Entry, set: &Entry) -> bool {
     })
 }
 
-/// Drops what has no meaning beside the value that an override set at `key`.
-pub fn give_way(document: &mut Document, key: &str) {
-    let (path, name) = key.rsplit_once('.').unwrap_or(("", key));
-    // The table of axles stands in place of `[[vehicles]]`.
-    match key {
-        "vehicles" => remove(&mut document.root, "traffic", "histogram"),
-        "traffic.histogram" => remove(&mut document.root, "", "vehicles"),
-        _ => {}
-    }
-    if let Some(Content::Table(entries)) = document.find_mut(path).map(|node| &mut node.content)
-        && let Some(set) = entries.iter().find(|entry| entry.key == name).cloned()
-    {
-        entries.retain(|present| !gives_way(path, present, &set));
-    }
-}
-
-fn remove(root: &mut Node, section: &str, key: &str) {
-    if let Content::Table(entries) = &mut root.content {
-        if section.is_empty() {
-            entries.retain(|entry| entry.key != key);
-        } else if let Some(entry) = entries.iter_mut().find(|entry| entry.key == section) {
-            remove(&mut entry.value, "", key);
-        }
-    }
-}
-
-/// The first two keys of the document that exclude each other.
+/// The first two keys at or below `path` that exclude each other.
 pub fn contradiction(document: &Document, path: &str, node: &Node) -> Result<(), SceneError> {
+    let table = without_numbers(path);
+    let value_at = |key: &str| match &node.content {
+        Content::Table(entries) => Some(&entries.iter().find(|entry| entry.key == key)?.value),
+        _ => None,
+    };
+    for rule @ (_, key, _, other, allowed) in RULES.iter().filter(|rule| rule.0 == table) {
+        let (value, Some(rival)) = (value_at(key), value_at(other)) else {
+            continue;
+        };
+        // The axles of a histogram come at random without a word, a sequence is an order.
+        let random = *other == "seed" && value.is_none() && value_at("histogram").is_some();
+        if !holds(rule, value) || random {
+            continue;
+        }
+        let written = document.written(&rival.span);
+        let found = match value {
+            Some(_) if *allowed == ONE => format!("both `{key}` and `{other}`"),
+            Some(value) => format!("{written} with `{key}` = {}", document.written(&value.span)),
+            None => format!("{written} with no `{key}`"),
+        };
+        let key = joined(path, other);
+        return Err(document.wrong(WrongKind::Value, &rival.span, &key, found, *allowed));
+    }
     match &node.content {
-        Content::Array(items) => {
-            for (index, item) in items.iter().enumerate() {
-                contradiction(document, &joined(path, &index.to_string()), item)?;
-            }
-        }
-        Content::Table(entries) => {
-            let table = without_numbers(path);
-            for rule in RULES.iter().filter(|rule| rule.0 == table) {
-                let (_, key, _, other, allowed) = rule;
-                let (value, Some(node)) = (value_at(entries, key), value_at(entries, other)) else {
-                    continue;
-                };
-                // The axles of a histogram come at random without a word, a sequence is an order.
-                let random = *other == "seed" && value.is_none() && value_at(entries, "histogram").is_some();
-                if !holds(rule, value) || random {
-                    continue;
-                }
-                let (written, found) = (
-                    document.written(&node.place),
-                    format!("both `{key}` and `{other}`"),
-                );
-                let found = match value {
-                    Some(_) if *allowed == ONE => found,
-                    Some(value) => format!("{written} with `{key}` = {}", document.written(&value.place)),
-                    None => format!("{written} with no `{key}`"),
-                };
-                let key = joined(path, other);
-                return Err(document.wrong(WrongKind::Value, &node.place, &key, found, *allowed));
-            }
-            for entry in entries {
-                contradiction(document, &joined(path, &entry.key), &entry.value)?;
-            }
-            let key = "traffic.histogram";
-            if let ("", (node, true), Some(_)) = (path, document.find(key), value_at(entries, "vehicles")) {
-                let found = "both `traffic.histogram` and [[vehicles]]";
-                return Err(document.wrong(WrongKind::Value, &node.place, key, found, ONE));
-            }
-        }
+        Content::List(items) => items
+            .iter()
+            .enumerate()
+            .try_for_each(|(index, item)| contradiction(document, &joined(path, &index.to_string()), item))?,
+        Content::Table(entries) => entries
+            .iter()
+            .try_for_each(|entry| contradiction(document, &joined(path, &entry.key), &entry.value))?,
         _ => {}
+    }
+    let key = "traffic.histogram";
+    if let ("", (node, true), Some(_)) = (path, document.find(key), value_at("vehicles")) {
+        let found = "both `traffic.histogram` and [[vehicles]]";
+        return Err(document.wrong(WrongKind::Value, &node.span, key, found, ONE));
     }
     Ok(())
 }

@@ -1,16 +1,16 @@
-//! What is valid and yet hardly meant: values that no ground, cable or road has.
+//! What is valid and yet hardly meant: values that no ground, cable or road has, and numbers that were meant in another unit.
 //!
-//! A range refuses what the models cannot represent. Between it and what is built lie slips of a unit or a digit, which are
-//! warnings.
+//! A range refuses what the models cannot represent. Between it and what is built lie slips of a unit or a digit, which are warnings.
 
 use cable_dem::FrictionLaw;
 use ground_field::{Base, Modulus};
 
 use crate::arrangement::may_jam;
 use crate::data::{PeakScaling, Scene, TrafficVehicle};
-use crate::document::without_numbers;
+use crate::document::{Content, Document, without_numbers};
 use crate::key::Keys;
-use crate::location::counted;
+use crate::location::{Location, counted};
+use crate::range::WEIGHT;
 use crate::shown::four_digits;
 
 /// A key, the usual range of its values \[SI\], the unit in which they are shown with its size, and what follows.
@@ -40,12 +40,11 @@ const USUAL: &[Usual] = &[
 fn softer_than_peat(modulus: f64) -> String {
     // A bare modulus up to this [Pa] may be one in MPa.
     const MEGAPASCALS: f64 = 1e5;
-    let meant = format!(", softer than peat; a bare number is in Pa: did you mean \"{modulus} MPa\"?");
-    if modulus <= MEGAPASCALS {
-        meant
-    } else {
-        ", softer than peat".into()
-    }
+    let meant = format!("; a bare number is in Pa: did you mean \"{modulus} MPa\"?");
+    format!(
+        ", softer than peat{}",
+        if modulus <= MEGAPASCALS { &meant } else { "" }
+    )
 }
 
 fn slow(shape_factor: f64) -> String {
@@ -76,8 +75,8 @@ pub fn unusual(scene: &Scene) -> Vec<String> {
             let is_usual = (*least..=*most).contains(&value) || forgets && name.ends_with("factor");
             if !is_usual && !again {
                 named.push(key_of);
-                let value_in_unit = four_digits(value / size);
-                warnings.push(of(key, &format!("is {value_in_unit}{unit}{}", words(value))));
+                let in_unit = four_digits(value / size);
+                warnings.push(of(key, &format!(" is {in_unit}{unit}{}", words(value))));
             }
         }
     });
@@ -89,7 +88,59 @@ pub fn unusual(scene: &Scene) -> Vec<String> {
 
 /// A warning of a key, with the items that it names counted from 1.
 fn of(key: &str, words: &str) -> String {
-    format!("`{key}`{} {words}", counted(key))
+    format!("`{key}`{}{words}", counted(key))
+}
+
+/// A warning for every number without a unit that was probably meant in another one than SI, `load = 20` in tonnes or `speed = 40` in km/h,
+/// for decimals that may be thousands, `passes = 292.000`, and for masses that stand for weights; each with its place.
+pub fn slips(document: &Document) -> Vec<(Location, String)> {
+    let mut slips = Vec::new();
+    document.root.each_value("", &mut |key, node| {
+        let name = key.rsplit('.').next().unwrap_or(key);
+        let words = slip(name, &node.content, &document.written(&node.span));
+        slips.extend(words.map(|words| (document.locate(&node.span), of(key, &format!(": {words}")))));
+    });
+    slips
+}
+
+fn slip(key: &str, content: &Content, found: &str) -> Option<String> {
+    // Lighter than any vehicle [N], faster than any truck [m/s], and a weight per length that may be a mass [N/m].
+    const LIGHT: f64 = 1e3;
+    const FAST: f64 = 130.0 / 3.6;
+    const LIGHT_CABLE: f64 = 20.0;
+    if let (Content::Text(text), "weight") = (content, key)
+        && text.to_lowercase().replace("kgf", "").contains("kg")
+    {
+        let weight = four_digits(WEIGHT.dimension?.parse(text).ok()?);
+        return Some(format!(
+            "{found} is a mass per length: times g it weighs {weight} N/m"
+        ));
+    }
+    let value = content.as_number()?;
+    let thousands = || {
+        found
+            .split_once('.')
+            .is_some_and(|(_, digits)| digits.len() == 3 && digits.parse::<u16>().is_ok())
+    };
+    let (value, meant) = match key {
+        "load" if value > 0.0 && value < LIGHT => (
+            format!("{value} N, less than 1 kN"),
+            format!("\"{found} tf\" or \"{found} kN\""),
+        ),
+        "speed" if value > FAST => (
+            format!("{value} m/s, {:.0} km/h", 3.6 * value),
+            format!("\"{found} km/h\""),
+        ),
+        "weight" if value < LIGHT_CABLE => (format!("{value} N/m"), format!("\"{found} kg/m\"")),
+        "passes" if thousands() => (
+            format!("{value} passes, since decimals follow a point"),
+            found.replace('.', ""),
+        ),
+        _ => return None,
+    };
+    Some(format!(
+        "{found} without a unit is {value}: did you mean {meant}?"
+    ))
 }
 
 /// A duct that lies deeper than it is long.
@@ -104,20 +155,21 @@ fn exchanged(scene: &Scene) -> Option<String> {
 /// A vehicle too heavy for any road.
 fn too_heavy(scene: &Scene) -> Option<String> {
     const HEAVIEST: f64 = 5e6;
-    let is_heavy = |traffic: &TrafficVehicle| traffic.vehicle.weight() > HEAVIEST;
-    let index = scene.vehicles.iter().position(is_heavy)?;
-    let tonnes = scene.vehicles[index].vehicle.weight() / 9806.65;
-    let words = format!("weighs {tonnes:.0} t, more than any vehicle on a road");
-    Some(of(&format!("vehicles.{index}"), &words))
+    let weights = scene.vehicles.iter().map(|traffic| traffic.vehicle.weight());
+    let (index, weight) = weights.enumerate().find(|(_, weight)| *weight > HEAVIEST)?;
+    let tonnes = weight / 9806.65;
+    Some(of(
+        &format!("vehicles.{index}"),
+        &format!(" weighs {tonnes:.0} t, more than any vehicle on a road"),
+    ))
 }
 
 /// Traffic for longer than any road is old.
 fn too_long(scene: &Scene) -> Option<String> {
     const OLDEST: f64 = 200.0;
     let years = scene.traffic.years_after(scene.traffic.passes)?;
-    (years > OLDEST).then(|| {
-        format!("`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date")
-    })
+    let words = format!("`traffic` lasts {years:.0} years: `traffic.years` is a number of years, not a date");
+    (years > OLDEST).then_some(words)
 }
 
 /// A lane so far away that its vehicles hardly move the duct.
@@ -139,31 +191,31 @@ fn far(scene: &Scene) -> Option<String> {
 
 /// A shallow duct between the wheels of a vehicle: beside a load the ground near the surface moves toward it, not away.
 fn between_tracks(scene: &Scene) -> Option<String> {
+    let depth = scene.duct.depth;
     let traffic = scene.vehicles.iter().find(|traffic| {
-        let wheels = traffic.vehicle.wheels().iter();
-        let offsets: Vec<f64> = wheels.map(|wheel| wheel.y - scene.offset_from(traffic)).collect();
-        let both_sides = offsets.iter().any(|y| *y > 0.0) && offsets.iter().any(|y| *y < 0.0);
-        both_sides && offsets.iter().all(|y| scene.duct.depth < y.abs())
+        let offset = scene.offset_from(traffic);
+        let wheels = || traffic.vehicle.wheels().iter().map(|wheel| wheel.y - offset);
+        wheels().any(|y| y > depth) && wheels().any(|y| y < -depth) && wheels().all(|y| y.abs() > depth)
     })?;
     Some(format!(
         "`duct.depth` is {} m between the wheels of \"{}\", which are farther to either side: so shallow, the ground moves toward a wheel \
          and not away from it, and the cable may creep backward",
-        four_digits(scene.duct.depth),
+        four_digits(depth),
         traffic.vehicle.name()
     ))
 }
 
 /// Lanes move a duct by different amounts, but a longitudinal peak is that of each vehicle.
 fn lanes_scaled_alike(scene: &Scene) -> Option<String> {
-    let Some(PeakScaling::Longitudinal(_)) = scene.ground.scaling else {
-        return None;
-    };
-    let differs = |traffic: &TrafficVehicle| traffic.lateral_offset != scene.vehicles[0].lateral_offset;
-    scene.vehicles.iter().any(differs).then(|| {
-        "`ground.longitudinal_peak` is the peak under every vehicle, in whatever lane: one in a lane farther away moves the duct as far; \
-         `ground.vertical_peak` keeps the lanes apart"
-            .to_owned()
-    })
+    let first = scene.vehicles.first()?.lateral_offset;
+    let differ = scene
+        .vehicles
+        .iter()
+        .any(|traffic| traffic.lateral_offset != first);
+    let scaled = matches!(scene.ground.scaling, Some(PeakScaling::Longitudinal(_)));
+    let words = "`ground.longitudinal_peak` is the peak under every vehicle, in whatever lane: one in a lane farther away moves the duct \
+                 as far; `ground.vertical_peak` keeps the lanes apart";
+    (scaled && differ).then(|| words.to_owned())
 }
 
 /// Rock does not move, and so nothing in it does.
@@ -197,18 +249,17 @@ fn contrast(scene: &Scene) -> Option<String> {
         Base::HalfSpace(base) => (base.young_modulus(), layers.len()),
         Base::Rigid => (above, layers.len() - 1),
     };
+    let key = |index: usize| format!("ground.layers.{index}.young_modulus");
     if above > CONTRAST * base {
-        let times = above / base;
-        let key = format!("ground.layers.{index}.young_modulus");
-        let words = format!("is {times:.0} times less than that of the layer on it");
-        return Some(of(&key, &words));
+        let words = format!(" is {:.0} times less than that of the layer on it", above / base);
+        return Some(of(&key(index), &words));
     }
     let (times, last) = (base / top, four_digits(base / 1e6));
     (first.thickness() <= PAVEMENT && base > INVERTED * top).then(|| {
         let words = format!(
-            "is {times:.0} times less than that of the last layer, {last} MPa: layers stand from the top down, and the last one is rarely as \
-             stiff as rock"
+            " is {times:.0} times less than that of the last layer, {last} MPa: layers stand from the top down, and the last one is rarely \
+             as stiff as rock"
         );
-        of("ground.layers.0.young_modulus", &words)
+        of(&key(0), &words)
     })
 }
