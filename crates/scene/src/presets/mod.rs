@@ -14,7 +14,8 @@
 
 use std::sync::LazyLock;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use toml::{Table, Value};
 
 /// What a preset describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize)]
@@ -64,6 +65,7 @@ const FILES: [(PresetKind, &str); 4] = [
     (PresetKind::Friction, include_str!("frictions.toml")),
     (PresetKind::Pavement, include_str!("pavements.toml")),
 ];
+
 /// All presets, by kind.
 pub fn all() -> &'static [Preset] {
     static ALL: LazyLock<Vec<Preset>> =
@@ -76,66 +78,38 @@ pub fn of(kind: PresetKind) -> impl Iterator<Item = &'static Preset> {
     all().iter().filter(move |preset| preset.kind == kind)
 }
 
-/// A data file: presets, and sources in lines of `KEY: SOURCE` that hold for all that have none of their own.
-#[derive(Deserialize)]
-struct File {
-    presets: Vec<Row>,
-    #[serde(flatten)]
-    shared: Sources,
-}
-
-#[derive(Deserialize)]
-struct Row {
-    name: String,
-    summary: String,
-    values: String,
-    #[serde(flatten)]
-    own: Sources,
-}
-
-#[derive(Deserialize, Default)]
-#[serde(default)]
-struct Sources {
-    sources: String,
-    assumed: String,
-}
-
 /// The presets of a data file. The files are built in, and tests read them: there is nothing to report here.
 fn read(kind: PresetKind, text: &str) -> Vec<Preset> {
-    let Ok(File { presets, shared }) = toml::from_str(text) else {
-        return Vec::new();
+    let file: Table = toml::from_str(text).unwrap_or_default();
+    let shared = sources(&file);
+    let rows = file.get("presets").and_then(Value::as_array);
+    let preset = |row: &Table| {
+        let own = sources(row);
+        Preset {
+            kind,
+            name: text_at(row, "name").to_owned(),
+            summary: text_at(row, "summary").to_owned(),
+            toml: text_at(row, "values").to_owned(),
+            sources: if own.is_empty() { shared.clone() } else { own },
+        }
     };
-    let preset = |Row {
-                      name,
-                      summary,
-                      values,
-                      own,
-                  }: Row| Preset {
-        kind,
-        name,
-        summary,
-        toml: values,
-        sources: Some(own.list())
-            .filter(|own| !own.is_empty())
-            .unwrap_or_else(|| shared.list()),
-    };
-    presets.into_iter().map(preset).collect()
+    let rows = rows.into_iter().flatten().filter_map(Value::as_table);
+    rows.map(preset).collect()
 }
 
-impl Sources {
-    fn list(&self) -> Vec<Source> {
-        let lists = [(&self.sources, false), (&self.assumed, true)];
-        let lines = lists
-            .into_iter()
-            .flat_map(|(list, assumed)| list.lines().map(move |line| (line, assumed)));
-        let source = |(line, assumed): (&str, bool)| {
-            let (key, source) = line.split_once(": ")?;
-            Some(Source {
-                key: key.to_owned(),
-                source: source.to_owned(),
-                assumed,
-            })
-        };
-        lines.filter_map(source).collect()
-    }
+fn text_at<'t>(table: &'t Table, key: &str) -> &'t str {
+    table.get(key).and_then(Value::as_str).unwrap_or_default()
+}
+
+/// Lines of `KEY: SOURCE`: of a preset, or of all in a file that have none of their own.
+fn sources(table: &Table) -> Vec<Source> {
+    let lists = [("sources", false), ("assumed", true)].into_iter();
+    let lines =
+        lists.flat_map(|(list, assumed)| text_at(table, list).lines().map(move |line| (line, assumed)));
+    let source = |(line, assumed): (&str, bool)| {
+        let (key, source) = line.split_once(": ")?;
+        let (key, source) = (key.to_owned(), source.to_owned());
+        Some(Source { key, source, assumed })
+    };
+    lines.filter_map(source).collect()
 }
