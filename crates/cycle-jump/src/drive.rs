@@ -6,7 +6,7 @@ use crate::JumpError;
 use crate::error::wrap;
 use crate::period::{Period, Phase, difference, take_whole};
 use crate::record::Record;
-use crate::request::{Next, Request};
+use crate::request::{Jumps, Next, Request};
 use crate::scale::Scale;
 use crate::stretches::{Stretch, stretches};
 
@@ -35,15 +35,17 @@ pub struct Drive<'a, P> {
     pub others: Vec<Record>,
     /// Passes before this one have no number any more: the traffic is done, and what comes after it is looked at.
     pub numbered_from: u64,
+    /// Whether periods are days, in which forces come and go.
+    pub over_days: bool,
 }
 
 impl<'a, P> Drive<'a, P> {
-    /// Over `cable` on `mesh` as laid; forces \[N\] and movements \[m\] below the `least` count as nothing.
+    /// Over `cable` on `mesh` as laid; forces and movements below the least of `jumps` count as nothing.
     pub fn new(
         cable: &DuctedCable,
         mesh: &'a Mesh,
         request: &'a Request<'a>,
-        least: (f64, f64),
+        jumps: &Jumps,
         pass: P,
     ) -> Result<Self, CableError> {
         Ok(Self {
@@ -51,16 +53,19 @@ impl<'a, P> Drive<'a, P> {
             mesh,
             cable: RestingCable::new(cable, mesh)?,
             pass,
-            state: laid(cable, mesh)?,
+            state: request
+                .state
+                .map_or_else(|| laid(cable, mesh), |state| Ok(state.clone()))?,
             offset: 0.0,
             scale: Scale {
-                force: least.0,
-                movement: least.1,
+                force: jumps.least.0,
+                movement: jumps.least.1,
             },
             simulated: 0,
             records: Vec::with_capacity(request.wanted.len()),
             others: Vec::new(),
             numbered_from: 1,
+            over_days: jumps.of_days,
         })
     }
 }
@@ -109,6 +114,11 @@ where
                 }
                 before.copy_from_slice(self.state.displacement());
             }
+        }
+        if self.over_days {
+            phases
+                .iter()
+                .for_each(|phase| self.scale.see_outcome(&phase.outcome));
         }
         self.scale
             .see(&self.cable, &self.state, self.offset)
@@ -207,7 +217,10 @@ where
 
     fn place(&mut self, displacement: Vec<f64>) -> Result<(), E> {
         let friction = self.state.friction().to_vec();
-        self.state = CableState::from_parts(self.mesh, displacement, friction).map_err(wrap)?;
+        let thermal_force = self.state.thermal_force();
+        let state = CableState::from_parts(self.mesh, displacement, friction);
+        let state = state.and_then(|state| state.with_thermal_force(thermal_force));
+        self.state = state.map_err(wrap)?;
         self.cable.settle(&mut self.state).map_err(wrap)
     }
 }

@@ -57,7 +57,9 @@ impl Jumped<'_> {
             friction.push(between(friction_of(self.before, i), friction_of(self.after, i)));
         }
         let whole = take_whole(cable, &mut displacement);
-        let mut state = CableState::from_parts(self.mesh, displacement, friction)?;
+        let thermal_force = self.before.phase(phase).thermal_force;
+        let state = CableState::from_parts(self.mesh, displacement, friction)?;
+        let mut state = state.with_thermal_force(thermal_force)?;
         cable.settle(&mut state)?;
         Ok((state, self.offset + whole))
     }
@@ -96,9 +98,7 @@ impl Jumped<'_> {
         if length == 1 {
             return Vec::new();
         }
-        let mut places = [largest_places(self.before), largest_places(self.after)].concat();
-        places.sort_unstable();
-        places.dedup();
+        let places = self.largest_places();
         let mut passes = Vec::new();
         let mut period = self.begin;
         while period * length < last {
@@ -107,6 +107,14 @@ impl Jumped<'_> {
             period = (period + 1).max((apart * period as f64) as u64);
         }
         passes
+    }
+
+    /// The places of a period whose passes show the largest of some force or movement before it or after it.
+    pub fn largest_places(&self) -> Vec<usize> {
+        let mut places = [largest_places(self.before), largest_places(self.after)].concat();
+        places.sort_unstable();
+        places.dedup();
+        places
     }
 
     /// What `pass` did.

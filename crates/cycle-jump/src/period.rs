@@ -22,6 +22,8 @@ pub struct Phase {
     pub moved: Vec<f64>,
     /// Friction after it \[N/m\]: that on the node of a fixed end does not follow from u.
     pub friction: Vec<f64>,
+    /// Θ then \[N\].
+    pub thermal_force: f64,
     /// What it did.
     pub outcome: PassOutcome,
 }
@@ -80,6 +82,7 @@ impl Phase {
         Self {
             moved: difference(state.displacement(), start),
             friction: state.friction().to_vec(),
+            thermal_force: state.thermal_force(),
             outcome,
         }
     }

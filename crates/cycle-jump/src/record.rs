@@ -27,6 +27,10 @@ pub struct Evolution {
     pub period: Vec<PassOutcome>,
     /// The cable after the last pass.
     pub state: CableState,
+    /// What a cable that nothing holds has moved as a whole beside that \[m\].
+    pub offset: f64,
+    /// Periods after which each is like the one before but for this movement as a whole \[m\], if that was found.
+    pub repeats: Option<(u64, f64)>,
     /// Passes simulated.
     pub simulated: u64,
     /// Lengths of the jumps \[periods\] in their order, 0 for a simulated period between.

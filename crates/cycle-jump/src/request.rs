@@ -1,5 +1,7 @@
 //! What is asked of a run with jumps.
 
+use cable_dem::CableState;
+
 use crate::JumpError;
 
 /// How jumps are taken.
@@ -12,6 +14,7 @@ pub struct Jumps {
     pub(crate) motion: f64,
     pub(crate) least: (f64, f64),
     pub(crate) most_passes: (u64, u64),
+    pub(crate) of_days: bool,
 }
 
 impl Jumps {
@@ -36,6 +39,7 @@ impl Jumps {
             motion,
             least: (0.0, 0.0),
             most_passes: (1000, 10_000),
+            of_days: false,
         })
     }
 
@@ -69,6 +73,13 @@ impl Jumps {
         })
     }
 
+    /// Over days, whose "passes" are all that happens in a day: what counts as large is so at any moment of a period, and periods that would
+    /// change little if all of them were like the last one are taken to be like it.
+    #[must_use]
+    pub(crate) fn over_days(self, of_days: bool) -> Self {
+        Self { of_days, ..self }
+    }
+
     /// With the passes after which every one is simulated until nothing changes any more, and those after which the run gives up.
     #[must_use]
     pub fn with_most_passes(self, jumping: u64, simulated: u64) -> Self {
@@ -88,6 +99,8 @@ pub struct Request<'a> {
     pub(crate) wanted: &'a [u64],
     pub(crate) looked_at: &'a [u64],
     pub(crate) beyond: &'a [u64],
+    pub(crate) periods: &'a [u64],
+    pub(crate) state: Option<&'a CableState>,
     pub(crate) guide: Guide<'a>,
 }
 
@@ -107,6 +120,8 @@ impl<'a> Request<'a> {
             wanted: &[],
             looked_at: &[],
             beyond: &[],
+            periods: &[],
+            state: None,
             guide: Guide::Free,
         })
     }
@@ -136,6 +151,20 @@ impl<'a> Request<'a> {
             "ascending, beyond the last",
         )?;
         Ok(Self { beyond, ..self })
+    }
+
+    /// With the passes recorded, in these periods, ascending from 1, that show the largest forces and movements: all of them where they are
+    /// simulated.
+    pub(crate) fn with_periods(self, periods: &'a [u64]) -> Self {
+        Self { periods, ..self }
+    }
+
+    /// With the cable in this state before the first pass, not as laid.
+    pub(crate) fn with_state(self, state: &'a CableState) -> Self {
+        Self {
+            state: Some(state),
+            ..self
+        }
     }
 
     /// With these of the wanted passes shown to `pass` also where they lie within a jump, from the state that is interpolated before them;
@@ -168,7 +197,10 @@ impl<'a> Request<'a> {
 
     /// Whether `pass` is to be recorded.
     pub(crate) fn wants(&self, pass: u64) -> bool {
-        self.wanted.binary_search(&pass).is_ok() || self.beyond.binary_search(&pass).is_ok()
+        let is_in = |list: &[u64], number: u64| list.binary_search(&number).is_ok();
+        is_in(self.wanted, pass)
+            || is_in(self.beyond, pass)
+            || is_in(self.periods, pass.div_ceil(self.period()))
     }
 }
 

@@ -16,17 +16,21 @@ pub struct Scale {
 impl Scale {
     /// Takes account of what the cable in `state`, moved as a whole by `offset` \[m\], shows.
     pub fn see(&mut self, cable: &RestingCable, state: &CableState, offset: f64) -> Result<(), CableError> {
-        let seen = PassOutcome::at_rest(cable.cable(), state)?;
-        self.force = [
-            seen.max_compression,
-            seen.max_tension,
-            seen.force.upstream,
-            seen.force.downstream,
-        ]
-        .into_iter()
-        .fold(self.force, |most, force| most.max(force.abs()));
+        let rest = PassOutcome::at_rest(cable.cable(), state)?;
+        self.see_outcome(&rest);
         self.movement = self.movement.max(largest(state.displacement()) + offset.abs());
         Ok(())
+    }
+
+    /// Takes account of the forces at rest after a pass, and of how far it left the ends.
+    pub fn see_outcome(&mut self, seen: &PassOutcome) {
+        let ends = [seen.force.upstream, seen.force.downstream];
+        let forces = [seen.max_compression, seen.max_tension].into_iter().chain(ends);
+        self.force = forces.fold(self.force, |most, force| most.max(force.abs()));
+        let ends = [seen.upstream_displacement, seen.downstream_displacement];
+        self.movement = ends
+            .into_iter()
+            .fold(self.movement, |most, moved| most.max(moved.abs()));
     }
 
     /// What `change` \[m\] of the displacements changes, as shares of the scale.

@@ -8,7 +8,8 @@ use crate::error::wrap;
 use crate::flow::Flow;
 use crate::jumped::Jumped;
 use crate::knowledge::Knowledge;
-use crate::period::{Period, difference, phase_of};
+use crate::peaks::largest_places;
+use crate::period::{Period, difference, phase_of, take_whole};
 use crate::record::{Beyond, Evolution, Record};
 use crate::request::{Guide, Jumps, Next, Request};
 use crate::slope::{Change, Slope};
@@ -53,6 +54,8 @@ struct Walk<'a, P> {
     /// Periods done.
     done: u64,
     schedule: Vec<u64>,
+    /// Periods after which each is like the one before but for this movement as a whole \[m\], if that was found.
+    repeats: Option<(u64, f64)>,
 }
 
 /// Lets vehicles drive over `cable` on `mesh`, as laid: few of them simulated, each by a call of `pass`.
@@ -68,12 +71,13 @@ pub fn evolve<E: From<JumpError>>(
     pass: impl FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 ) -> Result<Evolution, E> {
     let walk = Walk {
-        drive: Drive::new(cable, mesh, request, jumps.least, pass).map_err(wrap)?,
+        drive: Drive::new(cable, mesh, request, jumps, pass).map_err(wrap)?,
         jumps,
         guide: request.guide,
         tolerance: jumps.tolerance,
         done: 0,
         schedule: Vec::new(),
+        repeats: None,
     };
     walk.run()
 }
@@ -91,6 +95,9 @@ where
         if let Some(known) = &mut known {
             if !self.until(all, known, self.jumps.most_passes)? {
                 let (periods, simulated) = (self.done, self.drive.simulated);
+                if self.jumps.of_days {
+                    return Err(JumpError::NeverPeriodic { days: periods }.into());
+                }
                 return Err(JumpError::Stuck {
                     periods,
                     wanted: all,
@@ -130,6 +137,8 @@ where
             simulated: self.drive.simulated,
             schedule: self.schedule.clone(),
             beyond: None,
+            offset: self.drive.offset,
+            repeats: self.repeats,
         };
         if let (Some(known), Some(&last)) = (known, request.beyond.last()) {
             evolution.beyond = self.follow(known, last / period)?;
@@ -172,6 +181,9 @@ where
             let period = self.next_period()?;
             if self.done == before + (first - before) / 2 {
                 half = Some(period.clone());
+            }
+            if self.repeat(&period, all) {
+                return Ok(None);
             }
             last = Some(period);
         }
@@ -217,6 +229,7 @@ where
                 let next = self.next_period()?;
                 known.learn(&next, None, &self.drive.cable);
                 known.period = next;
+                self.repeat(&known.period, all);
                 known.length = (GROWTH_BETWEEN * known.length).max(2.0);
                 self.schedule.push(0);
             } else {
@@ -224,9 +237,47 @@ where
                 if !self.jump(known, &rate, length, share * self.tolerance)? && whole {
                     known.length = known.length.min((self.done as f64).max(SHORTEST as f64));
                 }
+                self.repeat(&known.period, all);
             }
         }
         Ok(true)
+    }
+
+    /// Takes the days left of `all` to be like the last one, the `period`, but for a movement as a whole: if its advance, gone on unchanged,
+    /// would change no force and no movement by more than the tolerance lets it.
+    fn repeat(&mut self, period: &Period, all: u64) -> bool {
+        let left = all - self.done;
+        if !self.jumps.of_days || left == 0 {
+            return false;
+        }
+        let mut change = period.rate.clone();
+        let whole = take_whole(&self.drive.cable, &mut change);
+        let shares = self.drive.scale.shares(&self.drive.cable, &change);
+        let (force, movement) = (left as f64 * shares.force, left as f64 * shares.movement);
+        if force > STEADY * self.tolerance || movement > self.tolerance {
+            return false;
+        }
+        let (done, length) = (self.done, period.len() as u64);
+        let Request { wanted, periods, .. } = *self.drive.request;
+        let is_left = |pass: &u64| (done * length + 1..=all * length).contains(pass);
+        for pass in with_largest(wanted, periods, length, &largest_places(period))
+            .into_iter()
+            .filter(is_left)
+        {
+            let moved = whole * (pass.div_ceil(length) - done) as f64;
+            let mut outcome = period.phase(phase_of(pass, period.len())).outcome.clone();
+            outcome.upstream_displacement += moved;
+            outcome.downstream_displacement += moved;
+            let interpolated = true;
+            self.drive.records.push(Record {
+                pass,
+                outcome,
+                interpolated,
+            });
+        }
+        self.drive.offset += whole * left as f64;
+        (self.repeats, self.done) = (Some((done, whole)), all);
+        true
     }
 
     /// Whether the cable rests, or forces will change no more than a small part of the tolerance in the periods `left`.
@@ -332,15 +383,17 @@ where
             wanted,
             looked_at,
             beyond,
+            periods,
             ..
         } = *self.drive.request;
         let period = self.drive.request.period();
         let first = jumped.begin * period;
         let last = (self.done - 1) * period;
-        let inside = |pass: &&u64| (first + 1..=last).contains(*pass);
-        let inside: Vec<u64> = wanted.iter().chain(beyond).filter(inside).copied().collect();
+        let mut inside = with_largest(wanted, periods, period, &jumped.largest_places());
+        inside.extend(beyond);
+        inside.retain(|pass| (first + 1..=last).contains(pass));
         let outcomes = jumped.outcomes(&mut self.drive.cable, &inside).map_err(wrap)?;
-        if first < passes {
+        if first < passes && !self.jumps.of_days {
             let others = jumped.largest_passes(last.min(passes), APART);
             let of_others = jumped.outcomes(&mut self.drive.cable, &others).map_err(wrap)?;
             for (pass, outcome) in others.into_iter().zip(of_others) {
@@ -384,4 +437,20 @@ where
         self.done += 1;
         Ok(period)
     }
+}
+
+/// The `wanted` passes, and those at these `places` of the `periods`, which have so many passes; ascending.
+fn with_largest(wanted: &[u64], periods: &[u64], length: u64, places: &[usize]) -> Vec<u64> {
+    let of_period = |period: &u64| {
+        let before = (period - 1) * length;
+        places.iter().map(move |&place| before + place as u64 + 1)
+    };
+    let mut passes: Vec<u64> = wanted
+        .iter()
+        .copied()
+        .chain(periods.iter().flat_map(of_period))
+        .collect();
+    passes.sort_unstable();
+    passes.dedup();
+    passes
 }

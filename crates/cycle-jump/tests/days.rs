@@ -6,7 +6,7 @@ use cable_dem::{
     Restraint,
 };
 use cycle_jump::days::{DailyHeat, Day, DayRecord, Days, DaysRequest, LockedLaw, live};
-use cycle_jump::{JumpError, Next};
+use cycle_jump::{Guide, JumpError, Next};
 use ground_field::{Direction, DuctLine, DuctMotion, Soil, SurfaceLoad, Vehicle, Wheel};
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
@@ -33,7 +33,7 @@ struct Scene {
     law: FrictionLaw,
     days: u64,
     knots: u64,
-    most_balances: u64,
+    most_days: (u64, u64),
 }
 
 impl Default for Scene {
@@ -53,7 +53,7 @@ impl Default for Scene {
             law: FrictionLaw::ElasticPlastic { shape_factor: 0.0 },
             days: 3,
             knots: 24,
-            most_balances: u64::MAX,
+            most_days: (150, 1000),
         }
     }
 }
@@ -133,7 +133,10 @@ impl Scene {
             tolerance: 5e-3,
             least: (0.01 * limit, 1e-6),
             every_day,
-            most_balances: self.most_balances,
+            first_jump: 0.5,
+            length_scale: 1.2,
+            most_days: self.most_days,
+            guide: Guide::Free,
         };
         let one_pass = |next: Next, state: &mut CableState| {
             solver.pass(&passages[next.phase], state).map_err(JumpError::from)
@@ -226,7 +229,9 @@ fn scenes() -> Vec<Scene> {
         of("60 m, free on a slope", |scene| {
             (scene.ends, scene.slope) = (FREE, 0.03);
         }),
-        of("60 m, sharp corners", |scene| scene.profile = SHARP),
+        of("60 m, sharp corners", |scene| {
+            (scene.profile, scene.knots) = (SHARP, 48);
+        }),
         of("60 m, three vehicles, which do not divide a day", |scene| {
             scene.traffic = &[(20.0, Forward), (12.0, Reverse), (9.0, Forward)];
             (scene.per_day, scene.slope, scene.days) = (500, -0.04, 4);
@@ -352,16 +357,14 @@ fn without_traffic_only_heat_moves_the_cable() -> Outcome {
 #[test]
 fn days_that_take_too_long_are_given_up() {
     let scene = Scene {
+        length: 300.0,
         days: 400,
-        most_balances: 100,
+        most_days: (0, 5),
         ..Scene::default()
     };
-    let lived = scene.live(24, false);
-    let error = lived.expect_err("100 balances are no day");
-    assert!(
-        error.to_string().contains("still differ from day to day"),
-        "{error}"
-    );
+    let error = scene.live(24, false).map(|days| days.simulated_days);
+    let error = error.expect_err("300 m do not settle in five days").to_string();
+    assert!(error.contains("still differ from day to day"), "{error}");
 }
 
 #[test]
@@ -385,7 +388,10 @@ fn what_is_no_day_is_refused() -> Outcome {
         tolerance: 5e-3,
         least: (1.0, 1e-6),
         every_day: false,
-        most_balances: u64::MAX,
+        first_jump: 0.5,
+        length_scale: 1.2,
+        most_days: (150, 1000),
+        guide: Guide::Free,
     };
     let lived = |day: &Day| {
         let law = LockedLaw::new([0.0; LockedLaw::SHARES.len()], friction.limit());

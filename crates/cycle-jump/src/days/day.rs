@@ -1,14 +1,14 @@
-//! A day of traffic and heat: when vehicles come, how warm the cable is then, which periods are simulated.
+//! A day of traffic and heat as a list of events.
 
 use cable_dem::CableError;
 
 use super::heat::DailyHeat;
 
+/// Knots beyond this share of all periods: every one is simulated.
+const NEARLY_ALL: f64 = 0.5;
 /// Periods that are simulated one by one on the first morning, and growth of the steps after them.
 const MORNING: u64 = 8;
 const MORNING_GROWTH: f64 = 1.5;
-/// Knots beyond this share of all periods: every one is simulated.
-const NEARLY_ALL: f64 = 0.5;
 /// Periods after a corner of the temperature at which one is simulated: the cable turns within a few.
 const AFTER_A_CORNER: [u64; 6] = [0, 1, 2, 4, 8, 16];
 
@@ -26,10 +26,32 @@ pub struct Day {
     pub knots: u64,
 }
 
+/// What happens to the cable at one moment of a day.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Event {
+    pub act: Act,
+    /// Θ during it, or at the end of a step \[N\].
+    pub thermal_force: f64,
+    /// Passes of the day that are done after it.
+    pub passes: u64,
+    /// Whether a simulated period begins with it.
+    pub begins: bool,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Act {
+    /// The temperature changes to that force.
+    Warm,
+    /// A vehicle passes: its place in the period of the traffic.
+    Pass(usize),
+    /// The traffic from one number of periods to another, in one step.
+    Step(u64, u64),
+}
+
 impl Day {
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] where it has no whole period, no knot, or a profile without points or whose times are not those
+    /// [`CableError::InvalidParameter`] if it has no whole period, no knot, or a profile without points or whose times are not those
     /// of one day in their order.
     pub(super) fn check(&self) -> Result<(), CableError> {
         let invalid = |name, value, allowed| Err(CableError::InvalidParameter { name, value, allowed });
@@ -50,17 +72,8 @@ impl Day {
         self.passes / self.period as u64
     }
 
-    /// Time when `periods` of the day are done, as a number of periods: the last one is longer.
-    pub(super) fn time(&self, periods: u64) -> f64 {
-        if periods == self.periods() {
-            self.passes as f64 / self.period as f64
-        } else {
-            periods as f64
-        }
-    }
-
-    /// Passes done when `periods` of the day are.
-    pub(super) fn passes_of(&self, periods: u64) -> u64 {
+    /// Passes done when `periods` of the day are: the last one is longer.
+    fn passes_of(&self, periods: u64) -> u64 {
         if periods == self.periods() {
             self.passes
         } else {
@@ -69,7 +82,7 @@ impl Day {
     }
 
     /// Θ when `passes` of the day are done, which need not be whole \[N\].
-    pub(super) fn thermal_force(&self, passes: f64) -> f64 {
+    fn thermal_force(&self, passes: f64) -> f64 {
         self.heat.at(passes / self.passes as f64)
     }
 
@@ -79,16 +92,12 @@ impl Day {
     }
 
     /// Θ at the turns of the temperature between the pass `next` of the day and the one before.
-    pub(super) fn turns_before(&self, next: u64) -> Vec<f64> {
+    fn turns_before(&self, next: u64) -> Vec<f64> {
         let all = self.passes as f64;
         let (from, to) = ((next as f64 - 0.5) / all, (next as f64 + 0.5) / all);
         let between = |time: &f64| from < *time && *time < to.min(1.0);
-        self.heat
-            .turns()
-            .into_iter()
-            .filter(between)
-            .map(|time| self.heat.at(time))
-            .collect()
+        let turns = self.heat.turns().into_iter().filter(between);
+        turns.map(|time| self.heat.at(time)).collect()
     }
 
     /// Whether every period of a day is simulated.
@@ -96,44 +105,155 @@ impl Day {
         self.knots as f64 >= NEARLY_ALL * self.periods() as f64
     }
 
-    /// Periods of a day that are simulated, ascending; `first` of the first day.
-    pub(super) fn simulated(&self, first: bool) -> Vec<u64> {
+    /// Periods of a day that are simulated, ascending: evenly, at the turns of the temperature and after its corners, and the last; on the `first` day
+    /// many of the morning, when the cable is as laid.
+    fn simulated(&self, first: bool) -> Vec<u64> {
         let all = self.periods();
         if self.is_simulated() {
             return (0..all).collect();
         }
-        let mut knots: Vec<u64> = (0..self.knots)
-            .map(|k| (k as f64 * all as f64 / self.knots as f64).round() as u64)
-            .collect();
-        for time in self.heat.turns() {
-            let turn = (time * all as f64).round() as u64;
-            let after: &[u64] = if self.heat.has_corners() {
-                &AFTER_A_CORNER
-            } else {
-                &[0]
-            };
+        let evenly = |k: u64| (k as f64 * all as f64 / self.knots as f64).round() as u64;
+        let mut knots: Vec<u64> = (0..self.knots).map(evenly).chain([all - 1]).collect();
+        let corners = self.heat.has_corners();
+        let after = if corners { &AFTER_A_CORNER[..] } else { &[0] };
+        let turns = self
+            .heat
+            .turns()
+            .into_iter()
+            .map(|time| (time * all as f64).round() as u64);
+        for turn in turns.chain(corners.then_some(0)) {
             knots.extend(after.iter().map(|after| turn + after));
         }
-        if self.heat.has_corners() {
-            knots.extend(AFTER_A_CORNER);
+        let (mut next, mut step) = (0.0, 1.0);
+        while first && step < all as f64 / self.knots as f64 {
+            knots.push(next as u64);
+            step = if next < MORNING as f64 {
+                1.0
+            } else {
+                MORNING_GROWTH * step
+            };
+            next += step;
         }
-        if first {
-            let mut step = 1.0;
-            let mut next = 0.0;
-            while step < all as f64 / self.knots as f64 {
-                knots.push(next as u64);
-                step = if next < MORNING as f64 {
-                    1.0
-                } else {
-                    MORNING_GROWTH * step
-                };
-                next += step;
-            }
-        }
-        knots.push(all - 1);
         knots.retain(|knot| *knot < all);
         knots.sort_unstable();
         knots.dedup();
         knots
     }
+
+    /// What happens in a day, the `first` or another, up to its pass number `passes`, which is simulated, and at its end, when the temperature is
+    /// that of its beginning.
+    pub(super) fn events(&self, passes: u64, first: bool) -> Vec<Event> {
+        let whole = passes.div_ceil(self.period as u64).min(self.periods());
+        let mut knots = self.simulated(first);
+        knots.retain(|knot| *knot + 1 < whole);
+        knots.push(whole - 1);
+        let mut events = Vec::new();
+        if first {
+            events.push(Event::warm(self.heat.at(0.0), 0, false));
+        }
+        for (k, &knot) in knots.iter().enumerate() {
+            let mut begins = true;
+            for pass in self.passes_of(knot)..self.passes_of(knot + 1).min(passes) {
+                let thermal_force = self.thermal_force(pass as f64 + 0.5);
+                for thermal_force in self.turns_before(pass).into_iter().chain([thermal_force]) {
+                    events.push(Event::warm(thermal_force, pass, begins));
+                    begins = false;
+                }
+                events.push(Event {
+                    act: Act::Pass((pass % self.period as u64) as usize),
+                    thermal_force,
+                    passes: pass + 1,
+                    begins,
+                });
+            }
+            // Two steps to the next knot, so that passes between are known well too.
+            let (from, to) = (knot + 1, knots.get(k + 1).copied().unwrap_or(whole));
+            let middle = from + (to - from) / 2;
+            for (from, to) in [(from, middle), (middle, to)]
+                .into_iter()
+                .filter(|(from, to)| from < to)
+            {
+                events.push(Event {
+                    act: Act::Step(from, to),
+                    thermal_force: self.before(to as f64),
+                    passes: self.passes_of(to),
+                    begins: false,
+                });
+            }
+        }
+        if passes == self.passes {
+            let end = self.turns_before(passes).into_iter().chain([self.heat.at(1.0)]);
+            events.extend(end.map(|thermal_force| Event::warm(thermal_force, passes, false)));
+        }
+        events
+    }
+}
+
+impl Event {
+    fn warm(thermal_force: f64, passes: u64, begins: bool) -> Self {
+        let act = Act::Warm;
+        Self {
+            act,
+            thermal_force,
+            passes,
+            begins,
+        }
+    }
+}
+
+/// How the outcome of a pass follows from those of events of its day.
+#[derive(Debug, PartialEq)]
+pub(super) enum Known {
+    /// It is that of this one.
+    Simulated(usize),
+    /// It lies in a step. Its weights of the cable at rest after events, and the event that shows what such a pass does beside that.
+    Within { at_rest: [(f64, usize); 4], like: usize },
+}
+
+impl Known {
+    /// The places of the events that it follows from.
+    pub fn places(&self) -> Vec<usize> {
+        match self {
+            Self::Simulated(place) => vec![*place],
+            Self::Within { at_rest, like } => {
+                at_rest.iter().map(|(_, place)| *place).chain([*like]).collect()
+            }
+        }
+    }
+}
+
+/// How `pass`, from 1, of a day with these `events` and so many vehicles in a period is known. In a step the cable goes straight from one end to
+/// the other, and passes do beside that what those of the nearest simulated period did.
+pub(super) fn known(events: &[Event], pass: u64, period: usize) -> Option<Known> {
+    let period = period as u64;
+    let passed = |passes: u64| {
+        let is_it = |event: &Event| matches!(event.act, Act::Pass(_)) && event.passes == passes;
+        events.iter().position(is_it)
+    };
+    if let Some(simulated) = passed(pass) {
+        return Some(Known::Simulated(simulated));
+    }
+    let is_step = |event: &Event| matches!(event.act, Act::Step(..));
+    let to = events
+        .iter()
+        .position(|event| is_step(event) && event.passes >= pass)?;
+    let from = to.checked_sub(1)?;
+    let share = (pass - events[from].passes) as f64 / (events[to].passes - events[from].passes) as f64;
+    // The period before the step, or the one after it.
+    let begin = if is_step(&events[from]) {
+        to + events[to..].iter().position(|event| event.begins)?
+    } else {
+        events[..to].iter().rposition(|event| event.begins)?
+    };
+    let done = (pass - 1) % period + 1;
+    let before = events[begin].passes;
+    let (like, end) = (passed(before + done)?, passed(before + period)?);
+    let done = done as f64 / period as f64;
+    let at_rest = [
+        (1.0 - share, from),
+        (share, to),
+        (done - 1.0, begin.saturating_sub(1)),
+        (-done, end),
+    ];
+    Some(Known::Within { at_rest, like })
 }

@@ -17,20 +17,12 @@ const ACCURACY: f64 = 1e-6;
 /// A line search has arrived where the slope is this share of that at its start.
 const FLAT: f64 = 1e-2;
 
-/// What drives the cable at one moment: heat \[N\] and the defect r \[N/m\] of every node.
-#[derive(Debug, Clone)]
-pub struct Drive {
-    pub thermal_force: f64,
-    pub defect: Vec<f64>,
-}
-
 /// Takes steps; allocated once.
 #[derive(Debug)]
 pub struct RateStep {
     pub law: LockedLaw,
-    /// Linear solves so far, and balances: one a solve, and more where the line search asks for them.
+    /// Linear solves so far.
     pub sweeps: u64,
-    pub balances: u64,
     limit: f64,
     /// The last advance, from which the next is sought.
     advance: Vec<f64>,
@@ -47,7 +39,6 @@ impl RateStep {
         Self {
             law,
             sweeps: 0,
-            balances: 0,
             limit,
             advance: zeros(),
             place: zeros(),
@@ -58,50 +49,32 @@ impl RateStep {
         }
     }
 
-    /// Begins the next search at `advance`.
-    pub fn expect(&mut self, advance: &[f64]) {
-        self.advance.copy_from_slice(advance);
-    }
+    /// Time of the first stage, as a share of a step.
+    pub const STAGE: f64 = GAMMA;
 
-    /// Moves `u` over `periods`, by two stages with what drives it then and at the end.
-    pub fn second_order(
+    /// Moves `u` over `periods`, by two stages at which heat has these forces \[N\]; the defect r is that of every node \[N/m\]. The advance is sought
+    /// from that of the last period on.
+    pub fn advance(
         &mut self,
         cable: &mut RestingCable,
         u: &mut [f64],
         periods: f64,
-        drives: [&Drive; 2],
+        heat: [f64; 2],
+        defect: &[f64],
+        last: &[f64],
     ) -> Result<(), CableError> {
-        let base = u.to_vec();
-        self.solve(cable, &base, GAMMA * periods, drives[0])?;
+        self.advance.copy_from_slice(last);
+        let mut base = u.to_vec();
+        self.solve(cable, &base, GAMMA * periods, heat[0], defect)?;
         let first = self.advance.clone();
-        let mut second = base;
-        for (base, v) in second.iter_mut().zip(&first) {
+        for (base, v) in base.iter_mut().zip(&first) {
             *base += (1.0 - GAMMA) * periods * v;
         }
-        self.solve(cable, &second, GAMMA * periods, drives[1])?;
+        self.solve(cable, &base, GAMMA * periods, heat[1], defect)?;
         for ((u, first), second) in u.iter_mut().zip(&first).zip(&self.advance) {
             *u += periods * ((1.0 - GAMMA) * first + GAMMA * second);
         }
         Ok(())
-    }
-
-    /// Time of the first stage, as a share of a step.
-    pub const STAGE: f64 = GAMMA;
-
-    /// Moves `u` over `periods` as real ones that left the defect in `drive` did; the advance per period.
-    pub fn first_order(
-        &mut self,
-        cable: &mut RestingCable,
-        u: &mut [f64],
-        periods: f64,
-        drive: &Drive,
-    ) -> Result<&[f64], CableError> {
-        let base = u.to_vec();
-        self.solve(cable, &base, periods, drive)?;
-        for (u, v) in u.iter_mut().zip(&self.advance) {
-            *u += periods * v;
-        }
-        Ok(&self.advance)
     }
 
     /// Finds the advance v with w (Φ(v) + r) + w p + θ = K (base + reach v).
@@ -110,10 +83,11 @@ impl RateStep {
         cable: &mut RestingCable,
         base: &[f64],
         reach: f64,
-        drive: &Drive,
+        thermal_force: f64,
+        defect: &[f64],
     ) -> Result<(), CableError> {
         let free = cable.free();
-        let mut left = self.balance(cable, base, reach, drive, 0.0);
+        let mut left = self.balance(cable, base, reach, thermal_force, defect, 0.0);
         for _ in 0..MOST_STEPS {
             if left <= ACCURACY * self.limit {
                 return Ok(());
@@ -126,7 +100,7 @@ impl RateStep {
             self.sweeps += 1;
             let start = self.along(cable);
             let mut share = 1.0;
-            left = self.balance(cable, base, reach, drive, share);
+            left = self.balance(cable, base, reach, thermal_force, defect, share);
             let mut end = self.along(cable);
             if end < -1e-9 * start.abs() {
                 // Too far: the energy rises again. Find where it is lowest.
@@ -135,7 +109,7 @@ impl RateStep {
                     share = (low.0 * high.1 - high.0 * low.1) / (high.1 - low.1);
                     let inside = 0.05 * (high.0 - low.0);
                     share = share.clamp(low.0 + inside, high.0 - inside);
-                    left = self.balance(cable, base, reach, drive, share);
+                    left = self.balance(cable, base, reach, thermal_force, defect, share);
                     end = self.along(cable);
                     if end.abs() < FLAT * start.abs() {
                         break;
@@ -163,7 +137,8 @@ impl RateStep {
         cable: &mut RestingCable,
         base: &[f64],
         reach: f64,
-        drive: &Drive,
+        thermal_force: f64,
+        defect: &[f64],
         share: f64,
     ) -> f64 {
         let Self {
@@ -174,18 +149,16 @@ impl RateStep {
             residual,
             slope,
             step,
-            balances,
             ..
         } = self;
         let moved = advance.iter().zip(&*step).map(|(v, step)| v + share * step);
         for ((place, base), v) in place.iter_mut().zip(base).zip(moved) {
             *place = base + reach * v;
         }
-        cable.needed(place, drive.thermal_force, friction);
-        *balances += 1;
+        cable.needed(place, thermal_force, friction);
         let mut largest = 0.0_f64;
         for i in cable.free() {
-            let (found, steepness) = law.with_defect(advance[i] + share * step[i], drive.defect[i]);
+            let (found, steepness) = law.with_defect(advance[i] + share * step[i], defect[i]);
             residual[i] = found - friction[i];
             slope[i] = steepness;
             largest = largest.max(residual[i].abs());
