@@ -2,7 +2,7 @@
 
 use cable_dem::{CableState, Mesh};
 use cycle_jump::days::{DailyHeat, Day, DayRecord, Days, DaysRequest, live};
-use cycle_jump::{Next, Record};
+use cycle_jump::{Guide, Next, Record};
 
 use super::listing::listed_passes;
 use super::locked_law::locked_law;
@@ -16,18 +16,45 @@ use crate::scene::{DAYS_PER_YEAR, Heat, Scene};
 use crate::shown::words_if;
 use crate::{Error, Progress};
 
-/// Share of the tolerance that days without real passes may take.
-const FROZEN_SHARE: f64 = 0.5;
+/// Share of the tolerance that jumps over days may take, and the most that they take: slow two-way creep adds up what larger ones miss.
+const JUMPS_SHARE: f64 = 0.5;
+const MOST: f64 = 5e-3;
 /// Up to so many passes a day all are simulated on a day with real ones; and where a day has no whole sequence.
 const FEW: u64 = 100;
-/// Nodes that may be balanced between real periods before each day is like the one before: minutes.
-const MOST_BALANCED: usize = 20_000_000_000;
+/// Days simulated after which no more are jumped over, and after which the run gives up.
+const MOST_DAYS: (u64, u64) = (150, 1000);
 const SECONDS_A_DAY: f64 = 86_400.0;
 
 /// Passes and days on one mesh.
+#[derive(Clone)]
 pub struct Lived {
     pub passes: Passes,
     pub days: Days,
+}
+
+/// How days are jumped over.
+#[derive(Clone, Copy)]
+pub struct Jumping<'a> {
+    /// Real periods a day.
+    pub knots: u64,
+    /// With a quarter of the error and a first jump half as long, which shows the error of the others.
+    pub finer: bool,
+    /// As another run did, if its jumps are no longer than their errors allow.
+    pub guide: Guide<'a>,
+}
+
+impl<'a> Jumping<'a> {
+    /// With so many real periods a day.
+    pub fn with(knots: u64) -> Self {
+        let (finer, guide) = (false, Guide::Free);
+        Self { knots, finer, guide }
+    }
+
+    /// The same jumps as `other` took, as far as their errors allow it.
+    pub fn as_in(self, other: &'a Lived) -> Self {
+        let guide = Guide::Follow(&other.days.schedule);
+        Self { guide, ..self }
+    }
 }
 
 /// How the days of a plan are lived.
@@ -117,9 +144,9 @@ impl<'a> Living<'a> {
         }
     }
 
-    /// All days on `level`, of which `knots` periods are real on some.
-    pub fn live(&self, level: usize, knots: u64, progress: Progress<'_>) -> Result<Lived, Error> {
-        self.live_in(self.plan.scene, level, knots, progress)
+    /// All days on `level`.
+    pub fn live(&self, level: usize, jumping: Jumping<'_>, progress: Progress<'_>) -> Result<Lived, Error> {
+        self.live_in(self.plan.scene, level, jumping, progress)
     }
 
     /// One more pass of each vehicle that is too seldom for the period, after the last one.
@@ -139,7 +166,7 @@ impl<'a> Living<'a> {
         &self,
         scene: &Scene,
         level: usize,
-        knots: u64,
+        jumping: Jumping<'_>,
         progress: Progress<'_>,
     ) -> Result<Lived, Error> {
         let Plan { ground, levels, .. } = self.plan;
@@ -154,7 +181,7 @@ impl<'a> Living<'a> {
             progress,
         };
         let mut simulation = Simulation::new(&task)?;
-        let day = self.day(knots);
+        let day = self.day(jumping.knots);
         let (law, of_law) = locked_law(&task, period, day.period)?;
         let count = scene.traffic.passes;
         let scale = Scale::new(scene.friction_limit(), peak(&ground.motions));
@@ -163,10 +190,14 @@ impl<'a> Living<'a> {
             passes: count,
             wanted: &listed_passes(scene, self.period),
             wanted_days: &listed(days),
-            tolerance: FROZEN_SHARE * scene.solver.tolerance,
+            tolerance: (JUMPS_SHARE * scene.solver.tolerance).min(MOST)
+                * if jumping.finer { 0.25 } else { 1.0 },
+            first_jump: if jumping.finer { 0.25 } else { 0.5 },
+            length_scale: levels.length_scale(),
             least: (scale.force, scale.movement),
             every_day: self.every_pass,
-            most_balances: (MOST_BALANCED / mesh.nodes()) as u64,
+            most_days: MOST_DAYS,
+            guide: jumping.guide,
         };
         let vehicles = &period.vehicles;
         // Where every pass is simulated the vehicles come in their own order.
@@ -228,7 +259,7 @@ impl<'a> Living<'a> {
     pub fn reason(&self, lived: &Lived, knots: u64) -> String {
         let day = self.day(knots);
         let Days {
-            corrected,
+            simulated_days,
             periodic_from,
             ..
         } = lived.days;
@@ -241,8 +272,8 @@ impl<'a> Living<'a> {
         let lasting = periodic_from.map_or_else(String::new, |day| {
             format!("; from day {day} on every day is like the one before")
         });
-        let others = words_if(corrected < days, ", the others follow from them");
-        format!("days: {corrected} of {days} were simulated with {real} each{others}{lasting}")
+        let others = words_if(simulated_days < days, ", the others follow from them");
+        format!("days: {simulated_days} of {days} were simulated with {real} each{others}{lasting}")
     }
 
     pub fn record(&self, lived: &Lived) -> Result<(Vec<DayExtremes>, HeatRecord), Error> {

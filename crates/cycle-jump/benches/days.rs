@@ -3,8 +3,8 @@
 use boussinesq::HalfSpace;
 use cable_dem::{CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, Passage, QuasiStatic};
 use criterion::{Criterion, criterion_group, criterion_main};
-use cycle_jump::JumpError;
 use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, LockedLaw, live};
+use cycle_jump::{Guide, JumpError};
 use ground_field::{DuctLine, DuctMotion, Soil, Vehicle};
 
 const STIFFNESS: f64 = 8.01e6;
@@ -81,7 +81,10 @@ fn days(criterion: &mut Criterion) {
             tolerance: 5e-3,
             least: (0.01 * LIMIT, 1e-6),
             every_day: false,
-            most_balances: u64::MAX,
+            first_jump: 0.5,
+            length_scale: 1.2,
+            most_days: (150, 1000),
+            guide: Guide::Free,
         };
         live(&cable, &mesh, &day, law.clone(), &request, |_, state| {
             solver.pass(&passage, state).map_err(JumpError::from)
@@ -97,7 +100,7 @@ fn days(criterion: &mut Criterion) {
         let lived = run(count, knots).expect("days");
         println!(
             "{name}: {} passes simulated on {} days, {} linear solves between them",
-            lived.simulated, lived.corrected, lived.sweeps
+            lived.simulated, lived.simulated_days, lived.sweeps
         );
         group.bench_function(name, |bencher| {
             bencher.iter(|| run(count, knots).expect("days"));

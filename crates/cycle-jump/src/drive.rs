@@ -4,7 +4,9 @@ use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingC
 
 use crate::JumpError;
 use crate::error::wrap;
-use crate::period::{Period, Phase, difference, take_whole};
+use crate::jumped::Jumped;
+use crate::peaks::largest_places;
+use crate::period::{Period, Phase, difference, phase_of, take_whole};
 use crate::record::Record;
 use crate::request::{Jumps, Next, Request};
 use crate::scale::Scale;
@@ -16,6 +18,9 @@ const SETTLED: f64 = 0.1;
 const SLOWLY: f64 = 3.0;
 /// Rounds in a row that show it.
 const SHOWN: usize = 2;
+
+/// Passes within a jump at which a vehicle is looked at that shows the largest of something are so far apart, as a ratio.
+const APART: f64 = 1.1;
 
 /// The cable and the vehicles that drive over it.
 pub struct Drive<'a, P> {
@@ -116,9 +121,9 @@ where
             }
         }
         if self.over_days {
-            phases
-                .iter()
-                .for_each(|phase| self.scale.see_outcome(&phase.outcome));
+            for phase in &phases {
+                self.scale.see_outcome(&phase.outcome);
+            }
         }
         self.scale
             .see(&self.cable, &self.state, self.offset)
@@ -158,6 +163,24 @@ where
         }
     }
 
+    /// Lets the periods after `done` up to `all` be like the last one, the `period`, but for a movement as a `whole` in each \[m\].
+    pub fn repeat(&mut self, period: &Period, done: u64, all: u64, whole: f64) {
+        let length = period.len() as u64;
+        let range = done * length + 1..=all * length;
+        for pass in self.request.recorded(range, &largest_places(period)) {
+            let moved = whole * (pass.div_ceil(length) - done) as f64;
+            let mut outcome = period.phase(phase_of(pass, period.len())).outcome.clone();
+            outcome.upstream_displacement += moved;
+            outcome.downstream_displacement += moved;
+            self.records.push(Record {
+                pass,
+                outcome,
+                interpolated: true,
+            });
+        }
+        self.offset += whole * (all - done) as f64;
+    }
+
     /// Simulates a pass and records it.
     pub fn simulate(&mut self, next: Next) -> Result<PassOutcome, E> {
         let outcome = self.pass(next)?;
@@ -188,6 +211,50 @@ where
         let follows_others =
             first > 0 && (first + 1..=first.div_ceil(period) * period + period).contains(&pass);
         period > 1 && pass + last <= passes && !follows_others
+    }
+
+    /// Records the passes within a jump, up to the period `last`.
+    pub fn record(&mut self, jumped: &Jumped<'_>, last: u64) -> Result<(), E> {
+        let Request {
+            passes, looked_at, ..
+        } = *self.request;
+        let period = self.request.period();
+        let first = jumped.begin * period;
+        let last = last * period;
+        let inside = self.request.recorded(first + 1..=last, &jumped.largest_places());
+        let outcomes = jumped.outcomes(&mut self.cable, &inside).map_err(wrap)?;
+        if first < passes && !self.over_days {
+            let others = jumped.largest_passes(last.min(passes), APART);
+            let of_others = jumped.outcomes(&mut self.cable, &others).map_err(wrap)?;
+            for (pass, outcome) in others.into_iter().zip(of_others) {
+                self.others.push(Record {
+                    pass,
+                    outcome,
+                    interpolated: true,
+                });
+            }
+        }
+        for (pass, outcome) in inside.into_iter().zip(outcomes) {
+            if looked_at.contains(&pass) {
+                let before = if pass - 1 == first {
+                    (jumped.from.clone(), jumped.offset)
+                } else {
+                    jumped.state(&mut self.cable, pass - 1).map_err(wrap)?
+                };
+                let now = (std::mem::replace(&mut self.state, before.0), self.offset);
+                self.offset = before.1;
+                let phase = jumped.place(pass).0;
+                let number = Some(pass);
+                self.pass(Next { phase, number })?;
+                (self.state, self.offset) = now;
+            }
+            self.records.push(Record {
+                pass,
+                outcome,
+                interpolated: true,
+            });
+        }
+        Ok(())
     }
 
     /// Simulates a pass.

@@ -1,5 +1,7 @@
 //! What is asked of a run with jumps.
 
+use std::ops::RangeInclusive;
+
 use cable_dem::CableState;
 
 use crate::JumpError;
@@ -193,6 +195,18 @@ impl<'a> Request<'a> {
     /// Vehicles in a period.
     pub(crate) fn period(&self) -> u64 {
         self.order.len() as u64
+    }
+
+    /// The passes of this range that are to be recorded, ascending, where those at these `places` show the largest of a period.
+    pub(crate) fn recorded(&self, range: RangeInclusive<u64>, places: &[usize]) -> Vec<u64> {
+        let length = self.period();
+        let periods = self.periods.iter().map(|period| (period - 1) * length);
+        let largest = periods.flat_map(|before| places.iter().map(move |&place| before + place as u64 + 1));
+        let asked = self.wanted.iter().chain(self.beyond).copied();
+        let mut passes: Vec<u64> = asked.chain(largest).filter(|pass| range.contains(pass)).collect();
+        passes.sort_unstable();
+        passes.dedup();
+        passes
     }
 
     /// Whether `pass` is to be recorded.

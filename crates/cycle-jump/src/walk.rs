@@ -8,9 +8,8 @@ use crate::error::wrap;
 use crate::flow::Flow;
 use crate::jumped::Jumped;
 use crate::knowledge::Knowledge;
-use crate::peaks::largest_places;
 use crate::period::{Period, difference, phase_of, take_whole};
-use crate::record::{Beyond, Evolution, Record};
+use crate::record::{Beyond, Evolution};
 use crate::request::{Guide, Jumps, Next, Request};
 use crate::slope::{Change, Slope};
 
@@ -42,9 +41,6 @@ const MOST_BEYOND: u64 = 200;
 const TOLERANCE_BEYOND: f64 = 4.0;
 /// And so many passes but for those of one jump.
 const MOST_PASSES_BEYOND: u64 = 2400;
-/// Passes within a jump at which a vehicle is looked at that shows the largest of something are so far apart, as a ratio.
-const APART: f64 = 1.1;
-
 /// A run under way.
 struct Walk<'a, P> {
     drive: Drive<'a, P>,
@@ -216,7 +212,9 @@ where
             let left = all - self.done;
             let rate = known.rate(&mut self.drive.cable);
             let guided = self.guide.length(self.schedule.len());
-            let whole = guided.is_none() && left > CHECKED && self.is_settled(known, &rate, left);
+            let asked = guided.is_none() || self.jumps.of_days;
+            let settles = asked && left > CHECKED && self.is_settled(known, &rate, left);
+            let whole = settles && guided.is_none();
             if whole {
                 known.length = (left - CHECKED) as f64;
                 known.not_before = 2 * self.done;
@@ -234,10 +232,16 @@ where
                 self.schedule.push(0);
             } else {
                 let share = if length + CHECKED == left { AT_END } else { 1.0 };
-                if !self.jump(known, &rate, length, share * self.tolerance)? && whole {
+                let from = self.done;
+                let taken = self.jump(known, &rate, length, share * self.tolerance)?;
+                if whole && !taken {
                     known.length = known.length.min((self.done as f64).max(SHORTEST as f64));
                 }
-                self.repeat(&known.period, all);
+                let to_end = taken && self.done == all;
+                if !self.repeat(&known.period, all) && settles && to_end && self.jumps.of_days {
+                    let moved = take_whole(&self.drive.cable, &mut known.period.rate.clone());
+                    self.repeats = Some((from, moved));
+                }
             }
         }
         Ok(true)
@@ -257,26 +261,8 @@ where
         if force > STEADY * self.tolerance || movement > self.tolerance {
             return false;
         }
-        let (done, length) = (self.done, period.len() as u64);
-        let Request { wanted, periods, .. } = *self.drive.request;
-        let is_left = |pass: &u64| (done * length + 1..=all * length).contains(pass);
-        for pass in with_largest(wanted, periods, length, &largest_places(period))
-            .into_iter()
-            .filter(is_left)
-        {
-            let moved = whole * (pass.div_ceil(length) - done) as f64;
-            let mut outcome = period.phase(phase_of(pass, period.len())).outcome.clone();
-            outcome.upstream_displacement += moved;
-            outcome.downstream_displacement += moved;
-            let interpolated = true;
-            self.drive.records.push(Record {
-                pass,
-                outcome,
-                interpolated,
-            });
-        }
-        self.drive.offset += whole * left as f64;
-        (self.repeats, self.done) = (Some((done, whole)), all);
+        self.drive.repeat(period, self.done, all, whole);
+        (self.repeats, self.done) = (Some((self.done, whole)), all);
         true
     }
 
@@ -368,66 +354,12 @@ where
             after: &next,
             flow: bent,
         };
-        self.record(&jumped)?;
+        self.drive.record(&jumped, self.done - 1)?;
         self.drive.records.extend(simulated);
         known.period = next;
         known.length = factor * at_end as f64;
         self.schedule.push(length);
         Ok(true)
-    }
-
-    /// Records the passes within a jump.
-    fn record(&mut self, jumped: &Jumped<'_>) -> Result<(), E> {
-        let Request {
-            passes,
-            wanted,
-            looked_at,
-            beyond,
-            periods,
-            ..
-        } = *self.drive.request;
-        let period = self.drive.request.period();
-        let first = jumped.begin * period;
-        let last = (self.done - 1) * period;
-        let mut inside = with_largest(wanted, periods, period, &jumped.largest_places());
-        inside.extend(beyond);
-        inside.retain(|pass| (first + 1..=last).contains(pass));
-        let outcomes = jumped.outcomes(&mut self.drive.cable, &inside).map_err(wrap)?;
-        if first < passes && !self.jumps.of_days {
-            let others = jumped.largest_passes(last.min(passes), APART);
-            let of_others = jumped.outcomes(&mut self.drive.cable, &others).map_err(wrap)?;
-            for (pass, outcome) in others.into_iter().zip(of_others) {
-                self.drive.others.push(Record {
-                    pass,
-                    outcome,
-                    interpolated: true,
-                });
-            }
-        }
-        for (pass, outcome) in inside.into_iter().zip(outcomes) {
-            if looked_at.contains(&pass) {
-                let before = if pass - 1 == first {
-                    (jumped.from.clone(), jumped.offset)
-                } else {
-                    jumped.state(&mut self.drive.cable, pass - 1).map_err(wrap)?
-                };
-                let now = (
-                    std::mem::replace(&mut self.drive.state, before.0),
-                    self.drive.offset,
-                );
-                self.drive.offset = before.1;
-                let phase = jumped.place(pass).0;
-                let number = Some(pass);
-                self.drive.pass(Next { phase, number })?;
-                (self.drive.state, self.drive.offset) = now;
-            }
-            self.drive.records.push(Record {
-                pass,
-                outcome,
-                interpolated: true,
-            });
-        }
-        Ok(())
     }
 
     /// Simulates the next period.
@@ -437,20 +369,4 @@ where
         self.done += 1;
         Ok(period)
     }
-}
-
-/// The `wanted` passes, and those at these `places` of the `periods`, which have so many passes; ascending.
-fn with_largest(wanted: &[u64], periods: &[u64], length: u64, places: &[usize]) -> Vec<u64> {
-    let of_period = |period: &u64| {
-        let before = (period - 1) * length;
-        places.iter().map(move |&place| before + place as u64 + 1)
-    };
-    let mut passes: Vec<u64> = wanted
-        .iter()
-        .copied()
-        .chain(periods.iter().flat_map(of_period))
-        .collect();
-    passes.sort_unstable();
-    passes.dedup();
-    passes
 }

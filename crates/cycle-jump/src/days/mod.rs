@@ -12,13 +12,15 @@
 //!
 //! w (Φ(v) + r) + w p + θ = K u,  u̇ = v,
 //!
-//! whose one answer lies within the limits of friction, whatever r is. At midnight r is forgotten: kept, it would give a day a memory, and days
-//! would never settle.
+//! whose one answer lies within the limits of friction, whatever r is. r goes on half as fast as it changed from one real period to the next. At
+//! midnight it is forgotten: kept, it would give a day a memory, and days would never settle.
 //!
 //! *Limits.* As for [`crate::evolve`]; the same traffic at all hours. The number of real periods a day ([`Day::knots`]) is the caller's:
 //! two runs with different numbers show each other's error.
 
+mod account;
 mod cable;
+mod calendar;
 mod day;
 mod extremes;
 mod heat;
@@ -26,8 +28,9 @@ mod law;
 mod live;
 mod rate;
 
+pub use account::{DayRecord, Row};
 pub use day::Day;
 pub use extremes::Extremes;
 pub use heat::DailyHeat;
 pub use law::LockedLaw;
-pub use live::{DayRecord, Days, DaysRequest, Row, live};
+pub use live::{Days, DaysRequest, live};

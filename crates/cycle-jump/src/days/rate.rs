@@ -52,7 +52,7 @@ impl RateStep {
     /// Time of the first stage, as a share of a step.
     pub const STAGE: f64 = GAMMA;
 
-    /// Moves `u` over `periods`, by two stages at which heat has these forces \[N\]; the defect r is that of every node \[N/m\]. The advance is sought
+    /// Moves `u` over `periods`, by two stages at which heat has these forces \[N\] and every node these defects r \[N/m\]. The advance is sought
     /// from that of the last period on.
     pub fn advance(
         &mut self,
@@ -60,17 +60,17 @@ impl RateStep {
         u: &mut [f64],
         periods: f64,
         heat: [f64; 2],
-        defect: &[f64],
+        defects: &[Vec<f64>; 2],
         last: &[f64],
     ) -> Result<(), CableError> {
         self.advance.copy_from_slice(last);
         let mut base = u.to_vec();
-        self.solve(cable, &base, GAMMA * periods, heat[0], defect)?;
+        self.solve(cable, &base, GAMMA * periods, heat[0], &defects[0])?;
         let first = self.advance.clone();
         for (base, v) in base.iter_mut().zip(&first) {
             *base += (1.0 - GAMMA) * periods * v;
         }
-        self.solve(cable, &base, GAMMA * periods, heat[1], defect)?;
+        self.solve(cable, &base, GAMMA * periods, heat[1], &defects[1])?;
         for ((u, first), second) in u.iter_mut().zip(&first).zip(&self.advance) {
             *u += periods * ((1.0 - GAMMA) * first + GAMMA * second);
         }
