@@ -53,21 +53,14 @@ impl Level {
             Base::Rigid => None,
         };
         let width = columns.len();
-        let mut prescribed = vec![false; mesh.dofs()];
-        let mut far_displacement = vec![0.0; mesh.dofs()];
+        let (mut prescribed, mut far_displacement) = (Vec::new(), Vec::new());
         for (index, &[r, z]) in mesh.nodes.iter().enumerate() {
             let (column, row) = (index % width, index / width);
-            if column + 1 == width || row + 1 == rows.len() {
-                prescribed[2 * index] = true;
-                prescribed[2 * index + 1] = true;
-                if let Some(far) = far {
-                    let u = far.displacement(r, z);
-                    far_displacement[2 * index] = u.radial;
-                    far_displacement[2 * index + 1] = u.vertical;
-                }
-            } else if column == 0 {
-                prescribed[2 * index] = true;
-            }
+            let is_outer = column + 1 == width || row + 1 == rows.len();
+            prescribed.extend([is_outer || column == 0, is_outer]);
+            let far = far.filter(|_| is_outer);
+            let u = far.map_or(Displacement::ZERO, |far| far.displacement(r, z));
+            far_displacement.extend([u.radial, u.vertical]);
         }
         let near = HalfSpace::new(lines.bands[0].soil_at(0.0));
         let edge = load::edge_displacement(&mesh, &lines, near);
