@@ -74,6 +74,7 @@ impl DuctLine {
 ///
 /// ξ is measured along x, whichever way the vehicle drives: for a reverse vehicle the duct ahead of it has ξ < 0. The speed enters V_l
 /// alone: the load is static, so the vehicle must be much slower than the ground's shear waves.
+///
 /// An example stands on the front page of the crate.
 #[derive(Debug, Clone)]
 pub struct DuctMotion {
@@ -327,11 +328,7 @@ impl DuctMotion {
             for radius in self.profiles[wheel.profile].places() {
                 // The width of a feature in ξ is that in r or more: both the place itself and the one of equal distance.
                 let leg = (radius * radius - wheel.side * wheel.side).max(0.0).sqrt();
-                positions.extend(
-                    [radius, leg]
-                        .into_iter()
-                        .flat_map(|ahead| [wheel.x - ahead, wheel.x + ahead]),
-                );
+                positions.extend([radius, leg, -radius, -leg].map(|ahead| wheel.x + ahead));
             }
         }
         positions.retain(|xi| xi.abs() <= self.reach);
