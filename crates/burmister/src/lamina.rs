@@ -28,9 +28,6 @@ const THIN: f64 = 1.0;
 pub(crate) struct Lamina {
     pub thickness: f64,
     pub soil: Soil,
-    shear_modulus: f64,
-    poisson_ratio: f64,
-    kappa: f64,
 }
 
 /// What a lamina does at one wavenumber.
@@ -57,25 +54,21 @@ pub(crate) enum Support {
 }
 
 impl Lamina {
-    pub fn new(thickness: f64, soil: Soil) -> Self {
-        Self {
-            thickness,
-            soil,
-            shear_modulus: soil.shear_modulus(),
-            poisson_ratio: soil.poisson_ratio(),
-            kappa: 3.0 - 4.0 * soil.poisson_ratio(),
-        }
+    /// κ = 3 − 4ν.
+    fn kappa(&self) -> f64 {
+        3.0 - 4.0 * self.soil.poisson_ratio()
     }
 
     /// Impedance of this soil without end below: what decays downward.
     pub fn downward_impedance(&self) -> Matrix2 {
-        let (own, across) = (-(1.0 + self.kappa), 1.0 - self.kappa);
-        Matrix2::new(own, across, across, own) * (self.shear_modulus / self.kappa)
+        let kappa = self.kappa();
+        let (own, across) = (-(1.0 + kappa), 1.0 - kappa);
+        Matrix2::new(own, across, across, own) * (self.soil.shear_modulus() / kappa)
     }
 
     /// What decays downward, displacement to displacement over `x` = m·distance.
     pub fn downward_decay(&self, x: f64) -> Matrix2 {
-        let s = x / self.kappa;
+        let s = x / self.kappa();
         Matrix2::new(1.0 - s, s, -s, 1.0 + s) * (-x).exp()
     }
 
@@ -90,9 +83,9 @@ impl Lamina {
     }
 
     fn cross_thin(&self, x: f64, support: Support) -> Crossing {
-        let mu = self.shear_modulus;
-        let g = 1.0 / (1.0 - self.poisson_ratio);
-        let nu_g = self.poisson_ratio * g;
+        let (mu, nu) = (self.soil.shear_modulus(), self.soil.poisson_ratio());
+        let g = 1.0 / (1.0 - nu);
+        let nu_g = nu * g;
         let f = g / (2.0 * mu);
         let b = 2.0 * mu * g;
         // sinh and cosh from one e^x − 1, both without cancellation.
@@ -106,12 +99,7 @@ impl Lamina {
         let diagonal_down = ch - g * p;
         // y(top) = exp(−H x) y(bottom), in 2 × 2 blocks.
         let uu = Matrix2::new(diagonal_up, -(sh + g * q), nu_g * sh + g * q, diagonal_down);
-        let ut = Matrix2::new(
-            -(sh / mu + f * q),
-            f * p,
-            -f * p,
-            f * (q - (1.0 - 2.0 * self.poisson_ratio) * sh),
-        );
+        let ut = Matrix2::new(-(sh / mu + f * q), f * p, -f * p, f * (q - (1.0 - 2.0 * nu) * sh));
         let tu = Matrix2::new(-(sh + q), p, -p, q) * b;
         let tt = Matrix2::new(diagonal_up, -(nu_g * sh + g * q), sh + g * q, diagonal_down);
         match support {
@@ -179,6 +167,11 @@ fn half_x_cosh_minus_sinh(x: f64) -> f64 {
 mod tests {
     use super::*;
 
+    fn lamina(thickness: f64, poisson_ratio: f64) -> Lamina {
+        let soil = Soil::new(1e8, poisson_ratio).expect("soil");
+        Lamina { thickness, soil }
+    }
+
     fn close(a: Matrix2, b: Matrix2, tolerance: f64) {
         let scale = a.a.abs() + a.b.abs() + a.c.abs() + a.d.abs();
         let gap = a - b;
@@ -191,7 +184,7 @@ mod tests {
     fn own_half_space_is_a_fixed_point() {
         for poisson_ratio in [0.0, 0.3, 0.49, 0.5] {
             for x in [1e-9, 1e-4, 0.1, 0.7, 1.0, 1.1, 5.0, 50.0, 800.0] {
-                let lamina = Lamina::new(x, Soil::new(1e8, poisson_ratio).expect("soil"));
+                let lamina = lamina(x, poisson_ratio);
                 let own = lamina.downward_impedance();
                 let crossing = lamina.cross(1.0, Support::Elastic(own));
                 close(crossing.impedance, own, 1e-14);
@@ -204,10 +197,10 @@ mod tests {
     #[test]
     fn both_forms_agree_at_moderate_thickness() {
         for poisson_ratio in [0.0, 0.35, 0.5] {
-            let lamina = Lamina::new(1.0, Soil::new(1e8, poisson_ratio).expect("soil"));
+            let lamina = lamina(1.0, poisson_ratio);
             for contrast in [1e-4, 1.0, 1e4] {
                 let soil = Soil::new(1e8 * contrast, 0.2).expect("soil");
-                let support = Support::Elastic(Lamina::new(1.0, soil).downward_impedance());
+                let support = Support::Elastic(Lamina { thickness: 1.0, soil }.downward_impedance());
                 let thin = lamina.cross_thin(0.8, support);
                 let thick = lamina.cross_thick(0.8, support);
                 // The reflection form loses the contrast, which is why it is not used here.

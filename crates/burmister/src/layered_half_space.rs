@@ -2,7 +2,6 @@
 
 use ground_field::{Displacement, GroundError, GroundField, SoilProfile, SurfaceLoad, check_place, checked};
 
-use crate::MODEL;
 use crate::remainder::Remainder;
 use crate::stack::Ground;
 use crate::statistics::Statistics;
@@ -85,19 +84,11 @@ impl LayeredHalfSpace {
         radii: &[f64],
         depth: f64,
     ) -> Result<(Vec<Displacement>, Statistics), GroundError> {
-        check_place(0.0, depth)?;
-        for &radius in radii {
+        for &radius in radii.iter().chain(&[0.0]) {
             check_place(radius, depth)?;
         }
         if self.ground.base.is_none() && depth >= self.ground.base_depth() {
             return Ok((vec![Displacement::ZERO; radii.len()], Statistics::default()));
-        }
-        if load.is_point() && depth == 0.0 && radii.contains(&0.0) {
-            return Err(GroundError::Singular {
-                model: MODEL,
-                radius: 0.0,
-                depth,
-            });
         }
         let remainder = Remainder::new(&self.ground, load.contact_radius(), depth);
         Transform {
@@ -117,7 +108,7 @@ impl LayeredHalfSpace {
         let scale = depth.max(load.contact_radius());
         let start = match self.ground.top() {
             _ if scale > 0.0 => 0.5 * scale,
-            Some((thickness, _)) => 0.1 * thickness,
+            Some(top) => 0.1 * top.thickness,
             None => 1.0,
         };
         let axis = (scale > 0.0).then_some(0.0);

@@ -15,43 +15,36 @@ use crate::panel::{Series, derivative_of};
 
 const MAX_ITERATIONS: usize = 40;
 
-/// An interval and a radius for Levin's method.
-pub(crate) struct Setting {
-    pub radius: f64,
-    /// Half of the interval's width.
-    pub half: f64,
-    /// Wavenumbers of the nodes.
-    pub wavenumbers: Series,
-}
-
-impl Setting {
-    /// Values at the nodes of p and q with (p J0 + q J1)' = f J0 + g J1, and a bound of the integral's error; `None` where the
-    /// alternation does not reach `tolerance`.
-    pub fn antiderivative(&self, f: &Series, g: &Series, tolerance: f64) -> Option<(Series, Series, f64)> {
-        let r = self.radius;
-        let derivative = |values: &Series| derivative_of(values).map(|slope| slope / self.half);
-        let mut p: Series = g.map(|v| -v / r);
-        let mut last = f64::INFINITY;
-        for _ in 0..MAX_ITERATIONS {
-            let slope = derivative(&p);
-            let q: Series = std::array::from_fn(|i| (f[i] - slope[i]) / r);
-            let slope = derivative(&q);
-            let next: Series = std::array::from_fn(|i| (slope[i] - q[i] / self.wavenumbers[i] - g[i]) / r);
-            let lack = next
-                .iter()
-                .zip(&p)
-                .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
-            // Twice the half width, |J| ≤ 1; another factor for values between the nodes.
-            let error = 4.0 * lack * r * self.half;
-            if error <= tolerance {
-                return Some((p, q, error));
-            }
-            if error > 2.0 * last || !error.is_finite() {
-                return None;
-            }
-            last = error;
-            p = next;
+/// Values at the nodes of p and q with (p J0 + q J1)' = f J0 + g J1 of argument m `radius`, over an interval of `half` the width with
+/// nodes at the `wavenumbers`, and a bound of the integral's error; `None` where the alternation does not reach `tolerance`.
+pub(crate) fn antiderivative(
+    radius: f64,
+    (half, wavenumbers): (f64, &Series),
+    (f, g): (&Series, &Series),
+    tolerance: f64,
+) -> Option<(Series, Series, f64)> {
+    let derivative = |values: &Series| derivative_of(values).map(|slope| slope / half);
+    let mut p: Series = g.map(|v| -v / radius);
+    let mut last = f64::INFINITY;
+    for _ in 0..MAX_ITERATIONS {
+        let slope = derivative(&p);
+        let q: Series = std::array::from_fn(|i| (f[i] - slope[i]) / radius);
+        let slope = derivative(&q);
+        let next: Series = std::array::from_fn(|i| (slope[i] - q[i] / wavenumbers[i] - g[i]) / radius);
+        let lack = next
+            .iter()
+            .zip(&p)
+            .fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+        // Twice the half width, |J| ≤ 1; another factor for values between the nodes.
+        let error = 4.0 * lack * radius * half;
+        if error <= tolerance {
+            return Some((p, q, error));
         }
-        None
+        if error > 2.0 * last || !error.is_finite() {
+            return None;
+        }
+        last = error;
+        p = next;
     }
+    None
 }

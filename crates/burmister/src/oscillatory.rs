@@ -14,11 +14,9 @@ use ground_field::Displacement;
 
 use crate::bessel::j0_j1;
 use crate::gauss::{SIZES, rule_of_class};
-use crate::levin::Setting;
+use crate::levin::antiderivative;
 use crate::panel::{NODES, Panel, Series, basis, dot};
 
-/// Halvings of one panel for one radius; 2^60 turns are beyond any float's phase accuracy.
-const MAX_HALVINGS: usize = 60;
 /// Pieces of one panel for one radius: a few at every halving toward 0.
 const MAX_PIECES: usize = 300;
 
@@ -93,7 +91,7 @@ impl<'a> Prepared<'a> {
             return self.gauss_shared(class, radius);
         }
         let mut pieces = MAX_PIECES;
-        self.divide(radius, (self.panel.from, self.panel.to), 0, &mut pieces)
+        self.divide(radius, (self.panel.from, self.panel.to), &mut pieces)
     }
 
     fn class(&self, omega: f64) -> Option<usize> {
@@ -108,7 +106,7 @@ impl<'a> Prepared<'a> {
         self::sum(nodes, radius, self.tolerance)
     }
 
-    fn divide(&self, radius: f64, (from, to): (f64, f64), halvings: usize, pieces: &mut usize) -> Integrals {
+    fn divide(&self, radius: f64, (from, to): (f64, f64), pieces: &mut usize) -> Integrals {
         let omega = 0.5 * (to - from) * radius;
         if let Some(class) = self.class(omega) {
             let nodes = weighted_nodes(self.panel, self.terms, from, to, class);
@@ -118,13 +116,13 @@ impl<'a> Prepared<'a> {
         if let Some(done) = by_levin.flatten() {
             return done;
         }
-        if halvings == MAX_HALVINGS || *pieces == 0 {
+        if *pieces == 0 {
             return Integrals::UNKNOWN;
         }
         *pieces -= 1;
         let middle = 0.5 * (from + to);
-        let mut total = self.divide(radius, (from, middle), halvings + 1, pieces);
-        total.add(self.divide(radius, (middle, to), halvings + 1, pieces));
+        let mut total = self.divide(radius, (from, middle), pieces);
+        total.add(self.divide(radius, (middle, to), pieces));
         total
     }
 
@@ -134,13 +132,9 @@ impl<'a> Prepared<'a> {
         let values = wavenumbers.map(|m| self.panel.at(m, self.terms));
         let (radial, vertical) = (values.map(|v| v.radial), values.map(|v| v.vertical));
         let zero = [0.0; NODES];
-        let setting = Setting {
-            radius,
-            half,
-            wavenumbers,
-        };
-        let (p_v, q_v, error_v) = setting.antiderivative(&vertical, &zero, self.tolerance.vertical)?;
-        let (p_r, q_r, error_r) = setting.antiderivative(&zero, &radial, self.tolerance.radial)?;
+        let (interval, wanted) = ((half, &wavenumbers), self.tolerance);
+        let (p_v, q_v, error_v) = antiderivative(radius, interval, (&vertical, &zero), wanted.vertical)?;
+        let (p_r, q_r, error_r) = antiderivative(radius, interval, (&zero, &radial), wanted.radial)?;
         let (j0_to, j1_to) = j0_j1(to * radius);
         let (j0_from, j1_from) = j0_j1(from * radius);
         let ends = |p: &Series, q: &Series| {

@@ -14,6 +14,7 @@ use ground_field::{Displacement, GroundError, SurfaceLoad};
 
 use crate::bessel::disc_factor;
 use crate::image::Image;
+use crate::lamina::Lamina;
 use crate::stack::{Ground, Stack};
 
 /// Layered field minus images, at one depth, under one load.
@@ -35,22 +36,18 @@ impl Remainder {
     pub fn new(ground: &Ground, contact_radius: f64, depth: f64) -> Self {
         let mut images = Vec::with_capacity(3);
         let mut decay_length = depth;
-        let shallow =
-            |&(thickness, _): &(f64, _)| !ground.laminae.is_empty() && depth < thickness * (2.0 / 3.0);
-        if let Some((thickness, soil)) = ground.top().filter(shallow) {
-            decay_length = 2.0 * thickness - depth;
-            images.push(Image::new(1.0, soil, depth));
-            images.push(Image::new(-1.0, soil, decay_length.max(contact_radius)));
+        let shallow = |top: &Lamina| !ground.laminae.is_empty() && depth < top.thickness * (2.0 / 3.0);
+        if let Some(top) = ground.top().filter(shallow) {
+            decay_length = 2.0 * top.thickness - depth;
+            images.push(Image::new(1.0, top.soil, depth));
+            images.push(Image::new(-1.0, top.soil, decay_length.max(contact_radius)));
         }
         if let Some(base) = &ground.base {
-            let shift: f64 = ground
-                .laminae
-                .iter()
-                .map(|l| {
-                    let stiffer = l.soil.shear_modulus() / base.soil.shear_modulus();
-                    l.thickness * (stiffer.cbrt() - 1.0)
-                })
-                .sum();
+            let shift = |lamina: &Lamina| {
+                let stiffer = lamina.soil.shear_modulus() / base.soil.shear_modulus();
+                lamina.thickness * (stiffer.cbrt() - 1.0)
+            };
+            let shift: f64 = ground.laminae.iter().map(shift).sum();
             images.push(Image::new(1.0, base.soil, (depth + shift).max(decay_length)));
         }
         Self {

@@ -2,7 +2,7 @@
 //!
 //! Neighbouring layers of one soil are joined first, so that splitting a layer changes neither the answer nor the cost.
 
-use ground_field::{Base, Displacement, GroundError, Soil, SoilLayer, SoilProfile};
+use ground_field::{Base, Displacement, GroundError, SoilProfile};
 
 use crate::MODEL;
 use crate::lamina::{Lamina, Support};
@@ -29,8 +29,11 @@ impl Ground {
                 limit: "every layer must have a uniform modulus",
             })?;
             match laminae.last_mut() {
-                Some(last) if last.soil == soil => last.thickness += SoilLayer::thickness(layer),
-                _ => laminae.push(Lamina::new(layer.thickness(), soil)),
+                Some(last) if last.soil == soil => last.thickness += layer.thickness(),
+                _ => laminae.push(Lamina {
+                    thickness: layer.thickness(),
+                    soil,
+                }),
             }
         }
         let base = match profile.base() {
@@ -40,7 +43,8 @@ impl Ground {
                     laminae.pop();
                 }
                 // The base has no bottom; its thickness is not used.
-                Some(Lamina::new(f64::INFINITY, soil))
+                let thickness = f64::INFINITY;
+                Some(Lamina { thickness, soil })
             }
         };
         Ok(Self { laminae, base })
@@ -68,40 +72,28 @@ impl Ground {
     /// A stiff layer on a soft base is a plate up to h (`G`/`G_b`)^{1/3} and a membrane up to h `G`/`G_b`; between soft layers, or with one on
     /// rock, it shears them up to h (`G`/`G_s`)^{1/2}.
     pub fn longest_length(&self) -> f64 {
-        let (softest, stiffest) = self
-            .shear_moduli()
-            .fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), g| {
-                (low.min(g), high.max(g))
-            });
-        let on_base = self
-            .base
-            .as_ref()
-            .map_or(1.0, |base| stiffest / base.soil.shear_modulus());
-        self.base_depth() * on_base.max((stiffest / softest).sqrt())
+        let softest = self.shear_moduli().fold(f64::INFINITY, f64::min);
+        let stiffest = self.shear_moduli().fold(0.0, f64::max);
+        let base = self.base.map_or(stiffest, |base| base.soil.shear_modulus());
+        self.base_depth() * (stiffest / base).max((stiffest / softest).sqrt())
     }
 
-    /// Thickness and soil of the uppermost soil; infinitely thick where there is no other.
-    pub fn top(&self) -> Option<(f64, Soil)> {
-        self.laminae
-            .first()
-            .or(self.base.as_ref())
-            .map(|lamina| (lamina.thickness, lamina.soil))
+    /// The uppermost soil; infinitely thick where there is no other.
+    pub fn top(&self) -> Option<Lamina> {
+        self.laminae.first().copied().or(self.base)
     }
 
     /// The ground cut at `depth`.
     pub fn cut(&self, depth: f64) -> Stack {
-        let mut above = Vec::new();
-        let mut below = Vec::new();
+        let (mut above, mut below) = (Vec::new(), Vec::new());
         let mut left = depth;
-        for lamina in &self.laminae {
-            let upper = left.clamp(0.0, lamina.thickness);
-            if upper > 0.0 {
-                above.push(Lamina::new(upper, lamina.soil));
-            }
-            if upper < lamina.thickness {
-                below.push(Lamina::new(lamina.thickness - upper, lamina.soil));
-            }
+        for &Lamina { thickness, soil } in &self.laminae {
+            let upper = left.clamp(0.0, thickness);
             left -= upper;
+            let lower = thickness - upper;
+            for (part, thickness) in [(&mut above, upper), (&mut below, lower)] {
+                part.extend((thickness > 0.0).then_some(Lamina { thickness, soil }));
+            }
         }
         above.reverse();
         below.reverse();

@@ -4,7 +4,7 @@ use crate::error::FigureError;
 use crate::scale::{Scale, Tick, round_range};
 
 /// One axis of a [`Chart`](crate::Chart).
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 #[must_use]
 pub struct Axis {
     pub(crate) label: String,
@@ -21,18 +21,16 @@ impl Axis {
     pub fn linear(label: impl Into<String>) -> Self {
         Self {
             label: label.into(),
-            logarithmic: false,
-            range: None,
-            centres: Vec::new(),
-            ticks: Vec::new(),
+            ..Self::default()
         }
     }
 
     /// A logarithmic axis.
     pub fn logarithmic(label: impl Into<String>) -> Self {
-        let mut axis = Self::linear(label);
-        axis.logarithmic = true;
-        axis
+        Self {
+            logarithmic: true,
+            ..Self::linear(label)
+        }
     }
 
     /// An axis of cells with names; their centres are 0, 1, 2, …

@@ -61,14 +61,13 @@ impl Reference {
         let plot = frame.plot;
         let mut place = plot;
         if self.is_vertical {
-            (place.left, place.right) = (frame.x(self.from), frame.x(self.to));
+            place.left = frame.x(self.from).max(plot.left);
+            place.right = frame.x(self.to).min(plot.right);
         } else {
-            (place.top, place.bottom) = (frame.y(self.to), frame.y(self.from));
+            place.top = frame.y(self.to).max(plot.top);
+            place.bottom = frame.y(self.from).min(plot.bottom);
         }
-        let left_top = (place.left.max(plot.left), place.top.max(plot.top));
-        let right_bottom = (place.right.min(plot.right), place.bottom.min(plot.bottom));
-        let is_inside = left_top.0 <= right_bottom.0 && left_top.1 <= right_bottom.1;
-        is_inside.then_some(Rect::between(left_top, right_bottom))
+        (place.left <= place.right && place.top <= place.bottom).then_some(place)
     }
 
     pub(crate) fn draw(&self, drawing: &mut Drawing, frame: &Frame) {
@@ -90,18 +89,17 @@ impl Reference {
         let Some(rect) = self.place(frame).filter(|_| !self.label.is_empty()) else {
             return Ok(());
         };
-        let beside = (rect.right, rect.top - 0.75 * TEXT);
-        let at = if self.is_vertical {
+        let (x, y) = if self.is_vertical {
             (rect.centre().0, rect.top)
         } else {
-            beside
+            (rect.right, rect.top - 0.75 * TEXT)
         };
         // A light colour does for a band, not for a text.
         let colour = if self.is_line() { self.colour } else { INK };
         let (plot, half) = (frame.plot, 0.5 * Drawing::text_width(&self.label) + MARGIN);
         check_room(&self.label, 2.0 * half, plot.width())?;
-        let x = at.0.min(plot.right - half).max(plot.left + half);
-        let y = at.1.clamp(plot.top + 0.7 * TEXT, plot.bottom - 0.7 * TEXT);
+        let x = x.min(plot.right - half).max(plot.left + half);
+        let y = y.clamp(plot.top + 0.7 * TEXT, plot.bottom - 0.7 * TEXT);
         drawing.text_on_white(&self.label, (x, y), colour);
         Ok(())
     }

@@ -142,13 +142,9 @@ fn labelled(values: &[f64], logarithmic: bool) -> Vec<Tick> {
     let least = if logarithmic { 1e-3 } else { 1e-4 };
     let is_short = |value: &f64| *value == 0.0 || (least..1e6).contains(&value.abs());
     let short = values.iter().all(is_short);
-    let is_plain = |value: f64| short || value == 0.0;
-    let label = |value: f64| {
-        if is_plain(value) {
-            value.to_string()
-        } else {
-            power_of_ten(value)
-        }
+    let label = |value: f64| match value {
+        _ if short || value == 0.0 => value.to_string(),
+        _ => power_of_ten(value),
     };
     // With a minus sign instead of a hyphen.
     let tick = |value: &f64| (*value, label(*value).replace('-', "−"));

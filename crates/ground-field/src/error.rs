@@ -16,12 +16,6 @@ pub enum GroundError {
         /// The allowed range, in words.
         allowed: &'static str,
     },
-    /// A word that is no direction of a vehicle.
-    #[error("found \"{found}\"; allowed: \"forward\", \"reverse\"")]
-    UnknownDirection {
-        /// The word.
-        found: String,
-    },
     /// The displacement has no finite value here, such as directly at a point load.
     #[error("{model}: the displacement has no finite value at radius {radius:?} m, depth {depth:?} m")]
     Singular {

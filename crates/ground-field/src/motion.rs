@@ -75,37 +75,12 @@ impl DuctLine {
 /// ξ is measured along x, whichever way the vehicle drives: for a reverse vehicle the duct ahead of it has ξ < 0. The speed enters V_l
 /// alone: the load is static, so the vehicle must be much slower than the ground's shear waves.
 ///
-/// ```
-/// use ground_field::{Displacement, DuctLine, DuctMotion, GroundError, GroundField, SurfaceLoad, Vehicle};
-///
-/// /// Incompressible soil of 300 MPa under a point load: u_r = c r z/R³, u_z = c (z²/R³ + 1/R), c = 3P/(4πE).
-/// struct Clay;
-///
-/// impl GroundField for Clay {
-///     fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
-///         let distance = radius.hypot(depth);
-///         let scale = 3.0 * load.force() / (4.0 * std::f64::consts::PI * 300e6);
-///         Ok(Displacement {
-///             radial: scale * radius * depth / distance.powi(3),
-///             vertical: scale * (depth * depth / distance.powi(3) + 1.0 / distance),
-///         })
-///     }
-/// }
-///
-/// let truck = Vehicle::point("truck", 196_133.0, 11.1)?;
-/// let motion = DuctMotion::new(&Clay, &truck, DuctLine::new(1.2, 0.0)?, 30.0, 1e-6)?;
-/// // Ahead of the truck the duct is pushed forward, behind it backward; r z/R³ is largest at r = z/√2.
-/// assert!(motion.longitudinal(1.0) > 0.0 && motion.longitudinal(-1.0) < 0.0);
-/// let largest = motion.longitudinal(1.2 / 2.0_f64.sqrt());
-/// assert!((motion.peak_longitudinal() / largest - 1.0).abs() < 1e-6);
-/// # Ok::<(), GroundError>(())
-/// ```
+/// An example stands on the front page of the crate.
 #[derive(Debug, Clone)]
 pub struct DuctMotion {
     profiles: Vec<RadialProfile>,
     wheels: Vec<WheelLine>,
     velocity: f64,
-    factor: f64,
     reach: f64,
     samples: usize,
     peak_longitudinal: f64,
@@ -154,7 +129,6 @@ impl DuctMotion {
             reach: reach.max(LEAST_REACH * wheels.iter().map(distance).fold(0.0, f64::max)),
             wheels,
             velocity: vehicle.velocity(),
-            factor: 1.0,
             samples: 0,
             peak_longitudinal: 0.0,
             peak_vertical: 0.0,
@@ -189,16 +163,15 @@ impl DuctMotion {
     ///
     /// [`GroundError::InvalidParameter`] unless the factor, and the peaks it makes, are finite.
     pub fn scaled(mut self, factor: f64) -> Result<Self, GroundError> {
-        self.factor *= factor;
+        for wheel in &mut self.wheels {
+            wheel.force *= factor;
+        }
         self.peak_longitudinal *= factor.abs();
         self.peak_vertical *= factor.abs();
-        let finite = |_| self.factor.is_finite() && (self.peak_longitudinal + self.peak_vertical).is_finite();
-        checked(
-            "factor",
-            factor,
-            "finite, and so the displacements it makes",
-            finite,
-        )?;
+        let forces = self.wheels.iter().map(|wheel| wheel.force.abs());
+        let size = forces.sum::<f64>() + self.peak_longitudinal + self.peak_vertical;
+        let allowed = "finite, and so the displacements it makes";
+        checked("factor", factor, allowed, |_| size.is_finite())?;
         Ok(self)
     }
 
@@ -262,9 +235,9 @@ impl DuctMotion {
         self.samples
     }
 
-    fn point(&self, xi: f64) -> Point {
-        let mut sum = Point::default();
-        for wheel in &self.wheels {
+    /// What each wheel does to the duct at ξ.
+    fn parts(&self, xi: f64) -> impl Iterator<Item = Point> {
+        self.wheels.iter().map(move |wheel| {
             let ahead = xi - wheel.x;
             let radius = ahead.hypot(wheel.side);
             let at = self.profiles[wheel.profile].at(radius);
@@ -274,37 +247,44 @@ impl DuctMotion {
             } else {
                 0.0
             };
-            let force = wheel.force * self.factor;
-            sum.longitudinal += force * at.ratio * ahead;
-            sum.gradient += force * (at.ratio + bend);
-            sum.vertical += force * at.vertical;
-        }
-        sum
+            Point {
+                longitudinal: wheel.force * at.ratio * ahead,
+                gradient: wheel.force * (at.ratio + bend),
+                vertical: wheel.force * at.vertical,
+            }
+        })
+    }
+
+    fn point(&self, xi: f64) -> Point {
+        self.parts(xi).fold(Point::default(), |sum, part| Point {
+            longitudinal: sum.longitudinal + part.longitudinal,
+            gradient: sum.gradient + part.gradient,
+            vertical: sum.vertical + part.vertical,
+        })
     }
 
     /// Finds both peaks, and whether the field has faded toward the end of what was sampled, so that none lies beyond.
     fn find_peaks(&mut self) -> bool {
         let positions = self.positions();
         let points: Vec<Point> = positions.iter().map(|&xi| self.point(xi)).collect();
-        self.peak_longitudinal = peaks::largest(
-            &positions,
-            |k| points[k].longitudinal.abs(),
-            |xi| self.point(xi).longitudinal.abs(),
-        );
-        self.peak_vertical = peaks::largest(
-            &positions,
-            |k| points[k].vertical.abs(),
-            |xi| self.point(xi).vertical.abs(),
-        );
+        let largest = |of: fn(Point) -> f64| {
+            let value = |xi| of(self.point(xi)).abs();
+            peaks::largest(&positions, |k| of(points[k]).abs(), value)
+        };
+        let along = largest(|point| point.longitudinal);
+        let down = largest(|point| point.vertical);
+        (self.peak_longitudinal, self.peak_vertical) = (along, down);
         let outer = |xi: f64| {
             self.wheels
                 .iter()
                 .all(|wheel| (xi - wheel.x).abs() >= 0.5 * self.reach)
         };
-        positions.into_iter().filter(|&xi| outer(xi)).all(|xi| {
-            let (along, down) = self.sizes(xi);
-            along <= FADED * self.peak_longitudinal && down <= FADED * self.peak_vertical
-        })
+        // Of the wheels' sizes, which cannot cancel.
+        let faded = |xi: f64| {
+            let size = |of: fn(Point) -> f64| self.parts(xi).map(|part| of(part).abs()).sum::<f64>();
+            size(|part| part.longitudinal) <= FADED * along && size(|part| part.vertical) <= FADED * down
+        };
+        positions.into_iter().filter(|&xi| outer(xi)).all(faded)
     }
 
     /// [`DuctMotion::length_scale`] of a duct at `depth`.
@@ -348,30 +328,13 @@ impl DuctMotion {
             for radius in self.profiles[wheel.profile].places() {
                 // The width of a feature in ξ is that in r or more: both the place itself and the one of equal distance.
                 let leg = (radius * radius - wheel.side * wheel.side).max(0.0).sqrt();
-                positions.extend(
-                    [radius, leg]
-                        .into_iter()
-                        .flat_map(|ahead| [wheel.x - ahead, wheel.x + ahead]),
-                );
+                positions.extend([radius, leg, -radius, -leg].map(|ahead| wheel.x + ahead));
             }
         }
         positions.retain(|xi| xi.abs() <= self.reach);
         positions.sort_by(f64::total_cmp);
         positions.dedup();
         positions
-    }
-
-    /// Sums of the wheels' |D_l| and |D_v| at ξ, which cannot cancel.
-    fn sizes(&self, xi: f64) -> (f64, f64) {
-        self.wheels.iter().fold((0.0, 0.0), |(along, down), wheel| {
-            let ahead = xi - wheel.x;
-            let at = self.profiles[wheel.profile].at(ahead.hypot(wheel.side));
-            let force = wheel.force * self.factor.abs();
-            (
-                along + force * (at.ratio * ahead).abs(),
-                down + force * at.vertical.abs(),
-            )
-        })
     }
 }
 

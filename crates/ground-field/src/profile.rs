@@ -11,6 +11,8 @@ const CHECKS: [f64; 2] = [-0.939_692_620_785_908_4, 0.939_692_620_785_908_4];
 const PLACES: usize = 4;
 /// Bisections after which a cell counts as not smooth.
 const MAX_LEVEL: usize = 24;
+/// Cells in one round after which the field counts as not smooth.
+const MAX_CELLS: usize = 20_000;
 
 type Series = [f64; NODES];
 
@@ -44,15 +46,16 @@ type Series = [f64; NODES];
 /// ```
 #[derive(Debug, Clone)]
 pub struct RadialProfile {
-    /// Left ends of the cells, ascending from 0, and the end of the last one.
-    edges: Vec<f64>,
+    /// Ascending from the axis, each beginning where the last one ends.
     cells: Vec<Cell>,
     samples: usize,
 }
 
-/// Chebyshev coefficients of one cell.
+/// Chebyshev coefficients between two radii.
 #[derive(Debug, Clone)]
 struct Cell {
+    start: f64,
+    stop: f64,
     /// u_r / r.
     ratio: Series,
     /// d(u_r / r)/dr.
@@ -70,6 +73,15 @@ pub(crate) struct ProfilePoint {
     pub ratio_slope: f64,
     /// u_z.
     pub vertical: f64,
+}
+
+impl ProfilePoint {
+    fn displacement(self, radius: f64) -> Displacement {
+        Displacement {
+            radial: self.ratio * radius,
+            vertical: self.vertical,
+        }
+    }
 }
 
 impl RadialProfile {
@@ -98,33 +110,61 @@ impl RadialProfile {
         // A little more, so that rounding of the farthest radius stays inside.
         let end = 1.05 * reach.max(2.0 * depth);
         checked("reach", end, "finite and positive", |_| true)?;
-        let mut sampler = Sampler {
-            field,
-            load,
+        let edges = initial_edges(depth, end);
+        let mut pending: Vec<(f64, f64)> = edges.windows(2).map(|pair| (pair[0], pair[1])).collect();
+        let (mut cells, mut samples, mut peak) = (Vec::new(), 0, Displacement::ZERO);
+        let mut worst = (0.0_f64, 0.0);
+        for _ in 0..=MAX_LEVEL {
+            // All new radii of one round go to the model in one call, which may share work among them.
+            let shares = || (0..NODES).map(node).chain(CHECKS);
+            let radii: Vec<f64> = pending
+                .iter()
+                .flat_map(|(start, stop)| {
+                    shares().map(move |t| 0.5 * (start + stop) + 0.5 * (stop - start) * t)
+                })
+                .collect();
+            let values = field.displacements(load, &radii, depth)?;
+            samples += radii.len();
+            for value in &values {
+                peak = peak.zip(*value, |peak, value| peak.max(value.abs()));
+            }
+            worst = (0.0, 0.0);
+            let size = NODES + CHECKS.len();
+            let asked = radii.chunks(size).zip(values.chunks(size));
+            for ((start, stop), (radii, values)) in std::mem::take(&mut pending).into_iter().zip(asked) {
+                let cell = Cell::fit(start, stop, radii, values);
+                let error = cell.error(&radii[NODES..], &values[NODES..], peak);
+                if error <= accuracy {
+                    cells.push(cell);
+                    continue;
+                }
+                if error > worst.0 {
+                    worst = (error, start);
+                }
+                let middle = 0.5 * (start + stop);
+                pending.extend([(start, middle), (middle, stop)]);
+            }
+            if pending.is_empty() {
+                cells.sort_by(|a, b| a.start.total_cmp(&b.start));
+                return Ok(Self { cells, samples });
+            }
+            if pending.len() > MAX_CELLS {
+                break;
+            }
+        }
+        Err(GroundError::Accuracy {
+            model: "radial profile",
+            asked: accuracy,
+            reached: worst.0,
+            radius: worst.1,
             depth,
-            accuracy,
-            peak: Displacement::ZERO,
-            samples: 0,
-        };
-        let found = sampler.refine(&initial_edges(depth, end))?;
-
-        let mut edges: Vec<f64> = found.iter().map(|(start, _, _)| *start).collect();
-        edges.push(end);
-        Ok(Self {
-            edges,
-            cells: found.into_iter().map(|(_, _, cell)| cell).collect(),
-            samples: sampler.samples,
         })
     }
 
     /// Displacement under the unit load at `radius` \[m\].
     pub fn displacement(&self, radius: f64) -> Displacement {
         // Across the axis lies the field of the other side.
-        let point = self.at(radius.abs());
-        Displacement {
-            radial: point.ratio * radius,
-            vertical: point.vertical,
-        }
+        self.at(radius.abs()).displacement(radius)
     }
 
     /// How many radii the ground model was asked for.
@@ -135,112 +175,15 @@ impl RadialProfile {
     /// Radii, a few in every cell, between which the profile has at most one bump; the axis is one.
     pub(crate) fn places(&self) -> impl Iterator<Item = f64> {
         let share = |k: usize| k as f64 / PLACES as f64;
-        self.edges
-            .windows(2)
-            .flat_map(move |ends| (0..PLACES).map(move |k| ends[0] + (ends[1] - ends[0]) * share(k)))
+        self.cells
+            .iter()
+            .flat_map(move |cell| (0..PLACES).map(move |k| cell.start + (cell.stop - cell.start) * share(k)))
     }
 
     pub(crate) fn at(&self, radius: f64) -> ProfilePoint {
-        let index = self.edges.partition_point(|&edge| edge <= radius).max(1) - 1;
-        let Some(cell) = self.cells.get(index) else {
-            return ProfilePoint::default();
-        };
-        let (start, stop) = (self.edges[index], self.edges[index + 1]);
-        let t = (2.0 * radius - start - stop) / (stop - start);
-        ProfilePoint {
-            ratio: clenshaw(&cell.ratio, t),
-            ratio_slope: clenshaw(&cell.ratio_slope, t),
-            vertical: clenshaw(&cell.vertical, t),
-        }
-    }
-}
-
-/// Asks the model, cell by cell, until every cell is accurate.
-struct Sampler<'a> {
-    field: &'a dyn GroundField,
-    load: SurfaceLoad,
-    depth: f64,
-    accuracy: f64,
-    peak: Displacement,
-    samples: usize,
-}
-
-impl Sampler<'_> {
-    /// Bisects the cells between `edges` until all are accurate; returns them in order with their ends.
-    /// All new radii of one round go to the model in one call, which may share work among them.
-    fn refine(&mut self, edges: &[f64]) -> Result<Vec<(f64, f64, Cell)>, GroundError> {
-        let mut pending: Vec<(f64, f64)> = edges.windows(2).map(|pair| (pair[0], pair[1])).collect();
-        let mut done = Vec::new();
-        for level in 0..=MAX_LEVEL {
-            let radii: Vec<f64> = pending
-                .iter()
-                .flat_map(|&(start, stop)| {
-                    (0..NODES)
-                        .map(node)
-                        .chain(CHECKS)
-                        .map(move |t| 0.5 * (start + stop) + 0.5 * (stop - start) * t)
-                })
-                .collect();
-            let values = self.field.displacements(self.load, &radii, self.depth)?;
-            self.samples += radii.len();
-            for value in &values {
-                self.peak.radial = self.peak.radial.max(value.radial.abs());
-                self.peak.vertical = self.peak.vertical.max(value.vertical.abs());
-            }
-            let mut next = Vec::new();
-            let mut worst = (0.0_f64, 0.0_f64);
-            for (index, &(start, stop)) in pending.iter().enumerate() {
-                let range = index * (NODES + CHECKS.len())..(index + 1) * (NODES + CHECKS.len());
-                let cell = Cell::fit(start, stop, &radii[range.clone()], &values[range.clone()]);
-                let error = self.error(&cell, &radii[range.clone()], &values[range]);
-                if error <= self.accuracy {
-                    done.push((start, stop, cell));
-                } else {
-                    if error > worst.0 || !error.is_finite() {
-                        worst = (error, start);
-                    }
-                    let middle = 0.5 * (start + stop);
-                    next.extend([(start, middle), (middle, stop)]);
-                }
-            }
-            if next.is_empty() {
-                done.sort_by(|a, b| a.0.total_cmp(&b.0));
-                return Ok(done);
-            }
-            if level == MAX_LEVEL || next.len() > 20_000 {
-                return Err(GroundError::Accuracy {
-                    model: "radial profile",
-                    asked: self.accuracy,
-                    reached: worst.0,
-                    radius: worst.1,
-                    depth: self.depth,
-                });
-            }
-            pending = next;
-        }
-        unreachable!("the last level returns")
-    }
-
-    /// Largest error at the check points, as a share of the peaks.
-    fn error(&self, cell: &Cell, radii: &[f64], values: &[Displacement]) -> f64 {
-        let share = |difference: f64, peak: f64| {
-            if difference == 0.0 {
-                0.0
-            } else {
-                difference.abs() / peak
-            }
-        };
-        (0..CHECKS.len()).fold(0.0, |worst: f64, check| {
-            let (t, r, value) = (CHECKS[check], radii[NODES + check], values[NODES + check]);
-            let radial = share(clenshaw(&cell.ratio, t) * r - value.radial, self.peak.radial);
-            let vertical = share(clenshaw(&cell.vertical, t) - value.vertical, self.peak.vertical);
-            // `f64::max` would drop a NaN, which must count as an error.
-            if radial.is_finite() && vertical.is_finite() {
-                worst.max(radial).max(vertical)
-            } else {
-                f64::INFINITY
-            }
-        })
+        let index = self.cells.partition_point(|cell| cell.stop <= radius);
+        let cell = self.cells.get(index);
+        cell.map_or_else(ProfilePoint::default, |cell| cell.at(radius))
     }
 }
 
@@ -248,10 +191,38 @@ impl Cell {
     fn fit(start: f64, stop: f64, radii: &[f64], values: &[Displacement]) -> Self {
         let ratio = coefficients(|k| values[k].radial / radii[k]);
         Self {
-            ratio_slope: derivative(&ratio, 2.0 / (stop - start)),
+            start,
+            stop,
+            ratio_slope: derivative(&ratio).map(|slope| slope * 2.0 / (stop - start)),
             ratio,
             vertical: coefficients(|k| values[k].vertical),
         }
+    }
+
+    fn at(&self, radius: f64) -> ProfilePoint {
+        let t = (2.0 * radius - self.start - self.stop) / (self.stop - self.start);
+        ProfilePoint {
+            ratio: clenshaw(&self.ratio, t),
+            ratio_slope: clenshaw(&self.ratio_slope, t),
+            vertical: clenshaw(&self.vertical, t),
+        }
+    }
+
+    /// Largest difference to `values` at `radii`, as a share of the `peak`.
+    fn error(&self, radii: &[f64], values: &[Displacement], peak: Displacement) -> f64 {
+        // `f64::max` would drop a NaN, which must count as an error.
+        let share = |difference: f64, peak: f64| match (difference / peak).abs() {
+            _ if difference == 0.0 => 0.0,
+            share if share.is_finite() => share,
+            _ => f64::INFINITY,
+        };
+        radii
+            .iter()
+            .zip(values)
+            .fold(0.0, |worst: f64, (&radius, value)| {
+                let shares = (self.at(radius).displacement(radius) - *value).zip(peak, share);
+                worst.max(shares.radial).max(shares.vertical)
+            })
     }
 }
 
@@ -269,39 +240,34 @@ fn initial_edges(depth: f64, end: f64) -> Vec<f64> {
     edges
 }
 
-/// Chebyshev node of the first kind.
+/// The angle whose cosine is the `k`-th Chebyshev node of the first kind, which ascend from −1.
+fn angle(k: usize) -> f64 {
+    std::f64::consts::PI * (1.0 - (2 * k + 1) as f64 / (2 * NODES) as f64)
+}
+
 fn node(k: usize) -> f64 {
-    -((2 * k + 1) as f64 * std::f64::consts::PI / (2 * NODES) as f64).cos()
+    angle(k).cos()
 }
 
 /// Chebyshev coefficients of the interpolant through `value` at the nodes.
 fn coefficients(value: impl Fn(usize) -> f64) -> Series {
-    let mut series = [0.0; NODES];
-    for (degree, coefficient) in series.iter_mut().enumerate() {
-        for k in 0..NODES {
-            // T_j at node k, as nodes ascend from −1: cos(j (π − θ_k)).
-            let angle =
-                degree as f64 * (1.0 - (2 * k + 1) as f64 / (2 * NODES) as f64) * std::f64::consts::PI;
-            *coefficient += value(k) * angle.cos();
-        }
-        *coefficient *= if degree == 0 { 1.0 } else { 2.0 } / NODES as f64;
-    }
-    series
+    std::array::from_fn(|degree| {
+        let term = |k| value(k) * (degree as f64 * angle(k)).cos();
+        let sum: f64 = (0..NODES).map(term).sum();
+        sum * if degree == 0 { 1.0 } else { 2.0 } / NODES as f64
+    })
 }
 
-/// Coefficients of the derivative with respect to t, times `scale`.
-fn derivative(series: &Series, scale: f64) -> Series {
+/// Chebyshev coefficients of the derivative: d_(k−1) = d_(k+1) + 2 k c_k.
+fn derivative(series: &Series) -> Series {
     let mut slope = [0.0; NODES];
-    for degree in (1..NODES).rev() {
-        let above = if degree + 1 < NODES {
-            slope[degree + 1]
-        } else {
-            0.0
-        };
-        slope[degree - 1] = above + 2.0 * degree as f64 * series[degree];
+    let (mut next, mut last) = (0.0, 0.0);
+    for k in (1..NODES).rev() {
+        (next, last) = (last, next + 2.0 * k as f64 * series[k]);
+        slope[k - 1] = last;
     }
     slope[0] *= 0.5;
-    slope.map(|coefficient| coefficient * scale)
+    slope
 }
 
 /// Value of a Chebyshev series at t in [−1, 1].
@@ -320,10 +286,10 @@ mod tests {
     #[test]
     fn a_series_and_its_derivative_reproduce_a_polynomial() {
         let series = coefficients(|k| node(k).powi(5) - 2.0 * node(k));
-        let slope = derivative(&series, 1.0);
         for t in [-1.0_f64, -0.3, 0.0, 0.77, 1.0] {
-            assert!((clenshaw(&series, t) - (t.powi(5) - 2.0 * t)).abs() < 1e-14);
-            assert!((clenshaw(&slope, t) - (5.0 * t.powi(4) - 2.0)).abs() < 1e-13);
+            let (value, slope) = (clenshaw(&series, t), clenshaw(&derivative(&series), t));
+            assert!((value - (t.powi(5) - 2.0 * t)).abs() < 1e-14);
+            assert!((slope - (5.0 * t.powi(4) - 2.0)).abs() < 1e-13);
         }
     }
 }

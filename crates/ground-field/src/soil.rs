@@ -257,13 +257,10 @@ impl SoilProfile {
 
     /// The soil where the ground is one and the same everywhere.
     pub fn homogeneous(&self) -> Option<Soil> {
+        let is = |soil| self.layers.iter().all(|layer| layer.soil() == Some(soil));
         match self.base {
-            Base::HalfSpace(soil) => self
-                .layers
-                .iter()
-                .all(|layer| layer.soil() == Some(soil))
-                .then_some(soil),
-            Base::Rigid => None,
+            Base::HalfSpace(soil) if is(soil) => Some(soil),
+            _ => None,
         }
     }
 }

@@ -1,7 +1,6 @@
 //! Vehicles: wheels that travel together.
 
 use std::fmt;
-use std::str::FromStr;
 
 use crate::error::checked;
 use crate::{GroundError, SurfaceLoad};
@@ -43,20 +42,6 @@ impl fmt::Display for Direction {
             Self::Forward => "forward",
             Self::Reverse => "reverse",
         })
-    }
-}
-
-impl FromStr for Direction {
-    type Err = GroundError;
-
-    fn from_str(text: &str) -> Result<Self, GroundError> {
-        match text {
-            "forward" => Ok(Self::Forward),
-            "reverse" => Ok(Self::Reverse),
-            _ => Err(GroundError::UnknownDirection {
-                found: text.to_owned(),
-            }),
-        }
     }
 }
 

@@ -126,22 +126,22 @@ struct Dissection<'a> {
 impl Dissection<'_> {
     /// Eliminates what lies inside a rectangle of elements, and returns what is left.
     fn eliminate(&mut self, columns: Range<usize>, rows: Range<usize>) -> Option<Part> {
-        let (column, row) = (columns.start.midpoint(columns.end), rows.start.midpoint(rows.end));
-        let parts = if columns.len() > 1 && columns.len() >= rows.len() {
-            vec![
-                self.eliminate(columns.start..column, rows.clone())?,
-                self.eliminate(column..columns.end, rows)?,
-            ]
+        let [first, second] = if columns.len() > 1 && columns.len() >= rows.len() {
+            let middle = columns.start.midpoint(columns.end);
+            [(columns.start..middle, rows.clone()), (middle..columns.end, rows)]
         } else if rows.len() > 1 {
-            vec![
-                self.eliminate(columns.clone(), rows.start..row)?,
-                self.eliminate(columns, row..rows.end)?,
-            ]
-        } else if columns.is_empty() || rows.is_empty() {
-            Vec::new()
+            let middle = rows.start.midpoint(rows.end);
+            [(columns.clone(), rows.start..middle), (columns, middle..rows.end)]
         } else {
-            vec![self.element(column + row * self.mesh.across)]
+            // One element, or none.
+            let element = |(column, row)| self.element(column + row * self.mesh.across);
+            let parts: Vec<Part> = columns.zip(rows).map(element).collect();
+            return self.join(&parts);
         };
+        let parts = [
+            self.eliminate(first.0, first.1)?,
+            self.eliminate(second.0, second.1)?,
+        ];
         self.join(&parts)
     }
 

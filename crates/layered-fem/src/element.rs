@@ -67,40 +67,39 @@ pub(crate) struct Shape {
     pub determinant: f64,
 }
 
-/// Quadratic Lagrange polynomials on nodes −1, 1, 0, in that order, and their slopes.
+/// Quadratic Lagrange polynomials on nodes −1, 0, 1, and their slopes.
 fn quadratic(x: f64) -> ([f64; 3], [f64; 3]) {
     (
-        [0.5 * x * (x - 1.0), 0.5 * x * (x + 1.0), 1.0 - x * x],
-        [x - 0.5, x + 0.5, -2.0 * x],
+        [0.5 * x * (x - 1.0), 1.0 - x * x, 0.5 * x * (x + 1.0)],
+        [x - 0.5, -2.0 * x, x + 0.5],
     )
 }
 
-/// Index pairs (in ξ, in η) into [`quadratic`]'s order for the nine nodes.
-const PAIRS: [(usize, usize); NODES] = [
+/// Columns and rows of an element's nodes in the lattice of corners and mid-points.
+pub(crate) const PLACES: [(usize, usize); NODES] = [
     (0, 0),
-    (1, 0),
-    (1, 1),
-    (0, 1),
     (2, 0),
-    (1, 2),
-    (2, 1),
-    (0, 2),
     (2, 2),
+    (0, 2),
+    (1, 0),
+    (2, 1),
+    (1, 2),
+    (0, 1),
+    (1, 1),
 ];
 
 /// Shape functions at `x` in \[−1, 1\] of an edge whose three nodes follow each other.
 pub(crate) fn edge_shape(x: f64) -> [f64; 3] {
-    let ([first, last, middle], _) = quadratic(x);
-    [first, middle, last]
+    quadratic(x).0
 }
 
 impl Shape {
     /// Shape functions at (ξ, η) of the element with these nodes.
     pub(crate) fn at(nodes: &Corners, xi: f64, eta: f64) -> Self {
         let ((x, dx), (e, de)) = (quadratic(xi), quadratic(eta));
-        let value = PAIRS.map(|(i, j)| x[i] * e[j]);
-        let d_xi = PAIRS.map(|(i, j)| dx[i] * e[j]);
-        let d_eta = PAIRS.map(|(i, j)| x[i] * de[j]);
+        let value = PLACES.map(|(i, j)| x[i] * e[j]);
+        let d_xi = PLACES.map(|(i, j)| dx[i] * e[j]);
+        let d_eta = PLACES.map(|(i, j)| x[i] * de[j]);
         let sum = |weights: &[f64; NODES], c: usize| -> f64 {
             weights
                 .iter()

@@ -7,7 +7,7 @@
 //! spacing is fitted between the layers' interfaces, each layer having at least two elements on the coarsest mesh: a soft layer
 //! between stiff ones shears and squeezes over its own thickness.
 
-use ground_field::{Base, SoilLayer, SoilProfile};
+use ground_field::{Base, Soil, SoilLayer, SoilProfile};
 
 use crate::FemError;
 
@@ -28,6 +28,23 @@ const REACH_RIGID: f64 = 10.0;
 /// The ground's own length is taken at least this large \[m\].
 const LEAST_LENGTH: f64 = 5.0;
 
+/// Neighbouring rows of elements in one soil.
+#[derive(Debug, Clone)]
+pub(crate) struct Band {
+    /// The layer; the base counts as one, as thick as the mesh is deep.
+    pub(crate) layer: SoilLayer,
+    /// Depth of the layer's top \[m\].
+    pub(crate) top: f64,
+    /// The first row below.
+    pub(crate) end: usize,
+}
+
+impl Band {
+    pub(crate) fn soil_at(&self, depth: f64) -> Soil {
+        self.layer.soil_at(depth - self.top)
+    }
+}
+
 /// The lines of one mesh.
 #[derive(Debug, Clone)]
 pub(crate) struct Lines {
@@ -35,24 +52,18 @@ pub(crate) struct Lines {
     pub(crate) radii: Vec<f64>,
     /// Depths of the horizontal lines \[m\].
     pub(crate) depths: Vec<f64>,
-    /// Layer of each row of elements; the number of layers for the base.
-    pub(crate) layer_of_row: Vec<usize>,
-    pub(crate) tops: Vec<f64>,
+    /// The rows of elements from the surface down; the first band is that of the block around the load.
+    pub(crate) bands: Vec<Band>,
     /// Columns of elements in the block around the load.
     pub(crate) block_columns: usize,
-    /// Rows of elements in the block around the load.
-    pub(crate) block_rows: usize,
     /// Length c over which the spacing is even \[m\].
     pub(crate) scale: f64,
     /// Parts into which the intervals of the first mesh are cut.
     pub(crate) parts: usize,
 }
 
-/// Depth \[m\] of the block around the load: within the top layer, and where its modulus has not changed much.
-fn block_depth(profile: &SoilProfile) -> f64 {
-    let Some(top) = profile.layers().first() else {
-        return LARGEST_BLOCK;
-    };
+/// Depth \[m\] of the block around the load: within the `top` layer, and where its modulus has not changed much.
+fn block_depth(top: &SoilLayer) -> f64 {
     let thickness = top.thickness();
     let (first, last) = (top.young_modulus_at(0.0), top.young_modulus_at(thickness));
     let change = (last - first).abs() / first.min(last);
@@ -67,31 +78,20 @@ fn block_depth(profile: &SoilProfile) -> f64 {
 /// over (E₁/E₂)^(1/2) on a soft layer above rock. It also holds back the horizontal displacement, as a membrane, over E₁/E₂
 /// of its thickness.
 fn reach(profile: &SoilProfile) -> f64 {
-    let ends = |layer: &SoilLayer| {
-        [
-            layer.young_modulus_at(0.0),
-            layer.young_modulus_at(layer.thickness()),
-        ]
-    };
-    let stiffest = profile.layers().iter().flat_map(ends).fold(0.0, f64::max);
+    let ends = |layer: &SoilLayer| [0.0, layer.thickness()].map(|height| layer.young_modulus_at(height));
+    let moduli = || profile.layers().iter().flat_map(ends);
+    let stiffest = moduli().fold(0.0, f64::max);
     let depth = profile.base_depth();
     match profile.base() {
         Base::HalfSpace(soil) => {
             let base = soil.young_modulus();
             let plate = depth * (stiffest / base).max(1.0).cbrt();
-            let membrane: f64 = profile
-                .layers()
-                .iter()
-                .map(|layer| layer.thickness() * ends(layer)[0].max(ends(layer)[1]) / base)
-                .sum();
+            let membrane = |layer: &SoilLayer| layer.thickness() * ends(layer)[0].max(ends(layer)[1]) / base;
+            let membrane: f64 = profile.layers().iter().map(membrane).sum();
             (REACH_HALF_SPACE * plate.max(LEAST_LENGTH)).max(REACH_MEMBRANE * membrane)
         }
         Base::Rigid => {
-            let softest = profile
-                .layers()
-                .iter()
-                .flat_map(ends)
-                .fold(f64::INFINITY, f64::min);
+            let softest = moduli().fold(f64::INFINITY, f64::min);
             REACH_RIGID * (depth * (stiffest / softest).sqrt()).max(LEAST_LENGTH)
         }
     }
@@ -109,7 +109,8 @@ impl Lines {
         parts: usize,
         max_unknowns: usize,
     ) -> Result<Self, FemError> {
-        let block = block_depth(profile);
+        let mut layers = profile.layers().to_vec();
+        let block = layers.first().map_or(LARGEST_BLOCK, block_depth);
         let scale = (0.5 * block).max(SMALLEST_SCALE);
         let stretch = ORDINARY_ALPHA / alpha * parts as f64;
         let reach = stretch * reach(profile).max(50.0 * scale);
@@ -119,61 +120,45 @@ impl Lines {
             parts,
             max_unknowns,
         };
-        let mut depths = vec![0.0];
-        let mut layer_of_row = Vec::new();
-        // |ln E| of a layer at a depth, from the layer's top; 0 where the layer is uniform.
-        let steepness = |layer: &SoilLayer, top: f64| {
-            let layer = *layer;
-            move |depth: f64| {
-                if layer.soil().is_some() {
-                    return 0.0;
-                }
-                // Rounding of the layer's bottom is not to leave the layer.
-                let height = (depth - top).clamp(0.0, layer.thickness());
-                (layer.young_modulus_at(height) / layer.young_modulus_at(0.0))
-                    .ln()
-                    .abs()
-            }
-        };
-        let uniform = |_: f64| 0.0;
-        let block_rows = match profile.layers().first() {
-            Some(layer) => grade.fill(block, &mut depths, steepness(layer, 0.0))?,
-            None => grade.fill(block, &mut depths, uniform)?,
-        };
-        layer_of_row.extend(std::iter::repeat_n(0, block_rows));
-        let (mut tops, mut bottom) = (Vec::new(), 0.0);
-        for (index, layer) in profile.layers().iter().enumerate() {
-            let top = bottom;
-            tops.push(top);
-            bottom += layer.thickness();
-            let rows = grade.fill(bottom, &mut depths, steepness(layer, top))?;
-            layer_of_row.extend(std::iter::repeat_n(index, rows));
+        if let Base::HalfSpace(soil) = profile.base() {
+            let thickness = if layers.is_empty() { block + reach } else { reach };
+            layers.extend(SoilLayer::uniform(thickness.min(f64::MAX), soil));
         }
-        if matches!(profile.base(), Base::HalfSpace(_)) {
-            let rows = grade.fill(bottom.max(block) + reach, &mut depths, uniform)?;
-            layer_of_row.extend(std::iter::repeat_n(profile.layers().len(), rows));
+        let (mut depths, mut bands, mut bottom) = (vec![0.0], Vec::new(), 0.0);
+        for layer in layers {
+            let top = bottom;
+            bottom += layer.thickness();
+            for end in [block, bottom] {
+                if grade.fill(end, &mut depths, |depth| steepness(&layer, depth - top))? > 0 {
+                    let end = depths.len() - 1;
+                    bands.push(Band { layer, top, end });
+                }
+            }
         }
         let mut radii = vec![0.0];
-        let block_columns = grade.fill(block, &mut radii, uniform)?;
-        grade.fill(block + reach, &mut radii, uniform)?;
+        let block_columns = grade.fill(block, &mut radii, |_| 0.0)?;
+        grade.fill(block + reach, &mut radii, |_| 0.0)?;
         let needed = 2 * (2 * radii.len() - 1) * (2 * depths.len() - 1);
-        if needed > max_unknowns {
-            return Err(FemError::TooLarge {
-                needed,
-                allowed: max_unknowns,
-            });
-        }
+        grade.check(needed)?;
         Ok(Self {
             radii,
             depths,
-            layer_of_row,
-            tops,
+            bands,
             block_columns,
-            block_rows,
             scale,
             parts,
         })
     }
+}
+
+/// |ln E| at `height` below the layer's top, from there; 0 where the layer is uniform.
+fn steepness(layer: &SoilLayer, height: f64) -> f64 {
+    if layer.soil().is_some() {
+        return 0.0;
+    }
+    // Rounding of the layer's bottom is not to leave the layer.
+    let modulus = layer.young_modulus_at(height.clamp(0.0, layer.thickness()));
+    (modulus / layer.young_modulus_at(0.0)).ln().abs()
 }
 
 struct Grade {
@@ -201,12 +186,7 @@ impl Grade {
         let count = (((last - first) / self.alpha).round() as usize)
             .max(LEAST_ELEMENTS)
             .saturating_mul(self.parts);
-        if count.saturating_add(lines.len()) > self.max_unknowns {
-            return Err(FemError::TooLarge {
-                needed: count.saturating_add(lines.len()),
-                allowed: self.max_unknowns,
-            });
-        }
+        self.check(count.saturating_add(lines.len()))?;
         let uniform = steepness(start) == steepness(end);
         for k in 1..count {
             let wanted = first + (last - first) * k as f64 / count as f64;
@@ -218,6 +198,14 @@ impl Grade {
         }
         lines.push(end);
         Ok(count)
+    }
+
+    fn check(&self, needed: usize) -> Result<(), FemError> {
+        let allowed = self.max_unknowns;
+        if needed > allowed {
+            return Err(FemError::TooLarge { needed, allowed });
+        }
+        Ok(())
     }
 }
 

@@ -9,7 +9,7 @@
 
 use std::collections::HashMap;
 
-use ground_field::{Base, Displacement, Soil, SoilProfile};
+use ground_field::{Base, Displacement, SoilProfile};
 
 use crate::FemError;
 use crate::grading::Lines;
@@ -25,7 +25,6 @@ const ROWS_IN_DEPTH: usize = 5;
 /// A factored mesh.
 #[derive(Debug)]
 pub(crate) struct Level {
-    profile: SoilProfile,
     pub lines: Lines,
     /// Radii of all columns of nodes.
     pub columns: Vec<f64>,
@@ -39,17 +38,10 @@ pub(crate) struct Level {
     /// The closed form with the base's soil; `None` over rock.
     far: Option<HalfSpace>,
     far_displacement: Vec<f64>,
+    /// The closed form at the surface's soil, at the nodes on the block's boundary.
+    edge: Vec<f64>,
     /// Solutions u* under a unit load by the bits of the contact radius.
     pub solutions: HashMap<u64, Vec<f64>>,
-}
-
-/// The soil of a layer (the base comes last) at a depth.
-fn soil_at(profile: &SoilProfile, lines: &Lines, layer: usize, depth: f64) -> Soil {
-    match profile.base() {
-        Base::HalfSpace(soil) if layer >= profile.layers().len() => soil,
-        // No row of elements lies in rock.
-        _ => profile.layers()[layer].soil_at(depth - lines.tops[layer]),
-    }
 }
 
 impl Level {
@@ -61,37 +53,32 @@ impl Level {
             Base::Rigid => None,
         };
         let width = columns.len();
-        let mut prescribed = vec![false; mesh.dofs()];
-        let mut far_displacement = vec![0.0; mesh.dofs()];
+        let (mut prescribed, mut far_displacement) = (Vec::new(), Vec::new());
         for (index, &[r, z]) in mesh.nodes.iter().enumerate() {
             let (column, row) = (index % width, index / width);
-            if column + 1 == width || row + 1 == rows.len() {
-                prescribed[2 * index] = true;
-                prescribed[2 * index + 1] = true;
-                if let Some(far) = far {
-                    let u = far.displacement(r, z);
-                    far_displacement[2 * index] = u.radial;
-                    far_displacement[2 * index + 1] = u.vertical;
-                }
-            } else if column == 0 {
-                prescribed[2 * index] = true;
-            }
+            let is_outer = column + 1 == width || row + 1 == rows.len();
+            prescribed.extend([is_outer || column == 0, is_outer]);
+            let far = far.filter(|_| is_outer);
+            let u = far.map_or(Displacement::ZERO, |far| far.displacement(r, z));
+            far_displacement.extend([u.radial, u.vertical]);
         }
+        let near = HalfSpace::new(lines.bands[0].soil_at(0.0));
+        let edge = load::edge_displacement(&mesh, &lines, near);
         let across = mesh.across;
         let system = System::new(mesh, &prescribed, |element, _, z| {
-            let layer = lines.layer_of_row[element / across];
-            Elasticity::new(soil_at(profile, &lines, layer, z))
+            let band = lines.bands.partition_point(|band| band.end <= element / across);
+            Elasticity::new(lines.bands[band].soil_at(z))
         })?;
         Ok(Self {
-            near: HalfSpace::new(soil_at(profile, &lines, 0, 0.0)),
-            far,
-            profile: profile.clone(),
             lines,
             columns,
             rows,
             system,
             rounding,
+            near,
+            far,
             far_displacement,
+            edge,
             solutions: HashMap::new(),
         })
     }
@@ -99,9 +86,7 @@ impl Level {
     /// The solution u* under a unit load.
     fn solve(&self, contact_radius: f64) -> Result<Vec<f64>, FemError> {
         let force = if contact_radius == 0.0 {
-            load::point(&self.system, &self.lines, self.near, |z| {
-                soil_at(&self.profile, &self.lines, 0, z).young_modulus()
-            })
+            load::point(&self.system, &self.lines, self.near, &self.edge)
         } else {
             load::disc(&self.system.mesh, &self.lines, contact_radius)
         };
@@ -122,86 +107,52 @@ impl Level {
         let solution = &self.solutions[&key];
         let weights = self.depth_weights(depth);
         let width = self.columns.len();
-        let in_block = depth < self.lines.depths[self.lines.block_rows] && contact_radius == 0.0;
-        let near = self.near;
-        let last_column = 2 * self.lines.block_columns;
-        let edge = if in_block {
-            load::edge_displacement(&self.system.mesh, &self.lines, near)
-        } else {
-            Vec::new()
+        let in_block = depth < self.lines.depths[self.lines.bands[0].end] && contact_radius == 0.0;
+        let value = |(column, &r): (usize, &f64)| {
+            let mut u = Displacement::ZERO;
+            for &(row, weight) in &weights {
+                let node = column + row * width;
+                u += at_node(solution, node) * weight;
+                // Inside the block the unknown is the difference already; on its edge it is made one.
+                if in_block {
+                    u += at_node(&self.edge, node) * -weight;
+                }
+            }
+            if in_block && column > 2 * self.lines.block_columns {
+                u = u - self.near.displacement(r, depth);
+            }
+            u
         };
-        let values = self
-            .columns
-            .iter()
-            .enumerate()
-            .map(|(column, &r)| {
-                let mut u = Displacement::ZERO;
-                for &(row, weight) in &weights {
-                    let node = column + row * width;
-                    u += at_node(solution, node) * weight;
-                    // Inside the block the unknown is the difference already; on its edge it is made one.
-                    if in_block && column <= last_column {
-                        u += at_node(&edge, node) * -weight;
-                    }
-                }
-                if in_block && column > last_column {
-                    u = u - near.displacement(r, depth);
-                }
-                u
-            })
-            .collect::<Vec<_>>();
-        Ok(DepthLine::new(
-            &self.columns,
-            self.lines.scale,
-            &values,
-            in_block.then_some(near),
-            self.far,
-            depth,
-        ))
+        let values: Vec<Displacement> = self.columns.iter().enumerate().map(value).collect();
+        let near = in_block.then_some(self.near);
+        let (columns, scale) = (&self.columns, self.lines.scale);
+        Ok(DepthLine::new(columns, scale, &values, near, self.far, depth))
     }
 
-    /// Node rows and Lagrange weights that interpolate at `depth`, all in the layer (or the block) it lies in.
+    /// Node rows and Lagrange weights that interpolate at `depth`, all in the band it lies in.
     fn depth_weights(&self, depth: f64) -> Vec<(usize, f64)> {
-        let lines = &self.lines;
-        let element_row = lines
-            .depths
-            .partition_point(|&line| line <= depth)
-            .clamp(1, lines.layer_of_row.len())
-            - 1;
-        let same = |row: usize| {
-            lines.layer_of_row[row] == lines.layer_of_row[element_row]
-                && (row < lines.block_rows) == (element_row < lines.block_rows)
-        };
-        let first = 2
-            * (0..=element_row)
-                .rev()
-                .take_while(|&row| same(row))
-                .last()
-                .unwrap_or(element_row);
-        let last = 2
-            * (element_row..lines.layer_of_row.len())
-                .take_while(|&row| same(row))
-                .last()
-                .unwrap_or(element_row)
-            + 2;
+        let (lines, rows) = (&self.lines, &self.rows);
+        let mut first = 0;
+        let mut last = 0;
+        for band in &lines.bands {
+            (first, last) = (last, 2 * band.end);
+            if depth < rows[last] {
+                break;
+            }
+        }
         let count = ROWS_IN_DEPTH.min(last - first + 1);
-        let nearest = (first..=last)
-            .min_by(|&a, &b| {
-                (self.rows[a] - depth)
-                    .abs()
-                    .total_cmp(&(self.rows[b] - depth).abs())
-            })
-            .unwrap_or(first);
-        let start = nearest.saturating_sub(count / 2).clamp(first, last + 1 - count);
-        (start..start + count)
-            .map(|row| {
-                let weight = (start..start + count)
-                    .filter(|&other| other != row)
-                    .map(|other| (depth - self.rows[other]) / (self.rows[row] - self.rows[other]))
-                    .product();
-                (row, weight)
-            })
-            .collect()
+        let distance = |row: &usize| (rows[*row] - depth).abs();
+        let nearest = (first..=last).min_by(|a, b| distance(a).total_cmp(&distance(b)));
+        let start = nearest.map_or(first, |nearest| nearest.saturating_sub(count / 2));
+        let stencil = start.clamp(first, last + 1 - count)..;
+        let stencil = stencil.take(count);
+        let weight = |row: usize| {
+            let others = stencil.clone().filter(|&other| other != row);
+            others
+                .map(|other| (depth - rows[other]) / (rows[row] - rows[other]))
+                .product()
+        };
+        stencil.clone().map(|row| (row, weight(row))).collect()
     }
 }
 

@@ -24,7 +24,7 @@ use std::f64::consts::PI;
 
 use crate::cholesky::dofs;
 use crate::element::{GAUSS_3, GAUSS_6, Shape, edge_shape};
-use crate::grading::Lines;
+use crate::grading::{Band, Lines};
 use crate::material::HalfSpace;
 use crate::mesh::Mesh;
 use crate::system::System;
@@ -62,51 +62,42 @@ pub(crate) fn disc(mesh: &Mesh, lines: &Lines, contact_radius: f64) -> Vec<f64> 
     force
 }
 
-/// Force on every degree of freedom under a unit point load, for the unknown u* of the [module documentation](self).
-pub(crate) fn point(
-    system: &System,
-    lines: &Lines,
-    near: HalfSpace,
-    young_modulus: impl Fn(f64) -> f64,
-) -> Vec<f64> {
+/// Force on every degree of freedom under a unit point load, for the unknown u* of the [module documentation](self); `edge` is I `u_B`.
+pub(crate) fn point(system: &System, lines: &Lines, near: HalfSpace, edge: &[f64]) -> Vec<f64> {
     let mesh = &system.mesh;
     let mut force = vec![0.0; mesh.dofs()];
-    let (last_column, last_row) = (2 * lines.block_columns, 2 * lines.block_rows);
-    let edge = edge_displacement(mesh, lines, near);
-    for row in 0..lines.block_rows {
-        for column in 0..lines.block_columns {
+    let (columns, rows) = (lines.block_columns, lines.bands[0].end);
+    for row in 0..rows {
+        for column in 0..columns {
             let element = column + row * mesh.across;
-            for (dof, value) in dofs(&mesh.elements[element])
-                .into_iter()
-                .zip(system.reaction(element, &edge))
-            {
+            let reaction = system.reaction(element, edge);
+            for (dof, value) in dofs(&mesh.elements[element]).into_iter().zip(reaction) {
                 force[dof] += value;
             }
-            add_mismatch(mesh, element, near, &young_modulus, &mut force);
+            add_mismatch(mesh, element, near, &lines.bands[0], &mut force);
         }
     }
-    // −∮ (σ_B n)·v: downward normal at the bottom, outward at the side.
-    let (outer, bottom) = (lines.radii[lines.block_columns], lines.depths[lines.block_rows]);
-    for (first, left, right) in edges(&lines.radii[..=lines.block_columns]) {
-        let half = 0.5 * (right - left);
+    // −∮ (σ_B n)·v along the bottom outward and along the side downward.
+    let (outer, depth) = (lines.radii[columns], lines.depths[rows]);
+    let bottom = edges(&lines.radii[..=columns]).map(|(first, left, right)| {
+        let nodes = [0, 1, 2].map(|k| node(lines, first + k, 2 * rows));
+        (nodes, (left, depth), (right, depth))
+    });
+    let side = edges(&lines.depths[..=rows]).map(|(first, top, end)| {
+        let nodes = [0, 1, 2].map(|k| node(lines, 2 * columns, first + k));
+        (nodes, (outer, top), (outer, end))
+    });
+    for (nodes, start, end) in bottom.chain(side) {
+        let (half_r, half_z) = (0.5 * (end.0 - start.0), 0.5 * (end.1 - start.1));
         for (x, weight) in GAUSS_6 {
-            let r = left + half * (1.0 + x);
-            let stress = near.stress(r, bottom);
-            for (k, value) in edge_shape(x).into_iter().enumerate() {
-                let at = node(lines, first + k, last_row);
-                force[2 * at] -= weight * half * r * value * stress.shear;
-                force[2 * at + 1] -= weight * half * r * value * stress.vertical;
-            }
-        }
-    }
-    for (first, top, end) in edges(&lines.depths[..=lines.block_rows]) {
-        let half = 0.5 * (end - top);
-        for (x, weight) in GAUSS_6 {
-            let stress = near.stress(outer, top + half * (1.0 + x));
-            for (k, value) in edge_shape(x).into_iter().enumerate() {
-                let at = node(lines, last_column, first + k);
-                force[2 * at] -= weight * half * outer * value * stress.radial;
-                force[2 * at + 1] -= weight * half * outer * value * stress.shear;
+            let (r, z) = (start.0 + half_r * (1.0 + x), start.1 + half_z * (1.0 + x));
+            let stress = near.stress(r, z);
+            // The outward normal, times half the edge's length, is (half_z, half_r).
+            let traction_r = stress.radial * half_z + stress.shear * half_r;
+            let traction_z = stress.shear * half_z + stress.vertical * half_r;
+            for (at, value) in nodes.into_iter().zip(edge_shape(x)) {
+                force[2 * at] -= weight * r * value * traction_r;
+                force[2 * at + 1] -= weight * r * value * traction_z;
             }
         }
     }
@@ -116,7 +107,7 @@ pub(crate) fn point(
 /// The closed form at the nodes on the block's boundary, zero elsewhere.
 pub(crate) fn edge_displacement(mesh: &Mesh, lines: &Lines, near: HalfSpace) -> Vec<f64> {
     let mut edge = vec![0.0; mesh.dofs()];
-    let (last_column, last_row) = (2 * lines.block_columns, 2 * lines.block_rows);
+    let (last_column, last_row) = (2 * lines.block_columns, 2 * lines.bands[0].end);
     let bottom = (0..=last_column).map(|column| (column, last_row));
     let side = (0..last_row).map(|row| (last_column, row));
     for (column, row) in bottom.chain(side) {
@@ -130,19 +121,13 @@ pub(crate) fn edge_displacement(mesh: &Mesh, lines: &Lines, near: HalfSpace) -> 
 }
 
 /// −∫ ((E(z) − E₀)/E₀) `σ_B` : ε(v) over one element, where the modulus is not that of the surface.
-fn add_mismatch(
-    mesh: &Mesh,
-    element: usize,
-    near: HalfSpace,
-    young_modulus: &impl Fn(f64) -> f64,
-    force: &mut [f64],
-) {
+fn add_mismatch(mesh: &Mesh, element: usize, near: HalfSpace, band: &Band, force: &mut [f64]) {
     let corners = mesh.corners(element);
-    let surface = near.young_modulus();
+    let surface = band.layer.young_modulus_at(0.0);
     for (eta, weight_eta) in GAUSS_6 {
         for (xi, weight_xi) in GAUSS_6 {
             let shape = Shape::at(&corners, xi, eta);
-            let mismatch = (young_modulus(shape.depth) - surface) / surface;
+            let mismatch = (band.layer.young_modulus_at(shape.depth) - surface) / surface;
             if mismatch == 0.0 {
                 continue;
             }

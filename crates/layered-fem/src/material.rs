@@ -24,13 +24,17 @@ pub(crate) struct Elasticity {
 impl Elasticity {
     /// The moduli of `soil`, its Poisson's ratio taken as [`LARGEST_POISSON_RATIO`] at most.
     pub(crate) fn new(soil: Soil) -> Self {
-        let nu = soil.poisson_ratio().min(LARGEST_POISSON_RATIO);
-        let shear = soil.young_modulus() / (2.0 * (1.0 + nu));
-        Self {
-            shear,
-            lame: 2.0 * shear * nu / (1.0 - 2.0 * nu),
-        }
+        let soil = compressible(soil);
+        let (shear, nu) = (soil.shear_modulus(), soil.poisson_ratio());
+        let lame = 2.0 * shear * nu / (1.0 - 2.0 * nu);
+        Self { shear, lame }
     }
+}
+
+/// `soil` with the [`LARGEST_POISSON_RATIO`] at most.
+fn compressible(soil: Soil) -> Soil {
+    let nu = soil.poisson_ratio().min(LARGEST_POISSON_RATIO);
+    Soil::new(soil.young_modulus(), nu).unwrap_or(soil)
 }
 
 /// A unit point load on a homogeneous half-space, which the mesh uses where it is exact: next to the load, where only the top soil counts,
@@ -40,14 +44,7 @@ pub(crate) struct HalfSpace(boussinesq::HalfSpace);
 
 impl HalfSpace {
     pub(crate) fn new(soil: Soil) -> Self {
-        let ratio = soil.poisson_ratio().min(LARGEST_POISSON_RATIO);
-        Self(boussinesq::HalfSpace::new(
-            Soil::new(soil.young_modulus(), ratio).unwrap_or(soil),
-        ))
-    }
-
-    pub(crate) fn young_modulus(self) -> f64 {
-        self.0.soil().young_modulus()
+        Self(boussinesq::HalfSpace::new(compressible(soil)))
     }
 
     /// Displacement \[m/N\]; not a number at the load.

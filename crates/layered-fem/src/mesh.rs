@@ -1,19 +1,6 @@
 //! A mesh of nine-node quadrilaterals in the (r, z) half-plane, numbered like a rectangle.
 
-use crate::element::{Corners, NODES};
-
-/// Columns and rows, from its first, of an element's nodes in the lattice of corners and mid-points.
-const OFFSETS: [(usize, usize); NODES] = [
-    (0, 0),
-    (2, 0),
-    (2, 2),
-    (0, 2),
-    (1, 0),
-    (2, 1),
-    (1, 2),
-    (0, 1),
-    (1, 1),
-];
+use crate::element::{Corners, NODES, PLACES};
 
 /// Nodes, and elements in columns and rows.
 #[derive(Debug, Clone)]
@@ -42,7 +29,7 @@ impl Mesh {
         let elements = (0..across * down)
             .map(|element| {
                 let first = 2 * (element % across + element / across * width);
-                OFFSETS.map(|(i, j)| first + i + j * width)
+                PLACES.map(|(i, j)| first + i + j * width)
             })
             .collect();
         Self {

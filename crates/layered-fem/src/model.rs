@@ -61,27 +61,43 @@ const MOST_ANSWERS: usize = 512;
 /// interpolation, each further point a few operations. The field is smooth along r (continuous second derivative).
 #[derive(Debug)]
 pub struct LayeredFem {
-    profile: SoilProfile,
-    accuracy: f64,
-    max_unknowns: usize,
-    /// Spacing of the first mesh.
-    alpha: f64,
-    meshes: Mutex<Meshes>,
+    mesher: Mesher,
+    /// Two meshes, the coarser first.
+    meshes: Mutex<[Level; 2]>,
     /// Accepted answers by the bits of contact radius and depth.
     answers: Mutex<HashMap<(u64, u64), Arc<Answer>>>,
-}
-
-#[derive(Debug)]
-struct Meshes {
-    coarse: Level,
-    fine: Level,
-    factorisations: usize,
 }
 
 #[derive(Debug)]
 struct Answer {
     line: DepthLine,
     estimate: ErrorEstimate,
+}
+
+/// The ground and how it is meshed.
+#[derive(Debug)]
+struct Mesher {
+    profile: SoilProfile,
+    accuracy: f64,
+    max_unknowns: usize,
+    /// Spacing of the first mesh.
+    alpha: f64,
+}
+
+impl Mesher {
+    /// The lines of the first mesh with every interval cut into `parts`.
+    fn lines(&self, parts: usize) -> Result<Lines, FemError> {
+        Lines::new(&self.profile, self.alpha, parts, self.max_unknowns)
+    }
+
+    /// Their mesh, factored. A last correction may change a solution by rounding alone, a thousandth of the accuracy: where λ is
+    /// large relative to a stiff layer rounding is felt long before it matters.
+    fn level(&self, parts: usize) -> Result<Level, GroundError> {
+        let rounding = (1e-3 * self.accuracy).max(LEAST_CHANGE);
+        let lines = self.lines(parts);
+        let level = lines.and_then(|lines| Level::new(&self.profile, rounding, lines));
+        level.map_err(in_model)
+    }
 }
 
 impl LayeredFem {
@@ -115,37 +131,32 @@ impl LayeredFem {
         checked("accuracy", accuracy, "between 1e-6 and 0.1", |v| {
             (1e-6..=0.1).contains(&v)
         })?;
-        let max_unknowns = max_unknowns.min(Self::MOST_UNKNOWNS);
         let (least, most) = ALPHA_RANGE;
-        let mut alpha = (ALPHA * (accuracy / ALPHA_ACCURACY).cbrt()).clamp(least, most);
-        // Where the mesh that is likely to be needed is too large, a larger spacing may still prove accurate enough.
-        while alpha < most && Lines::new(profile, alpha, RATIO, max_unknowns).is_err() {
-            alpha *= 1.2;
-        }
-        let lines = |parts| Lines::new(profile, alpha, parts, max_unknowns);
-        let meshes = Meshes {
-            coarse: level(profile, accuracy, lines(1))?,
-            fine: level(profile, accuracy, lines(RATIO))?,
-            factorisations: 2,
-        };
-        Ok(Self {
+        let mut mesher = Mesher {
             profile: profile.clone(),
             accuracy,
-            max_unknowns,
-            alpha,
-            meshes: Mutex::new(meshes),
+            max_unknowns: max_unknowns.min(Self::MOST_UNKNOWNS),
+            alpha: (ALPHA * (accuracy / ALPHA_ACCURACY).cbrt()).clamp(least, most),
+        };
+        // Where the mesh that is likely to be needed is too large, a larger spacing may still prove accurate enough.
+        while mesher.alpha < most && mesher.lines(RATIO).is_err() {
+            mesher.alpha *= 1.2;
+        }
+        Ok(Self {
+            meshes: Mutex::new([mesher.level(1)?, mesher.level(RATIO)?]),
+            mesher,
             answers: Mutex::default(),
         })
     }
 
     /// The ground.
     pub fn profile(&self) -> &SoilProfile {
-        &self.profile
+        &self.mesher.profile
     }
 
     /// Asked error, as a share of the peak at a depth.
     pub fn accuracy(&self) -> f64 {
-        self.accuracy
+        self.mesher.accuracy
     }
 
     /// Estimated error of the displacements under `load` at `depth`; at most the accuracy asked.
@@ -161,12 +172,12 @@ impl LayeredFem {
     /// Work done so far.
     pub fn statistics(&self) -> FemStatistics {
         let meshes = locked(&self.meshes);
-        let (coarse, fine) = (&meshes.coarse, &meshes.fine);
+        let fine = &meshes[1];
         FemStatistics {
             unknowns: fine.system.unknowns,
             factor_entries: fine.system.factor.entries(),
-            factorisations: meshes.factorisations,
-            solves: coarse.solutions.len() + fine.solutions.len(),
+            factorisations: 1 + fine.lines.parts.ilog(RATIO) as usize,
+            solves: meshes.iter().map(|mesh| mesh.solutions.len()).sum(),
         }
     }
 
@@ -180,11 +191,12 @@ impl LayeredFem {
         let gain = if at_edge { LEAST_GAIN_AT_EDGE } else { LEAST_GAIN };
         let mut meshes = locked(&self.meshes);
         loop {
-            let coarse = meshes.coarse.line(contact_radius, depth).map_err(in_model)?;
-            let fine = meshes.fine.line(contact_radius, depth).map_err(in_model)?;
-            let estimate = compare(&coarse, &fine, &meshes.fine.columns, gain);
-            if estimate.largest() <= self.accuracy {
-                let answer = Arc::new(Answer { line: fine, estimate });
+            let [coarse, fine] = &mut *meshes;
+            let coarse = coarse.line(contact_radius, depth).map_err(in_model)?;
+            let line = fine.line(contact_radius, depth).map_err(in_model)?;
+            let estimate = compare(&coarse, &line, &fine.columns, gain);
+            if estimate.largest() <= self.mesher.accuracy {
+                let answer = Arc::new(Answer { line, estimate });
                 let mut answers = locked(&self.answers);
                 if answers.len() >= MOST_ANSWERS {
                     answers.clear();
@@ -197,32 +209,35 @@ impl LayeredFem {
     }
 
     /// Puts a finer mesh in place of the coarse one, or says that the accuracy is out of reach.
-    fn refine(&self, meshes: &mut Meshes, estimate: ErrorEstimate, depth: f64) -> Result<(), GroundError> {
-        let excess = estimate.largest() / self.accuracy;
-        let parts = meshes.fine.lines.parts;
-        let next = RATIO * parts;
+    fn refine(
+        &self,
+        meshes: &mut [Level; 2],
+        estimate: ErrorEstimate,
+        depth: f64,
+    ) -> Result<(), GroundError> {
+        let mesher = &self.mesher;
+        let excess = estimate.largest() / mesher.accuracy;
+        let parts = meshes[1].lines.parts;
         // What the accuracy needs at least, should the error fall as fast as it can.
         let wanted = parts as f64 * excess.powf(1.0 / BEST_ORDER);
-        let lines = |parts| Lines::new(&self.profile, self.alpha, parts, self.max_unknowns);
-        if excess.is_nan() || lines(next).is_err() || lines(wanted as usize).is_err() {
+        let is_too_large = |parts| mesher.lines(parts).is_err();
+        if excess.is_nan() || is_too_large(RATIO * parts) || is_too_large(wanted as usize) {
             return Err(GroundError::Accuracy {
                 model: MODEL,
-                asked: self.accuracy,
+                asked: mesher.accuracy,
                 reached: estimate.largest(),
                 radius: estimate.radius,
                 depth,
             });
         }
-        let finer = level(&self.profile, self.accuracy, lines(next))?;
-        meshes.coarse = std::mem::replace(&mut meshes.fine, finer);
-        meshes.factorisations += 1;
+        meshes[0] = mesher.level(RATIO * parts)?;
+        meshes.swap(0, 1);
         Ok(())
     }
 }
 
 impl GroundField for LayeredFem {
     fn displacement(&self, load: SurfaceLoad, radius: f64, depth: f64) -> Result<Displacement, GroundError> {
-        check_place(radius, depth)?;
         Ok(self.displacements(load, &[radius], depth)?[0])
     }
 
@@ -232,80 +247,54 @@ impl GroundField for LayeredFem {
         radii: &[f64],
         depth: f64,
     ) -> Result<Vec<Displacement>, GroundError> {
-        check_place(0.0, depth)?;
+        for &radius in radii.iter().chain(&[0.0]) {
+            check_place(radius, depth)?;
+        }
         let answer = self.answer(load.contact_radius(), depth)?;
-        radii
-            .iter()
-            .map(|&radius| evaluate(&answer.line, load, radius, depth))
-            .collect()
+        let value = |&radius: &f64| {
+            let value = answer.line.at(radius) * load.force();
+            let singular = GroundError::Singular {
+                model: MODEL,
+                radius,
+                depth,
+            };
+            value.is_finite().then_some(value).ok_or(singular)
+        };
+        radii.iter().map(value).collect()
     }
-}
-
-/// The mesh of `lines`, factored. A last correction may change a solution by rounding alone, a thousandth of the accuracy: where λ is large
-/// relative to a stiff layer rounding is felt long before it matters.
-fn level(profile: &SoilProfile, accuracy: f64, lines: Result<Lines, FemError>) -> Result<Level, GroundError> {
-    let rounding = (1e-3 * accuracy).max(LEAST_CHANGE);
-    lines
-        .and_then(|lines| Level::new(profile, rounding, lines))
-        .map_err(in_model)
 }
 
 /// Estimated error of `fine` from its difference to `coarse`, whose error is at least `gain` times as large.
 fn compare(coarse: &DepthLine, fine: &DepthLine, radii: &[f64], gain: f64) -> ErrorEstimate {
-    let mut peak = [0.0_f64; 2];
-    // Largest difference, and where it is.
-    let mut worst = [(0.0, 0.0); 2];
-    for &r in radii {
-        let (u, other) = (fine.at(r), coarse.at(r));
-        // The singular point of a point load has no value to compare.
-        if !u.is_finite() && r == 0.0 {
-            continue;
-        }
-        for (c, (u, other)) in [(u.radial, other.radial), (u.vertical, other.vertical)]
-            .into_iter()
-            .enumerate()
-        {
-            peak[c] = peak[c].max(u.abs());
-            let gap = (u - other).abs();
-            if gap > worst[c].0 || gap.is_nan() {
-                worst[c] = (gap, r);
-            }
-        }
-    }
+    // The singular point of a point load has no value to compare.
+    let places = radii.iter().map(|&r| (r, fine.at(r), coarse.at(r)));
+    let places: Vec<_> = places.filter(|(r, u, _)| u.is_finite() || *r > 0.0).collect();
+    // The largest value, the largest difference, and where the latter is.
+    let largest = |of: fn(Displacement) -> f64| {
+        places
+            .iter()
+            .fold((0.0_f64, 0.0, 0.0), |(peak, gap, at), &(r, u, other)| {
+                let (peak, here) = (peak.max(of(u).abs()), of(u - other).abs());
+                let is_worse = here > gap || here.is_nan();
+                if is_worse {
+                    (peak, here, r)
+                } else {
+                    (peak, gap, at)
+                }
+            })
+    };
     let share = |difference: f64, peak: f64| match difference {
         0.0 => 0.0,
         _ => difference / peak / (gain - 1.0),
     };
-    let radial = share(worst[0].0, peak[0].max(LEAST_RADIAL * peak[1]));
-    let vertical = share(worst[1].0, peak[1]);
+    let ((peak_r, gap_r, at_r), (peak_z, gap_z, at_z)) = (largest(|u| u.radial), largest(|u| u.vertical));
+    let radial = share(gap_r, peak_r.max(LEAST_RADIAL * peak_z));
+    let vertical = share(gap_z, peak_z);
     ErrorEstimate {
         radial,
         vertical,
-        radius: if radial >= vertical {
-            worst[0].1
-        } else {
-            worst[1].1
-        },
+        radius: if radial >= vertical { at_r } else { at_z },
     }
-}
-
-/// The displacement under `load` from the line of a unit load.
-fn evaluate(
-    line: &DepthLine,
-    load: SurfaceLoad,
-    radius: f64,
-    depth: f64,
-) -> Result<Displacement, GroundError> {
-    check_place(radius, depth)?;
-    let value = line.at(radius) * load.force();
-    if value.is_finite() {
-        return Ok(value);
-    }
-    Err(GroundError::Singular {
-        model: MODEL,
-        radius,
-        depth,
-    })
 }
 
 fn locked<T>(held: &Mutex<T>) -> MutexGuard<'_, T> {
