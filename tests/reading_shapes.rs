@@ -41,24 +41,16 @@ fn options(words: &str) -> ReadOptions {
     let mut options = ReadOptions::default();
     for word in words.split_whitespace() {
         let (key, value) = word.split_once('=').unwrap();
-        let name = Some(value.replace('_', " "));
-        match key {
-            "separator" => options.table.separator = Some(value.parse().unwrap()),
-            "decimal" => options.table.decimal = Some(value.parse().unwrap()),
-            "encoding" => options.table.encoding = Some(value.parse().unwrap()),
-            "pass" => options.columns.pass = name,
-            "vehicles" => options.columns.vehicles = name,
-            "force" => options.columns.force.extend(name),
-            "run" => options.columns.run = name,
-            "movement" => options.columns.movement.extend(name),
-            "position" => options.columns.position = name,
-            "header" => options.table.header_line = value.parse().ok(),
-            "skip" => options.table.skip = value.parse().ok(),
-            "unit" => options.unit = name,
-            "start" => options.run_start = Some(value.parse().unwrap()),
-            "tension" => options.tension_positive = true,
-            _ => panic!("{key}"),
-        }
+        let name = match key {
+            "pass" | "vehicles" | "force" | "run" | "movement" | "position" => format!("column_{key}"),
+            "header" => "header_line".into(),
+            "start" => "run_start".into(),
+            "tension" => "tension_positive".into(),
+            key => key.to_owned(),
+        };
+        options
+            .set(&name, &value.replace('_', " ").replace("yes", "True"))
+            .unwrap();
     }
     options
 }

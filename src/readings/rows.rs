@@ -1,13 +1,15 @@
 //! Rows as readings, each with its line.
 
-use creepage_tables::{Cell, Row, Table};
+use std::path::Path;
 
-use super::DataError;
+use creepage_tables::{Cell, Kind, Name, Row, Table};
+
 use super::columns::{Columns, Values, columns};
+use super::kinds::{DEFLECTION, FORCE, NAMES, POSITION, SIGMA, measured, si};
+use super::list::Readings;
 use super::options::ReadOptions;
 use super::reading::{Place, Reading};
-use super::role::Role;
-use super::{runs, time};
+use super::{DataError, runs, time};
 
 /// Rows from which on vehicles that only ever grow are taken for a running total: by chance one file in 120.
 const TOTAL: usize = 5;
@@ -17,117 +19,194 @@ const MOST_LINES: usize = 8;
 const MOST: f64 = 1e15;
 const WHOLE: &str = "a whole number, 0 for the reading before the first pass";
 
-/// What a table holds.
-pub struct Found {
-    pub readings: Vec<Reading>,
-    /// Names of the runs.
-    pub runs: Vec<String>,
-    /// Rows without a value.
-    pub skipped: usize,
-    /// What the user should know of how the file was read.
-    pub notes: Vec<String>,
+impl Readings {
+    /// Reads the file at `path`, recognising how it is written.
+    ///
+    /// # Errors
+    ///
+    /// [`DataError`] with the first thing that is wrong, and its line.
+    pub fn from_file(path: impl AsRef<Path>) -> Result<Self, DataError> {
+        Self::from_file_with(path, &ReadOptions::default())
+    }
+
+    /// Reads the file at `path` as `options` say.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Readings::from_file`].
+    pub fn from_file_with(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, DataError> {
+        read(Table::from_file(path.as_ref(), &options.table, &NAMES)?, options)
+    }
+
+    /// Reads a table from `bytes`, recognising how it is written; `file` stands for it in errors.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Readings::from_file`].
+    pub fn from_csv(file: &str, bytes: &[u8]) -> Result<Self, DataError> {
+        Self::from_bytes(file, bytes, &ReadOptions::default())
+    }
+
+    /// Reads a table or a workbook from `bytes` as `options` say; `file` stands for it in errors.
+    ///
+    /// # Errors
+    ///
+    /// As for [`Readings::from_file`].
+    pub fn from_bytes(file: &str, bytes: &[u8], options: &ReadOptions) -> Result<Self, DataError> {
+        read(Table::read(file, bytes, &options.table, &NAMES)?, options)
+    }
 }
 
 /// The readings in `table`.
-pub fn read(table: &mut Table, options: &ReadOptions) -> Result<Found, DataError> {
-    let columns = columns(table, options)?;
-    let Columns {
-        pass,
-        vehicles,
-        run,
-        position,
-        ..
-    } = columns;
-    let values = columns
+fn read(mut table: Table, options: &ReadOptions) -> Result<Readings, DataError> {
+    // What is said of forces holds for their deviations.
+    let is_of_force = |name: &&mut Name| {
+        name.kind == Some(SIGMA)
+            && name
+                .unit
+                .as_ref()
+                .is_some_and(|unit| si(FORCE, "1", unit).is_some())
+    };
+    if options.table.unit.is_some() {
+        table
+            .names
+            .iter_mut()
+            .filter(is_of_force)
+            .for_each(|name| name.unit.clone_from(&options.table.unit));
+    }
+    let columns = columns(&table, options)?;
+    let of_values = columns
         .values
         .iter()
         .flat_map(|value| [Some(value.column), value.sigma]);
-    let numbers: Vec<usize> = values.chain([pass, vehicles, position]).flatten().collect();
+    let others = [columns.pass, columns.vehicles, columns.position];
+    let numbers: Vec<usize> = of_values.chain(others).flatten().collect();
     table.decide(&numbers)?;
-    let mut reader = Reader {
-        table,
+    let reader = Reader {
+        table: &table,
         columns: &columns,
         options,
-        blank: Vec::new(),
-        unusable: Vec::new(),
     };
     if let Some(column) = columns.time {
-        time::check_order(table, column, run)?;
+        time::check_order(&table, column, columns.run)?;
     }
-    if let (Some(column), None) = (vehicles, &options.columns.vehicles) {
-        reader.refuse_totals(column)?;
-    }
-    let mut readings = Vec::new();
-    // Names of the runs, and the vehicles of each so far.
-    let mut labels: Vec<(String, u64)> = Vec::new();
+    reader.refuse_totals()?;
+    let mut list: Vec<Reading> = Vec::new();
+    // Lines without a value, and what stands there; names of the runs, and the vehicles of each so far.
+    let mut left_out: Vec<(u64, &str)> = Vec::new();
+    let mut runs: Vec<String> = Vec::new();
+    let mut counted: Vec<u64> = Vec::new();
     for row in &table.rows {
-        let label = run.map_or("", |column| row.cell(column));
-        let of_row = labels
-            .iter()
-            .position(|(other, _)| other == label)
-            .unwrap_or_else(|| {
-                labels.push((label.to_owned(), 0));
-                labels.len() - 1
-            });
-        readings.extend(reader.readings(row, of_row, &mut labels[of_row].1)?);
+        let label = columns.run.map_or("", |column| row.cell(column));
+        let run = runs.iter().position(|other| other == label).unwrap_or(runs.len());
+        if run == runs.len() {
+            runs.push(label.to_owned());
+            counted.push(0);
+        }
+        if let Some(column) = columns.vehicles.filter(|&column| !row.cell(column).is_empty()) {
+            counted[run] = counted[run].saturating_add(reader.whole(row, column)?);
+        }
+        for value in &columns.values {
+            match table.cell(row, value.column)? {
+                Cell::Blank => left_out.push((row.line, "")),
+                Cell::NoValue(text) => left_out.push((row.line, text)),
+                Cell::Number(..) => list.push(Reading {
+                    run,
+                    ..reader.reading(row, value, counted[run])?
+                }),
+            }
+        }
     }
-    let Reader { blank, unusable, .. } = reader;
-    let name = |value: &Values| &table.names[value.column].text;
-    if let (true, Some((line, text))) = (readings.is_empty(), unusable.first()) {
-        let found = format!(
-            "{}: found \"{text}\", and no number anywhere",
-            name(&columns.values[0])
-        );
-        return Err(table.wrong(*line, found, "a finite number"));
-    }
+    let first = columns.values.first().map_or(FORCE, |value| value.kind);
+    check(&table, &columns, &list, &left_out)?;
     let mut notes = Vec::new();
-    let list = |count: usize, what: &str, lines: &mut dyn Iterator<Item = String>| {
-        let lines: Vec<String> = lines.take(MOST_LINES).collect();
-        let more = if count > MOST_LINES { ", …" } else { "" };
-        format!(
-            "{count} {what} were left out: line {}{more}",
-            lines.join(", line ")
-        )
-    };
-    if !blank.is_empty() {
-        let what = format!(
-            "rows without a {}",
-            columns.values[0].role.measured(Place::Natural).name()
-        );
-        notes.push(list(blank.len(), &what, &mut blank.iter().map(u64::to_string)));
-    }
-    if !unusable.is_empty() {
-        let shown = |(line, text): &(u64, String)| format!("{line} (\"{text}\")");
-        notes.push(list(
-            unusable.len(),
-            "cells without a number",
-            &mut unusable.iter().map(shown),
-        ));
-    }
-    let mut labels: Vec<String> = labels.into_iter().map(|(label, _)| label).collect();
-    if run.is_none() && vehicles.is_none() {
-        labels = runs::split_where_passes_begin_anew(&mut readings, &mut notes);
-    }
-    runs::count_from_rest(&mut readings, labels.len(), options.run_start, &mut notes);
-    let is_bare = |value: &&Values| {
-        value.role == Role::Force && options.unit.is_none() && table.names[value.column].unit.is_none()
-    };
-    if let Some(bare) = columns.values.iter().find(is_bare) {
-        let force = bare.role.measured(Place::Natural);
-        let forces = readings.iter().filter(|reading| reading.measured.is_like(force));
-        let largest = forces.map(|reading| reading.value.abs()).fold(0.0, f64::max);
-        if largest > 0.0 && largest < 10.0 {
+    let of_kind = format!("rows without a {}", measured(first, Place::Natural).name());
+    for (is_blank, what) in [(true, &*of_kind), (false, "cells without a number")] {
+        let cells: Vec<_> = left_out
+            .iter()
+            .filter(|(_, text)| text.is_empty() == is_blank)
+            .collect();
+        let shown = |(line, text): &&(u64, &str)| {
+            if is_blank {
+                format!("line {line}")
+            } else {
+                format!("line {line} (\"{text}\")")
+            }
+        };
+        let lines: Vec<String> = cells.iter().take(MOST_LINES).map(shown).collect();
+        let more = if cells.len() > MOST_LINES { ", …" } else { "" };
+        if !cells.is_empty() {
             notes.push(format!(
-                "column {} names no unit and was read as newtons, at most {largest:.3} N: it looks like kN (--unit kN)",
-                name(bare)
+                "{} {what} were left out: {}{more}",
+                cells.len(),
+                lines.join(", ")
             ));
         }
     }
-    Ok(Found {
-        readings,
-        runs: labels,
-        skipped: blank.len() + unusable.len(),
+    if columns.run.or(columns.vehicles).is_none() {
+        runs = runs::split_where_passes_begin_anew(&mut list, &mut notes);
+    }
+    runs::count_from_rest(&mut list, options.run_start, &mut notes);
+    notes.extend(too_small(&table, &columns, &list));
+    Ok(Readings {
+        skipped: left_out.len(),
+        file: table.file.clone(),
+        list,
+        runs,
         notes,
+    })
+}
+
+/// Refuses what are no readings as a whole.
+fn check(
+    table: &Table,
+    columns: &Columns,
+    list: &[Reading],
+    left_out: &[(u64, &str)],
+) -> Result<(), DataError> {
+    let no_value = left_out.iter().find(|(_, text)| !text.is_empty());
+    let Some(first) = list.first() else {
+        let Some((line, text)) = no_value else {
+            return Err(DataError::Empty(table.file.clone()));
+        };
+        let name = &table.names[columns.values[0].column].text;
+        let found = format!("{name}: found \"{text}\", and no number anywhere");
+        return Err(table.wrong(*line, found, "a finite number"));
+    };
+    if list.iter().all(|reading| reading.pass == 0) {
+        return Err(table.wrong(
+            first.line,
+            "pass: found \"0\" alone",
+            "readings after at least one pass",
+        ));
+    }
+    let bare = list.iter().find(|reading| reading.sigma.is_none());
+    match bare.filter(|_| list.iter().any(|reading| reading.sigma.is_some())) {
+        Some(bare) => Err(table.wrong(
+            bare.line,
+            "sigma_n is blank, but given for other readings",
+            "all or none",
+        )),
+        None => Ok(()),
+    }
+}
+
+/// A note where forces without a unit look like kilonewtons.
+fn too_small(table: &Table, columns: &Columns, list: &[Reading]) -> Option<String> {
+    let mut names = columns
+        .values
+        .iter()
+        .filter(|value| value.kind == FORCE)
+        .map(|value| &table.names[value.column]);
+    let bare = names.find(|name| name.unit.is_none())?;
+    let force = measured(FORCE, Place::Natural);
+    let forces = list.iter().filter(|reading| reading.measured.is_like(force));
+    let largest = forces.map(|reading| reading.value.abs()).fold(0.0, f64::max);
+    (largest > 0.0 && largest < 10.0).then(|| {
+        format!(
+            "column {} names no unit and was read as newtons, at most {largest:.3} N: it looks like kN (--unit kN)",
+            bare.text
+        )
     })
 }
 
@@ -135,78 +214,60 @@ struct Reader<'a> {
     table: &'a Table,
     columns: &'a Columns,
     options: &'a ReadOptions,
-    /// Lines without a value.
-    blank: Vec<u64>,
-    /// Lines with a cell that is no number, and that cell.
-    unusable: Vec<(u64, String)>,
 }
 
 impl Reader<'_> {
-    fn refuse_totals(&self, column: usize) -> Result<(), DataError> {
+    /// Refuses vehicles that may be a running total, unless their column was chosen.
+    fn refuse_totals(&self) -> Result<(), DataError> {
         let rows = &self.table.rows;
-        let counts = rows.iter().filter_map(|row| self.whole(row, column).ok());
-        let counts: Vec<u64> = counts.collect();
+        let column = self
+            .columns
+            .vehicles
+            .filter(|&column| !self.table.names[column].chosen);
+        let counts = column.map(|column| rows.iter().filter_map(move |row| self.whole(row, column).ok()));
+        let counts: Vec<u64> = counts.into_iter().flatten().collect();
         if counts.len() < TOTAL || counts.windows(2).any(|pair| pair[1] <= pair[0]) {
             return Ok(());
         }
-        Err(self.table.wrong(
-            rows[0].line,
-            "vehicles that grow from row to row: a running total, or vehicles since the row before".into(),
-            "either: --column-pass NAME takes a total, --column-vehicles NAME takes those since the row before",
-        ))
+        let found = "vehicles that grow from row to row: a running total, or vehicles since the row before";
+        let allowed = "either: --column-pass NAME takes a total, --column-vehicles NAME takes those since the row before";
+        Err(self.table.wrong(rows[0].line, found, allowed))
     }
 
-    /// The readings of a row; `counted` vehicles have passed in its run.
-    fn readings(&mut self, row: &Row, run: usize, counted: &mut u64) -> Result<Vec<Reading>, DataError> {
-        let columns = self.columns;
-        if let Some(column) = columns.vehicles {
-            let vehicles = if row.cell(column).is_empty() {
-                0
-            } else {
-                self.whole(row, column)?
-            };
-            *counted = counted.saturating_add(vehicles);
-        }
-        let mut readings = Vec::new();
-        for value in &columns.values {
-            match self.table.cell(row, value.column)? {
-                Cell::Blank => self.blank.push(row.line),
-                Cell::NoValue(text) => self.unusable.push((row.line, text.to_owned())),
-                Cell::Number(..) => {
-                    let pass = columns
-                        .pass
-                        .map_or(Ok(*counted), |column| self.whole(row, column))?;
-                    let at = match columns.position.filter(|column| !row.cell(*column).is_empty()) {
-                        Some(column) => Place::At(self.si(
-                            row,
-                            column,
-                            Role::Position,
-                            column,
-                            "metres from the upstream end",
-                        )?),
-                        None => value.end.map_or(Place::Natural, Place::End),
-                    };
-                    let is_tension = self.options.tension_positive && value.role == Role::Force;
-                    let si = self.si(
-                        row,
-                        value.column,
-                        value.role,
-                        value.column,
-                        "a finite number, with a unit if any",
-                    )?;
-                    readings.push(Reading {
-                        pass,
-                        passes: pass,
-                        measured: value.role.measured(at),
-                        value: if is_tension { -si } else { si },
-                        sigma: self.sigma(row, value)?,
-                        run,
-                        line: row.line,
-                    });
-                }
+    /// A value of a row; `counted` vehicles have passed in its run.
+    fn reading(&self, row: &Row, value: &Values, counted: u64) -> Result<Reading, DataError> {
+        let (table, columns) = (self.table, self.columns);
+        let pass = columns
+            .pass
+            .map_or(Ok(counted), |column| self.whole(row, column))?;
+        let at = match columns.position.filter(|&column| !row.cell(column).is_empty()) {
+            Some(_) if value.kind == DEFLECTION => {
+                let allowed = "deflections without a place: they are that of the duct under the first vehicle, wherever it is";
+                return Err(table.wrong(row.line, "a place beside a deflection", allowed));
             }
-        }
-        Ok(readings)
+            Some(column) => Place::At(self.si(row, column, POSITION, "", "metres from the upstream end")?),
+            None => value.end.map_or(Place::Natural, Place::End),
+        };
+        let allowed = "a finite number, with a unit if any";
+        let of_instrument = self.si(row, value.column, value.kind, "", allowed)?;
+        let is_tension = self.options.tension_positive && value.kind == FORCE;
+        // Its own unit, or that of the value.
+        let unit = table.names[value.column].unit.as_deref().unwrap_or("");
+        let allowed = "a finite, positive number";
+        let sigma = value.sigma.filter(|&column| !row.cell(column).is_empty());
+        let sigma = sigma.map(|column| match self.si(row, column, value.kind, unit, allowed)? {
+            sigma if sigma > 0.0 => Ok(sigma),
+            _ => Err(table.wrong_cell(row, column, allowed)),
+        });
+        Ok(Reading {
+            pass,
+            passes: pass,
+            measured: measured(value.kind, at),
+            value: if is_tension { -of_instrument } else { of_instrument },
+            sigma: sigma.transpose()?,
+            run: 0,
+            line: row.line,
+        })
     }
 
     /// "12.0" is what a spreadsheet makes of 12.
@@ -219,53 +280,11 @@ impl Reader<'_> {
         }
     }
 
-    fn sigma(&self, row: &Row, value: &Values) -> Result<Option<f64>, DataError> {
-        let Some(column) = value.sigma.filter(|column| !row.cell(*column).is_empty()) else {
-            return Ok(None);
-        };
-        let allowed = "a finite, positive number";
-        // Its own unit, or that of the value.
-        let of_value = self.table.names[column].unit.is_none()
-            || self.options.unit.is_some() && value.role == Role::Force;
-        let unit_of = if of_value { value.column } else { column };
-        let sigma = self.si(row, column, value.role, unit_of, allowed)?;
-        if sigma > 0.0 {
-            Ok(Some(sigma))
-        } else {
-            Err(self.table.wrong_cell(row, column, allowed))
-        }
-    }
-
-    /// The number of a cell in SI, by its own unit or that of the column `unit_of`.
-    fn si(
-        &self,
-        row: &Row,
-        column: usize,
-        role: Role,
-        unit_of: usize,
-        allowed: &'static str,
-    ) -> Result<f64, DataError> {
-        let wrong = || self.table.wrong_cell(row, column, allowed);
-        let Ok(Cell::Number(value, unit)) = self.table.cell(row, column) else {
-            return Err(wrong());
-        };
-        let told = self.options.unit.as_deref().filter(|_| role == Role::Force);
-        let unit = if unit.is_empty() {
-            told.or(self.table.names[unit_of].unit.as_deref())
-        } else {
-            Some(unit)
-        };
-        let factor = unit
-            .map_or(Some(1.0), |unit| role.factor(unit))
-            .ok_or_else(wrong)?;
-        // Divided where the factor is a negative power of ten, so that 35.7 um is 35.7e-6.
-        let inverse = (1.0 / factor).round();
-        let is_inverse = factor < 1.0 && (inverse * factor - 1.0).abs() < 1e-12;
-        let si = if is_inverse {
-            value / inverse
-        } else {
-            value * factor
-        };
-        if si.is_finite() { Ok(si) } else { Err(wrong()) }
+    /// The number of a cell in SI, by its own unit, that of its column, or else this one.
+    fn si(&self, row: &Row, column: usize, kind: Kind, unit: &str, allowed: &str) -> Result<f64, DataError> {
+        let quantity = self.table.quantity(row, column);
+        let value =
+            quantity.and_then(|(digits, own)| si(kind, &digits, if own.is_empty() { unit } else { own }));
+        value.ok_or_else(|| self.table.wrong_cell(row, column, allowed))
     }
 }
