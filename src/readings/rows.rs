@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use creepage_tables::{Cell, Kind, Name, Row, Table};
+use creepage_tables::{Kind, Number, Row, Table};
 
 use super::columns::{Columns, Values, columns};
-use super::kinds::{DEFLECTION, FORCE, NAMES, POSITION, SIGMA, measured, si};
+use super::kinds::{DEFLECTION, FORCE, NAMES, POSITION, measured, si};
 use super::list::Readings;
 use super::options::ReadOptions;
 use super::reading::{Place, Reading};
@@ -59,38 +59,18 @@ impl Readings {
 
 /// The readings in `table`.
 fn read(mut table: Table, options: &ReadOptions) -> Result<Readings, DataError> {
-    // What is said of forces holds for their deviations.
-    let is_of_force = |name: &&mut Name| {
-        name.kind == Some(SIGMA)
-            && name
-                .unit
-                .as_ref()
-                .is_some_and(|unit| si(FORCE, "1", unit).is_some())
-    };
-    if options.table.unit.is_some() {
-        table
-            .names
-            .iter_mut()
-            .filter(is_of_force)
-            .for_each(|name| name.unit.clone_from(&options.table.unit));
-    }
     let columns = columns(&table, options)?;
-    let of_values = columns
-        .values
-        .iter()
-        .flat_map(|value| [Some(value.column), value.sigma]);
-    let others = [columns.pass, columns.vehicles, columns.position];
-    let numbers: Vec<usize> = of_values.chain(others).flatten().collect();
+    let mut numbers: Vec<usize> = [columns.pass, columns.vehicles, columns.position]
+        .into_iter()
+        .flatten()
+        .collect();
+    numbers.extend(columns.values.iter().map(|value| value.column));
+    numbers.extend(columns.values.iter().filter_map(|value| value.sigma));
     table.decide(&numbers)?;
-    let reader = Reader {
-        table: &table,
-        columns: &columns,
-        options,
-    };
     if let Some(column) = columns.time {
         time::check_order(&table, column, columns.run)?;
     }
-    reader.refuse_totals()?;
+    refuse_totals(&table, &columns)?;
     let mut list: Vec<Reading> = Vec::new();
     // Lines without a value, and what stands there; names of the runs, and the vehicles of each so far.
     let mut left_out: Vec<(u64, &str)> = Vec::new();
@@ -104,57 +84,64 @@ fn read(mut table: Table, options: &ReadOptions) -> Result<Readings, DataError> 
             counted.push(0);
         }
         if let Some(column) = columns.vehicles.filter(|&column| !row.cell(column).is_empty()) {
-            counted[run] = counted[run].saturating_add(reader.whole(row, column)?);
+            counted[run] = counted[run].saturating_add(whole(&table, row, column)?);
         }
         for value in &columns.values {
-            match table.cell(row, value.column)? {
-                Cell::Blank => left_out.push((row.line, "")),
-                Cell::NoValue(text) => left_out.push((row.line, text)),
-                Cell::Number(..) => list.push(Reading {
-                    run,
-                    ..reader.reading(row, value, counted[run])?
-                }),
+            if table.number(row, value.column)?.is_none() {
+                left_out.push((row.line, row.cell(value.column)));
+                continue;
             }
+            let pass = columns
+                .pass
+                .map_or(Ok(counted[run]), |column| whole(&table, row, column))?;
+            let is_tension = options.tension_positive && value.kind == FORCE;
+            let allowed = "a finite number, with a unit if any";
+            let si = si_of(&table, row, value.column, value.kind, value.column, allowed)?;
+            list.push(Reading {
+                pass,
+                passes: pass,
+                measured: measured(value.kind, place(&table, &columns, row, value)?),
+                value: if is_tension { -si } else { si },
+                sigma: sigma(&table, options, row, value)?,
+                run,
+                line: row.line,
+            });
         }
     }
-    let first = columns.values.first().map_or(FORCE, |value| value.kind);
     check(&table, &columns, &list, &left_out)?;
     let mut notes = Vec::new();
-    let of_kind = format!("rows without a {}", measured(first, Place::Natural).name());
-    for (is_blank, what) in [(true, &*of_kind), (false, "cells without a number")] {
-        let cells: Vec<_> = left_out
-            .iter()
-            .filter(|(_, text)| text.is_empty() == is_blank)
-            .collect();
-        let shown = |(line, text): &&(u64, &str)| {
-            if is_blank {
-                format!("line {line}")
-            } else {
-                format!("line {line} (\"{text}\")")
-            }
-        };
-        let lines: Vec<String> = cells.iter().take(MOST_LINES).map(shown).collect();
-        let more = if cells.len() > MOST_LINES { ", …" } else { "" };
-        if !cells.is_empty() {
-            notes.push(format!(
-                "{} {what} were left out: {}{more}",
-                cells.len(),
-                lines.join(", ")
-            ));
-        }
-    }
+    let (blank, unusable): (Vec<_>, Vec<_>) = left_out.iter().partition(|(_, text)| text.is_empty());
+    let blanks = format!(
+        "rows without a {}",
+        measured(columns.values[0].kind, Place::Natural).name()
+    );
+    notes.extend(left_out_note(&blanks, &blank));
+    notes.extend(left_out_note("cells without a number", &unusable));
     if columns.run.or(columns.vehicles).is_none() {
         runs = runs::split_where_passes_begin_anew(&mut list, &mut notes);
     }
     runs::count_from_rest(&mut list, options.run_start, &mut notes);
     notes.extend(too_small(&table, &columns, &list));
+    let (file, skipped) = (table.file.clone(), left_out.len());
     Ok(Readings {
-        skipped: left_out.len(),
-        file: table.file.clone(),
+        file,
         list,
         runs,
+        skipped,
         notes,
     })
+}
+
+/// A note of cells that were left out, with their lines and what stands there.
+fn left_out_note(what: &str, cells: &[&(u64, &str)]) -> Option<String> {
+    let shown = |(line, text): &&(u64, &str)| match *text {
+        "" => format!("line {line}"),
+        text => format!("line {line} (\"{text}\")"),
+    };
+    let lines: Vec<String> = cells.iter().take(MOST_LINES).map(shown).collect();
+    let (count, lines) = (cells.len(), lines.join(", "));
+    let more = if count > MOST_LINES { ", …" } else { "" };
+    (count > 0).then(|| format!("{count} {what} were left out: {lines}{more}"))
 }
 
 /// Refuses what are no readings as a whole.
@@ -210,81 +197,87 @@ fn too_small(table: &Table, columns: &Columns, list: &[Reading]) -> Option<Strin
     })
 }
 
-struct Reader<'a> {
-    table: &'a Table,
-    columns: &'a Columns,
-    options: &'a ReadOptions,
+/// Refuses vehicles that may be a running total, unless their column was chosen.
+fn refuse_totals(table: &Table, columns: &Columns) -> Result<(), DataError> {
+    let Some(column) = columns.vehicles.filter(|&column| !table.names[column].chosen) else {
+        return Ok(());
+    };
+    let rows = &table.rows;
+    let counts: Vec<u64> = rows
+        .iter()
+        .filter_map(|row| whole(table, row, column).ok())
+        .collect();
+    if counts.len() < TOTAL || counts.windows(2).any(|pair| pair[1] <= pair[0]) {
+        return Ok(());
+    }
+    let found = "vehicles that grow from row to row: a running total, or vehicles since the row before";
+    let allowed =
+        "either: --column-pass NAME takes a total, --column-vehicles NAME takes those since the row before";
+    Err(table.wrong(rows[0].line, found, allowed))
 }
 
-impl Reader<'_> {
-    /// Refuses vehicles that may be a running total, unless their column was chosen.
-    fn refuse_totals(&self) -> Result<(), DataError> {
-        let rows = &self.table.rows;
-        let column = self
-            .columns
-            .vehicles
-            .filter(|&column| !self.table.names[column].chosen);
-        let counts = column.map(|column| rows.iter().filter_map(move |row| self.whole(row, column).ok()));
-        let counts: Vec<u64> = counts.into_iter().flatten().collect();
-        if counts.len() < TOTAL || counts.windows(2).any(|pair| pair[1] <= pair[0]) {
-            return Ok(());
+/// Where a value of a row was measured.
+fn place(table: &Table, columns: &Columns, row: &Row, value: &Values) -> Result<Place, DataError> {
+    match columns.position.filter(|&column| !row.cell(column).is_empty()) {
+        None => Ok(value.end.map_or(Place::Natural, Place::End)),
+        Some(_) if value.kind == DEFLECTION => {
+            let allowed =
+                "deflections without one: they are those of the duct under the first vehicle, wherever it is";
+            Err(table.wrong(row.line, "a place beside a deflection", allowed))
         }
-        let found = "vehicles that grow from row to row: a running total, or vehicles since the row before";
-        let allowed = "either: --column-pass NAME takes a total, --column-vehicles NAME takes those since the row before";
-        Err(self.table.wrong(rows[0].line, found, allowed))
-    }
-
-    /// A value of a row; `counted` vehicles have passed in its run.
-    fn reading(&self, row: &Row, value: &Values, counted: u64) -> Result<Reading, DataError> {
-        let (table, columns) = (self.table, self.columns);
-        let pass = columns
-            .pass
-            .map_or(Ok(counted), |column| self.whole(row, column))?;
-        let at = match columns.position.filter(|&column| !row.cell(column).is_empty()) {
-            Some(_) if value.kind == DEFLECTION => {
-                let allowed = "deflections without a place: they are that of the duct under the first vehicle, wherever it is";
-                return Err(table.wrong(row.line, "a place beside a deflection", allowed));
-            }
-            Some(column) => Place::At(self.si(row, column, POSITION, "", "metres from the upstream end")?),
-            None => value.end.map_or(Place::Natural, Place::End),
-        };
-        let allowed = "a finite number, with a unit if any";
-        let of_instrument = self.si(row, value.column, value.kind, "", allowed)?;
-        let is_tension = self.options.tension_positive && value.kind == FORCE;
-        // Its own unit, or that of the value.
-        let unit = table.names[value.column].unit.as_deref().unwrap_or("");
-        let allowed = "a finite, positive number";
-        let sigma = value.sigma.filter(|&column| !row.cell(column).is_empty());
-        let sigma = sigma.map(|column| match self.si(row, column, value.kind, unit, allowed)? {
-            sigma if sigma > 0.0 => Ok(sigma),
-            _ => Err(table.wrong_cell(row, column, allowed)),
-        });
-        Ok(Reading {
-            pass,
-            passes: pass,
-            measured: measured(value.kind, at),
-            value: if is_tension { -of_instrument } else { of_instrument },
-            sigma: sigma.transpose()?,
-            run: 0,
-            line: row.line,
-        })
-    }
-
-    /// "12.0" is what a spreadsheet makes of 12.
-    fn whole(&self, row: &Row, column: usize) -> Result<u64, DataError> {
-        match self.table.cell(row, column) {
-            Ok(Cell::Number(value, "")) if value.fract() == 0.0 && (0.0..=MOST).contains(&value) => {
-                Ok(value as u64)
-            }
-            _ => Err(self.table.wrong_cell(row, column, WHOLE)),
+        Some(column) => {
+            let allowed = "metres from the upstream end";
+            si_of(table, row, column, POSITION, column, allowed).map(Place::At)
         }
     }
+}
 
-    /// The number of a cell in SI, by its own unit, that of its column, or else this one.
-    fn si(&self, row: &Row, column: usize, kind: Kind, unit: &str, allowed: &str) -> Result<f64, DataError> {
-        let quantity = self.table.quantity(row, column);
-        let value =
-            quantity.and_then(|(digits, own)| si(kind, &digits, if own.is_empty() { unit } else { own }));
-        value.ok_or_else(|| self.table.wrong_cell(row, column, allowed))
+/// The standard deviation of a value of a row: in its own unit, or that of the value, as where this was said.
+fn sigma(table: &Table, options: &ReadOptions, row: &Row, value: &Values) -> Result<Option<f64>, DataError> {
+    let Some(column) = value.sigma.filter(|&column| !row.cell(column).is_empty()) else {
+        return Ok(None);
+    };
+    let is_told = options.table.unit.is_some() && value.kind == FORCE;
+    let of_value = is_told || table.names[column].unit.is_none();
+    let allowed = "a finite, positive number";
+    let unit_of = if of_value { value.column } else { column };
+    match si_of(table, row, column, value.kind, unit_of, allowed)? {
+        sigma if sigma > 0.0 => Ok(Some(sigma)),
+        _ => Err(table.wrong_cell(row, column, allowed)),
     }
+}
+
+/// "12.0" is what a spreadsheet makes of 12.
+fn whole(table: &Table, row: &Row, column: usize) -> Result<u64, DataError> {
+    let number = table.number(row, column).ok().flatten();
+    let is_whole = |number: &Number<'_>| number.value.fract() == 0.0 && (0.0..=MOST).contains(&number.value);
+    match number.filter(|number| number.unit.is_empty() && is_whole(number)) {
+        Some(number) => Ok(number.value as u64),
+        None => Err(table.wrong_cell(row, column, WHOLE)),
+    }
+}
+
+/// The number of a cell in SI, by its own unit or that of the column `unit_of`.
+fn si_of(
+    table: &Table,
+    row: &Row,
+    column: usize,
+    kind: Kind,
+    unit_of: usize,
+    allowed: &str,
+) -> Result<f64, DataError> {
+    let number = table.number(row, column).ok().flatten();
+    let value = number.and_then(|number| {
+        let of_column = table.names[unit_of].unit.as_deref().unwrap_or("");
+        si(
+            kind,
+            &number.digits,
+            if number.unit.is_empty() {
+                of_column
+            } else {
+                number.unit
+            },
+        )
+    });
+    value.ok_or_else(|| table.wrong_cell(row, column, allowed))
 }

@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::path::{Path, PathBuf};
 
-use creepage_tables::{Cell, Kind, Names, Options, Row, Table, TableError};
+use creepage_tables::{Kind, Names, Options, Row, Table, TableError};
 use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
 
 use crate::data::TrafficVehicle;
@@ -122,9 +122,18 @@ fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehi
         let label = row.cells.iter().find(|cell| !cell.is_empty());
         label.is_some_and(|label| NAMES.name(label, options).has(TOTAL))
     };
+    let rows = || table.rows.iter().filter(|row| !is_sum(row));
+    let is_percent = |row: &&Row| row.cell(count).contains('%');
+    if let (Some(row), true) = (
+        rows().find(|row| !is_percent(row)),
+        rows().any(|row| is_percent(&row)),
+    ) {
+        let found = format!("count: found \"{}\" beside others in %", row.cell(count));
+        return Err(table.wrong(row.line, found, "all in %, or none"));
+    }
     let mut axles: Vec<TrafficVehicle> = Vec::new();
     let mut heaviest: Option<(f64, &Row)> = None;
-    for row in table.rows.iter().filter(|row| !is_sum(row)) {
+    for row in rows() {
         let of = |column, kind, quantity| si(&table, row, column, kind, quantity);
         let (share, force) = (of(count, COUNT, AXLE_COUNT)?, of(load, LOAD, AXLE_LOAD)?);
         let radius = radius.map_or(Ok(0.0), |column| of(column, RADIUS, CONTACT_RADIUS))?;
@@ -166,15 +175,17 @@ fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehi
 
 /// A cell in SI, in its unit or that of its column; a count is of any unit.
 fn si(table: &Table, row: &Row, column: usize, kind: Kind, quantity: Quantity) -> Result<f64, TableError> {
-    let value = match (quantity.dimension, table.quantity(row, column)) {
-        (_, Some((digits, ""))) => digits.parse().ok(),
-        (Some(dimension), Some((digits, unit))) => {
+    let is_count = |unit: &str| matches!(unit, "" | "%") || Some(unit) == table.names[column].unit.as_deref();
+    let value = match (
+        table.number(row, column)?.and(table.quantity(row, column)),
+        quantity.dimension,
+    ) {
+        (Some((digits, unit)), None) if is_count(unit) => digits.parse().ok(),
+        (Some((digits, "")), _) => digits.parse().ok(),
+        (Some((digits, unit)), Some(dimension)) => {
             dimension.in_table(&digits, of_weight(unit).unwrap_or(unit))
         }
-        _ => match table.cell(row, column)? {
-            Cell::Number(value, "" | "%") => Some(value),
-            _ => None,
-        },
+        _ => None,
     };
     let value = value.filter(|value| quantity.contains(*value));
     let found = || format!("{}: found \"{}\"", kind.name(), table.written(row, column));

@@ -26,6 +26,14 @@ impl Row {
         self.cells.get(place).map_or("", String::as_str)
     }
 
+    /// Whether it holds words alone.
+    pub(crate) fn is_words(&self) -> bool {
+        !self
+            .cells
+            .iter()
+            .any(|cell| cell.starts_with(|c: char| c.is_ascii_digit()))
+    }
+
     /// Neither blank nor a comment.
     pub(crate) fn is_data(&self) -> bool {
         !self.cells.iter().all(String::is_empty) && !self.cell(0).starts_with('#')

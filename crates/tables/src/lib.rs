@@ -13,9 +13,9 @@ mod workbook;
 pub use error::TableError;
 pub use grid::Row;
 pub use name::{Kind, Name, Names};
-pub use number::is_number;
+pub use number::Number;
 pub use options::Options;
-pub use table::{Cell, Table};
+pub use table::Table;
 
 /// Longest text that a message repeats \[characters\].
 const LONGEST: usize = 80;

@@ -19,11 +19,14 @@ pub fn is_number(text: &str) -> bool {
         .any(|decimal| number(text, decimal).is_some_and(|number| number.unit.is_empty()))
 }
 
-/// A finite number, its digits as a program reads them, and the unit that follows it.
+/// A finite number.
 #[derive(Debug, PartialEq)]
 pub struct Number<'c> {
+    /// Its value.
     pub value: f64,
+    /// Its digits with a decimal point and nothing between thousands.
     pub digits: String,
+    /// What follows it: a unit, or nothing.
     pub unit: &'c str,
 }
 

@@ -7,9 +7,9 @@ use std::path::Path;
 use crate::error::TableError;
 use crate::grid::{self, Grid, Row};
 use crate::name::{Kind, Name, Names, is_same};
-use crate::number::{both, is_no_value, number};
+use crate::number::{Number, both, is_no_value, is_number, number};
 use crate::options::{Options, in_words};
-use crate::{LONGEST, PREAMBLE, is_number, shortened, text};
+use crate::{LONGEST, PREAMBLE, shortened, text};
 
 /// A table: names of its columns and the rows below them.
 #[derive(Debug)]
@@ -28,17 +28,6 @@ pub struct Table {
     decimal: Option<char>,
     decimals: Vec<Option<char>>,
     sheets: Vec<String>,
-}
-
-/// What a cell holds.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Cell<'c> {
-    /// Nothing.
-    Blank,
-    /// A word that stands for no value.
-    NoValue(&'c str),
-    /// A finite number, and the unit behind it.
-    Number(f64, &'c str),
 }
 
 impl Table {
@@ -70,14 +59,13 @@ impl Table {
             return Err(TableError::TooLarge { file, allowed });
         }
         let grid = grid(file, bytes, options)?;
-        let first = grid
-            .rows
-            .first()
-            .ok_or_else(|| TableError::Empty(file.to_owned()))?;
-        let is_toa5 = first.cell(0) == "TOA5";
+        let Some(first) = grid.rows.first() else {
+            return Err(TableError::Empty(file.to_owned()));
+        };
+        let (line, is_toa5) = (first.line, first.cell(0) == "TOA5");
         let mut table = Self {
             file: file.to_owned(),
-            line: first.line,
+            line,
             names: Vec::new(),
             rows: grid.rows,
             separator: grid.separator,
@@ -85,13 +73,11 @@ impl Table {
             decimals: Vec::new(),
             sheets: grid.sheets,
         };
-        let length = table.take_header(options, names)?;
-        let has_units = length > 0 && table.take_units(names.unit);
+        let has_units = table.take_header(options, names)? && table.take_units(names);
         // The row of units is one of those that are skipped.
-        let skipped = options
-            .skip
-            .unwrap_or(u64::from(is_toa5 && has_units) + u64::from(has_units));
-        let skipped = skipped.saturating_sub(u64::from(has_units)) as usize;
+        let skipped = options.skip.map_or(usize::from(is_toa5), |skip| {
+            skip as usize - usize::from(skip > 0 && has_units)
+        });
         table.rows.drain(..skipped.min(table.rows.len()));
         let is_there = |name: &str| table.names.iter().any(|other| is_same(&other.text, name));
         match options.columns.iter().find(|(_, name)| !is_there(name)) {
@@ -100,74 +86,86 @@ impl Table {
         }
     }
 
-    /// Takes the names from the line that was said, else from the first row that is recognised, else from that with the most words; how many
-    /// rows they take: none where the first row holds numbers, two where cells of a workbook are merged.
-    fn take_header(&mut self, options: &Options, names: &Names) -> Result<usize, TableError> {
+    /// Takes the names from the line that was said, else from the first row that is recognised, else from that with the most words. Where
+    /// cells of it are merged, the row below says more. Whether there are names: not where the first row holds numbers.
+    fn take_header(&mut self, options: &Options, names: &Names) -> Result<bool, TableError> {
         let rows = &self.rows;
-        let begins_a_number = |cell: &String| cell.starts_with(|c: char| c.is_ascii_digit());
-        let read = |place: usize, merged: bool| {
-            let row = &rows[place];
-            let below = rows
-                .get(place + 1)
-                .filter(|below| merged && row.merged && !below.cells.iter().any(begins_a_number));
-            let below_it = |column| below.map_or("", |below| below.cell(column));
-            let name = |column| names.name(&format!("{} {}", row.cell(column), below_it(column)), options);
-            let mut found: Vec<Name> = (0..row.cells.len()).map(name).collect();
+        let below = |place: usize| {
+            rows.get(place + 1)
+                .filter(|below| rows[place].merged && below.is_words())
+        };
+        let read = |place: usize, below: Option<&Row>| {
+            let cell = |column| {
+                format!(
+                    "{} {}",
+                    rows[place].cell(column),
+                    below.map_or("", |below| below.cell(column))
+                )
+            };
+            let columns = 0..rows[place].cells.len();
+            let mut found: Vec<Name> = columns.map(|column| names.name(&cell(column), options)).collect();
             // Excel writes columns that were used once.
             while found.pop_if(|name| name.text.is_empty()).is_some() {}
-            (1 + usize::from(below.is_some()), found)
+            found
         };
-        let places = || 0..rows.len().min(PREAMBLE);
-        let recognised = |merged| places().find(|&place| (names.is_header)(&read(place, merged).1));
-        let likely = || {
-            let begins_a_word = |cell: &&String| cell.starts_with(char::is_alphabetic);
-            let words = |place: usize| rows[place].cells.iter().filter(begins_a_word).count();
-            let cells = &rows[0].cells;
-            let is_numeric = cells.len() > 1 && cells.iter().take(2).all(|cell| is_number(cell));
-            places()
-                .max_by_key(|&place| (words(place), place))
-                .filter(|_| !is_numeric)
+        let places = 0..rows.len().min(PREAMBLE);
+        let is_alone = |&place: &usize| (names.is_header)(&read(place, None));
+        let is_joined = |&place: &usize| (names.is_header)(&read(place, below(place)));
+        let words = |place: usize| {
+            rows[place]
+                .cells
+                .iter()
+                .filter(|cell| cell.starts_with(char::is_alphabetic))
+                .count()
         };
         let place = match options.header_line {
-            None => recognised(false).or_else(|| recognised(true)).or_else(likely),
-            Some(line) => {
-                let place = rows.iter().position(|row| row.line == line);
-                let nothing = || self.wrong(line, "nothing", "a line with the names of the columns");
-                Some(place.ok_or_else(nothing)?)
+            Some(line) => rows.iter().position(|row| row.line == line),
+            None => places
+                .clone()
+                .find(is_alone)
+                .or_else(|| places.clone().find(is_joined)),
+        };
+        let is_numeric = rows[0].cells.len() > 1 && rows[0].cells.iter().take(2).all(|cell| is_number(cell));
+        let place = match (place, options.header_line) {
+            (None, Some(line)) => {
+                return Err(self.wrong(line, "nothing", "a line with the names of the columns"));
             }
+            (None, None) if is_numeric => None,
+            (place, _) => place.or_else(|| places.max_by_key(|&place| (words(place), place))),
         };
         let Some(place) = place else {
             let unnamed = names.unnamed.iter().take(rows[0].cells.len());
             self.names = unnamed.map(|name| names.name(name, options)).collect();
-            return Ok(0);
+            return Ok(false);
         };
-        let (length, found) = read(place, true);
+        let found = read(place, below(place));
+        let end = place + 1 + usize::from(below(place).is_some());
         (self.line, self.names) = (rows[place].line, found);
-        self.rows.drain(..place + length);
-        Ok(length)
+        self.rows.drain(..end);
+        Ok(true)
     }
 
     /// Takes the units from the first row, if that is what it holds: no number, and a unit at least.
-    fn take_units(&mut self, unit: fn(&str) -> Option<&'static str>) -> bool {
-        let Some(row) = self.rows.first() else {
-            return false;
-        };
-        let units: Vec<&str> = row
-            .cells
-            .iter()
-            .map(|cell| cell.trim_matches(|c| "~[]() ".contains(c)))
+    fn take_units(&mut self, names: &Names) -> bool {
+        let bare = |cell: &String| cell.trim_matches(|c| "~[]() ".contains(c)).to_owned();
+        let row = self.rows.first().filter(|row| row.is_words());
+        let units: Vec<String> = row
+            .into_iter()
+            .flat_map(|row| row.cells.iter().map(bare))
             .collect();
-        let begins_a_number = |cell: &String| cell.starts_with(|c: char| c.is_ascii_digit());
-        if row.cells.iter().any(begins_a_number) || !units.iter().any(|cell| unit(cell).is_some()) {
-            return false;
-        }
-        for (name, cell) in self.names.iter_mut().zip(units) {
-            if name.unit.is_none() && !cell.is_empty() && cell != "-" {
-                name.unit = Some(cell.to_owned());
+        let has_units = units.iter().any(|cell| (names.unit)(cell).is_some());
+        if has_units {
+            self.rows.remove(0);
+            for (name, unit) in self
+                .names
+                .iter_mut()
+                .zip(units)
+                .filter(|(_, unit)| !unit.is_empty() && unit != "-")
+            {
+                name.unit.get_or_insert(unit);
             }
         }
-        self.rows.remove(0);
-        true
+        has_units
     }
 
     /// What is wrong in a line of it.
@@ -183,10 +181,15 @@ impl Table {
 
     /// The columns of a kind: those that were chosen or that its own program writes, if any.
     pub fn of(&self, kind: Kind) -> Vec<usize> {
-        let columns = (0..self.names.len()).filter(|&column| self.names[column].kind == Some(kind));
-        let (own, others): (Vec<usize>, Vec<usize>) =
-            columns.partition(|&column| self.names[column].is_own());
-        if own.is_empty() { others } else { own }
+        let columns = |is: fn(&Name) -> bool| {
+            let names = self.names.iter().enumerate();
+            names
+                .filter(|(_, name)| name.kind == Some(kind) && is(name))
+                .map(|(column, _)| column)
+                .collect()
+        };
+        let own: Vec<usize> = columns(Name::is_own);
+        if own.is_empty() { columns(|_| true) } else { own }
     }
 
     /// The only column of a kind, if there is one.
@@ -292,20 +295,20 @@ impl Table {
         decided.or(self.decimal).unwrap_or('.')
     }
 
-    /// What the cell of `row` in `column` holds.
+    /// The number in the cell of `row` in `column`; `None` where nothing or a word for no value stands there.
     ///
     /// # Errors
     ///
-    /// [`TableError::Line`] for a text that is neither a number nor a word for none.
-    pub fn cell<'r>(&self, row: &'r Row, column: usize) -> Result<Cell<'r>, TableError> {
-        match row.cell(column) {
-            "" => Ok(Cell::Blank),
-            cell if is_no_value(cell) => Ok(Cell::NoValue(cell)),
-            cell => match number(cell, self.decimal(column)) {
-                Some(number) => Ok(Cell::Number(number.value, number.unit)),
-                None => Err(self.wrong_cell(row, column, "a finite number")),
-            },
+    /// [`TableError::Line`] for any other text.
+    pub fn number<'r>(&self, row: &'r Row, column: usize) -> Result<Option<Number<'r>>, TableError> {
+        let cell = row.cell(column);
+        if cell.is_empty() || is_no_value(cell) {
+            return Ok(None);
         }
+        let number = number(cell, self.decimal(column));
+        number
+            .map(Some)
+            .ok_or_else(|| self.wrong_cell(row, column, "a finite number"))
     }
 
     /// The digits of the number in the cell of `row` in `column`, with a decimal point, and its unit, or that of the column if it has none.
