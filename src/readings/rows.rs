@@ -60,13 +60,10 @@ impl Readings {
 /// The readings in `table`.
 fn read(mut table: Table, options: &ReadOptions) -> Result<Readings, DataError> {
     let columns = columns(&table, options)?;
-    let mut numbers: Vec<usize> = [columns.pass, columns.vehicles, columns.position]
-        .into_iter()
-        .flatten()
-        .collect();
-    numbers.extend(columns.values.iter().map(|value| value.column));
-    numbers.extend(columns.values.iter().filter_map(|value| value.sigma));
-    table.decide(&numbers)?;
+    let values = columns.values.iter();
+    let of_values = values.flat_map(|value| [Some(value.column), value.sigma]);
+    let numbers = of_values.chain([columns.pass, columns.vehicles, columns.position]);
+    table.decide(&numbers.flatten().collect::<Vec<_>>())?;
     if let Some(column) = columns.time {
         time::check_order(&table, column, columns.run)?;
     }
@@ -108,15 +105,15 @@ fn read(mut table: Table, options: &ReadOptions) -> Result<Readings, DataError> 
             });
         }
     }
-    check(&table, &columns, &list, &left_out)?;
-    let mut notes = Vec::new();
     let (blank, unusable): (Vec<_>, Vec<_>) = left_out.iter().partition(|(_, text)| text.is_empty());
-    let blanks = format!(
-        "rows without a {}",
-        measured(columns.values[0].kind, Place::Natural).name()
-    );
-    notes.extend(left_out_note(&blanks, &blank));
-    notes.extend(left_out_note("cells without a number", &unusable));
+    let first = &columns.values[0];
+    check(&table, &table.names[first.column].text, &list, &unusable)?;
+    let blanks = format!("rows without a {}", measured(first.kind, Place::Natural).name());
+    let notes = [
+        left_out_note(&blanks, &blank),
+        left_out_note("cells without a number", &unusable),
+    ];
+    let mut notes: Vec<String> = notes.into_iter().flatten().collect();
     if columns.run.or(columns.vehicles).is_none() {
         runs = runs::split_where_passes_begin_anew(&mut list, &mut notes);
     }
@@ -145,55 +142,38 @@ fn left_out_note(what: &str, cells: &[&(u64, &str)]) -> Option<String> {
 }
 
 /// Refuses what are no readings as a whole.
-fn check(
-    table: &Table,
-    columns: &Columns,
-    list: &[Reading],
-    left_out: &[(u64, &str)],
-) -> Result<(), DataError> {
-    let no_value = left_out.iter().find(|(_, text)| !text.is_empty());
-    let Some(first) = list.first() else {
-        let Some((line, text)) = no_value else {
-            return Err(DataError::Empty(table.file.clone()));
-        };
-        let name = &table.names[columns.values[0].column].text;
-        let found = format!("{name}: found \"{text}\", and no number anywhere");
-        return Err(table.wrong(*line, found, "a finite number"));
-    };
-    if list.iter().all(|reading| reading.pass == 0) {
-        return Err(table.wrong(
-            first.line,
-            "pass: found \"0\" alone",
-            "readings after at least one pass",
-        ));
-    }
-    let bare = list.iter().find(|reading| reading.sigma.is_none());
-    match bare.filter(|_| list.iter().any(|reading| reading.sigma.is_some())) {
-        Some(bare) => Err(table.wrong(
-            bare.line,
-            "sigma_n is blank, but given for other readings",
-            "all or none",
-        )),
-        None => Ok(()),
+fn check(table: &Table, name: &str, list: &[Reading], unusable: &[&(u64, &str)]) -> Result<(), DataError> {
+    let blank = list.iter().find(|reading| reading.sigma.is_none());
+    let has_sigmas = list.iter().any(|reading| reading.sigma.is_some());
+    let wrong = |line, found: &str, allowed| Err(table.wrong(line, found, allowed));
+    match (list.first(), unusable.first(), blank) {
+        (None, None, _) => Err(DataError::Empty(table.file.clone())),
+        (None, Some((line, text)), _) => {
+            let found = format!("{name}: found \"{text}\", and no number anywhere");
+            wrong(*line, &found, "a finite number")
+        }
+        (Some(first), ..) if list.iter().all(|reading| reading.pass == 0) => {
+            let allowed = "readings after at least one pass";
+            wrong(first.line, "pass: found \"0\" alone", allowed)
+        }
+        (_, _, Some(blank)) if has_sigmas => {
+            let found = "sigma_n is blank, but given for other readings";
+            wrong(blank.line, found, "all or none")
+        }
+        _ => Ok(()),
     }
 }
 
 /// A note where forces without a unit look like kilonewtons.
 fn too_small(table: &Table, columns: &Columns, list: &[Reading]) -> Option<String> {
-    let mut names = columns
-        .values
-        .iter()
-        .filter(|value| value.kind == FORCE)
-        .map(|value| &table.names[value.column]);
-    let bare = names.find(|name| name.unit.is_none())?;
+    let mut forces = columns.values.iter().filter(|value| value.kind == FORCE);
+    let bare = forces.find(|value| table.names[value.column].unit.is_none())?;
+    let name = &table.names[bare.column].text;
     let force = measured(FORCE, Place::Natural);
     let forces = list.iter().filter(|reading| reading.measured.is_like(force));
     let largest = forces.map(|reading| reading.value.abs()).fold(0.0, f64::max);
     (largest > 0.0 && largest < 10.0).then(|| {
-        format!(
-            "column {} names no unit and was read as newtons, at most {largest:.3} N: it looks like kN (--unit kN)",
-            bare.text
-        )
+        format!("column {name} names no unit and was read as newtons, at most {largest:.3} N: it looks like kN (--unit kN)")
     })
 }
 

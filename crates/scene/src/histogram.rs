@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use creepage_tables::{Kind, Names, Options, Row, Table, TableError};
-use ground_field::{Direction, SurfaceLoad, Vehicle, Wheel};
+use ground_field::{Direction, GroundError, SurfaceLoad, Vehicle, Wheel};
 
 use crate::data::TrafficVehicle;
 use crate::either::HistogramKeys;
@@ -113,21 +113,16 @@ fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehi
     let (load, radius) = (load?.ok_or_else(|| missing(LOAD))?, radius?);
     let columns: Vec<usize> = [Some(count), Some(load), radius].into_iter().flatten().collect();
     table.decide(&columns)?;
-    let axle = if table.names.iter().any(|name| name.has(GROUP)) {
-        AXLE_GROUP
-    } else {
-        AXLE
-    };
+    let is_grouped = table.names.iter().any(|name| name.has(GROUP));
+    let axle = if is_grouped { AXLE_GROUP } else { AXLE };
     let is_sum = |row: &&Row| {
         let label = row.cells.iter().find(|cell| !cell.is_empty());
         label.is_some_and(|label| NAMES.name(label, options).has(TOTAL))
     };
     let rows = || table.rows.iter().filter(|row| !is_sum(row));
     let is_percent = |row: &&Row| row.cell(count).contains('%');
-    if let (Some(row), true) = (
-        rows().find(|row| !is_percent(row)),
-        rows().any(|row| is_percent(&row)),
-    ) {
+    let bare = rows().find(|row| !is_percent(row));
+    if let Some(row) = bare.filter(|_| rows().any(|row| is_percent(&row))) {
         let found = format!("count: found \"{}\" beside others in %", row.cell(count));
         return Err(table.wrong(row.line, found, "all in %, or none"));
     }
@@ -144,8 +139,7 @@ fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehi
         if heaviest.is_none_or(|(most, _)| force > most) {
             heaviest = Some((force, row));
         }
-        let rejected =
-            |error: ground_field::GroundError| table.wrong(row.line, error.to_string(), NAMES.allowed);
+        let rejected = |error: GroundError| table.wrong(row.line, error.to_string(), NAMES.allowed);
         let load = SurfaceLoad::new(force, radius).map_err(rejected)?;
         let name = format!("{axle} {}", axles.len() + 1);
         let wheels = vec![Wheel { x: 0.0, y: 0.0, load }];
@@ -176,10 +170,8 @@ fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehi
 /// A cell in SI, in its unit or that of its column; a count is of any unit.
 fn si(table: &Table, row: &Row, column: usize, kind: Kind, quantity: Quantity) -> Result<f64, TableError> {
     let is_count = |unit: &str| matches!(unit, "" | "%") || Some(unit) == table.names[column].unit.as_deref();
-    let value = match (
-        table.number(row, column)?.and(table.quantity(row, column)),
-        quantity.dimension,
-    ) {
+    let found = table.number(row, column)?.and(table.quantity(row, column));
+    let value = match (found, quantity.dimension) {
         (Some((digits, unit)), None) if is_count(unit) => digits.parse().ok(),
         (Some((digits, "")), _) => digits.parse().ok(),
         (Some((digits, unit)), Some(dimension)) => {

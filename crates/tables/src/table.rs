@@ -75,9 +75,8 @@ impl Table {
         };
         let has_units = table.take_header(options, names)? && table.take_units(names);
         // The row of units is one of those that are skipped.
-        let skipped = options.skip.map_or(usize::from(is_toa5), |skip| {
-            skip as usize - usize::from(skip > 0 && has_units)
-        });
+        let said = options.skip.map(|skip| skip.saturating_sub(u64::from(has_units)));
+        let skipped = said.unwrap_or(u64::from(has_units && is_toa5)) as usize;
         table.rows.drain(..skipped.min(table.rows.len()));
         let is_there = |name: &str| table.names.iter().any(|other| is_same(&other.text, name));
         match options.columns.iter().find(|(_, name)| !is_there(name)) {
@@ -91,47 +90,37 @@ impl Table {
     fn take_header(&mut self, options: &Options, names: &Names) -> Result<bool, TableError> {
         let rows = &self.rows;
         let below = |place: usize| {
-            rows.get(place + 1)
-                .filter(|below| rows[place].merged && below.is_words())
+            let row = rows.get(place + 1).filter(|row| row.is_words());
+            row.filter(|_| rows[place].merged)
         };
         let read = |place: usize, below: Option<&Row>| {
-            let cell = |column| {
-                format!(
-                    "{} {}",
-                    rows[place].cell(column),
-                    below.map_or("", |below| below.cell(column))
-                )
-            };
+            let lower = |column| below.map_or("", |below| below.cell(column));
+            let cell = |column| format!("{} {}", rows[place].cell(column), lower(column));
             let columns = 0..rows[place].cells.len();
             let mut found: Vec<Name> = columns.map(|column| names.name(&cell(column), options)).collect();
             // Excel writes columns that were used once.
             while found.pop_if(|name| name.text.is_empty()).is_some() {}
             found
         };
-        let places = 0..rows.len().min(PREAMBLE);
-        let is_alone = |&place: &usize| (names.is_header)(&read(place, None));
-        let is_joined = |&place: &usize| (names.is_header)(&read(place, below(place)));
-        let words = |place: usize| {
-            rows[place]
-                .cells
-                .iter()
-                .filter(|cell| cell.starts_with(char::is_alphabetic))
-                .count()
+        let places = || 0..rows.len().min(PREAMBLE);
+        let recognised = || {
+            let alone = places().find(|&place| (names.is_header)(&read(place, None)));
+            alone.or_else(|| places().find(|&place| (names.is_header)(&read(place, below(place)))))
+        };
+        let likely = || {
+            let is_word = |cell: &&String| cell.starts_with(char::is_alphabetic);
+            let words = |place: usize| rows[place].cells.iter().filter(is_word).count();
+            let numbers = rows[0].cells.iter().take(2).filter(|cell| is_number(cell));
+            let place = places().max_by_key(|&place| (words(place), place));
+            place.filter(|_| numbers.count() < 2)
         };
         let place = match options.header_line {
-            Some(line) => rows.iter().position(|row| row.line == line),
-            None => places
-                .clone()
-                .find(is_alone)
-                .or_else(|| places.clone().find(is_joined)),
-        };
-        let is_numeric = rows[0].cells.len() > 1 && rows[0].cells.iter().take(2).all(|cell| is_number(cell));
-        let place = match (place, options.header_line) {
-            (None, Some(line)) => {
-                return Err(self.wrong(line, "nothing", "a line with the names of the columns"));
+            None => recognised().or_else(likely),
+            Some(line) => {
+                let nothing = || self.wrong(line, "nothing", "a line with the names of the columns");
+                let place = rows.iter().position(|row| row.line == line);
+                Some(place.ok_or_else(nothing)?)
             }
-            (None, None) if is_numeric => None,
-            (place, _) => place.or_else(|| places.max_by_key(|&place| (words(place), place))),
         };
         let Some(place) = place else {
             let unnamed = names.unnamed.iter().take(rows[0].cells.len());
@@ -211,23 +200,16 @@ impl Table {
 
     /// That a column is missing, what there is, and what may be the cause.
     pub fn missing(&self, column: &str, allowed: &str) -> TableError {
-        let names: Vec<&str> = self
-            .names
-            .iter()
-            .map(|name| &*name.text)
-            .filter(|name| !name.is_empty())
-            .collect();
+        let names = self.names.iter().map(|name| &*name.text);
+        let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
         let read_as = self.separator.map_or_else(|| "a workbook".into(), in_words);
         // One name that another separator would cut.
         let cuts = |sign: &char| matches!(names[..], [only] if only.contains(*sign));
         let other = [';', '\t', ',', ' '].into_iter().find(cuts);
-        let cause = other.map_or_else(String::new, |sign| {
-            format!("; it looks separated by {}", in_words(sign))
-        });
-        let sheets = match &self.sheets[..] {
-            [] => String::new(),
-            sheets => format!("; other sheets: {}", sheets.join(", ")),
-        };
+        let looks = other.map(|sign| format!("; it looks separated by {}", in_words(sign)));
+        let sheets = format!("; other sheets: {}", self.sheets.join(", "));
+        let sheets = if self.sheets.is_empty() { "" } else { &sheets };
+        let cause = looks.unwrap_or_default();
         let names = shortened(&names.join(" | "), LONGEST);
         let found =
             format!("no column {column} in \"{names}\" (read as separated by {read_as}{cause}{sheets})");
@@ -271,10 +253,8 @@ impl Table {
                 let cell = row.cell(column);
                 // Between commas a point stands before decimals.
                 let is_point = self.separator == Some(',') && cell.contains('.');
-                if let [Some(a), Some(b)] = both(cell)
-                    && a != b
-                    && !is_point
-                {
+                let [Some(a), Some(b)] = both(cell) else { continue };
+                if a != b && !is_point {
                     let (name, cell) = (self.name(column), shortened(cell, LONGEST));
                     let found = format!("{name}: found \"{cell}\", {} or {}", a.min(b), a.max(b));
                     let allowed = "either: --decimal comma or --decimal point says which sign stands before the decimals";
