@@ -41,24 +41,16 @@ fn options(words: &str) -> ReadOptions {
     let mut options = ReadOptions::default();
     for word in words.split_whitespace() {
         let (key, value) = word.split_once('=').unwrap();
-        let name = Some(value.replace('_', " "));
-        match key {
-            "separator" => options.table.separator = Some(value.parse().unwrap()),
-            "decimal" => options.table.decimal = Some(value.parse().unwrap()),
-            "encoding" => options.table.encoding = Some(value.parse().unwrap()),
-            "pass" => options.columns.pass = name,
-            "vehicles" => options.columns.vehicles = name,
-            "force" => options.columns.force.extend(name),
-            "run" => options.columns.run = name,
-            "movement" => options.columns.movement.extend(name),
-            "position" => options.columns.position = name,
-            "header" => options.table.header_line = value.parse().ok(),
-            "skip" => options.table.skip = value.parse().ok(),
-            "unit" => options.unit = name,
-            "start" => options.run_start = Some(value.parse().unwrap()),
-            "tension" => options.tension_positive = true,
-            _ => panic!("{key}"),
-        }
+        let name = match key {
+            "pass" | "vehicles" | "force" | "run" | "movement" | "position" => format!("column_{key}"),
+            "header" => "header_line".into(),
+            "start" => "run_start".into(),
+            "tension" => "tension_positive".into(),
+            key => key.to_owned(),
+        };
+        options
+            .set(&name, &value.replace('_', " ").replace("yes", "True"))
+            .unwrap();
     }
     options
 }
@@ -283,6 +275,18 @@ fn shapes() -> Vec<(&'static str, Vec<u8>, &'static str)> {
             "skip=2",
         ),
         (
+            "tildes before a header of three rows",
+            row("~pass;force\n~-;N\n~sensor;HBM C9\n", &|n, f| format!("{n};{f}")),
+            "skip=2",
+        ),
+        (
+            "a header of three rows by its line",
+            row("Logger;7\nLast;Station\nNr;F\n-;N\n50 Hz;HBM\n", &|n, f| {
+                format!("{n};{f}")
+            }),
+            "header=3 skip=2 pass=Nr force=F",
+        ),
+        (
             "a header by its line",
             row("pass;force\nNr;F\n", &|n, f| format!("{n};{f}")),
             "header=2 pass=Nr force=F",
@@ -396,6 +400,11 @@ pass;force_n¶1;94¶2¶ ‖ - ‖ cell.csv:3 ‖ 1 cells where the first row has
 x,force_n¶1,94¶ ‖ - ‖ no column pass
 Station 4, joint¶number,cell force¶1,94¶ ‖ - ‖ cell.csv:2 ‖ no column pass
 pass,force_n¶1,94¶ ‖ header=7 ‖ cell.csv:7 ‖ nothing
+pass,deflection [um],position [m]¶1,115,3¶ ‖ - ‖ cell.csv:2 ‖ a place beside a deflection ‖ under the first vehicle
+pass,force_n¶1,3000-3999¶ ‖ - ‖ cell.csv:2: force_n: found "3000-3999", a range
+pass,force_n¶Total,3000¶ ‖ - ‖ cell.csv:2: pass: found "Total"
+pass,A,A¶1,94,95¶ ‖ force=A ‖ second column A
+pass;force_n¶1;0,113¶2;1.5¶ ‖ - ‖ cell.csv:3 ‖ 1.5 ‖ a decimal point where other numbers have a comma
 "#;
 
 /// What is wrong is named: the file, words that the message holds.
@@ -579,4 +588,87 @@ fn a_workbook_is_read() {
         "{:?}",
         data.notes()
     );
+}
+
+/// Rows of a workbook, with these of their cells merged: first row and column, last row and column.
+fn workbook(rows: &[&[&str]], merged: &[[u32; 4]]) -> Vec<u8> {
+    let mut book = rust_xlsxwriter::Workbook::new();
+    let sheet = book.add_worksheet();
+    for [top, left, bottom, right] in merged.iter().copied() {
+        let (left, right) = (left as u16, right as u16);
+        let format = rust_xlsxwriter::Format::new();
+        sheet.merge_range(top, left, bottom, right, "", &format).unwrap();
+    }
+    for (line, cells) in (0..).zip(rows) {
+        for (column, cell) in (0..).zip(*cells).filter(|(_, cell)| !cell.is_empty()) {
+            match cell.parse::<f64>() {
+                Ok(number) => sheet.write(line, column, number).unwrap(),
+                Err(_) => sheet.write(line, column, *cell).unwrap(),
+            };
+        }
+    }
+    book.save_to_buffer().unwrap()
+}
+
+#[test]
+fn a_header_of_merged_cells_is_read() {
+    let (up, down) = (Place::End(CableEnd::Upstream), Place::End(CableEnd::Downstream));
+    let data = ["1", "0.05", "0.094"];
+    for (name, rows, merged, expected) in [
+        (
+            "a group over two cells, and a name over two rows",
+            &[
+                &["pass", "Force", ""][..],
+                &["", "upstream [kN]", "downstream [kN]"],
+                &data,
+            ][..],
+            &[[0, 0, 1, 0], [0, 1, 0, 2]][..],
+            &[(up, 50.0), (down, 94.0)][..],
+        ),
+        (
+            "the kind in the group alone, units below",
+            &[
+                &["", "Kraft", ""],
+                &["pass", "up", "down"],
+                &["-", "kN", "kN"],
+                &data,
+            ],
+            &[[0, 1, 0, 2]],
+            &[(up, 50.0), (down, 94.0)],
+        ),
+        (
+            "a unit below a merged name",
+            &[
+                &["pass", "force", "remark"],
+                &["", "kN", ""],
+                &["1", "0.05", "ok"],
+            ],
+            &[[0, 0, 1, 0], [0, 2, 1, 2]],
+            &[(Place::Natural, 50.0)],
+        ),
+        (
+            "a title over all columns",
+            &[
+                &["Force after each pass", "", ""],
+                &["pass", "upstream force_kn", "downstream force_kn"],
+                &data,
+            ],
+            &[[0, 0, 0, 2]],
+            &[(up, 50.0), (down, 94.0)],
+        ),
+    ] {
+        let book = workbook(rows, merged);
+        let read = Readings::from_bytes("cell.xlsx", &book, &ReadOptions::default());
+        let read = read.unwrap_or_else(|error| panic!("{name}: {error}"));
+        let found: Vec<(Measured, f64)> = read
+            .readings()
+            .iter()
+            .map(|reading| (reading.measured, reading.value))
+            .collect();
+        let expected: Vec<(Measured, f64)> = expected
+            .iter()
+            .map(|&(place, force)| (Measured::Force(place), force))
+            .collect();
+        assert_eq!(found, expected, "{name}");
+    }
 }

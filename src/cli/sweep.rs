@@ -86,7 +86,7 @@ pub fn execute(arguments: &Arguments) -> Result<(), Failure> {
         seed: arguments.seed,
     };
     let sweep = match rows {
-        Some(rows) => Sweep::of_rows(file, rows, &arguments.table.options(), samples)?,
+        Some(rows) => Sweep::of_rows(file, rows, &arguments.table.0.table, samples)?,
         None => Sweep::new(file, axes.collect::<Result<_, _>>()?, samples)?,
     };
     warn_of_slips(&sweep.file_at(0)?);

@@ -1,18 +1,7 @@
 //! Readings, in the order of their file.
 
-use std::path::Path;
-
-use creepage_tables::{Name, Names, Table};
-
 use super::DataError;
-use super::columns::is_header;
-use super::options::ReadOptions;
 use super::reading::Reading;
-use super::rows;
-use crate::scene::Dimension;
-
-/// A file larger than this \[bytes\] holds no readings: it is a million of them many times over.
-const LARGEST_FILE: u64 = 64 << 20;
 
 /// Readings of one scene, in the order of the file.
 ///
@@ -26,94 +15,14 @@ const LARGEST_FILE: u64 = 64 << 20;
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Readings {
-    file: String,
-    list: Vec<Reading>,
-    runs: Vec<String>,
-    skipped: usize,
-    notes: Vec<String>,
+    pub(super) file: String,
+    pub(super) list: Vec<Reading>,
+    pub(super) runs: Vec<String>,
+    pub(super) skipped: usize,
+    pub(super) notes: Vec<String>,
 }
 
 impl Readings {
-    /// Reads the file at `path`, recognising how it is written.
-    ///
-    /// # Errors
-    ///
-    /// [`DataError`] with the first thing that is wrong, and its line.
-    pub fn from_file(path: impl AsRef<Path>) -> Result<Self, DataError> {
-        Self::from_file_with(path, &ReadOptions::default())
-    }
-
-    /// Reads the file at `path` as `options` say.
-    ///
-    /// # Errors
-    ///
-    /// As for [`Readings::from_file`].
-    pub fn from_file_with(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, DataError> {
-        let is_header = |names: &[Name]| is_header(names, &options.columns);
-        let names = Names {
-            is_header: &is_header,
-            unit: Dimension::unit_by_word,
-        };
-        let table = Table::from_file(path.as_ref(), LARGEST_FILE, &options.table, &names)?;
-        Self::of(table, options)
-    }
-
-    /// Reads a table from `bytes`, recognising how it is written; `file` stands for it in errors.
-    ///
-    /// # Errors
-    ///
-    /// As for [`Readings::from_file`].
-    pub fn from_csv(file: &str, bytes: &[u8]) -> Result<Self, DataError> {
-        Self::from_bytes(file, bytes, &ReadOptions::default())
-    }
-
-    /// Reads a table or a workbook from `bytes` as `options` say; `file` stands for it in errors.
-    ///
-    /// # Errors
-    ///
-    /// As for [`Readings::from_file`].
-    pub fn from_bytes(file: &str, bytes: &[u8], options: &ReadOptions) -> Result<Self, DataError> {
-        if bytes.len() as u64 > LARGEST_FILE {
-            let (file, allowed) = (file.to_owned(), LARGEST_FILE);
-            return Err(DataError::TooLarge { file, allowed });
-        }
-        let is_header = |names: &[Name]| is_header(names, &options.columns);
-        let names = Names {
-            is_header: &is_header,
-            unit: Dimension::unit_by_word,
-        };
-        Self::of(Table::read(file, bytes, &options.table, &names)?, options)
-    }
-
-    fn of(mut table: Table, options: &ReadOptions) -> Result<Self, DataError> {
-        let found = rows::read(&mut table, options)?;
-        if found.readings.is_empty() {
-            return Err(DataError::Empty(table.file));
-        }
-        if found.readings.iter().all(|reading| reading.passes == 0) {
-            let line = found.readings[0].line;
-            return Err(table.wrong(
-                line,
-                "pass: found \"0\" alone".into(),
-                "readings after at least one pass",
-            ));
-        }
-        let bare = found.readings.iter().find(|reading| reading.sigma.is_none());
-        match bare.filter(|_| found.readings.iter().any(|reading| reading.sigma.is_some())) {
-            Some(bare) => {
-                let found = "sigma_n is blank, but given for other readings".into();
-                Err(table.wrong(bare.line, found, "all or none"))
-            }
-            None => Ok(Self {
-                file: table.file,
-                list: found.readings,
-                runs: found.runs,
-                skipped: found.skipped,
-                notes: found.notes,
-            }),
-        }
-    }
-
     /// Makes sure that there are at least `needed` readings for this number of parameters.
     ///
     /// # Errors
@@ -127,7 +36,7 @@ impl Readings {
             file: self.file.clone(),
             line: self.list.last().map_or(0, |reading| reading.line),
             found: format!("{} readings", self.list.len()),
-            allowed: format!("{needed} or more, needed for {parameters} parameters").into(),
+            allowed: format!("{needed} or more, needed for {parameters} parameters"),
         })
     }
 

@@ -8,15 +8,15 @@
 //! A column of runs, or passes that begin anew, make several series of one file: see [`RunStart`].
 
 mod columns;
+mod kinds;
 mod list;
 mod options;
 mod reading;
-mod role;
 mod rows;
 mod runs;
 mod time;
 
-pub use creepage_tables::{Decimal, Encoding, Options as TableOptions, Separator, TableError as DataError};
+pub use creepage_tables::{Options as TableOptions, TableError as DataError};
 pub use list::Readings;
-pub use options::{ColumnNames, ReadOptions, RunStart};
+pub use options::{ReadOptions, RunStart};
 pub use reading::{Measured, Place, Reading};

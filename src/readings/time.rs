@@ -1,6 +1,6 @@
 //! Times, so far as their order goes.
 
-use creepage_tables::{Row, Table};
+use creepage_tables::Table;
 
 use super::DataError;
 use crate::scene::shortened;
@@ -10,13 +10,14 @@ const LONGEST: usize = 80;
 
 /// Refuses rows that are not in the order of the times in `column`: vehicles are counted from row to row.
 pub fn check_order(table: &Table, column: usize, run: Option<usize>) -> Result<(), DataError> {
-    let same_run = |one: &Row, other: &Row| run.is_none_or(|run| one.cell(run) == other.cell(run));
-    for pair in table.rows.windows(2).filter(|pair| same_run(&pair[0], &pair[1])) {
-        let [before, after] = [&pair[0], &pair[1]].map(|row| row.cell(column));
-        if is_earlier(after, before) {
-            let [before, after] = [before, after].map(|text| shortened(text, LONGEST));
-            let found = format!("\"{after}\", earlier than the row before, \"{before}\"");
-            return Err(table.wrong(pair[1].line, found, "rows in the order of their times"));
+    for pair in table.rows.windows(2) {
+        let [before, after] = [&pair[0], &pair[1]];
+        let is_one_run = run.is_none_or(|run| before.cell(run) == after.cell(run));
+        let [earlier, later] = [before, after].map(|row| row.cell(column));
+        if is_one_run && is_earlier(later, earlier) {
+            let [earlier, later] = [earlier, later].map(|text| shortened(text, LONGEST));
+            let found = format!("\"{later}\", earlier than the row before, \"{earlier}\"");
+            return Err(table.wrong(after.line, found, "rows in the order of their times"));
         }
     }
     Ok(())
@@ -40,13 +41,10 @@ fn key(text: &str) -> Option<(Vec<f64>, Option<f64>)> {
         return None;
     }
     let parts = text.split(|c: char| !c.is_ascii_digit());
-    let mut parts: Vec<f64> = parts
-        .filter(|part| !part.is_empty())
-        .filter_map(|part| part.parse().ok())
-        .collect();
+    let mut parts: Vec<f64> = parts.filter_map(|part| part.parse().ok()).collect();
     let year_first = text.bytes().take_while(u8::is_ascii_digit).count() == 4;
-    if !year_first && text.contains('.') && parts.len() > 2 && text.starts_with(|c: char| c.is_ascii_digit())
-    {
+    let is_digit = |c: char| c.is_ascii_digit();
+    if !year_first && text.contains('.') && parts.len() > 2 && text.starts_with(is_digit) {
         // 24.12.2025 17:30
         parts.swap(0, 2);
     } else if !year_first && (text.contains('/') || !text.contains(':')) {

@@ -9,7 +9,7 @@ use super::axis::{Axis, AxisValues};
 use super::distribution::Distribution;
 use super::error::SweepError;
 use super::grid::{Samples, Sweep};
-use super::list::{self, NAMES};
+use super::list::{self, TEXTS};
 use crate::SceneFile;
 use crate::scene::TypedValue;
 
@@ -227,7 +227,7 @@ impl Axis {
 
 /// The distribution that stands at `key`, if one does.
 pub fn distribution(key: &str, text: &str) -> Option<Result<Distribution, SweepError>> {
-    let is_name = NAMES.contains(&key.rsplit('.').next().unwrap_or(key));
+    let is_name = TEXTS.contains(&key.rsplit('.').next().unwrap_or(key));
     let found = Distribution::parse(text).filter(|_| !is_name)?;
     Some(found.map_err(|allowed| SweepError::Cell {
         key: key.to_owned(),

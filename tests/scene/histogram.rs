@@ -87,6 +87,91 @@ fn every_row_is_an_axle_with_its_share() {
     assert_eq!(points.vehicles[0].vehicle.speed(), 5.0);
 }
 
+/// Tables as stations and spreadsheets write them: a table, the loads \[N\] and their shares.
+#[test]
+fn tables_of_every_country_are_read() {
+    let (kip, pound, gravity) = (4448.2216152605, 4.4482216152605, 9.80665);
+    let share = [0.75, 0.25];
+    for (table, loads) in [
+        (
+            "axle load [kips],count\n10,300\n20,100\n",
+            [10.0 * kip, 20.0 * kip],
+        ),
+        (
+            "Load (kip),Axles\n10,\"3,000.0\"\n20,\"1,000.0\"\n",
+            [10.0 * kip, 20.0 * kip],
+        ),
+        ("axle load [t];count\n5;3\n10;1\n", [5e3 * gravity, 1e4 * gravity]),
+        (
+            "Achslast t;Anzahl\n5,0;3\n10,0;1\n",
+            [5e3 * gravity, 1e4 * gravity],
+        ),
+        (
+            "load [kg],count\n5000,3\n10000,1\n",
+            [5e3 * gravity, 1e4 * gravity],
+        ),
+        ("load,count\nlb,-\n10000,3\n20000,1\n", [1e4 * pound, 2e4 * pound]),
+        (
+            "load,count\n10000 lbs,3\n20000 lbs,1\n",
+            [1e4 * pound, 2e4 * pound],
+        ),
+        ("Station 12\nLane;2\nload [kN];count\n50;3\n100;1\n", [5e4, 1e5]),
+        (
+            "class;load [kN];count\n1;50;3\n2;100;1\nTotal;150;4\n",
+            [5e4, 1e5],
+        ),
+        ("Achslast [kN];Anzahl\n50;3\n100;1\nSumme;4\n", [5e4, 1e5]),
+        ("load [kN];count [%]\n50;75\n100;25\n", [5e4, 1e5]),
+        ("load [kN];count\n50;75 %\n100;25 %\n", [5e4, 1e5]),
+        ("Achslast [kN];Anteil\n50;0,75\n100;0,25\n", [5e4, 1e5]),
+        ("class number,load [kN],count\n1,50,3\n2,100,1\n", [5e4, 1e5]),
+        ("~load;count\n~kN;-\n50;3\n100;1\n", [5e4, 1e5]),
+    ] {
+        let scene = read("countries", table, &[]).unwrap_or_else(|error| panic!("{table}: {error}"));
+        assert_eq!(scene.vehicles.len(), 2, "{table}");
+        for ((load, _, found), (expected, share)) in
+            classes(&scene).into_iter().zip(loads.into_iter().zip(share))
+        {
+            assert!(
+                (load / expected - 1.0).abs() < 1e-12 && (found - share).abs() < 1e-12,
+                "{table}: {load} {found}"
+            );
+        }
+        assert!(
+            !creepage::scene::unusual(&scene)
+                .iter()
+                .any(|warning| warning.contains("groups"))
+        );
+    }
+    let folder = folder("utf-16", "");
+    for bytes in [u16::to_le_bytes, u16::to_be_bytes] {
+        let text = "\u{feff}Achslast [kN];Anzahl\n50,5;3\n100;1\n";
+        let text: Vec<u8> = text.encode_utf16().flat_map(bytes).collect();
+        fs::write(folder.with_file_name("axles.csv"), text).unwrap();
+        let scene = SceneFile::read(&folder).unwrap().scene().unwrap();
+        assert_eq!(classes(&scene)[0], (5.05e4, 0.0, 0.75));
+    }
+}
+
+/// A tandem in one row moves the cable more than its two axles do.
+#[test]
+fn groups_of_axles_are_warned_of() {
+    for table in [
+        "group,load [kN],count\nsingle,50,3\ntandem,180,1\n",
+        "load [kN];Tandem;count\n50;no;3\n180;yes;1\n",
+    ] {
+        let scene = read("groups", table, &[]).unwrap();
+        let warnings = creepage::scene::unusual(&scene);
+        assert!(
+            warnings
+                .iter()
+                .any(|warning| warning.contains("`traffic.histogram` has a column of groups")),
+            "{warnings:?}"
+        );
+        assert_eq!(Scene::from_toml("duct.toml", &scene.to_toml()).unwrap(), scene);
+    }
+}
+
 /// What a reader cannot know of a table is said in the scene.
 #[test]
 fn a_scene_says_how_its_table_is_written() {
@@ -137,6 +222,22 @@ fn a_bad_table_is_refused_with_its_line() {
             &["axles.csv:2: count: found \"5.200\", 5.2 or 5200"],
         ),
         ("load,count\n20 kN,5,7\n", &["axles.csv:2: 3 cells"]),
+        (
+            "load [kg],count\n3000-3999,3\n",
+            &["axles.csv:2: load", "\"3000-3999\", a range"],
+        ),
+        (
+            "class,load [kN],count\n1,50,3\n,,3\n",
+            &["axles.csv:3: load: found \"\""],
+        ),
+        (
+            "load from [kN],load to [kN],count\n40,50,3\n",
+            &["axles.csv:1: a second column load to"],
+        ),
+        (
+            "load [kN];count\n50;75 %\n100;25\n",
+            &["axles.csv:3: count: found \"25\"", "beside others in %"],
+        ),
         ("load [m],count\n40,3\n", &["load: found \"40 m\"", "a force"]),
         (
             "load,count,contact_radius\n5 kN,1,1 km\n",

@@ -74,6 +74,19 @@ impl Dimension {
         exact.or_else(|| all().find(is_alike))
     }
 
+    /// The value in SI of a number in a unit as tables write it: whatever its case, daN, kp and mN too. `None` for a unit of another
+    /// dimension.
+    pub fn in_table(self, digits: &str, unit: &str) -> Option<f64> {
+        let symbol = Self::unit_by_word(unit).unwrap_or(unit);
+        let of = |symbol: &str| self.parse(&format!("{digits} {symbol}")).ok();
+        match symbol {
+            "daN" => Some(of("N")? * 10.0),
+            "mN" => Some(of("N")? / 1e3),
+            "kp" => of("kgf"),
+            symbol => of(symbol),
+        }
+    }
+
     /// The symbol of its SI unit; ratios and slopes have none.
     pub fn si(self) -> Option<&'static str> {
         self.units().next().filter(|unit| *unit != "%")

@@ -8,6 +8,7 @@ use ground_field::{Base, Modulus};
 use crate::arrangement::may_jam;
 use crate::data::{PeakScaling, Scene, TrafficVehicle};
 use crate::document::{Content, Document, without_numbers};
+use crate::histogram::AXLE_GROUP;
 use crate::key::Keys;
 use crate::location::{Location, counted};
 use crate::range::WEIGHT;
@@ -81,7 +82,7 @@ pub fn unusual(scene: &Scene) -> Vec<String> {
         }
     });
     #[rustfmt::skip]
-    let pairs = [exchanged, far, between_tracks, lanes_scaled_alike, rock, contrast, may_jam, too_heavy, too_long];
+    let pairs = [exchanged, far, between_tracks, lanes_scaled_alike, rock, contrast, may_jam, too_heavy, too_long, grouped];
     warnings.extend(pairs.iter().filter_map(|pair| pair(scene)));
     warnings
 }
@@ -162,6 +163,16 @@ fn too_heavy(scene: &Scene) -> Option<String> {
         &format!("vehicles.{index}"),
         &format!(" weighs {tonnes:.0} t, more than any vehicle on a road"),
     ))
+}
+
+/// A table of axles that were weighed in groups.
+fn grouped(scene: &Scene) -> Option<String> {
+    let mut names = scene.vehicles.iter().map(|traffic| traffic.vehicle.name());
+    names.any(|name| name.starts_with(AXLE_GROUP)).then(|| {
+        "`traffic.histogram` has a column of groups of axles: each row is computed as one axle, which moves the cable more than a tandem or a \
+         tridem of the same weight; divide their loads and multiply their numbers"
+            .into()
+    })
 }
 
 /// Traffic for longer than any road is old.

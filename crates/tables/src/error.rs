@@ -1,7 +1,5 @@
 //! What is wrong with a table, and where.
 
-use std::borrow::Cow;
-
 /// What is wrong with a table, and where.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -46,7 +44,7 @@ pub enum TableError {
         /// What was found.
         found: String,
         /// What is allowed.
-        allowed: Cow<'static, str>,
+        allowed: String,
     },
     /// There is nothing in the file of this name.
     #[error("{0}: no rows; allowed: a table with names of its columns")]

@@ -12,13 +12,15 @@ mod workbook;
 
 pub use error::TableError;
 pub use grid::Row;
-pub use name::Name;
-pub use number::is_number;
-pub use options::{Decimal, Encoding, Options, Separator};
-pub use table::{Cell, Names, Table};
+pub use name::{Kind, Name, Names};
+pub use number::Number;
+pub use options::Options;
+pub use table::Table;
 
 /// Longest text that a message repeats \[characters\].
 const LONGEST: usize = 80;
+/// Rows above the header at most: what a data logger says of itself.
+const PREAMBLE: usize = 40;
 
 /// The text, or of one longer than so many characters the beginning and its length.
 pub fn shortened(text: &str, longest: usize) -> String {

@@ -1,7 +1,5 @@
 //! Numbers as spreadsheets and data loggers write them.
 
-use crate::options::Decimal;
-
 /// What instruments and spreadsheets write if there is no value, in small letters, between bars.
 const NO_VALUES: &str = "nan|na|n/a|n.a.|null|none|nil|-|--|---|?|inf|+inf|-inf|infinity|-infinity|overflow|ovld|ovl|ol|\
                          overload|overrange|err|error|bad|invalid|fault|no data|nodata|missing|n.v.|k.a.|k. a.|keine angabe|\
@@ -16,26 +14,35 @@ pub fn is_no_value(text: &str) -> bool {
 
 /// Whether the cell is a bare number in some notation.
 pub fn is_number(text: &str) -> bool {
-    let of = |decimal| number(text, decimal).is_some_and(|number| number.unit.is_empty());
-    of(Decimal::Point) || of(Decimal::Comma)
+    ['.', ',']
+        .into_iter()
+        .any(|decimal| number(text, decimal).is_some_and(|number| number.unit.is_empty()))
 }
 
-/// A finite number, its digits as a program reads them, and the unit that follows it.
+/// A finite number.
 #[derive(Debug, PartialEq)]
 pub struct Number<'c> {
+    /// Its value.
     pub value: f64,
+    /// Its digits with a decimal point and nothing between thousands.
     pub digits: String,
+    /// What follows it: a unit, or nothing.
     pub unit: &'c str,
 }
 
-/// The number in `text`.
-pub fn number(text: &str, decimal: Decimal) -> Option<Number<'_>> {
+/// The number in `text`, where this sign stands before the decimals.
+pub fn number(text: &str, decimal: char) -> Option<Number<'_>> {
     let text = text.trim_start_matches('\'');
     let written = written(text);
     let digits = plain(written, decimal)?;
     let value: f64 = digits.parse().ok()?;
     let unit = text[written.len()..].trim();
     value.is_finite().then_some(Number { value, digits, unit })
+}
+
+/// The cell read with a decimal point, and with a decimal comma: where both are numbers and differ, it may be either.
+pub fn both(cell: &str) -> [Option<f64>; 2] {
+    ['.', ','].map(|decimal| number(cell, decimal).map(|number| number.value))
 }
 
 /// The digits and signs at the beginning of a text.
@@ -50,76 +57,20 @@ fn written(text: &str) -> &str {
     digits.trim_end_matches(|c: char| !c.is_ascii_digit() && !".,".contains(c))
 }
 
-/// The digits as a program reads them, without signs between groups of three.
-fn plain(digits: &str, decimal: Decimal) -> Option<String> {
-    let (point, group) = match decimal {
-        Decimal::Point => ('.', ','),
-        Decimal::Comma => (',', '.'),
-    };
+/// The digits as a program reads them, without the one sign between groups of three; the first group begins with no zero.
+fn plain(digits: &str, decimal: char) -> Option<String> {
     let digits = digits.replace('−', "-");
-    let (whole, fraction) = match digits.split_once(point) {
-        Some((whole, fraction)) => (whole, Some(fraction)),
-        None => (&*digits, None),
+    let whole = digits.split(decimal).next()?;
+    let rest = digits[whole.len()..].replacen(decimal, ".", 1);
+    let is_mark = |c: char| ".,'’".contains(c) || (c.is_whitespace() && c != '\t');
+    let is_three = |group: &str| group.len() == 3 && group.bytes().all(|byte| byte.is_ascii_digit());
+    let is_grouped = |mark: char| {
+        let mut groups = whole.trim_start_matches(['+', '-']).split(mark);
+        let first = groups.next().unwrap_or("");
+        (1..=3).contains(&first.len()) && !first.starts_with('0') && groups.all(is_three)
     };
-    let is_group = |c: char| c == group || c == '\'' || c == '’' || (c.is_whitespace() && c != '\t');
-    let mut parts = whole.split(is_group);
-    let mut plain = parts.next()?.to_owned();
-    let first = plain.trim_start_matches(['+', '-']).len();
-    for part in parts {
-        // The last group may carry an exponent.
-        let three = part.bytes().take_while(u8::is_ascii_digit).count() == 3;
-        if !three || !(1..=3).contains(&first) {
-            return None;
-        }
-        plain += part;
-    }
-    if let Some(fraction) = fraction {
-        plain.push('.');
-        plain += fraction;
-    }
-    Some(plain)
-}
-
-/// What a cell says of the decimal sign of its column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Sign {
-    /// Nothing: it is no number, or has no such sign.
-    Silent,
-    Certain(Decimal),
-    /// One sign before three digits: decimals or thousands.
-    Doubtful,
-}
-
-/// What `cell` says.
-pub fn sign(cell: &str) -> Sign {
-    let cell = cell.trim_start_matches('\'');
-    if !cell.starts_with(|c: char| c.is_ascii_digit() || "+-−.,".contains(c)) {
-        return Sign::Silent;
-    }
-    let digits = written(cell);
-    let (commas, points) = (digits.matches(',').count(), digits.matches('.').count());
-    let single = |sign: char, decimal, other| {
-        let (whole, rest) = digits.split_once(sign).unwrap_or((digits, ""));
-        let whole = whole.trim_start_matches(['+', '-', '−']);
-        if rest.contains(sign) {
-            // Thousands only.
-            return Sign::Certain(other);
-        }
-        let three = rest.len() == 3 && rest.bytes().all(|byte| byte.is_ascii_digit());
-        let may_be_thousands = three && (1..=3).contains(&whole.len()) && !whole.starts_with('0');
-        if may_be_thousands {
-            Sign::Doubtful
-        } else {
-            Sign::Certain(decimal)
-        }
-    };
-    match (commas, points) {
-        (0, 0) => Sign::Silent,
-        (_, 0) => single(',', Decimal::Comma, Decimal::Point),
-        (0, _) => single('.', Decimal::Point, Decimal::Comma),
-        _ if digits.rfind(',') > digits.rfind('.') => Sign::Certain(Decimal::Comma),
-        _ => Sign::Certain(Decimal::Point),
-    }
+    let is_number = whole.chars().find(|&c| is_mark(c)).is_none_or(is_grouped);
+    is_number.then(|| whole.replace(is_mark, "") + &rest)
 }
 
 #[cfg(test)]
@@ -128,7 +79,7 @@ mod tests {
 
     #[test]
     fn digits_in_every_notation() {
-        let (point, comma) = (Decimal::Point, Decimal::Comma);
+        let (point, comma) = ('.', ',');
         for (text, decimal, value, unit) in [
             ("94.1", point, 94.1, ""),
             ("94,1", comma, 94.1, ""),
@@ -158,8 +109,14 @@ mod tests {
 
     #[test]
     fn a_cell_tells_the_decimal_sign_or_is_doubtful() {
-        let (point, comma) = (Sign::Certain(Decimal::Point), Sign::Certain(Decimal::Comma));
-        for (cell, says) in [
+        let says = |cell: &str| match both(cell) {
+            [Some(_), None] => "point",
+            [None, Some(_)] => "comma",
+            [Some(point), Some(comma)] if point != comma => "doubtful",
+            _ => "silent",
+        };
+        let (point, comma) = ("point", "comma");
+        for (cell, expected) in [
             ("94.1", point),
             ("1,234.5", point),
             ("1,234,567", point),
@@ -170,13 +127,13 @@ mod tests {
             ("1.234,5", comma),
             ("1.234.567", comma),
             ("-0,113 kN", comma),
-            ("1,113", Sign::Doubtful),
-            ("1.200 m", Sign::Doubtful),
-            ("-1.200", Sign::Doubtful),
-            ("12", Sign::Silent),
-            ("a.b", Sign::Silent),
+            ("1,113", "doubtful"),
+            ("1.200 m", "doubtful"),
+            ("-1.200", "doubtful"),
+            ("12", "silent"),
+            ("a.b", "silent"),
         ] {
-            assert_eq!(sign(cell), says, "{cell}");
+            assert_eq!(says(cell), expected, "{cell}");
         }
     }
 }

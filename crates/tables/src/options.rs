@@ -1,105 +1,83 @@
 //! What the reader is told of a file; the rest it recognises.
 
-use std::str::FromStr;
+use encoding_rs::Encoding;
 
-use encoding_rs::Encoding as Standard;
-
-/// How to read a table. What is `None` is recognised.
+/// How to read a table. What is `None` or empty is recognised.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Options {
-    /// What stands between cells.
-    pub separator: Option<Separator>,
-    /// What stands before the decimals.
-    pub decimal: Option<Decimal>,
+    /// What stands between cells; a space stands for any number of them.
+    pub separator: Option<char>,
+    /// What stands before the decimals: `.` or `,`.
+    pub decimal: Option<char>,
     /// How characters are written as bytes.
-    pub encoding: Option<Encoding>,
+    pub encoding: Option<&'static Encoding>,
     /// Line of the header, from 1; of a workbook the row of its sheet.
     pub header_line: Option<u64>,
     /// Rows below the header that hold no data, one of units among them.
     pub skip: Option<u64>,
     /// Sheet of a workbook; the first that holds anything if omitted.
     pub sheet: Option<String>,
+    /// Unit of the columns of [`Names::measured`](crate::Names::measured), whatever the file says.
+    pub unit: Option<String>,
+    /// Columns by their names: the kind, such as `force`, and the name in the header, whatever its case.
+    pub columns: Vec<(String, String)>,
 }
 
-/// What stands between cells.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Separator {
-    /// A character.
-    Character(char),
-    /// Spaces, any number of them.
-    Spaces,
+/// Signs by their words.
+const SIGNS: [(char, &str); 6] = [
+    (';', "semicolon"),
+    ('\t', "tab"),
+    (',', "comma"),
+    (' ', "space"),
+    ('|', "bar"),
+    ('.', "point"),
+];
+
+/// The sign in words, as what stands between cells.
+pub fn in_words(sign: char) -> String {
+    let word = SIGNS.iter().find(|(other, _)| *other == sign);
+    word.map_or_else(|| format!("\"{sign}\""), |(_, word)| format!("{word}s"))
 }
 
-impl Separator {
-    /// In words.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Character('\t') => "tabs",
-            Self::Character(';') => "semicolons",
-            Self::Character(',') => "commas",
-            Self::Character('|') => "|",
-            Self::Character(_) => "a character of its own",
-            Self::Spaces => "spaces",
-        }
-    }
-}
-
-impl FromStr for Separator {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text {
-            "tab" | "\\t" | "\t" => Ok(Self::Character('\t')),
-            "semicolon" | ";" => Ok(Self::Character(';')),
-            "comma" | "," => Ok(Self::Character(',')),
-            "|" => Ok(Self::Character('|')),
-            "space" | " " => Ok(Self::Spaces),
-            _ => Err(format!(
-                "found `{text}`; allowed: comma, semicolon, tab, space, or one of , ; |"
-            )),
-        }
-    }
-}
-
-/// What stands before the decimals.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Decimal {
-    /// 94.1
-    Point,
-    /// 94,1
-    Comma,
-}
-
-impl FromStr for Decimal {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text {
-            "point" | "." => Ok(Self::Point),
-            "comma" | "," => Ok(Self::Comma),
-            _ => Err(format!("found `{text}`; allowed: point, comma, or one of . ,")),
-        }
-    }
-}
-
-/// How characters are written as bytes: the names of the WHATWG's Encoding Standard, and `utf-16` for either order of bytes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Encoding(pub(crate) &'static Standard);
-
-impl FromStr for Encoding {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let label = match &*text.to_ascii_lowercase() {
-            "latin-1" => "latin1",
-            "cp932" => "shift_jis",
-            _ => text,
+impl Options {
+    /// Sets the option of this name: `separator`, `decimal`, `encoding`, `header_line`, `skip`, `sheet`, `unit`, or `column_` and a kind.
+    ///
+    /// # Errors
+    ///
+    /// What was found and what is allowed.
+    pub fn set(&mut self, name: &str, text: &str) -> Result<(), String> {
+        let of = |allowed: &str| format!("found `{text}`; allowed: {allowed}");
+        let sign = |among: &str, allowed: &str| {
+            let is_meant = |(sign, word): &&(char, &str)| {
+                among.contains(*sign) && (text == *word || text.replace("\\t", "\t") == sign.to_string())
+            };
+            let found = SIGNS.iter().find(is_meant).map(|(sign, _)| *sign);
+            found.ok_or_else(|| of(allowed)).map(Some)
         };
-        match Standard::for_label(label.as_bytes()) {
-            Some(standard) => Ok(Self(standard)),
-            None => Err(format!(
-                "found `{text}`; allowed: utf-8, utf-16, latin-1, shift_jis, or another name of the Encoding Standard"
-            )),
+        let whole = || text.parse().map_err(|_| of("a whole number")).map(Some);
+        match name {
+            "separator" => {
+                self.separator = sign(";\t, |", "comma, semicolon, tab, space, or one of , ; |")?;
+            }
+            "decimal" => self.decimal = sign(".,", "point, comma, or one of . ,")?,
+            "encoding" => {
+                let label = match &*text.to_ascii_lowercase() {
+                    "latin-1" => "latin1",
+                    "cp932" => "shift_jis",
+                    _ => text,
+                };
+                let allowed = "utf-8, utf-16, latin-1, shift_jis, or another name of the Encoding Standard";
+                self.encoding = Some(Encoding::for_label(label.as_bytes()).ok_or_else(|| of(allowed))?);
+            }
+            "header_line" => self.header_line = whole()?,
+            "skip" => self.skip = whole()?,
+            "sheet" => self.sheet = Some(text.to_owned()),
+            "unit" => self.unit = Some(text.to_owned()),
+            _ => match name.strip_prefix("column_") {
+                Some(kind) => self.columns.push((kind.to_owned(), text.to_owned())),
+                None => return Err(format!("found an option `{name}`, which there is not")),
+            },
         }
+        Ok(())
     }
 }

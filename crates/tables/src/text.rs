@@ -1,8 +1,6 @@
 //! Bytes as text.
 
-use encoding_rs::{Encoding as Standard, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
-
-use crate::options::Encoding;
+use encoding_rs::{Encoding, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
 /// Bytes by which UTF-16 without a mark is recognised.
 const SAMPLE: usize = 512;
@@ -11,10 +9,10 @@ const JAPANESE: usize = 2;
 
 /// The text: by its byte order mark, in the `encoding` that was named, or in the one that it looks like; signs of full width as those of
 /// ASCII. `None` if it is none.
-pub fn decoded(bytes: &[u8], encoding: Option<Encoding>) -> Option<String> {
+pub fn decoded(bytes: &[u8], encoding: Option<&'static Encoding>) -> Option<String> {
     // The mark at the beginning goes before what was named, and is taken away.
-    let standard = encoding.map_or_else(|| recognised(bytes), |named| named.0);
-    let (text, _, malformed) = standard.decode(bytes);
+    let encoding = encoding.unwrap_or_else(|| recognised(bytes));
+    let (text, _, malformed) = encoding.decode(bytes);
     let printed =
         |c: char| !c.is_control() || matches!(c, '\t' | '\n' | '\r' | '\u{c}' | '\u{1a}' | '\u{85}');
     let narrow = |c: char| match c {
@@ -25,7 +23,7 @@ pub fn decoded(bytes: &[u8], encoding: Option<Encoding>) -> Option<String> {
     (!malformed && text.chars().all(printed)).then(|| text.chars().map(narrow).collect())
 }
 
-fn recognised(bytes: &[u8]) -> &'static Standard {
+fn recognised(bytes: &[u8]) -> &'static Encoding {
     let sample = &bytes[..bytes.len().min(SAMPLE) & !1];
     let zeros = |place: usize| {
         let every_other = sample.iter().skip(place).step_by(2);
