@@ -393,7 +393,10 @@ fn days_that_few_real_periods_keep_restless_settle_with_more() {
 /// On days of heat too the parts of the error sum to the whole, in the answer and in the table of the report.
 #[test]
 fn the_parts_of_the_error_sum_to_the_whole() {
-    let scene = scene(&["traffic = { passes = 4800, per_day = 960 }"]);
+    let scene = scene(&[
+        "traffic = { passes = 4800, per_day = 960 }",
+        "solver = { tolerance = 0.03 }",
+    ]);
     let report = Report::new(&scene, &ReportOptions::default()).expect("a report");
     let error = &report.run().error_estimate;
     let parts = ErrorSource::ALL.map(|source| error.parts.of(source));

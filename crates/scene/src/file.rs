@@ -159,8 +159,9 @@ impl SceneFile {
         self.document.root.each_value("", &mut |key, node| {
             found.push(Typed {
                 key: key.to_owned(),
-                value: match &node.content {
-                    Content::Text(text) => TypedValue::Text(text.clone()),
+                value: match (&node.content, node.content.as_number()) {
+                    (_, Some(number)) => TypedValue::Number(number),
+                    (Content::Text(text), _) => TypedValue::Text(text.clone()),
                     _ => TypedValue::Text(self.document.written(&node.span)),
                 },
                 source: self.document.source(&node.span).name.clone(),
