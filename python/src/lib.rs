@@ -41,7 +41,10 @@ fn json(answer: &impl serde::Serialize) -> Result<String, Failure> {
 /// What looks like a slip in the scene, before the warnings of an answer, as the command line tells them.
 fn with_slips(file: &SceneFile, warnings: &mut Vec<String>) {
     let slips = file.slips().into_iter();
-    warnings.splice(0..0, slips.map(|(location, words)| format!("{location}: {words}")));
+    warnings.splice(
+        0..0,
+        slips.map(|(location, words)| format!("{location}: {words}")),
+    );
 }
 
 /// The JSON Schema of a scene, as JSON.

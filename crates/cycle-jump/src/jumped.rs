@@ -41,10 +41,8 @@ impl Jumped<'_> {
         let (phase, into) = self.place(pass);
         let share = into / self.length as f64;
         let between = |before: f64, after: f64| (1.0 - share) * before + share * after;
-        let friction_of = |period: &'_ Period, node: usize| period.phase(phase).friction[node];
         let advance = self.flow.after(cable, into);
         let mut displacement = Vec::with_capacity(advance.len());
-        let mut friction = Vec::with_capacity(advance.len());
         for (i, y) in advance.iter().enumerate() {
             let (from, to) = (
                 self.from.displacement()[i],
@@ -54,12 +52,16 @@ impl Jumped<'_> {
             let missed = to - from - self.flow.end()[i];
             let shape = between(self.before.shape(phase, i), self.after.shape(phase, i));
             displacement.push(from + y + share * share * missed + shape);
-            friction.push(between(friction_of(self.before, i), friction_of(self.after, i)));
         }
         let whole = take_whole(cable, &mut displacement);
-        let thermal_force = self.before.phase(phase).thermal_force;
+        let [before, after] = [self.before, self.after].map(|period| period.phase(phase));
+        // Everywhere else friction follows from how the cable lies.
+        let mut friction = vec![0.0; displacement.len()];
+        for (node, end) in [0, friction.len() - 1].into_iter().zip(0..) {
+            friction[node] = between(before.friction[end], after.friction[end]);
+        }
         let state = CableState::from_parts(self.mesh, displacement, friction)?;
-        let mut state = state.with_thermal_force(thermal_force)?;
+        let mut state = state.with_thermal_force(before.thermal_force)?;
         cable.settle(&mut state)?;
         Ok((state, self.offset + whole))
     }

@@ -20,8 +20,8 @@ pub struct Period {
 pub struct Phase {
     /// u after this pass less u_a \[m\].
     pub moved: Vec<f64>,
-    /// Friction after it \[N/m\]: that on the node of a fixed end does not follow from u.
-    pub friction: Vec<f64>,
+    /// Friction after it on both end nodes \[N/m\]: where an end is fixed it does not follow from u.
+    pub friction: [f64; 2],
     /// Θ then \[N\].
     pub thermal_force: f64,
     /// What it did.
@@ -79,9 +79,10 @@ impl Period {
 impl Phase {
     /// Of a pass that left `state` in a period that began with the displacements `start` \[m\].
     pub fn new(start: &[f64], state: &CableState, outcome: PassOutcome) -> Self {
+        let friction = state.friction();
         Self {
             moved: difference(state.displacement(), start),
-            friction: state.friction().to_vec(),
+            friction: [friction[0], friction[friction.len() - 1]],
             thermal_force: state.thermal_force(),
             outcome,
         }
