@@ -124,7 +124,8 @@ impl Living<'_> {
         let jumps = finest.days.schedule.iter().any(|length| *length > 0);
         if jumps || self.breaks_sequence() || self.stands_in() {
             let coarse = coarse.map_or_else(|| self.coarse(level, jumping), Ok)?;
-            error.temperature = error.temperature + self.days_error(&coarse, jumping, &mut statistics)?;
+            error.temperature =
+                error.temperature + self.days_error(&coarse, jumping, jumps, &mut statistics)?;
         }
         error.road = self.road_error(level, jumping, &mut statistics)?;
         let mesh = levels.mesh(level)?;
@@ -175,6 +176,7 @@ impl Living<'_> {
         &self,
         (level, own): &(usize, Lived),
         jumping: Jumping<'_>,
+        jumps: bool,
         statistics: &mut Statistics,
     ) -> Result<Shares, Error> {
         let mut live = |living: &Living<'_>, jumping: Jumping<'_>| {
@@ -184,7 +186,7 @@ impl Living<'_> {
         };
         let (same, finer) = (jumping.as_in(own), true);
         let mut error = Shares::default();
-        if own.days.schedule.iter().any(|length| *length > 0) {
+        if jumps {
             error = self.difference(&live(self, Jumping { finer, ..jumping })?, own);
         }
         if self.breaks_sequence() {

@@ -103,7 +103,12 @@ impl<'a> Living<'a> {
         };
         let sequence = self.period.len();
         let few = passes <= FEW.max(sequence as u64) || self.every_pass;
-        let period = if few { 1 } else { sequence };
+        // What only measures drives the vehicles of the sequence too.
+        let period = if self.every_pass {
+            1
+        } else {
+            sequence.min(passes as usize)
+        };
         Day {
             passes,
             period,

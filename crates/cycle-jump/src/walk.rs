@@ -238,7 +238,8 @@ where
                     known.length = known.length.min((self.done as f64).max(SHORTEST as f64));
                 }
                 let to_end = taken && self.done == all;
-                if !self.repeat(&known.period, all) && settles && to_end && self.jumps.of_days {
+                let repeats = taken && self.repeat(&known.period, all);
+                if !repeats && settles && to_end && self.jumps.of_days {
                     let moved = take_whole(&self.drive.cable, &mut known.period.rate.clone());
                     self.repeats = Some((from, moved));
                 }
@@ -258,7 +259,7 @@ where
         let whole = take_whole(&self.drive.cable, &mut change);
         let shares = self.drive.scale.shares(&self.drive.cable, &change);
         let (force, movement) = (left as f64 * shares.force, left as f64 * shares.movement);
-        if force > STEADY * self.tolerance || movement > self.tolerance {
+        if force > STEADY * self.tolerance || movement > STEADY * self.tolerance {
             return false;
         }
         self.drive.repeat(period, self.done, all, whole);

@@ -116,11 +116,10 @@ impl Day {
         let mut knots: Vec<u64> = (0..self.knots).map(evenly).chain([all - 1]).collect();
         let corners = self.heat.has_corners();
         let after = if corners { &AFTER_A_CORNER[..] } else { &[0] };
-        let turns = self
-            .heat
-            .turns()
-            .into_iter()
-            .map(|time| (time * all as f64).round() as u64);
+        // A turn comes before the first pass after it.
+        let next = |time: f64| (time * self.passes as f64 - 0.5).ceil().max(0.0) as u64;
+        let period_of = |time: f64| (next(time) / self.period as u64).min(all - 1);
+        let turns = self.heat.turns().into_iter().map(period_of);
         for turn in turns.chain(corners.then_some(0)) {
             knots.extend(after.iter().map(|after| turn + after));
         }
@@ -239,15 +238,16 @@ pub(super) fn known(events: &[Event], pass: u64, period: usize) -> Option<Known>
         .position(|event| is_step(event) && event.passes >= pass)?;
     let from = to.checked_sub(1)?;
     let share = (pass - events[from].passes) as f64 / (events[to].passes - events[from].passes) as f64;
-    // The period before the step, or the one after it.
-    let begin = if is_step(&events[from]) {
-        to + events[to..].iter().position(|event| event.begins)?
-    } else {
-        events[..to].iter().rposition(|event| event.begins)?
-    };
+    // The period after the step where that is nearer and whole, or the one before it.
     let done = (pass - 1) % period + 1;
-    let before = events[begin].passes;
-    let (like, end) = (passed(before + done)?, passed(before + period)?);
+    let after = events[to..].iter().position(|event| event.begins);
+    let after = after.filter(|_| is_step(&events[from])).map(|place| to + place);
+    let before = events[..to].iter().rposition(|event| event.begins);
+    let shown = |begin: usize| {
+        let passes = events[begin].passes;
+        Some((begin, passed(passes + done)?, passed(passes + period)?))
+    };
+    let (begin, like, end) = after.and_then(shown).or_else(|| before.and_then(shown))?;
     let done = done as f64 / period as f64;
     let at_rest = [
         (1.0 - share, from),

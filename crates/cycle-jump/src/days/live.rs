@@ -101,7 +101,7 @@ pub fn live<E: From<JumpError>>(
             Some((day, place)) => (calendar.events(day)[place], place),
             None => (calendar.between[place], place),
         };
-        simulated_days += u64::from(place == 0);
+        simulated_days += u64::from(place == 0 && number.is_some());
         let pass = number.and_then(|number| calendar.pass(number));
         let outcome = daily.happen(&event, pass, state)?;
         if pass == Some(request.passes) {
@@ -145,7 +145,7 @@ pub fn live<E: From<JumpError>>(
         last_day: account.last_day(),
         extremes: account.extremes(),
         drift: repeats.map_or(0.0, |(_, drift)| drift),
-        periodic_from: repeats.map(|(days, _)| days + 1),
+        periodic_from: repeats.map(|(days, _)| days + 2),
         state: end.unwrap_or(state),
         hot: daily.hot,
         cold: daily.cold,
