@@ -390,6 +390,37 @@ fn days_that_few_real_periods_keep_restless_settle_with_more() {
     }
 }
 
+/// Up to a hundred vehicles a day, of several kinds: days are jumped over and held to days of all of them, within what is stated.
+#[test]
+fn days_of_few_vehicles_of_two_kinds_are_jumped_over() {
+    let lines = |method: &str| {
+        [
+            "duct = { length = 100, depth = 1.2 }".to_owned(),
+            "vehicles = [{ speed = 10, load = \"20 tf\" }, { name = \"light\", speed = 10, load = \"6 tf\" }]".to_owned(),
+            "traffic = { passes = 1200, per_day = 24 }".to_owned(),
+            format!("solver = {{ method = \"{method}\", node_spacing = 0.4, vehicle_step = 0.4, tolerance = 0.1 }}"),
+        ]
+    };
+    let of = |method: &str| run(&lines(method).each_ref().map(String::as_str));
+    let (jumped, every) = (of("pass-law"), of("quasi-static"));
+    assert_eq!(every.cost.simulated_passes, 1200);
+    assert!(jumped.cost.simulated_passes < 600, "{:?}", jumped.cost);
+    let largest = day(&every, 50).downstream_max_n;
+    let allowed = largest * jumped.error_estimate.relative;
+    for number in [1, 10, 50] {
+        let (jumped, every) = (day(&jumped, number), day(&every, number));
+        for (jumped, every) in [
+            (jumped.downstream_max_n, every.downstream_max_n),
+            (jumped.downstream_min_n, every.downstream_min_n),
+        ] {
+            assert!(
+                (jumped - every).abs() < allowed,
+                "day {number}: {jumped} {every} {allowed}"
+            );
+        }
+    }
+}
+
 /// On days of heat too the parts of the error sum to the whole, in the answer and in the table of the report.
 #[test]
 fn the_parts_of_the_error_sum_to_the_whole() {

@@ -123,9 +123,15 @@ impl Living<'_> {
         }
         let jumps = finest.days.schedule.iter().any(|length| *length > 0);
         if jumps || self.breaks_sequence() || self.stands_in() {
-            let coarse = coarse.map_or_else(|| self.coarse(level, jumping), Ok)?;
-            error.temperature =
-                error.temperature + self.days_error(&coarse, jumping, jumps, &mut statistics)?;
+            let coarse = if let Some(known) = coarse {
+                known
+            } else {
+                let made = self.coarse(level, jumping)?;
+                statistics += made.1.passes.statistics;
+                made
+            };
+            let days = self.days_error(&coarse, jumping, jumps, &mut statistics)?;
+            error.temperature = error.temperature + days;
         }
         error.road = self.road_error(level, jumping, &mut statistics)?;
         let mesh = levels.mesh(level)?;

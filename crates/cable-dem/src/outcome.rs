@@ -40,6 +40,14 @@ impl PassOutcome {
         Ok(Recorder::new(force).outcome(cable, state, force))
     }
 
+    /// The same with the cable moved as a whole by `distance` \[m\].
+    #[must_use]
+    pub fn moved(mut self, distance: f64) -> Self {
+        self.upstream_displacement += distance;
+        self.downstream_displacement += distance;
+        self
+    }
+
     /// The sum of `parts`, each with its weight: a mean, or what lies between two passes. Clamps that a part does not have bear
     /// nothing in it. What the parts cost is left out.
     pub fn combined(parts: &[(f64, &Self)]) -> Self {

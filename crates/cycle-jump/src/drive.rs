@@ -152,15 +152,17 @@ where
             return;
         };
         if self.request.wants(pass) {
-            let mut outcome = of_round.clone();
-            outcome.upstream_displacement += moved;
-            outcome.downstream_displacement += moved;
-            self.records.push(Record {
-                pass,
-                outcome,
-                interpolated: true,
-            });
+            self.record_like(pass, of_round, moved);
         }
+    }
+
+    /// Records `pass` as one that did what a simulated one did, with the cable `moved` as a whole since then \[m\].
+    fn record_like(&mut self, pass: u64, simulated: &PassOutcome, moved: f64) {
+        self.records.push(Record {
+            pass,
+            outcome: simulated.clone().moved(moved),
+            interpolated: true,
+        });
     }
 
     /// Lets the periods after `done` up to `all` be like the last one, the `period`, but for a movement as a `whole` in each \[m\].
@@ -169,14 +171,7 @@ where
         let range = done * length + 1..=all * length;
         for pass in self.request.recorded(range, &largest_places(period)) {
             let moved = whole * (pass.div_ceil(length) - done) as f64;
-            let mut outcome = period.phase(phase_of(pass, period.len())).outcome.clone();
-            outcome.upstream_displacement += moved;
-            outcome.downstream_displacement += moved;
-            self.records.push(Record {
-                pass,
-                outcome,
-                interpolated: true,
-            });
+            self.record_like(pass, &period.phase(phase_of(pass, period.len())).outcome, moved);
         }
         self.offset += whole * (all - done) as f64;
     }
@@ -259,10 +254,7 @@ where
 
     /// Simulates a pass.
     pub fn pass(&mut self, next: Next) -> Result<PassOutcome, E> {
-        let mut outcome = (self.pass)(next, &mut self.state)?;
-        outcome.upstream_displacement += self.offset;
-        outcome.downstream_displacement += self.offset;
-        Ok(outcome)
+        Ok((self.pass)(next, &mut self.state)?.moved(self.offset))
     }
 
     /// Moves the cable by `advance` \[m\] and lets it come to rest.

@@ -122,9 +122,7 @@ impl Jumped<'_> {
     /// What `pass` did.
     fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
         let (state, offset) = self.state(cable, pass)?;
-        let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?;
-        outcome.upstream_displacement += offset;
-        outcome.downstream_displacement += offset;
+        let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?.moved(offset);
         let (phase, into) = self.place(pass);
         let share = into / self.length as f64;
         let (before, after) = (

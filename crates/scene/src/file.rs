@@ -283,6 +283,7 @@ impl Scene {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn to_toml(&self) -> String {
+        // Tables, lists, numbers and texts: there is nothing among them that TOML cannot write.
         toml::to_string(&section().write(&self.keys())).unwrap_or_default()
     }
 

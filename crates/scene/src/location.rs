@@ -89,7 +89,8 @@ impl Location {
 
 /// Where the line with the byte at `at` begins, and the line.
 pub(crate) fn line_of(text: &str, at: usize) -> (usize, &str) {
-    let begin = text[..at].rfind('\n').map_or(0, |end| end + 1);
+    let before = &text.as_bytes()[..at.min(text.len())];
+    let begin = before.iter().rposition(|&b| b == b'\n').map_or(0, |end| end + 1);
     (
         begin,
         text[begin..]

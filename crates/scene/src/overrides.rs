@@ -37,7 +37,7 @@ pub fn apply(document: &mut Document, text: &str) -> Result<(), SceneError> {
         ))
     } else {
         // The table of axles stands in place of `[[vehicles]]`.
-        let rival = match (key, &value) {
+        let rival = match (&*segments.join("."), &value) {
             ("vehicles", Some(_)) => Some("traffic.histogram"),
             ("traffic.histogram", Some(_)) => Some("vehicles"),
             _ => None,

@@ -4,13 +4,12 @@ use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingC
 
 use super::day::{Act, Day, Event};
 use super::rate::RateStep;
-use crate::JumpError;
-use crate::Next;
 use crate::error::wrap;
 use crate::period::difference;
+use crate::{JumpError, Next};
 
-/// What the law misses goes on after a simulated period so fast, relative to its change from the one before: with nothing of it, or all, forces of
-/// fifteen cables were two to fifty times as far off.
+/// What the law misses goes on after a simulated period so fast, relative to its change from the one before. Of fifteen cables it takes the largest
+/// error of a force from 1.5 to 1.1 %, where nothing goes on, and 0.64 to 0.17 % at best; with all of it, 1, one is 16 % off.
 const GOES_ON: f64 = 0.5;
 
 /// Does what happens; its pass is the caller's.
@@ -26,11 +25,9 @@ pub struct DailyCable<'a, P> {
     is_due: bool,
     /// What simulated periods of the day have shown: the last, and the one before it.
     shown: [Option<Shown>; 2],
-    /// Θ at the day's extremes, and the cable when it last was so hot and so cold.
-    hottest: f64,
-    coldest: f64,
-    pub hot: CableState,
-    pub cold: CableState,
+    /// The cable when it was hottest and coldest on the day under way.
+    pub hot: Option<CableState>,
+    pub cold: Option<CableState>,
     /// Passes simulated.
     pub simulated: u64,
 }
@@ -57,9 +54,6 @@ where
         rate: RateStep,
         pass: P,
     ) -> Result<Self, CableError> {
-        let (hottest, coldest) = day.heat.extremes();
-        let (hottest, coldest) = (day.heat.at(hottest), day.heat.at(coldest));
-        let laid = CableState::at_rest(mesh);
         Ok(Self {
             day,
             mesh,
@@ -69,12 +63,16 @@ where
             before: vec![0.0; mesh.nodes()],
             is_due: false,
             shown: [None, None],
-            hottest,
-            coldest,
-            hot: laid.clone(),
-            cold: laid,
+            hot: None,
+            cold: None,
             simulated: 0,
         })
+    }
+
+    /// Begins another day.
+    pub fn begin_day(&mut self) {
+        self.shown = [None, None];
+        (self.hot, self.cold) = (None, None);
     }
 
     /// Lets the `event` happen; a pass has this `number`, if it counts.
@@ -88,32 +86,31 @@ where
             self.before.copy_from_slice(state.displacement());
             self.is_due = true;
         }
-        if event.passes == 0 {
-            self.shown = [None, None];
-        }
         let outcome = match event.act {
             Act::Pass(phase) => {
                 self.simulated += 1;
                 (self.pass)(Next { phase, number }, state)?
             }
-            Act::Warm => self.at_rest(event, state)?,
+            Act::Warm => self.warm(event, state)?,
             // Nothing but heat moves the cable.
-            Act::Step(..) if self.rate.law.is_still() => self.at_rest(event, state)?,
+            Act::Step(..) if self.rate.law.is_still() => self.warm(event, state)?,
             Act::Step(from, to) => {
                 self.step(event, from, to, state).map_err(wrap)?;
                 PassOutcome::at_rest(self.cable.cable(), state).map_err(wrap)?
             }
         };
-        if event.thermal_force >= self.hottest {
-            self.hot.clone_from(state);
+        let force = state.thermal_force();
+        if self.hot.as_ref().is_none_or(|hot| force > hot.thermal_force()) {
+            self.hot = Some(state.clone());
         }
-        if event.thermal_force <= self.coldest {
-            self.cold.clone_from(state);
+        if self.cold.as_ref().is_none_or(|cold| force < cold.thermal_force()) {
+            self.cold = Some(state.clone());
         }
         Ok(outcome)
     }
 
-    fn at_rest(&mut self, event: &Event, state: &mut CableState) -> Result<PassOutcome, E> {
+    /// Brings the cable to the temperature of the `event`.
+    fn warm(&mut self, event: &Event, state: &mut CableState) -> Result<PassOutcome, E> {
         self.cable.warm(state, event.thermal_force).map_err(wrap)?;
         PassOutcome::at_rest(self.cable.cable(), state).map_err(wrap)
     }

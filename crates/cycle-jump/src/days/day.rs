@@ -257,3 +257,53 @@ pub(super) fn known(events: &[Event], pass: u64, period: usize) -> Option<Known>
     ];
     Some(Known::Within { at_rest, like })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_pass_of_any_day_is_known_from_its_events() {
+        let heat = [
+            DailyHeat::Cosine {
+                lowest: 0.0,
+                highest: 1.0,
+            },
+            DailyHeat::Profile(vec![(0.1, 0.0), (0.4, 1.0), (0.45, 0.5)]),
+        ];
+        let days = [(1, 1), (7, 1), (90, 1), (90, 4), (97, 3), (402, 2), (200, 150)];
+        for (heat, (passes, period)) in heat.iter().flat_map(|heat| days.map(|day| (heat, day))) {
+            for knots in [1, 2, 5, 16, 1000] {
+                let day = Day {
+                    passes,
+                    period,
+                    heat: heat.clone(),
+                    knots,
+                };
+                for (cut, first) in (1..=passes).flat_map(|cut| [(cut, false), (cut, true)]) {
+                    let events = day.events(cut, first);
+                    // Straight lines and what passes do beside them: together once the cable, whatever the event.
+                    for pass in 1..=cut {
+                        let sum = match known(&events, pass, period) {
+                            Some(Known::Simulated(place)) => {
+                                assert_eq!(events[place].passes, pass);
+                                0.0
+                            }
+                            Some(Known::Within { at_rest, .. }) => {
+                                at_rest.iter().map(|(weight, _)| weight).sum()
+                            }
+                            None => f64::NAN,
+                        };
+                        assert!(f64::abs(sum) < 1e-12, "pass {pass} of {cut}: {day:?}");
+                    }
+                    let last = events.iter().rfind(|event| matches!(event.act, Act::Pass(_)));
+                    assert_eq!(last.map(|event| event.passes), Some(cut), "{day:?}");
+                    // The day meets its hottest and its coldest moment.
+                    let (hottest, _) = heat.extremes();
+                    let is_met = |event: &Event| event.thermal_force == heat.at(hottest);
+                    assert!(cut < passes || events.iter().any(is_met), "{day:?}");
+                }
+            }
+        }
+    }
+}

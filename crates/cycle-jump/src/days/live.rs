@@ -58,7 +58,7 @@ pub struct Days {
     pub drift: f64,
     /// The day from which on every day is like the one before but for that.
     pub periodic_from: Option<u64>,
-    /// The cable on its last whole day when it was hottest and coldest, and after the last pass.
+    /// The cable on its last day when it was hottest and coldest, and after the last pass.
     pub hot: CableState,
     /// See `hot`.
     pub cold: CableState,
@@ -101,7 +101,10 @@ pub fn live<E: From<JumpError>>(
             Some((day, place)) => (calendar.events(day)[place], place),
             None => (calendar.between[place], place),
         };
-        simulated_days += u64::from(place == 0 && number.is_some());
+        if place == 0 {
+            daily.begin_day();
+            simulated_days += u64::from(number.is_some());
+        }
         let pass = number.and_then(|number| calendar.pass(number));
         let outcome = daily.happen(&event, pass, state)?;
         if pass == Some(request.passes) {
@@ -146,9 +149,9 @@ pub fn live<E: From<JumpError>>(
         extremes: account.extremes(),
         drift: repeats.map_or(0.0, |(_, drift)| drift),
         periodic_from: repeats.map(|(days, _)| days + 2),
+        hot: daily.hot.unwrap_or_else(|| state.clone()),
+        cold: daily.cold.unwrap_or_else(|| state.clone()),
         state: end.unwrap_or(state),
-        hot: daily.hot,
-        cold: daily.cold,
         offset: later.as_ref().map_or(0.0, |later| later.offset),
         simulated: daily.simulated,
         simulated_days,
