@@ -2,7 +2,7 @@
 //!
 //! The full-scale experiment's upper cable in its duct of 30 m, and the same in 300 m, on the ground's closed form. The error is the
 //! largest difference of the force at the load cell over the last half of 10, 100 and 1000 passes, as a share of it. Methods and
-//! knobs: quasi-static, exact step and explicit on one mesh of so many nodes a depth of the duct, quasi-static with jumps over
+//! knobs: quasi-static and explicit on one mesh of so many nodes a depth of the duct, quasi-static with jumps over
 //! passes, and the paper's own chain, explicit with the sigmoid law and its b.
 //!
 //! *Truth.* Quasi-static on a mesh at least three times as fine as any point that shares its method; how far it may be off is drawn
@@ -155,9 +155,8 @@ enum Method {
 }
 
 /// Name, method and knobs.
-const METHODS: [(&str, Method, &[f64]); 5] = [
+const METHODS: [(&str, Method, &[f64]); 4] = [
     ("quasi-static", Method::Solver(Solver::QuasiStatic), &DENSITIES),
-    ("exact step", Method::Solver(Solver::ExactStep), &DENSITIES),
     ("explicit", Method::Solver(Solver::Explicit), &DENSITIES),
     ("quasi-static with jumps", Method::Jumps, &JUMP_DENSITIES),
     ("explicit, sigmoid over b", Method::Sigmoid, &SHAPE_FACTORS),
@@ -194,10 +193,7 @@ impl Panel<'_> {
             self.density
         )?;
         for (number, (name, method, knobs)) in METHODS.iter().enumerate() {
-            let same = matches!(
-                method,
-                Method::Solver(Solver::QuasiStatic | Solver::ExactStep) | Method::Jumps
-            );
+            let same = matches!(method, Method::Solver(Solver::QuasiStatic) | Method::Jumps);
             let finest = if same {
                 self.density / COARSER
             } else {

@@ -124,7 +124,7 @@ impl RestingCable {
         let chain = &self.step.chain;
         let mut before = 0.0;
         for i in chain.free.nodes() {
-            let off = slope(i) * chain.stiffness * chain.nodes[i].per_tributary;
+            let off = slope(i) * chain.stiffness / chain.nodes[i].tributary;
             let pivot = (1.0 + off * chain.nodes[i].diagonal) - off * before;
             (self.factor[i], self.inverse[i]) = (off / pivot, 1.0 / pivot);
             before = self.factor[i];
@@ -161,8 +161,9 @@ impl RestingCable {
         let mut at_rest = true;
         for i in chain.free.nodes() {
             let needed = chain.balancing_friction(&state.displacement, &self.load, i);
-            at_rest &= needed.abs() <= chain.limit;
-            state.friction[i] = needed.clamp(-chain.limit, chain.limit);
+            let limit = chain.nodes[i].limit;
+            at_rest &= needed.abs() <= limit;
+            state.friction[i] = needed.clamp(-limit, limit);
         }
         if at_rest { Ok(()) } else { self.step(state, 0.0) }
     }

@@ -20,6 +20,7 @@ const HALVINGS: usize = 40;
 #[derive(Debug, Clone)]
 pub(super) struct Newton {
     half_shape: f64,
+    limit: f64,
     /// K + S, and the friction limit.
     chain: Chain,
     /// Increments \[m\]: where the next step starts from, and its answer.
@@ -39,6 +40,7 @@ impl Newton {
         };
         Self {
             half_shape,
+            limit: lumped.cable.friction().limit(),
             chain: chain.clone(),
             r: zeros(),
             direction: zeros(),
@@ -51,7 +53,7 @@ impl Newton {
     /// Writes the friction of the increments found to `f` \[N/m\].
     pub fn set_friction(&self, duct: &[f64], f: &mut [f64]) {
         for (f, (duct, r)) in f.iter_mut().zip(duct.iter().zip(&self.r)) {
-            *f = self.chain.limit * (self.half_shape * (duct - r)).tanh();
+            *f = self.limit * (self.half_shape * (duct - r)).tanh();
         }
     }
 
@@ -93,14 +95,14 @@ impl Newton {
             }
         }
         self.r.fill(0.0);
-        Err(worst / self.chain.limit)
+        Err(worst / self.limit)
     }
 
     /// Sets residual and slope at r + share · direction. Returns the largest residual per metre of cable \[N/m\] and the derivative of
     /// the energy along the direction.
     fn evaluate(&mut self, load: &[f64], duct: &[f64], share: f64) -> (f64, f64) {
         let (mut worst, mut along) = (0.0_f64, 0.0);
-        let (last, k, q) = (duct.len() - 1, self.chain.stiffness, self.chain.limit);
+        let (last, k, q) = (duct.len() - 1, self.chain.stiffness, self.limit);
         let at = |i: usize| {
             self.r[i]
                 + if share == 0.0 {
