@@ -11,6 +11,7 @@
 
 use super::Lumped;
 use crate::step::{Chain, Stretch};
+use crate::tridiagonal::{self, Row};
 use crate::{FrictionLaw, Statistics};
 
 /// Halvings of one line search.
@@ -28,7 +29,7 @@ pub(super) struct Newton {
     direction: Vec<f64>,
     residual: Vec<f64>,
     slope: Vec<f64>,
-    upper: Vec<f64>,
+    factors: Vec<f64>,
 }
 
 impl Newton {
@@ -46,7 +47,7 @@ impl Newton {
             direction: zeros(),
             residual: zeros(),
             slope: zeros(),
-            upper: zeros(),
+            factors: zeros(),
         }
     }
 
@@ -139,16 +140,13 @@ impl Newton {
     fn solve_direction(&mut self) {
         let (k, Stretch { lo, hi }) = (self.chain.stiffness, self.chain.free);
         self.direction.fill(0.0);
-        let (mut upper, mut before) = (0.0, 0.0);
-        for i in lo..=hi {
-            let inverse = 1.0 / (k * self.chain.nodes[i].diagonal + self.slope[i] - k * upper);
-            upper = k * inverse;
-            before = (k * before - self.residual[i]) * inverse;
-            self.upper[i] = upper;
-            self.direction[i] = before;
-        }
-        for i in (lo..hi).rev() {
-            self.direction[i] += self.upper[i] * self.direction[i + 1];
-        }
+        let row = |i: usize| {
+            let per_pivot = 1.0 / (k * self.chain.nodes[lo + i].diagonal + self.slope[lo + i]);
+            Row {
+                share: k * per_pivot,
+                value: -self.residual[lo + i] * per_pivot,
+            }
+        };
+        tridiagonal::solve((0.0, 0.0), row, &mut self.factors, &mut self.direction[lo..=hi]);
     }
 }
