@@ -69,21 +69,21 @@ pub enum WrongKind {
 const LONGEST_LIST: usize = 1000;
 const LONGEST_TEXT: usize = 300;
 
-impl Wrong {
+impl SceneError {
     /// What is wrong at a key, without the place where it stands.
-    pub(crate) fn at(
+    pub(crate) fn wrong(
         kind: WrongKind,
         key: impl Into<String>,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Box<Self> {
-        Box::new(Self {
+    ) -> Self {
+        Self::Wrong(Box::new(Wrong {
             kind,
             key: key.into(),
             found: found.into(),
             allowed: allowed.into(),
             location: None,
-        })
+        }))
     }
 
     /// A value that is of the wrong type, or contradicts another one.
@@ -91,29 +91,29 @@ impl Wrong {
         key: impl Into<String>,
         found: impl Into<String>,
         allowed: impl Into<String>,
-    ) -> Box<Self> {
-        Self::at(WrongKind::Value, key, found, allowed)
+    ) -> Self {
+        Self::wrong(WrongKind::Value, key, found, allowed)
     }
 
     /// A key that is missing.
-    pub(crate) fn missing(key: impl Into<String>, allowed: impl Into<String>) -> Box<Self> {
-        Self::at(WrongKind::MissingKey, key, "", allowed)
+    pub(crate) fn missing(key: impl Into<String>, allowed: impl Into<String>) -> Self {
+        Self::wrong(WrongKind::MissingKey, key, "", allowed)
     }
-}
 
-impl From<Box<Wrong>> for SceneError {
-    fn from(wrong: Box<Wrong>) -> Self {
-        Self::Wrong(wrong)
+    /// Where the scene is wrong; `None` if its file cannot be read at all, or the scene is not that of a file.
+    pub fn location(&self) -> Option<&Location> {
+        match self {
+            Self::Unreadable(..) | Self::TooLarge(..) => None,
+            Self::NotUtf8(location) | Self::Syntax { location, .. } => Some(location),
+            Self::Wrong(wrong) => wrong.location.as_ref(),
+        }
     }
 }
 
 impl fmt::Display for Wrong {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let key = format!("`{}`{}", shortened(&self.key, LONGEST_TEXT), counted(&self.key));
-        let (found, allowed) = (
-            shortened(&self.found, LONGEST_TEXT),
-            shortened(&self.allowed, LONGEST_LIST),
-        );
+        let found = shortened(&self.found, LONGEST_TEXT);
         if let Some(location) = &self.location {
             write!(f, "{location}: ")?;
         }
@@ -126,7 +126,7 @@ impl fmt::Display for Wrong {
             WrongKind::OutOfRange => write!(f, "{key}: out of range: found {found}")?,
             WrongKind::Override | WrongKind::Value => write!(f, "{key}: found {found}")?,
         }
-        write!(f, "; allowed: {allowed}")?;
+        write!(f, "; allowed: {}", shortened(&self.allowed, LONGEST_LIST))?;
         let excerpt = self.location.as_ref().map(Location::excerpt);
         f.write_str(&excerpt.unwrap_or_default())
     }
@@ -139,15 +139,4 @@ pub fn did_you_mean(suggestion: Option<&str>) -> String {
     suggestion.map_or_else(String::new, |word| {
         format!(" (did you mean `{}`?)", shortened(word, LONGEST_TEXT))
     })
-}
-
-impl SceneError {
-    /// Where the scene is wrong; `None` if its file cannot be read at all, or the scene is not that of a file.
-    pub fn location(&self) -> Option<&Location> {
-        match self {
-            Self::Unreadable(..) | Self::TooLarge(..) => None,
-            Self::NotUtf8(location) | Self::Syntax { location, .. } => Some(location),
-            Self::Wrong(wrong) => wrong.location.as_ref(),
-        }
-    }
 }

@@ -125,9 +125,14 @@ impl Quantity {
         }
     }
 
+    /// The SI unit of its values, if they have one.
+    pub fn unit(self) -> Option<&'static str> {
+        self.dimension.and_then(Dimension::si)
+    }
+
     /// A value as a program has it: in SI.
     pub fn written(self, value: f64) -> String {
-        match self.dimension.and_then(Dimension::si) {
+        match self.unit() {
             Some(unit) => format!("\"{value:?} {unit}\""),
             None => shown(value),
         }

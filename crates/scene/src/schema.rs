@@ -2,17 +2,17 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::document::joined;
-use crate::key::{Form, Key, Keys};
-use crate::keys::SceneKeys;
+use crate::content::joined;
+use crate::key::{Form, Key, Section};
 use crate::presets::{PresetKind, of};
 use crate::range::Quantity;
 use crate::rivals::rivals;
+use crate::scene::Scene;
 
 /// The JSON Schema of a scene file, by which editors complete its keys and check their values. Of what
 /// holds between several keys it says which of them exclude each other.
 pub fn schema() -> Value {
-    let Value::Object(mut root) = table(&SceneKeys::keys(), "") else {
+    let Value::Object(mut root) = table(Scene::KEYS, "") else {
         return Value::Null;
     };
     root.insert(
@@ -31,7 +31,7 @@ fn table(keys: &[Key], path: &str) -> Value {
         };
         if let Value::Object(property) = &mut property {
             let default = key
-                .default
+                .absent
                 .map_or("required".to_owned(), |default| format!("if omitted: {default}"));
             let words = format!("{} Allowed: {}; {default}.", key.meaning, key.form.allowed());
             property.insert("description".into(), words.into());
@@ -41,7 +41,7 @@ fn table(keys: &[Key], path: &str) -> Value {
     let mut properties: Map<String, Value> = keys.iter().map(property).collect();
     let required: Vec<&str> = keys
         .iter()
-        .filter(|key| key.default.is_none())
+        .filter(|key| key.absent.is_none())
         .map(|key| key.name)
         .collect();
     // Other names of keys.
@@ -71,14 +71,14 @@ fn table(keys: &[Key], path: &str) -> Value {
 
 fn form(form: &Form, path: &str) -> Value {
     match form {
-        Form::Quantity(quantity) => number(*quantity),
-        Form::Text(_) if path == "heat.profile" => json!({ "type": "array", "minItems": 2, "maxItems": 2 }),
+        Form::Number(quantity) => number(*quantity),
         Form::Text(_) => json!({ "type": "string" }),
-        Form::Words(words, _) => json!({ "enum": words }),
+        Form::Words { words, .. } => json!({ "enum": words }),
         Form::Table(keys) => table(keys, path),
         Form::List(item, least, _) => {
             json!({ "type": "array", "minItems": least, "items": self::form(item, path) })
         }
+        Form::Pair(..) => json!({ "type": "array", "minItems": 2, "maxItems": 2 }),
         Form::Either(one, keys, _) => json!({ "anyOf": [self::form(one, path), table(keys, path)] }),
     }
 }
@@ -126,11 +126,9 @@ fn unit(symbol: &str) -> String {
 }
 
 fn presets(section: &str) -> Vec<&'static str> {
-    let kind = match section {
-        "ground" => PresetKind::Pavement,
-        "cable" => PresetKind::Cable,
-        "friction" => PresetKind::Friction,
-        _ => PresetKind::Vehicle,
-    };
-    of(kind).map(|preset| &*preset.name).collect()
+    let kind = PresetKind::of_section(section);
+    kind.into_iter()
+        .flat_map(of)
+        .map(|preset| &*preset.name)
+        .collect()
 }
