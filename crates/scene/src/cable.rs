@@ -1,12 +1,16 @@
-//! `[cable]`: the cable in the duct.
+//! `[cable]` and `[friction]`: the cable in the duct, and what holds it there.
+
+use cable_dem::FrictionLaw;
 
 use crate::arrangement::Arrangement;
 use crate::error::SceneError;
 use crate::key::Form::Number;
 use crate::key::keys;
 use crate::range::{
-    AXIAL_STIFFNESS, CONDUCTOR_AREA, CONDUCTOR_MODULUS, DIAMETER, LOAD_FACTOR, WEIGHT, shown,
+    AXIAL_STIFFNESS, COEFFICIENT, CONDUCTOR_AREA, CONDUCTOR_MODULUS, DIAMETER, LOAD_FACTOR, Quantity,
+    SHAPE_FACTOR, WEIGHT, shown,
 };
+use crate::words::file_words;
 
 keys! {
     /// The cable, in SI.
@@ -34,20 +38,11 @@ keys! {
 impl Cable {
     /// Puts EA in place of a modulus and an area.
     pub(crate) fn resolve(&mut self) -> Result<(), SceneError> {
+        let missing = |key, quantity: Quantity| Err(SceneError::missing(key, quantity.allowed()));
         let (modulus, area) = match (self.young_modulus.take(), self.conductor_area.take()) {
             (Some(modulus), Some(area)) => (modulus, area),
-            (Some(_), None) => {
-                return Err(SceneError::missing(
-                    "cable.conductor_area",
-                    CONDUCTOR_AREA.allowed(),
-                ));
-            }
-            (None, Some(_)) => {
-                return Err(SceneError::missing(
-                    "cable.young_modulus",
-                    CONDUCTOR_MODULUS.allowed(),
-                ));
-            }
+            (Some(_), None) => return missing("cable.conductor_area", CONDUCTOR_AREA),
+            (None, Some(_)) => return missing("cable.young_modulus", CONDUCTOR_MODULUS),
             (None, None) => return Ok(()),
         };
         self.axial_stiffness = modulus * area;
@@ -58,5 +53,45 @@ impl Cable {
         let found = format!("{modulus} Pa times {area} m2, {force} N");
         let allowed = format!("a product {}", AXIAL_STIFFNESS.words);
         Err(SceneError::value("cable.young_modulus", found, allowed))
+    }
+}
+
+keys! {
+    /// Friction between cable and duct, in SI.
+    #[derive(Copy)]
+    pub struct Friction {
+        preset "A pair of surfaces by its name; keys beside it override its values.";
+        /// How friction follows slip.
+        law: Law = Law::FORM, "\"elastic-plastic\"";
+        /// Friction of the slipping cable in normal forces, μ_d.
+        dynamic_coefficient: f64 = Number(COEFFICIENT);
+        /// How steeply friction builds up before the cable slips, b: the slope is q b/2.
+        shape_factor: Option<f64> = Number(SHAPE_FACTOR), "required, but not with Coulomb's law";
+    }
+}
+
+/// The laws of friction by their names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Law {
+    /// Rigid until it slips; it has no shape factor.
+    Coulomb,
+    /// Linear elastic until it slips, with memory.
+    #[default]
+    ElasticPlastic,
+    /// A smooth function of the slip within one time step, without memory.
+    Sigmoid,
+}
+
+file_words!(Law: Coulomb "coulomb", ElasticPlastic "elastic-plastic", Sigmoid "sigmoid");
+
+impl Friction {
+    /// The law with its shape factor, which is not a number where none is given.
+    pub fn law(&self) -> FrictionLaw {
+        let shape_factor = self.shape_factor.unwrap_or(f64::NAN);
+        match self.law {
+            Law::Coulomb => FrictionLaw::Coulomb,
+            Law::ElasticPlastic => FrictionLaw::ElasticPlastic { shape_factor },
+            Law::Sigmoid => FrictionLaw::Sigmoid { shape_factor },
+        }
     }
 }

@@ -13,7 +13,6 @@ use crate::units::Dimension;
 /// The content at `path` in SI, with keys by their own names; it suits its `form`.
 pub fn checked(node: &Node, form: &Form, path: &str) -> Result<Content, SceneError> {
     match (form, &node.content) {
-        (Form::Number(quantity), _) if quantity.whole => whole(node, *quantity, path),
         (Form::Number(quantity), _) => number(node, *quantity, path),
         (Form::Table(keys) | Form::Either(_, keys, _), Content::Table(_)) => table(node, keys, path),
         (Form::Either(plain, keys, _), _) => plain_or_table(node, plain, keys, path),
@@ -22,10 +21,10 @@ pub fn checked(node: &Node, form: &Form, path: &str) -> Result<Content, SceneErr
             if words.contains(&&**text) {
                 return Ok(node.content.clone());
             }
-            let why = gone
-                .filter(|(word, _)| word == text)
-                .map(|(_, why)| format!("; {why}"));
-            let allowed = form.allowed() + &why.unwrap_or_default();
+            let allowed = match gone {
+                Some((word, why)) if word == text => format!("{}; {why}", form.allowed()),
+                _ => form.allowed(),
+            };
             Err(unknown_word(node, text, words, path, allowed))
         }
         (Form::List(_, least, allowed), Content::List(items)) if items.len() < *least => {
@@ -38,9 +37,9 @@ pub fn checked(node: &Node, form: &Form, path: &str) -> Result<Content, SceneErr
             items.map(Content::List)
         }
         (Form::Pair(forms, _), Content::List(items)) if items.len() == 2 => {
-            let item =
-                |index: usize| checked(&items[index], forms[index], &joined(path, index)).map(Node::from);
-            Ok(Content::List(vec![item(0)?, item(1)?]))
+            let pair = forms.iter().copied().zip(items).enumerate();
+            let item = |(index, (form, item))| checked(item, form, &joined(path, index)).map(Node::from);
+            pair.map(item).collect::<Result<_, _>>().map(Content::List)
         }
         _ => Err(SceneError::value(path, node.described(), form.allowed())),
     }
@@ -62,7 +61,7 @@ fn table(node: &Node, keys: &[Key], path: &str) -> Result<Content, SceneError> {
         let (meant, elsewhere) = meant_by(&entry.key, &names);
         let (path, allowed) = (joined(path, &entry.key), names.join(", ") + &elsewhere);
         let meant = did_you_mean(meant);
-        return Err(SceneError::wrong(WrongKind::UnknownKey, path, meant, allowed));
+        return Err(SceneError::wrong(WrongKind::UnknownKey, &path, meant, allowed));
     }
     contradiction(path, &node.content)?;
     let mut values = Vec::new();
@@ -70,7 +69,7 @@ fn table(node: &Node, keys: &[Key], path: &str) -> Result<Content, SceneError> {
         let path = joined(path, key.name);
         match node.content.entry(key.name) {
             Some(entry) => values.push((key.name, checked(&entry.value, &key.form, &path)?)),
-            None if key.absent.is_none() => return Err(SceneError::missing(path, key.form.allowed())),
+            None if key.absent.is_none() => return Err(SceneError::missing(&path, key.form.allowed())),
             None => {}
         }
     }
@@ -105,16 +104,17 @@ fn number(node: &Node, quantity: Quantity, path: &str) -> Result<Content, SceneE
     };
     let wrong_type = |allowed| SceneError::value(path, node.described(), allowed);
     let Some(dimension) = quantity.dimension else {
-        let meant = bare(text).filter(|&number| quantity.contains(number));
+        let meant = if quantity.whole { grouped(text) } else { bare(text) };
+        let meant = meant.filter(|&number| quantity.contains(number));
         return Err(wrong_type(before(meant, quantity)));
     };
     let (problem, meant) = match dimension.parse(text) {
         Ok(value) => return in_range(node, quantity, path, value),
         Err(QuantityError::NotANumber) => return Err(wrong_type(quantity.allowed())),
         Err(QuantityError::Comma(point)) => {
-            let whole = without_thousands(text)
-                .map(|whole| format!(", or \"{whole}\" if the comma separates thousands"));
-            let meant = format!("a decimal point, \"{point}\"{}", whole.unwrap_or_default());
+            let or = |whole| format!(", or \"{whole}\" if the comma separates thousands");
+            let whole = without_thousands(text).map(or).unwrap_or_default();
+            let meant = format!("a decimal point, \"{point}\"{whole}");
             return Err(wrong_type(before(Some(meant), quantity)));
         }
         Err(QuantityError::MissingUnit) => ("missing unit".to_owned(), String::new()),
@@ -125,51 +125,23 @@ fn number(node: &Node, quantity: Quantity, path: &str) -> Result<Content, SceneE
             ("wrong dimension".to_owned(), format!(", {}", dimension.noun()))
         }
     };
-    let found = node.written.clone() + &meant;
-    Err(SceneError::wrong(
-        WrongKind::Unit(problem),
-        path,
-        found,
-        quantity.allowed(),
-    ))
+    let (kind, found) = (WrongKind::Unit(problem), node.written.clone() + &meant);
+    Err(SceneError::wrong(kind, path, found, quantity.allowed()))
 }
 
 fn in_range(node: &Node, quantity: Quantity, path: &str, value: f64) -> Result<Content, SceneError> {
-    if quantity.contains(value) {
-        return Ok(Content::Number(value));
+    match node.content {
+        Content::Whole(whole) if quantity.contains(value) && quantity.whole => {
+            return Ok(Content::Whole(whole));
+        }
+        _ if quantity.contains(value) && !quantity.whole => return Ok(Content::Number(value)),
+        _ => {}
     }
     let is_bare = !node.written.is_empty() && node.content.as_number().is_some();
-    let meant = if is_bare {
-        quantity.bare_number_meant(value)
-    } else {
-        String::new()
-    };
-    Err(SceneError::wrong(
-        WrongKind::OutOfRange,
-        path,
-        quantity.written(value),
-        quantity.allowed() + &meant,
-    ))
-}
-
-fn whole(node: &Node, quantity: Quantity, path: &str) -> Result<Content, SceneError> {
-    let fits = |whole: &u64| quantity.contains(*whole as f64);
-    match &node.content {
-        Content::Whole(whole) if fits(whole) => Ok(node.content.clone()),
-        Content::Text(text) => {
-            let allowed = before(grouped(text).filter(fits), quantity);
-            Err(SceneError::value(path, node.described(), allowed))
-        }
-        content => Err(match content.as_number() {
-            Some(value) => SceneError::wrong(
-                WrongKind::OutOfRange,
-                path,
-                quantity.written(value),
-                quantity.allowed(),
-            ),
-            None => SceneError::value(path, node.described(), quantity.allowed()),
-        }),
-    }
+    let meant = is_bare.then(|| quantity.bare_number_meant(value));
+    let allowed = quantity.allowed() + &meant.unwrap_or_default();
+    let found = quantity.written(value);
+    Err(SceneError::wrong(WrongKind::OutOfRange, path, found, allowed))
 }
 
 /// What is allowed, behind the number that was probably meant.
@@ -186,10 +158,11 @@ fn bare(text: &str) -> Option<f64> {
 }
 
 /// A whole number that was written with marks between its thousands.
-fn grouped(text: &str) -> Option<u64> {
+fn grouped(text: &str) -> Option<f64> {
     let marks = |c: char| c.is_whitespace() || matches!(c, ',' | '.' | '\'' | '’' | '_');
     let groups: Vec<&str> = text.trim().split(marks).collect();
     let (first, others) = groups.split_first()?;
     let thousands = (1..=3).contains(&first.len()) && others.iter().all(|group| group.len() == 3);
-    (thousands || others.is_empty()).then(|| groups.concat().parse().ok())?
+    let whole: u64 = groups.concat().parse().ok()?;
+    (thousands || others.is_empty()).then_some(whole as f64)
 }

@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use serde::{Serialize, Serializer};
 
+use crate::shown::shortened;
+
 /// A place in a file, a preset or an override.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Place {
@@ -58,12 +60,7 @@ impl Serialize for Content {
 
 impl From<Content> for Node {
     fn from(content: Content) -> Self {
-        let (place, written) = Default::default();
-        Self {
-            place,
-            written,
-            content,
-        }
+        Self::new(Place::default(), "", content)
     }
 }
 
@@ -130,6 +127,24 @@ impl Content {
 }
 
 impl Node {
+    /// A value that stands at this place of a text.
+    pub fn new(place: Place, text: &str, content: Content) -> Self {
+        const LONGEST: usize = 60;
+        let all = text.get(place.bytes.clone()).unwrap_or_default();
+        let line = all.lines().next().unwrap_or_default();
+        let is_cut = line.chars().count() <= LONGEST && line.len() < all.len();
+        let written = if is_cut {
+            format!("{line}…")
+        } else {
+            shortened(line, LONGEST)
+        };
+        Self {
+            place,
+            written,
+            content,
+        }
+    }
+
     /// What stands there, with its kind.
     pub fn described(&self) -> String {
         let kind = match self.content {
@@ -140,24 +155,6 @@ impl Node {
             Content::Table(_) => "the table ",
         };
         format!("{kind}{}", self.written)
-    }
-
-    /// Moves the places of the tree to those of a text that begins so many bytes later.
-    pub fn shift(&mut self, bytes: usize) {
-        let moved = |place: &mut Place| {
-            place.bytes = place.bytes.start + bytes..place.bytes.end + bytes;
-        };
-        moved(&mut self.place);
-        match &mut self.content {
-            Content::List(items) => items.iter_mut().for_each(|item| item.shift(bytes)),
-            Content::Table(entries) => {
-                for entry in entries {
-                    moved(&mut entry.place);
-                    entry.value.shift(bytes);
-                }
-            }
-            _ => {}
-        }
     }
 
     /// Calls `visit` with every value below this one that is no table and no list, and its key.

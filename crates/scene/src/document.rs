@@ -7,7 +7,7 @@ use crate::content::{Content, Entry, Node, Place};
 use crate::error::{SceneError, WrongKind};
 use crate::location::{Location, line_of};
 use crate::quantity::{with_point, without_thousands};
-use crate::shown::{quoted, shortened};
+use crate::shown::quoted;
 
 /// The text of the file, of an override or of a preset.
 #[derive(Debug, Clone)]
@@ -69,16 +69,13 @@ impl Document {
     }
 
     pub fn locate(&self, place: &Place) -> Location {
-        let source = &self.sources[place.source];
-        let is_file = place.source == 0;
-        if *place == self.root.place {
-            // What the top level lacks would be added at the end, but is not on its last line.
-            let end = source.text.trim_end().len();
-            let mut location = Location::new(&source.name, &source.text, end..end, is_file);
-            (location.text, location.marked) = (String::new(), 0..0);
-            return location;
+        let Source { name, text, .. } = &self.sources[place.source];
+        if *place != self.root.place {
+            return Location::new(name, text, place.bytes.clone(), place.source == 0);
         }
-        Location::new(&source.name, &source.text, place.bytes.clone(), is_file)
+        // What the top level lacks would be added at the end, but is not on its last line.
+        let end = text.trim_end().len();
+        Location::new(name, &text[..end], end..end, true).without_line()
     }
 
     /// The error with the place of its key; if nothing stands there, with that of the section that lacks it.
@@ -91,17 +88,10 @@ impl Document {
             wrong.found.clone_from(&node.written);
         }
         let (section, key) = wrong.key.rsplit_once('.').unwrap_or(("", &wrong.key));
-        let section = if section.is_empty() {
-            &self.root
-        } else {
-            self.find(section).0
-        };
-        let unknown = section
-            .content
-            .entry(key)
-            .filter(|_| wrong.kind == WrongKind::UnknownKey);
-        wrong.location = Some(self.locate(unknown.map_or(&node.place, |entry| &entry.place)));
-        SceneError::Wrong(wrong)
+        let entry = self.find(section).0.content.entry(key);
+        let unknown = entry.filter(|_| wrong.kind == WrongKind::UnknownKey);
+        let place = unknown.map_or(&node.place, |entry| &entry.place);
+        SceneError::Wrong(wrong).at(self.locate(place))
     }
 }
 
@@ -135,22 +125,7 @@ pub fn node(value: &Spanned<DeValue>, source: usize, text: &str) -> Node {
         DeValue::Table(table) => Content::Table(entries(table, source, text)),
     };
     let bytes = value.span();
-    let written = first_line(text.get(bytes.clone()).unwrap_or_default());
-    Node {
-        place: Place { source, bytes },
-        written,
-        content,
-    }
-}
-
-/// The first line of a text, without what is too long to repeat.
-pub fn first_line(text: &str) -> String {
-    const LONGEST: usize = 60;
-    let line = text.lines().next().unwrap_or_default();
-    if line.chars().count() <= LONGEST && line.len() < text.len() {
-        return format!("{line}…");
-    }
-    shortened(line, LONGEST)
+    Node::new(Place { source, bytes }, text, content)
 }
 
 /// Why the parser gave up on a text, and where; with a hint for a quantity without quotes and for a comma in a number.

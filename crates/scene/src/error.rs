@@ -73,31 +73,36 @@ impl SceneError {
     /// What is wrong at a key, without the place where it stands.
     pub(crate) fn wrong(
         kind: WrongKind,
-        key: impl Into<String>,
+        key: &str,
         found: impl Into<String>,
         allowed: impl Into<String>,
     ) -> Self {
+        let (key, found, allowed) = (key.to_owned(), found.into(), allowed.into());
         Self::Wrong(Box::new(Wrong {
             kind,
-            key: key.into(),
-            found: found.into(),
-            allowed: allowed.into(),
+            key,
+            found,
+            allowed,
             location: None,
         }))
     }
 
     /// A value that is of the wrong type, or contradicts another one.
-    pub(crate) fn value(
-        key: impl Into<String>,
-        found: impl Into<String>,
-        allowed: impl Into<String>,
-    ) -> Self {
+    pub(crate) fn value(key: &str, found: impl Into<String>, allowed: impl Into<String>) -> Self {
         Self::wrong(WrongKind::Value, key, found, allowed)
     }
 
     /// A key that is missing.
-    pub(crate) fn missing(key: impl Into<String>, allowed: impl Into<String>) -> Self {
+    pub(crate) fn missing(key: &str, allowed: impl Into<String>) -> Self {
         Self::wrong(WrongKind::MissingKey, key, "", allowed)
+    }
+
+    /// The same, at this place.
+    pub(crate) fn at(mut self, location: Location) -> Self {
+        if let Self::Wrong(wrong) = &mut self {
+            wrong.location = Some(location);
+        }
+        self
     }
 
     /// Where the scene is wrong; `None` if its file cannot be read at all, or the scene is not that of a file.
@@ -117,18 +122,19 @@ impl fmt::Display for Wrong {
         if let Some(location) = &self.location {
             write!(f, "{location}: ")?;
         }
-        match &self.kind {
-            WrongKind::UnknownKey => write!(f, "found unknown key {key}{found}")?,
-            WrongKind::MissingKey => write!(f, "key {key} is missing")?,
-            WrongKind::Unit(problem) => {
-                write!(f, "{key}: {}: found {found}", shortened(problem, LONGEST_TEXT))?;
-            }
-            WrongKind::OutOfRange => write!(f, "{key}: out of range: found {found}")?,
-            WrongKind::Override | WrongKind::Value => write!(f, "{key}: found {found}")?,
-        }
-        write!(f, "; allowed: {}", shortened(&self.allowed, LONGEST_LIST))?;
-        let excerpt = self.location.as_ref().map(Location::excerpt);
-        f.write_str(&excerpt.unwrap_or_default())
+        let what = match &self.kind {
+            WrongKind::UnknownKey => format!("found unknown key {key}{found}"),
+            WrongKind::MissingKey => format!("key {key} is missing"),
+            WrongKind::Unit(problem) => format!("{key}: {}: found {found}", shortened(problem, LONGEST_TEXT)),
+            WrongKind::OutOfRange => format!("{key}: out of range: found {found}"),
+            WrongKind::Override | WrongKind::Value => format!("{key}: found {found}"),
+        };
+        let excerpt = self.location.as_ref().map_or_else(String::new, Location::excerpt);
+        write!(
+            f,
+            "{what}; allowed: {}{excerpt}",
+            shortened(&self.allowed, LONGEST_LIST)
+        )
     }
 }
 

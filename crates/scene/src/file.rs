@@ -14,7 +14,7 @@ use crate::location::Location;
 use crate::scene::Scene;
 use crate::stored::Stored;
 use crate::units::{Dimension, Unit};
-use crate::{histogram, overrides, preset, rules, slips};
+use crate::{histogram, overrides, preset, rules, unusual};
 
 /// A scene file larger than this \[bytes\] is not a scene file.
 const LARGEST_FILE: u64 = 16 << 20;
@@ -51,17 +51,15 @@ impl SceneFile {
         let file = path.display().to_string();
         let mut bytes = Vec::new();
         let read = File::open(path).and_then(|open| open.take(LARGEST_FILE + 1).read_to_end(&mut bytes));
-        match read {
-            Err(_) if path.is_dir() => {
+        if let Err(mut source) = read {
+            if path.is_dir() {
                 let what = "this is a folder; a scene is a file, such as my-duct.toml";
-                let source = std::io::Error::new(std::io::ErrorKind::IsADirectory, what);
-                return Err(SceneError::Unreadable(file, source));
+                source = std::io::Error::new(std::io::ErrorKind::IsADirectory, what);
             }
-            Err(source) => return Err(SceneError::Unreadable(file, source)),
-            Ok(length) if length as u64 > LARGEST_FILE => {
-                return Err(SceneError::TooLarge(file, LARGEST_FILE));
-            }
-            Ok(_) => {}
+            return Err(SceneError::Unreadable(file, source));
+        }
+        if bytes.len() as u64 > LARGEST_FILE {
+            return Err(SceneError::TooLarge(file, LARGEST_FILE));
         }
         let text = String::from_utf8(bytes).map_err(|e| not_utf8(&file, &e))?;
         Self::from_toml(&file, &text)
@@ -124,7 +122,7 @@ impl SceneFile {
     pub fn slips(&self) -> Vec<(Location, String)> {
         let mut found = Vec::new();
         self.document.root.each_value("", &mut |key, node| {
-            let words = slips::slip(key, node);
+            let words = unusual::slip(key, node);
             found.extend(words.map(|words| (self.document.locate(&node.place), words)));
         });
         found

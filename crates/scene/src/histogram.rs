@@ -9,6 +9,7 @@ use crate::error::SceneError;
 use crate::key::Form::{Either, Number, Text};
 use crate::key::{Form, Section, keys};
 use crate::range::{ANY_WHOLE, AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS, Quantity};
+use crate::stored::Stored;
 use crate::units::Dimension;
 use crate::vehicle::{TrafficVehicle, Wheel};
 
@@ -102,19 +103,12 @@ impl Histogram {
             skip: self.skip,
             ..Options::default()
         };
-        for (name, text) in [
-            ("separator", &self.separator),
-            ("decimal", &self.decimal),
-            ("encoding", &self.encoding),
-            ("sheet", &self.sheet),
-            ("unit", &self.unit),
-            ("column_count", &self.column_count),
-            ("column_load", &self.column_load),
-            ("column_contact_radius", &self.column_contact_radius),
-        ] {
-            if let Some(text) = text {
-                let set = options.set(name, text);
-                set.map_err(|why| SceneError::value(format!("{KEY}.{name}"), format!("\"{text}\""), why))?;
+        let stored = self.write();
+        for entry in stored.entries().iter().filter(|entry| entry.key != "file") {
+            if let Some(text) = entry.value.content.as_text() {
+                let (key, found) = (format!("{KEY}.{}", entry.key), format!("\"{text}\""));
+                let set = options.set(&entry.key, text);
+                set.map_err(|why| SceneError::value(&key, found, why))?;
             }
         }
         Ok(options)
@@ -131,7 +125,7 @@ impl Histogram {
                 allowed,
             } => SceneError::value(KEY, format!("{file}:{line}: {found}"), allowed),
             error => {
-                let why = error.source().map_or_else(String::new, |why| format!(": {why}"));
+                let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();
                 SceneError::value(KEY, format!("{error}{why}"), NAMES.allowed)
             }
         })

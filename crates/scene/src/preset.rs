@@ -43,7 +43,7 @@ fn fill(document: &mut Document, path: &str, kind: PresetKind, section: &mut Nod
     let words: Vec<&str> = of(kind).map(|preset| &*preset.name).collect();
     let (key, allowed) = (joined(path, "preset"), listed(words.iter().copied()));
     let found = match name.content.as_text() {
-        None => Err(SceneError::value(key, name.described(), allowed)),
+        None => Err(SceneError::value(&key, name.described(), allowed)),
         Some(text) => of(kind)
             .find(|preset| preset.name == text)
             .ok_or_else(|| unknown_word(name, text, &words, &key, allowed)),

@@ -101,7 +101,7 @@ pub fn contradiction(path: &str, table: &Content) -> Result<(), SceneError> {
             Some(value) => format!("{} with `{key}` = {}", rival.written, value.written),
             None => format!("{} with no `{key}`", rival.written),
         };
-        return Err(SceneError::value(joined(path, other), found, *allowed));
+        return Err(SceneError::value(&joined(path, other), found, *allowed));
     }
     let histogram = value_at("traffic").and_then(|traffic| traffic.content.get("histogram"));
     let scaled = value_at("ground").and_then(|ground| ground.content.get("longitudinal_peak"));

@@ -1,20 +1,17 @@
 //! What holds between the values of a scene, each of which is in its own range.
 
+use std::ops::RangeInclusive;
+
 use cable_dem::End;
 use ground_field::Modulus;
 
 use crate::arrangement::CLOSEST;
-use crate::cable_end::CableEnd;
-use crate::content::joined;
+use crate::cable::Law;
 use crate::error::{SceneError, WrongKind, did_you_mean};
-use crate::friction::Law;
-use crate::ground::{Ground, GroundModel, PeakScaling};
+use crate::ground::{Ground, GroundModel};
 use crate::key::listed;
 use crate::nearest::nearest;
-use crate::range::{
-    AXIAL_STIFFNESS, DIAMETER, Follows, INNER_DIAMETER, PASSES, SHAPE_FACTOR, THICKNESS, diameters,
-    node_spacings, shown, vehicle_steps,
-};
+use crate::range::{AXIAL_STIFFNESS, DIAMETER, INNER_DIAMETER, PASSES, SHAPE_FACTOR, THICKNESS, shown};
 use crate::scene::{Scene, VEHICLES};
 use crate::shown::four_digits;
 use crate::solver::SolverMethod;
@@ -23,121 +20,80 @@ type Checked = Result<(), SceneError>;
 
 /// The first rule that the scene breaks.
 pub fn check(scene: &Scene) -> Checked {
-    let (length, solver) = (scene.duct.length, &scene.solver);
     ground(&scene.ground)?;
     given(scene)?;
-    cable(scene)?;
-    supports(scene)?;
+    lengths(scene)?;
+    slope(scene)?;
     vehicles(scene)?;
     sequence(scene)?;
-    heat(scene)?;
-    suits("solver.node_spacing", solver.node_spacing, node_spacings(length))?;
-    suits("solver.vehicle_step", solver.vehicle_step, vehicle_steps(length))
+    heat(scene)
 }
 
 /// Refuses what was `found` at `key` unless it `holds`.
-fn hold(
-    holds: bool,
-    key: impl Into<String>,
-    found: impl Into<String>,
-    allowed: impl Into<String>,
-) -> Checked {
-    if holds {
-        return Ok(());
-    }
-    Err(SceneError::value(key, found, allowed))
+fn hold(holds: bool, key: &str, found: &str, allowed: &str) -> Checked {
+    let error = (!holds).then(|| SceneError::value(key, found, allowed));
+    error.map_or(Ok(()), Err)
+}
+
+/// Refuses a quantity that is left out.
+fn need(is_given: bool, key: &str, allowed: &str) -> Checked {
+    let error = (!is_given).then(|| SceneError::missing(key, allowed));
+    error.map_or(Ok(()), Err)
 }
 
 /// Refuses a length outside the range that follows from the rest of the scene.
-fn suits(key: impl Into<String>, value: Option<f64>, (range, allowed): Follows) -> Checked {
-    let Some(value) = value.filter(|value| !range.contains(value)) else {
+fn suits(key: &str, value: f64, range: RangeInclusive<f64>, allowed: &str) -> Checked {
+    if range.contains(&value) {
         return Ok(());
-    };
+    }
     let found = format!("\"{value:?} m\"");
     Err(SceneError::wrong(WrongKind::OutOfRange, key, found, allowed))
 }
 
 /// Keys that one of several ways to give a value needs.
 fn given(scene: &Scene) -> Checked {
-    let (cable, friction) = (&scene.cable, &scene.friction);
-    let of_three = cable.arrangement.is_of_three() && cable.normal_load_factor.is_none();
-    let no_factor = friction.law != Law::Coulomb && friction.shape_factor.is_none();
-    let inner = scene.duct.inner_diameter;
-    for (is_missing, key, allowed) in [
-        (
-            cable.axial_stiffness == 0.0,
-            "cable.axial_stiffness",
-            AXIAL_STIFFNESS.allowed(),
-        ),
-        (
-            of_three && cable.diameter.is_none(),
-            "cable.diameter",
-            DIAMETER.allowed(),
-        ),
-        (
-            of_three && inner.is_none(),
-            "duct.inner_diameter",
-            INNER_DIAMETER.allowed(),
-        ),
-        (
-            no_factor,
-            "friction.shape_factor",
-            SHAPE_FACTOR.allowed() + "; law = \"coulomb\" needs none",
-        ),
-        (scene.vehicles.is_empty(), "vehicles", VEHICLES.to_owned()),
-        (
-            scene.traffic.passes == 0,
-            "traffic.passes",
-            PASSES.allowed() + ", or `years` with `per_day`",
-        ),
-    ] {
-        if is_missing {
-            return Err(SceneError::missing(key, allowed));
-        }
-    }
-    Ok(())
+    let (cable, friction, traffic) = (&scene.cable, &scene.friction, &scene.traffic);
+    let follows = cable.arrangement.is_of_three() && cable.normal_load_factor.is_none();
+    let diameter = !follows || cable.diameter.is_some();
+    let inner = !follows || scene.duct.inner_diameter.is_some();
+    let stiffness = cable.axial_stiffness != 0.0;
+    let shape = friction.law == Law::Coulomb || friction.shape_factor.is_some();
+    let but = SHAPE_FACTOR.allowed() + "; law = \"coulomb\" needs none";
+    let passes = PASSES.allowed() + ", or `years` with `per_day`";
+    need(stiffness, "cable.axial_stiffness", &AXIAL_STIFFNESS.allowed())?;
+    need(diameter, "cable.diameter", &DIAMETER.allowed())?;
+    need(inner, "duct.inner_diameter", &INNER_DIAMETER.allowed())?;
+    need(shape, "friction.shape_factor", &but)?;
+    need(!scene.vehicles.is_empty(), "vehicles", VEHICLES)?;
+    need(traffic.passes > 0, "traffic.passes", &passes)
 }
 
 fn ground(ground: &Ground) -> Checked {
-    let Some((last, upper)) = ground.layers.split_last() else {
-        return Ok(());
-    };
-    if let Some(index) = upper.iter().position(|layer| layer.thickness.is_none()) {
-        return Err(SceneError::missing(
-            format!("ground.layers.{index}.thickness"),
-            THICKNESS.allowed(),
-        ));
-    }
-    let key = |name: &str| format!("ground.layers.{}.{name}", upper.len());
-    if let Some(thickness) = last.thickness {
-        let allowed = "no thickness in the last layer: it extends down to ground.rigid_base_depth, or to infinite depth";
-        return hold(
-            false,
-            key("thickness"),
-            format!("{} m", shown(thickness)),
-            allowed,
-        );
-    }
-    let above = ground.upper_thickness();
     let graded = |modulus| matches!(modulus, Modulus::Linear { .. });
-    match ground.rigid_base_depth {
-        Some(depth) if !THICKNESS.contains(depth - above) => {
-            let allowed = format!("a depth below the upper layers, greater than {} m", shown(above));
-            let (key, found) = ("ground.rigid_base_depth", shown(depth));
-            return Err(SceneError::wrong(WrongKind::OutOfRange, key, found, allowed));
+    let (above, last) = (ground.upper_thickness(), ground.layers.len().saturating_sub(1));
+    for (index, layer) in ground.layers.iter().enumerate() {
+        let key = |name: &str| format!("ground.layers.{index}.{name}");
+        if index < last {
+            need(layer.thickness.is_some(), &key("thickness"), &THICKNESS.allowed())?;
+            continue;
         }
-        None if graded(last.young_modulus) => {
-            let found = "a modulus that varies with depth";
-            let allowed = "one value in the last layer, which extends to infinite depth; or set ground.rigid_base_depth";
-            return hold(false, key("young_modulus"), found, allowed);
-        }
-        _ => {}
+        let found = format!("{} m", shown(layer.thickness.unwrap_or_default()));
+        let allowed = "no thickness in the last layer: it extends down to ground.rigid_base_depth, or to infinite depth";
+        hold(layer.thickness.is_none(), &key("thickness"), &found, allowed)?;
+        let ends = ground.rigid_base_depth.is_some() || !graded(layer.young_modulus);
+        let found = "a modulus that varies with depth";
+        let allowed =
+            "one value in the last layer, which extends to infinite depth; or set ground.rigid_base_depth";
+        hold(ends, &key("young_modulus"), found, allowed)?;
+    }
+    if let Some(depth) = ground.rigid_base_depth {
+        let allowed = format!("a depth below the upper layers, greater than {} m", shown(above));
+        let range = above + THICKNESS.least..=above + THICKNESS.most;
+        suits("ground.rigid_base_depth", depth, range, &allowed)?;
     }
     let (fits, allowed) = match ground.model {
         GroundModel::Boussinesq => (
-            ground
-                .profile()
-                .is_ok_and(|profile| profile.homogeneous().is_some()),
+            last == 0 && ground.rigid_base_depth.is_none(),
             "\"boussinesq\" with one layer and no rigid base only; \"auto\", \"burmister\" or \"fem\" here",
         ),
         GroundModel::Burmister => (
@@ -146,66 +102,73 @@ fn ground(ground: &Ground) -> Checked {
         ),
         _ => return Ok(()),
     };
-    hold(
-        fits,
-        "ground.model",
-        format!("these layers with `model` = \"{}\"", ground.model),
-        allowed,
-    )
+    let found = format!("these layers with `model` = \"{}\"", ground.model);
+    hold(fits, "ground.model", &found, allowed)
 }
 
-fn cable(scene: &Scene) -> Checked {
-    let (Some(_), Some(inner)) = (scene.cable.diameter, scene.duct.inner_diameter) else {
+/// Lengths that the duct and its length limit.
+fn lengths(scene: &Scene) -> Checked {
+    let (length, solver) = (scene.duct.length, &scene.solver);
+    let [half, all] = [length / 2.0, length].map(shown);
+    if let Some(spacing) = solver.node_spacing {
+        let words = format!("at most half the duct's length, {half} m, and at least its five-millionth part");
+        let range = length / 5e6..=length / 2.0;
+        suits("solver.node_spacing", spacing, range, &words)?;
+    }
+    if let Some(step) = solver.vehicle_step {
+        let words = format!("at most the duct's length, {all} m, and at least its ten-millionth part");
+        suits("solver.vehicle_step", step, length / 1e7..=length, &words)?;
+    }
+    for (index, clamp) in scene.restraints.iter().enumerate() {
+        let key = format!("restraints.{index}.position");
+        let words = format!("a position in the duct, from 0 m to {all} m");
+        suits(&key, clamp.position, 0.0..=length, &words)?;
+    }
+    let (Some(inner), Some(diameter)) = (scene.duct.inner_diameter, scene.cable.diameter) else {
         return Ok(());
     };
-    let closest = scene.cable.arrangement.is_of_three().then_some(CLOSEST);
-    suits("cable.diameter", scene.cable.diameter, diameters(inner, closest))
+    let (mut most, wide) = (inner.next_down(), shown(inner));
+    let mut words = format!("less than the duct's inner diameter, {wide} m");
+    if scene.cable.arrangement.is_of_three() {
+        most = inner / CLOSEST;
+        words = format!("at most {most:.4} m, so that three cables fit into the duct's {wide} m");
+    }
+    suits("cable.diameter", diameter, 0.0..=most, &words)
 }
 
-/// Friction, ends and clamps: what holds the cable.
-fn supports(scene: &Scene) -> Checked {
-    let length = scene.duct.length;
-    for (index, clamp) in scene.restraints.iter().enumerate() {
-        let words = format!("a position in the duct, from 0 m to {} m", shown(length));
-        let key = format!("restraints.{index}.position");
-        suits(key, Some(clamp.position), (0.0..=length, words))?;
-    }
-    let held = |end: CableEnd| end.held_in(scene) != End::Free;
-    let free = scene.restraints.is_empty() && !CableEnd::ALL.into_iter().any(held);
+/// A cable that nothing else holds must not slide out of its duct.
+fn slope(scene: &Scene) -> Checked {
+    let ends = [scene.ends.upstream, scene.ends.downstream];
+    let is_held = !scene.restraints.is_empty() || ends != [End::Free; 2];
     let (drawn, limit) = (scene.body_force().abs(), scene.friction_limit());
     let slope = four_digits(100.0 * scene.duct.slope);
     let steepest = shown(limit / (scene.cable.weight * scene.duct.cosine()));
     let found = format!("{slope} % between free ends, where the cable slides out of the duct");
-    let allowed = format!(
-        "a slope less than what friction holds, {steepest}, or an end or a clamp that holds the cable"
-    );
-    let slides = free && drawn > 0.0 && drawn >= limit;
-    hold(!slides, "duct.slope", found, allowed)
+    let friction = format!("a slope less than what friction holds, {steepest}");
+    let allowed = friction + ", or an end or a clamp that holds the cable";
+    let rests = is_held || drawn == 0.0 || drawn < limit;
+    hold(rests, "duct.slope", &found, &allowed)
 }
 
 fn vehicles(scene: &Scene) -> Checked {
     for (index, vehicle) in scene.vehicles.iter().enumerate() {
-        let (name, key) = (&vehicle.name, format!("vehicles.{index}"));
-        let taken = scene.vehicles[..index].iter().any(|other| other.name == *name);
-        let own = !taken && !name.trim().is_empty();
+        let (name, key) = (&vehicle.name, |name: &str| format!("vehicles.{index}{name}"));
+        let is_taken = scene.vehicles[..index].iter().any(|other| other.name == *name);
+        let is_own = !is_taken && !name.trim().is_empty();
         let allowed = "a name in quotes that no other vehicle has";
-        hold(own, joined(&key, "name"), format!("\"{name}\""), allowed)?;
-        let load = vehicle.load.map_or("wheels", |_| "load");
-        let loaded = vehicle.load.is_some() || !vehicle.wheels.is_empty();
+        hold(is_own, &key(".name"), &format!("\"{name}\""), allowed)?;
+        let is_loaded = vehicle.load.is_some() || !vehicle.wheels.is_empty();
         let allowed = "one of the two: load = \"20 tf\" or wheels = [ { load = \"50 kN\" } ]";
-        hold(loaded, &*key, "neither `load` nor `wheels`", allowed)?;
-        let scaled = match scene.ground.scaling() {
-            Some(PeakScaling::Longitudinal(_)) => "ground.longitudinal_peak",
-            Some(PeakScaling::Vertical(_)) if index == 0 => "ground.vertical_peak",
-            _ => continue,
+        hold(is_loaded, &key(""), "neither `load` nor `wheels`", allowed)?;
+        let scaled = match scene.ground.longitudinal_peak {
+            Some(_) => "ground.longitudinal_peak",
+            None if index == 0 && scene.ground.vertical_peak.is_some() => "ground.vertical_peak",
+            None => continue,
         };
+        let load = key(vehicle.load.map_or(".wheels", |_| ".load"));
         let allowed = format!("a load greater than 0, which `{scaled}` can scale");
-        hold(
-            vehicle.weight() > 0.0,
-            joined(&key, load),
-            "a vehicle without load",
-            allowed,
-        )?;
+        let weighs = vehicle.weight() > 0.0;
+        hold(weighs, &load, "a vehicle without load", &allowed)?;
     }
     Ok(())
 }
@@ -213,14 +176,10 @@ fn vehicles(scene: &Scene) -> Checked {
 fn sequence(scene: &Scene) -> Checked {
     let known = || scene.vehicles.iter().map(|vehicle| &*vehicle.name);
     for (index, name) in scene.traffic.sequence.iter().enumerate() {
-        let near = did_you_mean(nearest(name, known()));
         let key = format!("traffic.sequence.{index}");
-        hold(
-            known().any(|known| known == name),
-            key,
-            format!("\"{name}\"{near}"),
-            listed(known()),
-        )?;
+        let found = format!("\"{name}\"{}", did_you_mean(nearest(name, known())));
+        let is_known = known().any(|known| known == name);
+        hold(is_known, &key, &found, &listed(known()))?;
     }
     Ok(())
 }
@@ -229,16 +188,12 @@ fn heat(scene: &Scene) -> Checked {
     let Some(heat) = &scene.heat else {
         return Ok(());
     };
-    for (index, pair) in heat
-        .profile
-        .iter()
-        .flat_map(|points| points.windows(2))
-        .enumerate()
-    {
+    let pairs = heat.profile.iter().flat_map(|points| points.windows(2));
+    for (index, pair) in pairs.enumerate() {
         let key = format!("heat.profile.{}.0", index + 1);
         let found = format!("\"{:?} s\"", pair[1].0);
         let ascends = pair[1].0 > pair[0].0;
-        hold(ascends, key, found, "a time after that of the point before")?;
+        hold(ascends, &key, &found, "a time after that of the point before")?;
     }
     let (law, cold) = (scene.friction.law(), scene.warming().is_none());
     let of_law = format!("[heat] with `friction.law` = \"{}\"", law.name());
@@ -256,7 +211,6 @@ fn heat(scene: &Scene) -> Checked {
         (cold || !is_explicit, "[heat] with `solver.method` = \"explicit\"",
             "\"auto\", \"quasi-static\" or \"pass-law\" beside [heat]: it is computed without inertia"),
     ];
-    rules
-        .into_iter()
-        .try_for_each(|(holds, found, allowed)| hold(holds, "heat", found, allowed))
+    let mut rules = rules.into_iter();
+    rules.try_for_each(|(holds, found, allowed)| hold(holds, "heat", found, allowed))
 }

@@ -4,10 +4,9 @@ use std::path::Path;
 
 use cable_dem::{End, Order, Restraint};
 
-use crate::cable::Cable;
+use crate::cable::{Cable, Friction};
 use crate::content::Content;
 use crate::error::SceneError;
-use crate::friction::Friction;
 use crate::ground::Ground;
 use crate::heat::Heat;
 use crate::key::Form::{Either, List, Number, Table, Text, Words};

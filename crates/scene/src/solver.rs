@@ -56,10 +56,3 @@ file_words! {
     SolverMethod: Auto "auto", QuasiStatic "quasi-static", Explicit "explicit", PassLaw "pass-law";
     but "dynamic": "inertia is computed by \"explicit\", and below 200 km/h it changes next to nothing"
 }
-
-impl SolverMethod {
-    /// Whether a time step has a meaning with this method.
-    pub fn has_time_steps(self) -> bool {
-        !matches!(self, Self::QuasiStatic | Self::PassLaw)
-    }
-}

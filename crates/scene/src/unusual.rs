@@ -1,14 +1,15 @@
-//! What is valid and yet hardly meant: values that no ground, cable or road has.
+//! What is valid and yet hardly meant: values that no ground, cable or road has, and numbers that were meant in another unit.
 //!
 //! A range refuses what the models cannot represent. Between it and what is built lie slips of a unit or a digit, which are warnings.
 
 use ground_field::{Base, Modulus};
 
 use crate::arrangement::JAMMING;
-use crate::content::{Node, without_numbers};
-use crate::friction::Law;
+use crate::cable::Law;
+use crate::content::{Content, Node, without_numbers};
 use crate::histogram::AXLE_GROUP;
 use crate::location::counted;
+use crate::range::WEIGHT;
 use crate::scene::Scene;
 use crate::shown::four_digits;
 use crate::stored::Stored;
@@ -87,7 +88,7 @@ pub fn unusual(scene: &Scene) -> Vec<String> {
 }
 
 /// A warning of a key, with the items that it names counted from 1.
-pub fn of(key: &str, words: &str) -> String {
+fn of(key: &str, words: &str) -> String {
     format!("`{key}`{}{words}", counted(key))
 }
 
@@ -232,4 +233,44 @@ fn contrast(scene: &Scene) -> Option<String> {
         );
         of(&key(0), &words)
     })
+}
+
+/// The warning for a number without a unit that was meant in another one than SI, `load = 20` in tonnes or `speed = 40` in km/h, for decimals
+/// that may be thousands, `passes = 292.000`, and for a mass that stands for a weight.
+pub fn slip(key: &str, node: &Node) -> Option<String> {
+    let words = meant(key.rsplit('.').next()?, &node.content, &node.written)?;
+    Some(of(key, &format!(": {words}")))
+}
+
+fn meant(key: &str, content: &Content, found: &str) -> Option<String> {
+    // Lighter than any vehicle [N], faster than any truck [m/s], and a weight per length that may be a mass [N/m].
+    const LIGHT: f64 = 1e3;
+    const FAST: f64 = 130.0 / 3.6;
+    const LIGHT_CABLE: f64 = 20.0;
+    if let (Some(text), "weight") = (content.as_text(), key) {
+        let is_mass = text.to_lowercase().replace("kgf", "").contains("kg");
+        let weight = four_digits(WEIGHT.dimension?.parse(text).ok()?);
+        return is_mass.then(|| format!("{found} is a mass per length: times g it weighs {weight} N/m"));
+    }
+    let value = content.as_number()?;
+    let is_thousands = |(_, digits): (&str, &str)| digits.len() == 3 && digits.parse::<u16>().is_ok();
+    let (value, meant) = match key {
+        "load" if value > 0.0 && value < LIGHT => (
+            format!("{value} N, less than 1 kN"),
+            format!("\"{found} tf\" or \"{found} kN\""),
+        ),
+        "speed" if value > FAST => (
+            format!("{value} m/s, {:.0} km/h", 3.6 * value),
+            format!("\"{found} km/h\""),
+        ),
+        "weight" if value < LIGHT_CABLE => (format!("{value} N/m"), format!("\"{found} kg/m\"")),
+        "passes" if found.split_once('.').is_some_and(is_thousands) => (
+            format!("{value} passes, since decimals follow a point"),
+            found.replace('.', ""),
+        ),
+        _ => return None,
+    };
+    Some(format!(
+        "{found} without a unit is {value}: did you mean {meant}?"
+    ))
 }

@@ -71,6 +71,19 @@ pub struct Source {
     pub assumed: bool,
 }
 
+/// A data file, or a preset of it. Presets without sources have those of their file.
+#[derive(Default, Deserialize)]
+#[serde(default)]
+struct Data {
+    name: String,
+    summary: String,
+    values: String,
+    /// Lines of `KEY: SOURCE`.
+    sources: String,
+    assumed: String,
+    presets: Vec<Data>,
+}
+
 const FILES: [(PresetKind, &str); 4] = [
     (PresetKind::Vehicle, include_str!("vehicles.toml")),
     (PresetKind::Cable, include_str!("cables.toml")),
@@ -90,56 +103,31 @@ pub fn of(kind: PresetKind) -> impl Iterator<Item = &'static Preset> {
     all().iter().filter(move |preset| preset.kind == kind)
 }
 
-/// A data file: lines of `KEY: SOURCE`, and presets.
-#[derive(Default, Deserialize)]
-struct Data {
-    #[serde(flatten)]
-    sources: Sources,
-    presets: Vec<Row>,
-}
-
-/// Where values are from: of a preset, or of all in a file that have no sources of their own.
-#[derive(Default, Deserialize)]
-#[serde(default)]
-struct Sources {
-    sources: String,
-    assumed: String,
-}
-
-#[derive(Deserialize)]
-struct Row {
-    name: String,
-    summary: String,
-    values: String,
-    #[serde(flatten)]
-    sources: Sources,
-}
-
-impl Sources {
-    fn list(&self) -> Vec<Source> {
-        let lines = [(&self.sources, false), (&self.assumed, true)].into_iter();
-        let lines = lines.flat_map(|(text, assumed)| text.lines().map(move |line| (line, assumed)));
-        let source = |(line, assumed): (&str, bool)| {
-            let (key, source) = line.split_once(": ")?;
-            let (key, source) = (key.to_owned(), source.to_owned());
-            Some(Source { key, source, assumed })
-        };
-        lines.filter_map(source).collect()
-    }
-}
-
 /// The presets of a data file. The files are built in, and tests read them: there is nothing to report here.
 fn read(kind: PresetKind, text: &str) -> Vec<Preset> {
-    let data: Data = toml::from_str(text).unwrap_or_default();
-    let preset = |row: Row| {
-        let own = row.sources.list();
+    let file: Data = toml::from_str(text).unwrap_or_default();
+    let shared = sources(&file.sources, &file.assumed);
+    let preset = |preset: Data| {
+        let own = sources(&preset.sources, &preset.assumed);
         Preset {
             kind,
-            name: row.name,
-            summary: row.summary,
-            toml: row.values,
-            sources: if own.is_empty() { data.sources.list() } else { own },
+            name: preset.name,
+            summary: preset.summary,
+            toml: preset.values,
+            sources: if own.is_empty() { shared.clone() } else { own },
         }
     };
-    data.presets.into_iter().map(preset).collect()
+    file.presets.into_iter().map(preset).collect()
+}
+
+fn sources(documents: &str, assumed: &str) -> Vec<Source> {
+    let source = |line: &str, assumed| {
+        let (key, source) = line.split_once(": ")?;
+        let (key, source) = (key.to_owned(), source.to_owned());
+        Some(Source { key, source, assumed })
+    };
+    let documents = documents.lines().filter_map(|line| source(line, false));
+    documents
+        .chain(assumed.lines().filter_map(|line| source(line, true)))
+        .collect()
 }
