@@ -85,7 +85,8 @@ fn plain_or_table(node: &Node, plain: &Form, keys: &[Key], path: &str) -> Result
             && let Some(dimension) = key.form.quantity().and_then(|quantity| quantity.dimension)
             && dimension.parse(text).is_ok()
         {
-            wrong.allowed += &format!("; did you mean {{ {} = {} }}?", key.name, node.written);
+            let meant = ["; did you mean { ", key.name, " = ", &node.written, " }?"];
+            wrong.allowed.extend(meant);
         }
         error
     })?;

@@ -11,7 +11,7 @@ use crate::key::{Form, Section, keys};
 use crate::range::{ANY_WHOLE, AXLE_COUNT, AXLE_LOAD, CONTACT_RADIUS, Quantity};
 use crate::stored::Stored;
 use crate::units::Dimension;
-use crate::vehicle::{TrafficVehicle, Wheel};
+use crate::vehicle::TrafficVehicle;
 
 keys! {
     /// The name of a table of axle loads, and how it is to be read where that is not recognised.
@@ -115,7 +115,7 @@ impl Histogram {
     }
 
     /// The classes of the table, each a vehicle of one wheel in the first lane, at `speed` \[m/s\]; `scene` is the file that names it.
-    pub fn axles(&self, scene: &str, speed: f64) -> Result<Vec<TrafficVehicle>, SceneError> {
+    pub(crate) fn axles(&self, scene: &str, speed: f64) -> Result<Vec<TrafficVehicle>, SceneError> {
         let options = self.options()?;
         classes(&beside(scene, &self.file), &options, speed).map_err(|error| match error {
             TableError::Line {
@@ -170,13 +170,9 @@ fn classes(file: &Path, options: &Options, speed: f64) -> Result<Vec<TrafficVehi
         }
         let mut vehicle = TrafficVehicle::point(&format!("{axle} {}", axles.len() + 1), force, speed);
         if contact_radius > 0.0 {
-            let wheel = Wheel {
-                x: 0.0,
-                y: 0.0,
-                load: force,
-                contact_radius,
-            };
-            (vehicle.load, vehicle.wheels) = (None, vec![wheel]);
+            vehicle.wheels = vehicle.wheels();
+            vehicle.wheels[0].contact_radius = contact_radius;
+            vehicle.load = None;
         }
         axles.push(TrafficVehicle { share, ..vehicle });
     }

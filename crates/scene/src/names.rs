@@ -5,6 +5,7 @@ use std::sync::LazyLock;
 use crate::content::{joined, other_name, without_numbers};
 use crate::key::{Key, Section};
 use crate::nearest::nearest;
+use crate::range::Quantity;
 use crate::scene::Scene;
 
 /// Words and symbols of the field for what a scene calls otherwise.
@@ -42,7 +43,7 @@ fn meanings(path: &str, keys: &[Key], found: &mut Vec<KeyMeaning>) {
             key: path.clone(),
             meaning: key.meaning,
             allowed: key.form.allowed(),
-            unit: key.form.quantity().and_then(|quantity| quantity.unit()),
+            unit: key.form.quantity().and_then(Quantity::unit),
             default: key.absent,
         });
         meanings(&path, key.form.keys(), found);

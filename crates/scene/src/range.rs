@@ -21,12 +21,12 @@ pub struct Quantity {
     pub whole: bool,
 }
 
-/// Rows of name, dimension, least, most, range in words, example.
+/// Rows of name, dimension, least, most, range in words, example; `whole` for a whole number.
 macro_rules! quantities {
-    ($($name:ident: $dimension:expr, $least:expr, $most:expr, $words:literal, $example:literal;)+) => {
+    ($($name:ident: $dimension:expr, $least:expr, $most:expr, $words:literal, $example:literal $(, $whole:ident)?;)+) => {
         $(#[allow(missing_docs)]
         pub const $name: Quantity = Quantity {
-            dimension: $dimension, least: $least, most: $most, words: $words, example: $example, whole: false,
+            dimension: $dimension, least: $least, most: $most, words: $words, example: $example, whole: !stringify!($($whole)?).is_empty(),
         };)+
     };
 }
@@ -83,24 +83,9 @@ quantities! {
     LOAD_FACTOR: None, 1e-6, 1e6, "greater than 0, from 1e-6 to 1e6", "";
     AXLE_COUNT: None, 0.0, 1e12, "of at least 0 and at most 1e12", "";
     YEARS: None, 1e-9, 1e6, "greater than 0, from 1e-9 to 1e6", "";
+    PASSES: None, 1.0, 1e12, "from 1 to 1000000000000", "", whole;
+    ANY_WHOLE: None, 0.0, MAX, "of at least 0", "", whole;
     PER_DAY: None, 1e-6, 1e9, "greater than 0, from 1e-6 to 1e9", "";
-}
-
-/// Number of passes that can be computed, few of them simulated.
-pub const PASSES: Quantity = whole(1.0, 1e12, "from 1 to 1000000000000");
-/// Any whole number.
-pub const ANY_WHOLE: Quantity = whole(0.0, MAX, "of at least 0");
-
-const fn whole(least: f64, most: f64, words: &'static str) -> Quantity {
-    let (dimension, example, whole) = (None, "", true);
-    Quantity {
-        dimension,
-        least,
-        most,
-        words,
-        example,
-        whole,
-    }
 }
 
 impl Quantity {

@@ -11,7 +11,9 @@ use crate::error::{SceneError, WrongKind, did_you_mean};
 use crate::ground::{Ground, GroundModel};
 use crate::key::listed;
 use crate::nearest::nearest;
-use crate::range::{AXIAL_STIFFNESS, DIAMETER, INNER_DIAMETER, PASSES, SHAPE_FACTOR, THICKNESS, shown};
+use crate::range::{
+    AXIAL_STIFFNESS, DIAMETER, INNER_DIAMETER, PASSES, Quantity, SHAPE_FACTOR, THICKNESS, shown,
+};
 use crate::scene::{Scene, VEHICLES};
 use crate::shown::four_digits;
 use crate::solver::SolverMethod;
@@ -35,9 +37,9 @@ fn hold(holds: bool, key: &str, found: &str, allowed: &str) -> Checked {
     error.map_or(Ok(()), Err)
 }
 
-/// Refuses a quantity that is left out.
-fn need(is_given: bool, key: &str, allowed: &str) -> Checked {
-    let error = (!is_given).then(|| SceneError::missing(key, allowed));
+/// Refuses a quantity that is left out, and says what else there is.
+fn need(is_given: bool, key: &str, quantity: Quantity, or: &str) -> Checked {
+    let error = (!is_given).then(|| SceneError::missing(key, quantity.allowed() + or));
     error.map_or(Ok(()), Err)
 }
 
@@ -58,14 +60,16 @@ fn given(scene: &Scene) -> Checked {
     let inner = !follows || scene.duct.inner_diameter.is_some();
     let stiffness = cable.axial_stiffness != 0.0;
     let shape = friction.law == Law::Coulomb || friction.shape_factor.is_some();
-    let but = SHAPE_FACTOR.allowed() + "; law = \"coulomb\" needs none";
-    let passes = PASSES.allowed() + ", or `years` with `per_day`";
-    need(stiffness, "cable.axial_stiffness", &AXIAL_STIFFNESS.allowed())?;
-    need(diameter, "cable.diameter", &DIAMETER.allowed())?;
-    need(inner, "duct.inner_diameter", &INNER_DIAMETER.allowed())?;
-    need(shape, "friction.shape_factor", &but)?;
-    need(!scene.vehicles.is_empty(), "vehicles", VEHICLES)?;
-    need(traffic.passes > 0, "traffic.passes", &passes)
+    let (no_shape, years) = ("; law = \"coulomb\" needs none", ", or `years` with `per_day`");
+    need(stiffness, "cable.axial_stiffness", AXIAL_STIFFNESS, "")?;
+    need(diameter, "cable.diameter", DIAMETER, "")?;
+    need(inner, "duct.inner_diameter", INNER_DIAMETER, "")?;
+    need(shape, "friction.shape_factor", SHAPE_FACTOR, no_shape)?;
+    need(traffic.passes > 0, "traffic.passes", PASSES, years)?;
+    if scene.vehicles.is_empty() {
+        return Err(SceneError::missing("vehicles", VEHICLES));
+    }
+    Ok(())
 }
 
 fn ground(ground: &Ground) -> Checked {
@@ -74,7 +78,7 @@ fn ground(ground: &Ground) -> Checked {
     for (index, layer) in ground.layers.iter().enumerate() {
         let key = |name: &str| format!("ground.layers.{index}.{name}");
         if index < last {
-            need(layer.thickness.is_some(), &key("thickness"), &THICKNESS.allowed())?;
+            need(layer.thickness.is_some(), &key("thickness"), THICKNESS, "")?;
             continue;
         }
         let found = format!("{} m", shown(layer.thickness.unwrap_or_default()));
@@ -175,13 +179,14 @@ fn vehicles(scene: &Scene) -> Checked {
 
 fn sequence(scene: &Scene) -> Checked {
     let known = || scene.vehicles.iter().map(|vehicle| &*vehicle.name);
-    for (index, name) in scene.traffic.sequence.iter().enumerate() {
-        let key = format!("traffic.sequence.{index}");
-        let found = format!("\"{name}\"{}", did_you_mean(nearest(name, known())));
-        let is_known = known().any(|known| known == name);
-        hold(is_known, &key, &found, &listed(known()))?;
-    }
-    Ok(())
+    let mut names = scene.traffic.sequence.iter().enumerate();
+    let unknown = names.find(|(_, name)| !known().any(|known| known == *name));
+    let Some((index, name)) = unknown else {
+        return Ok(());
+    };
+    let found = format!("\"{name}\"{}", did_you_mean(nearest(name, known())));
+    let key = format!("traffic.sequence.{index}");
+    Err(SceneError::value(&key, found, listed(known())))
 }
 
 fn heat(scene: &Scene) -> Checked {

@@ -20,7 +20,10 @@ pub fn entry<'k, T: Stored + PartialEq>(
     value: &T,
     absent: Option<T>,
 ) -> Option<(&'k str, Content)> {
-    (absent.as_ref() != Some(value)).then(|| (key, value.write()))
+    match absent {
+        Some(absent) if absent == *value => None,
+        _ => Some((key, value.write())),
+    }
 }
 
 impl Stored for f64 {

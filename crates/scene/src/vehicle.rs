@@ -33,7 +33,7 @@ const WHEELS: &str = "a list of wheels, such as [ { x = \"0 m\", y = \"0.9 m\", 
 
 keys! {
     /// A wheel of a vehicle, in SI.
-    #[derive(Copy)]
+    #[derive(Copy, Default)]
     pub struct Wheel {
         /// Where the wheel is ahead of the vehicle's origin, along the road.
         x: f64 = Number(WHEEL_X), "0 m";
@@ -80,14 +80,12 @@ impl TrafficVehicle {
 
     /// Its wheels; a concentrated load is one at its origin.
     pub fn wheels(&self) -> Vec<Wheel> {
-        let load = |load| Wheel {
-            x: 0.0,
-            y: 0.0,
+        let wheel = |load| Wheel {
             load,
-            contact_radius: 0.0,
+            ..Wheel::default()
         };
         self.load
-            .map_or_else(|| self.wheels.clone(), |one| vec![load(one)])
+            .map_or_else(|| self.wheels.clone(), |load| vec![wheel(load)])
     }
 
     /// Total load \[N\].
