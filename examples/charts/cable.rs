@@ -18,7 +18,7 @@ use boussinesq::HalfSpace;
 use cable_dem::{Mesh, QuasiStatic};
 use creepage::Scene;
 use creepage::figure::{Axis, Chart, Panels, Reference, Series};
-use creepage::scene::FrictionLaw;
+use creepage::scene::Law;
 use cycle_jump::{JumpError, Jumps, Next, Request, evolve};
 use ground_field::DuctMotion;
 use rayon::prelude::*;
@@ -76,8 +76,12 @@ impl Case {
         let set = [format!("duct.length={length} m")];
         let scene = creepage::SceneFile::read(&path).and_then(|file| file.with(&set)?.scene())?;
         let mut coulomb = scene.clone();
-        coulomb.friction.law = FrictionLaw::Coulomb;
-        let soil = scene.ground.profile.homogeneous().ok_or("the scene has layers")?;
+        (coulomb.friction.law, coulomb.friction.shape_factor) = (Law::Coulomb, None);
+        let soil = scene
+            .ground
+            .profile()?
+            .homogeneous()
+            .ok_or("the scene has layers")?;
         let motion = motion(&scene, &HalfSpace::new(soil), MOTION)?;
         Ok(Self {
             scene,
@@ -93,7 +97,7 @@ impl Case {
             Method::Jumps => return self.jumps(knob, passes).map(Some),
             Method::Solver(solver) => (solver, knob),
             Method::Sigmoid => {
-                scene.friction.law = FrictionLaw::Sigmoid { shape_factor: knob };
+                (scene.friction.law, scene.friction.shape_factor) = (Law::Sigmoid, Some(knob));
                 (Solver::Explicit, SIGMOID_DENSITY)
             }
         };

@@ -56,8 +56,8 @@ fn approach(scene: &Scene) -> f64 {
 ///
 /// None for a scene that was read from a file.
 pub fn cable(scene: &Scene) -> Result<DuctedCable, Box<dyn Error + Send + Sync>> {
-    let limit = scene.friction.dynamic_coefficient * scene.cable.normal_load();
-    let friction = Friction::new(scene.friction.law, limit)?;
+    let limit = scene.friction.dynamic_coefficient * scene.normal_load();
+    let friction = Friction::new(scene.friction.law(), limit)?;
     Ok(
         DuctedCable::new(scene.duct.length, scene.cable.axial_stiffness, friction)?
             .with_ends(scene.ends.upstream, scene.ends.downstream)?,
@@ -78,7 +78,7 @@ pub fn motion(
     let reach = scene.duct.length + 2.0 * approach(scene);
     Ok(DuctMotion::new(
         field,
-        &scene.vehicles[0].vehicle,
+        &scene.vehicles[0].vehicle()?,
         line,
         reach,
         accuracy,
