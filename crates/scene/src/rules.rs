@@ -62,8 +62,8 @@ fn given(scene: &Scene) -> Checked {
     let shape = friction.law == Law::Coulomb || friction.shape_factor.is_some();
     let (no_shape, years) = ("; law = \"coulomb\" needs none", ", or `years` with `per_day`");
     need(stiffness, "cable.axial_stiffness", AXIAL_STIFFNESS, "")?;
-    need(diameter, "cable.diameter", DIAMETER, "")?;
     need(inner, "duct.inner_diameter", INNER_DIAMETER, "")?;
+    need(diameter, "cable.diameter", DIAMETER, "")?;
     need(shape, "friction.shape_factor", SHAPE_FACTOR, no_shape)?;
     need(traffic.passes > 0, "traffic.passes", PASSES, years)?;
     if scene.vehicles.is_empty() {
