@@ -168,13 +168,12 @@ impl Chain {
         diagonal[0] -= 1.0;
         diagonal[last] -= 1.0;
         let mut free = Stretch { lo: 0, hi: last };
-        let (mut stiffest, mut is_held) = (0.0_f64, false);
+        let mut stiffest = 0.0_f64;
         for Support {
             node,
             stiffness: spring,
         } in Support::of(cable, mesh)
         {
-            is_held |= spring != Some(0.0);
             match spring {
                 Some(spring) => {
                     diagonal[node] += spring / stiffness;
@@ -184,6 +183,13 @@ impl Chain {
                 None => free.hi = last - 1,
             }
         }
+        // A spring that rounding loses holds nothing.
+        let neighbours = |i: usize| if i == 0 || i == last { 1.0 } else { 2.0 };
+        let is_sprung = diagonal
+            .iter()
+            .enumerate()
+            .any(|(i, diagonal)| *diagonal > neighbours(i));
+        let is_held = is_sprung || free != (Stretch { lo: 0, hi: last });
         let limit = cable.friction().limit();
         let node = |(i, &diagonal): (usize, &f64)| {
             Node::new(diagonal, mesh.tributary_length(i), limit, stiffness, compliance)

@@ -91,6 +91,7 @@ impl StepSolver {
             if found.corrected == 0 {
                 break;
             }
+            self.advance(load, stretch);
         }
         if found.worst <= ROUNDED {
             Ok(())
@@ -189,17 +190,17 @@ impl StepSolver {
                 if within {
                     continue;
                 }
-                g[i] = node.limit.copysign(total) - adhesion[i];
                 let negligible = excess <= tolerance.friction;
-                if !negligible {
-                    let slips = if total < 0.0 {
+                if negligible {
+                    g[i] = node.limit.copysign(total) - adhesion[i];
+                } else {
+                    found.violate(excess / node.limit);
+                    found.corrected += 1;
+                    contact[i] = if total < 0.0 {
                         Contact::Backward
                     } else {
                         Contact::Forward
                     };
-                    found.violate(excess / node.limit);
-                    contact[i] = slips;
-                    found.corrected += 1;
                 }
             } else {
                 g[i] = node.bound(state, adhesion[i]);
@@ -219,6 +220,45 @@ impl StepSolver {
             }
         }
         found
+    }
+
+    /// Lets nodes beside those that slip slip too, as many as it takes to bear the force on the first of them. A stuck node shields those
+    /// behind it, so that without this a stretch that slips, as in a cable that warms, grows by one node a solve.
+    fn advance(&mut self, load: &Load<'_>, stretch: Stretch) {
+        let (chain, accuracy) = (&self.chain, self.tolerance.friction);
+        let Trial { g, contact, .. } = &mut self.trial;
+        let total = |k: usize| g[k] + load.adhesion[k];
+        // The friction of a node that was solved for as slipping is at the limit.
+        let excess = |k: usize| total(k).abs() - chain.nodes[k].limit;
+        for k in stretch.nodes() {
+            let state = contact[k];
+            if state == Contact::Stuck || excess(k) <= accuracy {
+                continue;
+            }
+            let direction = total(k).signum();
+            let mut force = excess(k) * chain.nodes[k].tributary;
+            let mut yields = |contact: &mut [Contact], k: usize| {
+                let node = &chain.nodes[k];
+                force -= (node.limit - direction * total(k)) * node.tributary;
+                let yields = force >= 0.0 && contact[k] == Contact::Stuck;
+                if yields {
+                    contact[k] = state;
+                }
+                yields
+            };
+            let slipped =
+                |contact: &[Contact], k: usize| contact[k] != Contact::Stuck && excess(k) <= accuracy;
+            if k < stretch.hi && slipped(contact, k + 1) {
+                (stretch.lo..k)
+                    .rev()
+                    .take_while(|&k| yields(contact, k))
+                    .for_each(drop);
+            } else if k > stretch.lo && slipped(contact, k - 1) {
+                (k + 1..=stretch.hi)
+                    .take_while(|&k| yields(contact, k))
+                    .for_each(drop);
+            }
+        }
     }
 }
 
