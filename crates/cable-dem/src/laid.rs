@@ -86,6 +86,6 @@ fn without_friction(cable: &DuctedCable, mesh: &Mesh) -> Vec<f64> {
         let value = share * body[lo + k] * chain.per_stiffness;
         Row { share, value }
     };
-    tridiagonal::solve((0.0, 0.0), row, &mut factors, &mut u[lo..=hi]);
+    tridiagonal::solve([0.0, 0.0], row, &mut factors, &mut u[lo..=hi]);
     u
 }

@@ -86,7 +86,7 @@ impl RestingCable {
 
     /// Whether an end spring, a clamp or a fixed end holds the cable: otherwise it may be moved as a whole.
     pub fn is_held(&self) -> bool {
-        self.supports.iter().any(|support| support.stiffness != Some(0.0))
+        self.step.chain.is_held
     }
 
     /// Friction K u/w \[N/m\] that balances a change `u` \[m\] of the displacements, beside that which balances the body force, at every
@@ -135,7 +135,7 @@ impl RestingCable {
                 value: given[lo + k] * per_pivot,
             }
         };
-        tridiagonal::solve((0.0, 0.0), row, &mut self.factor, &mut y[lo..=hi]);
+        tridiagonal::solve([0.0, 0.0], row, &mut self.factor, &mut y[lo..=hi]);
     }
 
     /// Lets the cable come to rest: friction beyond its limit yields, and the cable moves as little as equilibrium needs.

@@ -31,7 +31,7 @@ impl Eliminated {
 /// fast as from one end. Shares between 0 and ½, or up to 1 at an end without a neighbour, need no pivoting.
 #[inline]
 pub(crate) fn solve(
-    (before, after): (f64, f64),
+    [before, after]: [f64; 2],
     row: impl Fn(usize) -> Row,
     factors: &mut [f64],
     x: &mut [f64],
@@ -79,11 +79,11 @@ mod tests {
                 share: share(i),
                 value: noise(i + 500) - 0.5,
             };
-            let (held, mut x) = ((0.0, 3.0), vec![0.0; count]);
+            let (held, mut x) = ([0.0, 3.0], vec![0.0; count]);
             solve(held, row, &mut vec![0.0; count], &mut x);
             for i in 0..count {
-                let left = i.checked_sub(1).map_or(held.0, |i| x[i]);
-                let right = x.get(i + 1).copied().unwrap_or(held.1);
+                let left = i.checked_sub(1).map_or(held[0], |i| x[i]);
+                let right = x.get(i + 1).copied().unwrap_or(held[1]);
                 let missed = x[i] - row(i).share * (left + right) - row(i).value;
                 assert!(missed.abs() < 1e-12, "row {i} of {count}: {missed:e}");
             }

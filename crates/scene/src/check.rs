@@ -17,6 +17,8 @@ pub fn checked(node: &Node, form: &Form, path: &str) -> Result<Content, SceneErr
         (Form::Table(keys) | Form::Either(_, keys, _), Content::Table(_)) => table(node, keys, path),
         (Form::Either(plain, keys, _), _) => plain_or_table(node, plain, keys, path),
         (Form::Text(_), Content::Text(_)) => Ok(node.content.clone()),
+        (Form::Name(_), Content::Text(text)) if !text.trim().is_empty() => Ok(node.content.clone()),
+        (Form::Name(allowed), Content::Text(_)) => Err(SceneError::value(path, &*node.written, *allowed)),
         (Form::Words { words, gone, .. }, Content::Text(text)) => {
             if words.contains(&&**text) {
                 return Ok(node.content.clone());

@@ -45,6 +45,8 @@ pub enum Form {
     Number(Quantity),
     /// A text, and what is allowed in words.
     Text(&'static str),
+    /// A text that is not blank, and what is allowed in words.
+    Name(&'static str),
     Words {
         words: &'static [&'static str],
         /// What is allowed, if that is more than they say.
@@ -85,7 +87,10 @@ impl Form {
     pub fn allowed(self) -> String {
         match self {
             Self::Number(quantity) => quantity.allowed(),
-            Self::Text(allowed) | Self::List(_, _, allowed) | Self::Pair(_, allowed) => allowed.to_owned(),
+            Self::Text(allowed)
+            | Self::Name(allowed)
+            | Self::List(_, _, allowed)
+            | Self::Pair(_, allowed) => allowed.to_owned(),
             Self::Words { words, allowed, .. } => {
                 allowed.map_or_else(|| listed(words.iter().copied()), str::to_owned)
             }

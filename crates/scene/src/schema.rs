@@ -62,6 +62,7 @@ fn form(form: &Form, path: &str) -> Value {
     match form {
         Form::Number(quantity) => number(*quantity),
         Form::Text(_) => json!({ "type": "string" }),
+        Form::Name(_) => json!({ "type": "string", "minLength": 1 }),
         Form::Words { words, .. } => json!({ "enum": words }),
         Form::Table(keys) => table(keys, path),
         Form::List(item, least, _) => {

@@ -3,7 +3,7 @@
 use ground_field::{Direction, GroundError, SurfaceLoad, Vehicle};
 
 use crate::content::Content;
-use crate::key::Form::{List, Number, Table, Text, Words};
+use crate::key::Form::{List, Name, Number, Table, Words};
 use crate::key::{Form, keys};
 use crate::range::{CONTACT_RADIUS, LANE, LOAD, SHARE, SPEED, WHEEL_LOAD, WHEEL_X, WHEEL_Y};
 use crate::stored::Stored;
@@ -13,7 +13,7 @@ keys! {
     pub struct TrafficVehicle {
         preset "A vehicle by its name; keys beside it override its values.";
         /// Name of the vehicle.
-        name: String = Text("a name in quotes that no other vehicle has"), "\"vehicle 1\", \"vehicle 2\", …";
+        name: String = Name("a name in quotes that no other vehicle has"), "\"vehicle 1\", \"vehicle 2\", …";
         /// Speed of the vehicle.
         speed: f64 = Number(SPEED);
         /// One concentrated load.

@@ -21,8 +21,9 @@ const HALVINGS: usize = 40;
 #[derive(Debug, Clone)]
 pub(super) struct Newton {
     half_shape: f64,
+    /// Friction limit \[N/m\].
     limit: f64,
-    /// K + S, and the friction limit.
+    /// K + S.
     chain: Chain,
     /// Increments \[m\]: where the next step starts from, and its answer.
     pub r: Vec<f64>,
@@ -147,6 +148,6 @@ impl Newton {
                 value: -self.residual[lo + i] * per_pivot,
             }
         };
-        tridiagonal::solve((0.0, 0.0), row, &mut self.factors, &mut self.direction[lo..=hi]);
+        tridiagonal::solve([0.0, 0.0], row, &mut self.factors, &mut self.direction[lo..=hi]);
     }
 }

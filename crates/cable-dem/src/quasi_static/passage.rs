@@ -248,7 +248,7 @@ impl Phase {
                 value: per_pivot * duct[i + 1],
             };
             let mut factors = vec![0.0; duct.len()];
-            tridiagonal::solve((duct[0], duct[last]), row, &mut factors, &mut adherent[1..last]);
+            tridiagonal::solve([duct[0], duct[last]], row, &mut factors, &mut adherent[1..last]);
         }
         let mut adhesion = vec![0.0; duct.len()];
         for i in 1..last {

@@ -97,6 +97,25 @@ impl Stretch {
     pub fn len(self) -> usize {
         self.hi + 1 - self.lo
     }
+
+    /// The displacements of its neighbours before and after it, as far as there are any.
+    pub fn neighbours(self, r: &[f64]) -> [Option<f64>; 2] {
+        [
+            self.lo.checked_sub(1).map(|before| r[before]),
+            r.get(self.hi + 1).copied(),
+        ]
+    }
+}
+
+impl Load<'_> {
+    /// On the nodes of one stretch alone.
+    pub fn on(&self, stretch: Stretch) -> Self {
+        Self {
+            adhesion: &self.adhesion[stretch.nodes()],
+            support: &self.support[stretch.nodes()],
+            anchor: &self.anchor[stretch.nodes()],
+        }
+    }
 }
 
 impl Trial {

@@ -17,8 +17,7 @@ struct Step<'a> {
 /// Sets the trial's displacements and contact states on `stretch` to those of the step's one answer; the displacements are less exact
 /// than those of a linear solve. If nothing but friction holds the chain and all of it slips, they are any that suit.
 pub(super) fn set_contacts(chain: &Chain, load: &Load<'_>, stretch: Stretch, trial: &mut Trial) {
-    let before = stretch.lo.checked_sub(1).map(|i| trial.r[i]);
-    let after = trial.r.get(stretch.hi + 1).copied();
+    let [before, after] = stretch.neighbours(&trial.r);
     Step { chain, load, trial }.solve(stretch.lo, stretch.hi + 1, before, after);
 }
 

@@ -105,18 +105,16 @@ impl StepSolver {
         self.hold(load, stretch)?;
         let (chain, Trial { r, contact, .. }) = (&self.chain, &mut self.trial);
         let nodes = stretch.nodes();
-        let held = (
-            stretch.lo.checked_sub(1).map_or(0.0, |i| r[i]),
-            r.get(stretch.hi + 1).copied().unwrap_or(0.0),
-        );
+        let held = stretch.neighbours(r).map(Option::unwrap_or_default);
         let n = stretch.len();
         // Slices of one length, so that no access is checked in the loop.
         let (of_nodes, contact) = (&chain.nodes[nodes.clone()][..n], &contact[nodes.clone()][..n]);
-        let (adhesion, anchor) = (
-            &load.adhesion[nodes.clone()][..n],
-            &load.anchor[nodes.clone()][..n],
-        );
-        let support = &load.support[nodes.clone()][..n];
+        let Load {
+            adhesion,
+            support,
+            anchor,
+        } = load.on(stretch);
+        let (adhesion, support, anchor) = (&adhesion[..n], &support[..n], &anchor[..n]);
         let row = |i: usize| {
             let support = support[i] * chain.per_stiffness;
             of_nodes[i].row(contact[i], support, adhesion[i], anchor[i], chain.per_stiffness)
@@ -157,27 +155,23 @@ impl StepSolver {
     fn correct(&mut self, load: &Load<'_>, stretch: Stretch) -> Violations {
         let (chain, tolerance, range) = (&self.chain, self.tolerance, stretch.nodes());
         let Trial { r, g, contact } = &mut self.trial;
-        let held = (
-            stretch.lo.checked_sub(1).map_or(0.0, |i| r[i]),
-            r.get(stretch.hi + 1).copied().unwrap_or(0.0),
-        );
+        let [before, after] = stretch.neighbours(r).map(Option::unwrap_or_default);
         let n = stretch.len();
         // Slices of one length, so that no access is checked in the loop.
-        let (nodes, support) = (
-            &chain.nodes[range.clone()][..n],
-            &load.support[range.clone()][..n],
-        );
-        let (adhesion, anchor) = (
-            &load.adhesion[range.clone()][..n],
-            &load.anchor[range.clone()][..n],
-        );
+        let nodes = &chain.nodes[range.clone()][..n];
+        let Load {
+            adhesion,
+            support,
+            anchor,
+        } = load.on(stretch);
+        let (adhesion, support, anchor) = (&adhesion[..n], &support[..n], &anchor[..n]);
         let (r, g) = (&r[range.clone()][..n], &mut g[range.clone()][..n]);
         let contact = &mut contact[range][..n];
         let mut found = Violations::default();
-        let mut left = held.0;
+        let mut left = before;
         for i in 0..n {
             let (node, state, here) = (&nodes[i], contact[i], r[i]);
-            let right = if i + 1 < n { r[i + 1] } else { held.1 };
+            let right = if i + 1 < n { r[i + 1] } else { after };
             let force = chain.stiffness * (node.diagonal * here - left - right) - support[i];
             let balancing = force * node.per_tributary;
             left = here;

@@ -48,7 +48,7 @@ fn a_quasi_static_pass() -> Outcome {
                 let zone = if law == FrictionLaw::Coulomb { 11.5 } else { 14.0 } / spacing;
                 assert_at_most("nodes a step", work.node_updates, zone, single_steps, work);
                 // The iteration cycles where contact begins.
-                assert_at_most("cycles a step", work.cycles, 0.055, work.steps, work);
+                assert_at_most("cycles a step", work.cycles, 0.035, work.steps, work);
             }
         }
     }

@@ -8,10 +8,9 @@ use super::scenes::{APPROACH, cable, coulomb};
 
 const LENGTH: f64 = 40.0;
 /// What may stay unbalanced outside the windows, as a share of the friction limit: 1e-3 beside each, and several meet at an end.
-const UNBALANCED: f64 = 0.01;
-/// Slip that counts \[m\], a hundred-thousandth of what the duct moves: windows of one step may share a node, and what one leaves
-/// unbalanced the next one moves back.
-const SLIP: f64 = 1e-9;
+const UNBALANCED: f64 = 4e-3;
+/// Slip that counts \[m\], a ten-millionth of what the duct moves.
+const SLIP: f64 = 1e-11;
 
 /// Wheels of a vehicle: where each stands \[m\], how far it moves the duct \[m\], and over which width \[m\].
 fn any_wheels() -> impl Strategy<Value = Vec<(f64, f64, f64)>> {
