@@ -138,6 +138,13 @@ impl DuctedCable {
         Ok(self)
     }
 
+    /// The same cable with a law that remembers slip: in the place of the sigmoid the elastic-plastic one with its slope.
+    pub(crate) fn with_memory(&self) -> Self {
+        let mut cable = self.clone();
+        cable.friction = self.friction.with_memory();
+        cable
+    }
+
     /// The cable seen in a mirror across the duct's middle.
     #[must_use]
     pub fn mirrored(&self) -> Self {

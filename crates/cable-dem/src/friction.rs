@@ -119,6 +119,15 @@ impl Friction {
         })
     }
 
+    /// The same with memory: the sigmoid becomes the elastic-plastic law with its slope and limit.
+    pub(crate) fn with_memory(self) -> Self {
+        let law = match self.law {
+            FrictionLaw::Sigmoid { shape_factor } => FrictionLaw::ElasticPlastic { shape_factor },
+            law => law,
+        };
+        Self { law, ..self }
+    }
+
     /// Shear compliance γ = 2/(q b) \[m²/N\] of the stuck contact: slip per friction. 0 for Coulomb's law, infinite
     /// without friction.
     pub fn compliance(self) -> f64 {

@@ -1,7 +1,7 @@
 //! The cable between two passes, when duct and cable are at rest.
 
 use crate::error::checked;
-use crate::step::{Chain, Load, StepSolver, Stretch, Support, largest};
+use crate::step::{Chain, FixedEndFriction, Load, StepSolver, Stretch, Support, largest};
 use crate::tridiagonal::{self, Row};
 use crate::{CableError, CableState, DuctedCable, Mesh};
 
@@ -33,6 +33,7 @@ pub struct RestingCable {
     step: StepSolver,
     cable: DuctedCable,
     supports: Vec<Support>,
+    held: FixedEndFriction,
     anchor: Vec<f64>,
     nothing: Vec<f64>,
     /// Body force w p of every node, and what heat does to the ends \[N\].
@@ -54,19 +55,26 @@ impl RestingCable {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Result<Self, CableError> {
         cable.friction().check_memory("resting")?;
         mesh.check_length(cable.length())?;
+        Ok(Self::with_memory(cable, mesh))
+    }
+
+    /// The same for any law on a mesh that is as long as the cable: in the place of the sigmoid one with memory that starts with its slope.
+    pub(crate) fn with_memory(cable: &DuctedCable, mesh: &Mesh) -> Self {
+        let cable = cable.with_memory();
         let zeros = || vec![0.0; mesh.nodes()];
         let load = cable.body_loads(mesh);
-        Ok(Self {
-            step: StepSolver::new(Chain::new(cable, mesh)),
-            cable: cable.clone(),
-            supports: Support::of(cable, mesh),
+        Self {
+            step: StepSolver::new(Chain::new(&cable, mesh)),
+            supports: Support::of(&cable, mesh),
+            held: FixedEndFriction::new(&cable, mesh),
             anchor: zeros(),
             nothing: zeros(),
             weight: [load[0], load[mesh.elements()]],
             load,
             factor: zeros(),
             given: zeros(),
-        })
+            cable,
+        }
     }
 
     /// The cable.
@@ -153,7 +161,10 @@ impl RestingCable {
             at_rest &= needed.abs() <= limit;
             state.friction[i] = needed.clamp(-limit, limit);
         }
-        if at_rest { Ok(()) } else { self.step(state, 0.0) }
+        if !at_rest {
+            self.follow(state, None, 0.0)?;
+        }
+        Ok(())
     }
 
     /// Brings the cable to another temperature, at which its heat has the force `thermal_force` Θ = EA α T \[N\], in one step with the
@@ -187,7 +198,7 @@ impl RestingCable {
         checked("thermal_force", thermal_force, "finite", |_| true)?;
         self.take(state, thermal_force)?;
         let stretch = self.cable.length() / self.cable.axial_stiffness();
-        self.step(state, (thermal_force - state.thermal_force).abs() * stretch)?;
+        self.follow(state, None, (thermal_force - state.thermal_force).abs() * stretch)?;
         state.thermal_force = thermal_force;
         Ok(())
     }
@@ -210,29 +221,47 @@ impl RestingCable {
         }
     }
 
-    /// One step of the whole cable from `state`, by `movement` \[m\] at most.
-    fn step(&mut self, state: &mut CableState, movement: f64) -> Result<(), CableError> {
+    /// One step of the whole cable from `state`, in which the duct at every node moves by `duct` \[m\] and the cable by `movement` \[m\] at
+    /// most. Returns the heat of the slip \[J\].
+    pub(crate) fn follow(
+        &mut self,
+        state: &mut CableState,
+        duct: Option<&[f64]>,
+        movement: f64,
+    ) -> Result<f64, CableError> {
+        let duct = duct.unwrap_or(&self.nothing);
         let StepSolver { chain, trial, .. } = &mut self.step;
-        let free = chain.free;
-        for i in free.nodes() {
-            self.anchor[i] = state.displacement[i] + chain.compliance * state.friction[i];
+        let compliance = chain.compliance;
+        let (u, f) = (&mut state.displacement, &mut state.friction);
+        for (i, anchor) in self.anchor.iter_mut().enumerate() {
+            *anchor = u[i] + duct[i] + compliance * f[i];
         }
-        trial.r.copy_from_slice(&state.displacement);
-        self.step.start(largest(&state.displacement, movement));
+        trial.r.copy_from_slice(u);
+        self.step.start(largest(u, movement));
         let load = Load {
             adhesion: &self.nothing,
             support: &self.load,
             anchor: &self.anchor,
         };
-        let solved = self.step.solve(&load, free);
+        let solved = self.step.solve(&load, self.step.chain.free);
         solved.map_err(|violation| CableError::NoConvergence {
             vehicle_position: f64::INFINITY,
             violation,
         })?;
-        let trial = &self.step.trial;
-        state.displacement[free.nodes()].copy_from_slice(&trial.r[free.nodes()]);
-        state.friction[free.nodes()].copy_from_slice(&trial.g[free.nodes()]);
-        Ok(())
+        let StepSolver { chain, trial, .. } = &self.step;
+        let mut heat = 0.0;
+        for (i, node) in chain.nodes.iter().enumerate() {
+            let is_free = chain.free.nodes().contains(&i);
+            let after = if is_free {
+                trial.g[i]
+            } else {
+                self.held.after_slip(f[i], duct[i])
+            };
+            let slip = duct[i] - (trial.r[i] - u[i]) - compliance * (after - f[i]);
+            heat += node.tributary * after * slip;
+            (u[i], f[i]) = (trial.r[i], after);
+        }
+        Ok(heat)
     }
 }
 

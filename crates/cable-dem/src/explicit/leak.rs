@@ -65,11 +65,15 @@ pub struct SigmoidLeak {
 }
 
 impl SigmoidLeak {
-    /// The leak of `cable` in a pass of `duct` with steps of `time_step` \[s\]; `None` for a law with memory.
+    /// The leak of `cable` in a pass of `duct` with steps of `time_step` \[s\]; `None` for a law with memory and
+    /// without friction.
     pub fn new(cable: &DuctedCable, time_step: f64, duct: &MovingDuct) -> Option<Self> {
         let FrictionLaw::Sigmoid { shape_factor } = cable.friction().law() else {
             return None;
         };
+        if cable.friction().limit() == 0.0 {
+            return None;
+        }
         let reference_speed = 2.0 / (shape_factor * time_step);
         let drag = cable.friction().limit() / reference_speed;
         let length = cable.length() / slowest_wave_number(cable);

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
+use super::lumped::Lumped;
 use crate::FrictionLaw;
-use crate::lumped::Lumped;
 
 /// One limit of the time step.
 #[derive(Debug, Clone, Copy, PartialEq)]

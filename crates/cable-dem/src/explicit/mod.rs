@@ -3,25 +3,26 @@
 mod energy;
 mod leak;
 mod limits;
+mod lumped;
 mod moving_duct;
 mod nodes;
-mod pass;
 
 pub use energy::EnergyBalance;
 pub use leak::SigmoidLeak;
 pub use limits::{StepLimit, StepLimits};
 pub use moving_duct::MovingDuct;
-pub use pass::ExplicitOutcome;
 
 use ground_field::DuctMotion;
 
 use crate::error::checked;
 use crate::laid::laid;
-use crate::lumped::Lumped;
 use crate::outcome::Recorder;
-use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, StepView};
+use crate::step::check_precision;
+use crate::{
+    CableError, CableState, DuctedCable, EndForces, FrictionLaw, Mesh, PassOutcome, RestingCable, StepView,
+};
+use lumped::Lumped;
 use nodes::MovingNodes;
-use pass::pass;
 
 /// Steps between two looks at the kinetic energy.
 const LOOK: usize = 32;
@@ -54,6 +55,24 @@ impl Default for ExplicitOptions {
     }
 }
 
+/// What one pass with inertia did.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct ExplicitOutcome {
+    /// Forces, peaks and displacements as a quasi-static pass reports them. Peaks include vibration.
+    ///
+    /// In its statistics `steps` counts time steps, `node_updates` nodes advanced in time.
+    pub pass: PassOutcome,
+    /// Duration of one step \[s\].
+    pub time_step: f64,
+    /// Energies of the pass, between its two steps from rest and to it.
+    pub energy: EnergyBalance,
+    /// Force on each end \[N\] at the last instant of the pass, before ground and cable came to rest.
+    pub force_before_rest: EndForces,
+    /// What a law without memory loses; `None` for the others.
+    pub leak: Option<SigmoidLeak>,
+}
+
 /// Explicit solver for one cable on one mesh: masses, springs and friction by central differences (Kashiro et al., Equations (2), (3)).
 ///
 /// The cable is a row of masses on springs that the duct rubs, m a + K u = w (f + p), with velocities half a step apart:
@@ -64,8 +83,12 @@ impl Default for ExplicitOptions {
 /// where hundreds of newtons are right, without ever overflowing. Independently of the limit every pass must balance its energy
 /// ([`EnergyBalance`]); one that does not is an error and never a number.
 ///
-/// Before the vehicle comes and after it has left the ground is at rest; both steps are taken without inertia, and the last one ends
-/// the cable's vibration.
+/// Before the vehicle comes and after it has left the duct stands at D = 0. One step without inertia takes it from there to the
+/// vehicle's first position, one more from the last position back. The step back also ends the cable's vibration: the state
+/// that a vibrating cable comes to, however weakly it is damped, is the equilibrium with the same anchors u + γ f. It moves
+/// the cable by less than its vibration and leaves the mean where it was. In both steps friction is that of the elastic-plastic law; the
+/// sigmoid, which has no memory, begins either of them without friction, and what it had left when the vehicle was gone is
+/// [`ExplicitOutcome::force_before_rest`].
 ///
 /// The cost is steps times nodes, some 3e4 × 150 for a pass at 40 km/h over 30 m with h = 0.2 m: forty times the quasi-static one; it falls with
 /// the speed. It is the reference for what the quasi-static solver leaves out, and the paper's own scheme.
@@ -89,6 +112,7 @@ pub struct Explicit {
     lumped: Lumped,
     options: ExplicitOptions,
     limits: StepLimits,
+    resting: RestingCable,
     laid: CableState,
 }
 
@@ -127,6 +151,7 @@ impl Explicit {
         }
         Ok(Self {
             laid: laid(&lumped.cable, &mesh)?,
+            resting: RestingCable::with_memory(&lumped.cable, &mesh),
             lumped,
             options,
             limits,
@@ -198,40 +223,93 @@ impl Explicit {
         state: &mut CableState,
         mut observe: impl FnMut(StepView<'_>),
     ) -> Result<ExplicitOutcome, CableError> {
-        let steps = self.steps(duct);
-        let time_step = duct.duration() / steps;
-        let Self { lumped, options, .. } = &*self;
-        pass(lumped, duct, time_step, state, |state, recorder| {
-            let node_updates = steps * lumped.mesh.nodes() as f64;
-            let allowed = options.max_node_updates;
-            if node_updates > allowed {
-                return Err(CableError::TooManySteps {
-                    steps,
-                    time_step,
-                    node_updates,
-                    allowed,
-                });
-            }
-            let start = state.clone();
+        state.check(self.mesh())?;
+        duct.check(self.mesh())?;
+        if state.thermal_force != 0.0 {
+            return Err(CableError::Heated);
+        }
+        let (steps, time_step) = (self.steps(duct), self.time_step(duct));
+        let mut recorder = Recorder::new(self.lumped.end_forces(&state.displacement, &state.friction));
+        let mut moving = state.clone();
+        let mut energy = EnergyBalance::default();
+        let mut force_before_rest = recorder.peak;
+        // Without friction nothing drags the cable.
+        if self.cable().friction().limit() > 0.0 {
+            check_precision(self.cable(), self.mesh(), &state.displacement, duct.peak())?;
+            self.check_work(steps, time_step)?;
+            let arrival = self.rest(duct, 0.0, 1.0, &mut moving)?;
             let look = |t: f64, nodes: &MovingNodes| {
                 let state = || {
-                    let mut state = start.clone();
+                    let mut state = CableState::at_rest(&self.lumped.mesh);
                     nodes.store(&mut state);
                     state
                 };
                 observe(StepView {
                     vehicle_position: duct.vehicle_position(t),
-                    mesh: &lumped.mesh,
-                    limit: lumped.cable.friction().limit(),
+                    mesh: &self.lumped.mesh,
+                    limit: self.lumped.cable.friction().limit(),
                     state: &state,
                 });
             };
-            let energy = rub(lumped, duct, steps as usize, state, recorder, look)?;
-            if options.check_energy {
+            energy = rub(
+                &self.lumped,
+                duct,
+                steps as usize,
+                &mut moving,
+                &mut recorder,
+                look,
+            )?;
+            if self.options.check_energy {
                 energy.check()?;
             }
-            Ok(energy)
+            force_before_rest = self.lumped.end_forces(&moving.displacement, &moving.friction);
+            let departure = self.rest(duct, duct.duration(), -1.0, &mut moving)?;
+            recorder.dissipated = arrival + energy.dissipated + departure;
+        }
+        *state = moving;
+        let force = self.lumped.end_forces(&state.displacement, &state.friction);
+        Ok(ExplicitOutcome {
+            pass: recorder.outcome(self.cable(), state, force),
+            time_step,
+            energy,
+            force_before_rest,
+            leak: SigmoidLeak::new(self.cable(), time_step, duct),
         })
+    }
+
+    /// Refuses a pass of so many `steps` where that is more work than allowed.
+    fn check_work(&self, steps: f64, time_step: f64) -> Result<(), CableError> {
+        let node_updates = steps * self.mesh().nodes() as f64;
+        let allowed = self.options.max_node_updates;
+        if node_updates > allowed {
+            return Err(CableError::TooManySteps {
+                steps,
+                time_step,
+                node_updates,
+                allowed,
+            });
+        }
+        Ok(())
+    }
+
+    /// One step without inertia in which the duct moves between rest and where it stands at the time `t` \[s\]: there with the `sign` 1,
+    /// back with −1. Returns the heat of the slip \[J\].
+    fn rest(
+        &mut self,
+        duct: &MovingDuct,
+        t: f64,
+        sign: f64,
+        state: &mut CableState,
+    ) -> Result<f64, CableError> {
+        let mut increment = vec![0.0; state.displacement.len()];
+        duct.displacement(t, &mut increment);
+        for increment in &mut increment {
+            *increment *= sign;
+        }
+        if !self.cable().friction().law().has_memory() {
+            state.friction.fill(0.0);
+        }
+        self.resting.follow(state, Some(&increment), duct.peak())
     }
 }
 

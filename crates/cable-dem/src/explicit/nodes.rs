@@ -1,7 +1,7 @@
 //! One explicit step.
 
 use super::energy::EnergyBalance;
-use crate::lumped::Lumped;
+use super::lumped::Lumped;
 use crate::{CableState, EndForces, FrictionLaw};
 
 /// Motion and energy accounts of all nodes.

@@ -61,11 +61,6 @@ impl StepSolver {
         self.tolerance = Tolerance::new(&self.chain, largest);
     }
 
-    /// How exactly friction has to hold \[N/m\].
-    pub fn accuracy(&self) -> f64 {
-        self.tolerance.friction
-    }
-
     /// Solves `stretch` from the trial's contact states. On failure, the largest violation as a share of the friction limit.
     pub fn solve(&mut self, load: &Load<'_>, stretch: Stretch) -> Result<(), f64> {
         if self.iterate(load, stretch).is_ok() {

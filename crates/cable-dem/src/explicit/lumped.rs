@@ -4,11 +4,6 @@
 //! and hangs on its neighbours by springs k = EA/h. End springs and clamps are springs S to the ground; a fixed end does
 //! not move.
 
-mod sigmoid;
-mod step;
-
-pub(crate) use step::WholeStep;
-
 use crate::ends::{Balance, EndReader};
 use crate::error::checked;
 use crate::step::{FixedEndFriction, Support};
@@ -62,23 +57,6 @@ impl Lumped {
     pub fn holds(&self, node: usize) -> bool {
         let (first, last) = (self.cable.upstream(), self.cable.downstream());
         (node == 0 && first == End::Fixed) || (node == self.mesh.elements() && last == End::Fixed)
-    }
-
-    /// Body force and elastic forces that displacements `u` \[m\] put on every node, w p − (K + S) u \[N\].
-    pub fn loads(&self, u: &[f64]) -> Vec<f64> {
-        let k = self.stiffness;
-        let mut left = 0.0;
-        let of_node = |i: usize| {
-            let right = u.get(i + 1).map_or(0.0, |next| k * (next - u[i]));
-            let load = right - left + self.body[i];
-            left = right;
-            load
-        };
-        let mut loads: Vec<f64> = (0..u.len()).map(of_node).collect();
-        for &(node, spring) in &self.springs {
-            loads[node] -= spring * u[node];
-        }
-        loads
     }
 
     /// ½ uᵀ(K + S) u \[J\].
