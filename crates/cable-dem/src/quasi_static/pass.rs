@@ -2,7 +2,7 @@
 
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot, UNBALANCED_SHARE};
 use super::supports::Supports;
-use super::window::{self, Room, Window};
+use super::window::{self, Room};
 use crate::ends::{Balance, EndReader};
 use crate::outcome::Recorder;
 use crate::step::{Chain, Load, Prediction, StepSolver, Stretch, largest};
@@ -28,9 +28,8 @@ pub(super) struct ForwardSolver {
     anchor: Vec<f64>,
     /// Of the cable in the current pass \[N\].
     thermal_force: f64,
-    windows: Vec<Window>,
-    /// What moved in the last step, apart from what moves around supports alone: where a window around a support grows over a part that
-    /// travels, only what moves further in that part's own window.
+    windows: Vec<Stretch>,
+    /// What moved in the last step.
     moving: Vec<Stretch>,
     /// Of the current pass alone, so that a pass is a function of the state and the passage.
     prediction: Prediction,
@@ -132,27 +131,16 @@ impl ForwardSolver {
         self.collect(&mut windows, snapshot, watched);
         self.moving.clear();
         for window in &mut windows {
-            if window.travels {
-                let contacts = &mut self.step.trial.contact;
-                self.prediction.read(first, window.stretch, contacts);
-            }
-            let before = self.moving.len();
-            let solved = self.solve(window.stretch, snapshot)?;
-            if window.travels {
-                self.prediction.write(first, solved, &self.step.trial.contact);
-            }
-            let moves = (!window.travels)
-                .then(|| self.moving.drain(before..))
-                .and_then(window::hull);
-            self.supports.remember(window.stretch, moves);
+            self.prediction.read(first, *window, &mut self.step.trial.contact);
+            *window = self.solve(*window, snapshot)?;
+            self.prediction.write(first, *window, &self.step.trial.contact);
             let widest = &mut self.recorder.statistics.widest_window;
-            *widest = solved.len().max(*widest);
-            window.stretch = solved;
+            *widest = window.len().max(*widest);
         }
         for window in &windows {
-            self.anchor(window.stretch);
+            self.anchor(*window);
         }
-        let touched = windows.iter().any(|window| self.room.near_an_end(window.stretch));
+        let touched = windows.iter().any(|window| self.room.near_an_end(*window));
         if touched || self.supports.due().next().is_some() {
             self.record_ends(snapshot);
         }
@@ -162,13 +150,11 @@ impl ForwardSolver {
 
     /// Lists the windows of a step: what moved in the last one, what of `watched` begins to slip, and what lies around
     /// supports.
-    fn collect(&mut self, windows: &mut Vec<Window>, snapshot: &Snapshot<'_>, watched: Stretch) {
+    fn collect(&mut self, windows: &mut Vec<Stretch>, snapshot: &Snapshot<'_>, watched: Stretch) {
         let room = self.room;
-        let window = |travels| move |stretch| Window { stretch, travels };
         windows.clear();
         // The node beside one that moved is disturbed if the window travels on.
-        let moving = self.moving.iter().map(|&part| room.widened(part, 1));
-        windows.extend(moving.map(window(true)));
+        windows.extend(self.moving.iter().map(|&part| room.widened(part, 1)));
         window::join(windows);
         // Between them and beyond.
         let known = windows.len();
@@ -177,17 +163,17 @@ impl ForwardSolver {
         let mut lo = near.start;
         for at in 0..=known {
             let (hi, next) = if at < known {
-                let Stretch { lo, hi } = windows[at].stretch;
+                let Stretch { lo, hi } = windows[at];
                 (lo.min(near.end), hi + 1)
             } else {
                 (near.end, near.end)
             };
             window::slipping(lo..hi, &self.g, snapshot.adhesion, limit, |slips| {
-                windows.push(window(true)(room.widened(slips, room.margin)));
+                windows.push(room.widened(slips, room.margin));
             });
             lo = lo.max(next);
         }
-        windows.extend(self.supports.due().map(window(false)));
+        windows.extend(self.supports.due());
         window::join(windows);
     }
 

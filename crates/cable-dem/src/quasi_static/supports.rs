@@ -21,9 +21,7 @@ struct Forcing {
 #[derive(Debug, Clone)]
 struct WatchedSupport {
     support: Support,
-    /// Its least width, and what moved when it was last solved.
-    least: Stretch,
-    stretch: Stretch,
+    window: Stretch,
     solved: Forcing,
     /// Whether the forcing has changed since.
     due: bool,
@@ -60,8 +58,7 @@ impl Supports {
         let body = cable.body_loads(mesh);
         let around = |node| room.widened(Stretch { lo: node, hi: node }, room.margin);
         let watched = |support: Support| WatchedSupport {
-            least: around(support.node),
-            stretch: around(support.node),
+            window: around(support.node),
             solved: Forcing::default(),
             due: false,
             followed: Forcing::default(),
@@ -93,7 +90,6 @@ impl Supports {
         self.body[self.last] = self.weight[1] + thermal;
         self.load.copy_from_slice(&self.body);
         for watched in &mut self.all {
-            watched.stretch = watched.least;
             watched.solved = Forcing::default();
             watched.followed = Forcing::default();
         }
@@ -104,20 +100,7 @@ impl Supports {
         self.all
             .iter()
             .filter(|watched| watched.due)
-            .map(|watched| watched.stretch)
-    }
-
-    /// Remembers what `moves` around the supports that a solved window began with: what the window is to begin with next time.
-    pub fn remember(&mut self, begun: Stretch, moves: Option<Stretch>) {
-        for watched in &mut self.all {
-            let least = watched.least;
-            if watched.due && begun.lo <= least.lo && least.hi <= begun.hi {
-                watched.stretch = moves.map_or(least, |moves| Stretch {
-                    lo: moves.lo.min(least.lo),
-                    hi: moves.hi.max(least.hi),
-                });
-            }
-        }
+            .map(|watched| watched.window)
     }
 
     /// Brings the loads up to date where the vehicle's effect on them has changed, or everywhere if `all`, and moves fixed nodes, whose

@@ -14,14 +14,6 @@ const GAP: usize = 16;
 /// Nodes that are looked at together.
 const BLOCK: usize = 64;
 
-/// A window to solve in this step.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Window {
-    pub stretch: Stretch,
-    /// Whether it travels with the vehicle.
-    pub travels: bool,
-}
-
 /// Where windows may lie, and how far beyond a disturbance they reach.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Room {
@@ -64,13 +56,12 @@ impl Room {
 }
 
 /// Stretches that touch, or nearly so, become one window; `windows` are left in order.
-pub(super) fn join(windows: &mut Vec<Window>) {
-    windows.sort_unstable_by_key(|window| window.stretch.lo);
+pub(super) fn join(windows: &mut Vec<Stretch>) {
+    windows.sort_unstable_by_key(|window| window.lo);
     windows.dedup_by(|next, window| {
-        let touches = next.stretch.lo <= window.stretch.hi + GAP;
+        let touches = next.lo <= window.hi + GAP;
         if touches {
-            window.stretch.hi = window.stretch.hi.max(next.stretch.hi);
-            window.travels |= next.travels;
+            window.hi = window.hi.max(next.hi);
         }
         touches
     });
@@ -119,11 +110,6 @@ pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut
         probe += GAP;
     }
     parts.push(with_edges(lo, last));
-}
-
-/// What holds all `parts`, which are in order.
-pub(super) fn hull(parts: impl Iterator<Item = Stretch>) -> Option<Stretch> {
-    parts.reduce(|hull, part| Stretch { hi: part.hi, ..hull })
 }
 
 /// Finds the stretches of `nodes` that slip side by side: where `friction` and `adhesion` together are beyond `limit` \[N/m\].
@@ -194,22 +180,15 @@ mod tests {
 
     #[test]
     fn windows_with_less_than_a_gap_between_them_are_one() {
-        let window = |lo, hi, travels| Window {
-            stretch: Stretch { lo, hi },
-            travels,
-        };
+        let window = |lo, hi| Stretch { lo, hi };
         let mut windows = vec![
-            window(100, 120, false),
-            window(20, 40, true),
-            window(30, 35, false),
-            window(40 + GAP, 70, false),
-            window(71 + GAP, 90, false),
+            window(100, 120),
+            window(20, 40),
+            window(30, 35),
+            window(40 + GAP, 70),
+            window(71 + GAP, 90),
         ];
         join(&mut windows);
-        let joined: Vec<_> = windows
-            .iter()
-            .map(|window| (window.stretch.lo, window.stretch.hi, window.travels))
-            .collect();
-        assert_eq!(joined, [(20, 70, true), (71 + GAP, 120, false)]);
+        assert_eq!(windows, [window(20, 70), window(71 + GAP, 120)]);
     }
 }
