@@ -45,7 +45,7 @@ impl ForwardSolver {
         let screening = chain.compliance * chain.stiffness / mesh.spacing();
         let room = Room::new(chain.free, screening);
         Self {
-            supports: Supports::new(&cable, mesh, &chain, room, screening),
+            supports: Supports::new(&cable, mesh, &chain, room),
             ends: EndReader::new(&cable, mesh),
             room,
             quiet: QUIET * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,

@@ -49,12 +49,8 @@ pub(super) struct Supports {
 }
 
 impl Supports {
-    /// Those of `cable` on `mesh`, whose sheath has the `screening` (λ/h)².
-    pub fn new(cable: &DuctedCable, mesh: &Mesh, chain: &Chain, room: Room, screening: f64) -> Self {
-        // Over one screening length, and at least one element, a held node drags the cable along.
-        let held_stiffness = chain.stiffness / screening.sqrt().max(1.0);
-        // A stuck chain that goes on to one side resists with k/√s where its sheath is soft, s = (λ/h)², and with half a node's where it is stiff.
-        let stuck_stiffness = chain.stiffness / screening.sqrt().min(2.0 * screening);
+    /// Those of `cable` on `mesh`.
+    pub fn new(cable: &DuctedCable, mesh: &Mesh, chain: &Chain, room: Room) -> Self {
         let body = cable.body_loads(mesh);
         let around = |node| room.widened(Stretch { lo: node, hi: node }, room.margin);
         let watched = |support: Support| WatchedSupport {
@@ -62,14 +58,7 @@ impl Supports {
             solved: Forcing::default(),
             due: false,
             followed: Forcing::default(),
-            grip: support.stiffness.map_or(held_stiffness, |stiffness| {
-                let sides = if [0, mesh.elements()].contains(&support.node) {
-                    1.0
-                } else {
-                    2.0
-                };
-                1.0 / (1.0 / stiffness + 1.0 / (sides * stuck_stiffness))
-            }),
+            grip: support.stiffness.unwrap_or(chain.stiffness),
             support,
         };
         Self {
