@@ -18,9 +18,7 @@ use crate::error::checked;
 use crate::laid::laid;
 use crate::outcome::Recorder;
 use crate::step::check_precision;
-use crate::{
-    CableError, CableState, DuctedCable, EndForces, FrictionLaw, Mesh, PassOutcome, RestingCable, StepView,
-};
+use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome, RestingCable, StepView};
 use lumped::Lumped;
 use nodes::MovingNodes;
 
@@ -251,7 +249,7 @@ impl Explicit {
                     state: &state,
                 });
             };
-            energy = rub(
+            energy = run(
                 &self.lumped,
                 duct,
                 steps as usize,
@@ -313,58 +311,13 @@ impl Explicit {
     }
 }
 
-/// All steps of one pass, whichever the friction law; `state` is carried on.
-fn rub(
+/// All steps of time of one pass; `state` is carried on.
+fn run(
     lumped: &Lumped,
     duct: &MovingDuct,
     steps: usize,
     state: &mut CableState,
     recorder: &mut Recorder,
-    look: impl FnMut(f64, &MovingNodes),
-) -> Result<EnergyBalance, CableError> {
-    let time_step = duct.duration() / steps as f64;
-    let (q, per_mass) = (lumped.cable.friction().limit(), time_step / lumped.mass_per_metre);
-    match lumped.cable.friction().law() {
-        // The friction that stops the slip, returned to ±q where that is too much (J. J. Moreau's time stepping, node by node, as the
-        // masses are lumped).
-        FrictionLaw::Coulomb => {
-            let per_time = 1.0 / time_step;
-            let law = move |velocity: f64, duct: f64, _| {
-                let stopping = (duct * per_time - velocity) / per_mass;
-                let friction = stopping.max(-q).min(q);
-                (velocity + per_mass * friction, friction)
-            };
-            run(lumped, law, duct, steps, (state, recorder), look)
-        }
-        // f ← clamp(f + (q b/2) Δs, −q, q): return mapping of the elastic predictor.
-        FrictionLaw::ElasticPlastic { shape_factor } => {
-            let slope = 0.5 * q * shape_factor;
-            let law = move |velocity, duct, friction| {
-                let velocity = velocity + per_mass * friction;
-                let trial: f64 = friction + slope * (duct - time_step * velocity);
-                (velocity, trial.max(-q).min(q))
-            };
-            run(lumped, law, duct, steps, (state, recorder), look)
-        }
-        // f = q tanh(b Δs/2).
-        FrictionLaw::Sigmoid { shape_factor } => {
-            let half = 0.5 * shape_factor;
-            let law = move |velocity: f64, duct: f64, friction: f64| {
-                let velocity = velocity + per_mass * friction;
-                (velocity, q * (half * (duct - time_step * velocity)).tanh())
-            };
-            run(lumped, law, duct, steps, (state, recorder), look)
-        }
-    }
-}
-
-/// The same by one law: see [`MovingNodes::step`].
-fn run(
-    lumped: &Lumped,
-    law: impl Fn(f64, f64, f64) -> (f64, f64) + Copy,
-    duct: &MovingDuct,
-    steps: usize,
-    (state, recorder): (&mut CableState, &mut Recorder),
     mut look: impl FnMut(f64, &MovingNodes),
 ) -> Result<EnergyBalance, CableError> {
     let count = lumped.mesh.nodes();
@@ -374,8 +327,7 @@ fn run(
     let mut peak_kinetic = 0.0_f64;
     for step in 1..=steps {
         let t = time_step * step as f64;
-        duct.at(t, count).advance(&mut nodes.duct, &mut nodes.increment);
-        nodes.step(lumped, law, time_step);
+        nodes.step(lumped, |d| duct.displacement(t, d), time_step);
         recorder.record(nodes.end_forces(lumped));
         look(t, &nodes);
         if step % LOOK == 0 || step == steps {

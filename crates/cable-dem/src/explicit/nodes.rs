@@ -18,11 +18,48 @@ pub(super) struct MovingNodes {
     /// ΔD and plastic slip of the step before \[m\].
     before: Vec<[f64; 2]>,
     /// ΔD of the current step \[m\].
-    pub increment: Vec<f64>,
+    increment: Vec<f64>,
     /// Work of the duct, heat, and its absolute amount \[J\].
     work: f64,
     heat: f64,
     gross: f64,
+}
+
+/// Friction of one node over one step of time.
+#[derive(Debug, Clone, Copy)]
+struct NodeFriction {
+    law: FrictionLaw,
+    /// q \[N/m\].
+    limit: f64,
+    /// Δt \[s\], and Δt/m′.
+    time_step: f64,
+    per_mass: f64,
+}
+
+impl NodeFriction {
+    /// Given the node's `velocity` after the elastic forces \[m/s\], how far its duct moves in the step \[m\] and the `friction` before
+    /// \[N/m\]: its velocity with friction, and the friction after.
+    fn act(self, velocity: f64, duct: f64, friction: f64) -> (f64, f64) {
+        let q = self.limit;
+        // All but Coulomb friction are found after the step that they act in.
+        let rubbed = velocity + self.per_mass * friction;
+        let slip = duct - self.time_step * rubbed;
+        match self.law {
+            // The friction that stops the slip, returned to ±q where that is too much (J. J. Moreau's time stepping, node by node, as the
+            // masses are lumped).
+            FrictionLaw::Coulomb => {
+                let stopping = (duct / self.time_step - velocity) / self.per_mass;
+                let friction = stopping.max(-q).min(q);
+                (velocity + self.per_mass * friction, friction)
+            }
+            // f ← clamp(f + (q b/2) Δs, −q, q): return mapping of the elastic predictor.
+            FrictionLaw::ElasticPlastic { shape_factor } => {
+                let trial = friction + 0.5 * q * shape_factor * slip;
+                (rubbed, trial.max(-q).min(q))
+            }
+            FrictionLaw::Sigmoid { shape_factor } => (rubbed, q * (0.5 * shape_factor * slip).tanh()),
+        }
+    }
 }
 
 impl MovingNodes {
@@ -43,36 +80,39 @@ impl MovingNodes {
         }
     }
 
-    /// One step of `time_step` \[s\]; the duct's increments stand in `increment`.
-    ///
-    /// `law` is the friction of one node: given its velocity after the elastic forces \[m/s\], how far its duct moves in the step \[m\] and
-    /// the friction before \[N/m\], the velocity with friction, and the friction after.
-    pub fn step(
-        &mut self,
-        lumped: &Lumped,
-        law: impl Fn(f64, f64, f64) -> (f64, f64) + Copy,
-        time_step: f64,
-    ) {
+    /// One step of `time_step` \[s\]; `displacement` writes where the duct stands after it \[m\].
+    pub fn step(&mut self, lumped: &Lumped, displacement: impl Fn(&mut [f64]), time_step: f64) {
+        displacement(&mut self.increment);
+        for (duct, increment) in self.duct.iter_mut().zip(&mut self.increment) {
+            let before = std::mem::replace(duct, *increment);
+            *increment -= before;
+        }
         self.accelerate(lumped, time_step);
+        let friction = NodeFriction {
+            law: lumped.cable.friction().law(),
+            limit: lumped.cable.friction().limit(),
+            time_step,
+            per_mass: time_step / lumped.mass_per_metre,
+        };
         let last = self.velocity.len() - 1;
         let compliance = lumped.elastic_compliance();
         // Coulomb friction is found with the velocity; any other that acts in a step is that of its start.
-        let found_at_once = lumped.cable.friction().law() == FrictionLaw::Coulomb;
+        let found_at_once = friction.law == FrictionLaw::Coulomb;
         let (mut work, mut heat, mut gross) = (0.0, 0.0, 0.0);
         for i in 0..=last {
-            let (increment, friction) = (self.increment[i], self.friction[i]);
-            let (mut velocity, mut after) = law(self.velocity[i], increment, friction);
+            let (increment, before) = (self.increment[i], self.friction[i]);
+            let (mut velocity, mut after) = friction.act(self.velocity[i], increment, before);
             // Fixed ends do not move; their friction follows their own slip.
             let is_held = (i == 0 || i == last) && lumped.holds(i);
             if is_held {
-                (velocity, after) = (0.0, lumped.held.after_slip(friction, increment));
+                (velocity, after) = (0.0, lumped.held.after_slip(before, increment));
             }
             let moved = time_step * velocity;
             (self.velocity[i], self.friction[i]) = (velocity, after);
             self.displacement[i] += moved;
             // What is left of the slip apart from its elastic part, γ Δf.
-            let slip = increment - moved - compliance * (after - friction);
-            let acting = if found_at_once { after } else { friction };
+            let slip = increment - moved - compliance * (after - before);
+            let acting = if found_at_once { after } else { before };
             // Friction acts from one half step to the next: on half the slip of either step.
             let weight = if i == 0 || i == last { 0.25 } else { 0.5 } * acting;
             let [earlier, plastic] = std::mem::replace(&mut self.before[i], [increment, slip]);
