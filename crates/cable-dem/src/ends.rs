@@ -58,7 +58,7 @@ impl EndReader {
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let last = mesh.elements();
         let supports = Support::of(cable, mesh);
-        let body = cable.body_loads(mesh);
+        let body = cable.loads(mesh, 0.0);
         let reading = |node: usize, end: End| {
             let all = supports.iter().find(|support| support.node == node);
             let all = all.and_then(|support| support.stiffness).unwrap_or(0.0);

@@ -38,7 +38,7 @@ pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> 
         return Err(CableError::NothingHolds { body_force, limit });
     }
     let elastic = if chain.is_held {
-        without_friction(&chain, &cable.body_loads(mesh))
+        without_friction(&chain, &cable.loads(mesh, 0.0))
     } else {
         vec![0.0; mesh.nodes()]
     };

@@ -38,8 +38,7 @@ pub struct RestingCable {
     nothing: Vec<f64>,
     /// Body force w p of every node, and what heat does to the ends \[N\].
     load: Vec<f64>,
-    /// Without heat that of both end nodes.
-    weight: [f64; 2],
+    mesh: Mesh,
     /// Storage of [`Self::diffuse`].
     factor: Vec<f64>,
     given: Vec<f64>,
@@ -62,15 +61,14 @@ impl RestingCable {
     pub(crate) fn with_memory(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let cable = cable.with_memory();
         let zeros = || vec![0.0; mesh.nodes()];
-        let load = cable.body_loads(mesh);
         Self {
             step: StepSolver::new(Chain::new(&cable, mesh)),
             supports: Support::of(&cable, mesh),
             held: FixedEndFriction::new(&cable, mesh),
             anchor: zeros(),
             nothing: zeros(),
-            weight: [load[0], load[mesh.elements()]],
-            load,
+            load: cable.loads(mesh, 0.0),
+            mesh: *mesh,
             factor: zeros(),
             given: zeros(),
             cable,
@@ -108,7 +106,7 @@ impl RestingCable {
     /// Friction \[N/m\] that a cable displaced by `u` \[m\] needs to be at rest at the heat `thermal_force` \[N\], at every node that can move; the
     /// others are left.
     pub fn needed(&mut self, u: &[f64], thermal_force: f64, friction: &mut [f64]) {
-        self.heat(thermal_force);
+        self.load = self.cable.loads(&self.mesh, thermal_force);
         for i in self.free() {
             friction[i] = self.step.chain.balancing_friction(u, &self.load, i);
         }
@@ -152,7 +150,8 @@ impl RestingCable {
     ///
     /// [`CableError::StateMismatch`] for a state of another mesh; [`CableError::NoConvergence`] where no equilibrium is found.
     pub fn settle(&mut self, state: &mut CableState) -> Result<(), CableError> {
-        self.take(state, state.thermal_force)?;
+        state.check(&self.mesh)?;
+        self.load = self.cable.loads(&self.mesh, state.thermal_force);
         let StepSolver { chain, .. } = &self.step;
         let mut at_rest = true;
         for i in chain.free.nodes() {
@@ -196,29 +195,12 @@ impl RestingCable {
     /// As for [`RestingCable::settle`], and [`CableError::InvalidParameter`] for a force that is not finite.
     pub fn warm(&mut self, state: &mut CableState, thermal_force: f64) -> Result<(), CableError> {
         checked("thermal_force", thermal_force, "finite", |_| true)?;
-        self.take(state, thermal_force)?;
+        state.check(&self.mesh)?;
+        self.load = self.cable.loads(&self.mesh, thermal_force);
         let stretch = self.cable.length() / self.cable.axial_stiffness();
         self.follow(state, None, (thermal_force - state.thermal_force).abs() * stretch)?;
         state.thermal_force = thermal_force;
         Ok(())
-    }
-
-    /// Takes on a state whose heat has the force `thermal` \[N\].
-    fn take(&mut self, state: &CableState, thermal: f64) -> Result<(), CableError> {
-        let (found, expected) = (state.displacement.len(), self.anchor.len());
-        if found != expected {
-            return Err(CableError::StateMismatch { found, expected });
-        }
-        self.heat(thermal);
-        Ok(())
-    }
-
-    /// Heat pushes the two ends apart and nothing between them.
-    fn heat(&mut self, thermal: f64) {
-        self.load[0] = self.weight[0] - thermal;
-        if let Some(last) = self.load.last_mut() {
-            *last = self.weight[1] + thermal;
-        }
     }
 
     /// One step of the whole cable from `state`, in which the duct at every node moves by `duct` \[m\] and the cable by `movement` \[m\] at

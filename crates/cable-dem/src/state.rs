@@ -2,7 +2,7 @@
 
 use crate::ends::{Balance, EndReader};
 use crate::error::checked;
-use crate::step::Support;
+use crate::step::Chain;
 use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 
 /// A clamp nearer to a node than this share of the spacing counts as on it.
@@ -146,7 +146,9 @@ impl CableState {
         cable: &DuctedCable,
     ) -> Result<impl Iterator<Item = f64> + 'a, CableError> {
         self.mesh.check_length(cable.length())?;
-        Ok(self.elements(cable))
+        let stiffness = cable.axial_stiffness() / self.mesh.spacing();
+        let force = move |pair: &[f64]| stiffness * (pair[0] - pair[1]) + self.thermal_force;
+        Ok(self.displacement.windows(2).map(force))
     }
 
     /// Force \[N\] on what holds each end, compression positive: the reading of a load cell there. What clamps on the same
@@ -157,7 +159,12 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn end_forces(&self, cable: &DuctedCable) -> Result<EndForces, CableError> {
         self.mesh.check_length(cable.length())?;
-        Ok(self.ends(cable))
+        Ok(EndReader::new(cable, &self.mesh).read(
+            Balance::AtRest,
+            self.thermal_force,
+            |i| self.displacement[i],
+            |i| self.friction[i],
+        ))
     }
 
     /// Force \[N\] of the cable on each of its clamps, positive toward growing x, in the order of
@@ -168,7 +175,13 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
         self.mesh.check_length(cable.length())?;
-        Ok(self.clamps(cable))
+        let on = |restraint: &Restraint| {
+            let springs = restraint.by_node(&self.mesh).into_iter();
+            springs
+                .map(|(node, stiffness)| stiffness * self.displacement[node])
+                .sum()
+        };
+        Ok(cable.restraints().iter().map(on).collect())
     }
 
     /// Largest friction per metre \[N/m\] that equilibrium needs at any node: the difference of the forces in both elements, less what
@@ -179,20 +192,10 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn friction_needed(&self, cable: &DuctedCable) -> Result<f64, CableError> {
         self.mesh.check_length(cable.length())?;
-        let body = cable.body_loads(&self.mesh);
-        let mut springs = vec![Some(0.0); self.mesh.nodes()];
-        for support in Support::of(cable, &self.mesh) {
-            springs[support.node] = support.stiffness;
-        }
-        let (mut before, mut worst) = (0.0, 0.0_f64);
-        for (node, after) in self.elements(cable).chain([0.0]).enumerate() {
-            if let Some(spring) = springs[node] {
-                let carried = after - before + spring * self.displacement[node] - body[node];
-                worst = worst.max((carried / self.mesh.tributary_length(node)).abs());
-            }
-            before = after;
-        }
-        Ok(worst)
+        let chain = Chain::new(cable, &self.mesh);
+        let load = cable.loads(&self.mesh, self.thermal_force);
+        let needed = |i| chain.balancing_friction(&self.displacement, &load, i).abs();
+        Ok(chain.free.nodes().map(needed).fold(0.0, f64::max))
     }
 
     /// Least and largest force along the cable \[N\]. Friction and body force change it evenly on either half of an element, so that it
@@ -205,7 +208,7 @@ impl CableState {
         let force = |element: usize| {
             stiffness * (self.displacement[element] - self.displacement[element + 1]) + self.thermal_force
         };
-        let body = cable.body_loads(mesh);
+        let body = cable.loads(mesh, 0.0);
         let drag = |node: usize| f[node] + body[node] / mesh.tributary_length(node);
         let before = |node: usize| force(node - 1) + 0.5 * h * drag(node);
         let after = |node: usize| force(node) - 0.5 * h * drag(node);
@@ -240,41 +243,9 @@ impl CableState {
         (least, largest)
     }
 
-    /// [`CableState::element_forces`] of a cable that is known to be as long as the mesh.
-    fn elements<'a>(&'a self, cable: &DuctedCable) -> impl Iterator<Item = f64> + 'a {
-        let stiffness = cable.axial_stiffness() / self.mesh.spacing();
-        self.displacement
-            .windows(2)
-            .map(move |pair| stiffness * (pair[0] - pair[1]) + self.thermal_force)
-    }
-
-    /// [`CableState::end_forces`] of a cable that is known to be as long as the mesh.
-    pub(crate) fn ends(&self, cable: &DuctedCable) -> EndForces {
-        let reader = EndReader::new(cable, &self.mesh);
-        reader.read(
-            Balance::AtRest,
-            self.thermal_force,
-            |i| self.displacement[i],
-            |i| self.friction[i],
-        )
-    }
-
-    /// [`CableState::restraint_forces`] of a cable that is known to be as long as the mesh.
-    pub(crate) fn clamps(&self, cable: &DuctedCable) -> Vec<f64> {
-        let on = |restraint: &Restraint| {
-            let springs = restraint.by_node(&self.mesh).into_iter();
-            springs
-                .map(|(node, stiffness)| stiffness * self.displacement[node])
-                .sum()
-        };
-        cable.restraints().iter().map(on).collect()
-    }
-
     /// Removes all friction: ends and clamps draw the cable back to zero; held by none, it keeps its mean position.
     pub(crate) fn release(&mut self, cable: &DuctedCable) {
-        let supports = Support::of(cable, &self.mesh);
-        let held = supports.iter().any(|support| support.stiffness != Some(0.0));
-        let rest = if held {
+        let rest = if Chain::new(cable, &self.mesh).is_held {
             0.0
         } else {
             self.displacement.iter().sum::<f64>() / self.displacement.len() as f64

@@ -40,7 +40,7 @@ impl Lumped {
             mass_per_metre,
             stiffness: cable.axial_stiffness() / mesh.spacing(),
             springs: springs.collect(),
-            body: cable.body_loads(&mesh),
+            body: cable.loads(&mesh, 0.0),
             held: FixedEndFriction::new(&cable, &mesh),
             ends: EndReader::new(&cable, &mesh),
             cable,

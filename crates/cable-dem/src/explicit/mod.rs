@@ -267,7 +267,7 @@ impl Explicit {
         *state = moving;
         let force = self.lumped.end_forces(&state.displacement, &state.friction);
         Ok(ExplicitOutcome {
-            pass: recorder.outcome(self.cable(), state, force),
+            pass: recorder.outcome(self.cable(), state, force)?,
             time_step,
             energy,
             force_before_rest,

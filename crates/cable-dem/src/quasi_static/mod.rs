@@ -145,7 +145,8 @@ impl QuasiStatic {
             } else {
                 state.clone_from(&self.laid);
             }
-            return Ok(self.outcome(state, Recorder::new(state.ends(&self.cable))));
+            let force = state.end_forces(&self.cable)?;
+            return Recorder::new(force).outcome(&self.cable, state, force);
         }
         check_precision(&self.cable, &self.mesh, state.displacement(), passage.peak)?;
         let mirrored = passage.direction() == Direction::Reverse;
@@ -189,10 +190,6 @@ impl QuasiStatic {
             recorder.mirror();
         }
         *state = after;
-        Ok(self.outcome(state, recorder))
-    }
-
-    fn outcome(&self, state: &CableState, recorder: Recorder) -> PassOutcome {
-        recorder.outcome(&self.cable, state, state.ends(&self.cable))
+        recorder.outcome(&self.cable, state, state.end_forces(&self.cable)?)
     }
 }

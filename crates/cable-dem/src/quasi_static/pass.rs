@@ -35,7 +35,7 @@ pub(super) struct ForwardSolver {
     prediction: Prediction,
     /// What the current pass gathers.
     recorder: Recorder,
-    lattice_step: f64,
+    mesh: Mesh,
 }
 
 impl ForwardSolver {
@@ -59,7 +59,7 @@ impl ForwardSolver {
             moving: Vec::new(),
             prediction: Prediction::default(),
             recorder: Recorder::new(EndForces::default()),
-            lattice_step: mesh.lattice_step(),
+            mesh: *mesh,
         }
     }
 
@@ -78,11 +78,12 @@ impl ForwardSolver {
             *anchor = r + self.step.chain.compliance * g;
         }
         self.step.trial.r.copy_from_slice(&self.r);
-        self.supports.rest(state.thermal_force);
+        self.supports
+            .rest(self.cable.loads(&self.mesh, state.thermal_force));
         self.thermal_force = state.thermal_force;
         let (points, phases) = passage.lattice();
         self.prediction = Prediction::new(points, phases);
-        self.recorder = Recorder::new(state.ends(&self.cable));
+        self.recorder = Recorder::new(state.end_forces(&self.cable)?);
 
         let mut behind = self.room.free.lo;
         for (step, &position) in passage.positions.iter().enumerate() {
@@ -210,7 +211,7 @@ impl ForwardSolver {
             };
             let solved = self.step.solve(&load, stretch);
             solved.map_err(|violation| CableError::NoConvergence {
-                vehicle_position: self.lattice_step * snapshot.position as f64,
+                vehicle_position: self.mesh.lattice_step() * snapshot.position as f64,
                 violation,
             })?;
             let (grown, next) = window::grow(self.room, stretch, growth, |i| self.edge_disturbed(i));
