@@ -99,20 +99,18 @@ impl StepSolver {
     fn displace(&mut self, load: &Load<'_>, stretch: Stretch) -> Result<(), f64> {
         self.hold(load, stretch)?;
         let (chain, Trial { r, contact, .. }) = (&self.chain, &mut self.trial);
-        let nodes = stretch.nodes();
+        let (nodes, lo) = (stretch.nodes(), stretch.lo);
         let held = stretch.neighbours(r).map(Option::unwrap_or_default);
-        let n = stretch.len();
-        // Slices of one length, so that no access is checked in the loop.
-        let (of_nodes, contact) = (&chain.nodes[nodes.clone()][..n], &contact[nodes.clone()][..n]);
-        let Load {
-            adhesion,
-            support,
-            anchor,
-        } = load.on(stretch);
-        let (adhesion, support, anchor) = (&adhesion[..n], &support[..n], &anchor[..n]);
-        let row = |i: usize| {
-            let support = support[i] * chain.per_stiffness;
-            of_nodes[i].row(contact[i], support, adhesion[i], anchor[i], chain.per_stiffness)
+        let row = |k: usize| {
+            let i = lo + k;
+            let support = load.support[i] * chain.per_stiffness;
+            chain.nodes[i].row(
+                contact[i],
+                support,
+                load.adhesion[i],
+                load.anchor[i],
+                chain.per_stiffness,
+            )
         };
         tridiagonal::solve(held, row, &mut self.factors[nodes.clone()], &mut r[nodes]);
         self.statistics.sweeps += 1;
@@ -148,28 +146,17 @@ impl StepSolver {
 
     /// Sets the friction of the solved displacements and corrects contact states that do not hold.
     fn correct(&mut self, load: &Load<'_>, stretch: Stretch) -> Violations {
-        let (chain, tolerance, range) = (&self.chain, self.tolerance, stretch.nodes());
-        let Trial { r, g, contact } = &mut self.trial;
-        let [before, after] = stretch.neighbours(r).map(Option::unwrap_or_default);
-        let n = stretch.len();
-        // Slices of one length, so that no access is checked in the loop.
-        let nodes = &chain.nodes[range.clone()][..n];
+        let (chain, tolerance) = (&self.chain, self.tolerance);
         let Load {
             adhesion,
             support,
             anchor,
-        } = load.on(stretch);
-        let (adhesion, support, anchor) = (&adhesion[..n], &support[..n], &anchor[..n]);
-        let (r, g) = (&r[range.clone()][..n], &mut g[range.clone()][..n]);
-        let contact = &mut contact[range][..n];
+        } = *load;
+        let Trial { r, g, contact } = &mut self.trial;
         let mut found = Violations::default();
-        let mut left = before;
-        for i in 0..n {
-            let (node, state, here) = (&nodes[i], contact[i], r[i]);
-            let right = if i + 1 < n { r[i + 1] } else { after };
-            let force = chain.stiffness * (node.diagonal * here - left - right) - support[i];
-            let balancing = force * node.per_tributary;
-            left = here;
+        for i in stretch.nodes() {
+            let (node, state) = (&chain.nodes[i], contact[i]);
+            let balancing = chain.balancing_friction(r, support, i);
             if state == Contact::Stuck {
                 let total = balancing + adhesion[i];
                 let excess = total.abs() - node.limit;
@@ -198,7 +185,7 @@ impl StepSolver {
                 if !balanced {
                     found.violate(residual / node.limit);
                 }
-                let slip = anchor[i] - here - chain.compliance * g[i];
+                let slip = anchor[i] - r[i] - chain.compliance * g[i];
                 let along = if state == Contact::Forward { slip } else { -slip };
                 let slips_along = along >= -tolerance.slip;
                 if !slips_along {
