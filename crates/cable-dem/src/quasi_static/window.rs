@@ -4,9 +4,6 @@ use std::ops::Range;
 
 use crate::step::Stretch;
 
-/// Most nodes that a disturbed window grows by at once on each side.
-const MAX_GROWTH: usize = 256;
-
 /// Nodes between two windows from which on each is solved on its own. Between two parts that move four more have to be quiet: two that
 /// either takes with it as its edge, and two that the next windows take.
 const GAP: usize = 16;
@@ -19,7 +16,7 @@ const BLOCK: usize = 64;
 pub(super) struct Room {
     /// The unknown nodes.
     pub free: Stretch,
-    /// Nodes over which a stuck cable's response fades to a hundredth, at most [`MAX_GROWTH`].
+    /// Nodes over which a stuck cable's response fades to a hundredth.
     pub margin: usize,
 }
 
@@ -28,7 +25,7 @@ impl Room {
     pub fn new(free: Stretch, screening: f64) -> Self {
         Self {
             free,
-            margin: fading_nodes(screening).min(MAX_GROWTH),
+            margin: fading_nodes(screening),
         }
     }
 
@@ -81,7 +78,7 @@ pub(super) fn grow(
         lo: if left { widened.lo } else { stretch.lo },
         hi: if right { widened.hi } else { stretch.hi },
     };
-    (grown, (2 * growth).min(MAX_GROWTH))
+    (grown, 2 * growth)
 }
 
 /// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside each edge.
