@@ -18,6 +18,7 @@ mod statistics;
 mod step;
 mod traffic;
 mod tridiagonal;
+mod tuning;
 mod view;
 
 pub use approach::approach;

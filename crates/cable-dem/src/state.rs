@@ -1,6 +1,6 @@
 //! What the cable keeps from one pass to the next.
 
-use crate::ends::{Balance, EndReader};
+use crate::ends::EndReader;
 use crate::error::checked;
 use crate::step::Chain;
 use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
@@ -160,7 +160,6 @@ impl CableState {
     pub fn end_forces(&self, cable: &DuctedCable) -> Result<EndForces, CableError> {
         self.mesh.check_length(cable.length())?;
         Ok(EndReader::new(cable, &self.mesh).read(
-            Balance::AtRest,
             self.thermal_force,
             |i| self.displacement[i],
             |i| self.friction[i],

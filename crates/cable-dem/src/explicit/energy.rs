@@ -3,12 +3,7 @@
 use std::fmt;
 
 use crate::CableError;
-
-/// Largest share of the heat that friction may return. Sound passes measured below 1e-8, passes whose force was off by
-/// 3 % above 5e-3, chatter from 4e-2 to 5e-1.
-const MAX_RETURNED: f64 = 1e-3;
-/// Largest share of the energy that may be out of balance. Sound explicit passes measured below 1e-5.
-const MAX_UNBALANCED: f64 = 0.01;
+use crate::tuning::{MAX_RETURNED, MAX_UNBALANCED};
 
 /// Share of the work that friction could do at its limit below which the energies of a cable that hardly slips count as
 /// nothing.

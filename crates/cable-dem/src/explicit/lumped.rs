@@ -4,7 +4,7 @@
 //! and hangs on its neighbours by springs k = EA/h. End springs and clamps are springs S to the ground; a fixed end does
 //! not move.
 
-use crate::ends::{Balance, EndReader};
+use crate::ends::EndReader;
 use crate::error::checked;
 use crate::step::{FixedEndFriction, Support};
 use crate::{CableError, DuctedCable, End, EndForces, Mesh};
@@ -114,6 +114,14 @@ impl Lumped {
 
     /// Force on each end \[N\], compression positive, from displacement and friction of a cable that may be moving.
     pub fn end_forces(&self, u: &[f64], f: &[f64]) -> EndForces {
-        self.ends.read(Balance::Moving, 0.0, |i| u[i], |i| f[i])
+        let mut forces = self.ends.read(0.0, |i| u[i], |i| f[i]);
+        // The force of the chain on a spring also accelerates the half element there.
+        if let End::Spring(spring) = self.cable.upstream() {
+            forces.upstream = -spring * u[0];
+        }
+        if let End::Spring(spring) = self.cable.downstream() {
+            forces.downstream = spring * u[u.len() - 1];
+        }
+        forces
     }
 }

@@ -1,15 +1,13 @@
 //! One pass, forward: the cable in the vehicle's adherent frame, step by step.
 
-use super::passage::{Passage, SLIPPING_SHARE, Snapshot, UNBALANCED_SHARE};
+use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::supports::Supports;
 use super::window::{self, Room};
-use crate::ends::{Balance, EndReader};
+use crate::ends::EndReader;
 use crate::outcome::Recorder;
 use crate::step::{Chain, Load, Prediction, StepSolver, Stretch, largest};
+use crate::tuning::{UNBALANCED_SHARE, UNSEEN};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
-
-/// A node is quiet when the force that its last move put on the next node is below this share of [`UNBALANCED_SHARE`].
-const QUIET: f64 = 0.25;
 
 /// Drives vehicles forward over one cable; allocated once.
 #[derive(Debug, Clone)]
@@ -48,7 +46,7 @@ impl ForwardSolver {
             supports: Supports::new(&cable, mesh, &chain, room),
             ends: EndReader::new(&cable, mesh),
             room,
-            quiet: QUIET * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
+            quiet: UNSEEN * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
             cable,
             step: StepSolver::new(chain),
             r: vec![0.0; nodes],
@@ -130,9 +128,15 @@ impl ForwardSolver {
         self.update_supports(snapshot, false);
         let mut windows = std::mem::take(&mut self.windows);
         self.collect(&mut windows, snapshot, watched);
+        let under = |window: &&Stretch| window.lo <= watched.hi && watched.lo <= window.hi;
+        // Under the vehicle contact is as it saw it last, elsewhere as it was.
+        for window in windows.iter().filter(under) {
+            self.prediction.read(first, *window, &mut self.step.trial.contact);
+        }
+        windows.extend(self.supports.due());
+        window::join(&mut windows);
         self.moving.clear();
         for window in &mut windows {
-            self.prediction.read(first, *window, &mut self.step.trial.contact);
             *window = self.solve(*window, snapshot)?;
             self.prediction.write(first, *window, &self.step.trial.contact);
             let widest = &mut self.recorder.statistics.widest_window;
@@ -149,8 +153,7 @@ impl ForwardSolver {
         Ok(())
     }
 
-    /// Lists the windows of a step: what moved in the last one, what of `watched` begins to slip, and what lies around
-    /// supports.
+    /// Lists the windows of a step that travel with the vehicle: what moved in the last one, and what of `watched` begins to slip.
     fn collect(&mut self, windows: &mut Vec<Stretch>, snapshot: &Snapshot<'_>, watched: Stretch) {
         let room = self.room;
         windows.clear();
@@ -174,8 +177,6 @@ impl ForwardSolver {
             });
             lo = lo.max(next);
         }
-        windows.extend(self.supports.due());
-        window::join(windows);
     }
 
     fn update_supports(&mut self, snapshot: &Snapshot<'_>, all: bool) {
@@ -239,7 +240,6 @@ impl ForwardSolver {
     /// Records the force on each end with the vehicle at the snapshot's position.
     fn record_ends(&mut self, snapshot: &Snapshot<'_>) {
         self.recorder.record(self.ends.read(
-            Balance::AtRest,
             self.thermal_force,
             |node| self.r[node] + snapshot.adherent_at(node),
             |node| self.g[node] + snapshot.adhesion[node],

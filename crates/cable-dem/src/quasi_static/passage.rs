@@ -5,15 +5,8 @@ use ground_field::{Direction, DuctMotion};
 use super::schedule::schedule;
 use crate::course::{Course, as_driven};
 use crate::tridiagonal::{self, Row};
+use crate::tuning::{UNBALANCED_SHARE, UNSEEN};
 use crate::{CableError, DuctedCable, Friction, Mesh};
-
-/// Share of the friction limit by which friction and equilibrium may be off outside the windows while a vehicle passes.
-/// Against solves of the whole cable this moves the force by less than 1e-4 of q L (in 1400 random scenes, but for one cable
-/// held by nothing: 5e-4).
-pub const UNBALANCED_SHARE: f64 = 1e-3;
-
-/// Part of it that adhesion does not reach where no node is watched: friction there changes by up to twice as much, unseen.
-const UNSEEN: f64 = 0.05;
 
 /// Share of the friction limit beyond it from which a node that is watched slips.
 pub(super) const SLIPPING_SHARE: f64 = (1.0 - 2.0 * UNSEEN) * UNBALANCED_SHARE;

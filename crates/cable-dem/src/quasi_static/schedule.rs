@@ -10,8 +10,7 @@
 //! Farther out the step doubles wherever it is a hundredth of the distance at most and the straight chord it replaces misses the path by
 //! no more than one step does at the sharpest bend; for a stride s the miss is |D(ξ) − ½ (D(ξ − s) + D(ξ + s))|.
 
-/// Strides to the vehicle from which on a turn between two positions no longer matters.
-const STRIDES: i64 = 100;
+use crate::tuning::STRIDES;
 
 /// Vehicle positions in lattice units, ascending, from `approach` before a duct of length `end` to `approach` past it, about
 /// `stride` apart over the duct. `shape` is D on the lattice, `origin` the index of ξ = 0 in it.

@@ -1,14 +1,10 @@
 //! Ends and clamps while the vehicle passes: their loads, and when the cable around them is to be solved again.
 
 use super::passage::Snapshot;
-use super::passage::UNBALANCED_SHARE;
 use super::window::Room;
 use crate::step::{Chain, FixedEndFriction, Stretch, Support, Trial};
+use crate::tuning::{FIXED_END, UNBALANCED_SHARE};
 use crate::{DuctedCable, Mesh};
-
-/// How many times as closely as a spring a fixed end is followed, whose force is read. It takes 1.03 times as long; at 1 the force of two
-/// passes over 30 m is off by 1.4e-5, at 10 by 1e-8.
-const FIXED_END: f64 = 10.0;
 
 /// A support, and what it feels of the vehicle in the adherent frame.
 #[derive(Debug, Clone)]

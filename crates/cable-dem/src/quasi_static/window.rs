@@ -3,13 +3,7 @@
 use std::ops::Range;
 
 use crate::step::Stretch;
-
-/// Nodes between two windows from which on each is solved on its own. Between two parts that move four more have to be quiet: two that
-/// either takes with it as its edge, and two that the next windows take.
-const GAP: usize = 16;
-
-/// Nodes that are looked at together.
-const BLOCK: usize = 64;
+use crate::tuning::{BLOCK, GAP};
 
 /// Where windows may lie, and how far beyond a disturbance they reach.
 #[derive(Debug, Clone, Copy)]
@@ -81,7 +75,8 @@ pub(super) fn grow(
     (grown, 2 * growth)
 }
 
-/// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside each edge.
+/// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside each edge. Between two parts four nodes
+/// more than a gap are quiet: two that either takes with it as its edge, and two that the next windows take.
 pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut Vec<Stretch>) {
     let (mut nodes, mut back) = (solved.nodes(), solved.nodes().rev());
     let (Some(first), Some(last)) = (nodes.find(|&node| moves(node)), back.find(|&node| moves(node))) else {

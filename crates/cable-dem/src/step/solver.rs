@@ -10,12 +10,7 @@ use super::exact;
 use super::tolerance::Tolerance;
 use crate::Statistics;
 use crate::tridiagonal;
-
-/// Linear solves after which the iteration counts as cycling.
-const MAX_SWEEPS: usize = 8;
-/// Violation, as a share of the friction limit, that is taken for rounding if nothing more can be corrected: a ten thousandth
-/// of what may be unbalanced outside the windows.
-const ROUNDED: f64 = 1e-7;
+use crate::tuning::{MAX_SWEEPS, ROUNDED};
 
 /// Corners of responses that are as much work as one node of a linear solve.
 const CORNERS: usize = 8;
