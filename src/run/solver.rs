@@ -2,7 +2,7 @@
 
 use cable_dem::{
     CableError, CableState, Explicit, ExplicitOptions, Mesh, MovingDuct, PassOutcome, Passage, QuasiStatic,
-    SigmoidLeak, StepView,
+    SigmoidLeak,
 };
 use ground_field::DuctMotion;
 
@@ -62,7 +62,7 @@ impl PassSolver {
         &mut self,
         vehicle: usize,
         state: &mut CableState,
-        observe: impl FnMut(StepView<'_>),
+        observe: impl FnMut(f64, &dyn Fn() -> CableState),
     ) -> Result<PassOutcome, CableError> {
         match self {
             Self::QuasiStatic(solver, passages) => solver.pass_observed(&passages[vehicle], state, observe),
@@ -72,7 +72,7 @@ impl PassSolver {
 
     /// Lets `vehicle` pass.
     pub fn pass(&mut self, vehicle: usize, state: &mut CableState) -> Result<PassOutcome, CableError> {
-        self.pass_observed(vehicle, state, |_| {})
+        self.pass_observed(vehicle, state, |_, _| {})
     }
 
     /// As [`PassSolver::pass`], and looks at the friction with the vehicle nearest to `position` \[m\], where the solver can be
@@ -83,25 +83,26 @@ impl PassSolver {
         state: &mut CableState,
         position: f64,
     ) -> Result<(PassOutcome, Option<FrictionProfile>), CableError> {
+        let (mesh, limit) = match self {
+            Self::QuasiStatic(solver, _) => (*solver.mesh(), solver.cable().friction().limit()),
+            Self::Explicit(solver, _) => (*solver.mesh(), solver.cable().friction().limit()),
+        };
         let mut nearest = f64::INFINITY;
         let mut seen = None;
-        let mesh = *match self {
-            Self::QuasiStatic(solver, _) => solver.mesh(),
-            Self::Explicit(solver, _) => solver.mesh(),
-        };
-        let outcome = self.pass_observed(vehicle, state, |view| {
-            let distance = (view.vehicle_position() - position).abs();
+        let outcome = self.pass_observed(vehicle, state, |vehicle_position_m, state| {
+            let distance = (vehicle_position_m - position).abs();
             // A look at all nodes in every step would cost more than a pass of a long duct.
             if distance <= mesh.vehicle_step() && distance < nearest {
                 nearest = distance;
+                let state = state();
                 seen = Some(FrictionProfile {
                     vehicle,
-                    vehicle_position_m: view.vehicle_position(),
+                    vehicle_position_m,
                     positions_m: (0..mesh.nodes())
                         .map(|node| mesh.spacing() * node as f64)
                         .collect(),
-                    friction_n_per_m: view.state().friction().to_vec(),
-                    slip_lengths: view.slip_lengths().into(),
+                    friction_n_per_m: state.friction().to_vec(),
+                    slip_lengths: state.slip_lengths(limit).into(),
                 });
             }
         })?;

@@ -19,7 +19,6 @@ mod step;
 mod traffic;
 mod tridiagonal;
 mod tuning;
-mod view;
 
 pub use approach::approach;
 pub use cable::{DuctedCable, End, Restraint};
@@ -35,7 +34,6 @@ pub use mesh::Mesh;
 pub use outcome::PassOutcome;
 pub use quasi_static::{Passage, QuasiStatic};
 pub use resting::RestingCable;
-pub use state::CableState;
+pub use state::{CableState, SlipLengths};
 pub use statistics::Statistics;
 pub use traffic::{Order, Traffic};
-pub use view::{SlipLengths, StepView};

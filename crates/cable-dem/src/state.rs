@@ -8,6 +8,19 @@ use crate::{CableError, DuctedCable, EndForces, Mesh, Restraint};
 /// A clamp nearer to a node than this share of the spacing counts as on it.
 const AT_NODE: f64 = 1e-6;
 
+/// Friction within this share of its limit counts as slipping.
+const AT_LIMIT: f64 = 1e-6;
+
+/// Lengths of cable over which the duct slips past it (Kashiro et al., Figure 7).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct SlipLengths {
+    /// Friction at its limit toward growing x \[m\].
+    pub forward: f64,
+    /// Friction at its limit toward falling x \[m\].
+    pub backward: f64,
+}
+
 /// The cable at rest: displacement and friction of every node of its mesh, with no vehicle near.
 ///
 /// ```
@@ -181,6 +194,20 @@ impl CableState {
                 .sum()
         };
         Ok(cable.restraints().iter().map(on).collect())
+    }
+
+    /// Lengths of cable whose friction is at its `limit` \[N/m\].
+    pub fn slip_lengths(&self, limit: f64) -> SlipLengths {
+        let at_limit = (1.0 - AT_LIMIT) * limit;
+        let mut lengths = SlipLengths::default();
+        for (node, &friction) in self.friction.iter().enumerate() {
+            if friction >= at_limit {
+                lengths.forward += self.mesh.tributary_length(node);
+            } else if friction <= -at_limit {
+                lengths.backward += self.mesh.tributary_length(node);
+            }
+        }
+        lengths
     }
 
     /// Largest friction per metre \[N/m\] that equilibrium needs at any node: the difference of the forces in both elements, less what

@@ -1,7 +1,5 @@
 //! The energy of one pass, and what it must satisfy.
 
-use std::fmt;
-
 use crate::CableError;
 use crate::tuning::{MAX_RETURNED, MAX_UNBALANCED};
 
@@ -86,26 +84,6 @@ impl EnergyBalance {
         } else {
             Err(CableError::EnergyNotConserved { unbalanced, returned })
         }
-    }
-}
-
-impl fmt::Display for EnergyBalance {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "duct work {:.3e} J ", self.duct_work)?;
-        if self.body_work != 0.0 {
-            write!(f, "+ work of the weight {:.3e} J ", self.body_work)?;
-        }
-        write!(
-            f,
-            "= elastic {:+.3e} + kinetic {:+.3e} + stored {:+.3e} + heat {:.3e} + unbalanced {:+.1e} J; \
-             friction returned {:.1e} of its heat",
-            self.elastic,
-            self.kinetic,
-            self.stored,
-            self.dissipated,
-            self.residual(),
-            self.returned_share(),
-        )
     }
 }
 

@@ -18,7 +18,7 @@ use crate::error::checked;
 use crate::laid::laid;
 use crate::outcome::Recorder;
 use crate::step::check_precision;
-use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome, RestingCable, StepView};
+use crate::{CableError, CableState, DuctedCable, EndForces, Mesh, PassOutcome, RestingCable};
 use lumped::Lumped;
 use nodes::MovingNodes;
 
@@ -207,10 +207,10 @@ impl Explicit {
     /// [`CableError::EnergyNotConserved`] where the energy balance shows that the step was too long,
     /// [`CableError::NoConvergence`] where the cable found no rest.
     pub fn pass(&mut self, duct: &MovingDuct, state: &mut CableState) -> Result<ExplicitOutcome, CableError> {
-        self.pass_observed(duct, state, |_| {})
+        self.pass_observed(duct, state, |_, _| {})
     }
 
-    /// As [`Explicit::pass`]; `observe` looks at the cable after every time step.
+    /// As [`Explicit::pass`]; `observe` is called after every time step with the vehicle's position \[m\] and a function that gives the state there.
     ///
     /// # Errors
     ///
@@ -219,7 +219,7 @@ impl Explicit {
         &mut self,
         duct: &MovingDuct,
         state: &mut CableState,
-        mut observe: impl FnMut(StepView<'_>),
+        mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
     ) -> Result<ExplicitOutcome, CableError> {
         state.check(self.mesh())?;
         duct.check(self.mesh())?;
@@ -242,12 +242,7 @@ impl Explicit {
                     nodes.store(&mut state);
                     state
                 };
-                observe(StepView {
-                    vehicle_position: duct.vehicle_position(t),
-                    mesh: &self.lumped.mesh,
-                    limit: self.lumped.cable.friction().limit(),
-                    state: &state,
-                });
+                observe(duct.vehicle_position(t), &state);
             };
             energy = run(
                 &self.lumped,

@@ -14,7 +14,7 @@ use crate::error::checked;
 use crate::laid::laid;
 use crate::outcome::Recorder;
 use crate::step::check_precision;
-use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome, StepView};
+use crate::{CableError, CableState, DuctedCable, Mesh, PassOutcome};
 use pass::ForwardSolver;
 
 /// Quasi-static solver for one cable on one mesh: inertia left out, every step an equilibrium.
@@ -117,10 +117,10 @@ impl QuasiStatic {
     /// the answer, [`CableError::NoConvergence`] where a step found no equilibrium, [`CableError::InvalidParameter`] for a cable without friction that
     /// is not as warm as it was laid.
     pub fn pass(&mut self, passage: &Passage, state: &mut CableState) -> Result<PassOutcome, CableError> {
-        self.pass_observed(passage, state, |_| {})
+        self.pass_observed(passage, state, |_, _| {})
     }
 
-    /// As [`QuasiStatic::pass`]; `observe` looks at the cable at every vehicle position.
+    /// As [`QuasiStatic::pass`]; `observe` is called at every vehicle position \[m\] with a function that gives the state there.
     ///
     /// # Errors
     ///
@@ -129,7 +129,7 @@ impl QuasiStatic {
         &mut self,
         passage: &Passage,
         state: &mut CableState,
-        mut observe: impl FnMut(StepView<'_>),
+        mut observe: impl FnMut(f64, &dyn Fn() -> CableState),
     ) -> Result<PassOutcome, CableError> {
         state.check(&self.mesh)?;
         if !passage.fits(&self.cable, &self.mesh) {
@@ -160,7 +160,7 @@ impl QuasiStatic {
         if mirrored {
             after.mirror();
         }
-        let (mesh, limit) = (&self.mesh, self.cable.friction().limit());
+        let mesh = &self.mesh;
         let mut recorder = solver.pass(passage, &mut after, |r, g, snapshot| {
             let position = mesh.lattice_step() * snapshot.position as f64;
             let state = || {
@@ -174,16 +174,12 @@ impl QuasiStatic {
                 }
                 state
             };
-            observe(StepView {
-                vehicle_position: if mirrored {
-                    mesh.length() - position
-                } else {
-                    position
-                },
-                mesh,
-                limit,
-                state: &state,
-            });
+            let vehicle = if mirrored {
+                mesh.length() - position
+            } else {
+                position
+            };
+            observe(vehicle, &state);
         })?;
         if mirrored {
             after.mirror();
