@@ -326,7 +326,7 @@ fn run(
         recorder.record(nodes.end_forces(lumped));
         look(t, &nodes);
         if step % LOOK == 0 || step == steps {
-            let kinetic = lumped.kinetic_energy(&nodes.velocity);
+            let kinetic = nodes.kinetic_energy(lumped);
             if !kinetic.is_finite() {
                 return Err(CableError::EnergyNotConserved {
                     unbalanced: 1.0,
@@ -337,7 +337,7 @@ fn run(
         }
     }
     let energy = EnergyBalance {
-        reference: lumped.reference_work(duct.peak()),
+        reference: lumped.cable.friction().limit() * lumped.cable.length() * duct.peak(),
         ..nodes.energy(lumped, state, peak_kinetic)
     };
     recorder.statistics.steps = steps;

@@ -71,9 +71,8 @@ impl Step<'_> {
     }
 
     fn support(&self, node: usize) -> NodeSupport {
-        let neighbours = usize::from(node > 0) + usize::from(node + 1 < self.trial.r.len());
         NodeSupport {
-            stiffness: self.chain.stiffness * (self.chain.nodes[node].diagonal - neighbours as f64),
+            stiffness: self.chain.spring(node),
             load: self.load.support[node],
         }
     }
