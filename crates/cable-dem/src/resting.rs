@@ -1,7 +1,7 @@
 //! The cable between two passes, when duct and cable are at rest.
 
 use crate::error::checked;
-use crate::step::{Chain, FixedEndFriction, Load, StepSolver, Stretch, Support, largest};
+use crate::step::{Chain, FixedEndFriction, Load, StepSolver, Stretch, largest};
 use crate::tridiagonal::{self, Row};
 use crate::{CableError, CableState, DuctedCable, Mesh};
 
@@ -32,7 +32,6 @@ use crate::{CableError, CableState, DuctedCable, Mesh};
 pub struct RestingCable {
     step: StepSolver,
     cable: DuctedCable,
-    supports: Vec<Support>,
     held: FixedEndFriction,
     anchor: Vec<f64>,
     nothing: Vec<f64>,
@@ -63,7 +62,6 @@ impl RestingCable {
         let zeros = || vec![0.0; mesh.nodes()];
         Self {
             step: StepSolver::new(Chain::new(&cable, mesh)),
-            supports: Support::of(&cable, mesh),
             held: FixedEndFriction::new(&cable, mesh),
             anchor: zeros(),
             nothing: zeros(),
@@ -118,10 +116,7 @@ impl RestingCable {
         let elements = u
             .windows(2)
             .map(|pair| chain.stiffness * (pair[0] - pair[1]).abs());
-        let springs = self.supports.iter().map(|support| {
-            let stiffness = support.stiffness.unwrap_or(0.0);
-            stiffness * u[support.node].abs()
-        });
+        let springs = chain.free.nodes().map(|i| chain.spring(i) * u[i].abs());
         elements.chain(springs).fold(0.0, f64::max)
     }
 
