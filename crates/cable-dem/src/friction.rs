@@ -112,11 +112,8 @@ impl Friction {
         if self.law.has_memory() {
             return Ok(());
         }
-        Err(CableError::UnsupportedLaw {
-            solver,
-            law: self.law.name(),
-            reason: "its friction depends on the time step and fades at rest",
-        })
+        let law = self.law.name();
+        Err(CableError::NoRest { solver, law })
     }
 
     /// The same with memory: the sigmoid becomes the elastic-plastic law with its slope and limit.

@@ -48,7 +48,7 @@ impl RestingCable {
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::UnsupportedLaw`] for a law
+    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::NoRest`] for a law
     /// without memory, which has no state of rest.
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Result<Self, CableError> {
         cable.friction().check_memory("resting")?;

@@ -269,17 +269,6 @@ impl CableState {
         (least, largest)
     }
 
-    /// Removes all friction: ends and clamps draw the cable back to zero; held by none, it keeps its mean position.
-    pub(crate) fn release(&mut self, cable: &DuctedCable) {
-        let rest = if Chain::new(cable, &self.mesh).is_held {
-            0.0
-        } else {
-            self.displacement.iter().sum::<f64>() / self.displacement.len() as f64
-        };
-        self.displacement.fill(rest);
-        self.friction.fill(0.0);
-    }
-
     /// Refuses a state of another mesh.
     pub(crate) fn check(&self, mesh: &Mesh) -> Result<(), CableError> {
         let (found, expected) = (self.mesh.nodes(), mesh.nodes());

@@ -69,7 +69,7 @@ impl QuasiStatic {
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::UnsupportedLaw`] for a law
+    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::NoRest`] for a law
     /// without memory, which has no state of rest, and as for [`laid`].
     pub fn new(cable: DuctedCable, mesh: Mesh) -> Result<Self, CableError> {
         cable.friction().check_memory("quasi-static")?;
@@ -139,11 +139,11 @@ impl QuasiStatic {
             checked("thermal_force without friction", state.thermal_force, "0", |v| {
                 v == 0.0
             })?;
-            // Nothing drags the cable, and what held it is gone.
-            if self.cable.body_force() == 0.0 {
-                state.release(&self.cable);
-            } else {
-                state.clone_from(&self.laid);
+            // Nothing drags the cable, and what held it is gone: it lies as laid, or where it was if nothing else holds it.
+            let mean = state.displacement.iter().sum::<f64>() / state.displacement.len() as f64;
+            state.clone_from(&self.laid);
+            if !self.forward.step.chain.is_held {
+                state.displacement.fill(mean);
             }
             let force = state.end_forces(&self.cable)?;
             return Recorder::new(force).outcome(&self.cable, state, force);
