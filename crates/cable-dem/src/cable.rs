@@ -138,7 +138,8 @@ impl DuctedCable {
         Ok(self)
     }
 
-    /// The same cable with a law that remembers slip: in the place of the sigmoid the elastic-plastic one with its slope.
+    /// The same cable with a law that remembers slip: in the place of the sigmoid the
+    /// elastic-plastic one with its slope.
     pub(crate) fn with_memory(&self) -> Self {
         let mut cable = self.clone();
         cable.friction = self.friction.with_memory();
@@ -192,8 +193,8 @@ impl DuctedCable {
         self.body_force
     }
 
-    /// Loads on the nodes of `mesh` \[N\]: the force along the duct, and the `thermal_force` \[N\], which pushes the two ends apart and
-    /// nothing between them.
+    /// Loads on the nodes of `mesh` \[N\]: the force along the duct, and the `thermal_force` \[N\],
+    /// which pushes the two ends apart and nothing between them.
     pub(crate) fn loads(&self, mesh: &Mesh, thermal_force: f64) -> Vec<f64> {
         let body = |node| self.body_force * mesh.tributary_length(node);
         let mut loads: Vec<f64> = (0..mesh.nodes()).map(body).collect();

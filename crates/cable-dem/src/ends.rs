@@ -35,7 +35,8 @@ pub(crate) struct EndReader {
     /// w = h/2 \[m\].
     tributary: f64,
     last: usize,
-    /// s/(s + c) of a spring that clamps share its node with, 1 of a fixed end, 0 of a free one; upstream and downstream.
+    /// s/(s + c) of a spring that clamps share its node with, 1 of a fixed end, 0 of a free one;
+    /// upstream and downstream.
     shares: [f64; 2],
     /// Body force on either end node \[N\].
     body: [f64; 2],

@@ -8,8 +8,8 @@ use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, RestingCable
 ///
 /// K u = w (f + p),
 ///
-/// with the ground at rest and friction f by its law (the sigmoid's as in [`crate::Explicit`]). Where |p| < q friction alone holds the
-/// cable; where |p| > q it has slid against what holds it.
+/// with the ground at rest and friction f by its law (the sigmoid's as in [`crate::Explicit`]).
+/// Where |p| < q friction alone holds the cable; where |p| > q it has slid against what holds it.
 ///
 /// ```
 /// use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, laid};
@@ -49,7 +49,7 @@ pub fn laid(cable: &DuctedCable, mesh: &Mesh) -> Result<CableState, CableError> 
     // It moves no farther than what friction does not hold can stretch it, and its sheath shears.
     let unheld = (1.0 - limit / body_force.abs()).max(0.0);
     let farthest = unheld * largest(&elastic, 0.0) + cable.friction().compliance() * limit;
-    RestingCable::with_memory(cable, mesh).follow(&mut state, None, farthest)?;
+    RestingCable::with_memory(cable, mesh).follow(&mut state, None, 0.0, farthest)?;
     if cable.friction().law() == FrictionLaw::Coulomb {
         // Between a fixed end and its neighbour nothing slips, and friction holds as everywhere else.
         for node in (0..mesh.nodes()).filter(|node| !chain.free.nodes().contains(node)) {

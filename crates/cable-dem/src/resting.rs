@@ -48,15 +48,16 @@ impl RestingCable {
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::NoRest`] for a law
-    /// without memory, which has no state of rest.
+    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable,
+    /// [`CableError::NoRest`] for a law without memory, which has no state of rest.
     pub fn new(cable: &DuctedCable, mesh: &Mesh) -> Result<Self, CableError> {
         cable.friction().check_memory("resting")?;
         mesh.check_length(cable.length())?;
         Ok(Self::with_memory(cable, mesh))
     }
 
-    /// The same for any law on a mesh that is as long as the cable: in the place of the sigmoid one with memory that starts with its slope.
+    /// The same on a mesh that is known to be as long as the cable, and for any law: in the place
+    /// of the sigmoid stands the elastic-plastic law with its slope.
     pub(crate) fn with_memory(cable: &DuctedCable, mesh: &Mesh) -> Self {
         let cable = cable.with_memory();
         let zeros = || vec![0.0; mesh.nodes()];
@@ -143,7 +144,8 @@ impl RestingCable {
     ///
     /// # Errors
     ///
-    /// [`CableError::StateMismatch`] for a state of another mesh; [`CableError::NoConvergence`] where no equilibrium is found.
+    /// [`CableError::StateMismatch`] and [`CableError::InvalidParameter`] for a state of another
+    /// mesh; [`CableError::NoConvergence`] where no equilibrium is found.
     pub fn settle(&mut self, state: &mut CableState) -> Result<(), CableError> {
         state.check(&self.mesh)?;
         self.load = self.cable.loads(&self.mesh, state.thermal_force);
@@ -156,7 +158,7 @@ impl RestingCable {
             state.friction[i] = needed.clamp(-limit, limit);
         }
         if !at_rest {
-            self.follow(state, None, 0.0)?;
+            self.follow(state, None, state.thermal_force, 0.0)?;
         }
         Ok(())
     }
@@ -191,21 +193,23 @@ impl RestingCable {
     pub fn warm(&mut self, state: &mut CableState, thermal_force: f64) -> Result<(), CableError> {
         checked("thermal_force", thermal_force, "finite", |_| true)?;
         state.check(&self.mesh)?;
-        self.load = self.cable.loads(&self.mesh, thermal_force);
         let stretch = self.cable.length() / self.cable.axial_stiffness();
-        self.follow(state, None, (thermal_force - state.thermal_force).abs() * stretch)?;
-        state.thermal_force = thermal_force;
+        let movement = (thermal_force - state.thermal_force).abs() * stretch;
+        self.follow(state, None, thermal_force, movement)?;
         Ok(())
     }
 
-    /// One step of the whole cable from `state`, in which the duct at every node moves by `duct` \[m\] and the cable by `movement` \[m\] at
-    /// most. Returns the heat of the slip \[J\].
+    /// One step of the whole cable from `state` to the heat `thermal_force` \[N\], in which the
+    /// duct at every node moves by `duct` \[m\], if at all, and the cable by `movement` \[m\] at
+    /// most. Returns the heat of the slip \[J\]; when it fails, `state` is as it was.
     pub(crate) fn follow(
         &mut self,
         state: &mut CableState,
         duct: Option<&[f64]>,
+        thermal_force: f64,
         movement: f64,
     ) -> Result<f64, CableError> {
+        self.load = self.cable.loads(&self.mesh, thermal_force);
         let duct = duct.unwrap_or(&self.nothing);
         let StepSolver { chain, trial, .. } = &mut self.step;
         let compliance = chain.compliance;
@@ -238,6 +242,7 @@ impl RestingCable {
             heat += node.tributary * after * slip;
             (u[i], f[i]) = (trial.r[i], after);
         }
+        state.thermal_force = thermal_force;
         Ok(heat)
     }
 }

@@ -196,10 +196,13 @@ impl CableState {
         Ok(cable.restraints().iter().map(on).collect())
     }
 
-    /// Lengths of cable whose friction is at its `limit` \[N/m\].
+    /// Lengths of cable whose friction is at its `limit` \[N/m\]; none without friction.
     pub fn slip_lengths(&self, limit: f64) -> SlipLengths {
         let at_limit = (1.0 - AT_LIMIT) * limit;
         let mut lengths = SlipLengths::default();
+        if limit <= 0.0 {
+            return lengths;
+        }
         for (node, &friction) in self.friction.iter().enumerate() {
             if friction >= at_limit {
                 lengths.forward += self.mesh.tributary_length(node);

@@ -1,51 +1,58 @@
 //! Numbers that were found by experiment, with what they cost or lose.
 //!
-//! Times are those of nine cables of 30 to 1000 m under one to five wheels, relative to the value that stands here; differences below 10 %
-//! are noise.
+//! Times are those of nine cables of 30 to 1000 m under one to five wheels, relative to the value
+//! that stands here; differences below 10 % are noise.
 
-/// Share of the friction limit by which friction and equilibrium may be off outside the windows while a vehicle passes.
+/// Share of the friction limit by which friction and equilibrium may be off outside the windows
+/// while a vehicle passes.
 ///
-/// Against solves of the whole cable this moves the force by less than 1e-4 of q L (in 1400 random scenes, but for one cable
-/// held by nothing: 5e-4).
+/// Against solves of the whole cable this moves the force by less than 1e-4 of q L (in 1400 random
+/// scenes with [`UNSEEN`] of 0.05, but for one cable held by nothing: 5e-4).
 pub const UNBALANCED_SHARE: f64 = 1e-3;
 
-/// Part of [`UNBALANCED_SHARE`] that may stay unseen: of adhesion where no node is watched, of the force of a node's last move where it
-/// counts as quiet. From 0.025 to 0.25 neither time nor force changes by more than noise and 1e-6; with 1 the force is off by 2e-5.
+/// Part of [`UNBALANCED_SHARE`], below a half, from which on adhesion is watched, and the force of
+/// a node's last move counts. From 0.025 to 0.25 the time changes by no more than noise and the
+/// force by 1e-6; where the move alone counts from 1 on, the force is off by 2e-5.
 pub const UNSEEN: f64 = 0.25;
 
-/// How many times as closely as a spring a fixed end is followed, whose force is read. It takes 1.03 times as long; with 1 the force of two
-/// passes over 30 m is off by 1.4e-5, with 10 by 1e-8.
+/// How many times as closely as a spring a fixed end is followed, whose force is read. It takes
+/// 1.03 times as long; with 1 the force of two passes over 30 m is off by 1.4e-5, with 10 by 1e-8.
 pub const FIXED_END: f64 = 5.0;
 
-/// Nodes between two windows from which on each is solved on its own. With 8 it takes 0.9 to 1.0 times as long, with 32 1.0 to 1.2 times,
-/// with one window for all 1.2 to 1.5 times.
+/// Nodes between two windows from which on each is solved on its own. With 8 it takes 0.9 to 1.0
+/// times as long, with 32 1.0 to 1.2 times, with one window for all 1.2 to 1.5 times.
 pub const GAP: usize = 16;
 
-/// Nodes of which one question is asked together: whether any of them slips. Asking one by one takes 1.3 times as long over 300 m.
+/// Nodes of which one question is asked together: whether any of them slips. Asking one by one
+/// takes 1.3 times as long over 300 m.
 pub const BLOCK: usize = 64;
 
-/// Linear solves after which the iteration of a step counts as cycling. With 4 it takes 1.0 to 1.9 times as long, with 6 or 12 as long.
+/// Linear solves after which the iteration of a step counts as cycling. With 4 it takes 1.0 to 1.9
+/// times as long, with 6 or 12 as long.
 pub const MAX_SWEEPS: usize = 8;
 
-/// Violation, as a share of the friction limit, that is taken for rounding if nothing more can be corrected: a ten thousandth
-/// of [`UNBALANCED_SHARE`].
+/// Violation, as a share of the friction limit, that is taken for rounding if nothing more can be
+/// corrected: a ten thousandth of [`UNBALANCED_SHARE`].
 pub const ROUNDED: f64 = 1e-7;
 
-/// Strides of the vehicle to where it stands from which on a turn of the duct between two positions no longer matters: it is as wide as
-/// its distance d, and a stride of d/100 misses 1e-5 of it.
+/// Distance of the vehicle from the duct, in strides, from which on a turn of the duct between two
+/// positions no longer matters: it is as wide as the distance d, and a stride of d/100 misses 1e-5
+/// of it.
 pub const STRIDES: i64 = 100;
 
-/// Largest share of the duct's peak displacement that an element may leave out. Under one wheel at depth z elements of z/3, z/2 and z leave
-/// out 28, 45 and 90 %; the force after fifty passes is then off by 1.4, 3 and 14 %. With 5 m in a duct at 1.2 m it had the other sign.
+/// Largest share of the duct's peak displacement that an element may leave out. Under one wheel at
+/// depth z elements of z/3, z/2 and z leave out 28, 45 and 90 %; the force after fifty passes is
+/// then off by 1.4, 3 and 14 %. With 5 m in a duct at 1.2 m it had the other sign.
 pub const MAX_LEFT_OUT: f64 = 0.65;
 
-/// Turns of D_l by less than this share of its peak do not count when the length of a vehicle's approach is found. Over rock D_l turns again
-/// and again, each time by far less.
+/// Turns of D_l by less than this share of its peak do not count when the length of a vehicle's
+/// approach is found. Over rock D_l turns again and again, each time by far less.
 pub const NEGLIGIBLE_TURN: f64 = 1e-5;
 
-/// Largest share of the heat that friction may return in an explicit pass. Sound passes measured below 1e-8, passes whose force was off by
-/// 3 % above 5e-3, chatter from 4e-2 to 5e-1.
+/// Largest share of the heat that friction may return in an explicit pass. Sound passes measured
+/// below 1e-8, passes whose force was off by 3 % above 5e-3, chatter from 4e-2 to 5e-1.
 pub const MAX_RETURNED: f64 = 1e-3;
 
-/// Largest share of the energy that may be out of balance in an explicit pass. Sound passes measured below 1e-5.
+/// Largest share of the energy that may be out of balance in an explicit pass. Sound passes
+/// measured below 1e-5.
 pub const MAX_UNBALANCED: f64 = 0.01;

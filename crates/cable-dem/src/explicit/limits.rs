@@ -56,7 +56,7 @@ impl StepLimits {
         let fastest = |weight: f64| {
             let row = |i: usize| {
                 let neighbours = 2.0 * chain.neighbours(i) * chain.stiffness;
-                (neighbours + weight * lumped.spring(i)) / chain.nodes[i].tributary
+                (neighbours + weight * chain.spring(i)) / chain.nodes[i].tributary
             };
             let rows = (0..chain.nodes.len()).map(row);
             rows.fold(0.0, f64::max) / lumped.mass_per_metre

@@ -1,8 +1,8 @@
 //! The cable as masses and springs: M ü + K u + S u = w (f + p).
 //!
-//! Node i carries the mass m_i = w_i m′ and the friction w_i f_i of its tributary length w_i (h, and h/2 at the ends),
-//! and hangs on its neighbours by springs k = EA/h. End springs and clamps are springs S to the ground; a fixed end does
-//! not move.
+//! Node i carries the mass m_i = w_i m′ and the friction w_i f_i of its tributary length w_i (h,
+//! and h/2 at the ends), and hangs on its neighbours by springs k = EA/h. End springs and clamps
+//! are springs S to the ground; a fixed end does not move.
 
 use crate::ends::EndReader;
 use crate::error::checked;
@@ -42,20 +42,15 @@ impl Lumped {
         })
     }
 
-    /// Spring to the ground on node i \[N/m\]; 0 if it is a fixed end.
-    pub fn spring(&self, i: usize) -> f64 {
-        let is_free = self.chain.free.nodes().contains(&i);
-        if is_free { self.chain.spring(i) } else { 0.0 }
-    }
-
     /// ½ uᵀ(K + S) u \[J\].
     pub fn elastic_energy(&self, u: &[f64]) -> f64 {
         let stretched: f64 = u.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
-        let supported: f64 = (0..u.len()).map(|i| self.spring(i) * u[i] * u[i]).sum();
+        let supported: f64 = (0..u.len()).map(|i| self.chain.spring(i) * u[i] * u[i]).sum();
         0.5 * (self.chain.stiffness * stretched + supported)
     }
 
-    /// ½ γ Σ w f² \[J\]: energy in the contact's shear; 0 for Coulomb's law and for laws without memory.
+    /// ½ γ Σ w f² \[J\]: energy in the contact's shear; 0 for Coulomb's law and for laws without
+    /// memory.
     pub fn stored_energy(&self, f: &[f64]) -> f64 {
         let compliance = self.elastic_compliance();
         if compliance.is_infinite() {
@@ -64,7 +59,8 @@ impl Lumped {
         0.5 * compliance * self.weighted(|i| f[i] * f[i])
     }
 
-    /// γ \[m²/N\] of a contact that shears elastically: 0 for Coulomb's law and for laws without memory.
+    /// γ \[m²/N\] of a contact that shears elastically: 0 for Coulomb's law and for laws without
+    /// memory.
     pub fn elastic_compliance(&self) -> f64 {
         if self.cable.friction().law().has_memory() {
             self.chain.compliance
@@ -79,7 +75,8 @@ impl Lumped {
         nodes.map(|(i, node)| node.tributary * value(i)).sum()
     }
 
-    /// Force on each end \[N\], compression positive, from displacement and friction of a cable that may be moving.
+    /// Force on each end \[N\], compression positive, from displacement and friction of a cable
+    /// that may be moving.
     pub fn end_forces(&self, u: &[f64], f: &[f64]) -> EndForces {
         let mut forces = self.ends.read(0.0, |i| u[i], |i| f[i]);
         // The force of the chain on a spring also accelerates the half element there.

@@ -57,7 +57,8 @@ impl Default for ExplicitOptions {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct ExplicitOutcome {
-    /// Forces, peaks and displacements as a quasi-static pass reports them. Peaks include vibration.
+    /// Forces, peaks and displacements as a quasi-static pass reports them. Peaks include
+    /// vibration.
     ///
     /// In its statistics `steps` counts time steps, `node_updates` nodes advanced in time.
     pub pass: PassOutcome,
@@ -65,7 +66,8 @@ pub struct ExplicitOutcome {
     pub time_step: f64,
     /// Energies of the pass, between its two steps from rest and to it.
     pub energy: EnergyBalance,
-    /// Force on each end \[N\] at the last instant of the pass, before ground and cable came to rest.
+    /// Force on each end \[N\] at the last instant of the pass, before ground and cable came to
+    /// rest.
     pub force_before_rest: EndForces,
     /// What a law without memory loses; `None` for the others.
     pub leak: Option<SigmoidLeak>,
@@ -81,12 +83,13 @@ pub struct ExplicitOutcome {
 /// where hundreds of newtons are right, without ever overflowing. Independently of the limit every pass must balance its energy
 /// ([`EnergyBalance`]); one that does not is an error and never a number.
 ///
-/// Before the vehicle comes and after it has left the duct stands at D = 0. One step without inertia takes it from there to the
-/// vehicle's first position, one more from the last position back. The step back also ends the cable's vibration: the state
-/// that a vibrating cable comes to, however weakly it is damped, is the equilibrium with the same anchors u + γ f. It moves
-/// the cable by less than its vibration and leaves the mean where it was. In both steps friction is that of the elastic-plastic law; the
-/// sigmoid, which has no memory, begins either of them without friction, and what it had left when the vehicle was gone is
-/// [`ExplicitOutcome::force_before_rest`].
+/// Before the vehicle comes and after it has left the duct stands at D = 0. One step without
+/// inertia takes it from there to the vehicle's first position, one more from the last position
+/// back. The step back also ends the cable's vibration: the state that a vibrating cable comes to,
+/// however weakly it is damped, is the equilibrium with the same anchors u + γ f. It moves the
+/// cable by less than its vibration and leaves the mean where it was. The sigmoid, which has no
+/// memory, begins both steps without friction and is the elastic-plastic law of its slope in them;
+/// what it had left when the vehicle was gone is [`ExplicitOutcome::force_before_rest`].
 ///
 /// The cost is steps times nodes, some 3e4 × 150 for a pass at 40 km/h over 30 m with h = 0.2 m: forty times the quasi-static one; it falls with
 /// the speed. It is the reference for what the quasi-static solver leaves out, and the paper's own scheme.
@@ -210,7 +213,8 @@ impl Explicit {
         self.pass_observed(duct, state, |_, _| {})
     }
 
-    /// As [`Explicit::pass`]; `observe` is called after every time step with the vehicle's position \[m\] and a function that gives the state there.
+    /// As [`Explicit::pass`]; `observe` is called after every time step with the vehicle's position
+    /// \[m\] and a function that gives the state there.
     ///
     /// # Errors
     ///
@@ -259,10 +263,11 @@ impl Explicit {
             let departure = self.rest(duct, duct.duration(), -1.0, &mut moving)?;
             recorder.dissipated = arrival + energy.dissipated + departure;
         }
+        let force = self.lumped.end_forces(&moving.displacement, &moving.friction);
+        let pass = recorder.outcome(self.cable(), &moving, force)?;
         *state = moving;
-        let force = self.lumped.end_forces(&state.displacement, &state.friction);
         Ok(ExplicitOutcome {
-            pass: recorder.outcome(self.cable(), state, force)?,
+            pass,
             time_step,
             energy,
             force_before_rest,
@@ -285,8 +290,8 @@ impl Explicit {
         Ok(())
     }
 
-    /// One step without inertia in which the duct moves between rest and where it stands at the time `t` \[s\]: there with the `sign` 1,
-    /// back with −1. Returns the heat of the slip \[J\].
+    /// One step without inertia in which the duct moves between rest and where it stands at the
+    /// time `t` \[s\]: there with the `sign` 1, back with −1. Returns the heat of the slip \[J\].
     fn rest(
         &mut self,
         duct: &MovingDuct,
@@ -299,10 +304,15 @@ impl Explicit {
         for increment in &mut increment {
             *increment *= sign;
         }
-        if !self.cable().friction().law().has_memory() {
-            state.friction.fill(0.0);
+        if self.cable().friction().law().has_memory() {
+            return self.resting.follow(state, Some(&increment), 0.0, duct.peak());
         }
-        self.resting.follow(state, Some(&increment), duct.peak())
+        // What a contact without memory stores in a step it forgets before the next.
+        state.friction.fill(0.0);
+        let heat = self.resting.follow(state, Some(&increment), 0.0, duct.peak())?;
+        let friction = &state.friction;
+        let forgotten = self.lumped.weighted(|i| friction[i].powi(2));
+        Ok(heat + self.lumped.chain.compliance * forgotten)
     }
 }
 

@@ -8,17 +8,19 @@ use crate::{CableError, DuctedCable, Mesh};
 
 /// Longest step of the lattice \[m\].
 const LATTICE_STEP: f64 = 0.02;
-/// Most lattice points: 4e7 take 640 MB.
+/// Most lattice points: 4e7 take 320 MB.
 const MAX_POINTS: f64 = 4e7;
 
 /// A duct whose displacement travels along it with a vehicle, tabulated for one mesh.
 ///
 /// Depends on the mesh and the vehicle, not on the cable's state: made once, used for every pass.
 ///
-/// At time t the duct at node i stands at D_i(t) = D(i h − x_v(t)), x_v the vehicle's position. The shape is tabulated on a
-/// lattice that divides the node spacing h, and read by cubic Hermite interpolation with slopes that are fourth-order differences: six
-/// values a node, with the same weights at all nodes, which lie at the same fraction θ between two lattice points. The error is
-/// s⁴/384 · max|D⁗| and more of that order, s the lattice step: below 1e-7 of the peak for s = 20 mm in a duct 1.2 m deep.
+/// At time t the duct at node i stands at D_i(t) = D(i h − x_v(t)), x_v the vehicle's position. The
+/// shape is tabulated on a lattice that divides the node spacing h, and read by cubic Hermite
+/// interpolation with slopes that are fourth-order differences: six values a node, with the same
+/// weights at all nodes, which lie at the same fraction θ between two lattice points. The error is
+/// s⁴/384 · max|D⁗| and more of that order, s the lattice step: below 1e-7 of the peak for s = 20
+/// mm in a duct 1.2 m deep.
 #[derive(Debug, Clone)]
 pub struct MovingDuct {
     direction: Direction,
@@ -84,7 +86,7 @@ impl MovingDuct {
         let h = mesh.spacing();
         let parts = (h / LATTICE_STEP).ceil().max(1.0);
         let step = h / parts;
-        // Spacings from the first lattice point to ξ = 0; one to spare on both sides.
+        // Spacings from the first lattice point to ξ = 0, and one more, which a slope needs.
         let before = ((mesh.length() + approach) / h).ceil() + 1.0;
         let points = (2.0 * before + 1.0) * parts;
         checked("lattice points", points, "at most 4e7", |v| v <= MAX_POINTS)?;
@@ -170,13 +172,15 @@ impl MovingDuct {
         }
     }
 
-    /// Writes the displacement of every node's duct at time `t` \[s\] to `duct` \[m\]; times outside the pass are its ends.
+    /// Writes the displacement of every node's duct at time `t` \[s\] to `duct` \[m\]; times
+    /// outside the pass are its ends.
     pub(crate) fn displacement(&self, t: f64, duct: &mut [f64]) {
         let x = self.vehicle_position(t.clamp(0.0, self.duration()));
         let place = (self.origin - x) / self.step;
         let first = place.floor();
         let s = place - first;
-        // Hermite's weights of both values and both slopes; a slope is (8 (D₁ − D₋₁) − (D₂ − D₋₂))/12.
+        // Hermite's weights of both values and both slopes; a slope is (8 (D₁ − D₋₁) − (D₂ −
+        // D₋₂))/12.
         let [value, next_value] = [1.0 - s * s * (3.0 - 2.0 * s), s * s * (3.0 - 2.0 * s)];
         let [slope, next_slope] = [s * (1.0 - s) * (1.0 - s) / 12.0, s * s * (s - 1.0) / 12.0];
         let weights = [
@@ -188,6 +192,7 @@ impl MovingDuct {
             -next_slope,
         ];
         let nodes = self.values[first as usize..].windows(6).step_by(self.parts);
+        debug_assert!(nodes.len() >= duct.len());
         for (d, values) in duct.iter_mut().zip(nodes) {
             *d = weights
                 .iter()

@@ -37,16 +37,17 @@ struct NodeFriction {
 }
 
 impl NodeFriction {
-    /// Given the node's `velocity` after the elastic forces \[m/s\], how far its duct moves in the step \[m\] and the `friction` before
-    /// \[N/m\]: its velocity with friction, and the friction after.
+    /// Given the node's `velocity` after the elastic forces \[m/s\], how far its duct moves in the
+    /// step \[m\] and the `friction` before \[N/m\]: its velocity with friction, and the friction
+    /// after.
     fn act(self, velocity: f64, duct: f64, friction: f64) -> (f64, f64) {
         let q = self.limit;
         // All but Coulomb friction are found after the step that they act in.
         let rubbed = velocity + self.per_mass * friction;
         let slip = duct - self.time_step * rubbed;
         match self.law {
-            // The friction that stops the slip, returned to ±q where that is too much (J. J. Moreau's time stepping, node by node, as the
-            // masses are lumped).
+            // The friction that stops the slip, returned to ±q where that is too much (J. J.
+            // Moreau's time stepping, node by node, as the masses are lumped).
             FrictionLaw::Coulomb => {
                 let stopping = (duct / self.time_step - velocity) / self.per_mass;
                 let friction = stopping.max(-q).min(q);

@@ -69,8 +69,9 @@ impl QuasiStatic {
     ///
     /// # Errors
     ///
-    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable, [`CableError::NoRest`] for a law
-    /// without memory, which has no state of rest, and as for [`laid`].
+    /// [`CableError::InvalidParameter`] unless the mesh is as long as the cable,
+    /// [`CableError::NoRest`] for a law without memory, which has no state of rest, and as for
+    /// [`laid`].
     pub fn new(cable: DuctedCable, mesh: Mesh) -> Result<Self, CableError> {
         cable.friction().check_memory("quasi-static")?;
         mesh.check_length(cable.length())?;
@@ -120,7 +121,8 @@ impl QuasiStatic {
         self.pass_observed(passage, state, |_, _| {})
     }
 
-    /// As [`QuasiStatic::pass`]; `observe` is called at every vehicle position \[m\] with a function that gives the state there.
+    /// As [`QuasiStatic::pass`]; `observe` is called at every vehicle position \[m\] with a
+    /// function that gives the state there.
     ///
     /// # Errors
     ///
@@ -136,17 +138,7 @@ impl QuasiStatic {
             return Err(CableError::PassageMismatch);
         }
         if self.cable.friction().limit() == 0.0 {
-            checked("thermal_force without friction", state.thermal_force, "0", |v| {
-                v == 0.0
-            })?;
-            // Nothing drags the cable, and what held it is gone: it lies as laid, or where it was if nothing else holds it.
-            let mean = state.displacement.iter().sum::<f64>() / state.displacement.len() as f64;
-            state.clone_from(&self.laid);
-            if !self.forward.step.chain.is_held {
-                state.displacement.fill(mean);
-            }
-            let force = state.end_forces(&self.cable)?;
-            return Recorder::new(force).outcome(&self.cable, state, force);
+            return self.without_friction(state);
         }
         check_precision(&self.cable, &self.mesh, state.displacement(), passage.peak)?;
         let mirrored = passage.direction() == Direction::Reverse;
@@ -160,11 +152,12 @@ impl QuasiStatic {
         if mirrored {
             after.mirror();
         }
-        let mesh = &self.mesh;
+        let (mesh, thermal_force) = (&self.mesh, state.thermal_force);
         let mut recorder = solver.pass(passage, &mut after, |r, g, snapshot| {
             let position = mesh.lattice_step() * snapshot.position as f64;
             let state = || {
                 let mut state = CableState::at_rest(mesh);
+                state.thermal_force = thermal_force;
                 for node in 0..mesh.nodes() {
                     state.displacement[node] = r[node] + snapshot.adherent_at(node);
                     state.friction[node] = g[node] + snapshot.adhesion[node];
@@ -185,7 +178,23 @@ impl QuasiStatic {
             after.mirror();
             recorder.mirror();
         }
+        let outcome = recorder.outcome(&self.cable, &after, after.end_forces(&self.cable)?)?;
         *state = after;
-        recorder.outcome(&self.cable, state, state.end_forces(&self.cable)?)
+        Ok(outcome)
+    }
+
+    /// Nothing drags the cable, and what held it is gone: it lies as laid, or where it was if nothing
+    /// else holds it.
+    fn without_friction(&self, state: &mut CableState) -> Result<PassOutcome, CableError> {
+        checked("thermal_force without friction", state.thermal_force, "0", |v| {
+            v == 0.0
+        })?;
+        let mean = state.displacement.iter().sum::<f64>() / state.displacement.len() as f64;
+        state.clone_from(&self.laid);
+        if !self.forward.step.chain.is_held {
+            state.displacement.fill(mean);
+        }
+        let force = state.end_forces(&self.cable)?;
+        Recorder::new(force).outcome(&self.cable, state, force)
     }
 }

@@ -153,7 +153,8 @@ impl ForwardSolver {
         Ok(())
     }
 
-    /// Lists the windows of a step that travel with the vehicle: what moved in the last one, and what of `watched` begins to slip.
+    /// Lists the windows of a step beside those around supports: what moved in the last one, and
+    /// what of `watched` begins to slip.
     fn collect(&mut self, windows: &mut Vec<Stretch>, snapshot: &Snapshot<'_>, watched: Stretch) {
         let room = self.room;
         windows.clear();

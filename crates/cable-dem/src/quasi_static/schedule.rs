@@ -1,14 +1,17 @@
 //! Where the vehicle stops on its way: the positions of one pass.
 //!
-//! Over the duct it advances by the mesh's vehicle step. A step is an exact solution as long as no node slips both ways within it:
-//! neither may the duct turn, nor may the parts of the duct change the order in which they lead, which decides where a stiff cable
-//! goes. Where that happens far away it happens to the whole duct at once and is felt by the whole cable. So the vehicle keeps its
-//! step beyond the duct too until it is a hundred steps away: a turn at the distance d is as wide as d, and a stride of d/100 misses
-//! 1e-5 of it. A wheel on a half-space (ν = 0.4) pushes the duct away within six depths and pulls it in beyond; the pull is largest at
-//! twelve, and changes fastest after that at eighteen.
+//! Over the duct it advances by the mesh's vehicle step. A step is an exact solution as long as no
+//! node slips both ways within it: neither may the duct turn, nor may the parts of the duct change
+//! the order in which they lead, which decides where a stiff cable goes. Where that happens far
+//! away it happens to the whole duct at once and is felt by the whole cable. So the vehicle keeps
+//! its step beyond the duct too until it is a hundred steps away: a turn at the distance d is as
+//! wide as d, and a stride of d/100 misses 1e-5 of it. A wheel on a half-space (ν = 0.4) pushes the
+//! duct away within six depths and pulls it in beyond; the pull is largest at twelve, and changes
+//! fastest after that at eighteen.
 //!
-//! Farther out the step doubles wherever it is a hundredth of the distance at most and the straight chord it replaces misses the path by
-//! no more than one step does at the sharpest bend; for a stride s the miss is |D(ξ) − ½ (D(ξ − s) + D(ξ + s))|.
+//! Farther out the step doubles wherever it is a hundredth of the distance at most and the straight
+//! chord it replaces misses the path by no more than one step does at the sharpest bend; for a
+//! stride s the miss is |D(ξ) − ½ (D(ξ − s) + D(ξ + s))|.
 
 use crate::tuning::STRIDES;
 

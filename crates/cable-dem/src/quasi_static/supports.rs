@@ -11,12 +11,13 @@ use crate::{DuctedCable, Mesh};
 struct WatchedSupport {
     support: Support,
     window: Stretch,
-    /// For which it was last solved: the load on a spring \[N\], or the adherent displacement against which the ground holds a fixed
-    /// end \[m\].
+    /// For which it was last solved: the load on a spring \[N\], or the adherent displacement
+    /// against which the ground holds a fixed end \[m\].
     solved: f64,
     /// Whether that has changed since.
     due: bool,
-    /// Displacement \[m\] and adhesion \[N/m\] of the duct up to which a fixed end's own friction has followed.
+    /// Displacement \[m\] and adhesion \[N/m\] of the duct up to which a fixed end's own friction
+    /// has followed.
     followed: [f64; 2],
 }
 
@@ -55,7 +56,8 @@ impl Supports {
         }
     }
 
-    /// The ground at rest, where the adherent frame is that of the ground, and the cable's own loads `body` \[N\].
+    /// The ground at rest, where the adherent frame is that of the ground, and the cable's own
+    /// loads `body` \[N\].
     pub fn rest(&mut self, body: Vec<f64>) {
         self.load.copy_from_slice(&body);
         self.body = body;
@@ -86,11 +88,16 @@ impl Supports {
         for watched in &mut self.all {
             let node = watched.support.node;
             let adherent = snapshot.adherent_at(node);
-            let (target, stiffness) = match watched.support.stiffness {
-                Some(spring) => (cut(snapshot, node, chain) - spring * adherent, 1.0),
-                None => (adherent, FIXED_END * chain.stiffness),
+            let fixed = FIXED_END * chain.stiffness;
+            let (target, weight) = match watched.support.stiffness {
+                // What the chain resists beside the spring: of a stiff one all but nothing moves.
+                Some(spring) => (
+                    cut(snapshot, node, chain) - spring * adherent,
+                    fixed / (spring + fixed),
+                ),
+                None => (adherent, fixed),
             };
-            watched.due = all || stiffness * (target - watched.solved).abs() > self.threshold;
+            watched.due = all || weight * (target - watched.solved).abs() > self.threshold;
             if watched.due {
                 watched.solved = target;
             }
@@ -100,7 +107,8 @@ impl Supports {
             }
             r[node] = -watched.solved;
             trial.r[node] = -watched.solved;
-            // Its friction turns at slips far smaller than those that matter to its neighbours. D = a + γ A.
+            // Its friction turns at slips far smaller than those that matter to its neighbours. D =
+            // a + γ A.
             let (gamma, adhesion) = (chain.compliance, snapshot.adhesion[node]);
             let duct = adherent + gamma * adhesion;
             let [duct_before, adhesion_before] = std::mem::replace(&mut watched.followed, [duct, adhesion]);
@@ -113,7 +121,8 @@ impl Supports {
     }
 }
 
-/// Force of the adherent motion on the last node of a cable that is cut at an end \[N\]; zero elsewhere.
+/// Force of the adherent motion on the last node of a cable that is cut at an end \[N\]; zero
+/// elsewhere.
 ///
 /// Beyond an end the adherent motion would go on; cutting the chain there leaves ±(k/2)(a_{+1} − a_{−1}), the force of
 /// the missing half.

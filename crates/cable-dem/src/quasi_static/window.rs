@@ -75,8 +75,9 @@ pub(super) fn grow(
     (grown, 2 * growth)
 }
 
-/// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside each edge. Between two parts four nodes
-/// more than a gap are quiet: two that either takes with it as its edge, and two that the next windows take.
+/// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside
+/// each edge. Between two parts four nodes more than a gap are quiet: two that either takes with it
+/// as its edge, and two that the next windows take.
 pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut Vec<Stretch>) {
     let (mut nodes, mut back) = (solved.nodes(), solved.nodes().rev());
     let (Some(first), Some(last)) = (nodes.find(|&node| moves(node)), back.find(|&node| moves(node))) else {
