@@ -6,9 +6,10 @@ use crate::error::checked;
 use crate::tuning::MAX_LEFT_OUT;
 use crate::{CableError, Mesh};
 
-/// The bend is evaluated at this many points per element, and per length over which the motion changes; out to this many of the shorter of both
-/// from the wheels.
+/// Two lengths matter: an element, and the length over which the duct's motion changes. The bend is
+/// evaluated at so many points in the shorter of both,
 const POINTS: usize = 4;
+/// and out to so many of it from the wheels.
 const ELEMENTS: usize = 8;
 
 /// A shape of the duct's displacement that travels along the duct.

@@ -5,7 +5,8 @@ use crate::{DuctedCable, End, Mesh};
 
 /// Forces at both ends \[N\], compression positive: what load cells there read.
 ///
-/// The half element beyond the middle of the last one balances
+/// The half element beyond the middle of the last one balances, with both displacements, friction
+/// and body force counted toward the end,
 ///
 /// F = k (u_inner − u_end) + Θ + w (f + p),  w = h/2,
 ///

@@ -14,7 +14,7 @@ use crate::{CableError, CableState, DuctedCable, FrictionLaw, Mesh, RestingCable
 /// ```
 /// use cable_dem::{DuctedCable, End, Friction, FrictionLaw, Mesh, laid};
 ///
-/// // A duct that rises by 30 % in a duct where friction takes 25 % of the weight.
+/// // A duct that rises by 30 %, where friction takes 25 % of the weight.
 /// let friction = Friction::new(FrictionLaw::Coulomb, 26.0)?;
 /// let cable = DuctedCable::new(30.0, 8.01e6, friction)?.with_ends(End::Fixed, End::Free)?.with_body_force(-31.3)?;
 /// let state = laid(&cable, &Mesh::for_depth(30.0, 1.2, 6.0)?)?;

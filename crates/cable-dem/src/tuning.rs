@@ -7,16 +7,17 @@
 /// while a vehicle passes.
 ///
 /// Against solves of the whole cable this moves the force by less than 1e-4 of q L (in 1400 random
-/// scenes with [`UNSEEN`] of 0.05, but for one cable held by nothing: 5e-4).
+/// scenes with [`WATCHED_SHARE`] of 0.05, but for one cable held by nothing: 5e-4).
 pub const UNBALANCED_SHARE: f64 = 1e-3;
 
-/// Part of [`UNBALANCED_SHARE`], below a half, from which on adhesion is watched, and the force of
-/// a node's last move counts. From 0.025 to 0.25 the time changes by no more than noise and the
+/// Adhesion, and the force of a node's last move, count from this part of [`UNBALANCED_SHARE`] on.
+/// It must be below one half. From 0.025 to 0.25 the time changes by no more than noise and the
 /// force by 1e-6; where the move alone counts from 1 on, the force is off by 2e-5.
-pub const UNSEEN: f64 = 0.25;
+pub const WATCHED_SHARE: f64 = 0.25;
 
-/// How many times as closely as a spring a fixed end is followed, whose force is read. It takes
-/// 1.03 times as long; with 1 the force of two passes over 30 m is off by 1.4e-5, with 10 by 1e-8.
+/// A support is solved again when its force has changed by as much as may be unbalanced. For this a
+/// fixed end counts as a spring this many times as stiff as an element. With 1 it takes 0.97 times
+/// as long, and the force of two passes over 30 m is off by 1.4e-5; with 5 by 1e-8.
 pub const FIXED_END: f64 = 5.0;
 
 /// Nodes between two windows from which on each is solved on its own. With 8 it takes 0.9 to 1.0
@@ -29,11 +30,11 @@ pub const BLOCK: usize = 64;
 
 /// Linear solves after which the iteration of a step counts as cycling. With 4 it takes 1.0 to 1.9
 /// times as long, with 6 or 12 as long.
-pub const MAX_SWEEPS: usize = 8;
+pub const MAX_ITERATIONS: usize = 8;
 
-/// Violation, as a share of the friction limit, that is taken for rounding if nothing more can be
-/// corrected: a ten thousandth of [`UNBALANCED_SHARE`].
-pub const ROUNDED: f64 = 1e-7;
+/// A bisection of n nodes counts as n²/8 nodes of a linear solve; timed it was 10 solves at 50
+/// nodes and 50 at 300. Only the counts of work depend on it.
+pub const NODES_OF_BISECTION: usize = 8;
 
 /// Distance of the vehicle from the duct, in strides, from which on a turn of the duct between two
 /// positions no longer matters: it is as wide as the distance d, and a stride of d/100 misses 1e-5

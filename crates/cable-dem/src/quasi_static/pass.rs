@@ -2,11 +2,11 @@
 
 use super::passage::{Passage, SLIPPING_SHARE, Snapshot};
 use super::supports::Supports;
-use super::window::{self, Room};
+use super::window::{self, WindowBounds};
 use crate::ends::EndReader;
 use crate::outcome::Recorder;
 use crate::step::{Chain, Load, Prediction, StepSolver, Stretch, largest};
-use crate::tuning::{UNBALANCED_SHARE, UNSEEN};
+use crate::tuning::{UNBALANCED_SHARE, WATCHED_SHARE};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
 /// Drives vehicles forward over one cable; allocated once.
@@ -16,7 +16,7 @@ pub(super) struct ForwardSolver {
     cable: DuctedCable,
     ends: EndReader,
     supports: Supports,
-    room: Room,
+    bounds: WindowBounds,
     /// A node moves if it does so by more than this in a step \[m\].
     quiet: f64,
     /// State in the adherent frame: r \[m\] and g \[N/m\].
@@ -41,12 +41,12 @@ impl ForwardSolver {
         let nodes = mesh.nodes();
         let chain = Chain::new(&cable, mesh);
         let screening = chain.compliance * chain.stiffness / mesh.spacing();
-        let room = Room::new(chain.free, screening);
+        let bounds = WindowBounds::new(chain.free, screening);
         Self {
-            supports: Supports::new(&cable, mesh, &chain, room),
+            supports: Supports::new(&cable, mesh, &chain, bounds),
             ends: EndReader::new(&cable, mesh),
-            room,
-            quiet: UNSEEN * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
+            bounds,
+            quiet: WATCHED_SHARE * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
             cable,
             step: StepSolver::new(chain),
             r: vec![0.0; nodes],
@@ -83,10 +83,10 @@ impl ForwardSolver {
         self.prediction = Prediction::new(points, phases);
         self.recorder = Recorder::new(state.end_forces(&self.cable)?);
 
-        let mut behind = self.room.free.lo;
+        let mut behind = self.bounds.free.lo;
         for (step, &position) in passage.positions.iter().enumerate() {
             let snapshot = passage.snapshot(position);
-            let under = self.room.under(snapshot.node, passage.reach);
+            let under = self.bounds.under(snapshot.node, passage.reach);
             // A node is looked at once more where adhesion no longer reaches it.
             let watched = Stretch { lo: behind, ..under };
             behind = under.lo;
@@ -110,8 +110,8 @@ impl ForwardSolver {
     /// One step of the whole cable: from rest to the vehicle's first position, or from its last one to rest.
     fn step_whole(&mut self, snapshot: &Snapshot<'_>) -> Result<(), CableError> {
         self.update_supports(snapshot, true);
-        self.solve(self.room.free, snapshot)?;
-        self.anchor(self.room.free);
+        self.solve(self.bounds.free, snapshot)?;
+        self.anchor(self.bounds.free);
         self.moving.clear();
         self.record_ends(snapshot);
         Ok(())
@@ -145,7 +145,7 @@ impl ForwardSolver {
         for window in &windows {
             self.anchor(*window);
         }
-        let touched = windows.iter().any(|window| self.room.near_an_end(*window));
+        let touched = windows.iter().any(|window| self.bounds.near_an_end(*window));
         if touched || self.supports.due().next().is_some() {
             self.record_ends(snapshot);
         }
@@ -156,10 +156,10 @@ impl ForwardSolver {
     /// Lists the windows of a step beside those around supports: what moved in the last one, and
     /// what of `watched` begins to slip.
     fn collect(&mut self, windows: &mut Vec<Stretch>, snapshot: &Snapshot<'_>, watched: Stretch) {
-        let room = self.room;
+        let bounds = self.bounds;
         windows.clear();
         // The node beside one that moved is disturbed if the window travels on.
-        windows.extend(self.moving.iter().map(|&part| room.widened(part, 1)));
+        windows.extend(self.moving.iter().map(|&part| bounds.widened(part, 1)));
         window::join(windows);
         // Between them and beyond.
         let known = windows.len();
@@ -174,7 +174,7 @@ impl ForwardSolver {
                 (near.end, near.end)
             };
             window::slipping(lo..hi, &self.g, snapshot.adhesion, limit, |slips| {
-                windows.push(room.widened(slips, room.margin));
+                windows.push(bounds.widened(slips, bounds.margin));
             });
             lo = lo.max(next);
         }
@@ -203,7 +203,7 @@ impl ForwardSolver {
     /// Solves a stretch, growing it until its edges are quiet, and makes the answer the state. Returned: what was solved; what of it still
     /// moves is appended to `moving`.
     fn solve(&mut self, mut stretch: Stretch, snapshot: &Snapshot<'_>) -> Result<Stretch, CableError> {
-        let mut growth = self.room.margin;
+        let mut growth = self.bounds.margin;
         loop {
             self.recorder.statistics.windows += 1;
             let load = Load {
@@ -216,7 +216,7 @@ impl ForwardSolver {
                 vehicle_position: self.mesh.lattice_step() * snapshot.position as f64,
                 violation,
             })?;
-            let (grown, next) = window::grow(self.room, stretch, growth, |i| self.edge_disturbed(i));
+            let (grown, next) = window::grow(self.bounds, stretch, growth, |i| self.edge_disturbed(i));
             if grown == stretch {
                 break;
             }

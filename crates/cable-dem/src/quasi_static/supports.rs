@@ -1,7 +1,7 @@
 //! Ends and clamps while the vehicle passes: their loads, and when the cable around them is to be solved again.
 
 use super::passage::Snapshot;
-use super::window::Room;
+use super::window::WindowBounds;
 use crate::step::{Chain, FixedEndFriction, Stretch, Support, Trial};
 use crate::tuning::{FIXED_END, UNBALANCED_SHARE};
 use crate::{DuctedCable, Mesh};
@@ -37,9 +37,9 @@ pub(super) struct Supports {
 
 impl Supports {
     /// Those of `cable` on `mesh`.
-    pub fn new(cable: &DuctedCable, mesh: &Mesh, chain: &Chain, room: Room) -> Self {
+    pub fn new(cable: &DuctedCable, mesh: &Mesh, chain: &Chain, bounds: WindowBounds) -> Self {
         let body = cable.loads(mesh, 0.0);
-        let around = |node| room.widened(Stretch { lo: node, hi: node }, room.margin);
+        let around = |node| bounds.widened(Stretch { lo: node, hi: node }, bounds.margin);
         let watched = |support: Support| WatchedSupport {
             window: around(support.node),
             solved: 0.0,

@@ -1,4 +1,7 @@
 //! The windows of a step: where the cable moves, how far each reaches, and what of it still moves afterwards.
+//!
+//! A window reaches as far beyond a disturbance as a stuck cable feels it, and grows until the held
+//! node beyond either edge stays in balance to [`crate::tuning::UNBALANCED_SHARE`].
 
 use std::ops::Range;
 
@@ -7,14 +10,14 @@ use crate::tuning::{BLOCK, GAP};
 
 /// Where windows may lie, and how far beyond a disturbance they reach.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Room {
+pub(super) struct WindowBounds {
     /// The unknown nodes.
     pub free: Stretch,
     /// Nodes over which a stuck cable's response fades to a hundredth.
     pub margin: usize,
 }
 
-impl Room {
+impl WindowBounds {
     /// On a cable whose sheath has the given `screening` (λ/h)².
     pub fn new(free: Stretch, screening: f64) -> Self {
         Self {
@@ -60,14 +63,14 @@ pub(super) fn join(windows: &mut Vec<Stretch>) {
 
 /// The window grown by `growth` nodes beyond each edge whose outer neighbour is `disturbed`, and the growth to try next.
 pub(super) fn grow(
-    room: Room,
+    bounds: WindowBounds,
     stretch: Stretch,
     growth: usize,
     disturbed: impl Fn(usize) -> bool,
 ) -> (Stretch, usize) {
-    let widened = room.widened(stretch, growth);
-    let left = stretch.lo > room.free.lo && disturbed(stretch.lo - 1);
-    let right = stretch.hi < room.free.hi && disturbed(stretch.hi + 1);
+    let widened = bounds.widened(stretch, growth);
+    let left = stretch.lo > bounds.free.lo && disturbed(stretch.lo - 1);
+    let right = stretch.hi < bounds.free.hi && disturbed(stretch.hi + 1);
     let grown = Stretch {
         lo: if left { widened.lo } else { stretch.lo },
         hi: if right { widened.hi } else { stretch.hi },
@@ -76,8 +79,8 @@ pub(super) fn grow(
 }
 
 /// Appends the parts of a `solved` window that still move to `parts`, with the quiet node beside
-/// each edge. Between two parts four nodes more than a gap are quiet: two that either takes with it
-/// as its edge, and two that the next windows take.
+/// each edge. At least [`GAP`] quiet nodes lie between two parts; of fewer than four more the
+/// windows of the next step take so many that they join again.
 pub(super) fn moving(solved: Stretch, moves: impl Fn(usize) -> bool, parts: &mut Vec<Stretch>) {
     let (mut nodes, mut back) = (solved.nodes(), solved.nodes().rev());
     let (Some(first), Some(last)) = (nodes.find(|&node| moves(node)), back.find(|&node| moves(node))) else {
