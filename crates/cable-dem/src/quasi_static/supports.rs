@@ -88,16 +88,12 @@ impl Supports {
         for watched in &mut self.all {
             let node = watched.support.node;
             let adherent = snapshot.adherent_at(node);
-            let fixed = FIXED_END * chain.stiffness;
-            let (target, weight) = match watched.support.stiffness {
-                // What the chain resists beside the spring: of a stiff one all but nothing moves.
-                Some(spring) => (
-                    cut(snapshot, node, chain) - spring * adherent,
-                    fixed / (spring + fixed),
-                ),
-                None => (adherent, fixed),
+            // Force on the node for each newton of load, or each metre of displacement.
+            let (target, force) = match watched.support.stiffness {
+                Some(spring) => (cut(snapshot, node, chain) - spring * adherent, 1.0),
+                None => (adherent, FIXED_END * chain.stiffness),
             };
-            watched.due = all || weight * (target - watched.solved).abs() > self.threshold;
+            watched.due = all || force * (target - watched.solved).abs() > self.threshold;
             if watched.due {
                 watched.solved = target;
             }
