@@ -10,10 +10,14 @@
 /// scenes with [`WATCHED_SHARE`] of 0.05, but for one cable held by nothing: 5e-4).
 pub const UNBALANCED_SHARE: f64 = 1e-3;
 
-/// Adhesion, and the force of a node's last move, count from this part of [`UNBALANCED_SHARE`] on.
-/// It must be below one half. From 0.025 to 0.25 the time changes by no more than noise and the
-/// force by 1e-6; where the move alone counts from 1 on, the force is off by 2e-5.
-pub const WATCHED_SHARE: f64 = 0.25;
+/// Nodes are watched where adhesion reaches this part of [`UNBALANCED_SHARE`]. From 0.025 to 0.25 the
+/// forces of traffic do not change by more than 1e-6; at 0.25 days with heat take 1.4 times as long.
+pub const WATCHED_SHARE: f64 = 0.05;
+
+/// A node is quiet when the force that its last move put on the next node is below this part of
+/// [`UNBALANCED_SHARE`]. With 0.125, 0.5 and 1 it takes as long, and the force of twenty passes over
+/// 30 m changes by 3e-7, 2e-6 and 2e-5.
+pub const QUIET_SHARE: f64 = 0.25;
 
 /// A support is solved again when its force has changed by as much as may be unbalanced. For this a
 /// fixed end counts as a spring this many times as stiff as an element. With 1 it takes 0.97 times
@@ -35,11 +39,6 @@ pub const MAX_ITERATIONS: usize = 8;
 /// A bisection of n nodes counts as n²/8 nodes of a linear solve; timed it was 10 solves at 50
 /// nodes and 50 at 300. Only the counts of work depend on it.
 pub const NODES_OF_BISECTION: usize = 8;
-
-/// Distance of the vehicle from the duct, in strides, from which on a turn of the duct between two
-/// positions no longer matters: it is as wide as the distance d, and a stride of d/100 misses 1e-5
-/// of it.
-pub const STRIDES: i64 = 100;
 
 /// Largest share of the duct's peak displacement that an element may leave out. Under one wheel at
 /// depth z elements of z/3, z/2 and z leave out 28, 45 and 90 %; the force after fifty passes is

@@ -6,7 +6,7 @@ use super::window::{self, WindowBounds};
 use crate::ends::EndReader;
 use crate::outcome::Recorder;
 use crate::step::{Chain, Load, Prediction, StepSolver, Stretch, largest};
-use crate::tuning::{UNBALANCED_SHARE, WATCHED_SHARE};
+use crate::tuning::{QUIET_SHARE, UNBALANCED_SHARE};
 use crate::{CableError, CableState, DuctedCable, EndForces, Mesh};
 
 /// Drives vehicles forward over one cable; allocated once.
@@ -46,7 +46,7 @@ impl ForwardSolver {
             supports: Supports::new(&cable, mesh, &chain, bounds),
             ends: EndReader::new(&cable, mesh),
             bounds,
-            quiet: WATCHED_SHARE * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
+            quiet: QUIET_SHARE * UNBALANCED_SHARE * chain.least_limit * mesh.spacing() / chain.stiffness,
             cable,
             step: StepSolver::new(chain),
             r: vec![0.0; nodes],
@@ -128,17 +128,25 @@ impl ForwardSolver {
         self.update_supports(snapshot, false);
         let mut windows = std::mem::take(&mut self.windows);
         self.collect(&mut windows, snapshot, watched);
-        let under = |window: &&Stretch| window.lo <= watched.hi && watched.lo <= window.hi;
-        // Under the vehicle contact is as it saw it last, elsewhere as it was.
-        for window in windows.iter().filter(under) {
-            self.prediction.read(first, *window, &mut self.step.trial.contact);
-        }
+        let travelling = windows.clone();
         windows.extend(self.supports.due());
         window::join(&mut windows);
         self.moving.clear();
         for window in &mut windows {
-            *window = self.solve(*window, snapshot)?;
-            self.prediction.write(first, *window, &self.step.trial.contact);
+            let (begun, before) = (*window, self.moving.len());
+            let travels = travelling.iter().any(|part| part.overlaps(begun));
+            if travels {
+                self.prediction.read(first, begun, &mut self.step.trial.contact);
+            }
+            *window = self.solve(begun, snapshot)?;
+            if travels {
+                self.prediction.write(first, *window, &self.step.trial.contact);
+                self.supports.remember(begun, &[]);
+            } else {
+                // Around a support nothing moves on until its load changes.
+                self.supports.remember(begun, &self.moving[before..]);
+                self.moving.truncate(before);
+            }
             let widest = &mut self.recorder.statistics.widest_window;
             *widest = window.len().max(*widest);
         }

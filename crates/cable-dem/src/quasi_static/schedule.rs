@@ -13,7 +13,10 @@
 //! chord it replaces misses the path by no more than one step does at the sharpest bend; for a
 //! stride s the miss is |D(ξ) − ½ (D(ξ − s) + D(ξ + s))|.
 
-use crate::tuning::STRIDES;
+/// Distance of the vehicle from the duct, in strides, from which on a turn of the duct between two
+/// positions no longer matters: it is as wide as the distance d, and a stride of d/100 misses 1e-5
+/// of it.
+const STRIDES: i64 = 100;
 
 /// Vehicle positions in lattice units, ascending, from `approach` before a duct of length `end` to `approach` past it, about
 /// `stride` apart over the duct. `shape` is D on the lattice, `origin` the index of ξ = 0 in it.

@@ -10,6 +10,8 @@ use crate::{DuctedCable, Mesh};
 #[derive(Debug, Clone)]
 struct WatchedSupport {
     support: Support,
+    /// Its least window, and what moved in it when it was last solved.
+    least: Stretch,
     window: Stretch,
     /// For which it was last solved: the load on a spring \[N\], or the adherent displacement
     /// against which the ground holds a fixed end \[m\].
@@ -41,6 +43,7 @@ impl Supports {
         let body = cable.loads(mesh, 0.0);
         let around = |node| bounds.widened(Stretch { lo: node, hi: node }, bounds.margin);
         let watched = |support: Support| WatchedSupport {
+            least: around(support.node),
             window: around(support.node),
             solved: 0.0,
             due: false,
@@ -63,6 +66,7 @@ impl Supports {
         self.body = body;
         for watched in &mut self.all {
             (watched.solved, watched.followed) = (0.0, [0.0; 2]);
+            watched.window = watched.least;
         }
     }
 
@@ -72,6 +76,15 @@ impl Supports {
             .iter()
             .filter(|watched| watched.due)
             .map(|watched| watched.window)
+    }
+
+    /// Remembers what `moved` in a `window` that was solved: the windows of its supports begin with
+    /// that next time.
+    pub fn remember(&mut self, window: Stretch, moved: &[Stretch]) {
+        let in_window = |watched: &&mut WatchedSupport| watched.due && watched.least.overlaps(window);
+        for watched in self.all.iter_mut().filter(in_window) {
+            watched.window = moved.iter().copied().fold(watched.least, Stretch::hull);
+        }
     }
 
     /// Brings the loads up to date where the vehicle's effect on them has changed, or everywhere if `all`, and moves fixed nodes, whose

@@ -94,6 +94,18 @@ impl Stretch {
         self.lo..=self.hi
     }
 
+    pub fn overlaps(self, other: Self) -> bool {
+        self.lo <= other.hi && other.lo <= self.hi
+    }
+
+    /// What holds both.
+    pub fn hull(self, other: Self) -> Self {
+        Self {
+            lo: self.lo.min(other.lo),
+            hi: self.hi.max(other.hi),
+        }
+    }
+
     pub fn len(self) -> usize {
         self.hi + 1 - self.lo
     }
