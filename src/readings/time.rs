@@ -3,21 +3,26 @@
 use creepage_tables::Table;
 
 use super::DataError;
+use super::columns::Columns;
 use crate::scene::shortened;
 
 /// Longest time that a message repeats \[characters\].
 const LONGEST: usize = 80;
 
-/// Refuses rows that are not in the order of the times in `column`: vehicles are counted from row to row.
-pub fn check_order(table: &Table, column: usize, run: Option<usize>) -> Result<(), DataError> {
+/// Refuses rows that are not in the order of their times: vehicles are counted from row to row.
+pub fn check_order(table: &Table, columns: &Columns) -> Result<(), DataError> {
+    let Some(column) = columns.time else {
+        return Ok(());
+    };
     for pair in table.rows.windows(2) {
-        let [before, after] = [&pair[0], &pair[1]];
-        let is_one_run = run.is_none_or(|run| before.cell(run) == after.cell(run));
-        let [earlier, later] = [before, after].map(|row| row.cell(column));
+        let [earlier, later] = [0, 1].map(|row| pair[row].cell(column));
+        let is_one_run = columns
+            .run
+            .is_none_or(|run| pair[0].cell(run) == pair[1].cell(run));
         if is_one_run && is_earlier(later, earlier) {
             let [earlier, later] = [earlier, later].map(|text| shortened(text, LONGEST));
             let found = format!("\"{later}\", earlier than the row before, \"{earlier}\"");
-            return Err(table.wrong(after.line, found, "rows in the order of their times"));
+            return Err(table.wrong(pair[1].line, found, "rows in the order of their times"));
         }
     }
     Ok(())
@@ -42,13 +47,13 @@ fn key(text: &str) -> Option<(Vec<f64>, Option<f64>)> {
     }
     let parts = text.split(|c: char| !c.is_ascii_digit());
     let mut parts: Vec<f64> = parts.filter_map(|part| part.parse().ok()).collect();
-    let year_first = text.bytes().take_while(u8::is_ascii_digit).count() == 4;
-    let is_digit = |c: char| c.is_ascii_digit();
-    if !year_first && text.contains('.') && parts.len() > 2 && text.starts_with(is_digit) {
+    let first = text.bytes().take_while(u8::is_ascii_digit).count();
+    match parts[..] {
+        _ if first == 4 => {}
         // 24.12.2025 17:30
-        parts.swap(0, 2);
-    } else if !year_first && (text.contains('/') || !text.contains(':')) {
-        return None;
+        [_, _, _, ..] if first > 0 && text.contains('.') => parts.swap(0, 2),
+        _ if text.contains('/') || !text.contains(':') => return None,
+        _ => {}
     }
     // `+02:00` or `-05:30` behind the time; months are taken for 31 days, which keeps their order.
     let zone = text.rfind(['+', '-']).filter(|&sign| text[..sign].contains(':'));

@@ -17,26 +17,26 @@ pub struct Options {
     pub skip: Option<u64>,
     /// Sheet of a workbook; the first that holds anything if omitted.
     pub sheet: Option<String>,
-    /// Unit of the columns of [`Names::measured`](crate::Names::measured), whatever the file says.
+    /// Unit of the columns of [`Layout::measured`](crate::Layout::measured), whatever the file says.
     pub unit: Option<String>,
     /// Columns by their names: the kind, such as `force`, and the name in the header, whatever its case.
     pub columns: Vec<(String, String)>,
 }
 
 /// Signs by their words.
-const SIGNS: [(char, &str); 6] = [
-    (';', "semicolon"),
-    ('\t', "tab"),
-    (',', "comma"),
-    (' ', "space"),
-    ('|', "bar"),
-    ('.', "point"),
+const SIGNS: [(&str, &str); 6] = [
+    (";", "semicolon"),
+    ("\t", "tab"),
+    (",", "comma"),
+    (" ", "space"),
+    ("|", "bar"),
+    (".", "point"),
 ];
 
-/// The sign in words, as what stands between cells.
-pub fn in_words(sign: char) -> String {
-    let word = SIGNS.iter().find(|(other, _)| *other == sign);
-    word.map_or_else(|| format!("\"{sign}\""), |(_, word)| format!("{word}s"))
+/// The word for a sign.
+pub fn word(sign: char) -> String {
+    let word = SIGNS.iter().find(|(other, _)| other.starts_with(sign));
+    word.map_or_else(|| format!("\"{sign}\""), |(_, word)| (*word).to_owned())
 }
 
 impl Options {
@@ -46,15 +46,15 @@ impl Options {
     ///
     /// What was found and what is allowed.
     pub fn set(&mut self, name: &str, text: &str) -> Result<(), String> {
-        let of = |allowed: &str| format!("found `{text}`; allowed: {allowed}");
+        let wrong = |allowed: &str| format!("found `{text}`; allowed: {allowed}");
         let sign = |among: &str, allowed: &str| {
-            let is_meant = |(sign, word): &&(char, &str)| {
-                among.contains(*sign) && (text == *word || text.replace("\\t", "\t") == sign.to_string())
-            };
-            let found = SIGNS.iter().find(is_meant).map(|(sign, _)| *sign);
-            found.ok_or_else(|| of(allowed)).map(Some)
+            let typed = text.replace("\\t", "\t");
+            let mut signs = SIGNS.iter().filter(|(sign, _)| among.contains(sign));
+            let found = signs.find(|(sign, word)| [*sign, *word].contains(&&*typed));
+            let sign = found.and_then(|(sign, _)| sign.chars().next());
+            sign.map(Some).ok_or_else(|| wrong(allowed))
         };
-        let whole = || text.parse().map_err(|_| of("a whole number")).map(Some);
+        let whole = || text.parse().map(Some).map_err(|_| wrong("a whole number"));
         match name {
             "separator" => {
                 self.separator = sign(";\t, |", "comma, semicolon, tab, space, or one of , ; |")?;
@@ -67,7 +67,7 @@ impl Options {
                     _ => text,
                 };
                 let allowed = "utf-8, utf-16, latin-1, shift_jis, or another name of the Encoding Standard";
-                self.encoding = Some(Encoding::for_label(label.as_bytes()).ok_or_else(|| of(allowed))?);
+                self.encoding = Some(Encoding::for_label(label.as_bytes()).ok_or_else(|| wrong(allowed))?);
             }
             "header_line" => self.header_line = whole()?,
             "skip" => self.skip = whole()?,
