@@ -20,9 +20,10 @@ pub struct Values {
     pub sigma: Option<(usize, usize)>,
 }
 
-/// The columns of a table of readings.
-#[derive(Debug)]
-pub struct Columns {
+/// A table of readings, and which of its columns holds what.
+pub struct Columns<'o> {
+    pub table: Table,
+    pub options: &'o ReadOptions,
     pub pass: Option<usize>,
     pub vehicles: Option<usize>,
     pub run: Option<usize>,
@@ -32,8 +33,8 @@ pub struct Columns {
 }
 
 /// Finds the columns of `table`.
-pub fn columns(table: &mut Table, options: &ReadOptions) -> Result<Columns, DataError> {
-    refuse_cut_decimals(table)?;
+pub fn columns(mut table: Table, options: &ReadOptions) -> Result<Columns<'_>, DataError> {
+    refuse_cut_decimals(&table)?;
     let pass = table.one(PASS)?;
     let vehicles = if pass.is_none() {
         table.one(VEHICLES)?
@@ -44,8 +45,8 @@ pub fn columns(table: &mut Table, options: &ReadOptions) -> Result<Columns, Data
     for column in pass.into_iter().chain(vehicles) {
         table.names[column].unit = None;
     }
-    let mut values = values(table, options)?;
-    add_sigmas(table, options, &mut values)?;
+    let mut values = values(&table, options)?;
+    add_sigmas(&mut table, options, &mut values)?;
     Ok(Columns {
         pass,
         vehicles,
@@ -53,6 +54,8 @@ pub fn columns(table: &mut Table, options: &ReadOptions) -> Result<Columns, Data
         time: table.names.iter().position(|name| name.kind == Some(TIME)),
         position: table.one(POSITION)?,
         values,
+        options,
+        table,
     })
 }
 
@@ -76,35 +79,33 @@ fn refuse_cut_decimals(table: &Table) -> Result<(), DataError> {
 /// The columns of values. Beside forces others count where they were chosen or are this program's own: tables of its runs hold both.
 fn values(table: &Table, options: &ReadOptions) -> Result<Vec<Values>, DataError> {
     let mut values: Vec<Values> = Vec::new();
-    for kind in MEASURED {
-        for column in table.of(kind) {
-            let name = &table.names[column];
-            let is_told = |(told, _): &&(String, CableEnd)| {
-                name.chosen && told.to_lowercase() == name.text.to_lowercase()
-            };
-            let told = options.ends.iter().find(is_told).map(|(_, end)| *end);
-            let end = told.or_else(|| end(name));
-            let wrong = |found, allowed| Err(table.wrong(table.line, found, allowed));
-            if values.iter().any(|other| (other.kind, other.end) == (kind, end)) {
-                let word = if kind == MOVEMENT { "movement" } else { "force" };
-                let choice = format!("--column-{word} chooses one, or names the end of each: upstream=NAME");
-                return wrong(format!("a second column {}; {choice}", name.text), LAYOUT.allowed);
-            }
-            if let Some(unit) = name.unit.as_ref().filter(|unit| si(kind, "1", unit).is_err()) {
-                let of = if is_told_unit(options, kind) {
-                    "--unit"
-                } else {
-                    &name.text
-                };
-                return wrong(format!("{of}: the unit `{unit}`"), UNITS);
-            }
-            values.push(Values {
-                column,
-                kind,
-                end,
-                sigma: None,
-            });
+    let columns = MEASURED.map(|kind| table.of(kind).into_iter().map(move |column| (kind, column)));
+    for (kind, column) in columns.into_iter().flatten() {
+        let name = &table.names[column];
+        let is_told = |told: &str| name.chosen && told.to_lowercase() == name.text.to_lowercase();
+        let told = options.ends.iter().find(|(told, _)| is_told(told));
+        let end = told.map(|(_, end)| *end).or_else(|| end(name));
+        if values.iter().any(|other| (other.kind, other.end) == (kind, end)) {
+            let word = if kind == MOVEMENT { "movement" } else { "force" };
+            let choice = format!("--column-{word} chooses one, or names the end of each: upstream=NAME");
+            let found = format!("a second column {}; {choice}", name.text);
+            return Err(table.wrong(table.line, found, LAYOUT.allowed));
         }
+        if let Some(unit) = name.unit.as_ref().filter(|unit| si(kind, "1", unit).is_err()) {
+            let of = if is_told_unit(options, kind) {
+                "--unit"
+            } else {
+                &name.text
+            };
+            return Err(table.wrong(table.line, format!("{of}: the unit `{unit}`"), UNITS));
+        }
+        let sigma = None;
+        values.push(Values {
+            column,
+            kind,
+            end,
+            sigma,
+        });
     }
     let has_force = values.iter().any(|value| value.kind == FORCE);
     values.retain(|value| value.kind == FORCE || !has_force || table.names[value.column].is_own());

@@ -9,7 +9,7 @@ use super::kinds::{DEFLECTION, FORCE, LAYOUT, measured};
 use super::list::Readings;
 use super::options::ReadOptions;
 use super::reading::{Measured, Place, Reading};
-use super::{DataError, runs, time};
+use super::{DataError, runs};
 
 /// Rows from which on vehicles that only ever grow are taken for a running total: by chance one file in 120.
 const TOTAL: usize = 5;
@@ -41,28 +41,16 @@ impl Readings {
     ///
     /// As for [`Readings::from_file`].
     pub fn from_bytes(file: &str, bytes: &[u8], options: &ReadOptions) -> Result<Self, DataError> {
-        read(Table::read(file.into(), bytes, &options.table, &LAYOUT)?, options)
+        read(Table::read(file, bytes, &options.table, &LAYOUT)?, options)
     }
 }
 
-/// A table of readings, its columns found.
-struct Source<'o> {
-    table: Table,
-    columns: Columns,
-    options: &'o ReadOptions,
-}
-
 /// The readings in `table`.
-fn read(mut table: Table, options: &ReadOptions) -> Result<Readings, DataError> {
-    let columns = columns(&mut table, options)?;
-    time::check_order(&table, &columns)?;
-    let source = Source {
-        table,
-        columns,
-        options,
-    };
-    source.refuse_totals()?;
-    source.readings()
+fn read(table: Table, options: &ReadOptions) -> Result<Readings, DataError> {
+    let columns = columns(table, options)?;
+    columns.check_order_of_times()?;
+    columns.refuse_totals()?;
+    columns.readings()
 }
 
 /// The column, if the row has anything there.
@@ -70,148 +58,131 @@ fn given(row: &Row, column: Option<usize>) -> Option<usize> {
     column.filter(|&column| !row.cell(column).is_empty())
 }
 
-impl Source<'_> {
+impl Columns<'_> {
     fn readings(&self) -> Result<Readings, DataError> {
-        let (table, columns) = (&self.table, &self.columns);
-        let (mut list, mut runs) = (Vec::new(), Vec::new());
+        let mut readings = Readings {
+            file: self.table.file.clone(),
+            ..Readings::default()
+        };
         // Vehicles of each run so far; rows without a value, and what stands there.
         let mut counted: Vec<u64> = Vec::new();
         let (mut blank, mut unusable) = (Vec::new(), Vec::new());
-        for row in &table.rows {
-            let label = columns.run.map_or("", |column| row.cell(column));
-            let run = runs.iter().position(|other| other == label).unwrap_or(runs.len());
-            if run == runs.len() {
-                runs.push(label.to_owned());
-                counted.push(0);
-            }
-            if let Some(column) = given(row, columns.vehicles) {
-                let count = table.value(row, column, column)?;
+        for row in &self.table.rows {
+            let label = self.run.map_or("", |column| row.cell(column));
+            let run = readings.run(label);
+            counted.resize(readings.runs.len(), 0);
+            if let Some(column) = given(row, self.vehicles) {
+                let count = self.table.value(row, column, column)?;
                 counted[run] = counted[run].saturating_add(count as u64);
             }
-            for values in &columns.values {
+            for values in &self.values {
                 match row.cell(values.column) {
                     "" => blank.push((row.line, "")),
                     text if is_no_value(text) => unusable.push((row.line, text)),
-                    _ => list.push(self.reading(row, values, run, counted[run])?),
+                    _ => readings.list.push(self.reading(row, values, run, counted[run])?),
                 }
             }
         }
-        let first = &columns.values[0];
-        let blanks = format!("rows without a {}", measured(first.kind, Place::Natural).name());
-        let notes = [
-            left_out(&blanks, &blank),
-            left_out("cells without a number", &unusable),
-        ];
-        let mut readings = Readings {
-            file: table.file.clone(),
-            list,
-            runs,
-            skipped: blank.len() + unusable.len(),
-            notes: notes.into_iter().flatten().collect(),
-        };
+        readings.skipped = blank.len() + unusable.len();
         self.check(&readings.list, unusable.first())?;
-        if columns.run.or(columns.vehicles).is_none() {
+        let measured = measured(self.values[0].kind, Place::Natural).name();
+        let blank = left_out(&format!("rows without a {measured}"), &blank);
+        readings.notes.extend(
+            blank
+                .into_iter()
+                .chain(left_out("cells without a number", &unusable)),
+        );
+        if self.run.or(self.vehicles).is_none() {
             runs::split_where_passes_begin_anew(&mut readings);
         }
         runs::count_from_rest(&mut readings, self.options.run_start);
-        readings.notes.extend(self.too_small(&readings.list));
+        let too_small = self.too_small(&readings.list);
+        readings.notes.extend(too_small);
         Ok(readings)
     }
 
     /// The reading of a row in a column, in this run, after this many vehicles if they are counted.
     fn reading(&self, row: &Row, values: &Values, run: usize, counted: u64) -> Result<Reading, DataError> {
         let table = &self.table;
-        let value = table.value(row, values.column, values.column)?;
-        let numbered = self.columns.pass.map(|pass| table.value(row, pass, pass));
-        let pass = numbered.transpose()?.map_or(counted, |pass| pass as u64);
-        let place = match given(row, self.columns.position) {
+        let value = |column| table.value(row, column, column);
+        let force = value(values.column)?;
+        let passes = self
+            .pass
+            .map_or(Ok(counted), |pass| value(pass).map(|pass| pass as u64))?;
+        let place = match given(row, self.position) {
             None => values.end.map_or(Place::Natural, Place::End),
             Some(_) if values.kind == DEFLECTION => {
                 let allowed = "deflections without one: they are those of the duct under the first vehicle, wherever it is";
                 return Err(table.wrong(row.line, "a place beside a deflection", allowed));
             }
-            Some(position) => Place::At(table.value(row, position, position)?),
+            Some(position) => Place::At(value(position)?),
         };
-        let sigma = values.sigma.filter(|(column, _)| !row.cell(*column).is_empty());
-        let sigma = sigma.map(|(column, like)| match table.value(row, column, like)? {
-            sigma if sigma > 0.0 => Ok(sigma),
-            _ => Err(table.wrong_cell(row, column, "a finite, positive number")),
-        });
         let is_tension = self.options.tension_positive && values.kind == FORCE;
-        Ok(Reading {
-            pass,
-            passes: pass,
-            measured: measured(values.kind, place),
-            value: if is_tension { -value } else { value },
-            sigma: sigma.transpose()?,
-            run,
-            line: row.line,
-        })
+        let mut reading = Reading::force(passes, if is_tension { -force } else { force });
+        (reading.run, reading.line) = (run, row.line);
+        reading.measured = measured(values.kind, place);
+        if let Some((column, like)) = values.sigma.filter(|(column, _)| !row.cell(*column).is_empty()) {
+            let sigma = table.value(row, column, like)?;
+            if sigma <= 0.0 {
+                return Err(table.wrong_cell(row, column, "a finite, positive number"));
+            }
+            reading.sigma = Some(sigma);
+        }
+        Ok(reading)
     }
 
     /// Refuses what are no readings as a whole.
     fn check(&self, list: &[Reading], unusable: Option<&(u64, &str)>) -> Result<(), DataError> {
-        let wrong = |line, found: &str, allowed| Err(self.table.wrong(line, found, allowed));
-        let name = &self.table.names[self.columns.values[0].column].text;
+        let name = &self.table.names[self.values[0].column].text;
         let blank = list.iter().find(|reading| reading.sigma.is_none());
-        match (list.first(), blank) {
-            (None, _) => match unusable {
-                None => Err(DataError::Empty(self.table.file.clone())),
-                Some((line, text)) => wrong(
-                    *line,
-                    &format!("{name}: found \"{text}\", and no number anywhere"),
-                    "a finite number",
-                ),
-            },
-            (Some(first), _) if list.iter().all(|reading| reading.pass == 0) => wrong(
+        let has_sigmas = list.iter().any(|reading| reading.sigma.is_some());
+        let (line, found, allowed) = match (list.first(), unusable, blank) {
+            (None, None, _) => return Err(DataError::Empty(self.table.file.clone())),
+            (None, Some((line, text)), _) => (
+                *line,
+                format!("{name}: found \"{text}\", and no number anywhere"),
+                "a finite number",
+            ),
+            (Some(first), ..) if list.iter().all(|reading| reading.pass == 0) => (
                 first.line,
-                "pass: found \"0\" alone",
+                "pass: found \"0\" alone".into(),
                 "readings after at least one pass",
             ),
-            (_, Some(blank)) if list.iter().any(|reading| reading.sigma.is_some()) => wrong(
+            (_, _, Some(blank)) if has_sigmas => (
                 blank.line,
-                "sigma_n is blank, but given for other readings",
+                "sigma_n is blank, but given for other readings".into(),
                 "all or none",
             ),
-            _ => Ok(()),
-        }
+            _ => return Ok(()),
+        };
+        Err(self.table.wrong(line, found, allowed))
     }
 
     /// A note where forces without a unit look like kilonewtons.
     fn too_small(&self, list: &[Reading]) -> Option<String> {
         let name = |values: &Values| &self.table.names[values.column];
-        let mut forces = self.columns.values.iter().filter(|values| values.kind == FORCE);
-        let bare = name(forces.find(|values| name(values).unit.is_none())?);
-        let forces = list
-            .iter()
-            .filter(|reading| matches!(reading.measured, Measured::Force(_)));
-        let largest = forces.map(|reading| reading.value.abs()).fold(0.0, f64::max);
-        (largest > 0.0 && largest < 10.0).then(|| {
-            format!("column {} names no unit and was read as newtons, at most {largest:.3} N: it looks like kN (--unit kN)", bare.text)
-        })
+        let mut forces = self.values.iter().filter(|values| values.kind == FORCE);
+        let text = &name(forces.find(|values| name(values).unit.is_none())?).text;
+        let is_force = |reading: &&Reading| matches!(reading.measured, Measured::Force(_));
+        let sizes = list.iter().filter(is_force).map(|reading| reading.value.abs());
+        let largest = sizes.fold(0.0, f64::max);
+        let how = "names no unit and was read as newtons, at most";
+        let note = || format!("column {text} {how} {largest:.3} N: it looks like kN (--unit kN)");
+        (largest > 0.0 && largest < 10.0).then(note)
     }
 
     /// Refuses vehicles that may be a running total, unless their column was chosen.
     fn refuse_totals(&self) -> Result<(), DataError> {
-        let table = &self.table;
-        let Some(column) = self
-            .columns
-            .vehicles
-            .filter(|&column| !table.names[column].chosen)
-        else {
-            return Ok(());
-        };
-        let counts = table
-            .rows
-            .iter()
-            .filter_map(|row| table.value(row, column, column).ok());
-        let counts: Vec<f64> = counts.collect();
+        let (table, rows) = (&self.table, &self.table.rows);
+        let open = self.vehicles.filter(|&column| !table.names[column].chosen);
+        let count = |row| table.value(row, open?, open?).ok();
+        let counts: Vec<f64> = rows.iter().filter_map(count).collect();
         if counts.len() < TOTAL || counts.windows(2).any(|pair| pair[1] <= pair[0]) {
             return Ok(());
         }
         let found = "vehicles that grow from row to row: a running total, or vehicles since the row before";
         let allowed = "either: --column-pass NAME takes a total, --column-vehicles NAME takes those since the row before";
-        Err(table.wrong(table.rows[0].line, found, allowed))
+        Err(table.wrong(rows[0].line, found, allowed))
     }
 }
 
@@ -221,15 +192,8 @@ fn left_out(what: &str, cells: &[(u64, &str)]) -> Option<String> {
         "" => format!("line {line}"),
         text => format!("line {line} (\"{text}\")"),
     };
-    let (count, lines) = (
-        cells.len(),
-        cells
-            .iter()
-            .take(MOST_LINES)
-            .map(shown)
-            .collect::<Vec<_>>()
-            .join(", "),
-    );
+    let lines: Vec<String> = cells.iter().take(MOST_LINES).map(shown).collect();
+    let (count, lines) = (cells.len(), lines.join(", "));
     let more = if count > MOST_LINES { ", …" } else { "" };
     (count > 0).then(|| format!("{count} {what} were left out: {lines}{more}"))
 }

@@ -1,7 +1,5 @@
 //! Times, so far as their order goes.
 
-use creepage_tables::Table;
-
 use super::DataError;
 use super::columns::Columns;
 use crate::scene::shortened;
@@ -9,23 +7,22 @@ use crate::scene::shortened;
 /// Longest time that a message repeats \[characters\].
 const LONGEST: usize = 80;
 
-/// Refuses rows that are not in the order of their times: vehicles are counted from row to row.
-pub fn check_order(table: &Table, columns: &Columns) -> Result<(), DataError> {
-    let Some(column) = columns.time else {
-        return Ok(());
-    };
-    for pair in table.rows.windows(2) {
-        let [earlier, later] = [0, 1].map(|row| pair[row].cell(column));
-        let is_one_run = columns
-            .run
-            .is_none_or(|run| pair[0].cell(run) == pair[1].cell(run));
-        if is_one_run && is_earlier(later, earlier) {
-            let [earlier, later] = [earlier, later].map(|text| shortened(text, LONGEST));
-            let found = format!("\"{later}\", earlier than the row before, \"{earlier}\"");
-            return Err(table.wrong(pair[1].line, found, "rows in the order of their times"));
+impl Columns<'_> {
+    /// Refuses rows that are not in the order of their times: vehicles are counted from row to row.
+    pub fn check_order_of_times(&self) -> Result<(), DataError> {
+        for pair in self.table.rows.windows(2) {
+            let [earlier, later] = [0, 1].map(|row| self.time.map_or("", |column| pair[row].cell(column)));
+            let is_one_run = self.run.is_none_or(|run| pair[0].cell(run) == pair[1].cell(run));
+            if is_one_run && is_earlier(later, earlier) {
+                let [earlier, later] = [earlier, later].map(|text| shortened(text, LONGEST));
+                let found = format!("\"{later}\", earlier than the row before, \"{earlier}\"");
+                return Err(self
+                    .table
+                    .wrong(pair[1].line, found, "rows in the order of their times"));
+            }
         }
+        Ok(())
     }
-    Ok(())
 }
 
 /// Whether a time is certainly earlier than another: by what the clock shows, and where the distance from UTC is said, as an instant too.

@@ -1,5 +1,7 @@
 //! What is wrong with a table, and where.
 
+pub type Result<T> = std::result::Result<T, TableError>;
+
 /// What is wrong with a table, and where. The first text of each is the name of the file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

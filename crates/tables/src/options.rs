@@ -61,13 +61,13 @@ impl Options {
             }
             "decimal" => self.decimal = sign(".,", "point, comma, or one of . ,")?,
             "encoding" => {
-                let label = match &*text.to_ascii_lowercase() {
-                    "latin-1" => "latin1",
-                    "cp932" => "shift_jis",
-                    _ => text,
-                };
+                let label = text
+                    .to_ascii_lowercase()
+                    .replace("latin-", "latin")
+                    .replace("cp932", "sjis");
+                let encoding = Encoding::for_label(label.as_bytes()).map(Some);
                 let allowed = "utf-8, utf-16, latin-1, shift_jis, or another name of the Encoding Standard";
-                self.encoding = Some(Encoding::for_label(label.as_bytes()).ok_or_else(|| wrong(allowed))?);
+                self.encoding = encoding.ok_or_else(|| wrong(allowed))?;
             }
             "header_line" => self.header_line = whole()?,
             "skip" => self.skip = whole()?,

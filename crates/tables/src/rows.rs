@@ -95,7 +95,7 @@ fn separated(text: &str, sign: char) -> Vec<Row> {
         let cells = record.iter().map(|cell| cell.trim().to_owned());
         // A quote that is never closed holds the end of its line, too.
         let is_open = reader.position().byte() == text.len() as u64
-            && record.iter().last().is_some_and(|cell| cell.ends_with('\n'));
+            && record.iter().next_back().is_some_and(|cell| cell.ends_with('\n'));
         rows.push(Row {
             // The position is that of the line behind the row.
             line: reader

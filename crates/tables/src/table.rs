@@ -2,10 +2,11 @@
 
 use std::fs::File;
 use std::io::Read;
+use std::ops::Range;
 use std::path::Path;
 
 use crate::column::{Kind, Layout, Name, is_same};
-use crate::error::TableError;
+use crate::error::{Result, TableError};
 use crate::number::{both, number};
 use crate::options::{Options, word};
 use crate::rows::{self, Row};
@@ -35,13 +36,13 @@ impl Table {
     /// # Errors
     ///
     /// As for [`Table::read`]; [`TableError::Unreadable`].
-    pub fn from_file(path: &Path, options: &Options, layout: &'static Layout) -> Result<Self, TableError> {
+    pub fn from_file(path: &Path, options: &Options, layout: &'static Layout) -> Result<Self> {
         let file = path.display().to_string();
         let mut bytes = Vec::new();
         // One byte more tells a file that is too large, without all of it.
         let read = File::open(path).and_then(|open| open.take(layout.most + 1).read_to_end(&mut bytes));
         match read {
-            Ok(_) => Self::read(file, &bytes, options, layout),
+            Ok(_) => Self::read(&file, &bytes, options, layout),
             Err(source) => Err(TableError::Unreadable(file, source)),
         }
     }
@@ -51,117 +52,100 @@ impl Table {
     /// # Errors
     ///
     /// [`TableError`] with the first thing that is wrong, and its line: a column that is missing, a row that is not as long as the header.
-    pub fn read(
-        file: String,
-        bytes: &[u8],
-        options: &Options,
-        layout: &'static Layout,
-    ) -> Result<Self, TableError> {
+    pub fn read(file: &str, bytes: &[u8], options: &Options, layout: &'static Layout) -> Result<Self> {
+        let (file, allowed) = (file.to_owned(), layout.most);
+        if bytes.len() as u64 > allowed {
+            return Err(TableError::TooLarge { file, allowed });
+        }
+        let (rows, separator, sheets) = rows_of(&file, bytes, options)?;
+        let Some(first) = rows.first() else {
+            return Err(TableError::Empty(file));
+        };
+        let (line, names) = (first.line, Vec::new());
         let mut table = Self {
             file,
-            line: 0,
-            names: Vec::new(),
-            rows: Vec::new(),
+            line,
+            names,
+            rows,
             layout,
-            separator: None,
-            sheets: Vec::new(),
+            separator,
+            sheets,
         };
-        table.take_rows(bytes, options)?;
         table.take_header(options)?;
         table.check_columns(options)?;
         table.find_decimal_signs(options.decimal);
         Ok(table)
     }
 
-    fn take_rows(&mut self, bytes: &[u8], options: &Options) -> Result<(), TableError> {
-        let (file, allowed) = (self.file.clone(), self.layout.most);
-        if bytes.len() as u64 > allowed {
-            return Err(TableError::TooLarge { file, allowed });
-        }
-        #[cfg(feature = "xlsx")]
-        if bytes.starts_with(crate::workbook::MARK) {
-            (self.rows, self.sheets) = crate::workbook::read(&file, bytes, options.sheet.as_deref())?;
-            return Ok(());
-        }
-        let Some(text) = text::decoded(bytes, options.encoding) else {
-            return Err(TableError::NoText(
-                file,
-                options.encoding.map(encoding_rs::Encoding::name),
-            ));
-        };
-        let (rows, separator) = rows::read(&text, options.separator);
-        (self.rows, self.separator) = (rows, Some(separator));
-        if self.rows.is_empty() {
-            Err(TableError::Empty(file))
-        } else {
-            Ok(())
-        }
-    }
-
-    /// Takes the names from the line that was said, else from the first row that is recognised, else from that with the most words; where the
-    /// first row holds numbers, they are [`Layout::unnamed`]. The row below says more where cells are merged, or where it holds the units.
-    fn take_header(&mut self, options: &Options) -> Result<(), TableError> {
-        let (rows, layout) = (&self.rows, self.layout);
-        let names = |rows: &[Row]| layout.names(rows, options);
-        // The place behind a header that begins at `place`.
-        let end = |place: usize| {
-            let is_joined = rows[place].is_merged && rows.get(place + 1).is_some_and(Row::is_words);
-            place + 1 + usize::from(is_joined)
-        };
-        let is_header = |rows: &[Row]| (layout.missing)(&names(rows)).is_none();
-        let places = || 0..rows.len().min(PREAMBLE);
-        let place = if let Some(line) = options.header_line {
-            let nothing = || self.wrong(line, "nothing", "a line with the names of the columns");
-            rows.iter()
-                .position(|row| row.line == line)
-                .ok_or_else(nothing)
-                .map(Some)?
-        } else {
-            let alone = places().find(|&place| is_header(&rows[place..=place]));
-            let found = alone.or_else(|| places().find(|&place| is_header(&rows[place..end(place)])));
-            found.or_else(|| {
-                places()
-                    .filter(|_| !rows[0].is_numbers())
-                    .max_by_key(|&place| rows[place].words())
-            })
-        };
-        let is_toa5 = rows[0].cell(0) == "TOA5";
-        let (first, mut data, mut names) = match place {
-            Some(place) => (place, end(place), names(&rows[place..end(place)])),
-            None => (
-                0,
-                0,
-                layout
-                    .unnamed
-                    .iter()
-                    .take(rows[0].cells.len())
-                    .map(|name| layout.name(name, options))
-                    .collect(),
-            ),
-        };
+    /// Takes the names from the header, and the units from the row below if it holds them.
+    fn take_header(&mut self, options: &Options) -> Result<()> {
+        let (layout, is_toa5) = (self.layout, self.rows[0].cell(0) == "TOA5");
+        let header = self.header(options)?;
+        let mut names = layout.names(&self.rows[header.clone()], options);
         let is_unit = |cell: &String| (layout.unit)(unit_in(cell)).is_some();
-        let units = rows
-            .get(data)
-            .filter(|row| row.is_words() && row.cells.iter().any(is_unit));
-        for (name, unit) in names.iter_mut().zip(units.iter().flat_map(|row| &row.cells)) {
-            let unit = Some(unit_in(unit)).filter(|unit| !matches!(*unit, "" | "-"));
+        let below = self.rows.get(header.end).filter(|row| row.is_words());
+        let units = below.filter(|row| row.cells.iter().any(is_unit));
+        for (name, cell) in names.iter_mut().zip(units.iter().flat_map(|row| &row.cells)) {
+            let unit = Some(unit_in(cell)).filter(|unit| !matches!(*unit, "" | "-"));
             name.unit = name.unit.take().or(unit.map(str::to_owned));
         }
         // The row of units is one of those that are skipped; a logger of Campbell's has one more.
         let few = usize::from(units.is_some());
-        data += options
-            .skip
-            .map_or(few * (1 + usize::from(is_toa5)), |skip| few.max(skip as usize));
-        (self.line, self.names) = (rows[first].line, names);
-        self.rows.drain(..data.min(self.rows.len()));
+        let recognised = if is_toa5 { 2 * few } else { few };
+        let skipped = options.skip.map_or(recognised, |skip| few.max(skip as usize));
+        (self.line, self.names) = (self.rows[header.start].line, names);
+        self.rows.drain(..self.rows.len().min(header.end + skipped));
         Ok(())
     }
 
+    /// The rows of the header: at the line that was said, else the first that is recognised, else the one with the most words. Where cells of
+    /// it are merged, the row below says more. Where the first row holds numbers, [`Layout::unnamed`] is put above.
+    fn header(&mut self, options: &Options) -> Result<Range<usize>> {
+        let rows = &self.rows;
+        let joined = |place: usize| {
+            let is_joined = rows[place].is_merged && rows.get(place + 1).is_some_and(Row::is_words);
+            place..place + 1 + usize::from(is_joined)
+        };
+        if let Some(line) = options.header_line {
+            let wrong = || self.wrong(line, "nothing", "a line with the names of the columns");
+            let place = rows.iter().position(|row| row.line == line);
+            return place.map(joined).ok_or_else(wrong);
+        }
+        let places = 0..rows.len().min(PREAMBLE);
+        let is_header = |rows: &Range<usize>| {
+            (self.layout.missing)(&self.layout.names(&self.rows[rows.clone()], options)).is_none()
+        };
+        let mut alone = places.clone().map(|place| place..place + 1);
+        if let Some(found) = alone
+            .find(is_header)
+            .or_else(|| places.clone().map(joined).find(is_header))
+        {
+            return Ok(joined(found.start));
+        }
+        if !rows[0].is_numbers() {
+            return Ok(joined(
+                places.max_by_key(|&place| rows[place].words()).unwrap_or(0),
+            ));
+        }
+        let names = self.layout.unnamed.iter().take(rows[0].cells.len());
+        let cells = names.map(|&name| name.to_owned()).collect();
+        self.rows.insert(
+            0,
+            Row {
+                cells,
+                ..rows[0].clone()
+            },
+        );
+        Ok(0..1)
+    }
+
     /// Makes sure that the columns are there, and rows as long as the header.
-    fn check_columns(&self, options: &Options) -> Result<(), TableError> {
+    fn check_columns(&self, options: &Options) -> Result<()> {
         let is_missing = |name: &&String| !self.names.iter().any(|other| is_same(&other.text, name));
         let chosen = options.columns.iter().map(|(_, name)| name).find(is_missing);
-        if let Some(column) = chosen.map(String::as_str).or((self.layout.missing)(&self.names)) {
+        // Without kinds any column may be there.
+        let needed = (self.layout.missing)(&self.names).filter(|_| !self.layout.kinds.is_empty());
+        if let Some(column) = chosen.map(String::as_str).or(needed) {
             return Err(self.missing(column));
         }
         let width = self.names.len();
@@ -184,18 +168,16 @@ impl Table {
             [None, Some(_)] => Some(','),
             _ => None,
         };
-        for (column, name) in self
-            .names
-            .iter_mut()
-            .enumerate()
-            .filter(|(_, name)| (self.layout.is_number)(name))
-        {
-            name.decimal = said.or_else(|| self.rows.iter().find_map(|row| certain(row, column)));
+        for column in 0..self.names.len() {
+            if (self.layout.is_number)(&self.names[column]) {
+                let decided = self.rows.iter().find_map(|row| certain(row, column));
+                self.names[column].decimal = said.or(decided);
+            }
         }
         let any = said.or_else(|| self.names.iter().find_map(|name| name.decimal));
-        self.names
-            .iter_mut()
-            .for_each(|name| name.decimal = name.decimal.or(any));
+        for name in &mut self.names {
+            name.decimal = name.decimal.or(any);
+        }
     }
 
     /// What is wrong in a line of it.
@@ -213,23 +195,17 @@ impl Table {
     fn missing(&self, column: &str) -> TableError {
         let names = self.names.iter().map(|name| &*name.text);
         let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
-        let mut found = format!(
-            "no column {column} in \"{}\" (read as ",
-            shortened(&names.join(" | "), LONGEST)
-        );
-        match self.separator {
-            None => found += "a workbook",
-            Some(sign) => found += &format!("separated by {}s", word(sign)),
-        }
+        let listed = shortened(&names.join(" | "), LONGEST);
+        let separated = |sign| format!("separated by {}s", word(sign));
+        let read_as = self.separator.map_or_else(|| "a workbook".to_owned(), separated);
         // One name that another separator would cut.
         let cuts = |sign: &char| matches!(names[..], [only] if only.contains(*sign));
-        if let Some(sign) = [';', '\t', ',', ' '].into_iter().find(cuts) {
-            found += &format!("; it looks separated by {}s", word(sign));
-        }
-        if !self.sheets.is_empty() {
-            found += &format!("; other sheets: {}", self.sheets.join(", "));
-        }
-        self.wrong(self.line, found + ")", self.layout.allowed)
+        let looks = [';', '\t', ',', ' '].into_iter().find(cuts).map(separated);
+        let looks = looks.map_or_else(String::new, |separated| format!("; it looks {separated}"));
+        let sheets = format!("; other sheets: {}", self.sheets.join(", "));
+        let sheets = if self.sheets.is_empty() { "" } else { &sheets };
+        let found = format!("no column {column} in \"{listed}\" (read as {read_as}{looks}{sheets})");
+        self.wrong(self.line, found, self.layout.allowed)
     }
 
     /// The columns of a kind: those that were chosen or that its own program writes, if any.
@@ -246,7 +222,7 @@ impl Table {
     /// # Errors
     ///
     /// [`TableError::Line`] where there are two.
-    pub fn one(&self, kind: Kind) -> Result<Option<usize>, TableError> {
+    pub fn one(&self, kind: Kind) -> Result<Option<usize>> {
         let columns = self.of(kind);
         let Some(&second) = columns.get(1) else {
             return Ok(columns.first().copied());
@@ -267,20 +243,15 @@ impl Table {
         row: &'t Row,
         column: usize,
         like: usize,
-    ) -> Result<Option<(String, &'t str)>, TableError> {
+    ) -> Result<Option<(String, &'t str)>> {
         let (cell, name) = (row.cell(column), &self.names[column]);
         // Between commas a point stands before decimals.
-        let is_open = name.decimal.is_none() && !(self.separator == Some(',') && cell.contains('.'));
-        if let ([Some(a), Some(b)], true) = (both(cell), is_open)
+        let is_point = self.separator == Some(',') && cell.contains('.');
+        if let (None, false, [Some(a), Some(b)]) = (name.decimal, is_point, both(cell))
             && a != b
         {
-            let found = format!(
-                "{}: found \"{}\", {} or {}",
-                name.text,
-                shortened(cell, LONGEST),
-                a.min(b),
-                a.max(b)
-            );
+            let (cell, least, most) = (shortened(cell, LONGEST), a.min(b), a.max(b));
+            let found = format!("{}: found \"{cell}\", {least} or {most}", name.text);
             let allowed =
                 "either: --decimal comma or --decimal point says which sign stands before the decimals";
             return Err(self.wrong(row.line, found, allowed));
@@ -295,7 +266,7 @@ impl Table {
     /// # Errors
     ///
     /// [`TableError::Line`] for what is no such value, and as for [`Table::quantity`].
-    pub fn value(&self, row: &Row, column: usize, like: usize) -> Result<f64, TableError> {
+    pub fn value(&self, row: &Row, column: usize, like: usize) -> Result<f64> {
         let (digits, unit) = self.quantity(row, column, like)?.unwrap_or_default();
         let kind = self.names[like].kind.unwrap_or(Kind(""));
         let value = (self.layout.si)(kind, &digits, unit);
@@ -306,32 +277,34 @@ impl Table {
     pub fn wrong_cell(&self, row: &Row, column: usize, allowed: impl Into<String>) -> TableError {
         let name = &self.names[column];
         let (cell, decimal) = (row.cell(column), name.decimal.unwrap_or('.'));
-        let other = if decimal == '.' { ',' } else { '.' };
         let is = |text: &str, decimal| number(text, decimal).is_some();
-        let is_range = cell
-            .split_once(['-', '–'])
-            .is_some_and(|(from, to)| is(from, decimal) && is(to, decimal));
-        let cause = match (is_range, cell.contains(other) && is(cell, other)) {
-            (true, _) => ", a range in place of one number".to_owned(),
-            (_, true) => format!(
-                ", a decimal {} where other numbers have a {}",
-                word(other),
-                word(decimal)
-            ),
-            _ => String::new(),
+        let ends = cell.split_once(['-', '–']);
+        let cause = match decimal {
+            _ if ends.is_some_and(|(from, to)| is(from, decimal) && is(to, decimal)) => {
+                ", a range in place of one number"
+            }
+            '.' if cell.contains(',') && is(cell, ',') => {
+                ", a decimal comma where other numbers have a point"
+            }
+            ',' if cell.contains('.') && is(cell, '.') => {
+                ", a decimal point where other numbers have a comma"
+            }
+            _ => "",
         };
-        // The unit that the bare name lacks.
-        let unit = name
-            .unit
-            .as_deref()
-            .filter(|_| name.bare != name.text && matches!(number(cell, decimal), Some((_, ""))));
-        let cell = shortened(cell, LONGEST) + &unit.map_or_else(String::new, |unit| format!(" {unit}"));
-        self.wrong(
-            row.line,
-            format!("{}: found \"{cell}\"{cause}", name.bare),
-            allowed,
-        )
+        let found = format!("{}: found \"{}\"{cause}", name.text, shortened(cell, LONGEST));
+        self.wrong(row.line, found, allowed)
     }
+}
+
+/// The rows of a file, what stands between cells of a text, and the other sheets of a workbook.
+fn rows_of(file: &str, bytes: &[u8], options: &Options) -> Result<(Vec<Row>, Option<char>, Vec<String>)> {
+    #[cfg(feature = "xlsx")]
+    if bytes.starts_with(crate::workbook::MARK) {
+        let (rows, sheets) = crate::workbook::read(file, bytes, options.sheet.as_deref())?;
+        return Ok((rows, None, sheets));
+    }
+    let (rows, separator) = rows::read(&text::decoded(file, bytes, options.encoding)?, options.separator);
+    Ok((rows, Some(separator), Vec::new()))
 }
 
 /// A unit in a row of them, without what may stand around it.

@@ -2,12 +2,14 @@
 
 use encoding_rs::{Encoding, SHIFT_JIS, UTF_8, UTF_16BE, UTF_16LE, WINDOWS_1252};
 
+use crate::error::{Result, TableError};
+
 /// Japanese characters one after the other that two letters of Latin-1 hardly ever look like.
 const JAPANESE: usize = 2;
 
 /// The text: by its byte order mark, in the `encoding` that was named, or in the one that it looks like; signs of full width as those of
-/// ASCII. `None` if it is none.
-pub fn decoded(bytes: &[u8], encoding: Option<&'static Encoding>) -> Option<String> {
+/// ASCII.
+pub fn decoded(file: &str, bytes: &[u8], encoding: Option<&'static Encoding>) -> Result<String> {
     // The mark at the beginning goes before what was named, and is taken away.
     let (text, _, malformed) = encoding.unwrap_or_else(|| recognised(bytes)).decode(bytes);
     let printed =
@@ -17,7 +19,10 @@ pub fn decoded(bytes: &[u8], encoding: Option<&'static Encoding>) -> Option<Stri
         '\u{3000}' => ' ',
         c => c,
     };
-    (!malformed && text.chars().all(printed)).then(|| text.chars().map(narrow).collect())
+    if malformed || !text.chars().all(printed) {
+        return Err(TableError::NoText(file.to_owned(), encoding.map(Encoding::name)));
+    }
+    Ok(text.chars().map(narrow).collect())
 }
 
 fn recognised(bytes: &[u8]) -> &'static Encoding {

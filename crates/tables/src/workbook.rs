@@ -5,40 +5,41 @@ use std::io::Cursor;
 use calamine::{Data, Reader, Xlsx, XlsxError};
 
 use crate::PREAMBLE;
-use crate::error::TableError;
+use crate::error::{Result, TableError};
 use crate::rows::Row;
 
 /// How a workbook begins: it is a ZIP archive.
 pub const MARK: &[u8] = b"PK\x03\x04";
 
 /// The rows of the sheet that is `named`, or of the first that has any, with their lines in it; and the names of the other sheets.
-pub fn read(file: &str, bytes: &[u8], named: Option<&str>) -> Result<(Vec<Row>, Vec<String>), TableError> {
+pub fn read(file: &str, bytes: &[u8], named: Option<&str>) -> Result<(Vec<Row>, Vec<String>)> {
     let wrong = |source: XlsxError| TableError::NotTable(file.to_owned(), source.into());
     let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(wrong)?;
     let mut sheets = book.sheet_names();
-    let wanted: Vec<usize> = (0..sheets.len())
-        .filter(|&sheet| named.is_none_or(|name| sheets[sheet] == name))
-        .collect();
-    if let (Some(name), true) = (named, wanted.is_empty()) {
+    if let Some(name) = named.filter(|name| !sheets.iter().any(|sheet| sheet == name)) {
+        let (file, line, allowed) = (file.to_owned(), 0, sheets.join(", "));
+        let found = format!("no sheet \"{name}\"");
         return Err(TableError::Line {
-            file: file.to_owned(),
-            line: 0,
-            found: format!("no sheet \"{name}\""),
-            allowed: sheets.join(", "),
+            file,
+            line,
+            found,
+            allowed,
         });
     }
-    for sheet in wanted {
-        let rows = rows(&mut book, &sheets[sheet]).map_err(wrong)?;
-        if !rows.is_empty() {
-            sheets.remove(sheet);
-            return Ok((rows, sheets));
+    for sheet in 0..sheets.len() {
+        if named.is_none_or(|name| sheets[sheet] == name) {
+            let rows = rows(&mut book, &sheets[sheet]).map_err(wrong)?;
+            if !rows.is_empty() {
+                sheets.remove(sheet);
+                return Ok((rows, sheets));
+            }
         }
     }
-    Err(TableError::Empty(file.to_owned()))
+    Ok((Vec::new(), sheets))
 }
 
 /// The rows of data; near the top a text over several columns stands in each of them.
-fn rows(book: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Row>, XlsxError> {
+fn rows(book: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> std::result::Result<Vec<Row>, XlsxError> {
     let merged = book.merge_cells_by_sheet_name(sheet)?;
     let range = book.worksheet_range(sheet)?;
     let (top, left) = range.start().unwrap_or_default();

@@ -57,6 +57,10 @@ fn encoded(text: &str, encoding: u8) -> Vec<u8> {
     }
 }
 
+/// Forces in the second column.
+const FORCES: Layout =
+    layout(|names| (names.len() < 2 || !names[1].text.starts_with("荷重")).then_some("荷重"));
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
 
@@ -86,8 +90,7 @@ proptest! {
         }).collect();
         let above = if preamble { "Logger 7\n" } else { "" };
         let text = format!("{above}回数{separator}{head}\n{units}{}", rows.concat());
-        const LAYOUT: Layout = layout(|names| (names.len() < 2 || !names[1].text.starts_with("荷重")).then_some("荷重"));
-        let table = Table::read("t".into(), &encoded(&text, encoding), &Options::default(), &LAYOUT);
+        let table = Table::read("t", &encoded(&text, encoding), &Options::default(), &FORCES);
         // What is refused is never misread.
         let Ok(table) = table else { return Ok(()) };
         prop_assert_eq!(table.rows.len(), values.len(), "{}", text);
@@ -115,7 +118,7 @@ fn forms_that_can_be_read_in_one_way_are_read() {
         ("n;v\n1;1.234.567\n2;1.234\n", 1_234_567.0),
     ] {
         const LAYOUT: Layout = layout(|_| None);
-        let table = Table::read("t".into(), text.as_bytes(), &Options::default(), &LAYOUT).expect(text);
+        let table = Table::read("t", text.as_bytes(), &Options::default(), &LAYOUT).expect(text);
         let (digits, unit) = table.quantity(&table.rows[0], 1, 1).expect(text).expect(text);
         assert_eq!((digits.parse(), unit), (Ok(right), ""), "{text}");
     }
