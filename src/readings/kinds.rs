@@ -97,9 +97,8 @@ pub fn si(kind: Kind, digits: &str, unit: &str) -> Result<f64, String> {
         POSITION => "metres from the upstream end",
         _ => "a finite number, with a unit if any",
     };
-    value
-        .filter(|value| value.is_finite())
-        .ok_or_else(|| allowed.to_owned())
+    let value = value.filter(|value| value.is_finite());
+    value.ok_or_else(|| allowed.to_owned())
 }
 
 #[cfg(test)]

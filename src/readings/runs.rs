@@ -30,7 +30,9 @@ pub fn split_where_passes_begin_anew(readings: &mut Readings) {
     ));
     readings.runs = (1..=count).map(|run| run.to_string()).collect();
     for (index, run) in readings.list.chunk_by_mut(rises).enumerate() {
-        run.iter_mut().for_each(|reading| reading.run = index);
+        for reading in run {
+            reading.run = index;
+        }
     }
 }
 

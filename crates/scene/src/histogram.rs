@@ -70,11 +70,10 @@ const LAYOUT: Layout = Layout {
     measured: Some(LOAD),
     missing: |names| {
         let has = |kind| names.iter().any(|name| name.kind == Some(kind));
-        let wanted = [(COUNT, has(COUNT) || has(SHARE)), (LOAD, has(LOAD))];
+        let wanted = [("count", has(COUNT) || has(SHARE)), ("load", has(LOAD))];
         wanted
-            .into_iter()
-            .find(|(_, is_there)| !is_there)
-            .map(|(kind, _)| kind.name())
+            .iter()
+            .find_map(|(name, is_there)| (!is_there).then_some(*name))
     },
     is_number: |name| name.kind.is_some(),
     unnamed: &[],
@@ -107,13 +106,11 @@ fn si(kind: Kind, digits: &str, unit: &str) -> Result<f64, String> {
     };
     let value = match (quantity.dimension, unit) {
         (_, "") | (None, "%") => digits.parse().ok(),
-        (dimension, unit) => {
-            dimension.and_then(|dimension| dimension.in_table(digits, of_weight(unit).unwrap_or(unit)))
-        }
+        (None, _) => None,
+        (Some(dimension), unit) => dimension.in_table(digits, of_weight(unit).unwrap_or(unit)),
     };
-    value
-        .filter(|value| quantity.contains(*value))
-        .ok_or_else(|| quantity.allowed())
+    let value = value.filter(|value| quantity.contains(*value));
+    value.ok_or_else(|| quantity.allowed())
 }
 
 /// A file from the folder of the scene's file `name` on.
@@ -138,20 +135,19 @@ impl Histogram {
     /// The classes of the table, each a vehicle of one wheel in the first lane, at `speed` \[m/s\]; `scene` is the file that names it.
     pub(crate) fn axles(&self, scene: &str, speed: f64) -> Result<Vec<TrafficVehicle>, SceneError> {
         let table = Table::from_file(&beside(scene, &self.file), &self.options()?, &LAYOUT);
-        table
-            .and_then(|table| classes(table, speed))
-            .map_err(|error| match error {
-                TableError::Line {
-                    file,
-                    line,
-                    found,
-                    allowed,
-                } => SceneError::value(KEY, format!("{file}:{line}: {found}"), allowed),
-                error => {
-                    let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();
-                    SceneError::value(KEY, format!("{error}{why}"), LAYOUT.allowed)
-                }
-            })
+        let classes = table.and_then(|table| classes(table, speed));
+        classes.map_err(|error| match error {
+            TableError::Line {
+                file,
+                line,
+                found,
+                allowed,
+            } => SceneError::value(KEY, format!("{file}:{line}: {found}"), allowed),
+            error => {
+                let why = error.source().map(|why| format!(": {why}")).unwrap_or_default();
+                SceneError::value(KEY, format!("{error}{why}"), LAYOUT.allowed)
+            }
+        })
     }
 }
 
