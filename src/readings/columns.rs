@@ -59,7 +59,7 @@ pub fn columns(mut table: Table, options: &ReadOptions) -> Result<Columns<'_>, D
     })
 }
 
-/// A row that was cut at its decimal commas has more cells than the header; without a header it looks like whole numbers.
+/// Without a header, rows that were cut at their decimal commas look like whole numbers.
 fn refuse_cut_decimals(table: &Table) -> Result<(), DataError> {
     let is_whole = |cell: &String| !cell.is_empty() && cell.bytes().all(|byte| byte.is_ascii_digit());
     let is_cut = |row: &Row| row.cells.len() == 3 && row.cells.iter().all(is_whole);
@@ -76,7 +76,8 @@ fn refuse_cut_decimals(table: &Table) -> Result<(), DataError> {
     Err(table.wrong(table.line, found, allowed))
 }
 
-/// The columns of values. Beside forces others count where they were chosen or are this program's own: tables of its runs hold both.
+/// The columns of values. Beside forces others count where they were chosen or are this program's
+/// own: tables of its runs hold both.
 fn values(table: &Table, options: &ReadOptions) -> Result<Vec<Values>, DataError> {
     let mut values: Vec<Values> = Vec::new();
     let columns = MEASURED.map(|kind| table.of(kind).into_iter().map(move |column| (kind, column)));

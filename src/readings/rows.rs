@@ -11,7 +11,7 @@ use super::options::ReadOptions;
 use super::reading::{Measured, Place, Reading};
 use super::{DataError, runs};
 
-/// Rows from which on vehicles that only ever grow are taken for a running total: by chance one file in 120.
+/// Fewest rows of vehicles that only grow for a running total: by chance one file in 120.
 const TOTAL: usize = 5;
 /// Most lines that a note names.
 const MOST_LINES: usize = 8;

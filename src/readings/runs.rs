@@ -13,7 +13,7 @@ const SHORTEST: usize = 3;
 pub fn split_where_passes_begin_anew(readings: &mut Readings) {
     let rises = |one: &Reading, next: &Reading| one.pass <= next.pass;
     let early = readings.list.get(SHORTEST - 1).map_or(0, |reading| reading.pass);
-    // A run that begins far from the first one's beginning is a part of the same series, written elsewhere.
+    // A run that begins far from the first one's beginning is a part of the same series.
     let is_run = |run: &[Reading]| {
         let changes = run.windows(2).filter(|pair| pair[0].pass != pair[1].pass);
         changes.count() + 1 >= SHORTEST && run[0].pass <= early
@@ -36,8 +36,8 @@ pub fn split_where_passes_begin_anew(readings: &mut Readings) {
     }
 }
 
-/// Counts the passes of every reading from a cable at rest. Where nobody says how runs begin, their passes do: those that begin anew are
-/// a cable's that does.
+/// Counts the passes of every reading from a cable at rest. Where nobody says how runs begin, their
+/// passes do: those that begin anew are a cable's that does.
 pub fn count_from_rest(readings: &mut Readings, start: Option<RunStart>) {
     // Lowest and highest pass of each run.
     let mut ranges: BTreeMap<usize, (u64, u64)> = BTreeMap::new();

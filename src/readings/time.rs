@@ -25,7 +25,8 @@ impl Columns<'_> {
     }
 }
 
-/// Whether a time is certainly earlier than another: by what the clock shows, and where the distance from UTC is said, as an instant too.
+/// Whether a time is certainly earlier than another: by what the clock shows, and where the
+/// distance from UTC is said, as an instant too.
 fn is_earlier(after: &str, before: &str) -> bool {
     let (Some((after, instant)), Some((before, first))) = (key(after), key(before)) else {
         return false;
@@ -33,8 +34,8 @@ fn is_earlier(after: &str, before: &str) -> bool {
     after < before && instant.zip(first).is_none_or(|(instant, first)| instant < first)
 }
 
-/// What orders a time: a number, or year, month, day and the rest; and an instant \[h\] if its distance from UTC is said. `None` where day and
-/// month may be either, or noon is counted apart.
+/// What orders a time: a number, or year, month, day and the rest; and an instant \[h\] if its
+/// distance from UTC is said. `None` where day and month may be either, or noon is counted apart.
 fn key(text: &str) -> Option<(Vec<f64>, Option<f64>)> {
     if let Ok(number) = text.replace(',', ".").parse() {
         return Some((vec![number], None));

@@ -32,12 +32,14 @@ const LAYOUT: Layout = Layout {
     allowed: "columns named as keys of a scene",
 };
 
-/// The columns of the table of ducts in `file`, `.csv` or `.xlsx`, read as `options` say, each with a value a row; empty where the row has
-/// none. Numbers have a decimal point, and the unit of their column if they have none.
+/// The columns of the table of ducts in `file`, `.csv` or `.xlsx`, read as `options` say, each with
+/// a value a row; empty where the row has none. Numbers have a decimal point, and the unit of their
+/// column if they have none.
 ///
 /// # Errors
 ///
-/// [`SweepError::Rows`] where there is no such table, [`SweepError::Unfit`] where the name ends otherwise.
+/// [`SweepError::Rows`] where there is no such table, [`SweepError::Unfit`] where the name ends
+/// otherwise.
 pub fn read(file: &Path, options: &Options) -> Result<Vec<(String, Vec<String>)>, SweepError> {
     Format::of(file)?;
     let table = Table::from_file(file, options, &LAYOUT)?;

@@ -1,4 +1,4 @@
-//! A table of axle loads, as weigh-in-motion gives it: each row a class of axles with its load and how many of them were counted.
+//! A table of axle loads, as weigh-in-motion gives it: each row a class of axles and their number.
 
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -83,7 +83,7 @@ const LAYOUT: Layout = Layout {
     allowed: "a table whose header names the columns load, count and, if wanted, contact_radius, with units in the cells or in the \
               name, such as \"load [kN]\"",
 };
-/// A heaviest axle below this, without a unit, is one that was meant in larger units \[N\]: a bicycle's wheel.
+/// A heaviest axle without a unit below this was meant in larger units \[N\]: a bicycle's wheel.
 const LIGHTEST: f64 = 1e3;
 
 /// The force that an axle of so much mass weighs, and kips by their other name.
@@ -132,7 +132,8 @@ impl Histogram {
         Ok(options)
     }
 
-    /// The classes of the table, each a vehicle of one wheel in the first lane, at `speed` \[m/s\]; `scene` is the file that names it.
+    /// The classes of the table, each a vehicle of one wheel in the first lane, at `speed` \[m/s\];
+    /// `scene` is the file that names it.
     pub(crate) fn axles(&self, scene: &str, speed: f64) -> Result<Vec<TrafficVehicle>, SceneError> {
         let table = Table::from_file(&beside(scene, &self.file), &self.options()?, &LAYOUT);
         let classes = table.and_then(|table| classes(table, speed));

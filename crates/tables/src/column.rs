@@ -3,7 +3,7 @@
 use crate::options::Options;
 use crate::rows::Row;
 
-/// A kind of column: the word by which its program calls it, and after it those of others, between spaces.
+/// A kind of column: the word of its program for it and, between spaces, those of others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Kind(pub &'static str);
 
@@ -29,7 +29,8 @@ pub struct Layout {
     pub unnamed: &'static [&'static str],
     /// The symbol of the unit that a word stands for, whatever its case.
     pub unit: fn(&str) -> Option<&'static str>,
-    /// The value in SI of a cell's digits and unit, both empty if it is no number, in a column of a kind; or what is allowed there.
+    /// The value in SI of a cell's digits and unit in a column of a kind, both empty if it is no
+    /// number; or what is allowed there.
     pub si: fn(Kind, &str, &str) -> Result<f64, String>,
     /// Largest file \[bytes\].
     pub most: u64,
@@ -46,9 +47,9 @@ pub struct Name {
     pub bare: String,
     /// Its words in small letters.
     pub words: Vec<String>,
-    /// Its unit: in brackets, after a slash, or as its last word. A row of units below the header adds those of other columns.
+    /// Its unit: in brackets, after a slash, as its last word, or in a row of units below.
     pub unit: Option<String>,
-    /// What the column holds: by the name's words, or because [`Options::columns`] say so, of no other column then.
+    /// What the column holds: by the name's words, unless [`Options::columns`] name one of this kind.
     pub kind: Option<Kind>,
     /// Whether the options say so.
     pub chosen: bool,

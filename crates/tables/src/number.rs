@@ -12,8 +12,8 @@ pub fn is_no_value(text: &str) -> bool {
     NO_VALUES.split('|').any(|word| word == text)
 }
 
-/// The number at the beginning of `text`, where this sign stands before the decimals: its digits with a decimal point and nothing between
-/// thousands, and what follows it, a unit or nothing. `None` where there is none, or none that is finite.
+/// The number at the beginning of `text`, where this sign stands before the decimals: its digits as
+/// a program writes them, and what follows, a unit or nothing. `None` where none is there or finite.
 pub fn number(text: &str, decimal: char) -> Option<(String, &str)> {
     let text = text.trim_start_matches('\'');
     let part = |c: char| c.is_ascii_digit() || "+-−.,'’eE".contains(c) || c.is_whitespace();
@@ -29,7 +29,7 @@ pub fn number(text: &str, decimal: char) -> Option<(String, &str)> {
     is_finite.then(|| (digits, text[written.len()..].trim()))
 }
 
-/// The digits as a program reads them, without the one sign between groups of three; the first group begins with no zero.
+/// The digits without the one sign between groups of three, the first of which begins with no zero.
 fn plain(digits: &str, decimal: char) -> Option<String> {
     let digits = digits.replace('−', "-");
     let (whole, decimals) = digits.split_at(digits.find(decimal).unwrap_or(digits.len()));
@@ -44,7 +44,7 @@ fn plain(digits: &str, decimal: char) -> Option<String> {
     is_number.then(|| whole.replace(is_mark, "") + &decimals.replacen(decimal, ".", 1))
 }
 
-/// The cell read with a decimal point, and with a decimal comma: where both are numbers and differ, it may be either.
+/// The cell read with a decimal point and with a decimal comma: where they differ, it may be either.
 pub fn both(cell: &str) -> [Option<f64>; 2] {
     ['.', ','].map(|decimal| number(cell, decimal)?.0.parse().ok())
 }

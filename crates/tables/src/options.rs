@@ -17,9 +17,9 @@ pub struct Options {
     pub skip: Option<u64>,
     /// Sheet of a workbook; the first that holds anything if omitted.
     pub sheet: Option<String>,
-    /// Unit of the columns of [`Layout::measured`](crate::Layout::measured), whatever the file says.
+    /// Unit of the columns of [`measured`](crate::Layout::measured), whatever the file says.
     pub unit: Option<String>,
-    /// Columns by their names: the kind, such as `force`, and the name in the header, whatever its case.
+    /// Columns by their names: the kind, such as `force`, and the name in the header in any case.
     pub columns: Vec<(String, String)>,
 }
 
@@ -40,7 +40,7 @@ pub fn word(sign: char) -> String {
 }
 
 impl Options {
-    /// Sets the option of this name: `separator`, `decimal`, `encoding`, `header_line`, `skip`, `sheet`, `unit`, or `column_` and a kind.
+    /// Sets the option of this name: that of a field, or `column_` and a kind.
     ///
     /// # Errors
     ///

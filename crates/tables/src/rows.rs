@@ -50,8 +50,8 @@ impl Row {
     }
 }
 
-/// The rows of `text` that hold data, and what stands between their cells: the sign that is `named`, here or in Excel's own first line,
-/// `sep=;`, else the one that the lines agree on.
+/// The rows of data in `text`, and what stands between their cells: the sign that is `named`, or the
+/// one of Excel's own first line, `sep=;`, or the one that the lines agree on.
 pub fn read(text: &str, named: Option<char>) -> (Vec<Row>, char) {
     let text = text.replace("\r\n", "\n").replace('\r', "\n") + "\n";
     let first = text.lines().next().unwrap_or_default();
@@ -62,8 +62,8 @@ pub fn read(text: &str, named: Option<char>) -> (Vec<Row>, char) {
     (separated(body, sign), sign)
 }
 
-/// The sign that cuts most lines into the same number of cells; commas last, for they may stand before decimals. Spaces if they cut every
-/// line of a text without commas.
+/// The sign that cuts most lines into the same number of cells; commas last, for they may stand
+/// before decimals. Spaces if they cut every line of a text without commas.
 fn recognised(text: &str) -> char {
     let sample: String = text.split_inclusive('\n').take(SAMPLE).collect();
     let counts = |sign| separated(&sample, sign).into_iter().map(|row| row.cells.len());
@@ -78,7 +78,7 @@ fn recognised(text: &str) -> char {
     sign.unwrap_or_else(|| if is_spaced() { ' ' } else { ',' })
 }
 
-/// The rows of data in a text whose lines all end; of spaces and tabs any number stands between two cells.
+/// The rows of data in a text whose lines all end; any number of spaces stands between two cells.
 fn separated(text: &str, sign: char) -> Vec<Row> {
     let spaced = (sign == ' ').then(|| text.replace('\t', " "));
     let text = spaced.as_deref().unwrap_or(text);

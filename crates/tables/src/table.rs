@@ -51,7 +51,7 @@ impl Table {
     ///
     /// # Errors
     ///
-    /// [`TableError`] with the first thing that is wrong, and its line: a column that is missing, a row that is not as long as the header.
+    /// [`TableError`] with the first thing that is wrong: a column that is missing, a row of another length.
     pub fn read(file: &str, bytes: &[u8], options: &Options, layout: &'static Layout) -> Result<Self> {
         let (file, allowed) = (file.to_owned(), layout.most);
         if bytes.len() as u64 > allowed {
@@ -98,8 +98,9 @@ impl Table {
         Ok(())
     }
 
-    /// The rows of the header: at the line that was said, else the first that is recognised, else the one with the most words. Where cells of
-    /// it are merged, the row below says more. Where the first row holds numbers, [`Layout::unnamed`] is put above.
+    /// The rows of the header: at the line that was said, else the first that is recognised, else
+    /// the one with the most words; where cells are merged, with the row below. Where the first row
+    /// holds numbers, [`Layout::unnamed`] is put above.
     fn header(&mut self, options: &Options) -> Result<Range<usize>> {
         let rows = &self.rows;
         let joined = |place: usize| {
@@ -160,7 +161,8 @@ impl Table {
         Ok(())
     }
 
-    /// Finds what stands before the decimals of each column: by a cell that can be read in one way only, else as in another column.
+    /// Finds the decimal sign of each column: by a cell that can be read in one way only, else as in
+    /// another column.
     fn find_decimal_signs(&mut self, said: Option<char>) {
         let said = said.or(self.separator.is_none().then_some('.'));
         let certain = |row: &Row, column| match both(row.cell(column)) {
@@ -232,8 +234,8 @@ impl Table {
         Err(self.wrong(self.line, found, allowed))
     }
 
-    /// The digits of the number in the cell of `row` in `column`, with a decimal point, and its unit, or that of the column `like` if it has none.
-    /// `None` where there is no number.
+    /// The digits of the number in a cell, with a decimal point, and its unit, or that of the column
+    /// `like` if it has none. `None` where there is no number.
     ///
     /// # Errors
     ///
@@ -261,7 +263,7 @@ impl Table {
         Ok(number.map(|(digits, unit)| (digits, if unit.is_empty() { of_column } else { unit })))
     }
 
-    /// The value in SI in the cell of `row` in `column`, of the kind of the column `like` and in its unit.
+    /// The value in SI in a cell, of the kind of the column `like` and in its unit.
     ///
     /// # Errors
     ///

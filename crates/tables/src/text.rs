@@ -7,8 +7,8 @@ use crate::error::{Result, TableError};
 /// Japanese characters one after the other that two letters of Latin-1 hardly ever look like.
 const JAPANESE: usize = 2;
 
-/// The text: by its byte order mark, in the `encoding` that was named, or in the one that it looks like; signs of full width as those of
-/// ASCII.
+/// The text: by its byte order mark, in the `encoding` that was named, or in the one that it looks
+/// like; signs of full width as those of ASCII.
 pub fn decoded(file: &str, bytes: &[u8], encoding: Option<&'static Encoding>) -> Result<String> {
     // The mark at the beginning goes before what was named, and is taken away.
     let (text, _, malformed) = encoding.unwrap_or_else(|| recognised(bytes)).decode(bytes);

@@ -11,7 +11,7 @@ use crate::rows::Row;
 /// How a workbook begins: it is a ZIP archive.
 pub const MARK: &[u8] = b"PK\x03\x04";
 
-/// The rows of the sheet that is `named`, or of the first that has any, with their lines in it; and the names of the other sheets.
+/// The rows of the sheet that is `named`, or of the first that has any, and the other sheets.
 pub fn read(file: &str, bytes: &[u8], named: Option<&str>) -> Result<(Vec<Row>, Vec<String>)> {
     let wrong = |source: XlsxError| TableError::NotTable(file.to_owned(), source.into());
     let mut book: Xlsx<_> = Xlsx::new(Cursor::new(bytes)).map_err(wrong)?;
