@@ -150,7 +150,7 @@ impl Table {
             return Err(self.missing(column));
         }
         let width = self.names.len();
-        for row in &self.rows {
+        for row in self.rows.iter().filter(|_| width > 0) {
             let is_long = row.cells.iter().skip(width).any(|cell| !cell.is_empty());
             if is_long || (row.cells.len() < width && self.separator.is_some()) {
                 let found = format!("{} cells where the first row has {width}", row.cells.len());
@@ -165,18 +165,17 @@ impl Table {
     /// another column.
     fn find_decimal_signs(&mut self, said: Option<char>) {
         let said = said.or(self.separator.is_none().then_some('.'));
-        let certain = |row: &Row, column| match both(row.cell(column)) {
+        let certain = |row: &Row, column: usize| match both(row.cell(column)) {
             [Some(_), None] => Some('.'),
             [None, Some(_)] => Some(','),
             _ => None,
         };
-        for column in 0..self.names.len() {
-            if (self.layout.is_number)(&self.names[column]) {
-                let decided = self.rows.iter().find_map(|row| certain(row, column));
-                self.names[column].decimal = said.or(decided);
-            }
+        for (column, name) in self.names.iter_mut().enumerate() {
+            let is_number = (self.layout.is_number)(name);
+            let mut rows = self.rows.iter().filter(|_| is_number);
+            name.decimal = said.or_else(|| rows.find_map(|row| certain(row, column)));
         }
-        let any = said.or_else(|| self.names.iter().find_map(|name| name.decimal));
+        let any = self.names.iter().find_map(|name| name.decimal);
         for name in &mut self.names {
             name.decimal = name.decimal.or(any);
         }
