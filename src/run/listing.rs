@@ -158,6 +158,10 @@ impl<'a> Listing<'a> {
             // What is wanted is no row by itself. The first and the last passes of the period follow other vehicles, or precede them.
             let (first, last) = self.one_by_one;
             let period = self.own.as_ref().map_or(0, |own| own.period.len() as u64);
+            if first > 0 {
+                let follow_others = first + 1..=first.div_ceil(period) * period + period;
+                others.retain(|record| !follow_others.contains(&record.pass));
+            }
             let of_period = first + period..=self.count - last;
             let wanted = evolution.records.iter();
             others.extend(wanted.filter(|record| of_period.contains(&record.pass)).cloned());

@@ -2,11 +2,10 @@
 
 use boussinesq::HalfSpace;
 use cable_dem::{
-    CableError, CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic,
-    Restraint,
+    CableState, DuctedCable, End, Friction, FrictionLaw, Mesh, PassOutcome, Passage, QuasiStatic, Restraint,
 };
-use cycle_jump::days::{DailyHeat, Day, DayRecord, Days, DaysRequest, LockedLaw, live};
-use cycle_jump::{Guide, JumpError, Next};
+use cycle_jump::days::{DailyHeat, Day, DayRecord, Days, DaysRequest, LockedLaw, evolve_days};
+use cycle_jump::{Guide, JumpError, Jumps, Next};
 use ground_field::{Direction, DuctLine, DuctMotion, Soil, SurfaceLoad, Vehicle, Wheel};
 
 type Outcome<T = ()> = Result<T, Box<dyn std::error::Error>>;
@@ -118,30 +117,29 @@ impl Scene {
                     .collect(),
             )
         };
-        let day = Day {
-            passes: self.per_day,
-            period: motions.len(),
-            heat,
-            knots,
-        };
+        let day = Day::new(self.per_day, motions.len(), heat, knots)?;
         let all: Vec<u64> = (1..=self.days).collect();
         let wanted: Vec<u64> = (1..=self.per_day).collect();
         let request = DaysRequest {
             passes: self.per_day * self.days,
             wanted: &wanted,
             wanted_days: &all,
-            tolerance: 5e-3,
-            least: (0.01 * limit, 1e-6),
             every_day,
-            first_jump: 0.5,
-            length_scale: 1.2,
-            most_days: self.most_days,
             guide: Guide::Free,
         };
         let one_pass = |next: Next, state: &mut CableState| {
             solver.pass(&passages[next.phase], state).map_err(JumpError::from)
         };
-        Ok(live(&cable, &mesh, &day, law, &request, one_pass)?)
+        let jumps = Jumps::new(5e-3, 1.2, (0.01 * limit, 1e-6))?.with_start(3, 0.5)?;
+        let jumps = jumps.with_most_passes(self.most_days.0, self.most_days.1);
+        Ok(evolve_days(
+            &cable,
+            &mesh,
+            (&day, law),
+            &jumps,
+            &request,
+            one_pass,
+        )?)
     }
 }
 
@@ -372,61 +370,51 @@ fn what_is_no_day_is_refused() -> Outcome {
     let friction = Friction::new(FrictionLaw::Coulomb, 0.25 * WEIGHT)?;
     let mesh = Mesh::new(6.0, 0.3, 0.15)?;
     let cable = DuctedCable::new(6.0, STIFFNESS, friction)?;
-    let good = Day {
-        passes: 10,
-        period: 2,
-        heat: DailyHeat::Cosine {
-            lowest: 0.0,
-            highest: 1.0,
-        },
-        knots: 2,
-    };
     let request = DaysRequest {
         passes: 20,
         wanted: &[20],
         wanted_days: &[1, 2],
-        tolerance: 5e-3,
-        least: (1.0, 1e-6),
         every_day: false,
-        first_jump: 0.5,
-        length_scale: 1.2,
-        most_days: (150, 1000),
         guide: Guide::Free,
     };
-    let lived = |day: &Day| {
+    let jumps = Jumps::new(5e-3, 1.2, (1.0, 1e-6))?;
+    let noon = || DailyHeat::Cosine {
+        lowest: 0.0,
+        highest: 1.0,
+    };
+    let is_refused = |error: JumpError| matches!(error, JumpError::InvalidParameter { .. });
+    for (passes, period, heat, knots) in [
+        (1, 2, noon(), 2),
+        (10, 0, noon(), 2),
+        (10, 2, noon(), 0),
+        (10, 2, DailyHeat::Profile(Vec::new()), 2),
+    ] {
+        let bad = Day::new(passes, period, heat, knots);
+        assert!(bad.is_err_and(is_refused), "{passes} {period} {knots}");
+    }
+    let day = Day::new(10, 2, noon(), 2)?;
+    let days = |request: &DaysRequest<'_>| {
         let law = LockedLaw::new([0.0; LockedLaw::SHARES.len()], friction.limit());
         // No vehicle moves this cable.
         let pass =
             |_: Next, state: &mut CableState| PassOutcome::at_rest(&cable, state).map_err(JumpError::from);
-        live(&cable, &mesh, day, law, &request, pass)
+        evolve_days(&cable, &mesh, (&day, law), &jumps, request, pass)
     };
-    assert!(lived(&good).is_ok());
-    for bad in [
-        Day {
-            passes: 1,
-            ..good.clone()
-        },
-        Day {
-            period: 0,
-            ..good.clone()
-        },
-        Day {
-            knots: 0,
-            ..good.clone()
-        },
-        Day {
-            heat: DailyHeat::Profile(Vec::new()),
-            ..good.clone()
-        },
+    assert!(days(&request).is_ok());
+    for (passes, wanted, wanted_days) in [
+        (0, &[][..], &[][..]),
+        (20, &[21], &[]),
+        (20, &[0], &[]),
+        (20, &[2, 1], &[]),
+        (20, &[], &[3]),
     ] {
-        let refused = lived(&bad);
-        assert!(
-            matches!(
-                refused,
-                Err(JumpError::Cable(CableError::InvalidParameter { .. }))
-            ),
-            "{bad:?}"
-        );
+        let bad = DaysRequest {
+            passes,
+            wanted,
+            wanted_days,
+            ..request
+        };
+        assert!(days(&bad).is_err_and(is_refused), "{bad:?}");
     }
     Ok(())
 }

@@ -21,7 +21,7 @@ fn cable(upstream: End, downstream: End, limit: f64) -> Result<(DuctedCable, Mes
 }
 
 fn jumps(tolerance: f64) -> Result<Jumps, JumpError> {
-    let jumps = Jumps::new(tolerance, 1.2, 37e-6)?.with_least(0.01 * LIMIT, 4e-6)?;
+    let jumps = Jumps::new(tolerance, 1.2, (0.01 * LIMIT, 4e-6))?;
     Ok(jumps.with_most_passes(1000, 1000))
 }
 
@@ -48,18 +48,18 @@ fn what_has_no_meaning_is_refused() {
     for beyond in [&[300, 200][..], &[100, 200]] {
         assert!(is_refused(request.with_beyond(beyond).map(|_| ())), "{beyond:?}");
     }
-    for (tolerance, length, motion) in [
-        (0.0, 1.2, 1e-5),
-        (f64::NAN, 1.2, 1e-5),
-        (0.01, 0.0, 1e-5),
-        (0.01, 1.2, -1.0),
+    for (tolerance, length, least) in [
+        (0.0, 1.2, (0.3, 1e-6)),
+        (f64::NAN, 1.2, (0.3, 1e-6)),
+        (0.01, 0.0, (0.3, 1e-6)),
+        (0.01, 1.2, (0.3, -1.0)),
+        (0.01, 1.2, (f64::INFINITY, 1e-6)),
     ] {
-        assert!(is_refused(Jumps::new(tolerance, length, motion).map(|_| ())));
+        assert!(is_refused(Jumps::new(tolerance, length, least).map(|_| ())));
     }
     let jumps = jumps(0.01).expect("jumps");
     assert!(is_refused(jumps.with_start(1, 0.25).map(|_| ())));
     assert!(is_refused(jumps.with_start(8, 0.0).map(|_| ())));
-    assert!(is_refused(jumps.with_least(f64::INFINITY, 0.0).map(|_| ())));
 }
 
 /// A pass that moves every node by g (0.7 q − f̄), spread as one period spreads it: the exact law of a diffusion.

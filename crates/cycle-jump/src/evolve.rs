@@ -1,0 +1,357 @@
+//! Any number of passes: simulated periods at the start, then jumps, each checked by a simulated period
+//! and healed by another.
+
+use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome};
+
+use crate::JumpError;
+use crate::error::wrap;
+use crate::flow::Flow;
+use crate::interval::JumpInterval;
+use crate::period::{Period, difference, largest, phase_of, remove_mean};
+use crate::record::{Beyond, Evolution, Record};
+use crate::request::{Guide, Jumps, Next, Request};
+use crate::simulation::Simulation;
+use crate::slope::Slope;
+use crate::tuning::{
+    CAUTION, FINAL_TOLERANCE, GROWTH, GROWTH_BETWEEN, NEGLIGIBLE, SHORTEST_JUMP, SLOPE_WIDTH,
+    TOLERANCE_BEYOND,
+};
+
+/// Simulated periods at the end of a jump: its check, and one that heals what the correction left rough.
+const CHECKED: u64 = 2;
+/// Advance of a period, as a share of a movement that counts as nothing, below which the cable rests
+/// for good: the largest numbers of passes do not add such advances up to anything.
+const AT_REST: f64 = 1e-7;
+
+/// Lets vehicles drive over `cable` on `mesh`, as laid: few of them simulated, each by a call of `pass`.
+///
+/// # Errors
+///
+/// Those of `pass`; [`JumpError`] where jumps make no progress, or the cable finds no rest.
+pub fn evolve<E: From<JumpError>>(
+    cable: &DuctedCable,
+    mesh: &Mesh,
+    jumps: &Jumps,
+    request: &Request<'_>,
+    pass: impl FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
+) -> Result<Evolution, E> {
+    let walk = Walk {
+        simulation: Simulation::new(cable, mesh, request, jumps.least, pass).map_err(wrap)?,
+        jumps,
+        guide: request.guide,
+        tolerance: jumps.tolerance,
+        done: 0,
+        schedule: Vec::new(),
+        repeats: None,
+    };
+    walk.run()
+}
+
+/// A run under way.
+struct Walk<'a, P> {
+    simulation: Simulation<'a, P>,
+    jumps: &'a Jumps,
+    guide: Guide<'a>,
+    tolerance: f64,
+    /// Periods done.
+    done: u64,
+    schedule: Vec<u64>,
+    repeats: Option<(u64, f64)>,
+}
+
+/// What simulated periods have shown.
+struct Known {
+    /// The last period.
+    period: Period,
+    slope: Slope,
+    /// Length of the next jump \[periods\].
+    length: f64,
+    /// Periods before which all that is left is not tried as one jump.
+    not_before: u64,
+}
+
+impl<E, P> Walk<'_, P>
+where
+    E: From<JumpError>,
+    P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
+{
+    fn run(mut self) -> Result<Evolution, E> {
+        let Request { passes, beyond, .. } = *self.simulation.request;
+        let length = self.simulation.request.period();
+        let all = passes / length;
+        let mut known = self.start(all)?;
+        if let Some(known) = &mut known {
+            if !self.until(all, known, self.jumps.most_passes)? {
+                return Err(self.no_progress(all).into());
+            }
+        }
+        let whole = self.simulation.state.clone();
+        let left = (passes - all * length) as usize;
+        self.simulation.period(left, Some(all * length), self.tolerance)?;
+        let simulation = &mut self.simulation;
+        let mut evolution = Evolution {
+            records: std::mem::take(&mut simulation.records),
+            others: std::mem::take(&mut simulation.others),
+            period: known.iter().flat_map(|known| known.period.outcomes()).collect(),
+            state: std::mem::replace(&mut simulation.state, whole),
+            offset: simulation.offset,
+            repeats: self.repeats,
+            simulated: 0,
+            schedule: self.schedule.clone(),
+            beyond: None,
+        };
+        if let (Some(known), Some(&last)) = (known, beyond.last()) {
+            evolution.beyond = self.follow(known, last / length)?;
+        }
+        evolution.simulated = self.simulation.simulated;
+        Ok(evolution)
+    }
+
+    fn no_progress(&self, wanted: u64) -> JumpError {
+        let (periods, simulated) = (self.done, self.simulation.simulated);
+        if self.is_over_days() {
+            return JumpError::NeverPeriodic { days: periods };
+        }
+        JumpError::Stuck {
+            periods,
+            wanted,
+            simulated,
+        }
+    }
+
+    fn is_over_days(&self) -> bool {
+        self.simulation.request.days.is_some()
+    }
+
+    /// Goes on to the period number `last`, to see where the forces lead, if they change any more.
+    fn follow(&mut self, mut known: Known, last: u64) -> Result<Option<Beyond>, E> {
+        let Request { passes, beyond, .. } = *self.simulation.request;
+        self.simulation.is_over = true;
+        let left = last.saturating_sub(self.done);
+        if left > 0 && self.is_settled(&known, left) {
+            let record = |&pass: &u64| Record {
+                pass,
+                outcome: known.period.outcome(phase_of(pass, known.period.len())),
+                interpolated: true,
+            };
+            let records = beyond.iter().map(record).collect();
+            let period = known.period.outcomes();
+            return Ok(Some(Beyond { records, period }));
+        }
+        self.tolerance *= TOLERANCE_BEYOND;
+        let most = self.simulation.simulated + self.jumps.most_passes.0 / 3;
+        let leads = self.until(last, &mut known, (most, most))?;
+        let mut records = std::mem::take(&mut self.simulation.records);
+        records.retain(|record| record.pass > passes);
+        let period = known.period.outcomes();
+        Ok(leads.then_some(Beyond { records, period }))
+    }
+
+    /// Simulates the first periods, of `all`; what they show, where more are left.
+    fn start(&mut self, all: u64) -> Result<Option<Known>, E> {
+        let Request { first_passes, .. } = *self.simulation.request;
+        // Whole periods in which others than its vehicles drive.
+        let before = first_passes / self.simulation.request.period();
+        let first = before.saturating_add(self.jumps.first_periods);
+        let (mut half, mut last) = (None, None);
+        while self.done < first.min(all) {
+            let period = self.next_period()?;
+            if self.done == before + (first - before) / 2 {
+                half = Some(period.clone());
+            }
+            if self.repeat(&period, all) {
+                return Ok(None);
+            }
+            last = Some(period);
+        }
+        let (Some(half), Some(period), true) = (half, last, self.done == first) else {
+            return Ok(None);
+        };
+        let width = (SLOPE_WIDTH * self.jumps.length_scale / self.simulation.mesh.spacing()) as usize;
+        Ok(Some(Known {
+            slope: Slope::new(&half, &period, width, &self.simulation.cable),
+            period,
+            length: (self.jumps.first_jump * (first - before) as f64).max(1.0),
+            not_before: 0,
+        }))
+    }
+
+    /// Goes on until `all` periods are done, without jumps beyond the first of the numbers of simulated
+    /// passes `most`; false where the second is not enough.
+    fn until(&mut self, all: u64, known: &mut Known, most: (u64, u64)) -> Result<bool, E> {
+        while self.done < all {
+            if self.simulation.simulated > most.1 {
+                return Ok(false);
+            }
+            let left = all - self.done;
+            let longest = left.saturating_sub(CHECKED);
+            let guided = self.guide.length(self.schedule.len());
+            let asks = guided.is_none() || self.is_over_days();
+            let settles = asks && longest > 0 && self.is_settled(known, left);
+            let to_end = settles && guided.is_none();
+            if to_end {
+                known.length = longest as f64;
+                known.not_before = 2 * self.done;
+            }
+            let length = guided.unwrap_or(known.length as u64).min(longest);
+            let patient = self.simulation.simulated <= most.0;
+            if !to_end && (length < SHORTEST_JUMP || !patient) {
+                self.simulate(known)?;
+                self.repeat(&known.period, all);
+                continue;
+            }
+            let from = self.done;
+            let taken = self.jump(known, length, length == longest)?;
+            if to_end && !taken {
+                known.length = known.length.min((self.done as f64).max(SHORTEST_JUMP as f64));
+            }
+            let ends = taken && self.done == all;
+            if taken && !self.repeat(&known.period, all) && settles && ends && self.is_over_days() {
+                let whole = remove_mean(&self.simulation.cable, &mut known.period.rate.clone());
+                self.repeats = Some((from, whole));
+            }
+        }
+        Ok(true)
+    }
+
+    /// Takes the days left of `all` to repeat the last one, the `period`, but for a movement as a whole:
+    /// if its advance, gone on unchanged, would change no force and no movement noticeably.
+    fn repeat(&mut self, period: &Period, all: u64) -> bool {
+        let left = all - self.done;
+        if !self.is_over_days() || left == 0 {
+            return false;
+        }
+        let mut change = period.rate.clone();
+        let whole = remove_mean(&self.simulation.cable, &mut change);
+        let shares = self.simulation.scale.shares(&self.simulation.cable, &change);
+        let change = left as f64 * shares.force.max(shares.movement);
+        if change > NEGLIGIBLE * self.tolerance {
+            return false;
+        }
+        self.simulation.repeat(period, self.done, all, whole);
+        (self.repeats, self.done) = (Some((self.done, whole)), all);
+        true
+    }
+
+    /// Whether the cable no longer moves.
+    fn rests(&self, known: &Known) -> bool {
+        largest(&known.period.rate) < AT_REST * self.jumps.least.1
+    }
+
+    /// Advance per period at the end of the last period.
+    fn rate(&mut self, known: &Known) -> Vec<f64> {
+        let mut rate = known.period.rate.clone();
+        known.slope.spread(&mut self.simulation.cable, 0.5, &mut rate);
+        rate
+    }
+
+    /// Whether the cable rests, or forces will change no more than noticeably in the periods `left`.
+    fn is_settled(&mut self, known: &Known, left: u64) -> bool {
+        if self.rests(known) || self.done < known.not_before {
+            return self.rests(known);
+        }
+        let rate = self.rate(known);
+        let (cable, scale) = (&mut self.simulation.cable, self.simulation.scale);
+        let none = vec![0.0; rate.len()];
+        let flow = Flow::new(cable, &rate, none, known.slope.values(), left as f64);
+        scale.shares(cable, flow.end()).force < NEGLIGIBLE * self.tolerance
+    }
+
+    /// Simulates the next period, the last of a run or one between jumps, and learns from it.
+    fn simulate(&mut self, known: &mut Known) -> Result<(), E> {
+        let next = self.next_period()?;
+        known
+            .slope
+            .learn(&known.period, &next, None, &self.simulation.cable);
+        known.period = next;
+        known.length = (GROWTH_BETWEEN * known.length).max(2.0);
+        self.schedule.push(0);
+        Ok(())
+    }
+
+    /// Jumps over `length` periods, simulates two more and chooses the next length; false where the
+    /// jump is rejected for its error.
+    fn jump(&mut self, known: &mut Known, length: u64, is_last: bool) -> Result<bool, E> {
+        let tolerance = if is_last { FINAL_TOLERANCE } else { 1.0 } * self.tolerance;
+        let (from, offset) = (self.simulation.state.clone(), self.simulation.offset);
+        let at_end = length + CHECKED;
+        let (flow, missed) = self.check(known, length)?;
+        let scale = self.simulation.scale.shares(&self.simulation.cable, &missed);
+        let error = scale.force.max(scale.movement);
+        let factor = (CAUTION * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt()).clamp(GROWTH.0, GROWTH.1);
+        if error > self.guide.max_error() * tolerance && length > CHECKED {
+            (self.simulation.state, self.simulation.offset) = (from, offset);
+            // From here on the other run is no guide.
+            self.guide = Guide::Free;
+            known.length = factor * length as f64;
+            return Ok(false);
+        }
+        self.simulation.advance(&missed)?;
+        let begin = self.done;
+        self.done += length + 1;
+        let recorded = self.simulation.records.len();
+        let next = self.next_period()?;
+        // What lies within the jump is recorded before the period at its end.
+        let simulated = self.simulation.records.split_off(recorded);
+        let jump = JumpInterval {
+            mesh: self.simulation.mesh,
+            begin,
+            length: at_end,
+            from: &from,
+            to: &self.simulation.state.clone(),
+            offset,
+            moved: self.simulation.offset - offset,
+            before: &known.period,
+            after: &next,
+            flow,
+        };
+        self.simulation.record(&jump, length + 1)?;
+        self.simulation.records.extend(simulated);
+        known.period = next;
+        known.length = factor * at_end as f64;
+        self.schedule.push(length);
+        Ok(true)
+    }
+
+    /// Moves the cable over `length` periods, simulates one and learns from it: the flow as it is known
+    /// then, up to the end of the jump, and what the first one had missed \[m\].
+    fn check(&mut self, known: &mut Known, length: u64) -> Result<(Flow, Vec<f64>), E> {
+        let rate = self.rate(known);
+        let before = known.slope.clone();
+        let none = vec![0.0; rate.len()];
+        let at_end = (length + CHECKED) as f64;
+        let flow = Flow::new(&mut self.simulation.cable, &rate, none, before.values(), at_end);
+        if !self.rests(known) {
+            let jump = flow.after(&mut self.simulation.cable, length as f64);
+            self.simulation.advance(&jump)?;
+        }
+        let period = self.simulation.request.order.len();
+        let checked = self.simulation.period(period, None, self.tolerance)?;
+        let cable = &mut self.simulation.cable;
+        let predicted = before.predict(&known.period, &checked, cable);
+        known
+            .slope
+            .learn(&known.period, &checked, Some(&predicted), cable);
+        // The slope between both ends says best how the cable went from one to the other; what that
+        // leaves of the advance grew evenly.
+        let measured = (length + 1) as f64;
+        let predicted = known.slope.predict(&known.period, &checked, cable);
+        let growth = difference(&difference(&checked.rate, &known.period.rate), &predicted)
+            .iter()
+            .map(|defect| defect / measured)
+            .collect();
+        let corrected = Flow::new(cable, &rate, growth, known.slope.values(), at_end);
+        let mut missed = difference(&corrected.after(cable, measured), &flow.after(cable, measured));
+        before.spread(cable, 1.0, &mut missed);
+        Ok((corrected, missed))
+    }
+
+    /// Simulates the next period.
+    fn next_period(&mut self) -> Result<Period, E> {
+        let length = self.simulation.request.order.len();
+        let after = self.done * length as u64;
+        let period = self.simulation.period(length, Some(after), self.tolerance)?;
+        self.done += 1;
+        Ok(period)
+    }
+}
