@@ -94,9 +94,8 @@ impl Case {
         let mut solver = QuasiStatic::new(self.cable.clone(), self.mesh)?;
         let motion = number * LIMIT * DEPTH * DEPTH / EA;
         let jumps = Jumps::new(TOLERANCE, DEPTH, (0.01 * LIMIT, 0.1 * motion))?.with_most_passes(1000, 1000);
-        let request = Request::new(PASSES[PASSES.len() - 1], self.mix)?
-            .with_wanted(&PASSES)?
-            .with_guide(guide);
+        let mut request = Request::new(PASSES[PASSES.len() - 1], self.mix)?;
+        (request.wanted, request.guide) = (&PASSES, guide);
         let evolution = evolve(
             &self.cable,
             &self.mesh,

@@ -1,7 +1,7 @@
 //! All days of a scene with heat on one mesh, and what two such runs differ in.
 
 use cable_dem::{CableState, Mesh};
-use cycle_jump::days::{DailyHeat, Day, DayRecord, Days, DaysRequest, evolve_days};
+use cycle_jump::days::{DailyHeat, Day, Days, DaysRequest, Extremes, evolve_days};
 use cycle_jump::{Guide, Jumps, Next, Record};
 
 use super::listing::listed_passes;
@@ -252,10 +252,12 @@ impl<'a> Living<'a> {
     /// The same of days alone.
     pub fn difference_of_days(&self, one: &Lived, other: &Lived) -> Shares {
         let scale = Scale::new(self.plan.scene.friction_limit(), peak(&self.plan.ground.motions));
-        let of_day = |(a, b): (&DayRecord, &DayRecord)| {
-            let places = a.extremes.forward.into_iter().chain(a.extremes.backward);
-            let moved = places.fold(scale.movement, |most, place| most.max(place.abs()));
-            let (force, movement) = a.extremes.difference(&b.extremes, (scale.force, moved));
+        let of_day = |((_, a), (_, b)): (&(u64, Extremes), &(u64, Extremes))| {
+            let places = a.displacement.as_flattened();
+            let moved = places
+                .iter()
+                .fold(scale.movement, |most, place| most.max(place.abs()));
+            let (force, movement) = a.difference(b, (scale.force, moved));
             Shares { force, movement }
         };
         let days = one.days.days.iter().zip(&other.days.days);
@@ -298,7 +300,7 @@ impl<'a> Living<'a> {
         let count = self.plan.scene.traffic.passes.div_ceil(passes_per_day);
         let days = days
             .iter()
-            .map(|record| DayExtremes::new(record.day, &record.extremes))
+            .map(|(day, extremes)| DayExtremes::new(*day, extremes))
             .collect();
         let per_kelvin = self.per_kelvin();
         let cycle = lived.days.last_day.iter().map(|row| {

@@ -153,12 +153,10 @@ impl Task<'_> {
         let beyond = if jumping.beyond { beyond(count) } else { Vec::new() };
         let (first, last) = listing.one_by_one;
         // Jumps end before the last passes, in which the scene's own vehicles drive.
-        let request = Request::new(count - last, &jumping.period.vehicles)?
-            .with_first_passes(first)
-            .with_wanted(&wanted)?
-            .with_looked_at(self.stages)
-            .with_beyond(&beyond)?
-            .with_guide(jumping.guide);
+        let mut request = Request::new(count - last, &jumping.period.vehicles)?;
+        (request.wanted, request.beyond) = (&wanted, &beyond);
+        (request.looked_at, request.first_passes) = (self.stages, first);
+        request.guide = jumping.guide;
         let cable = simulation.cable.clone();
         let mut evolution = evolve(&cable, mesh, &jumps, &request, |Next { phase, number }, state| {
             let vehicle = listing.vehicle(jumping.period, phase, number);

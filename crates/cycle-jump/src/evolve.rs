@@ -35,7 +35,7 @@ pub fn evolve<E: From<JumpError>>(
     request: &Request<'_>,
     pass: impl FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 ) -> Result<Evolution, E> {
-    let walk = Walk {
+    let mut walk = Walk {
         simulation: Simulation::new(cable, mesh, request, jumps.least, pass).map_err(wrap)?,
         jumps,
         guide: request.guide,
@@ -44,7 +44,34 @@ pub fn evolve<E: From<JumpError>>(
         schedule: Vec::new(),
         repeats: None,
     };
-    walk.run()
+    let length = request.period();
+    let all = request.passes / length;
+    let mut known = walk.start(all)?;
+    if let Some(known) = &mut known {
+        if !walk.until(all, known, jumps.most_passes)? {
+            return Err(walk.no_progress(all).into());
+        }
+    }
+    let whole = walk.simulation.state.clone();
+    let left = (request.passes - all * length) as usize;
+    let (after, tolerance) = (Some(all * length), walk.tolerance);
+    walk.simulation.period(left, after, tolerance)?;
+    let simulation = &mut walk.simulation;
+    let mut evolution = Evolution {
+        records: std::mem::take(&mut simulation.records),
+        period: known.iter().flat_map(|known| known.period.outcomes()).collect(),
+        state: std::mem::replace(&mut simulation.state, whole),
+        offset: simulation.offset,
+        repeats: walk.repeats,
+        simulated: 0,
+        schedule: walk.schedule.clone(),
+        beyond: None,
+    };
+    if let (Some(known), Some(&last)) = (known, request.beyond.iter().max()) {
+        evolution.beyond = walk.follow(known, last / length)?;
+    }
+    evolution.simulated = walk.simulation.simulated;
+    Ok(evolution)
 }
 
 /// A run under way.
@@ -75,101 +102,29 @@ where
     E: From<JumpError>,
     P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 {
-    fn run(mut self) -> Result<Evolution, E> {
-        let Request { passes, beyond, .. } = *self.simulation.request;
-        let length = self.simulation.request.period();
-        let all = passes / length;
-        let mut known = self.start(all)?;
-        if let Some(known) = &mut known {
-            if !self.until(all, known, self.jumps.most_passes)? {
-                return Err(self.no_progress(all).into());
-            }
-        }
-        let whole = self.simulation.state.clone();
-        let left = (passes - all * length) as usize;
-        self.simulation.period(left, Some(all * length), self.tolerance)?;
-        let simulation = &mut self.simulation;
-        let mut evolution = Evolution {
-            records: std::mem::take(&mut simulation.records),
-            others: std::mem::take(&mut simulation.others),
-            period: known.iter().flat_map(|known| known.period.outcomes()).collect(),
-            state: std::mem::replace(&mut simulation.state, whole),
-            offset: simulation.offset,
-            repeats: self.repeats,
-            simulated: 0,
-            schedule: self.schedule.clone(),
-            beyond: None,
-        };
-        if let (Some(known), Some(&last)) = (known, beyond.last()) {
-            evolution.beyond = self.follow(known, last / length)?;
-        }
-        evolution.simulated = self.simulation.simulated;
-        Ok(evolution)
-    }
-
-    fn no_progress(&self, wanted: u64) -> JumpError {
-        let (periods, simulated) = (self.done, self.simulation.simulated);
-        if self.is_over_days() {
-            return JumpError::NeverPeriodic { days: periods };
-        }
-        JumpError::Stuck {
-            periods,
-            wanted,
-            simulated,
-        }
-    }
-
-    fn is_over_days(&self) -> bool {
-        self.simulation.request.days.is_some()
-    }
-
-    /// Goes on to the period number `last`, to see where the forces lead, if they change any more.
-    fn follow(&mut self, mut known: Known, last: u64) -> Result<Option<Beyond>, E> {
-        let Request { passes, beyond, .. } = *self.simulation.request;
-        self.simulation.is_over = true;
-        let left = last.saturating_sub(self.done);
-        if left > 0 && self.is_settled(&known, left) {
-            let record = |&pass: &u64| Record {
-                pass,
-                outcome: known.period.outcome(phase_of(pass, known.period.len())),
-                interpolated: true,
-            };
-            let records = beyond.iter().map(record).collect();
-            let period = known.period.outcomes();
-            return Ok(Some(Beyond { records, period }));
-        }
-        self.tolerance *= TOLERANCE_BEYOND;
-        let most = self.simulation.simulated + self.jumps.most_passes.0 / 3;
-        let leads = self.until(last, &mut known, (most, most))?;
-        let mut records = std::mem::take(&mut self.simulation.records);
-        records.retain(|record| record.pass > passes);
-        let period = known.period.outcomes();
-        Ok(leads.then_some(Beyond { records, period }))
-    }
-
     /// Simulates the first periods, of `all`; what they show, where more are left.
     fn start(&mut self, all: u64) -> Result<Option<Known>, E> {
-        let Request { first_passes, .. } = *self.simulation.request;
+        let request = self.simulation.request;
         // Whole periods in which others than its vehicles drive.
-        let before = first_passes / self.simulation.request.period();
+        let before = request.first_passes / request.period();
         let first = before.saturating_add(self.jumps.first_periods);
         let (mut half, mut last) = (None, None);
         while self.done < first.min(all) {
             let period = self.next_period()?;
-            if self.done == before + (first - before) / 2 {
-                half = Some(period.clone());
-            }
             if self.repeat(&period, all) {
                 return Ok(None);
+            }
+            if self.done == before + (first - before) / 2 {
+                half = Some(period.clone());
             }
             last = Some(period);
         }
         let (Some(half), Some(period), true) = (half, last, self.done == first) else {
             return Ok(None);
         };
-        let width = (SLOPE_WIDTH * self.jumps.length_scale / self.simulation.mesh.spacing()) as usize;
+        let width = SLOPE_WIDTH * self.jumps.length_scale / self.simulation.mesh.spacing();
         Ok(Some(Known {
-            slope: Slope::new(&half, &period, width, &self.simulation.cable),
+            slope: Slope::new(&half, &period, width as usize, &self.simulation.cable),
             period,
             length: (self.jumps.first_jump * (first - before) as f64).max(1.0),
             not_before: 0,
@@ -186,16 +141,15 @@ where
             let left = all - self.done;
             let longest = left.saturating_sub(CHECKED);
             let guided = self.guide.length(self.schedule.len());
-            let asks = guided.is_none() || self.is_over_days();
-            let settles = asks && longest > 0 && self.is_settled(known, left);
+            let settles = longest > 0 && self.is_settled(known, left);
             let to_end = settles && guided.is_none();
             if to_end {
                 known.length = longest as f64;
                 known.not_before = 2 * self.done;
             }
             let length = guided.unwrap_or(known.length as u64).min(longest);
-            let patient = self.simulation.simulated <= most.0;
-            if !to_end && (length < SHORTEST_JUMP || !patient) {
+            let is_patient = self.simulation.simulated <= most.0;
+            if !to_end && (length < SHORTEST_JUMP || !is_patient) {
                 self.simulate(known)?;
                 self.repeat(&known.period, all);
                 continue;
@@ -206,7 +160,7 @@ where
                 known.length = known.length.min((self.done as f64).max(SHORTEST_JUMP as f64));
             }
             let ends = taken && self.done == all;
-            if taken && !self.repeat(&known.period, all) && settles && ends && self.is_over_days() {
+            if taken && !self.repeat(&known.period, all) && settles && ends {
                 let whole = remove_mean(&self.simulation.cable, &mut known.period.rate.clone());
                 self.repeats = Some((from, whole));
             }
@@ -214,18 +168,50 @@ where
         Ok(true)
     }
 
+    fn no_progress(&self, wanted: u64) -> JumpError {
+        let (periods, simulated) = (self.done, self.simulation.simulated);
+        match self.simulation.request.days {
+            Some(_) => JumpError::NeverPeriodic { days: periods },
+            None => JumpError::Stuck {
+                periods,
+                wanted,
+                simulated,
+            },
+        }
+    }
+
+    /// Goes on to the period number `last`, to see where the forces lead, if they change any more.
+    fn follow(&mut self, mut known: Known, last: u64) -> Result<Option<Beyond>, E> {
+        let request = self.simulation.request;
+        self.simulation.is_over = true;
+        let left = last.saturating_sub(self.done);
+        if left > 0 && self.is_settled(&known, left) {
+            let record = |&pass: &u64| Record {
+                pass,
+                outcome: known.period.outcome(phase_of(pass, known.period.len())),
+                interpolated: true,
+            };
+            let records = request.beyond.iter().map(record).collect();
+            let period = known.period.outcomes();
+            return Ok(Some(Beyond { records, period }));
+        }
+        self.tolerance *= TOLERANCE_BEYOND;
+        let most = self.simulation.simulated + self.jumps.most_passes.0 / 3;
+        let leads = self.until(last, &mut known, (most, most))?;
+        let mut records = std::mem::take(&mut self.simulation.records);
+        records.retain(|record| record.pass > request.passes);
+        let period = known.period.outcomes();
+        Ok(leads.then_some(Beyond { records, period }))
+    }
     /// Takes the days left of `all` to repeat the last one, the `period`, but for a movement as a whole:
     /// if its advance, gone on unchanged, would change no force and no movement noticeably.
     fn repeat(&mut self, period: &Period, all: u64) -> bool {
         let left = all - self.done;
-        if !self.is_over_days() || left == 0 {
-            return false;
-        }
         let mut change = period.rate.clone();
         let whole = remove_mean(&self.simulation.cable, &mut change);
-        let shares = self.simulation.scale.shares(&self.simulation.cable, &change);
-        let change = left as f64 * shares.force.max(shares.movement);
-        if change > NEGLIGIBLE * self.tolerance {
+        let change = left as f64 * self.simulation.shares(&change).worse();
+        let is_over_days = self.simulation.request.days.is_some();
+        if !is_over_days || left == 0 || change > NEGLIGIBLE * self.tolerance {
             return false;
         }
         self.simulation.repeat(period, self.done, all, whole);
@@ -235,7 +221,7 @@ where
 
     /// Whether the cable no longer moves.
     fn rests(&self, known: &Known) -> bool {
-        largest(&known.period.rate) < AT_REST * self.jumps.least.1
+        largest(&known.period.rate) < AT_REST * self.jumps.least.movement
     }
 
     /// Advance per period at the end of the last period.
@@ -251,10 +237,10 @@ where
             return self.rests(known);
         }
         let rate = self.rate(known);
-        let (cable, scale) = (&mut self.simulation.cable, self.simulation.scale);
         let none = vec![0.0; rate.len()];
+        let cable = &mut self.simulation.cable;
         let flow = Flow::new(cable, &rate, none, known.slope.values(), left as f64);
-        scale.shares(cable, flow.end()).force < NEGLIGIBLE * self.tolerance
+        self.simulation.shares(&flow.end).force < NEGLIGIBLE * self.tolerance
     }
 
     /// Simulates the next period, the last of a run or one between jumps, and learns from it.
@@ -276,8 +262,7 @@ where
         let (from, offset) = (self.simulation.state.clone(), self.simulation.offset);
         let at_end = length + CHECKED;
         let (flow, missed) = self.check(known, length)?;
-        let scale = self.simulation.scale.shares(&self.simulation.cable, &missed);
-        let error = scale.force.max(scale.movement);
+        let error = self.simulation.shares(&missed).worse();
         let factor = (CAUTION * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt()).clamp(GROWTH.0, GROWTH.1);
         if error > self.guide.max_error() * tolerance && length > CHECKED {
             (self.simulation.state, self.simulation.offset) = (from, offset);
@@ -297,15 +282,13 @@ where
             mesh: self.simulation.mesh,
             begin,
             length: at_end,
-            from: &from,
-            to: &self.simulation.state.clone(),
-            offset,
-            moved: self.simulation.offset - offset,
+            from: (&from, offset),
+            to: (&self.simulation.state.clone(), self.simulation.offset),
             before: &known.period,
             after: &next,
             flow,
         };
-        self.simulation.record(&jump, length + 1)?;
+        self.simulation.record_jump(&jump, length + 1)?;
         self.simulation.records.extend(simulated);
         known.period = next;
         known.length = factor * at_end as f64;

@@ -19,7 +19,8 @@ pub struct Flow {
     slope: Vec<f64>,
     /// Where each substep begins \[periods\], and y there.
     begins: Vec<(f64, Vec<f64>)>,
-    end: Vec<f64>,
+    /// y at its end \[m\].
+    pub end: Vec<f64>,
 }
 
 impl Flow {
@@ -48,11 +49,6 @@ impl Flow {
             length *= SUBSTEP_GROWTH;
         }
         flow
-    }
-
-    /// y at its end \[m\].
-    pub fn end(&self) -> &[f64] {
-        &self.end
     }
 
     /// y after `periods`, at most its own \[m\].

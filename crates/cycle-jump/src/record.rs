@@ -16,12 +16,10 @@ pub struct Record {
 /// The cable over all passes.
 #[derive(Debug, Clone)]
 pub struct Evolution {
-    /// The passes that were wanted.
+    /// The passes that were wanted, ascending. Where a period has several passes, between them the
+    /// other simulated ones, and within jumps some of the vehicles that make the largest forces and
+    /// movements: candidates for [`peaks`](crate::peaks).
     pub records: Vec<Record>,
-    /// Where a period has several passes, other simulated ones, and within jumps some of the
-    /// vehicles that make the largest forces and movements: candidates for
-    /// [`peaks`](crate::peaks).
-    pub others: Vec<Record>,
     /// What each pass of the last whole period did; empty where nothing was jumped.
     pub period: Vec<PassOutcome>,
     /// The cable after the last pass.

@@ -4,6 +4,7 @@ use cable_dem::CableState;
 
 use crate::JumpError;
 use crate::error::check;
+use crate::scale::Scale;
 use crate::tuning::{MAX_ERROR, MAX_ERROR_GUIDED};
 
 /// How jumps are taken.
@@ -11,7 +12,7 @@ use crate::tuning::{MAX_ERROR, MAX_ERROR_GUIDED};
 pub struct Jumps {
     pub(crate) tolerance: f64,
     pub(crate) length_scale: f64,
-    pub(crate) least: (f64, f64),
+    pub(crate) least: Scale,
     pub(crate) first_periods: u64,
     pub(crate) first_jump: f64,
     pub(crate) most_passes: (u64, u64),
@@ -37,7 +38,10 @@ impl Jumps {
         Ok(Self {
             tolerance,
             length_scale,
-            least,
+            least: Scale {
+                force: least.0,
+                movement: least.1,
+            },
             first_periods: 8,
             first_jump: 0.25,
             most_passes: (1000, 10_000),
@@ -74,24 +78,31 @@ impl Jumps {
 }
 
 /// The traffic, and what is wanted of it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Request<'a> {
     pub(crate) passes: u64,
     pub(crate) order: &'a [usize],
-    pub(crate) first_passes: u64,
-    pub(crate) wanted: &'a [u64],
-    pub(crate) looked_at: &'a [u64],
-    pub(crate) beyond: &'a [u64],
-    pub(crate) guide: Guide<'a>,
+    /// Passes to be recorded, from 1.
+    pub wanted: &'a [u64],
+    /// Passes to be recorded beyond the last one: where the forces lead.
+    pub beyond: &'a [u64],
+    /// Those of the wanted passes that are simulated also where they lie within a jump, from the
+    /// interpolated state before them. Their records stay interpolated.
+    pub looked_at: &'a [u64],
+    /// So many passes at the beginning are simulated in any case: vehicles other than those of the
+    /// period may drive there.
+    pub first_passes: u64,
+    /// Jumps of another run.
+    pub guide: Guide<'a>,
     /// The cable before the first pass, if not as laid.
-    pub(crate) start: Option<&'a CableState>,
+    pub start: Option<&'a CableState>,
     /// Where periods are days: those to be recorded.
     pub(crate) days: Option<&'a [u64]>,
 }
 
 impl<'a> Request<'a> {
-    /// So many `passes` in all. The traffic repeats after a period, whose vehicles come in this
-    /// `order`: equal numbers are equal vehicles.
+    /// So many `passes` in all, none of them recorded. The traffic repeats after a period, whose
+    /// vehicles come in this `order`: equal numbers are equal vehicles.
     ///
     /// # Errors
     ///
@@ -101,74 +112,20 @@ impl<'a> Request<'a> {
         Ok(Self {
             passes,
             order,
-            first_passes: 0,
             wanted: &[],
-            looked_at: &[],
             beyond: &[],
+            looked_at: &[],
+            first_passes: 0,
             guide: Guide::Free,
             start: None,
             days: None,
         })
     }
 
-    /// With these passes recorded.
-    ///
-    /// # Errors
-    ///
-    /// [`JumpError::InvalidParameter`] unless they are in ascending order, from 1.
-    pub fn with_wanted(self, wanted: &'a [u64]) -> Result<Self, JumpError> {
-        check("wanted passes", ascend(wanted, 0), "ascending, from 1")?;
-        Ok(Self { wanted, ..self })
-    }
-
-    /// With passes beyond the last one recorded: where the forces lead.
-    ///
-    /// # Errors
-    ///
-    /// [`JumpError::InvalidParameter`] unless they are in ascending order, beyond the last pass.
-    pub fn with_beyond(self, beyond: &'a [u64]) -> Result<Self, JumpError> {
-        let allowed = "ascending, beyond the last";
-        check("passes beyond the last", ascend(beyond, self.passes), allowed)?;
-        Ok(Self { beyond, ..self })
-    }
-
-    /// With these of the wanted passes simulated also where they lie within a jump, from the
-    /// interpolated state before them. Their records stay interpolated.
-    #[must_use]
-    pub fn with_looked_at(self, looked_at: &'a [u64]) -> Self {
-        Self { looked_at, ..self }
-    }
-
-    /// With so many passes at the beginning simulated in any case: vehicles other than those of the
-    /// period may drive there.
-    #[must_use]
-    pub fn with_first_passes(self, first_passes: u64) -> Self {
-        Self { first_passes, ..self }
-    }
-
-    /// With the jumps of another run.
-    #[must_use]
-    pub fn with_guide(self, guide: Guide<'a>) -> Self {
-        Self { guide, ..self }
-    }
-
     /// Passes of a period.
     pub(crate) fn period(&self) -> u64 {
         self.order.len() as u64
     }
-
-    /// Whether `pass` is to be recorded.
-    pub(crate) fn wants(&self, pass: u64) -> bool {
-        let is_in = |list: &[u64], number: u64| list.binary_search(&number).is_ok();
-        is_in(self.wanted, pass)
-            || is_in(self.beyond, pass)
-            || is_in(self.days.unwrap_or(&[]), pass.div_ceil(self.period()))
-    }
-}
-
-/// Whether `numbers` ascend and all are above `least`.
-fn ascend(numbers: &[u64], least: u64) -> bool {
-    numbers.is_sorted_by(|a, b| a < b) && numbers.first().is_none_or(|first| *first > least)
 }
 
 fn positive(name: &'static str, value: f64) -> Result<(), JumpError> {

@@ -1,6 +1,6 @@
 //! What counts as large in a run: errors are shares of the largest force and movement so far.
 
-use cable_dem::{CableError, CableState, PassOutcome, RestingCable};
+use cable_dem::{PassOutcome, RestingCable};
 
 use crate::period::largest;
 
@@ -12,15 +12,8 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// Takes account of the cable in `state`, moved as a whole by `offset` \[m\].
-    pub fn see(&mut self, cable: &RestingCable, state: &CableState, offset: f64) -> Result<(), CableError> {
-        self.see_outcome(&PassOutcome::at_rest(cable.cable(), state)?);
-        self.movement = self.movement.max(largest(state.displacement()) + offset.abs());
-        Ok(())
-    }
-
     /// Takes account of the forces at rest after a pass, and of how far it left the ends.
-    pub fn see_outcome(&mut self, outcome: &PassOutcome) {
+    pub fn see(&mut self, outcome: &PassOutcome) {
         let (up, down) = (outcome.force.upstream, outcome.force.downstream);
         let forces = [outcome.max_compression, outcome.max_tension, up, down];
         self.force = self.force.max(largest(&forces));
@@ -34,5 +27,10 @@ impl Scale {
             force: cable.largest_force(change) / self.force,
             movement: largest(change) / self.movement,
         }
+    }
+
+    /// The larger of both.
+    pub fn worse(&self) -> f64 {
+        self.force.max(self.movement)
     }
 }

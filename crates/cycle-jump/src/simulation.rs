@@ -1,13 +1,15 @@
 //! The cable on its way: passes simulated one by one or a period at a time, and advances that stand
 //! for others.
 
+use std::collections::BTreeSet;
+
 use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingCable, laid};
 
 use crate::JumpError;
 use crate::error::wrap;
 use crate::interval::JumpInterval;
 use crate::peaks::largest_places;
-use crate::period::{Period, difference, phase_of, remove_mean};
+use crate::period::{Period, difference, largest, phase_of, remove_mean};
 use crate::record::Record;
 use crate::request::{Next, Request};
 use crate::rounds::{Rounds, Settling, rounds};
@@ -19,17 +21,15 @@ pub struct Simulation<'a, P> {
     pub request: &'a Request<'a>,
     pub mesh: &'a Mesh,
     pub cable: RestingCable,
-    pub pass: P,
+    pass: P,
+    wanted: BTreeSet<u64>,
     pub state: CableState,
     /// Movement of a cable that nothing holds as a whole, which `state` leaves out \[m\].
     pub offset: f64,
     pub scale: Scale,
     /// Passes simulated.
     pub simulated: u64,
-    /// The wanted passes so far.
     pub records: Vec<Record>,
-    /// Others, of which some may show more than these.
-    pub others: Vec<Record>,
     /// Whether all passes of the traffic are done: the caller counts no later ones.
     pub is_over: bool,
 }
@@ -40,7 +40,7 @@ impl<'a, P> Simulation<'a, P> {
         cable: &DuctedCable,
         mesh: &'a Mesh,
         request: &'a Request<'a>,
-        least: (f64, f64),
+        least: Scale,
         pass: P,
     ) -> Result<Self, CableError> {
         let start = request.start.cloned();
@@ -49,17 +49,64 @@ impl<'a, P> Simulation<'a, P> {
             mesh,
             cable: RestingCable::new(cable, mesh)?,
             pass,
+            wanted: request.wanted.iter().chain(request.beyond).copied().collect(),
             state: start.map_or_else(|| laid(cable, mesh), Ok)?,
             offset: 0.0,
-            scale: Scale {
-                force: least.0,
-                movement: least.1,
-            },
+            scale: least,
             simulated: 0,
             records: Vec::new(),
-            others: Vec::new(),
             is_over: false,
         })
+    }
+
+    /// What a `change` \[m\] of the displacements changes, as shares of what is large.
+    pub fn shares(&self, change: &[f64]) -> Scale {
+        self.scale.shares(&self.cable, change)
+    }
+
+    /// Whether a period has several passes, of which any may show more than the wanted ones.
+    fn has_candidates(&self) -> bool {
+        self.request.order.len() > 1 && !self.is_over
+    }
+
+    fn record(&mut self, pass: u64, outcome: PassOutcome, interpolated: bool) {
+        self.records.push(Record {
+            pass,
+            outcome,
+            interpolated,
+        });
+    }
+
+    /// Lets the periods from `done` to `all` repeat the last one, the `period`, but for a movement as
+    /// a `whole` in each \[m\].
+    pub fn repeat(&mut self, period: &Period, done: u64, all: u64, whole: f64) {
+        for pass in self.recorded(done, all, &largest_places(period)) {
+            let moved = whole * (pass.div_ceil(self.request.period()) - done) as f64;
+            let place = phase_of(pass, period.len());
+            self.record(pass, period.outcome(place).moved(moved), true);
+        }
+        self.offset += whole * (all - done) as f64;
+    }
+
+    /// The passes to be recorded after so many periods up to others without their simulation, where
+    /// passes at these `places` show the largest of a period.
+    fn recorded(&self, from: u64, to: u64, places: &[usize]) -> BTreeSet<u64> {
+        let length = self.request.period();
+        let mut passes: BTreeSet<u64> = self
+            .wanted
+            .range(from * length + 1..to * length + 1)
+            .copied()
+            .collect();
+        for day in self
+            .request
+            .days
+            .unwrap_or(&[])
+            .iter()
+            .filter(|day| (from + 1..=to).contains(*day))
+        {
+            passes.extend(places.iter().map(|&place| (day - 1) * length + place as u64 + 1));
+        }
+        passes
     }
 }
 
@@ -78,12 +125,12 @@ where
         period.end(self.state.displacement());
         if self.request.days.is_some() {
             // In a day forces come and go.
-            for place in 0..period.len() {
-                self.scale.see_outcome(&period.phase(place).outcome);
-            }
+            (0..length).for_each(|place| self.scale.see(&period.phase(place).outcome));
         }
-        let scale = &mut self.scale;
-        scale.see(&self.cable, &self.state, self.offset).map_err(wrap)?;
+        let rest = PassOutcome::at_rest(self.cable.cable(), &self.state).map_err(wrap)?;
+        self.scale.see(&rest);
+        let movement = largest(self.state.displacement()) + self.offset.abs();
+        self.scale.movement = self.scale.movement.max(movement);
         Ok(period)
     }
 
@@ -109,133 +156,73 @@ where
             left -= 1;
             let mut change = difference(self.state.displacement(), &before);
             let whole = remove_mean(&self.cable, &mut change);
-            let shares = self.scale.shares(&self.cable, &change);
             let skipped = left.saturating_sub(1);
-            let passes = skipped * rounds.round;
-            let is_settled = settling.is_settled(shares, skipped, NEGLIGIBLE * tolerance);
-            if is_settled && skipped > 0 && self.may_skip(after, period.len(), passes) {
-                for _ in 0..passes {
-                    let place = period.len();
-                    period.repeat(rounds.round, whole);
-                    if let Some(pass) = after.map(|after| after + 1 + place as u64) {
-                        self.record_like(pass, period.outcome(place));
-                    }
-                }
-                if whole != 0.0 {
-                    let displacement = self.state.displacement().iter();
-                    self.place(displacement.map(|u| u + whole * skipped as f64).collect())?;
-                }
-                left = 1;
+            let is_settled = settling.is_settled(self.shares(&change), skipped, NEGLIGIBLE * tolerance);
+            let begin = period.len();
+            let passes = begin..begin + skipped * rounds.round;
+            if !is_settled || skipped == 0 || !self.may_skip(after, &passes) {
+                continue;
             }
+            for place in passes {
+                period.repeat(rounds.round, whole);
+                let pass = after.map(|after| after + 1 + place as u64);
+                if let Some(pass) = pass.filter(|pass| self.wanted.contains(pass)) {
+                    self.record(pass, period.outcome(place), true);
+                }
+            }
+            if whole != 0.0 {
+                let displacement = self.state.displacement().iter();
+                self.place(displacement.map(|u| u + whole * skipped as f64).collect())?;
+            }
+            left = 1;
         }
         Ok(())
     }
 
-    /// Whether none of so many passes from the `place` of a period that follows the pass `after` has
-    /// to be simulated.
-    fn may_skip(&self, after: Option<u64>, place: usize, passes: usize) -> bool {
+    /// Whether none of the passes at these places of a period that follows the pass `after` has to be
+    /// simulated.
+    fn may_skip(&self, after: Option<u64>, places: &std::ops::Range<usize>) -> bool {
         after.is_none_or(|after| {
-            let begin = after + place as u64;
-            let skipped = begin + 1..=begin + passes as u64;
-            begin >= self.request.first_passes && !self.request.looked_at.iter().any(|p| skipped.contains(p))
+            let passes = after + places.start as u64 + 1..after + places.end as u64 + 1;
+            let is_looked_at = self.request.looked_at.iter().any(|pass| passes.contains(pass));
+            passes.start > self.request.first_passes && !is_looked_at
         })
     }
 
-    /// Records `pass`, if it is wanted, as one with the `outcome` of another one.
-    fn record_like(&mut self, pass: u64, outcome: PassOutcome) {
-        if self.request.wants(pass) {
-            self.records.push(Record {
-                pass,
-                outcome,
-                interpolated: true,
-            });
-        }
-    }
-
-    /// Lets the periods from `done` to `all` repeat the last one, the `period`, but for a movement as
-    /// a `whole` in each \[m\].
-    pub fn repeat(&mut self, period: &Period, done: u64, all: u64, whole: f64) {
-        let length = self.request.period();
-        for pass in self.recorded(done, all, &largest_places(period)) {
-            let moved = whole * (pass.div_ceil(length) - done) as f64;
-            self.record_like(pass, period.outcome(phase_of(pass, period.len())).moved(moved));
-        }
-        self.offset += whole * (all - done) as f64;
-    }
-
     /// Simulates the pass at the place `phase` of a period and records it by its `number`.
-    pub fn simulate(&mut self, phase: usize, number: Option<u64>) -> Result<PassOutcome, E> {
+    fn simulate(&mut self, phase: usize, number: Option<u64>) -> Result<PassOutcome, E> {
         let next = Next {
             phase,
             number: number.filter(|_| !self.is_over),
         };
         let outcome = (self.pass)(next, &mut self.state)?.moved(self.offset);
         self.simulated += 1;
-        if let Some(pass) = number {
-            let record = Record {
-                pass,
-                outcome: outcome.clone(),
-                interpolated: false,
-            };
-            if self.request.wants(pass) {
-                self.records.push(record);
-            } else if self.request.period() > 1 && !self.is_over {
-                self.others.push(record);
-            }
+        if let Some(pass) = number.filter(|pass| self.has_candidates() || self.wanted.contains(pass)) {
+            self.record(pass, outcome.clone(), false);
         }
         Ok(outcome)
     }
 
-    /// The passes to be recorded after so many periods up to others, ascending, where passes at these
-    /// `places` show the largest of a period.
-    fn recorded(&self, from: u64, to: u64, places: &[usize]) -> Vec<u64> {
-        let Request {
-            wanted, beyond, days, ..
-        } = *self.request;
-        let length = self.request.period();
-        let (first, last) = (from * length, to * length);
-        let within = |list: &'_ [u64]| {
-            let place = |number| list.partition_point(|pass| *pass <= number);
-            list[place(first)..place(last).max(place(first))].to_vec()
-        };
-        let days = days
-            .unwrap_or(&[])
-            .iter()
-            .filter(|day| (from + 1..=to).contains(*day));
-        let of_day = |day: &u64| {
-            let before = (day - 1) * length;
-            places.iter().map(move |&place| before + place as u64 + 1)
-        };
-        let mut passes = [within(wanted), within(beyond), days.flat_map(of_day).collect()].concat();
-        passes.sort_unstable();
-        passes.dedup();
-        passes
-    }
-
-    /// Records the passes of the first `periods` within a jump.
-    pub fn record(&mut self, jump: &JumpInterval<'_>, periods: u64) -> Result<(), E> {
-        let places = jump.largest_places();
-        let last = jump.begin + periods;
-        let wanted = self.recorded(jump.begin, last, &places);
-        for &pass in wanted.iter().filter(|pass| self.request.looked_at.contains(pass)) {
-            let mut state = jump.state_before(&mut self.cable, pass).map_err(wrap)?;
+    /// Records passes of the first `periods` within a jump.
+    pub fn record_jump(&mut self, jump: &JumpInterval<'_>, periods: u64) -> Result<(), E> {
+        let places = [largest_places(jump.before), largest_places(jump.after)].concat();
+        let (length, last) = (self.request.period(), jump.begin + periods);
+        let mut passes = self.recorded(jump.begin, last, &places);
+        let mut period = jump.begin;
+        while self.has_candidates() && self.request.days.is_none() && period < last {
+            passes.extend(places.iter().map(|&place| period * length + place as u64 + 1));
+            period = (period + 1).max((PEAK_RATIO * period as f64) as u64);
+        }
+        let passes: Vec<u64> = passes.into_iter().collect();
+        for &pass in passes.iter().filter(|pass| self.request.looked_at.contains(pass)) {
+            let (mut state, _) = jump.state(&mut self.cable, pass - 1).map_err(wrap)?;
             let phase = phase_of(pass, self.request.order.len());
             let number = Some(pass);
             (self.pass)(Next { phase, number }, &mut state)?;
         }
-        let mut others = Vec::new();
-        let (length, mut period) = (self.request.period(), jump.begin);
-        while length > 1 && self.request.days.is_none() && !self.is_over && period < last {
-            others.extend(places.iter().map(|&place| period * length + place as u64 + 1));
-            period = (period + 1).max((PEAK_RATIO * period as f64) as u64);
-        }
-        for (passes, records) in [(wanted, &mut self.records), (others, &mut self.others)] {
-            let outcomes = jump.outcomes(&mut self.cable, &passes).map_err(wrap)?;
-            records.extend(passes.into_iter().zip(outcomes).map(|(pass, outcome)| Record {
-                pass,
-                outcome,
-                interpolated: true,
-            }));
+        let outcomes = jump.outcomes(&mut self.cable, &passes).map_err(wrap)?;
+        for (pass, outcome) in passes.into_iter().zip(outcomes) {
+            self.record(pass, outcome, true);
         }
         Ok(())
     }
@@ -243,9 +230,9 @@ where
     /// Moves the cable by `advance` \[m\] and lets it come to rest.
     pub fn advance(&mut self, advance: &[f64]) -> Result<(), E> {
         let now = self.state.displacement().iter();
-        let mut change: Vec<f64> = now.zip(advance).map(|(u, y)| u + y).collect();
-        self.offset += remove_mean(&self.cable, &mut change);
-        self.place(change)
+        let mut moved: Vec<f64> = now.zip(advance).map(|(u, y)| u + y).collect();
+        self.offset += remove_mean(&self.cable, &mut moved);
+        self.place(moved)
     }
 
     fn place(&mut self, displacement: Vec<f64>) -> Result<(), E> {

@@ -9,7 +9,7 @@
 use cable_dem::RestingCable;
 
 use crate::period::{Period, difference};
-use crate::tuning::{MAX_SLOPE_GROWTH, MIN_SLOPE, NOISE, OVERSHOOT, REGULARISATION, SLOPE_FALL};
+use crate::tuning::{MAX_SLOPE_GROWTH, NOISE, OVERSHOOT, REGULARISATION, SLOPE_FALL};
 
 /// Slope before anything is known \[m²/N\].
 const UNKNOWN: f64 = 1e-9;
@@ -18,24 +18,18 @@ const UNKNOWN: f64 = 1e-9;
 #[derive(Debug, Clone)]
 pub struct Slope {
     values: Vec<f64>,
-    /// One number for the whole cable.
-    typical: f64,
     /// Nodes in the sliding mean.
     width: usize,
-    /// Friction limit \[N/m\].
-    limit: f64,
 }
 
 impl Slope {
     /// As the change between two periods shows it; means run over `width` nodes.
     pub fn new(from: &Period, to: &Period, width: usize, cable: &RestingCable) -> Self {
-        let typical = secant(&difference(&to.rate, &from.rate), &friction(from, to, cable));
-        let first = if typical > 0.0 { typical } else { UNKNOWN };
+        let (rate, friction) = changes(from, to, cable);
+        let secant = -dot(&rate, &friction) / dot(&friction, &friction).max(f64::MIN_POSITIVE);
         let mut slope = Self {
-            values: vec![first; to.rate.len()],
-            typical,
+            values: vec![if secant > 0.0 { secant } else { UNKNOWN }; rate.len()],
             width: width.max(3) | 1,
-            limit: cable.cable().friction().limit(),
         };
         slope.learn(from, to, None, cable);
         slope
@@ -53,7 +47,7 @@ impl Slope {
 
     /// By how much the advance of one period differs from that of an earlier one \[m\].
     pub fn predict(&self, from: &Period, to: &Period, cable: &mut RestingCable) -> Vec<f64> {
-        let mut change = friction(from, to, cable);
+        let (_, mut change) = changes(from, to, cable);
         for (f, g) in change.iter_mut().zip(&self.values) {
             *f *= -g;
         }
@@ -64,14 +58,9 @@ impl Slope {
     /// Learns from two periods, between which it had `predicted` the change of the advance where there
     /// was a jump.
     pub fn learn(&mut self, from: &Period, to: &Period, predicted: Option<&[f64]>, cable: &RestingCable) {
-        let rate = difference(&to.rate, &from.rate);
-        let friction = friction(from, to, cable);
-        let secant = secant(&rate, &friction);
+        let (rate, friction) = changes(from, to, cable);
         let largest = friction.iter().fold(0.0_f64, |a, f| a.max(f * f));
-        let noise = (NOISE * self.limit).powi(2);
-        if largest > noise && secant > 0.0 {
-            self.typical = secant.max(SLOPE_FALL * self.typical);
-        }
+        let noise = (NOISE * cable.cable().friction().limit()).powi(2);
         let products = rate.iter().zip(&friction).map(|(v, f)| -v * f);
         let mut values = sliding_mean(products, self.width);
         let squares = sliding_mean(friction.iter().map(|f| f * f), self.width);
@@ -84,23 +73,19 @@ impl Slope {
             if overshoot > OVERSHOOT {
                 *value = value.max(last * overshoot.min(MAX_SLOPE_GROWTH));
             }
-            *value = value.max(SLOPE_FALL * last).max(MIN_SLOPE * self.typical);
+            *value = value.max(SLOPE_FALL * last);
         }
         self.values = sliding_mean(values.into_iter(), self.width);
     }
 }
 
-/// Friction K Δu/w \[N/m\] by which the middles of two periods differ.
-fn friction(from: &Period, to: &Period, cable: &RestingCable) -> Vec<f64> {
-    let moved = difference(&to.middle, &from.middle);
-    let mut friction = vec![0.0; moved.len()];
-    cable.balance(&moved, &mut friction);
-    friction
-}
-
-/// −Σ dv df/Σ df², at least 0.
-fn secant(rate: &[f64], friction: &[f64]) -> f64 {
-    (-dot(rate, friction) / dot(friction, friction).max(f64::MIN_POSITIVE)).max(0.0)
+/// By how much one period differs from an earlier one: its advance \[m\], and the friction K Δu/w in
+/// its middle \[N/m\].
+fn changes(from: &Period, to: &Period, cable: &RestingCable) -> (Vec<f64>, Vec<f64>) {
+    let rate = difference(&to.rate, &from.rate);
+    let mut friction = vec![0.0; rate.len()];
+    cable.balance(&difference(&to.middle, &from.middle), &mut friction);
+    (rate, friction)
 }
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {

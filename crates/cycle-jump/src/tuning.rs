@@ -5,7 +5,6 @@ pub const SLOPE_WIDTH: f64 = 2.5;
 pub const REGULARISATION: f64 = 0.02;
 pub const NOISE: f64 = 0.05;
 pub const SLOPE_FALL: f64 = 0.8;
-pub const MIN_SLOPE: f64 = 0.3;
 pub const OVERSHOOT: f64 = 1.3;
 pub const MAX_SLOPE_GROWTH: f64 = 3.0;
 pub const SUBSTEPS: i32 = 8;

@@ -64,6 +64,11 @@ impl Day {
         self.passes
     }
 
+    /// Passes of a period.
+    pub(super) fn period(&self) -> u64 {
+        self.period
+    }
+
     /// Periods of a day.
     pub fn periods(&self) -> u64 {
         self.passes / self.period
@@ -178,53 +183,6 @@ impl Day {
         }
         events
     }
-
-    /// How the outcome of `pass`, from 1, follows from those of the `events` of its day. Within a step
-    /// the cable goes straight from one end to the other, and a pass does relative to that what the same
-    /// one of the nearest simulated period did.
-    pub(super) fn parts(&self, events: &[Event], pass: u64) -> Option<Vec<Part>> {
-        let passed = |passes: u64| {
-            let is_it = |event: &Event| matches!(event.act, Act::Pass(_)) && event.passes == passes;
-            events.iter().position(is_it)
-        };
-        let whole = |place: usize| Part {
-            place,
-            weight: 1.0,
-            at_rest: false,
-        };
-        if let Some(simulated) = passed(pass) {
-            return Some(vec![whole(simulated)]);
-        }
-        let is_step = |event: &Event| matches!(event.act, Act::Step(..));
-        let ends_later = |event: &Event| is_step(event) && event.passes >= pass;
-        let to = events.iter().position(ends_later)?;
-        let from = to.checked_sub(1)?;
-        let share = (pass - events[from].passes) as f64 / (events[to].passes - events[from].passes) as f64;
-        // The period after the step where that is nearer and whole, or the one before it.
-        let done = (pass - 1) % self.period + 1;
-        let after = events[to..].iter().position(|event| event.begins);
-        let after = after.filter(|_| is_step(&events[from])).map(|place| to + place);
-        let before = events[..to].iter().rposition(|event| event.begins);
-        let shown = |begin: usize| {
-            let passes = events[begin].passes;
-            Some((begin, passed(passes + done)?, passed(passes + self.period)?))
-        };
-        let (begin, like, end) = after.and_then(shown).or_else(|| before.and_then(shown))?;
-        let done = done as f64 / self.period as f64;
-        let begin = begin.saturating_sub(1);
-        let straight = [
-            (from, 1.0 - share),
-            (to, share),
-            (begin, done - 1.0),
-            (end, -done),
-        ];
-        let at_rest = straight.map(|(place, weight)| Part {
-            place,
-            weight,
-            at_rest: true,
-        });
-        Some(at_rest.into_iter().chain([whole(like)]).collect())
-    }
 }
 
 impl Event {
@@ -238,18 +196,9 @@ impl Event {
     }
 }
 
-/// One summand of the outcome of a pass.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Part {
-    /// Place of an event of the day.
-    pub place: usize,
-    pub weight: f64,
-    /// Whether only the cable at rest after it counts, without peaks and heat during it.
-    pub at_rest: bool,
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::part::parts;
     use super::*;
 
     #[test]
@@ -267,7 +216,7 @@ mod tests {
                     let events = day.events(cut, first);
                     // Straight lines and what passes do relative to them: together once the cable.
                     for pass in 1..=cut {
-                        let parts = day.parts(&events, pass).expect("a pass that is known");
+                        let parts = parts(&events, pass, period as u64);
                         let sum: f64 = parts.iter().map(|part| part.weight).sum();
                         assert!(f64::abs(sum - 1.0) < 1e-12, "pass {pass} of {cut}: {day:?}");
                         let is_simulated = parts.len() == 1;

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, laid};
 
 use super::cable::DailyCable;
-use super::day::{Act, Day, Event, Part};
+use super::day::{Act, Day, Event};
 use super::extremes::Extremes;
 use super::law::LockedLaw;
+use super::part::{Part, parts};
 use crate::error::{check, wrap};
 use crate::{Evolution, Guide, JumpError, Jumps, Next, Record, Request, evolve, peaks};
 
@@ -16,9 +17,9 @@ use crate::{Evolution, Guide, JumpError, Jumps, Next, Record, Request, evolve, p
 pub struct DaysRequest<'a> {
     /// Passes in all.
     pub passes: u64,
-    /// Passes to be recorded, ascending, from 1 to the last.
+    /// Passes to be recorded, from 1.
     pub wanted: &'a [u64],
-    /// Days to be recorded, ascending, from 1.
+    /// Days to be recorded, from 1.
     pub wanted_days: &'a [u64],
     /// Whether every day is simulated.
     pub every_day: bool,
@@ -34,8 +35,8 @@ pub struct Days {
     /// Other simulated passes that show a larger force or movement than all simulated ones of these
     /// before them.
     pub peaks: Vec<Record>,
-    /// The days that were wanted.
-    pub days: Vec<DayRecord>,
+    /// The days that were wanted, each with its number, from 1.
+    pub days: Vec<(u64, Extremes)>,
     /// The last day in the order of time, after passes and steps of many passes.
     pub last_day: Vec<Row>,
     /// Over all days.
@@ -60,15 +61,6 @@ pub struct Days {
     pub sweeps: u64,
 }
 
-/// A day's extremes.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DayRecord {
-    /// Number of the day, from 1.
-    pub day: u64,
-    /// Its extremes.
-    pub extremes: Extremes,
-}
-
 /// The cable after a moment of a day.
 #[derive(Debug, Clone)]
 pub struct Row {
@@ -82,13 +74,12 @@ pub struct Row {
 
 /// Takes `cable` on `mesh`, as laid, through days of traffic and heat: few passes simulated, each by a
 /// call of `pass`, which finds the cable at the temperature of its moment. Where not every pass of a
-/// `day` is simulated, the `law` carries the cable over the others. The movements below which `jumps`
-/// take the cable to rest and its numbers of passes are those of days.
+/// `day` is simulated, the `law` carries the cable over the others. The periods of `jumps` are days here.
 ///
 /// # Errors
 ///
-/// Those of `pass`; [`JumpError`] for a request that makes no sense, if the cable finds no rest, or if
-/// no day repeats the one before.
+/// Those of `pass`; [`JumpError`] for a request without passes, if the cable finds no rest, or if no day
+/// repeats the one before.
 pub fn evolve_days<E: From<JumpError>>(
     cable: &DuctedCable,
     mesh: &Mesh,
@@ -97,124 +88,66 @@ pub fn evolve_days<E: From<JumpError>>(
     request: &DaysRequest<'_>,
     pass: impl FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 ) -> Result<Days, E> {
-    let calendar = Calendar::new(day, request)?;
+    check("passes", request.passes > 0, "at least one")?;
+    let state = laid(cable, mesh).map_err(wrap)?;
     let mut run = Run {
-        calendar: &calendar,
+        calendar: Calendar::new(day, request.passes),
         cable: DailyCable::new(cable, mesh, day, law, pass).map_err(wrap)?,
         log: BTreeMap::new(),
         simulated_days: 0,
-        end: None,
+        end: state.clone(),
     };
-    let mut state = laid(cable, mesh).map_err(wrap)?;
+    let mut state = state;
     run.day(1, &mut state, 0.0)?;
     let (mut repeats, mut schedule) = (None, Vec::new());
-    if calendar.days > 1 {
-        let act = |next: Next, state: &mut CableState| {
-            let day = next.number.map(|number| calendar.place(number).0);
-            run.happen(day, next.phase, state)
-        };
-        let later = between_days(cable, mesh, &calendar, jumps, request, &state, act)?;
-        for record in later.records.into_iter().chain(later.others) {
-            let place = calendar.place(record.pass);
+    if run.calendar.days > 1 {
+        let evolution = run.days_between(cable, mesh, jumps, request, &state)?;
+        for record in evolution.records {
+            let place = run.calendar.place(record.pass);
             run.log.insert(place, record);
         }
-        (state, repeats, schedule) = (later.state, later.repeats, later.schedule);
-        run.day(calendar.days, &mut state, later.offset)?;
+        (state, repeats, schedule) = (evolution.state, evolution.repeats, evolution.schedule);
+        run.day(run.calendar.days, &mut state, evolution.offset)?;
     }
-    let Run {
-        cable,
-        log,
-        simulated_days,
-        end,
-        ..
-    } = run;
-    let known = request
+    let records: Vec<Record> = request
         .wanted
         .iter()
-        .filter_map(|pass| calendar.record(&log, *pass));
-    let records: Vec<Record> = known.collect();
+        .filter_map(|pass| run.record(*pass))
+        .collect();
     let simulated = records.iter().filter(|record| !record.interpolated);
-    let outcomes = |log: &mut dyn Iterator<Item = (&(u64, usize), &Record)>| {
-        Extremes::of(log.map(|(_, record)| &record.outcome))
-    };
-    let day_record = |&day: &u64| DayRecord {
-        day,
-        extremes: outcomes(&mut log.range((day, 0)..(day + 1, 0))),
+    let simulated: Vec<Record> = simulated.cloned().collect();
+    let extremes = |&day: &u64| {
+        let of_day = run.log.range((day, 0)..(day + 1, 0));
+        (day, Extremes::of(of_day.map(|(_, record)| &record.outcome)))
     };
     Ok(Days {
-        peaks: peaks(
-            &simulated.cloned().collect::<Vec<_>>(),
-            calendar.others(&log, request.wanted),
-        ),
+        peaks: peaks(&simulated, run.others(request.wanted)),
         records,
-        days: request.wanted_days.iter().map(day_record).collect(),
-        last_day: calendar.last_day(&log),
-        extremes: outcomes(&mut log.iter()),
+        days: request.wanted_days.iter().map(extremes).collect(),
+        last_day: run.last_day(),
+        extremes: Extremes::of(run.log.values().map(|record| &record.outcome)),
         drift: repeats.map_or(0.0, |(_, drift)| drift),
         periodic_from: repeats.map(|(days, _)| days + 2),
-        hot: cable.hot.unwrap_or_else(|| state.clone()),
-        cold: cable.cold.unwrap_or_else(|| state.clone()),
-        state: end.unwrap_or(state),
-        simulated: cable.simulated,
-        simulated_days,
+        hot: run.cable.hot.unwrap_or_else(|| state.clone()),
+        cold: run.cable.cold.unwrap_or(state),
+        state: run.end,
+        simulated: run.cable.simulated,
+        simulated_days: run.simulated_days,
         schedule,
-        sweeps: cable.step.sweeps,
+        sweeps: run.cable.step.sweeps,
     })
-}
-
-/// The days between the first one, which left the cable in `state`, and the last one: periods of
-/// events.
-fn between_days<E: From<JumpError>>(
-    cable: &DuctedCable,
-    mesh: &Mesh,
-    calendar: &Calendar<'_>,
-    jumps: &Jumps,
-    request: &DaysRequest<'_>,
-    state: &CableState,
-    act: impl FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
-) -> Result<Evolution, E> {
-    let length = calendar.between.len() as u64;
-    let mut wanted = Vec::new();
-    for &pass in request.wanted {
-        let (day, parts) = calendar.parts(pass);
-        let is_between = 1 < day && day < calendar.days;
-        let number = |part: Part| (day - 2) * length + part.place as u64 + 1;
-        wanted.extend(parts.into_iter().filter(|_| is_between).map(number));
-    }
-    wanted.sort_unstable();
-    wanted.dedup();
-    let days = request
-        .wanted_days
-        .iter()
-        .filter(|day| **day > 1)
-        .map(|day| day - 1);
-    let days: Vec<u64> = days.collect();
-    let (jumping, most) = jumps.most_passes;
-    let mut jumps = jumps.with_most_passes(jumping.saturating_mul(length), most.saturating_mul(length));
-    if request.every_day {
-        jumps.first_periods = u64::MAX;
-    }
-    let order: Vec<usize> = (0..calendar.between.len()).collect();
-    let mut events = Request::new((calendar.days - 2) * length, &order)?
-        .with_wanted(&wanted)?
-        .with_guide(request.guide);
-    events.start = Some(state);
-    events.days = (!request.every_day).then_some(&days);
-    evolve(cable, mesh, &jumps, &events, act)
 }
 
 /// A run under way.
 struct Run<'a, P> {
-    calendar: &'a Calendar<'a>,
+    calendar: Calendar<'a>,
     cable: DailyCable<'a, P>,
-    log: Log,
+    /// What is known of the events, by their day and their place in it.
+    log: BTreeMap<(u64, usize), Record>,
     simulated_days: u64,
     /// The cable after the last pass.
-    end: Option<CableState>,
+    end: CableState,
 }
-
-/// What is known of the events, by their day and their place in it.
-type Log = BTreeMap<(u64, usize), Record>;
 
 impl<E, P> Run<'_, P>
 where
@@ -234,20 +167,110 @@ where
         Ok(())
     }
 
+    /// The days between the first one, which left the cable in `state`, and the last one: periods of
+    /// events.
+    fn days_between(
+        &mut self,
+        cable: &DuctedCable,
+        mesh: &Mesh,
+        jumps: &Jumps,
+        request: &DaysRequest<'_>,
+        state: &CableState,
+    ) -> Result<Evolution, E> {
+        let days = self.calendar.days;
+        let length = self.calendar.between.len() as u64;
+        let mut wanted = Vec::new();
+        for (day, parts) in request.wanted.iter().map(|pass| self.calendar.parts(*pass)) {
+            let parts = parts.iter().filter(|_| 1 < day && day < days);
+            wanted.extend(parts.map(|part| (day - 2) * length + part.place as u64 + 1));
+        }
+        let wanted_days = request.wanted_days.iter().filter(|day| **day > 1);
+        let wanted_days: Vec<u64> = wanted_days.map(|day| day - 1).collect();
+        let (jumping, most) = jumps.most_passes;
+        let mut jumps = jumps.with_most_passes(jumping.saturating_mul(length), most.saturating_mul(length));
+        if request.every_day {
+            jumps.first_periods = u64::MAX;
+        }
+        let order: Vec<usize> = (0..length as usize).collect();
+        let mut events = Request::new((days - 2) * length, &order)?;
+        (events.wanted, events.guide, events.start) = (&wanted, request.guide, Some(state));
+        events.days = (!request.every_day).then_some(&wanted_days);
+        evolve(cable, mesh, &jumps, &events, |next, state| {
+            let day = next.number.map(|number| self.calendar.place(number).0);
+            self.happen(day, next.phase, state)
+        })
+    }
+
     /// Lets an event happen: one of a `day`, or one between days that only measures.
     fn happen(&mut self, day: Option<u64>, place: usize, state: &mut CableState) -> Result<PassOutcome, E> {
-        let calendar = self.calendar;
-        let event = day.map_or(&calendar.between[..], |day| calendar.events(day))[place];
         if place == 0 {
             self.cable.begin_day();
             self.simulated_days += u64::from(day.is_some());
         }
+        let calendar = &self.calendar;
+        let event = day.map_or(&calendar.between[..], |day| calendar.events(day))[place];
         let pass = day.and_then(|day| calendar.pass(day, place));
         let outcome = self.cable.happen(&event, pass, state)?;
         if pass == Some(calendar.passes) {
-            self.end = Some(state.clone());
+            self.end.clone_from(state);
         }
         Ok(outcome)
+    }
+
+    /// What `pass` did, if that is known.
+    fn record(&self, pass: u64) -> Option<Record> {
+        let (day, parts) = self.calendar.parts(pass);
+        if let [simulated] = parts[..] {
+            let record = self.log.get(&(day, simulated.place))?.clone();
+            return Some(Record { pass, ..record });
+        }
+        let outcome = |part: &Part| {
+            let mut outcome = self.log.get(&(day, part.place))?.outcome.clone();
+            if part.at_rest {
+                (outcome.peak, outcome.lowest, outcome.dissipated) = (outcome.force, outcome.force, 0.0);
+            }
+            Some((part.weight, outcome))
+        };
+        let outcomes: Vec<_> = parts.iter().map(outcome).collect::<Option<_>>()?;
+        outcomes.first()?;
+        let summands: Vec<_> = outcomes
+            .iter()
+            .map(|(weight, outcome)| (*weight, outcome))
+            .collect();
+        let outcome = PassOutcome::combined(&summands);
+        Some(Record {
+            pass,
+            outcome,
+            interpolated: true,
+        })
+    }
+
+    /// Simulated passes that are not `wanted`.
+    fn others(&self, wanted: &[u64]) -> Vec<Record> {
+        let other = |(&(day, place), record): (&(u64, usize), &Record)| {
+            let pass = self.calendar.pass(day, place)?;
+            let is_other = !record.interpolated && !wanted.contains(&pass);
+            is_other.then(|| Record {
+                pass,
+                ..record.clone()
+            })
+        };
+        self.log.iter().filter_map(other).collect()
+    }
+
+    /// The last day in the order of time.
+    fn last_day(&self) -> Vec<Row> {
+        let day = self.calendar.days;
+        let events = self.calendar.events(day).iter().enumerate();
+        let row = |(place, event): (usize, &Event)| {
+            let record = self.log.get(&(day, place)).filter(|_| event.act != Act::Warm)?;
+            Some(Row {
+                passes: event.passes,
+                thermal_force: event.thermal_force,
+                outcome: record.outcome.clone(),
+            })
+        };
+        events.filter_map(row).collect()
     }
 }
 
@@ -262,26 +285,17 @@ struct Calendar<'a> {
 }
 
 impl<'a> Calendar<'a> {
-    fn new(day: &'a Day, request: &DaysRequest<'_>) -> Result<Self, JumpError> {
-        let passes = request.passes;
-        check("passes", passes > 0, "at least one")?;
+    fn new(day: &'a Day, passes: u64) -> Self {
         let days = passes.div_ceil(day.passes());
-        let is_within = |numbers: &[u64], most: u64| {
-            let all = (1..=most).contains(numbers.first().unwrap_or(&1));
-            all && numbers.last().is_none_or(|last| *last <= most) && numbers.is_sorted_by(|a, b| a < b)
-        };
-        let allowed = "ascending, from 1 to the last";
-        check("wanted passes", is_within(request.wanted, passes), allowed)?;
-        check("wanted days", is_within(request.wanted_days, days), allowed)?;
         let of_last = passes - (days - 1) * day.passes();
-        Ok(Self {
+        Self {
             day,
             passes,
             days,
             first: day.events(if days == 1 { of_last } else { day.passes() }, true),
             between: day.events(day.passes(), false),
             last: day.events(of_last, false),
-        })
+        }
     }
 
     fn events(&self, day: u64) -> &[Event] {
@@ -304,64 +318,16 @@ impl<'a> Calendar<'a> {
         matches!(event.act, Act::Pass(_)).then_some((day - 1) * self.day.passes() + event.passes)
     }
 
-    /// The day of a pass, and the summands of its outcome.
+    /// The day of a pass, and the summands of its outcome: none of a pass that does not come.
     fn parts(&self, pass: u64) -> (u64, Vec<Part>) {
-        let day = (pass - 1) / self.day.passes() + 1;
-        let of_day = pass - (day - 1) * self.day.passes();
-        let parts = self.day.parts(self.events(day), of_day);
-        (day, parts.unwrap_or_default())
-    }
-
-    /// What `pass` did.
-    fn record(&self, log: &Log, pass: u64) -> Option<Record> {
-        let (day, parts) = self.parts(pass);
-        if let [simulated] = parts[..] {
-            let record = log.get(&(day, simulated.place))?.clone();
-            return Some(Record { pass, ..record });
+        if !(1..=self.passes).contains(&pass) {
+            return (0, Vec::new());
         }
-        let outcome = |part: &Part| {
-            let mut outcome = log.get(&(day, part.place))?.outcome.clone();
-            if part.at_rest {
-                (outcome.peak, outcome.lowest, outcome.dissipated) = (outcome.force, outcome.force, 0.0);
-            }
-            Some((part.weight, outcome))
-        };
-        let outcomes: Vec<_> = parts.iter().map(outcome).collect::<Option<_>>()?;
-        let summands: Vec<_> = outcomes
-            .iter()
-            .map(|(weight, outcome)| (*weight, outcome))
-            .collect();
-        Some(Record {
-            pass,
-            outcome: PassOutcome::combined(&summands),
-            interpolated: true,
-        })
-    }
-
-    /// Simulated passes that are not `wanted`.
-    fn others(&self, log: &Log, wanted: &[u64]) -> Vec<Record> {
-        let other = |(&(day, place), record): (&(u64, usize), &Record)| {
-            let pass = self.pass(day, place).filter(|_| !record.interpolated)?;
-            let record = Record {
-                pass,
-                ..record.clone()
-            };
-            wanted.binary_search(&pass).is_err().then_some(record)
-        };
-        log.iter().filter_map(other).collect()
-    }
-
-    /// The last day in the order of time.
-    fn last_day(&self, log: &Log) -> Vec<Row> {
-        let events = self.events(self.days).iter().enumerate();
-        let row = |(place, event): (usize, &Event)| {
-            let record = log.get(&(self.days, place)).filter(|_| event.act != Act::Warm)?;
-            Some(Row {
-                passes: event.passes,
-                thermal_force: event.thermal_force,
-                outcome: record.outcome.clone(),
-            })
-        };
-        events.filter_map(row).collect()
+        let before = (pass - 1) / self.day.passes();
+        let of_day = pass - before * self.day.passes();
+        (
+            before + 1,
+            parts(self.events(before + 1), of_day, self.day.period()),
+        )
     }
 }

@@ -29,10 +29,11 @@ mod evolve;
 mod extremes;
 mod heat;
 mod law;
+mod part;
 mod step;
 
 pub use day::Day;
-pub use evolve::{DayRecord, Days, DaysRequest, Row, evolve_days};
+pub use evolve::{Days, DaysRequest, Row, evolve_days};
 pub use extremes::Extremes;
 pub use heat::DailyHeat;
 pub use law::LockedLaw;
