@@ -7,21 +7,15 @@ use crate::JumpError;
 use crate::error::wrap;
 use crate::flow::Flow;
 use crate::interval::JumpInterval;
-use crate::period::{Period, difference, largest, phase_of, remove_mean};
+use crate::period::{Period, difference, phase_of, remove_mean};
 use crate::record::{Beyond, Evolution, Record};
 use crate::request::{Guide, Jumps, Next, Request};
 use crate::simulation::Simulation;
 use crate::slope::Slope;
-use crate::tuning::{
-    CAUTION, FINAL_TOLERANCE, GROWTH, GROWTH_BETWEEN, NEGLIGIBLE, SHORTEST_JUMP, SLOPE_WIDTH,
-    TOLERANCE_BEYOND,
-};
+use crate::tuning::{CAUTION, GROWTH_BETWEEN, NEGLIGIBLE, SHORTEST_JUMP, SLOPE_WIDTH, TOLERANCE_BEYOND};
 
 /// Simulated periods at the end of a jump: its check, and one that heals what the correction left rough.
 const CHECKED: u64 = 2;
-/// Advance of a period, as a share of a movement that counts as nothing, below which the cable rests
-/// for good: the largest numbers of passes do not add such advances up to anything.
-const AT_REST: f64 = 1e-7;
 
 /// Lets vehicles drive over `cable` on `mesh`, as laid: few of them simulated, each by a call of `pass`.
 ///
@@ -36,10 +30,9 @@ pub fn evolve<E: From<JumpError>>(
     pass: impl FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 ) -> Result<Evolution, E> {
     let mut walk = Walk {
-        simulation: Simulation::new(cable, mesh, request, jumps.least, pass).map_err(wrap)?,
+        simulation: Simulation::new(cable, mesh, request, jumps, pass).map_err(wrap)?,
         jumps,
         guide: request.guide,
-        tolerance: jumps.tolerance,
         done: 0,
         schedule: Vec::new(),
         repeats: None,
@@ -54,11 +47,10 @@ pub fn evolve<E: From<JumpError>>(
     }
     let whole = walk.simulation.state.clone();
     let left = (request.passes - all * length) as usize;
-    let (after, tolerance) = (Some(all * length), walk.tolerance);
-    walk.simulation.period(left, after, tolerance)?;
+    walk.simulation.period(left, Some(all * length))?;
     let simulation = &mut walk.simulation;
     let mut evolution = Evolution {
-        records: std::mem::take(&mut simulation.records),
+        records: simulation.take_records(),
         period: known.iter().flat_map(|known| known.period.outcomes()).collect(),
         state: std::mem::replace(&mut simulation.state, whole),
         offset: simulation.offset,
@@ -79,7 +71,6 @@ struct Walk<'a, P> {
     simulation: Simulation<'a, P>,
     jumps: &'a Jumps,
     guide: Guide<'a>,
-    tolerance: f64,
     /// Periods done.
     done: u64,
     schedule: Vec<u64>,
@@ -149,18 +140,13 @@ where
             }
             let length = guided.unwrap_or(known.length as u64).min(longest);
             let is_patient = self.simulation.simulated <= most.0;
-            if !to_end && (length < SHORTEST_JUMP || !is_patient) {
-                self.simulate(known)?;
-                self.repeat(&known.period, all);
-                continue;
-            }
             let from = self.done;
-            let taken = self.jump(known, length, length == longest)?;
-            if to_end && !taken {
-                known.length = known.length.min((self.done as f64).max(SHORTEST_JUMP as f64));
+            if to_end || length >= SHORTEST_JUMP && is_patient {
+                self.jump(known, length)?;
+            } else {
+                self.simulate(known)?;
             }
-            let ends = taken && self.done == all;
-            if taken && !self.repeat(&known.period, all) && settles && ends {
+            if !self.repeat(&known.period, all) && settles && from < all && self.done == all {
                 let whole = remove_mean(&self.simulation.cable, &mut known.period.rate.clone());
                 self.repeats = Some((from, whole));
             }
@@ -195,14 +181,15 @@ where
             let period = known.period.outcomes();
             return Ok(Some(Beyond { records, period }));
         }
-        self.tolerance *= TOLERANCE_BEYOND;
+        self.simulation.tolerance *= TOLERANCE_BEYOND;
         let most = self.simulation.simulated + self.jumps.most_passes.0 / 3;
         let leads = self.until(last, &mut known, (most, most))?;
-        let mut records = std::mem::take(&mut self.simulation.records);
+        let mut records = self.simulation.take_records();
         records.retain(|record| record.pass > request.passes);
         let period = known.period.outcomes();
         Ok(leads.then_some(Beyond { records, period }))
     }
+
     /// Takes the days left of `all` to repeat the last one, the `period`, but for a movement as a whole:
     /// if its advance, gone on unchanged, would change no force and no movement noticeably.
     fn repeat(&mut self, period: &Period, all: u64) -> bool {
@@ -211,17 +198,12 @@ where
         let whole = remove_mean(&self.simulation.cable, &mut change);
         let change = left as f64 * self.simulation.shares(&change).worse();
         let is_over_days = self.simulation.request.days.is_some();
-        if !is_over_days || left == 0 || change > NEGLIGIBLE * self.tolerance {
+        if !is_over_days || left == 0 || change > NEGLIGIBLE * self.simulation.tolerance {
             return false;
         }
         self.simulation.repeat(period, self.done, all, whole);
         (self.repeats, self.done) = (Some((self.done, whole)), all);
         true
-    }
-
-    /// Whether the cable no longer moves.
-    fn rests(&self, known: &Known) -> bool {
-        largest(&known.period.rate) < AT_REST * self.jumps.least.movement
     }
 
     /// Advance per period at the end of the last period.
@@ -231,16 +213,16 @@ where
         rate
     }
 
-    /// Whether the cable rests, or forces will change no more than noticeably in the periods `left`.
+    /// Whether forces will not change noticeably in the periods `left`.
     fn is_settled(&mut self, known: &Known, left: u64) -> bool {
-        if self.rests(known) || self.done < known.not_before {
-            return self.rests(known);
+        if self.done < known.not_before {
+            return false;
         }
         let rate = self.rate(known);
         let none = vec![0.0; rate.len()];
         let cable = &mut self.simulation.cable;
         let flow = Flow::new(cable, &rate, none, known.slope.values(), left as f64);
-        self.simulation.shares(&flow.end).force < NEGLIGIBLE * self.tolerance
+        self.simulation.shares(&flow.end).force < NEGLIGIBLE * self.simulation.tolerance
     }
 
     /// Simulates the next period, the last of a run or one between jumps, and learns from it.
@@ -255,45 +237,41 @@ where
         Ok(())
     }
 
-    /// Jumps over `length` periods, simulates two more and chooses the next length; false where the
-    /// jump is rejected for its error.
-    fn jump(&mut self, known: &mut Known, length: u64, is_last: bool) -> Result<bool, E> {
-        let tolerance = if is_last { FINAL_TOLERANCE } else { 1.0 } * self.tolerance;
+    /// Jumps over `length` periods, simulates two more and chooses the next length; or goes back where the
+    /// error is too large.
+    fn jump(&mut self, known: &mut Known, length: u64) -> Result<(), E> {
+        let tolerance = self.simulation.tolerance;
         let (from, offset) = (self.simulation.state.clone(), self.simulation.offset);
-        let at_end = length + CHECKED;
         let (flow, missed) = self.check(known, length)?;
         let error = self.simulation.shares(&missed).worse();
-        let factor = (CAUTION * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt()).clamp(GROWTH.0, GROWTH.1);
+        let factor = CAUTION * (tolerance / error.max(f64::MIN_POSITIVE)).sqrt();
         if error > self.guide.max_error() * tolerance && length > CHECKED {
             (self.simulation.state, self.simulation.offset) = (from, offset);
             // From here on the other run is no guide.
             self.guide = Guide::Free;
-            known.length = factor * length as f64;
-            return Ok(false);
+            let shorter = factor * length as f64;
+            known.length = shorter.min((self.done as f64).max(SHORTEST_JUMP as f64));
+            return Ok(());
         }
         self.simulation.advance(&missed)?;
         let begin = self.done;
         self.done += length + 1;
-        let recorded = self.simulation.records.len();
         let next = self.next_period()?;
-        // What lies within the jump is recorded before the period at its end.
-        let simulated = self.simulation.records.split_off(recorded);
         let jump = JumpInterval {
             mesh: self.simulation.mesh,
             begin,
-            length: at_end,
+            length: length + CHECKED,
             from: (&from, offset),
             to: (&self.simulation.state.clone(), self.simulation.offset),
             before: &known.period,
             after: &next,
             flow,
         };
-        self.simulation.record_jump(&jump, length + 1)?;
-        self.simulation.records.extend(simulated);
+        self.simulation.record_jump(&jump)?;
         known.period = next;
-        known.length = factor * at_end as f64;
+        known.length = factor * (length + CHECKED) as f64;
         self.schedule.push(length);
-        Ok(true)
+        Ok(())
     }
 
     /// Moves the cable over `length` periods, simulates one and learns from it: the flow as it is known
@@ -304,12 +282,10 @@ where
         let none = vec![0.0; rate.len()];
         let at_end = (length + CHECKED) as f64;
         let flow = Flow::new(&mut self.simulation.cable, &rate, none, before.values(), at_end);
-        if !self.rests(known) {
-            let jump = flow.after(&mut self.simulation.cable, length as f64);
-            self.simulation.advance(&jump)?;
-        }
+        let jump = flow.after(&mut self.simulation.cable, length as f64);
+        self.simulation.advance(&jump)?;
         let period = self.simulation.request.order.len();
-        let checked = self.simulation.period(period, None, self.tolerance)?;
+        let checked = self.simulation.period(period, None)?;
         let cable = &mut self.simulation.cable;
         let predicted = before.predict(&known.period, &checked, cable);
         known
@@ -333,7 +309,7 @@ where
     fn next_period(&mut self) -> Result<Period, E> {
         let length = self.simulation.request.order.len();
         let after = self.done * length as u64;
-        let period = self.simulation.period(length, Some(after), self.tolerance)?;
+        let period = self.simulation.period(length, Some(after))?;
         self.done += 1;
         Ok(period)
     }

@@ -11,7 +11,7 @@ use crate::interval::JumpInterval;
 use crate::peaks::largest_places;
 use crate::period::{Period, difference, largest, phase_of, remove_mean};
 use crate::record::Record;
-use crate::request::{Next, Request};
+use crate::request::{Jumps, Next, Request};
 use crate::rounds::{Rounds, Settling, rounds};
 use crate::scale::Scale;
 use crate::tuning::{NEGLIGIBLE, PEAK_RATIO};
@@ -26,21 +26,23 @@ pub struct Simulation<'a, P> {
     pub state: CableState,
     /// Movement of a cable that nothing holds as a whole, which `state` leaves out \[m\].
     pub offset: f64,
-    pub scale: Scale,
+    scale: Scale,
+    /// Error of a jump, as a share of what is large.
+    pub tolerance: f64,
     /// Passes simulated.
     pub simulated: u64,
-    pub records: Vec<Record>,
+    records: Vec<Record>,
     /// Whether all passes of the traffic are done: the caller counts no later ones.
     pub is_over: bool,
 }
 
 impl<'a, P> Simulation<'a, P> {
-    /// Of `cable` on `mesh`; forces and movements below `least` count as nothing.
+    /// Of `cable` on `mesh`.
     pub fn new(
         cable: &DuctedCable,
         mesh: &'a Mesh,
         request: &'a Request<'a>,
-        least: Scale,
+        jumps: &Jumps,
         pass: P,
     ) -> Result<Self, CableError> {
         let start = request.start.cloned();
@@ -52,7 +54,8 @@ impl<'a, P> Simulation<'a, P> {
             wanted: request.wanted.iter().chain(request.beyond).copied().collect(),
             state: start.map_or_else(|| laid(cable, mesh), Ok)?,
             offset: 0.0,
-            scale: least,
+            scale: jumps.least,
+            tolerance: jumps.tolerance,
             simulated: 0,
             records: Vec::new(),
             is_over: false,
@@ -67,6 +70,13 @@ impl<'a, P> Simulation<'a, P> {
     /// Whether a period has several passes, of which any may show more than the wanted ones.
     fn has_candidates(&self) -> bool {
         self.request.order.len() > 1 && !self.is_over
+    }
+
+    /// The records so far, ascending.
+    pub fn take_records(&mut self) -> Vec<Record> {
+        let mut records = std::mem::take(&mut self.records);
+        records.sort_by_key(|record| record.pass);
+        records
     }
 
     fn record(&mut self, pass: u64, outcome: PassOutcome, interpolated: bool) {
@@ -117,10 +127,10 @@ where
 {
     /// Simulates the first `length` passes of a period, which follow the pass `after` where they have
     /// numbers.
-    pub fn period(&mut self, length: usize, after: Option<u64>, tolerance: f64) -> Result<Period, E> {
+    pub fn period(&mut self, length: usize, after: Option<u64>) -> Result<Period, E> {
         let mut period = Period::begin(self.state.displacement());
         for rounds in rounds(&self.request.order[..length]) {
-            self.rounds(rounds, after, tolerance, &mut period)?;
+            self.rounds(rounds, after, &mut period)?;
         }
         period.end(self.state.displacement());
         if self.request.days.is_some() {
@@ -134,15 +144,9 @@ where
         Ok(period)
     }
 
-    /// Simulates rounds of a `period`. Once they will change less than a small part of the
-    /// `tolerance`, all but the last count as done.
-    fn rounds(
-        &mut self,
-        rounds: Rounds,
-        after: Option<u64>,
-        tolerance: f64,
-        period: &mut Period,
-    ) -> Result<(), E> {
+    /// Simulates rounds of a `period`. Once they will change less than a small part of the tolerance,
+    /// all but the last count as done.
+    fn rounds(&mut self, rounds: Rounds, after: Option<u64>, period: &mut Period) -> Result<(), E> {
         let mut settling = Settling::default();
         let mut left = rounds.times;
         while left > 0 {
@@ -157,7 +161,7 @@ where
             let mut change = difference(self.state.displacement(), &before);
             let whole = remove_mean(&self.cable, &mut change);
             let skipped = left.saturating_sub(1);
-            let is_settled = settling.is_settled(self.shares(&change), skipped, NEGLIGIBLE * tolerance);
+            let is_settled = settling.is_settled(self.shares(&change), skipped, NEGLIGIBLE * self.tolerance);
             let begin = period.len();
             let passes = begin..begin + skipped * rounds.round;
             if !is_settled || skipped == 0 || !self.may_skip(after, &passes) {
@@ -203,10 +207,10 @@ where
         Ok(outcome)
     }
 
-    /// Records passes of the first `periods` within a jump.
-    pub fn record_jump(&mut self, jump: &JumpInterval<'_>, periods: u64) -> Result<(), E> {
+    /// Records passes within a jump, before its last simulated period.
+    pub fn record_jump(&mut self, jump: &JumpInterval<'_>) -> Result<(), E> {
         let places = [largest_places(jump.before), largest_places(jump.after)].concat();
-        let (length, last) = (self.request.period(), jump.begin + periods);
+        let (length, last) = (self.request.period(), jump.begin + jump.length - 1);
         let mut passes = self.recorded(jump.begin, last, &places);
         let mut period = jump.begin;
         while self.has_candidates() && self.request.days.is_none() && period < last {

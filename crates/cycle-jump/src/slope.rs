@@ -9,8 +9,10 @@
 use cable_dem::RestingCable;
 
 use crate::period::{Period, difference};
-use crate::tuning::{MAX_SLOPE_GROWTH, NOISE, OVERSHOOT, REGULARISATION, SLOPE_FALL};
+use crate::tuning::{OVERSHOOT, REGULARISATION, SLOPE_FALL};
 
+/// Growth of the slope at most where a jump overshot: any bound does, against a prediction of nothing.
+const MAX_GROWTH: f64 = 3.0;
 /// Slope before anything is known \[m²/N\].
 const UNKNOWN: f64 = 1e-9;
 
@@ -60,18 +62,17 @@ impl Slope {
     pub fn learn(&mut self, from: &Period, to: &Period, predicted: Option<&[f64]>, cable: &RestingCable) {
         let (rate, friction) = changes(from, to, cable);
         let largest = friction.iter().fold(0.0_f64, |a, f| a.max(f * f));
-        let noise = (NOISE * cable.cable().friction().limit()).powi(2);
         let products = rate.iter().zip(&friction).map(|(v, f)| -v * f);
         let mut values = sliding_mean(products, self.width);
         let squares = sliding_mean(friction.iter().map(|f| f * f), self.width);
-        let weight = REGULARISATION * largest.max(noise);
+        let weight = REGULARISATION * largest.max(f64::MIN_POSITIVE);
         let overshoot = predicted.map_or(0.0, |predicted| {
             dot(&rate, predicted) / dot(predicted, predicted).max(f64::MIN_POSITIVE)
         });
         for ((value, last), square) in values.iter_mut().zip(&self.values).zip(squares) {
             *value = (*value + weight * last) / (square + weight);
             if overshoot > OVERSHOOT {
-                *value = value.max(last * overshoot.min(MAX_SLOPE_GROWTH));
+                *value = value.max(last * overshoot.min(MAX_GROWTH));
             }
             *value = value.max(SLOPE_FALL * last);
         }

@@ -3,19 +3,15 @@
 /// Length of the slope's sliding mean \[length scales of the duct's motion\].
 pub const SLOPE_WIDTH: f64 = 2.5;
 pub const REGULARISATION: f64 = 0.02;
-pub const NOISE: f64 = 0.05;
 pub const SLOPE_FALL: f64 = 0.8;
 pub const OVERSHOOT: f64 = 1.3;
-pub const MAX_SLOPE_GROWTH: f64 = 3.0;
 pub const SUBSTEPS: i32 = 8;
 pub const SUBSTEP_GROWTH: f64 = 1.5;
 pub const SHORTEST_JUMP: u64 = 4;
 pub const GROWTH_BETWEEN: f64 = 1.3;
-pub const GROWTH: (f64, f64) = (0.2, 3.0);
 pub const CAUTION: f64 = 0.85;
 pub const MAX_ERROR: f64 = 2.0;
 pub const MAX_ERROR_GUIDED: f64 = 4.0;
-pub const FINAL_TOLERANCE: f64 = 0.125;
 pub const NEGLIGIBLE: f64 = 0.1;
 pub const TOLERANCE_BEYOND: f64 = 4.0;
 pub const NOTICEABLE: f64 = 1e-3;
