@@ -3,11 +3,15 @@
 //! In a long period of the traffic few passes are wanted, and a heavy vehicle that comes seldom is
 //! rarely among them.
 
+use std::collections::BTreeSet;
+
 use cable_dem::PassOutcome;
 
 use crate::period::Period;
 use crate::record::Record;
-use crate::tuning::NOTICEABLE;
+
+/// What is larger by this share of the largest of its kind counts as larger.
+const NOTICEABLE: f64 = 1e-3;
 
 /// Number of movements among the [`values`], which come first.
 const MOVEMENTS: usize = 4;
@@ -45,22 +49,21 @@ pub fn peaks(records: &[Record], mut others: Vec<Record>) -> Vec<Record> {
     others
 }
 
-/// The places of a `period` whose passes show the largest of some force or movement, ascending.
-pub fn largest_places(period: &Period) -> Vec<usize> {
+/// The places of a `period` whose passes show the largest of some force or movement.
+pub fn largest_places(period: &Period) -> BTreeSet<usize> {
     let mut largest: Vec<(f64, usize)> = Vec::new();
-    for place in 0..period.len() {
-        let values = values(&period.outcome(place));
+    for (place, outcome) in period.outcomes().iter().enumerate() {
+        let values = values(outcome);
         largest.resize(values.len(), (f64::NEG_INFINITY, place));
         for (largest, value) in largest.iter_mut().zip(values) {
-            if value >= largest.0 {
-                *largest = (value, place);
-            }
+            *largest = if value >= largest.0 {
+                (value, place)
+            } else {
+                *largest
+            };
         }
     }
-    let mut places: Vec<usize> = largest.into_iter().map(|(_, place)| place).collect();
-    places.sort_unstable();
-    places.dedup();
-    places
+    largest.into_iter().map(|(_, place)| place).collect()
 }
 
 /// Raises each of `most` to the one of `values`; what is missing begins with zero.

@@ -3,7 +3,7 @@
 use cable_dem::{CableState, PassOutcome, RestingCable};
 
 /// A simulated period, which moved the cable from u_a to u_b.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct Period {
     /// Advance v = u_b − u_a of every node \[m\].
     pub rate: Vec<f64>,
@@ -41,11 +41,8 @@ impl Period {
     /// A period that begins with the displacements `start` \[m\].
     pub fn begin(start: &[f64]) -> Self {
         Self {
-            rate: Vec::new(),
-            middle: Vec::new(),
             start: start.to_vec(),
-            phases: Vec::new(),
-            places: Vec::new(),
+            ..Self::default()
         }
     }
 

@@ -1,7 +1,10 @@
 //! Rounds of a few vehicles that follow each other again and again within a long period.
 
 use crate::scale::Scale;
-use crate::tuning::{LONG_PERIOD, LONGEST_ROUND, MIN_ROUNDS, ROUND_TAIL};
+use crate::tuning::{LONGEST_ROUND, ROUND_TAIL};
+
+/// Fewest rounds in a row: three show that they settle, and the last is simulated in any case.
+const MIN_ROUNDS: usize = 5;
 
 /// Some passes of a period, in their order: `times` rounds of `round` vehicles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,9 +18,6 @@ pub struct Rounds {
 /// The rounds of a period in which the vehicles come in this `order`; what is no round comes once.
 pub fn rounds(order: &[usize]) -> Vec<Rounds> {
     let single = |round: usize| Rounds { round, times: 1 };
-    if order.len() <= LONG_PERIOD {
-        return vec![single(order.len())];
-    }
     let mut all = Vec::new();
     let (mut alone, mut place) = (0, 0);
     while place < order.len() {

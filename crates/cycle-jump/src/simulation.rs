@@ -100,11 +100,11 @@ impl<'a, P> Simulation<'a, P> {
 
     /// The passes to be recorded after so many periods up to others without their simulation, where
     /// passes at these `places` show the largest of a period.
-    fn recorded(&self, from: u64, to: u64, places: &[usize]) -> BTreeSet<u64> {
+    fn recorded(&self, from: u64, to: u64, places: &BTreeSet<usize>) -> BTreeSet<u64> {
         let length = self.request.period();
         let mut passes: BTreeSet<u64> = self
             .wanted
-            .range(from * length + 1..to * length + 1)
+            .range((from * length + 1)..=(to * length))
             .copied()
             .collect();
         for day in self
@@ -209,7 +209,8 @@ where
 
     /// Records passes within a jump, before its last simulated period.
     pub fn record_jump(&mut self, jump: &JumpInterval<'_>) -> Result<(), E> {
-        let places = [largest_places(jump.before), largest_places(jump.after)].concat();
+        let mut places = largest_places(jump.before);
+        places.extend(largest_places(jump.after));
         let (length, last) = (self.request.period(), jump.begin + jump.length - 1);
         let mut passes = self.recorded(jump.begin, last, &places);
         let mut period = jump.begin;

@@ -3,7 +3,11 @@
 use super::heat::DailyHeat;
 use crate::JumpError;
 use crate::error::check;
-use crate::tuning::{AFTER_A_CORNER, MORNING, MORNING_GROWTH, NEARLY_ALL};
+use crate::tuning::{AFTER_A_CORNER, MORNING, MORNING_GROWTH};
+
+/// With knots beyond this share of all periods a step would be no longer than a period: every one is
+/// simulated.
+const NEARLY_ALL: f64 = 0.5;
 
 /// A day of traffic and heat: passes evenly over the day, the first after half an interval.
 #[derive(Debug, Clone)]

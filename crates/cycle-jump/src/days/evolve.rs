@@ -90,8 +90,16 @@ pub fn evolve_days<E: From<JumpError>>(
 ) -> Result<Days, E> {
     check("passes", request.passes > 0, "at least one")?;
     let state = laid(cable, mesh).map_err(wrap)?;
+    let (passes, a_day) = (request.passes, day.passes());
+    let days = passes.div_ceil(a_day);
+    let of_last = passes - (days - 1) * a_day;
     let mut run = Run {
-        calendar: Calendar::new(day, request.passes),
+        day,
+        passes,
+        days,
+        first: day.events(if days == 1 { of_last } else { a_day }, true),
+        between: day.events(a_day, false),
+        last: day.events(of_last, false),
         cable: DailyCable::new(cable, mesh, day, law, pass).map_err(wrap)?,
         log: BTreeMap::new(),
         simulated_days: 0,
@@ -100,14 +108,14 @@ pub fn evolve_days<E: From<JumpError>>(
     let mut state = state;
     run.day(1, &mut state, 0.0)?;
     let (mut repeats, mut schedule) = (None, Vec::new());
-    if run.calendar.days > 1 {
+    if run.days > 1 {
         let evolution = run.days_between(cable, mesh, jumps, request, &state)?;
         for record in evolution.records {
-            let place = run.calendar.place(record.pass);
+            let place = run.place(record.pass);
             run.log.insert(place, record);
         }
         (state, repeats, schedule) = (evolution.state, evolution.repeats, evolution.schedule);
-        run.day(run.calendar.days, &mut state, evolution.offset)?;
+        run.day(run.days, &mut state, evolution.offset)?;
     }
     let records: Vec<Record> = request
         .wanted
@@ -140,7 +148,13 @@ pub fn evolve_days<E: From<JumpError>>(
 
 /// A run under way.
 struct Run<'a, P> {
-    calendar: Calendar<'a>,
+    day: &'a Day,
+    passes: u64,
+    days: u64,
+    /// Events of the first day, of the last one, and of each between them.
+    first: Vec<Event>,
+    last: Vec<Event>,
+    between: Vec<Event>,
     cable: DailyCable<'a, P>,
     /// What is known of the events, by their day and their place in it.
     log: BTreeMap<(u64, usize), Record>,
@@ -149,155 +163,7 @@ struct Run<'a, P> {
     end: CableState,
 }
 
-impl<E, P> Run<'_, P>
-where
-    E: From<JumpError>,
-    P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
-{
-    /// Simulates a whole `day` of a cable that was moved as a whole by `offset` \[m\].
-    fn day(&mut self, day: u64, state: &mut CableState, offset: f64) -> Result<(), E> {
-        for place in 0..self.calendar.events(day).len() {
-            let record = Record {
-                pass: 0,
-                outcome: self.happen(Some(day), place, state)?.moved(offset),
-                interpolated: false,
-            };
-            self.log.insert((day, place), record);
-        }
-        Ok(())
-    }
-
-    /// The days between the first one, which left the cable in `state`, and the last one: periods of
-    /// events.
-    fn days_between(
-        &mut self,
-        cable: &DuctedCable,
-        mesh: &Mesh,
-        jumps: &Jumps,
-        request: &DaysRequest<'_>,
-        state: &CableState,
-    ) -> Result<Evolution, E> {
-        let days = self.calendar.days;
-        let length = self.calendar.between.len() as u64;
-        let mut wanted = Vec::new();
-        for (day, parts) in request.wanted.iter().map(|pass| self.calendar.parts(*pass)) {
-            let parts = parts.iter().filter(|_| 1 < day && day < days);
-            wanted.extend(parts.map(|part| (day - 2) * length + part.place as u64 + 1));
-        }
-        let wanted_days = request.wanted_days.iter().filter(|day| **day > 1);
-        let wanted_days: Vec<u64> = wanted_days.map(|day| day - 1).collect();
-        let (jumping, most) = jumps.most_passes;
-        let mut jumps = jumps.with_most_passes(jumping.saturating_mul(length), most.saturating_mul(length));
-        if request.every_day {
-            jumps.first_periods = u64::MAX;
-        }
-        let order: Vec<usize> = (0..length as usize).collect();
-        let mut events = Request::new((days - 2) * length, &order)?;
-        (events.wanted, events.guide, events.start) = (&wanted, request.guide, Some(state));
-        events.days = (!request.every_day).then_some(&wanted_days);
-        evolve(cable, mesh, &jumps, &events, |next, state| {
-            let day = next.number.map(|number| self.calendar.place(number).0);
-            self.happen(day, next.phase, state)
-        })
-    }
-
-    /// Lets an event happen: one of a `day`, or one between days that only measures.
-    fn happen(&mut self, day: Option<u64>, place: usize, state: &mut CableState) -> Result<PassOutcome, E> {
-        if place == 0 {
-            self.cable.begin_day();
-            self.simulated_days += u64::from(day.is_some());
-        }
-        let calendar = &self.calendar;
-        let event = day.map_or(&calendar.between[..], |day| calendar.events(day))[place];
-        let pass = day.and_then(|day| calendar.pass(day, place));
-        let outcome = self.cable.happen(&event, pass, state)?;
-        if pass == Some(calendar.passes) {
-            self.end.clone_from(state);
-        }
-        Ok(outcome)
-    }
-
-    /// What `pass` did, if that is known.
-    fn record(&self, pass: u64) -> Option<Record> {
-        let (day, parts) = self.calendar.parts(pass);
-        if let [simulated] = parts[..] {
-            let record = self.log.get(&(day, simulated.place))?.clone();
-            return Some(Record { pass, ..record });
-        }
-        let outcome = |part: &Part| {
-            let mut outcome = self.log.get(&(day, part.place))?.outcome.clone();
-            if part.at_rest {
-                (outcome.peak, outcome.lowest, outcome.dissipated) = (outcome.force, outcome.force, 0.0);
-            }
-            Some((part.weight, outcome))
-        };
-        let outcomes: Vec<_> = parts.iter().map(outcome).collect::<Option<_>>()?;
-        outcomes.first()?;
-        let summands: Vec<_> = outcomes
-            .iter()
-            .map(|(weight, outcome)| (*weight, outcome))
-            .collect();
-        let outcome = PassOutcome::combined(&summands);
-        Some(Record {
-            pass,
-            outcome,
-            interpolated: true,
-        })
-    }
-
-    /// Simulated passes that are not `wanted`.
-    fn others(&self, wanted: &[u64]) -> Vec<Record> {
-        let other = |(&(day, place), record): (&(u64, usize), &Record)| {
-            let pass = self.calendar.pass(day, place)?;
-            let is_other = !record.interpolated && !wanted.contains(&pass);
-            is_other.then(|| Record {
-                pass,
-                ..record.clone()
-            })
-        };
-        self.log.iter().filter_map(other).collect()
-    }
-
-    /// The last day in the order of time.
-    fn last_day(&self) -> Vec<Row> {
-        let day = self.calendar.days;
-        let events = self.calendar.events(day).iter().enumerate();
-        let row = |(place, event): (usize, &Event)| {
-            let record = self.log.get(&(day, place)).filter(|_| event.act != Act::Warm)?;
-            Some(Row {
-                passes: event.passes,
-                thermal_force: event.thermal_force,
-                outcome: record.outcome.clone(),
-            })
-        };
-        events.filter_map(row).collect()
-    }
-}
-
-/// The events of all days: those of the first, of the last, and of each between them.
-struct Calendar<'a> {
-    day: &'a Day,
-    passes: u64,
-    days: u64,
-    first: Vec<Event>,
-    between: Vec<Event>,
-    last: Vec<Event>,
-}
-
-impl<'a> Calendar<'a> {
-    fn new(day: &'a Day, passes: u64) -> Self {
-        let days = passes.div_ceil(day.passes());
-        let of_last = passes - (days - 1) * day.passes();
-        Self {
-            day,
-            passes,
-            days,
-            first: day.events(if days == 1 { of_last } else { day.passes() }, true),
-            between: day.events(day.passes(), false),
-            last: day.events(of_last, false),
-        }
-    }
-
+impl<P> Run<'_, P> {
     fn events(&self, day: u64) -> &[Event] {
         match day {
             1 => &self.first,
@@ -329,5 +195,129 @@ impl<'a> Calendar<'a> {
             before + 1,
             parts(self.events(before + 1), of_day, self.day.period()),
         )
+    }
+}
+
+impl<E, P> Run<'_, P>
+where
+    E: From<JumpError>,
+    P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
+{
+    /// Simulates a whole `day` of a cable that was moved as a whole by `offset` \[m\].
+    fn day(&mut self, day: u64, state: &mut CableState, offset: f64) -> Result<(), E> {
+        for place in 0..self.events(day).len() {
+            let record = Record {
+                pass: 0,
+                outcome: self.happen(Some(day), place, state)?.moved(offset),
+                interpolated: false,
+            };
+            self.log.insert((day, place), record);
+        }
+        Ok(())
+    }
+
+    /// The days between the first one, which left the cable in `state`, and the last one: periods of
+    /// events.
+    fn days_between(
+        &mut self,
+        cable: &DuctedCable,
+        mesh: &Mesh,
+        jumps: &Jumps,
+        request: &DaysRequest<'_>,
+        state: &CableState,
+    ) -> Result<Evolution, E> {
+        let days = self.days;
+        let length = self.between.len() as u64;
+        let mut wanted = Vec::new();
+        for (day, parts) in request.wanted.iter().map(|pass| self.parts(*pass)) {
+            let parts = parts.iter().filter(|_| 1 < day && day < days);
+            wanted.extend(parts.map(|part| (day - 2) * length + part.place as u64 + 1));
+        }
+        let wanted_days = request.wanted_days.iter().filter(|day| **day > 1);
+        let wanted_days: Vec<u64> = wanted_days.map(|day| day - 1).collect();
+        let (jumping, most) = jumps.most_passes;
+        let mut jumps = jumps.with_most_passes(jumping.saturating_mul(length), most.saturating_mul(length));
+        if request.every_day {
+            jumps.first_periods = u64::MAX;
+        }
+        let order: Vec<usize> = (0..length as usize).collect();
+        let mut events = Request::new((days - 2) * length, &order)?;
+        (events.wanted, events.guide, events.start) = (&wanted, request.guide, Some(state));
+        events.days = (!request.every_day).then_some(&wanted_days);
+        evolve(cable, mesh, &jumps, &events, |next, state| {
+            let day = next.number.map(|number| self.place(number).0);
+            self.happen(day, next.phase, state)
+        })
+    }
+
+    /// Lets an event happen: one of a `day`, or one between days that only measures.
+    fn happen(&mut self, day: Option<u64>, place: usize, state: &mut CableState) -> Result<PassOutcome, E> {
+        if place == 0 {
+            self.cable.begin_day();
+            self.simulated_days += u64::from(day.is_some());
+        }
+        let event = day.map_or(&self.between[..], |day| self.events(day))[place];
+        let pass = day.and_then(|day| self.pass(day, place));
+        let outcome = self.cable.happen(&event, pass, state)?;
+        if pass == Some(self.passes) {
+            self.end.clone_from(state);
+        }
+        Ok(outcome)
+    }
+
+    /// What `pass` did, if that is known.
+    fn record(&self, pass: u64) -> Option<Record> {
+        let (day, parts) = self.parts(pass);
+        if let [simulated] = parts[..] {
+            let record = self.log.get(&(day, simulated.place))?.clone();
+            return Some(Record { pass, ..record });
+        }
+        let outcome = |part: &Part| {
+            let mut outcome = self.log.get(&(day, part.place))?.outcome.clone();
+            if part.at_rest {
+                (outcome.peak, outcome.lowest, outcome.dissipated) = (outcome.force, outcome.force, 0.0);
+            }
+            Some((part.weight, outcome))
+        };
+        let outcomes: Vec<_> = parts.iter().map(outcome).collect::<Option<_>>()?;
+        outcomes.first()?;
+        let summands: Vec<_> = outcomes
+            .iter()
+            .map(|(weight, outcome)| (*weight, outcome))
+            .collect();
+        let outcome = PassOutcome::combined(&summands);
+        Some(Record {
+            pass,
+            outcome,
+            interpolated: true,
+        })
+    }
+
+    /// Simulated passes that are not `wanted`.
+    fn others(&self, wanted: &[u64]) -> Vec<Record> {
+        let other = |(&(day, place), record): (&(u64, usize), &Record)| {
+            let pass = self.pass(day, place)?;
+            let is_other = !record.interpolated && !wanted.contains(&pass);
+            is_other.then(|| Record {
+                pass,
+                ..record.clone()
+            })
+        };
+        self.log.iter().filter_map(other).collect()
+    }
+
+    /// The last day in the order of time.
+    fn last_day(&self) -> Vec<Row> {
+        let day = self.days;
+        let events = self.events(day).iter().enumerate();
+        let row = |(place, event): (usize, &Event)| {
+            let record = self.log.get(&(day, place)).filter(|_| event.act != Act::Warm)?;
+            Some(Row {
+                passes: event.passes,
+                thermal_force: event.thermal_force,
+                outcome: record.outcome.clone(),
+            })
+        };
+        events.filter_map(row).collect()
     }
 }

@@ -30,14 +30,6 @@ struct Stage<'a> {
     defect: &'a [f64],
 }
 
-/// The balance at an advance.
-struct Balance {
-    /// What is out of balance \[N/m\].
-    residual: Vec<f64>,
-    /// Minus the slope of the law \[N/m²\].
-    slope: Vec<f64>,
-}
-
 /// Takes steps of many periods.
 #[derive(Debug)]
 pub struct LongStep {
@@ -82,10 +74,10 @@ impl LongStep {
         let limit = cable.cable().friction().limit();
         let mut balance = self.balance(cable, stage, &v);
         for _ in 0..MAX_STEPS {
-            if largest(&balance.residual) <= ACCURACY * limit {
+            if largest(&balance.0) <= ACCURACY * limit {
                 return Ok(v);
             }
-            let Balance { residual, slope } = &balance;
+            let (residual, slope) = &balance;
             let mut step: Vec<f64> = residual.iter().zip(slope).map(|(r, slope)| r / slope).collect();
             cable.diffuse(|i| stage.reach / slope[i], &mut step);
             self.sweeps += 1;
@@ -97,9 +89,9 @@ impl LongStep {
             let start = fall(cable, residual).abs();
             let mut share = 1.0;
             loop {
-                let trial = v.iter().zip(&step).map(|(v, step)| v + share * step).collect();
+                let trial: Vec<f64> = v.iter().zip(&step).map(|(v, step)| v + share * step).collect();
                 balance = self.balance(cable, stage, &trial);
-                if fall(cable, &balance.residual) >= -MAX_RISE * start || share < MIN_SHARE {
+                if fall(cable, &balance.0) >= -MAX_RISE * start || share < MIN_SHARE {
                     v = trial;
                     break;
                 }
@@ -108,11 +100,12 @@ impl LongStep {
         }
         Err(CableError::NoConvergence {
             vehicle_position: f64::INFINITY,
-            violation: largest(&balance.residual) / limit,
+            violation: largest(&balance.0) / limit,
         })
     }
 
-    fn balance(&self, cable: &mut RestingCable, stage: &Stage<'_>, v: &Vec<f64>) -> Balance {
+    /// What is out of balance at the advance `v` \[N/m\], and minus the slope of the law \[N/m²\].
+    fn balance(&self, cable: &mut RestingCable, stage: &Stage<'_>, v: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let place = stage.base.iter().zip(v).map(|(base, v)| base + stage.reach * v);
         let mut needed = vec![0.0; v.len()];
         cable.needed(&place.collect::<Vec<_>>(), stage.thermal_force, &mut needed);
@@ -122,6 +115,6 @@ impl LongStep {
             residual[i] = found - needed[i];
             slope[i] = steepness;
         }
-        Balance { residual, slope }
+        (residual, slope)
     }
 }
