@@ -67,13 +67,18 @@ pub const LONGEST_ROUND: usize = 12;
 /// the sum of a geometric series. Half or twice: the same for rounds of one vehicle.
 pub const ROUND_TAIL: f64 = 3.0;
 
-/// Periods that are simulated one by one on the first morning.
+/// Periods that are simulated one by one on the first morning, when the cable is as laid. Half or twice:
+/// the errors of six cables over their days are no larger; with one, a force is 0.9 % off under heavy
+/// traffic, where it is right with four.
 pub const MORNING: u64 = 8;
 
-/// Growth of the distance between simulated periods after them.
+/// Growth of the distance between simulated periods after them. With 1.25 six more of about ninety are
+/// simulated, with 2 two fewer; errors are no larger.
 pub const MORNING_GROWTH: f64 = 1.5;
 
-/// Periods after a corner of the temperature at which one is simulated: the cable turns within a few.
+/// Periods after a corner of the temperature at which one is simulated: the cable turns within a few. Of
+/// 30 m with corners, 800 passes a day and 48 other periods a force is 1.1 % off; with every second of
+/// these 1.3 %, with as many between them 0.2 % and a seventh more passes, with the first alone 9 %.
 pub const AFTER_A_CORNER: [u64; 6] = [0, 1, 2, 4, 8, 16];
 
 /// What the locked law misses goes on after a simulated period so fast, relative to its change from the one
