@@ -1,5 +1,5 @@
-//! Any number of passes: simulated periods at the start, then jumps, each checked by a simulated period
-//! and healed by another.
+//! Any number of passes: simulated periods at the start, then jumps, each checked by a simulated
+//! period and healed by another.
 
 use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome};
 
@@ -14,10 +14,12 @@ use crate::simulation::Simulation;
 use crate::slope::Slope;
 use crate::tuning::{CAUTION, GROWTH_BETWEEN, NEGLIGIBLE, SHORTEST_JUMP, SLOPE_WIDTH, TOLERANCE_BEYOND};
 
-/// Simulated periods at the end of a jump: its check, and one that heals what the correction left rough.
+/// Simulated periods at the end of a jump: its check, and one that heals what the correction left
+/// rough.
 const CHECKED: u64 = 2;
 
-/// Lets vehicles drive over `cable` on `mesh`, as laid: few of them simulated, each by a call of `pass`.
+/// Lets vehicles drive over `cable` on `mesh`, as laid: few of them simulated, each by a call of
+/// `pass`.
 ///
 /// # Errors
 ///
@@ -122,8 +124,8 @@ where
         }))
     }
 
-    /// Goes on until `all` periods are done, without jumps beyond the first of the numbers of simulated
-    /// passes `most`; false where the second is not enough.
+    /// Goes on until `all` periods are done, without jumps beyond the first of the numbers of
+    /// simulated passes `most`; false where the second is not enough.
     fn until(&mut self, all: u64, known: &mut Known, most: (u64, u64)) -> Result<bool, E> {
         while self.done < all {
             if self.simulation.simulated > most.1 {
@@ -136,7 +138,7 @@ where
             let to_end = settles && guided.is_none();
             if to_end {
                 known.length = longest as f64;
-                known.not_before = 2 * self.done;
+                known.not_before = self.done.saturating_mul(2);
             }
             let length = guided.unwrap_or(known.length as u64).min(longest);
             let is_patient = self.simulation.simulated <= most.0;
@@ -190,8 +192,8 @@ where
         Ok(leads.then_some(Beyond { records, period }))
     }
 
-    /// Takes the days left of `all` to repeat the last one, the `period`, but for a movement as a whole:
-    /// if its advance, gone on unchanged, would change no force and no movement noticeably.
+    /// Takes the days left of `all` to repeat the last one, the `period`, but for a movement as a
+    /// whole: if its advance, gone on unchanged, would change no force and no movement noticeably.
     fn repeat(&mut self, period: &Period, all: u64) -> bool {
         let left = all - self.done;
         let mut change = period.rate.clone();
@@ -237,8 +239,8 @@ where
         Ok(())
     }
 
-    /// Jumps over `length` periods, simulates two more and chooses the next length; or goes back where the
-    /// error is too large.
+    /// Jumps over `length` periods, simulates two more and chooses the next length; or goes back
+    /// where the error is too large.
     fn jump(&mut self, known: &mut Known, length: u64) -> Result<(), E> {
         let tolerance = self.simulation.tolerance;
         let (from, offset) = (self.simulation.state.clone(), self.simulation.offset);
@@ -274,8 +276,8 @@ where
         Ok(())
     }
 
-    /// Moves the cable over `length` periods, simulates one and learns from it: the flow as it is known
-    /// then, up to the end of the jump, and what the first one had missed \[m\].
+    /// Moves the cable over `length` periods, simulates one and learns from it: the flow as it is
+    /// known then, up to the end of the jump, and what the first one had missed \[m\].
     fn check(&mut self, known: &mut Known, length: u64) -> Result<(Flow, Vec<f64>), E> {
         let rate = self.rate(known);
         let before = known.slope.clone();

@@ -24,8 +24,8 @@ pub struct Flow {
 }
 
 impl Flow {
-    /// The flow over `periods` with the `slope` g \[m²/N\], where c begins with `rate` \[m per period\]
-    /// and grows by `growth` \[m\] every period.
+    /// The flow over `periods` with the `slope` g \[m²/N\], where c begins with `rate` \[m per
+    /// period\] and grows by `growth` \[m\] every period.
     pub fn new(
         cable: &mut RestingCable,
         rate: &[f64],

@@ -5,8 +5,8 @@ use cable_dem::{CableError, CableState, Mesh, PassOutcome, RestingCable};
 use crate::flow::Flow;
 use crate::period::{Period, phase_of, remove_mean};
 
-/// Passes of a vehicle within a jump are computed so far apart, as a ratio of their numbers. Forces change
-/// on the scale of that number: between two such passes they differ from a straight line by
+/// Passes of a vehicle within a jump are computed so far apart, as a ratio of their numbers. Forces
+/// change on the scale of that number: between two such passes they differ from a straight line by
 /// (ln 1.03)²/8 = 1e-4 of themselves. Three thousand rows take two thirds of the time.
 const ROW_RATIO: f64 = 1.03;
 
@@ -57,8 +57,8 @@ impl JumpInterval<'_> {
         Ok((state, whole))
     }
 
-    /// What each of `passes`, ascending, did: those far enough apart from the state after them, those
-    /// between as a mean of the two of the same vehicle on either side.
+    /// What each of `passes`, ascending, did: those far enough apart from the state after them,
+    /// those between as a mean of the two of the same vehicle on either side.
     pub fn outcomes(&self, cable: &mut RestingCable, passes: &[u64]) -> Result<Vec<PassOutcome>, CableError> {
         let mut outcomes = vec![PassOutcome::default(); passes.len()];
         for phase in 0..self.before.len() {
@@ -83,8 +83,8 @@ impl JumpInterval<'_> {
         Ok(outcomes)
     }
 
-    /// What `pass` did: the cable at rest after it, with peaks and heat between those of the same pass
-    /// of both periods.
+    /// What `pass` did: the cable at rest after it, with peaks and heat between those of the same
+    /// pass of both periods.
     fn outcome(&self, cable: &mut RestingCable, pass: u64) -> Result<PassOutcome, CableError> {
         let (state, whole) = self.state(cable, pass)?;
         let mut outcome = PassOutcome::at_rest(cable.cable(), &state)?.moved(whole);

@@ -16,8 +16,8 @@ const NOTICEABLE: f64 = 1e-3;
 /// Number of movements among the [`values`], which come first.
 const MOVEMENTS: usize = 4;
 
-/// Those of the `others` that show a noticeably larger force or movement than all `records` up to the
-/// first after them, and than each other before; in ascending order.
+/// Those of the `others` that show a noticeably larger force or movement than all `records` up to
+/// the first after them, and than each other before; in ascending order.
 pub fn peaks(records: &[Record], mut others: Vec<Record>) -> Vec<Record> {
     others.sort_by_key(|record| record.pass);
     let mut all = Vec::new();

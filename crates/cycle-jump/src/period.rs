@@ -14,8 +14,8 @@ pub struct Period {
     start: Vec<f64>,
     /// What each simulated pass did, in their order.
     phases: Vec<Phase>,
-    /// For each pass of the period the simulated one that stands for it, and the movement as a whole
-    /// since then \[m\].
+    /// For each pass of the period the simulated one that stands for it, and the movement as a
+    /// whole since then \[m\].
     places: Vec<(usize, f64)>,
 }
 
@@ -110,8 +110,8 @@ pub fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |largest, v| largest.max(v.abs()))
 }
 
-/// Removes the mean from displacements \[m\] of a cable that nothing holds, and returns it: rounding of
-/// metres would hide micrometres. Zero where something holds the cable.
+/// Removes the mean from displacements \[m\] of a cable that nothing holds, and returns it:
+/// rounding of metres would hide micrometres. Zero where something holds the cable.
 pub fn remove_mean(cable: &RestingCable, displacement: &mut [f64]) -> f64 {
     if cable.is_held() {
         return 0.0;

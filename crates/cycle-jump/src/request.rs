@@ -21,9 +21,9 @@ pub struct Jumps {
 impl Jumps {
     /// Jumps with an error of at most `tolerance`, as a share of the largest force or movement so
     /// far. Forces within jumps have about that error at most, most of it early. The slope is
-    /// averaged over `length_scale` \[m\], over which the duct's motion changes: at least its depth.
-    /// Forces and movements below `least` \[N, m\] count as nothing; about 1 % of the friction on a
-    /// metre of cable, and a tenth of the duct's largest motion.
+    /// averaged over `length_scale` \[m\], over which the duct's motion changes: at least its
+    /// depth. Forces and movements below `least` \[N, m\] count as nothing; about 1 % of the
+    /// friction on a metre of cable, and a tenth of the duct's largest motion.
     ///
     /// Eight periods are simulated at the start, and the first jump is a quarter as long.
     ///
@@ -54,7 +54,8 @@ impl Jumps {
     ///
     /// # Errors
     ///
-    /// [`JumpError::InvalidParameter`] for fewer periods, or unless the share is finite and positive.
+    /// [`JumpError::InvalidParameter`] for fewer periods, or unless the share is finite and
+    /// positive.
     pub fn with_start(self, periods: u64, jump: f64) -> Result<Self, JumpError> {
         check("periods at the start", periods >= 2, "at least 2")?;
         positive("first jump", jump)?;

@@ -87,8 +87,8 @@ impl<'a, P> Simulation<'a, P> {
         });
     }
 
-    /// Lets the periods from `done` to `all` repeat the last one, the `period`, but for a movement as
-    /// a `whole` in each \[m\].
+    /// Lets the periods from `done` to `all` repeat the last one, the `period`, but for a movement
+    /// as a `whole` in each \[m\].
     pub fn repeat(&mut self, period: &Period, done: u64, all: u64, whole: f64) {
         for pass in self.recorded(done, all, &largest_places(period)) {
             let moved = whole * (pass.div_ceil(self.request.period()) - done) as f64;
@@ -125,8 +125,8 @@ where
     E: From<JumpError>,
     P: FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 {
-    /// Simulates the first `length` passes of a period, which follow the pass `after` where they have
-    /// numbers.
+    /// Simulates the first `length` passes of a period, which follow the pass `after` where they
+    /// have numbers.
     pub fn period(&mut self, length: usize, after: Option<u64>) -> Result<Period, E> {
         let mut period = Period::begin(self.state.displacement());
         for rounds in rounds(&self.request.order[..length]) {
@@ -144,8 +144,8 @@ where
         Ok(period)
     }
 
-    /// Simulates rounds of a `period`. Once they will change less than a small part of the tolerance,
-    /// all but the last count as done.
+    /// Simulates rounds of a `period`. Once they will change less than a small part of the
+    /// tolerance, all but the last count as done.
     fn rounds(&mut self, rounds: Rounds, after: Option<u64>, period: &mut Period) -> Result<(), E> {
         let mut settling = Settling::default();
         let mut left = rounds.times;
@@ -183,13 +183,14 @@ where
         Ok(())
     }
 
-    /// Whether none of the passes at these places of a period that follows the pass `after` has to be
-    /// simulated.
+    /// Whether none of the passes at these places of a period that follows the pass `after` has to
+    /// be simulated.
     fn may_skip(&self, after: Option<u64>, places: &std::ops::Range<usize>) -> bool {
         after.is_none_or(|after| {
-            let passes = after + places.start as u64 + 1..after + places.end as u64 + 1;
+            let begin = after + places.start as u64;
+            let passes = begin + 1..=after + places.end as u64;
             let is_looked_at = self.request.looked_at.iter().any(|pass| passes.contains(pass));
-            passes.start > self.request.first_passes && !is_looked_at
+            begin >= self.request.first_passes && !is_looked_at
         })
     }
 

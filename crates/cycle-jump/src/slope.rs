@@ -3,15 +3,16 @@
 //!
 //! Two simulated periods differ in their advance by dv and in the friction between their middles by
 //! df. A least-squares slope of the one over the other, over some length of cable, is all the law
-//! there is. Too small a slope makes a jump overshoot, too large a one only makes it cautious; so it
-//! rises at once and falls slowly.
+//! there is. Too small a slope makes a jump overshoot, too large a one only makes it cautious; so
+//! it rises at once and falls slowly.
 
 use cable_dem::RestingCable;
 
 use crate::period::{Period, difference};
 use crate::tuning::{OVERSHOOT, REGULARISATION, SLOPE_FALL};
 
-/// Growth of the slope at most where a jump overshot: any bound does, against a prediction of nothing.
+/// Growth of the slope at most where a jump overshot: any bound does, against a prediction of
+/// nothing.
 const MAX_GROWTH: f64 = 3.0;
 /// Slope before anything is known \[m²/N\].
 const UNKNOWN: f64 = 1e-9;
@@ -57,8 +58,8 @@ impl Slope {
         change
     }
 
-    /// Learns from two periods, between which it had `predicted` the change of the advance where there
-    /// was a jump.
+    /// Learns from two periods, between which it had `predicted` the change of the advance where
+    /// there was a jump.
     pub fn learn(&mut self, from: &Period, to: &Period, predicted: Option<&[f64]>, cable: &RestingCable) {
         let (rate, friction) = changes(from, to, cable);
         let largest = friction.iter().fold(0.0_f64, |a, f| a.max(f * f));
@@ -80,8 +81,8 @@ impl Slope {
     }
 }
 
-/// By how much one period differs from an earlier one: its advance \[m\], and the friction K Δu/w in
-/// its middle \[N/m\].
+/// By how much one period differs from an earlier one: its advance \[m\], and the friction K Δu/w
+/// in its middle \[N/m\].
 fn changes(from: &Period, to: &Period, cable: &RestingCable) -> (Vec<f64>, Vec<f64>) {
     let rate = difference(&to.rate, &from.rate);
     let mut friction = vec![0.0; rate.len()];

@@ -5,8 +5,8 @@ use crate::JumpError;
 use crate::error::check;
 use crate::tuning::{AFTER_A_CORNER, MORNING, MORNING_GROWTH};
 
-/// With knots beyond this share of all periods a step would be no longer than a period: every one is
-/// simulated.
+/// With knots beyond this share of all periods a step would be no longer than a period: every one
+/// is simulated.
 const NEARLY_ALL: f64 = 0.5;
 
 /// A day of traffic and heat: passes evenly over the day, the first after half an interval.
@@ -41,14 +41,14 @@ pub(super) enum Act {
 }
 
 impl Day {
-    /// A day of so many `passes`. The traffic repeats after a `period` of so many, every day anew; the
-    /// last period of a day takes those along that are too few for another one. So many periods,
-    /// the `knots`, are simulated, evenly over the day.
+    /// A day of so many `passes`. The traffic repeats after a `period` of so many, every day anew;
+    /// the last period of a day takes those along that are too few for another one. So many
+    /// periods, the `knots`, are simulated, evenly over the day.
     ///
     /// # Errors
     ///
-    /// [`JumpError::InvalidParameter`] if it has no whole period, no knot, or a `heat` whose forces are
-    /// not finite or whose points are not in the order of one day.
+    /// [`JumpError::InvalidParameter`] if it has no whole period, no knot, or a `heat` whose forces
+    /// are not finite or whose points are not in the order of one day.
     pub fn new(passes: u64, period: usize, heat: DailyHeat, knots: u64) -> Result<Self, JumpError> {
         let period = period as u64;
         check("period of the traffic", period > 0, "at least one vehicle")?;
@@ -112,8 +112,8 @@ impl Day {
     }
 
     /// Periods of a day that are simulated, ascending: evenly, at the turns of the temperature and
-    /// after its corners, and the last; on the `first` day many of the morning, when the cable is as
-    /// laid.
+    /// after its corners, and the last; on the `first` day many of the morning, when the cable is
+    /// as laid.
     fn simulated(&self, first: bool) -> Vec<u64> {
         let all = self.periods();
         if self.is_simulated() {

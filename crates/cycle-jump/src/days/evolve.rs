@@ -1,6 +1,6 @@
 //! Day after day: some simulated, others jumped over, until each repeats the one before.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome, laid};
 
@@ -72,14 +72,15 @@ pub struct Row {
     pub outcome: PassOutcome,
 }
 
-/// Takes `cable` on `mesh`, as laid, through days of traffic and heat: few passes simulated, each by a
-/// call of `pass`, which finds the cable at the temperature of its moment. Where not every pass of a
-/// `day` is simulated, the `law` carries the cable over the others. The periods of `jumps` are days here.
+/// Takes `cable` on `mesh`, as laid, through days of traffic and heat: few passes simulated, each
+/// by a call of `pass`, which finds the cable at the temperature of its moment. Where not every
+/// pass of a `day` is simulated, the `law` carries the cable over the others. The periods of
+/// `jumps` are days here.
 ///
 /// # Errors
 ///
-/// Those of `pass`; [`JumpError`] for a request without passes, if the cable finds no rest, or if no day
-/// repeats the one before.
+/// Those of `pass`; [`JumpError`] for a request without passes, if the cable finds no rest, or if
+/// no day repeats the one before.
 pub fn evolve_days<E: From<JumpError>>(
     cable: &DuctedCable,
     mesh: &Mesh,
@@ -89,7 +90,7 @@ pub fn evolve_days<E: From<JumpError>>(
     pass: impl FnMut(Next, &mut CableState) -> Result<PassOutcome, E>,
 ) -> Result<Days, E> {
     check("passes", request.passes > 0, "at least one")?;
-    let state = laid(cable, mesh).map_err(wrap)?;
+    let mut state = laid(cable, mesh).map_err(wrap)?;
     let (passes, a_day) = (request.passes, day.passes());
     let days = passes.div_ceil(a_day);
     let of_last = passes - (days - 1) * a_day;
@@ -105,7 +106,6 @@ pub fn evolve_days<E: From<JumpError>>(
         simulated_days: 0,
         end: state.clone(),
     };
-    let mut state = state;
     run.day(1, &mut state, 0.0)?;
     let (mut repeats, mut schedule) = (None, Vec::new());
     if run.days > 1 {
@@ -117,33 +117,7 @@ pub fn evolve_days<E: From<JumpError>>(
         (state, repeats, schedule) = (evolution.state, evolution.repeats, evolution.schedule);
         run.day(run.days, &mut state, evolution.offset)?;
     }
-    let records: Vec<Record> = request
-        .wanted
-        .iter()
-        .filter_map(|pass| run.record(*pass))
-        .collect();
-    let simulated = records.iter().filter(|record| !record.interpolated);
-    let simulated: Vec<Record> = simulated.cloned().collect();
-    let extremes = |&day: &u64| {
-        let of_day = run.log.range((day, 0)..(day + 1, 0));
-        (day, Extremes::of(of_day.map(|(_, record)| &record.outcome)))
-    };
-    Ok(Days {
-        peaks: peaks(&simulated, run.others(request.wanted)),
-        records,
-        days: request.wanted_days.iter().map(extremes).collect(),
-        last_day: run.last_day(),
-        extremes: Extremes::of(run.log.values().map(|record| &record.outcome)),
-        drift: repeats.map_or(0.0, |(_, drift)| drift),
-        periodic_from: repeats.map(|(days, _)| days + 2),
-        hot: run.cable.hot.unwrap_or_else(|| state.clone()),
-        cold: run.cable.cold.unwrap_or(state),
-        state: run.end,
-        simulated: run.cable.simulated,
-        simulated_days: run.simulated_days,
-        schedule,
-        sweeps: run.cable.step.sweeps,
-    })
+    Ok(run.answer(request, state, repeats, schedule))
 }
 
 /// A run under way.
@@ -164,6 +138,100 @@ struct Run<'a, P> {
 }
 
 impl<P> Run<'_, P> {
+    /// What `pass` did, if that is known.
+    fn record(&self, pass: u64) -> Option<Record> {
+        let (day, parts) = self.parts(pass);
+        if let [simulated] = parts[..] {
+            let record = self.log.get(&(day, simulated.place))?.clone();
+            return Some(Record { pass, ..record });
+        }
+        let outcome = |part: &Part| {
+            let mut outcome = self.log.get(&(day, part.place))?.outcome.clone();
+            if part.at_rest {
+                (outcome.peak, outcome.lowest, outcome.dissipated) = (outcome.force, outcome.force, 0.0);
+            }
+            Some((part.weight, outcome))
+        };
+        let outcomes: Vec<_> = parts.iter().map(outcome).collect::<Option<_>>()?;
+        outcomes.first()?;
+        let summands: Vec<_> = outcomes
+            .iter()
+            .map(|(weight, outcome)| (*weight, outcome))
+            .collect();
+        let outcome = PassOutcome::combined(&summands);
+        Some(Record {
+            pass,
+            outcome,
+            interpolated: true,
+        })
+    }
+
+    /// Simulated passes that are not `wanted`.
+    fn others(&self, wanted: &[u64]) -> Vec<Record> {
+        let wanted: BTreeSet<u64> = wanted.iter().copied().collect();
+        let other = |(&(day, place), record): (&(u64, usize), &Record)| {
+            let pass = self.pass(day, place)?;
+            let is_other = !record.interpolated && !wanted.contains(&pass);
+            is_other.then(|| Record {
+                pass,
+                ..record.clone()
+            })
+        };
+        self.log.iter().filter_map(other).collect()
+    }
+
+    /// The last day in the order of time.
+    fn last_day(&self) -> Vec<Row> {
+        let day = self.days;
+        let events = self.events(day).iter().enumerate();
+        let row = |(place, event): (usize, &Event)| {
+            let record = self.log.get(&(day, place)).filter(|_| event.act != Act::Warm)?;
+            Some(Row {
+                passes: event.passes,
+                thermal_force: event.thermal_force,
+                outcome: record.outcome.clone(),
+            })
+        };
+        events.filter_map(row).collect()
+    }
+
+    /// All that is wanted of the days, which left the cable in `state`.
+    fn answer(
+        self,
+        request: &DaysRequest<'_>,
+        state: CableState,
+        repeats: Option<(u64, f64)>,
+        schedule: Vec<u64>,
+    ) -> Days {
+        let records: Vec<Record> = request
+            .wanted
+            .iter()
+            .filter_map(|pass| self.record(*pass))
+            .collect();
+        let simulated = records.iter().filter(|record| !record.interpolated);
+        let simulated: Vec<Record> = simulated.cloned().collect();
+        let extremes = |&day: &u64| {
+            let of_day = self.log.range((day, 0)..=(day, usize::MAX));
+            (day, Extremes::of(of_day.map(|(_, record)| &record.outcome)))
+        };
+        Days {
+            peaks: peaks(&simulated, self.others(request.wanted)),
+            records,
+            days: request.wanted_days.iter().map(extremes).collect(),
+            last_day: self.last_day(),
+            extremes: Extremes::of(self.log.values().map(|record| &record.outcome)),
+            drift: repeats.map_or(0.0, |(_, drift)| drift),
+            periodic_from: repeats.map(|(days, _)| days + 2),
+            hot: self.cable.hot.unwrap_or_else(|| state.clone()),
+            cold: self.cable.cold.unwrap_or(state),
+            state: self.end,
+            simulated: self.cable.simulated,
+            simulated_days: self.simulated_days,
+            schedule,
+            sweeps: self.cable.step.sweeps,
+        }
+    }
+
     fn events(&self, day: u64) -> &[Event] {
         match day {
             1 => &self.first,
@@ -216,8 +284,8 @@ where
         Ok(())
     }
 
-    /// The days between the first one, which left the cable in `state`, and the last one: periods of
-    /// events.
+    /// The days between the first one, which left the cable in `state`, and the last one: periods
+    /// of events.
     fn days_between(
         &mut self,
         cable: &DuctedCable,
@@ -263,61 +331,5 @@ where
             self.end.clone_from(state);
         }
         Ok(outcome)
-    }
-
-    /// What `pass` did, if that is known.
-    fn record(&self, pass: u64) -> Option<Record> {
-        let (day, parts) = self.parts(pass);
-        if let [simulated] = parts[..] {
-            let record = self.log.get(&(day, simulated.place))?.clone();
-            return Some(Record { pass, ..record });
-        }
-        let outcome = |part: &Part| {
-            let mut outcome = self.log.get(&(day, part.place))?.outcome.clone();
-            if part.at_rest {
-                (outcome.peak, outcome.lowest, outcome.dissipated) = (outcome.force, outcome.force, 0.0);
-            }
-            Some((part.weight, outcome))
-        };
-        let outcomes: Vec<_> = parts.iter().map(outcome).collect::<Option<_>>()?;
-        outcomes.first()?;
-        let summands: Vec<_> = outcomes
-            .iter()
-            .map(|(weight, outcome)| (*weight, outcome))
-            .collect();
-        let outcome = PassOutcome::combined(&summands);
-        Some(Record {
-            pass,
-            outcome,
-            interpolated: true,
-        })
-    }
-
-    /// Simulated passes that are not `wanted`.
-    fn others(&self, wanted: &[u64]) -> Vec<Record> {
-        let other = |(&(day, place), record): (&(u64, usize), &Record)| {
-            let pass = self.pass(day, place)?;
-            let is_other = !record.interpolated && !wanted.contains(&pass);
-            is_other.then(|| Record {
-                pass,
-                ..record.clone()
-            })
-        };
-        self.log.iter().filter_map(other).collect()
-    }
-
-    /// The last day in the order of time.
-    fn last_day(&self) -> Vec<Row> {
-        let day = self.days;
-        let events = self.events(day).iter().enumerate();
-        let row = |(place, event): (usize, &Event)| {
-            let record = self.log.get(&(day, place)).filter(|_| event.act != Act::Warm)?;
-            Some(Row {
-                passes: event.passes,
-                thermal_force: event.thermal_force,
-                outcome: record.outcome.clone(),
-            })
-        };
-        events.filter_map(row).collect()
     }
 }

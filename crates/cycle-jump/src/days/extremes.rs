@@ -64,9 +64,9 @@ impl Extremes {
         largest(&self.forces())
     }
 
-    /// Largest difference to `other`: of a force as a share of the largest, or of `least.0` \[N\] if that
-    /// is more, on a clamp also of the largest on a clamp; of a movement as a share of the larger range
-    /// of both ends, or of `least.1` \[m\].
+    /// Largest difference to `other`: of a force as a share of the largest, or of `least.0` \[N\]
+    /// if that is more, on a clamp also of the largest on a clamp; of a movement as a share of the
+    /// larger range of both ends, or of `least.1` \[m\].
     pub fn difference(&self, other: &Self, least: (f64, f64)) -> (f64, f64) {
         let apart =
             |own: &[Range], other: &[Range]| largest(&difference(own.as_flattened(), other.as_flattened()));

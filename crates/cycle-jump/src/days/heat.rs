@@ -16,8 +16,8 @@ pub enum DailyHeat {
         /// Θ at its highest.
         highest: f64,
     },
-    /// Straight lines between points (time, Θ), whose times ascend from 0 on and stay below 1; the last
-    /// is joined to the first.
+    /// Straight lines between points (time, Θ), whose times ascend from 0 on and stay below 1; the
+    /// last is joined to the first.
     Profile(Vec<(f64, f64)>),
 }
 
@@ -64,7 +64,8 @@ impl DailyHeat {
         }
     }
 
-    /// Times within the day at which it turns, ascending: its extremes, and the corners of a profile.
+    /// Times within the day at which it turns, ascending: its extremes, and the corners of a
+    /// profile.
     pub(super) fn turns(&self) -> Vec<f64> {
         match self {
             Self::Cosine { .. } => vec![0.5],

@@ -9,11 +9,11 @@ const MIN_DIFFERENCE: f64 = 1e-10;
 /// Advances below this count as zero \[m\]: ten million of them are a tenth of a millimetre.
 const STILL: f64 = 1e-11;
 
-/// Friction f̄ \[N/m\] against which a cable advances by v \[m\] in a period of the traffic: f̄ = Φ(v),
-/// falling.
+/// Friction f̄ \[N/m\] against which a cable advances by v \[m\] in a period of the traffic: f̄ =
+/// Φ(v), falling.
 ///
-/// Within the table it is piecewise linear. Beyond it goes straight to ±q over one more width of the
-/// table and stays there: the duct slips past the cable wholly one way.
+/// Within the table it is piecewise linear. Beyond it goes straight to ±q over one more width of
+/// the table and stays there: the duct slips past the cable wholly one way.
 #[derive(Debug, Clone)]
 pub struct LockedLaw {
     /// Advances, ascending, and Φ there.
@@ -25,15 +25,15 @@ pub struct LockedLaw {
 }
 
 impl LockedLaw {
-    /// Shares of q for which the advance is measured, the same both ways. More of them change nothing:
-    /// with ten the forces of days differ by less than a tenth of a per cent.
+    /// Shares of q for which the advance is measured, the same both ways. More of them change
+    /// nothing: with ten the forces of days differ by less than a tenth of a per cent.
     pub const SHARES: [f64; 16] = [
         -0.96, -0.9, -0.82, -0.72, -0.6, -0.45, -0.28, -0.1, 0.1, 0.28, 0.45, 0.6, 0.72, 0.82, 0.9, 0.96,
     ];
 
     /// The law with friction limit `limit` q \[N/m\] through `advances` \[m\], one for each of
-    /// [`LockedLaw::SHARES`]: how far the middle of a cable advances in a period on which a body force
-    /// −share · q acts.
+    /// [`LockedLaw::SHARES`]: how far the middle of a cable advances in a period on which a body
+    /// force −share · q acts.
     pub fn new(advances: [f64; Self::SHARES.len()], limit: f64) -> Self {
         let mut falling = advances;
         for k in 1..falling.len() {
@@ -57,8 +57,8 @@ impl LockedLaw {
         }
     }
 
-    /// Whether the traffic moves a cable nowhere, whatever friction is locked in: below shakedown, or
-    /// without load.
+    /// Whether the traffic moves a cable nowhere, whatever friction is locked in: below shakedown,
+    /// or without load.
     pub fn is_still(&self) -> bool {
         self.is_still
     }

@@ -12,10 +12,10 @@ pub struct Part {
     pub at_rest: bool,
 }
 
-/// How the outcome of `pass`, from 1, of a day follows from those of its `events`, where so many passes
-/// are a `period`; nothing of a pass that does not come. Within a step the cable goes straight from one
-/// end to the other, and a pass does relative to that what the same one of the nearest simulated period
-/// did.
+/// How the outcome of `pass`, from 1, of a day follows from those of its `events`, where so many
+/// passes are a `period`; nothing of a pass that does not come. Within a step the cable goes
+/// straight from one end to the other, and a pass does relative to that what the same one of the
+/// nearest simulated period did.
 pub fn parts(events: &[Event], pass: u64, period: u64) -> Vec<Part> {
     let part = |place: usize, weight: f64, at_rest: bool| Part {
         place,

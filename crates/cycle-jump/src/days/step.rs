@@ -39,8 +39,8 @@ pub struct LongStep {
 }
 
 impl LongStep {
-    /// The displacements that `u` \[m\] become over `periods`, with the thermal force \[N\] and the defect r
-    /// \[N/m\] at both [`STAGES`]; the advance is sought from that of another period on.
+    /// The displacements that `u` \[m\] become over `periods`, with the thermal force \[N\] and the
+    /// defect r \[N/m\] at both [`STAGES`]; the advance is sought from that of another period on.
     pub fn take(
         &mut self,
         cable: &mut RestingCable,
