@@ -6,13 +6,13 @@ use cable_dem::{CableState, DuctedCable, Mesh, PassOutcome};
 use crate::JumpError;
 use crate::error::wrap;
 use crate::flow::Flow;
-use crate::interval::JumpInterval;
 use crate::period::{Period, difference, phase_of, remove_mean};
 use crate::record::{Beyond, Evolution, Record};
 use crate::request::{Guide, Jumps, Next, Request};
 use crate::simulation::Simulation;
 use crate::slope::Slope;
 use crate::tuning::{CAUTION, GROWTH_BETWEEN, NEGLIGIBLE, SHORTEST_JUMP, SLOPE_WIDTH, TOLERANCE_BEYOND};
+use crate::within_jump::JumpInterval;
 
 /// Simulated periods at the end of a jump: its check, and one that heals what the correction left
 /// rough.
@@ -239,8 +239,11 @@ where
         Ok(())
     }
 
-    /// Jumps over `length` periods, simulates two more and chooses the next length; or goes back
-    /// where the error is too large.
+    /// Jumps over `length` periods, simulates two more and chooses the length of the next jump; or
+    /// goes back if the error is too large.
+    ///
+    /// The error of a jump grows as the square of its length: the next one is √(tolerance/error)
+    /// times as long, and somewhat less for caution.
     fn jump(&mut self, known: &mut Known, length: u64) -> Result<(), E> {
         let tolerance = self.simulation.tolerance;
         let (from, offset) = (self.simulation.state.clone(), self.simulation.offset);
@@ -293,8 +296,8 @@ where
         known
             .slope
             .learn(&known.period, &checked, Some(&predicted), cable);
-        // The slope between both ends says best how the cable went from one to the other; what that
-        // leaves of the advance grew evenly.
+        // The slope measured between both ends describes the jump best. The part of the advance
+        // that it does not explain is taken to have grown evenly over the jump.
         let measured = (length + 1) as f64;
         let predicted = known.slope.predict(&known.period, &checked, cable);
         let growth = difference(&difference(&checked.rate, &known.period.rate), &predicted)

@@ -4,7 +4,6 @@ pub mod days;
 mod error;
 mod evolve;
 mod flow;
-mod interval;
 mod peaks;
 mod period;
 mod record;
@@ -14,6 +13,7 @@ mod scale;
 mod simulation;
 mod slope;
 mod tuning;
+mod within_jump;
 
 pub use error::JumpError;
 pub use evolve::evolve;

@@ -7,8 +7,8 @@ use cable_dem::{CableState, PassOutcome, RestingCable};
 pub struct Period {
     /// Advance v = u_b − u_a of every node \[m\].
     pub rate: Vec<f64>,
-    /// (u_a + u_b)/2, the place to which the advance belongs: half a period back, between sums and
-    /// integrals \[m\].
+    /// The mean displacement (u_a + u_b)/2 during the period \[m\]. The advance belongs there, half a
+    /// period before the end, so that a sum over periods agrees with an integral.
     pub middle: Vec<f64>,
     /// u_a \[m\].
     start: Vec<f64>,

@@ -7,7 +7,6 @@ use cable_dem::{CableError, CableState, DuctedCable, Mesh, PassOutcome, RestingC
 
 use crate::JumpError;
 use crate::error::wrap;
-use crate::interval::JumpInterval;
 use crate::peaks::largest_places;
 use crate::period::{Period, difference, largest, phase_of, remove_mean};
 use crate::record::Record;
@@ -15,6 +14,7 @@ use crate::request::{Jumps, Next, Request};
 use crate::rounds::{Rounds, Settling, rounds};
 use crate::scale::Scale;
 use crate::tuning::{NEGLIGIBLE, PEAK_RATIO};
+use crate::within_jump::JumpInterval;
 
 /// The cable and the vehicles that drive over it.
 pub struct Simulation<'a, P> {

@@ -57,8 +57,8 @@ impl JumpInterval<'_> {
         Ok((state, whole))
     }
 
-    /// What each of `passes`, ascending, did: those far enough apart from the state after them,
-    /// those between as a mean of the two of the same vehicle on either side.
+    /// Outcomes of `passes`, in ascending order. Passes far enough apart follow from the state after
+    /// them; those between are interpolated from the two nearest of the same vehicle.
     pub fn outcomes(&self, cable: &mut RestingCable, passes: &[u64]) -> Result<Vec<PassOutcome>, CableError> {
         let mut outcomes = vec![PassOutcome::default(); passes.len()];
         for phase in 0..self.before.len() {
