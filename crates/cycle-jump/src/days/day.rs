@@ -41,9 +41,9 @@ pub(super) enum Act {
 }
 
 impl Day {
-    /// A day of so many `passes`. The traffic repeats after a `period` of so many, every day anew;
-    /// the last period of a day takes those along that are too few for another one. So many
-    /// periods, the `knots`, are simulated, evenly over the day.
+    /// A day of so many `passes`. The traffic starts anew every day and repeats after `period`
+    /// passes; the last period of a day also holds the passes left over. The day simulates `knots`
+    /// periods at even distances, and more where the temperature turns.
     ///
     /// # Errors
     ///
