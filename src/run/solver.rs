@@ -72,7 +72,7 @@ impl PassSolver {
 
     /// Lets `vehicle` pass.
     pub fn pass(&mut self, vehicle: usize, state: &mut CableState) -> Result<PassOutcome, CableError> {
-        // Without an observer, whose passes are compiled with this crate and hardly optimised.
+        // A pass with an observer is compiled with this crate, which is not optimised.
         match self {
             Self::QuasiStatic(solver, passages) => solver.pass(&passages[vehicle], state),
             Self::Explicit(solver, ducts) => Ok(solver.pass(&ducts[vehicle], state)?.pass),

@@ -105,7 +105,7 @@ impl RestingCable {
     /// Friction \[N/m\] that a cable displaced by `u` \[m\] needs to be at rest at the heat `thermal_force` \[N\], at every node that can move; the
     /// others are left.
     pub fn needed(&mut self, u: &[f64], thermal_force: f64, friction: &mut [f64]) {
-        self.load = self.cable.loads(&self.mesh, thermal_force);
+        self.heat(thermal_force);
         for i in self.free() {
             friction[i] = self.step.chain.balancing_friction(u, &self.load, i);
         }
@@ -148,7 +148,7 @@ impl RestingCable {
     /// mesh; [`CableError::NoConvergence`] where no equilibrium is found.
     pub fn settle(&mut self, state: &mut CableState) -> Result<(), CableError> {
         state.check(&self.mesh)?;
-        self.load = self.cable.loads(&self.mesh, state.thermal_force);
+        self.heat(state.thermal_force);
         let StepSolver { chain, .. } = &self.step;
         let mut at_rest = true;
         for i in chain.free.nodes() {
@@ -199,6 +199,14 @@ impl RestingCable {
         Ok(())
     }
 
+    /// Heat pushes the two ends apart and nothing between them.
+    fn heat(&mut self, thermal_force: f64) {
+        let (last, weight) = (self.mesh.elements(), self.cable.body_force());
+        for (node, outward) in [(0, -thermal_force), (last, thermal_force)] {
+            self.load[node] = weight * self.mesh.tributary_length(node) + outward;
+        }
+    }
+
     /// One step of the whole cable from `state` to the heat `thermal_force` \[N\], in which the
     /// duct at every node moves by `duct` \[m\], if at all, and the cable by `movement` \[m\] at
     /// most. Returns the heat of the slip \[J\]; when it fails, `state` is as it was.
@@ -209,7 +217,7 @@ impl RestingCable {
         thermal_force: f64,
         movement: f64,
     ) -> Result<f64, CableError> {
-        self.load = self.cable.loads(&self.mesh, thermal_force);
+        self.heat(thermal_force);
         let duct = duct.unwrap_or(&self.nothing);
         let StepSolver { chain, trial, .. } = &mut self.step;
         let compliance = chain.compliance;

@@ -116,8 +116,8 @@ impl Supports {
             }
             r[node] = -watched.solved;
             trial.r[node] = -watched.solved;
-            // Its friction turns at slips far smaller than those that matter to its neighbours. D =
-            // a + γ A.
+            // Its friction turns at slips far smaller than those that matter to its neighbours.
+            // The duct stands at D = a + γ A.
             let (gamma, adhesion) = (chain.compliance, snapshot.adhesion[node]);
             let duct = adherent + gamma * adhesion;
             let [duct_before, adhesion_before] = std::mem::replace(&mut watched.followed, [duct, adhesion]);

@@ -119,6 +119,17 @@ impl Stretch {
     }
 }
 
+impl Load<'_> {
+    /// On the nodes of one stretch alone.
+    pub fn on(&self, stretch: Stretch) -> Self {
+        Self {
+            adhesion: &self.adhesion[stretch.nodes()],
+            support: &self.support[stretch.nodes()],
+            anchor: &self.anchor[stretch.nodes()],
+        }
+    }
+}
+
 impl Trial {
     /// At rest and stuck.
     pub fn new(nodes: usize) -> Self {

@@ -95,18 +95,20 @@ impl StepSolver {
     fn displace(&mut self, load: &Load<'_>, stretch: Stretch) -> Result<(), f64> {
         self.hold(load, stretch)?;
         let (chain, Trial { r, contact, .. }) = (&self.chain, &mut self.trial);
-        let (nodes, lo) = (stretch.nodes(), stretch.lo);
+        let nodes = stretch.nodes();
         let held = stretch.neighbours(r).map(Option::unwrap_or_default);
-        let row = |k: usize| {
-            let i = lo + k;
-            let support = load.support[i] * chain.per_stiffness;
-            chain.nodes[i].row(
-                contact[i],
-                support,
-                load.adhesion[i],
-                load.anchor[i],
-                chain.per_stiffness,
-            )
+        let n = stretch.len();
+        // Slices of one length, so that no access is checked in the loop: both take 1.2 times as long without.
+        let (of_nodes, contact) = (&chain.nodes[nodes.clone()][..n], &contact[nodes.clone()][..n]);
+        let Load {
+            adhesion,
+            support,
+            anchor,
+        } = load.on(stretch);
+        let (adhesion, support, anchor) = (&adhesion[..n], &support[..n], &anchor[..n]);
+        let row = |i: usize| {
+            let support = support[i] * chain.per_stiffness;
+            of_nodes[i].row(contact[i], support, adhesion[i], anchor[i], chain.per_stiffness)
         };
         tridiagonal::solve(held, row, &mut self.factors[nodes.clone()], &mut r[nodes]);
         self.statistics.sweeps += 1;
@@ -142,17 +144,28 @@ impl StepSolver {
 
     /// Sets the friction of the solved displacements and corrects contact states that do not hold.
     fn correct(&mut self, load: &Load<'_>, stretch: Stretch) -> Violations {
-        let (chain, tolerance) = (&self.chain, self.tolerance);
+        let (chain, tolerance, range) = (&self.chain, self.tolerance, stretch.nodes());
+        let Trial { r, g, contact } = &mut self.trial;
+        let [before, after] = stretch.neighbours(r).map(Option::unwrap_or_default);
+        let n = stretch.len();
+        // Slices of one length, so that no access is checked in the loop: both take 1.2 times as long without.
+        let nodes = &chain.nodes[range.clone()][..n];
         let Load {
             adhesion,
             support,
             anchor,
-        } = *load;
-        let Trial { r, g, contact } = &mut self.trial;
+        } = load.on(stretch);
+        let (adhesion, support, anchor) = (&adhesion[..n], &support[..n], &anchor[..n]);
+        let (r, g) = (&r[range.clone()][..n], &mut g[range.clone()][..n]);
+        let contact = &mut contact[range][..n];
         let mut found = Violations::default();
-        for i in stretch.nodes() {
-            let (node, state) = (&chain.nodes[i], contact[i]);
-            let balancing = chain.balancing_friction(r, support, i);
+        let mut left = before;
+        for i in 0..n {
+            let (node, state, here) = (&nodes[i], contact[i], r[i]);
+            let right = if i + 1 < n { r[i + 1] } else { after };
+            let force = chain.stiffness * (node.diagonal * here - left - right) - support[i];
+            let balancing = force * node.per_tributary;
+            left = here;
             if state == Contact::Stuck {
                 let total = balancing + adhesion[i];
                 let excess = total.abs() - node.limit;
@@ -181,7 +194,7 @@ impl StepSolver {
                 if !balanced {
                     found.violate(residual / node.limit);
                 }
-                let slip = anchor[i] - r[i] - chain.compliance * g[i];
+                let slip = anchor[i] - here - chain.compliance * g[i];
                 let along = if state == Contact::Forward { slip } else { -slip };
                 let slips_along = along >= -tolerance.slip;
                 if !slips_along {
