@@ -22,7 +22,7 @@ pub fn of_state(cable: &DuctedCable, state: &CableState, pass: u64) -> Result<()
         .fold(0.0_f64, |largest, force| largest.max(force.abs()));
     let limit = cable.friction().limit();
     let allowed = (1.0 + MARGIN) * limit + ROUNDING * largest / state.node_spacing();
-    let needed = state.friction_needed(cable)?;
+    let needed = state.friction_share(cable)? * limit;
     // Written so that what is not a number fails.
     if needed <= allowed {
         Ok(())

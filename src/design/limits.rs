@@ -136,7 +136,7 @@ impl Place {
             Self::Upstream => scene.ends.upstream = end,
             Self::Downstream => scene.ends.downstream = end,
             Self::Clamp(_) if stiffness == 0.0 => {}
-            Self::Clamp(position) => scene.restraints.push(Restraint { position, stiffness }),
+            Self::Clamp(position) => scene.restraints.push(Restraint::new(position, stiffness)),
         }
     }
 }

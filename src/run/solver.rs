@@ -87,9 +87,9 @@ impl PassSolver {
         state: &mut CableState,
         position: f64,
     ) -> Result<(PassOutcome, Option<FrictionProfile>), CableError> {
-        let (mesh, limit) = match self {
-            Self::QuasiStatic(solver, _) => (*solver.mesh(), solver.cable().friction().limit()),
-            Self::Explicit(solver, _) => (*solver.mesh(), solver.cable().friction().limit()),
+        let (mesh, cable) = match self {
+            Self::QuasiStatic(solver, _) => (*solver.mesh(), solver.cable().clone()),
+            Self::Explicit(solver, _) => (*solver.mesh(), solver.cable().clone()),
         };
         let mut nearest = f64::INFINITY;
         let mut seen = None;
@@ -99,6 +99,7 @@ impl PassSolver {
             if distance <= mesh.vehicle_step() && distance < nearest {
                 nearest = distance;
                 let state = state();
+                let limits = state.friction_limits(&cable).unwrap_or_default();
                 seen = Some(FrictionProfile {
                     vehicle,
                     vehicle_position_m,
@@ -106,7 +107,7 @@ impl PassSolver {
                         .map(|node| mesh.spacing() * node as f64)
                         .collect(),
                     friction_n_per_m: state.friction().to_vec(),
-                    slip_lengths: state.slip_lengths(limit).into(),
+                    slip_lengths: state.slip_lengths(&limits).into(),
                 });
             }
         })?;

@@ -94,7 +94,7 @@ fn every_part_of_a_scene_has_its_ranges() {
     assert_refused("ends.downstream.spring", |scene| {
         scene.ends.downstream = End::Spring(-1.0);
     });
-    let clamp = |position, stiffness| Restraint { position, stiffness };
+    let clamp = |position, stiffness| Restraint::new(position, stiffness);
     assert_refused("restraints.0.position", |scene| {
         scene.restraints.push(clamp(31.0, 1e6));
     });
@@ -290,14 +290,8 @@ fn edit(scene: &mut Scene, field: usize, value: f64, whole: u64) {
         12 => (scene.friction.law, scene.friction.shape_factor) = (Law::Sigmoid, Some(1e7 * value)),
         13 => scene.ends.upstream = End::Spring(1e6 * value),
         14 => scene.ends.downstream = End::Spring(value),
-        15 => scene.restraints.push(Restraint {
-            position: value,
-            stiffness: 1e6,
-        }),
-        16 => scene.restraints.push(Restraint {
-            position: 3.0,
-            stiffness: value,
-        }),
+        15 => scene.restraints.push(Restraint::new(value, 1e6)),
+        16 => scene.restraints.push(Restraint::new(3.0, value)),
         17 => scene.vehicles[0].share = value,
         18 => scene.vehicles.clear(),
         19 => {

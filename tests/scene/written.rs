@@ -164,10 +164,7 @@ fn scene() -> impl Strategy<Value = Scene> {
                     (numbers.0, numbers.1, Some(numbers.2));
                 (scene.friction.dynamic_coefficient, scene.traffic.passes) = (numbers.3, numbers.4);
                 (scene.ends.upstream, scene.ends.downstream) = (upstream, downstream);
-                let restraint = |(share, stiffness)| Restraint {
-                    position: share * length,
-                    stiffness,
-                };
+                let restraint = |(share, stiffness)| Restraint::new(share * length, stiffness);
                 scene.restraints = clamps.into_iter().map(restraint).collect();
                 // A cable that nothing holds may slide out of its duct.
                 if (upstream, downstream) != (End::Free, End::Free) {

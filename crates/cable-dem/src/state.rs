@@ -46,6 +46,8 @@ pub struct CableState {
     pub(crate) friction: Vec<f64>,
     /// Θ = EA α T \[N\].
     pub(crate) thermal_force: f64,
+    /// How far each clamp has slipped \[m\], positive toward growing x; those that are missing have not.
+    clamp_slips: Vec<f64>,
 }
 
 /// A state as it is stored; checked as it is read.
@@ -57,6 +59,8 @@ struct Stored {
     friction: Vec<f64>,
     #[serde(default)]
     thermal_force: f64,
+    #[serde(default)]
+    clamp_slips: Vec<f64>,
 }
 
 #[cfg(feature = "serde")]
@@ -67,6 +71,7 @@ impl From<CableState> for Stored {
             displacement: state.displacement,
             friction: state.friction,
             thermal_force: state.thermal_force,
+            clamp_slips: state.clamp_slips,
         }
     }
 }
@@ -78,7 +83,8 @@ impl TryFrom<Stored> for CableState {
     fn try_from(stored: Stored) -> Result<Self, CableError> {
         let mesh = Mesh::of_elements(stored.displacement.len().saturating_sub(1), stored.node_spacing)?;
         Self::from_parts(&mesh, stored.displacement, stored.friction)?
-            .with_thermal_force(stored.thermal_force)
+            .with_thermal_force(stored.thermal_force)?
+            .with_clamp_slips(stored.clamp_slips)
     }
 }
 
@@ -90,6 +96,7 @@ impl CableState {
             displacement: vec![0.0; mesh.nodes()],
             friction: vec![0.0; mesh.nodes()],
             thermal_force: 0.0,
+            clamp_slips: Vec::new(),
         }
     }
 
@@ -115,6 +122,7 @@ impl CableState {
             displacement,
             friction,
             thermal_force: 0.0,
+            clamp_slips: Vec::new(),
         })
     }
 
@@ -127,6 +135,31 @@ impl CableState {
     pub fn with_thermal_force(mut self, thermal_force: f64) -> Result<Self, CableError> {
         self.thermal_force = checked("thermal_force", thermal_force, "finite", |_| true)?;
         Ok(self)
+    }
+
+    /// The same cable in clamps that have slipped by these lengths \[m\], positive toward growing x, in the order of
+    /// [`DuctedCable::restraints`].
+    ///
+    /// # Errors
+    ///
+    /// [`CableError::InvalidParameter`] unless all are finite.
+    pub fn with_clamp_slips(mut self, slips: Vec<f64>) -> Result<Self, CableError> {
+        for &slip in &slips {
+            checked("slip of a clamp", slip, "finite", |_| true)?;
+        }
+        self.clamp_slips = slips;
+        Ok(self)
+    }
+
+    /// How far the clamp number `restraint` of [`DuctedCable::restraints`] has slipped \[m\], positive toward growing x.
+    pub fn clamp_slip(&self, restraint: usize) -> f64 {
+        self.clamp_slips.get(restraint).copied().unwrap_or(0.0)
+    }
+
+    pub(crate) fn set_clamp_slip(&mut self, restraint: usize, slip: f64) {
+        let count = self.clamp_slips.len().max(restraint + 1);
+        self.clamp_slips.resize(count, 0.0);
+        self.clamp_slips[restraint] = slip;
     }
 
     /// Θ = EA α T \[N\]: the compression that heat makes in a cable that cannot move.
@@ -187,44 +220,72 @@ impl CableState {
     /// As for [`CableState::element_forces`].
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
         self.mesh.check_length(cable.length())?;
-        let on = |restraint: &Restraint| {
+        let on = |(index, restraint): (usize, &Restraint)| {
             let springs = restraint.by_node(&self.mesh).into_iter();
+            let slip = self.clamp_slip(index);
             springs
-                .map(|(node, stiffness)| stiffness * self.displacement[node])
+                .map(|(node, stiffness)| stiffness * (self.displacement[node] - slip))
                 .sum()
         };
-        Ok(cable.restraints().iter().map(on).collect())
+        Ok(cable.restraints().iter().enumerate().map(on).collect())
     }
 
-    /// Lengths of cable whose friction is at its `limit` \[N/m\]; none without friction.
-    pub fn slip_lengths(&self, limit: f64) -> SlipLengths {
-        let at_limit = (1.0 - AT_LIMIT) * limit;
+    /// The largest friction \[N/m\] that every node can bear with the cable's force as it is; it depends on that in bends alone.
+    ///
+    /// # Errors
+    ///
+    /// As for [`CableState::element_forces`].
+    pub fn friction_limits(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
+        Ok(self
+            .pressing(cable)?
+            .nodes
+            .iter()
+            .map(|node| node.limit)
+            .collect())
+    }
+
+    /// Lengths of cable whose friction is at its `limits` \[N/m\] ([`CableState::friction_limits`]); none without friction.
+    pub fn slip_lengths(&self, limits: &[f64]) -> SlipLengths {
         let mut lengths = SlipLengths::default();
-        if limit <= 0.0 {
-            return lengths;
-        }
-        for (node, &friction) in self.friction.iter().enumerate() {
-            if friction >= at_limit {
+        for (node, (&friction, &limit)) in self.friction.iter().zip(limits).enumerate() {
+            let at_limit = (1.0 - AT_LIMIT) * limit;
+            if limit > 0.0 && friction >= at_limit {
                 lengths.forward += self.mesh.tributary_length(node);
-            } else if friction <= -at_limit {
+            } else if limit > 0.0 && friction <= -at_limit {
                 lengths.backward += self.mesh.tributary_length(node);
             }
         }
         lengths
     }
 
-    /// Largest friction per metre \[N/m\] that equilibrium needs at any node: the difference of the forces in both elements, less what
-    /// clamps, end springs and the body force carry, over the node's length of cable. In a state at rest it is at most the friction limit q.
+    /// Largest friction that equilibrium needs at any node, as a share of its limit: the difference of the forces in both elements, less
+    /// what clamps, end springs and the body force carry, over the node's length of cable. In a state at rest it is at most 1.
     ///
     /// # Errors
     ///
     /// As for [`CableState::element_forces`].
-    pub fn friction_needed(&self, cable: &DuctedCable) -> Result<f64, CableError> {
+    pub fn friction_share(&self, cable: &DuctedCable) -> Result<f64, CableError> {
+        let chain = self.pressing(cable)?;
+        let mut load = cable.loads(&self.mesh, self.thermal_force);
+        chain.add_grip_loads(&mut load);
+        let share = |i: usize| {
+            let needed = chain.balancing_friction(&self.displacement, &load, i).abs();
+            if needed == 0.0 {
+                0.0
+            } else {
+                needed / chain.nodes[i].limit
+            }
+        };
+        Ok(chain.free.nodes().map(share).fold(0.0, f64::max))
+    }
+
+    /// The chain of `cable` as this state presses on its bends.
+    fn pressing(&self, cable: &DuctedCable) -> Result<Chain, CableError> {
         self.mesh.check_length(cable.length())?;
-        let chain = Chain::new(cable, &self.mesh);
-        let load = cable.loads(&self.mesh, self.thermal_force);
-        let needed = |i| chain.balancing_friction(&self.displacement, &load, i).abs();
-        Ok(chain.free.nodes().map(needed).fold(0.0, f64::max))
+        let mut chain = Chain::new(cable, &self.mesh);
+        chain.press(|i| self.displacement[i], self.thermal_force);
+        chain.grip(self);
+        Ok(chain)
     }
 
     /// Least and largest force along the cable \[N\]. Friction and body force change it evenly on either half of an element, so that it
@@ -291,6 +352,9 @@ impl CableState {
                 *value = -*value;
             }
         }
+        for slip in &mut self.clamp_slips {
+            *slip = -*slip;
+        }
     }
 }
 
@@ -319,10 +383,7 @@ mod tests {
     #[test]
     fn forces_are_read_on_the_state_s_own_mesh_alone() -> Result<(), CableError> {
         let friction = Friction::new(FrictionLaw::Coulomb, 1.0)?;
-        let clamp = Restraint {
-            position: 0.9,
-            stiffness: 1.0,
-        };
+        let clamp = Restraint::new(0.9, 1.0);
         let cable = DuctedCable::new(1.0, 1.0, friction)?.with_restraints(vec![clamp])?;
         let (coarse, fine) = (Mesh::new(1.0, 0.5, 0.5)?, Mesh::new(1.0, 0.125, 0.125)?);
         let mismatch = CableError::StateMismatch {

@@ -71,7 +71,7 @@ impl Scene {
         let clamps = self
             .clamps
             .iter()
-            .map(|&(position, stiffness)| Restraint { position, stiffness });
+            .map(|&(position, stiffness)| Restraint::new(position, stiffness));
         let cable = DuctedCable::new(self.length, STIFFNESS, friction)?
             .with_ends(self.ends.0, self.ends.1)?
             .with_restraints(clamps.collect())?

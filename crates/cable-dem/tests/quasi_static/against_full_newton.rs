@@ -85,10 +85,10 @@ fn scene() -> impl Strategy<Value = Scene> {
 
 impl Scene {
     fn cable(&self) -> DuctedCable {
-        let clamps = self.clamps.iter().map(|&(share, stiffness)| Restraint {
-            position: share * self.length,
-            stiffness,
-        });
+        let clamps = self
+            .clamps
+            .iter()
+            .map(|&(share, stiffness)| Restraint::new(share * self.length, stiffness));
         cable(
             self.length,
             self.axial_stiffness,
