@@ -269,7 +269,7 @@ impl RestingCable {
         let StepSolver { chain, trial, .. } = &mut self.step;
         let mut heat = 0.0;
         for grip in &mut chain.grips {
-            heat += grip.settle(grip.displacement(|i| trial.r[i]));
+            heat += grip.settle(trial.r[grip.node]);
             grip.store(state);
         }
         let (u, f) = (&mut state.displacement, &mut state.friction);
@@ -292,8 +292,8 @@ impl RestingCable {
 /// Loads on all nodes \[N\]: the `body` force, heat at the ends, and clamps that slip.
 fn set_loads(load: &mut [f64], body: &[f64], chain: &Chain, thermal_force: f64) {
     let last = load.len() - 1;
-    for (node, _) in chain.grips.iter().flat_map(|grip| grip.nodes) {
-        load[node] = body[node];
+    for grip in &chain.grips {
+        load[grip.node] = body[grip.node];
     }
     (load[0], load[last]) = (body[0] - thermal_force, body[last] + thermal_force);
     chain.add_grip_loads(load);

@@ -46,8 +46,8 @@ pub struct CableState {
     pub(crate) friction: Vec<f64>,
     /// Θ = EA α T \[N\].
     pub(crate) thermal_force: f64,
-    /// How far each clamp has slipped \[m\], positive toward growing x; those that are missing have not.
-    clamp_slips: Vec<f64>,
+    /// How far each clamp has slipped on the nodes before and after it \[m\], positive toward growing x; those that are missing have not.
+    pub(crate) clamp_slips: Vec<[f64; 2]>,
 }
 
 /// A state as it is stored; checked as it is read.
@@ -60,7 +60,7 @@ struct Stored {
     #[serde(default)]
     thermal_force: f64,
     #[serde(default)]
-    clamp_slips: Vec<f64>,
+    clamp_slips: Vec<[f64; 2]>,
 }
 
 #[cfg(feature = "serde")]
@@ -137,29 +137,32 @@ impl CableState {
         Ok(self)
     }
 
-    /// The same cable in clamps that have slipped by these lengths \[m\], positive toward growing x, in the order of
-    /// [`DuctedCable::restraints`].
+    /// The same cable in clamps that have slipped by these lengths on the nodes before and after them \[m\].
     ///
     /// # Errors
     ///
     /// [`CableError::InvalidParameter`] unless all are finite.
-    pub fn with_clamp_slips(mut self, slips: Vec<f64>) -> Result<Self, CableError> {
-        for &slip in &slips {
+    pub(crate) fn with_clamp_slips(mut self, slips: Vec<[f64; 2]>) -> Result<Self, CableError> {
+        for &slip in slips.as_flattened() {
             checked("slip of a clamp", slip, "finite", |_| true)?;
         }
         self.clamp_slips = slips;
         Ok(self)
     }
 
-    /// How far the clamp number `restraint` of [`DuctedCable::restraints`] has slipped \[m\], positive toward growing x.
-    pub fn clamp_slip(&self, restraint: usize) -> f64 {
-        self.clamp_slips.get(restraint).copied().unwrap_or(0.0)
+    /// How far each clamp of `cable` has slipped \[m\], positive toward growing x, in the order of [`DuctedCable::restraints`].
+    pub fn clamp_slips(&self, cable: &DuctedCable) -> Vec<f64> {
+        let of = |(index, restraint): (usize, &Restraint)| {
+            let share = self.mesh.place(restraint.position).1;
+            let [before, after] = self.slips(index);
+            (1.0 - share) * before + share * after
+        };
+        cable.restraints().iter().enumerate().map(of).collect()
     }
 
-    pub(crate) fn set_clamp_slip(&mut self, restraint: usize, slip: f64) {
-        let count = self.clamp_slips.len().max(restraint + 1);
-        self.clamp_slips.resize(count, 0.0);
-        self.clamp_slips[restraint] = slip;
+    /// How far a clamp has slipped on the nodes before and after it \[m\].
+    fn slips(&self, restraint: usize) -> [f64; 2] {
+        self.clamp_slips.get(restraint).copied().unwrap_or_default()
     }
 
     /// Θ = EA α T \[N\]: the compression that heat makes in a cable that cannot move.
@@ -221,10 +224,9 @@ impl CableState {
     pub fn restraint_forces(&self, cable: &DuctedCable) -> Result<Vec<f64>, CableError> {
         self.mesh.check_length(cable.length())?;
         let on = |(index, restraint): (usize, &Restraint)| {
-            let springs = restraint.by_node(&self.mesh).into_iter();
-            let slip = self.clamp_slip(index);
+            let springs = restraint.by_node(&self.mesh).into_iter().zip(self.slips(index));
             springs
-                .map(|(node, stiffness)| stiffness * (self.displacement[node] - slip))
+                .map(|((node, stiffness), slip)| stiffness * (self.displacement[node] - slip))
                 .sum()
         };
         Ok(cable.restraints().iter().enumerate().map(on).collect())
@@ -352,8 +354,8 @@ impl CableState {
                 *value = -*value;
             }
         }
-        for slip in &mut self.clamp_slips {
-            *slip = -*slip;
+        for slips in &mut self.clamp_slips {
+            *slips = [-slips[1], -slips[0]];
         }
     }
 }

@@ -47,7 +47,11 @@ impl Lumped {
 
     /// ½ uᵀ(K + S) u \[J\], clamps that slip as they are now.
     pub fn elastic_energy(&self, u: &[f64]) -> f64 {
-        let gripped = self.grips.iter().map(|grip| grip.energy(|i| u[i])).sum::<f64>();
+        let gripped = self
+            .grips
+            .iter()
+            .map(|grip| grip.energy(u[grip.node]))
+            .sum::<f64>();
         let stretched: f64 = u.windows(2).map(|pair| (pair[1] - pair[0]).powi(2)).sum();
         let supported: f64 = (0..u.len()).map(|i| self.chain.spring(i) * u[i] * u[i]).sum();
         0.5 * (self.chain.stiffness * stretched + supported) + gripped

@@ -100,11 +100,9 @@ impl MovingNodes {
         }
         let mut gripped = 0.0;
         for grip in &mut lumped.grips {
-            let (force, heat) = grip.bear(grip.displacement(|i| self.displacement[i]));
+            let (force, heat) = grip.bear(self.displacement[grip.node]);
             gripped += heat;
-            for (node, share) in grip.nodes.into_iter().filter(|(_, share)| *share > 0.0) {
-                self.velocity[node] -= per_mass * share * force / lumped.chain.nodes[node].tributary;
-            }
+            self.velocity[grip.node] -= per_mass * force * lumped.chain.nodes[grip.node].per_tributary;
         }
         let friction = NodeFriction {
             law: lumped.cable.friction().law(),

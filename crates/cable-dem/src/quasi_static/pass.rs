@@ -257,7 +257,7 @@ impl ForwardSolver {
             })?;
             let StepSolver { chain, trial, .. } = &mut self.step;
             if chain.correct_grips(stretch, |i| trial.r[i] + snapshot.adherent_at(i)) {
-                self.supports.grip(chain);
+                self.supports.grip(snapshot, chain);
                 corrections += 1;
                 continue;
             }
@@ -269,7 +269,7 @@ impl ForwardSolver {
         }
         let StepSolver { chain, trial, .. } = &mut self.step;
         for grip in chain.grips.iter_mut().filter(|grip| grip.is_within(stretch)) {
-            let u = grip.displacement(|i| trial.r[i] + snapshot.adherent_at(i));
+            let u = trial.r[grip.node] + snapshot.adherent_at(grip.node);
             self.recorder.dissipated += grip.settle(u);
         }
         let moves = |node: usize| (trial.r[node] - self.r[node]).abs() > self.quiet;

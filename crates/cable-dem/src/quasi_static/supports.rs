@@ -74,10 +74,14 @@ impl Supports {
     }
 
     /// Loads the nodes of clamps that slip anew, after they have changed between sticking and sliding.
-    pub fn grip(&mut self, chain: &Chain) {
-        for watched in self.all.iter().filter(|watched| watched.support.slips) {
+    pub fn grip(&mut self, snapshot: &Snapshot<'_>, chain: &Chain) {
+        for watched in self.all.iter_mut().filter(|watched| watched.support.slips) {
             let node = watched.support.node;
-            self.load[node] = watched.solved + self.body[node] + chain.grip_load(node, watched.frame);
+            if let Some(spring) = watched.support.stiffness {
+                watched.frame = snapshot.adherent_at(node);
+                watched.solved = cut(snapshot, node, chain) - spring * watched.frame;
+                self.load[node] = watched.solved + self.body[node] + chain.grip_load(node, watched.frame);
+            }
         }
     }
 

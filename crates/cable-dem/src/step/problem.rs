@@ -252,19 +252,17 @@ impl Chain {
         chain
     }
 
-    /// Adds the spring of a clamp that slips to its nodes (`sign` 1), or takes it away (−1).
+    /// Adds the spring of a clamp that slips to its node (`sign` 1), or takes it away (−1).
     fn hang(&mut self, index: usize, sign: f64) {
-        let Grip { nodes, stiffness, .. } = self.grips[index];
-        for (node, share) in nodes.into_iter().filter(|(_, share)| *share > 0.0) {
-            let Node {
-                diagonal,
-                tributary,
-                limit,
-                ..
-            } = self.nodes[node];
-            let diagonal = diagonal + sign * share * stiffness / self.stiffness;
-            self.nodes[node] = Node::new(diagonal, tributary, limit, self.stiffness, self.compliance);
-        }
+        let Grip { node, stiffness, .. } = self.grips[index];
+        let Node {
+            diagonal,
+            tributary,
+            limit,
+            ..
+        } = self.nodes[node];
+        let diagonal = diagonal + sign * stiffness / self.stiffness;
+        self.nodes[node] = Node::new(diagonal, tributary, limit, self.stiffness, self.compliance);
         self.is_held = self.is_held_for_ever || self.grips.iter().any(Grip::is_stuck);
     }
 
@@ -279,10 +277,40 @@ impl Chain {
         }
     }
 
+    /// Lets the clamps on `stretch` stick or slide as displacements `u` \[m\] demand. Returned: whether one of them does so otherwise
+    /// than was assumed.
+    pub fn correct_grips(&mut self, stretch: Stretch, u: impl Fn(usize) -> f64) -> bool {
+        let mut corrected = false;
+        for index in 0..self.grips.len() {
+            let grip = &mut self.grips[index];
+            if grip.is_within(stretch) && grip.correct(u(grip.node)) {
+                let sign = if grip.is_stuck() { 1.0 } else { -1.0 };
+                self.hang(index, sign);
+                corrected = true;
+            }
+        }
+        corrected
+    }
+
+    /// What clamps on `node` that have slipped, or slide, do to its load \[N\] where those of their springs are in a frame that has
+    /// moved by `frame` \[m\].
+    pub fn grip_load(&self, node: usize, frame: f64) -> f64 {
+        let here = self.grips.iter().filter(|grip| grip.node == node);
+        here.map(|grip| grip.load(frame)).sum()
+    }
+
+    /// Adds the same to the `load` of every node in the frame of the ground.
+    pub fn add_grip_loads(&self, load: &mut [f64]) {
+        for grip in &self.grips {
+            load[grip.node] += grip.load(0.0);
+        }
+    }
+
     /// Whether a clamp on `node` slides.
     pub fn slides(&self, node: usize) -> bool {
-        let here = |grip: &Grip| !grip.is_stuck() && grip.is_within(Stretch { lo: node, hi: node });
-        self.grips.iter().any(here)
+        self.grips
+            .iter()
+            .any(|grip| grip.node == node && !grip.is_stuck())
     }
 
     /// Leaves the clamps that slip to the caller.
@@ -291,44 +319,6 @@ impl Chain {
             self.hang(index, -1.0);
         }
         std::mem::take(&mut self.grips)
-    }
-
-    /// Lets the clamps on `stretch` stick or slide as displacements `u` \[m\] demand. Returned: whether one of them does so otherwise
-    /// than was assumed.
-    pub fn correct_grips(&mut self, stretch: Stretch, u: impl Fn(usize) -> f64) -> bool {
-        let mut corrected = false;
-        for index in 0..self.grips.len() {
-            let grip = &mut self.grips[index];
-            if !grip.is_within(stretch) {
-                continue;
-            }
-            let was_stuck = grip.is_stuck();
-            if grip.correct(grip.displacement(&u)) {
-                corrected = true;
-                if self.grips[index].is_stuck() != was_stuck {
-                    self.hang(index, if was_stuck { -1.0 } else { 1.0 });
-                }
-            }
-        }
-        corrected
-    }
-
-    /// Adds to the `load` of every node \[N\] what clamps that have slipped, or slide, do beside their springs.
-    pub fn add_grip_loads(&self, load: &mut [f64]) {
-        for grip in &self.grips {
-            for (node, share) in grip.nodes {
-                load[node] += grip.load(share, 0.0);
-            }
-        }
-    }
-
-    /// The same of one `node`, where the springs' loads are those of a frame that has moved by `frame` \[m\].
-    pub fn grip_load(&self, node: usize, frame: f64) -> f64 {
-        let on = |grip: &Grip| -> f64 {
-            let shares = grip.nodes.into_iter().filter(|(on, _)| *on == node);
-            shares.map(|(_, share)| grip.load(share, frame)).sum()
-        };
-        self.grips.iter().map(on).sum()
     }
 
     /// Whether a part of the duct bends.

@@ -1,6 +1,6 @@
-//! Ducts that slope: the cable's weight along the duct, by every solver.
+//! Ducts that slope, and routes of several sections: the cable's weight along the duct, by every solver.
 
-use cable_dem::{CableError, DuctedCable, End, Friction, FrictionLaw, Mesh, Restraint, laid};
+use cable_dem::{CableError, DuctedCable, End, Friction, FrictionLaw, Mesh, Restraint, Section, laid};
 
 use super::harness::{AXIAL_STIFFNESS, Kind, Outcome, Problem, Run, truck};
 
@@ -317,6 +317,90 @@ fn at_saturation_the_slope_takes_its_part_of_the_weight_off_the_force() -> Outco
         let (found, expected) = (force(slope)?, level - WEIGHT * 30.0 * slope.atan().sin());
         println!("{slope}: {found:.1} N, {expected:.1} N");
         assert!((found - expected).abs() < 0.03 * level, "{found} N, {expected} N");
+    }
+    Ok(())
+}
+
+/// A slope, a bend, a rougher level part, and a clamp that slips in the first passes.
+fn route(sheathed: bool) -> Result<DuctedCable, CableError> {
+    let limit = FRICTION * WEIGHT;
+    let clamp = Restraint::new(7.03, 5e6).that_holds(40.0);
+    let sections = [
+        Section::new(4.0, limit).with_body_force(0.08 * WEIGHT),
+        Section::new(3.2, limit).with_bend(FRICTION / 2.0),
+        Section::new(4.8, 1.4 * limit),
+    ];
+    sloping(12.0, 0.0, sheathed, (End::Spring(2e6), End::Fixed))?
+        .with_restraints(vec![clamp])?
+        .with_sections(&sections)
+}
+
+#[test]
+fn all_solvers_agree_on_a_route() -> Outcome {
+    for sheathed in [true, false] {
+        let cable = route(sheathed)?;
+        let problem = problem(cable.clone(), 0.2)?;
+        let mut runs = Vec::new();
+        for kind in Kind::ALL {
+            runs.push(Run::new(kind, &problem)?);
+        }
+        for vehicle in [0, 0, 1, 0] {
+            let mut found = Vec::new();
+            for run in &mut runs {
+                let pass = run.pass(vehicle)?;
+                assert!(run.state.friction_share(&cable)? < 1.0 + 1e-2);
+                if let Some(energy) = pass.energy {
+                    assert!(
+                        energy.unbalanced_share() < 0.01 && energy.returned_share() < 1e-3,
+                        "{energy:?}"
+                    );
+                }
+                let force = pass.outcome.force;
+                let slipped = 5e6 * run.state.clamp_slips(&cable)[0];
+                found.push([
+                    force.upstream,
+                    force.downstream,
+                    pass.outcome.restraints[0],
+                    slipped,
+                ]);
+            }
+            println!("{sheathed}: {found:?}");
+            for other in &found[1..] {
+                for (a, b) in other.iter().zip(found[0]) {
+                    assert!((a - b).abs() < 1e-2 * problem.largest_force(), "{found:?}");
+                }
+            }
+        }
+        assert!(runs[0].state.clamp_slips(&cable)[0] > 1e-6);
+    }
+    Ok(())
+}
+
+#[test]
+fn the_mirror_image_of_a_route_gives_the_mirror_image_of_the_answer() -> Outcome {
+    let cable = route(true)?;
+    let (here, there) = (problem(cable.clone(), 0.2)?, problem(cable.mirrored(), 0.2)?);
+    for kind in Kind::ALL {
+        let (mut one, mut other) = (Run::new(kind, &here)?, Run::new(kind, &there)?);
+        for vehicle in [0, 0, 1, 0] {
+            let (a, b) = (one.pass(vehicle)?.outcome, other.pass(1 - vehicle)?.outcome);
+            let slips = [
+                one.state.clamp_slips(&here.cable)[0],
+                -other.state.clamp_slips(&there.cable)[0],
+            ]
+            .map(|slip| 5e6 * slip);
+            for (a, b) in [
+                (a.force.upstream, b.force.downstream),
+                (a.force.downstream, b.force.upstream),
+                (a.restraints[0], -b.restraints[0]),
+                (slips[0], slips[1]),
+            ] {
+                assert!(
+                    (a - b).abs() < 1e-5 * here.largest_force(),
+                    "{kind:?}: {a} N, {b} N"
+                );
+            }
+        }
     }
     Ok(())
 }
