@@ -150,7 +150,12 @@ impl Friction {
                 (friction + 0.5 * self.limit * shape_factor * slip).clamp(-limit, limit)
             }
             FrictionLaw::Sigmoid { shape_factor } => {
-                limit * (0.5 * shape_factor * (self.limit / limit) * slip).tanh()
+                let steepness = if limit == self.limit {
+                    1.0
+                } else {
+                    self.limit / limit
+                };
+                limit * (0.5 * shape_factor * steepness * slip).tanh()
             }
         }
     }

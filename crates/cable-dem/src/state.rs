@@ -142,7 +142,8 @@ impl CableState {
     /// # Errors
     ///
     /// [`CableError::InvalidParameter`] unless all are finite.
-    pub(crate) fn with_clamp_slips(mut self, slips: Vec<[f64; 2]>) -> Result<Self, CableError> {
+    #[cfg(feature = "serde")]
+    fn with_clamp_slips(mut self, slips: Vec<[f64; 2]>) -> Result<Self, CableError> {
         for &slip in slips.as_flattened() {
             checked("slip of a clamp", slip, "finite", |_| true)?;
         }
